@@ -1,0 +1,17 @@
+# Debian's SuiteSparse 5.12 ships no CMake configuration. Gives SuiteSparse::SuiteSparse
+# (CHOLMOD, KLU, SPQR).
+find_path(SuiteSparse_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
+set(_libs)
+foreach(lib cholmod klu spqr amd colamd suitesparseconfig)
+  find_library(SuiteSparse_${lib} ${lib})
+  list(APPEND _libs SuiteSparse_${lib})
+endforeach()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(SuiteSparse REQUIRED_VARS SuiteSparse_INCLUDE_DIR ${_libs})
+if(SuiteSparse_FOUND AND NOT TARGET SuiteSparse::SuiteSparse)
+  add_library(SuiteSparse::SuiteSparse INTERFACE IMPORTED)
+  target_include_directories(SuiteSparse::SuiteSparse SYSTEM INTERFACE ${SuiteSparse_INCLUDE_DIR})
+  foreach(lib ${_libs})
+    target_link_libraries(SuiteSparse::SuiteSparse INTERFACE ${${lib}})
+  endforeach()
+endif()

@@ -1,0 +1,196 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "framework/time_law.h"
+
+/// What the user means: plain data with names and defaults, SI units throughout, no matrices.
+/// Written by hand in C++ or by the reader (reader.h). Only `build` judges it.
+namespace pintle {
+
+using Pair = std::array<double, 2>;
+
+/// Where a thing was written, so that `build` can name it; line 0 for a scene made in C++.
+struct Place {
+  int line = 0;    ///< 1-based
+  std::string key; ///< path of keys, "joints.gudgeon pin.clearance.radial"
+};
+
+/// A time law and the text it was written as (kept for run.json and messages).
+struct Law {
+  TimeLaw at;
+  std::string text;
+  bool constant = true;
+};
+
+/// A named point of a body, with a direction drawn on it; body axes.
+struct ScenePoint {
+  std::string name;
+  Pair at{0, 0};     ///< [m]
+  double angle = 0;  ///< [rad]
+  Place place;
+};
+
+/// "crank.A", "ground" (the point 0, 0) or "crank" (the origin of its axes).
+struct PointRef {
+  std::string body, point;  ///< point empty: the origin
+  Place place;
+};
+
+struct SceneBody {
+  std::string name;
+  double mass = 0;       ///< [kg]
+  double inertia = 0;    ///< about the mass centre [kg m²]
+  Pair center{0, 0};     ///< mass centre in body axes [m]
+  std::vector<ScenePoint> points;
+  Pair at{0, 0};         ///< rough starting position of the body's origin, world [m]
+  double angle = 0;      ///< rough starting angle [rad]
+  Place place;
+};
+
+/// One contact body's elasticity.
+struct Elasticity {
+  double young = 0;    ///< [Pa]
+  double poisson = 0;  ///< –
+};
+
+/// How a contact law's stiffness is found from the radii: see docs/theory/contact.md.
+enum class RadiusConvention { internal, external };
+
+/// Which published factor χ(e) damps the impact; `none` is Hertz without loss.
+/// The list, the names in a scene file and the formulas live in contact/normal_law.h.
+struct SceneNormal {
+  std::string law = "lankarani-nikravesh";  ///< a name known to contact/normal_law.h
+  double restitution = 1;
+  double exponent = 1.5;
+  std::optional<double> stiffness;     ///< given directly [N/mⁿ]; else from elasticity and radii
+  Elasticity bearing, journal;
+  RadiusConvention radii = RadiusConvention::internal;
+  double slowest_impact = 1e-6;        ///< floor of the latched approach speed [m/s]
+  Place place;
+};
+
+enum class SlidingSpeed { material, geometric };
+
+struct SceneFriction {
+  double coefficient = 0;  ///< –
+  double v0 = 1e-3, v1 = 1e-2;  ///< Ambrósio's two speeds [m/s], v0 < v1
+  SlidingSpeed sliding = SlidingSpeed::material;
+  Place place;
+};
+
+struct SceneClearance {
+  double radial = 0;                 ///< bearing radius − journal radius [m]
+  double bearing_radius = 0;         ///< [m]
+  std::string bearing;               ///< name of the joint's body that carries the bearing
+  SceneNormal normal;
+  std::optional<SceneFriction> friction;
+  Place place;
+};
+
+enum class JointKind { revolute, prismatic, slot, weld, distance };
+
+struct SceneJoint {
+  std::string name;
+  JointKind kind = JointKind::revolute;
+  PointRef a, b;
+  double length = 0;  ///< distance [m]
+  double angle = 0;   ///< prismatic, weld: b's direction less a's [rad]
+  std::optional<SceneClearance> clearance;  ///< revolute only
+  Place place;
+};
+
+enum class DriverKind { angle, distance };
+
+/// A motion imposed in time: b's direction less a's, or the distance from a to b.
+struct SceneDriver {
+  std::string name;
+  DriverKind kind = DriverKind::angle;
+  PointRef a, b;
+  Law law;  ///< [rad] or [m]
+  Place place;
+};
+
+/// A point force in world axes, or in the axes of the body it acts on if `follows`.
+struct SceneForce {
+  PointRef at;
+  Law x, y;  ///< [N]
+  bool follows = false;
+};
+/// A torque on b and its opposite on a (ground by default).
+struct SceneTorque {
+  PointRef a, b;
+  Law law;  ///< [N m]
+};
+struct SceneSpring {
+  PointRef a, b;
+  double stiffness = 0, damping = 0, free_length = 0;  ///< [N/m], [N s/m], [m]
+};
+struct SceneTorsionSpring {
+  PointRef a, b;
+  double stiffness = 0, damping = 0, free_angle = 0;  ///< [N m/rad], [N m s/rad], [rad]
+};
+struct SceneLoad {
+  std::string name;
+  std::variant<SceneForce, SceneTorque, SceneSpring, SceneTorsionSpring> what;
+  Place place;
+};
+
+/// What the scene pins down of a body at t = 0. Unset: found by assembly.
+struct StartBody {
+  std::string body;
+  std::optional<double> x, y, angle;     ///< of the body's origin and axes [m, m, rad]
+  std::optional<double> vx, vy, speed;   ///< [m/s, m/s, rad/s]
+  Place place;
+};
+/// Where a journal starts in its bearing, world axes; by default concentric and moving with it.
+struct StartJournal {
+  std::string joint;
+  Pair eccentricity{0, 0};  ///< journal centre less bearing centre [m]
+  Pair speed{0, 0};         ///< its rate [m/s]
+  Place place;
+};
+
+struct RunOptions {
+  double until = 1;                    ///< [s]
+  std::string method = "dopri5";       ///< rkf45 | dopri5
+  double tolerance = 1e-8;             ///< local error, relative
+  std::string constraints = "projection";  ///< projection | partitioning
+  std::optional<double> onset_cut;     ///< cut the step until first penetration is below this [m];
+                                       ///< unset: locate the onset as an event
+  double max_step = 0;                 ///< [s]; 0: none
+  long max_steps = 100'000'000;
+  double ledger_bound = 1e-3;          ///< unexplained energy, relative to the energy in play
+  Place place;
+};
+
+struct OutputOptions {
+  double every = 0;      ///< output interval [s]; 0: a thousandth of the run
+  int frames = 0;        ///< animation frames; 0: none
+  double exaggerate = 0; ///< drawn clearance times this; 0: chosen so that the gap can be seen
+  Place place;
+};
+
+struct Scene {
+  std::string file;   ///< for messages
+  std::string title;
+  Pair gravity{0, 0}; ///< [m/s²]
+  std::vector<std::pair<std::string, double>> parameters;  ///< after overrides, SI
+  std::vector<ScenePoint> ground;  ///< points of the ground
+  std::vector<SceneBody> bodies;
+  std::vector<SceneJoint> joints;
+  std::vector<SceneDriver> drivers;
+  std::vector<SceneLoad> loads;
+  std::vector<StartBody> start_bodies;
+  std::vector<StartJournal> start_journals;
+  RunOptions run;
+  OutputOptions output;
+  std::string filled_in;  ///< the scene as JSON text with every parameter and default filled in
+};
+
+}  // namespace pintle
