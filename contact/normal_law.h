@@ -23,11 +23,14 @@ struct NormalForce {
 };
 
 /// f = k δⁿ (1 + χ δ̇/δ̇₀), never below zero. Every law of the family differs in χ(e) alone.
+/// Theory: docs/theory/contact.md.
 struct ImpactLaw {
-  double k = 0;      ///< [N/mⁿ]
-  double n = 1.5;    ///< –
-  double chi = 0;    ///< hysteresis factor χ, – ; 0: Hertz without loss
+  double k = 0;    ///< [N/mⁿ]
+  double n = 1.5;  ///< –
+  double chi = 0;  ///< hysteresis factor χ, – ; 0: Hertz without loss
 };
+/// All zero at and before touch. Stored energy released while the force is clamped counts as lost.
+/// No allocation. @pre impact_rate > 0 where depth > 0
 NormalForce evaluate(const ImpactLaw&, const Approach&);
 
 /// A published factor χ(e).

@@ -1,0 +1,117 @@
+#include "contact/normal_law.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace pintle {
+
+NormalForce evaluate(const ImpactLaw& law, const Approach& at) {
+  if (at.depth <= 0) return {};
+  assert(at.impact_rate > 0);
+  const double power = law.n == 1.5 ? at.depth * std::sqrt(at.depth) : std::pow(at.depth, law.n);
+  const double elastic = law.k * power;
+  const double loss = law.chi / at.impact_rate;  // [s/m]
+  const double factor = 1 + loss * at.rate;
+
+  NormalForce out;
+  out.stored = elastic * at.depth / (law.n + 1);
+  if (factor <= 0) {  // clamped: the stored energy released here is lost
+    out.dissipation = -elastic * at.rate;
+    return out;
+  }
+  out.force = elastic * factor;
+  out.dissipation = elastic * loss * at.rate * at.rate;
+  out.d_depth = law.n * (elastic / at.depth) * factor;
+  out.d_rate = elastic * loss;
+  return out;
+}
+
+namespace {
+
+/// Has the sign of  ln[(1 + χ)/(1 − χe)] − χ(1 + e)  for χ > 0, 0 < χe ≤ 1. It increases with e,
+/// and as a function of χ it turns from negative to positive once.
+double impact_balance(double chi, double e) {
+  constexpr double series_below = 0.3;  // above it the logarithms lose less than two digits
+  if (chi > series_below) return std::log1p(chi) - std::log1p(-chi * e) - chi * (1 + e);
+  // Divided by χ², with the leading term in a form that keeps its digits as e nears 1:
+  //   −(1 − e)(1 + e)/2 + χ(1 + e³)/3 − χ²(1 − e⁴)/4 + χ³(1 + e⁵)/5 − …
+  double sum = -(1 - e) * (1 + e) / 2;
+  double chi_power = 1, e_power = e * e, sign = -1;
+  for (int k = 3; chi_power > std::numeric_limits<double>::epsilon() * chi; ++k) {
+    chi_power *= chi;
+    e_power *= e;
+    sign = -sign;
+    sum += chi_power * (sign + e_power) / k;
+  }
+  return sum;
+}
+
+/// The point where `balance` turns from negative to positive, to the last bit. Bisection: a root is
+/// sought a few times when a scene is built, and the logarithm's pole at χe = 1 defeats Newton.
+template <class F>
+double sign_change(double low, double high, F balance) {
+  for (;;) {
+    const double middle = low + (high - low) / 2;
+    if (middle <= low || middle >= high) return middle;
+    (balance(middle) < 0 ? low : high) = middle;
+  }
+}
+
+double exact_chi(double e) {
+  if (e >= 1) return 0;
+  if (e <= 0) return std::numeric_limits<double>::infinity();
+  return sign_change(0, 1 / e, [e](double chi) { return impact_balance(chi, e); });
+}
+
+constexpr std::array factors{
+    ImpactFactor{"hertz", [](double) { return 0.0; }, true, "Hertz 1881"},
+    ImpactFactor{"hunt-crossley", [](double e) { return 3 * (1 - e) / 2; }, true,
+                 "Hunt and Crossley 1975"},
+    ImpactFactor{"herbert-mcwhannell",
+                 [](double e) { return 6 * (1 - e) / ((2 * e - 1) * (2 * e - 1) + 3); }, true,
+                 "Herbert and McWhannell 1977"},
+    ImpactFactor{"lee-wang", [](double e) { return 3 * (1 - e) / 4; }, true, "Lee and Wang 1983"},
+    ImpactFactor{"lankarani-nikravesh", [](double e) { return 3 * (1 - e) * (1 + e) / 4; }, true,
+                 "Lankarani and Nikravesh 1990"},
+    ImpactFactor{"gonthier", [](double e) { return (1 - e) * (1 + e) / e; }, false,
+                 "Gonthier et al. 2004, as usually simplified"},
+    ImpactFactor{"zhiying-qishao",
+                 [](double e) { return 3 * (1 - e) * (1 + e) * std::exp(2 * (1 - e)) / 4; }, true,
+                 "Zhiying and Qishao 2006"},
+    ImpactFactor{"flores", [](double e) { return 8 * (1 - e) / (5 * e); }, false,
+                 "Flores et al. 2011"},
+    ImpactFactor{"hu-guo", [](double e) { return 3 * (1 - e) / (2 * e); }, false,
+                 "Hu and Guo 2015"},
+    ImpactFactor{"exact", exact_chi, false, "solved from the impact: docs/theory/contact.md"},
+};
+
+}  // namespace
+
+std::span<const ImpactFactor> impact_factors() {
+  return factors;
+}
+
+const ImpactFactor* find_impact_factor(std::string_view name) {
+  const auto found = std::find_if(factors.begin(), factors.end(),
+                                  [name](const ImpactFactor& f) { return f.name == name; });
+  return found == factors.end() ? nullptr : &*found;
+}
+
+double effective_restitution(double chi) {
+  assert(chi >= 0);
+  if (chi <= 0) return 1;
+  return sign_change(0, std::min(1.0, 1 / chi), [chi](double e) { return impact_balance(chi, e); });
+}
+
+double hertz_stiffness(double journal_radius, double bearing_radius, double young_i, double nu_i,
+                       double young_j, double nu_j, bool internal) {
+  const double h = (1 - nu_i * nu_i) / young_i + (1 - nu_j * nu_j) / young_j;
+  const double signed_sum =
+      internal ? bearing_radius - journal_radius : bearing_radius + journal_radius;
+  return 4 / (3 * h) * std::sqrt(journal_radius * bearing_radius / signed_sum);
+}
+
+}  // namespace pintle
