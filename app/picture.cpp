@@ -1,0 +1,500 @@
+// pintle-picture DIR OUT.png: one frame of a run's animation as a picture for a page, drawn
+// offscreen by VTK. Reads what framework/run/vtk.h describes.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkFieldData.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkObject.h>
+#include <vtkPNGWriter.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkWindowToImageFilter.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLUtilities.h>
+#include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
+
+#include "framework/run/vtk.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector2d;
+using pintle::Part;
+
+// What to draw ------------------------------------------------------------------------------------
+
+struct Choice {
+  fs::path directory, picture;
+  int frame = -1;  ///< counted from 0; from the end if negative
+  double time = std::numeric_limits<double>::quiet_NaN();  ///< [s]; the frame nearest to it
+  int width = 1400, height = 0;                            ///< [px]; height 0: as the content asks
+  std::string around;                                      ///< an owner to fill the picture with
+};
+
+/// The file of the chosen frame, from mechanism.pvd.
+fs::path frame_file(const Choice& choice) {
+  const fs::path pvd = choice.directory / "mechanism.pvd";
+  if (!fs::is_regular_file(pvd)) throw std::runtime_error(pvd.string() + ": no such file");
+  const auto root =
+      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
+  vtkXMLDataElement* list = root ? root->FindNestedElementWithName("Collection") : nullptr;
+  const int count = list ? list->GetNumberOfNestedElements() : 0;
+  if (count == 0) throw std::runtime_error(pvd.string() + ": lists no frames");
+
+  int n = choice.frame < 0 ? count + choice.frame : choice.frame;
+  if (!std::isnan(choice.time)) {
+    const auto distance = [&](int i) {
+      return std::abs(std::atof(list->GetNestedElement(i)->GetAttribute("timestep")) - choice.time);
+    };
+    n = 0;
+    for (int i = 1; i < count; ++i) {
+      if (distance(i) < distance(n)) n = i;
+    }
+  }
+  if (n < 0 || n >= count) {
+    throw std::runtime_error(pvd.string() + ": has " + std::to_string(count) + " frames, 0 to " +
+                             std::to_string(count - 1) + "; asked for " +
+                             std::to_string(choice.frame));
+  }
+  return choice.directory / list->GetNestedElement(n)->GetAttribute("file");
+}
+
+pintle::Drawing read_frame(const fs::path& file) {
+  if (!fs::is_regular_file(file)) throw std::runtime_error(file.string() + ": no such file");
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  vtkUnstructuredGrid* grid = reader->GetOutput();
+  vtkDataArray* part = grid->GetCellData()->GetArray("part");
+  vtkDataArray* owner = grid->GetCellData()->GetArray("owner");
+  vtkDataArray* force = grid->GetPointData()->GetArray("force [N]");
+  vtkFieldData* facts = grid->GetFieldData();
+  auto* owners = vtkStringArray::SafeDownCast(facts->GetAbstractArray("owners"));
+  vtkDataArray* time = facts->GetArray("TimeValue");
+  vtkDataArray* exaggeration = facts->GetArray("clearance exaggeration");
+  if (!part || !owner || !force || !owners || !time || !exaggeration) {
+    throw std::runtime_error(file.string() + ": is not a frame of pintle");
+  }
+  pintle::Drawing drawing;
+  drawing.t = time->GetTuple1(0);
+  drawing.exaggeration = exaggeration->GetTuple1(0);
+  for (vtkIdType i = 0; i < owners->GetNumberOfValues(); ++i) {
+    drawing.owners.push_back(owners->GetValue(i));
+  }
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c) {
+    grid->GetCellPoints(c, ids);
+    const auto point = [&](vtkIdType i) {
+      const double* r = grid->GetPoint(ids->GetId(i));
+      return Vector2d(r[0], r[1]);
+    };
+    const int kind = static_cast<int>(part->GetTuple1(c)),
+              who = static_cast<int>(owner->GetTuple1(c));
+    if (kind > static_cast<int>(Part::trace)) {
+      const double* f = force->GetTuple3(ids->GetId(0));
+      drawing.forces.push_back({point(0), {f[0], f[1]}, who});
+      continue;
+    }
+    pintle::DrawnLine line{static_cast<Part>(kind), who, false, {}};
+    vtkIdType n = ids->GetNumberOfIds();
+    line.closed = n > 2 && ids->GetId(0) == ids->GetId(n - 1);
+    if (line.closed) --n;
+    for (vtkIdType i = 0; i < n; ++i) line.points.push_back(point(i));
+    drawing.lines.push_back(std::move(line));
+  }
+  return drawing;
+}
+
+// Colours and words -------------------------------------------------------------------------------
+
+using Colour = Eigen::Vector3d;  // red, green, blue in 0 … 1
+
+const Colour ink{0.16, 0.18, 0.22}, white{1, 1, 1}, red{0.80, 0.16, 0.14};
+
+/// Okabe and Ito's colours, which the colour-blind tell apart, less the yellow, which white
+/// swallows.
+const std::array<Colour, 6> palette{Colour{0.00, 0.45, 0.70}, Colour{0.84, 0.37, 0.00},
+                                    Colour{0.00, 0.62, 0.45}, Colour{0.80, 0.47, 0.65},
+                                    Colour{0.34, 0.71, 0.91}, Colour{0.90, 0.62, 0.00}};
+
+Colour mix(const Colour& a, const Colour& b, double share_of_b) {
+  return a + share_of_b * (b - a);
+}
+
+/// "12.5 ms": three digits and a prefix.
+std::string quantity(double value, const std::string& unit) {
+  constexpr std::array prefixes{"n", "µ", "m", "", "k", "M", "G"};
+  int step = 0;
+  if (value != 0) {
+    step = static_cast<int>(std::floor(std::log10(std::abs(value) * (1 + 1e-9)) / 3));
+  }
+  step = std::clamp(step, -3, 3);
+  std::array<char, 48> text;
+  std::snprintf(text.data(), text.size(), "%.3g %s%s", value / std::pow(1000.0, step),
+                prefixes[static_cast<std::size_t>(step + 3)], unit.c_str());
+  return text.data();
+}
+
+/// The largest of 1, 2, 5 · 10ⁿ not above `length`.
+double round_length(double length) {
+  const double decade = std::pow(10.0, std::floor(std::log10(length)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * decade <= length) return digit * decade;
+  }
+  return decade;
+}
+
+// How to draw -------------------------------------------------------------------------------------
+
+/// Filled flat shapes in pixels, a layer above the other.
+class Canvas {
+ public:
+  Canvas() { colours_->SetNumberOfComponents(3); }
+
+  void fill(const std::vector<Vector2d>& outline, const Colour& colour) {
+    shapes_->InsertNextCell(static_cast<int>(outline.size()));
+    for (const Vector2d& r : outline) {
+      shapes_->InsertCellPoint(points_->InsertNextPoint(r.x(), r.y(), layer_));
+    }
+    const Colour byte = 255 * colour;
+    colours_->InsertNextTuple3(byte.x(), byte.y(), byte.z());
+  }
+
+  /// A line with round corners and ends.
+  void stroke(const std::vector<Vector2d>& line, bool closed, double width, const Colour& colour) {
+    const std::size_t n = line.size();
+    for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
+      const Vector2d &a = line[i], &b = line[(i + 1) % n];
+      const Vector2d along = (b - a).normalized() * width / 2, across{-along.y(), along.x()};
+      if (a != b) fill({a - across, b - across, b + across, a + across}, colour);
+    }
+    for (const Vector2d& r : line) disc(r, width / 2, colour);
+  }
+
+  void disc(const Vector2d& centre, double radius, const Colour& colour) {
+    std::vector<Vector2d> outline;
+    const int corners = 12 + static_cast<int>(radius);
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 2 * std::numbers::pi * i / corners;
+      outline.push_back(centre + radius * Vector2d(std::cos(angle), std::sin(angle)));
+    }
+    fill(outline, colour);
+  }
+
+  void arrow(const Vector2d& from, const Vector2d& to, double width, const Colour& colour) {
+    const Vector2d way = to - from;
+    if (way.norm() < 1) return;
+    const Vector2d along = way.normalized(), across{-along.y(), along.x()};
+    const double head = std::min(4 * width, way.norm());
+    const Vector2d neck = to - head * along;
+    stroke({from, neck}, false, width, colour);
+    fill({to, neck + 0.42 * head * across, neck - 0.42 * head * across}, colour);
+  }
+
+  /// What follows lies over what came before.
+  void next_layer() { layer_ += 1; }
+
+  vtkSmartPointer<vtkActor> actor() const {
+    vtkNew<vtkPolyData> shapes;
+    shapes->SetPoints(points_);
+    shapes->SetPolys(shapes_);
+    shapes->GetCellData()->SetScalars(colours_);
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(shapes);
+    const auto actor = vtkSmartPointer<vtkActor>::New();
+    actor->SetMapper(mapper);
+    actor->GetProperty()->LightingOff();
+    return actor;
+  }
+
+  double layer() const { return layer_; }
+
+ private:
+  double layer_ = 0;
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkCellArray> shapes_;
+  vtkNew<vtkUnsignedCharArray> colours_;
+};
+
+/// The part of the world that is seen, and where: a uniform scale.
+struct View {
+  Eigen::AlignedBox2d world;
+  int width, height;  ///< [px]
+  double scale;       ///< [px/m]
+  Vector2d operator()(const Vector2d& r) const {
+    return Vector2d(width / 2.0, bottom + (height - bottom - top) / 2.0) +
+           scale * (r - world.center());
+  }
+  static constexpr int side = 36, bottom = 84, top = 76;  ///< margins [px]
+};
+
+/// Chooses the scale, and the height where it is free, so that `world` fills the picture.
+void fit(View& view, int asked_height) {
+  const int margins = View::bottom + View::top, inner = view.width - 2 * View::side;
+  Eigen::AlignedBox2d world = view.world;
+  const double size = std::max(world.sizes().maxCoeff(), 1e-9);
+  world.min().array() -= 0.03 * size;
+  world.max().array() += 0.03 * size;
+  const Vector2d sizes = world.sizes();
+  view.height = asked_height;
+  if (asked_height == 0) {
+    const double asked = sizes.y() / sizes.x() * inner + margins;
+    view.height = static_cast<int>(std::clamp(asked, 0.3 * view.width, 0.8 * view.width));
+  }
+  view.scale = std::min(inner / sizes.x(), (view.height - margins) / sizes.y());
+  if (!(view.scale > 0)) throw std::runtime_error("--size: too small to draw in");
+}
+
+double largest_force(const pintle::Drawing& drawing) {
+  double largest = 0;
+  for (const auto& f : drawing.forces) largest = std::max(largest, f.force.norm());
+  return largest;
+}
+
+double pixels_per_newton(const View& view, const pintle::Drawing& drawing) {
+  return 0.16 * view.width / largest_force(drawing);
+}
+
+View view_of(const pintle::Drawing& drawing, const Choice& choice) {
+  View view{{}, choice.width, choice.height, 1};
+  const bool whole = choice.around.empty();
+  for (const auto& line : drawing.lines) {
+    const std::string& owner = drawing.owners.at(static_cast<std::size_t>(line.owner));
+    if (!whole && (owner != choice.around || line.part == Part::trace)) continue;
+    for (const auto& r : line.points) view.world.extend(r);
+  }
+  if (view.world.isEmpty()) {
+    throw std::runtime_error(whole ? "the frame is empty"
+                                   : "--around " + choice.around + ": no lines of that name");
+  }
+  fit(view, choice.height);
+  if (whole && largest_force(drawing) > 0) {  // room for the arrows, whose length is in pixels
+    const double metres = pixels_per_newton(view, drawing) / view.scale;
+    for (const auto& f : drawing.forces) view.world.extend(Vector2d(f.at + metres * f.force));
+    fit(view, choice.height);
+  }
+  return view;
+}
+
+/// A colour for each owner that has a link, in the order of the owners.
+std::map<int, Colour> body_colours(const pintle::Drawing& drawing) {
+  std::map<int, Colour> colours;
+  for (const auto& line : drawing.lines) {
+    if (line.part == Part::link) colours[line.owner] = ink;
+  }
+  std::size_t n = 0;
+  for (auto& [owner, colour] : colours) colour = palette[n++ % palette.size()];
+  return colours;
+}
+
+void draw_lines(Canvas& canvas, const View& view, const pintle::Drawing& drawing,
+                const std::map<int, Colour>& colours, Part part) {
+  for (const auto& line : drawing.lines) {
+    if (line.part != part) continue;
+    std::vector<Vector2d> r;
+    for (const auto& p : line.points) r.push_back(view(p));
+    switch (part) {
+      case Part::guide:
+        canvas.stroke(r, line.closed, 4, mix(ink, white, 0.45));
+        break;
+      case Part::trace:
+        canvas.stroke(r, line.closed, 1.6, mix(ink, white, 0.55));
+        break;
+      case Part::spring:
+        canvas.stroke(r, line.closed, 3, mix(ink, white, 0.2));
+        break;
+      case Part::link: {
+        const Colour& colour = colours.at(line.owner);
+        if (line.closed) {
+          canvas.fill(r, mix(colour, white, 0.65));
+          canvas.next_layer();
+          canvas.stroke(r, true, 4, colour);
+        } else {
+          canvas.stroke(r, false, 13, mix(colour, ink, 0.5));
+          canvas.next_layer();
+          canvas.stroke(r, false, 9, colour);
+        }
+        break;
+      }
+      case Part::joint:
+      case Part::journal:
+      case Part::bearing:
+        if (r.size() == 1) {
+          canvas.disc(r[0], 8, ink);
+          canvas.next_layer();
+          canvas.disc(r[0], 5, white);
+          break;
+        }
+        if (line.closed) {
+          canvas.fill(r, part == Part::journal ? mix(ink, white, 0.7) : white);
+          canvas.next_layer();
+        }
+        canvas.stroke(r, line.closed, 3, ink);
+        break;
+    }
+    canvas.next_layer();
+  }
+}
+
+void draw_forces(Canvas& canvas, const View& view, const pintle::Drawing& drawing) {
+  if (largest_force(drawing) == 0) return;
+  const double scale = pixels_per_newton(view, drawing);
+  for (const auto& f : drawing.forces) {
+    const Vector2d at = view(f.at);
+    canvas.arrow(at, at + scale * f.force, 5, red);
+  }
+  canvas.next_layer();
+}
+
+vtkSmartPointer<vtkTextActor> words(const std::string& text, double x, double y, bool right,
+                                    const Colour& colour) {
+  const auto actor = vtkSmartPointer<vtkTextActor>::New();
+  actor->SetInput(text.c_str());
+  actor->SetDisplayPosition(static_cast<int>(x), static_cast<int>(y));
+  vtkTextProperty* style = actor->GetTextProperty();
+  style->SetFontFamilyToArial();
+  style->SetFontSize(22);
+  style->SetColor(colour.x(), colour.y(), colour.z());
+  if (right) style->SetJustificationToRight();
+  return actor;
+}
+
+/// Time and bodies above; the scales of lengths and forces and the exaggeration below.
+void add_words(vtkRenderer* renderer, Canvas& canvas, const View& view,
+               const pintle::Drawing& drawing, const std::map<int, Colour>& colours) {
+  const double w = view.width, h = view.height, top = h - View::top / 2.0 - 8;
+  canvas.fill({{0, h - View::top}, {w, h - View::top}, {w, h}, {0, h}}, white);
+  canvas.fill({{0, 0}, {w, 0}, {w, View::bottom}, {0, View::bottom}}, white);
+  canvas.next_layer();
+  renderer->AddActor2D(words("t = " + quantity(drawing.t, "s"), View::side, top, false, ink));
+  double x = view.width - View::side;
+  for (auto entry = colours.rbegin(); entry != colours.rend(); ++entry) {
+    const std::string& name = drawing.owners.at(static_cast<std::size_t>(entry->first));
+    const auto label = words(name, x, top, true, mix(entry->second, ink, 0.35));
+    std::array<double, 2> size{};
+    label->GetSize(renderer, size.data());
+    renderer->AddActor2D(label);
+    x -= size[0] + 20;
+    canvas.disc({x + 4, top + 10}, 8, entry->second);
+    x -= 32;
+  }
+
+  const double length = round_length(0.2 * view.width / view.scale), y = View::bottom / 2.0 - 4;
+  const double end = View::side + length * view.scale;
+  canvas.stroke({{View::side, y + 8}, {View::side, y}, {end, y}, {end, y + 8}}, false, 2.5, ink);
+  renderer->AddActor2D(words(quantity(length, "m"), end + 14, y - 6, false, ink));
+
+  std::string below;
+  const double largest = largest_force(drawing);
+  if (largest > 0) below = "longest arrow " + quantity(largest, "N");
+  if (drawing.exaggeration != 1) {
+    std::array<char, 48> text;
+    std::snprintf(text.data(), text.size(), "clearance drawn %.3g times", drawing.exaggeration);
+    below += (below.empty() ? "" : "      ") + std::string(text.data());
+  }
+  renderer->AddActor2D(words(below, view.width - View::side, y - 6, true, ink));
+}
+
+void write_picture(const pintle::Drawing& drawing, const Choice& choice) {
+  const View view = view_of(drawing, choice);
+  const auto colours = body_colours(drawing);
+
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1, 1, 1);
+  vtkNew<vtkRenderWindow> window;
+  window->OffScreenRenderingOn();
+  window->SetMultiSamples(8);
+  window->SetSize(view.width, view.height);
+  window->AddRenderer(renderer);
+
+  Canvas canvas;
+  for (const Part part : {Part::guide, Part::link, Part::spring, Part::joint, Part::bearing,
+                          Part::journal, Part::trace}) {
+    draw_lines(canvas, view, drawing, colours, part);
+  }
+  draw_forces(canvas, view, drawing);
+  add_words(renderer, canvas, view, drawing, colours);
+  renderer->AddActor(canvas.actor());
+
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const double x = view.width / 2.0, y = view.height / 2.0, far = canvas.layer() + 2;
+  camera->ParallelProjectionOn();
+  camera->SetParallelScale(y);
+  camera->SetFocalPoint(x, y, 0);
+  camera->SetPosition(x, y, far);
+  camera->SetClippingRange(0.5, far + 1);
+  window->Render();
+
+  vtkNew<vtkWindowToImageFilter> image;
+  image->SetInput(window);
+  image->ReadFrontBufferOff();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputConnection(image->GetOutputPort());
+  writer->SetFileName(choice.picture.c_str());
+  writer->Write();
+  if (writer->GetErrorCode() != 0) {
+    throw std::runtime_error(choice.picture.string() + ": cannot be written");
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choice choice;
+  std::string size;
+  CLI::App app{
+      "Draws one frame of a run as a picture.\n"
+      "Needs a display, be it a virtual one:  xvfb-run -a pintle-picture DIR OUT.png"};
+  app.add_option("dir", choice.directory, "What `pintle run --out` wrote")->required();
+  app.add_option("picture", choice.picture, "The PNG file to write")->required();
+  auto* frame = app.add_option("--frame", choice.frame, "Frame, from 0; -1 is the last (default)");
+  app.add_option("--time", choice.time, "The frame nearest to this time [s]")->excludes(frame);
+  app.add_option("--size", size, "WIDTHxHEIGHT or WIDTH in pixels (1400, as high as needed)");
+  app.add_option("--around", choice.around, "Fill the picture with this body or joint");
+  CLI11_PARSE(app, argc, argv);
+  vtkObject::GlobalWarningDisplayOff();  // what fails is said below, once
+  try {
+    if (!size.empty() && std::sscanf(size.c_str(), "%dx%d", &choice.width, &choice.height) < 1) {
+      throw std::runtime_error("--size " + size + ": give WIDTHxHEIGHT, such as 1400x600");
+    }
+    if (std::getenv("DISPLAY") == nullptr) {
+      throw std::runtime_error("no display; run it as  xvfb-run -a pintle-picture …");
+    }
+    write_picture(read_frame(frame_file(choice)), choice);
+  } catch (const std::exception& e) {
+    std::cerr << "pintle-picture: " << e.what() << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,264 @@
+#include "framework/dynamics/equations.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pintle {
+
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+using Index = Eigen::Index;
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// v += B_kᵀ x for both sides of joint k, over the bodies they are on; x starts at the joint's row.
+template <class Add>
+void for_sides(const System& system, std::size_t k, Add add) {
+  const int a = system.markers[at(marker_a(system.joints[k]))].body;
+  const int b = system.markers[at(marker_b(system.joints[k]))].body;
+  if (a != ground) add(2 * k, 3 * a);
+  if (b != ground) add(2 * k + 1, 3 * b);
+}
+
+// v −= M⁻¹ Cqᵀ x
+void subtract_reaction(const System& system, const Equations& eq, const VectorXd& x, double* v) {
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
+    for_sides(system, k, [&](std::size_t side, int q) {
+      const Body& body = system.bodies[at(q / 3)];
+      double g[3] = {0, 0, 0};
+      for (int r = 0; r < m; ++r)
+        for (int c = 0; c < 3; ++c) g[c] += eq.B[side](r, c) * x[row + r];
+      v[q] -= g[0] / body.m;
+      v[q + 1] -= g[1] / body.m;
+      v[q + 2] -= g[2] / body.J;
+    });
+  }
+}
+
+// out += Cq v
+void add_product(const System& system, const Equations& eq, const double* v, VectorXd& out) {
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
+    for_sides(system, k, [&](std::size_t side, int q) {
+      for (int r = 0; r < m; ++r)
+        out[row + r] += eq.B[side](r, 0) * v[q] + eq.B[side](r, 1) * v[q + 1] +
+                        eq.B[side](r, 2) * v[q + 2];
+    });
+  }
+}
+
+}  // namespace
+
+Equations::Equations(const System& system)
+    : motion(system.markers.size()),
+      rows(system.joints.size()),
+      B(2 * system.joints.size(), Schur::Block::Zero()),
+      schur(system),
+      C(VectorXd::Zero(system.n_rows())),
+      Cdot(C),
+      f(VectorXd::Zero(system.n())),
+      a(f),
+      lambda(C),
+      contact(system.contacts.size()),
+      force(system.forces.size()),
+      mu(C),
+      cos_(VectorXd::Zero(static_cast<Index>(system.bodies.size()))),
+      sin_(cos_) {
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const Marker& marker = system.markers[i];
+    if (marker.body != ground) continue;
+    motion[i].r = motion[i].d = marker.x_BP;
+    motion[i].angle = marker.angle;
+    motion[i].u = {std::cos(marker.angle), std::sin(marker.angle)};
+  }
+}
+
+void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
+  for (Index b = 0; b < eq.cos_.size(); ++b) {
+    eq.cos_[b] = std::cos(y[3 * b + 2]);
+    eq.sin_[b] = std::sin(y[3 * b + 2]);
+  }
+  for (std::size_t i = 0; i < system.markers.size(); ++i) {
+    const Marker& marker = system.markers[i];
+    if (marker.body == ground) continue;
+    MarkerMotion& m = eq.motion[i];
+    const double c = eq.cos_[marker.body], s = eq.sin_[marker.body];
+    const double* q = y.data() + 3 * marker.body;
+    m.d = {c * marker.x_BP.x() - s * marker.x_BP.y(), s * marker.x_BP.x() + c * marker.x_BP.y()};
+    m.r = {q[0] + m.d.x(), q[1] + m.d.y()};
+    m.angle = q[2] + marker.angle;
+    if (marker.angle == 0)
+      m.u = {c, s};
+    else
+      m.u = {std::cos(m.angle), std::sin(m.angle)};
+  }
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const int ma = marker_a(system.joints[k]), mb = marker_b(system.joints[k]);
+    ConstraintRows& r = eq.rows[k];
+    evaluate_pose(system.joints[k], eq.motion[at(ma)], eq.motion[at(mb)], t, r);
+    const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
+    const auto chain = [m](const ConstraintRows::Block& L, const Vector2d& d, Schur::Block& B) {
+      for (int i = 0; i < m; ++i) {
+        B(i, 0) = L(i, 0);
+        B(i, 1) = L(i, 1);
+        B(i, 2) = L(i, 2) - L(i, 0) * d.y() + L(i, 1) * d.x();
+      }
+    };
+    chain(r.La, eq.motion[at(ma)].d, eq.B[2 * k]);
+    chain(r.Lb, eq.motion[at(mb)].d, eq.B[2 * k + 1]);
+    for (int i = 0; i < m; ++i) eq.C[row + i] = r.C[i];
+  }
+}
+
+void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
+  const double* s = y.data() + system.n();
+  for (std::size_t i = 0; i < system.markers.size(); ++i) {
+    const int body = system.markers[i].body;
+    if (body == ground) continue;
+    MarkerMotion& m = eq.motion[i];
+    m.w = s[3 * body + 2];
+    m.v = {s[3 * body] - m.w * m.d.y(), s[3 * body + 1] + m.w * m.d.x()};
+    m.a0 = -m.w * m.w * m.d;
+  }
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    ConstraintRows& r = eq.rows[k];
+    evaluate_speed(system.joints[k], eq.motion[at(marker_a(system.joints[k]))],
+                   eq.motion[at(marker_b(system.joints[k]))], t, r);
+    const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
+    for (int i = 0; i < m; ++i) eq.Cdot[row + i] = r.Ct[i];
+  }
+  add_product(system, eq, s, eq.Cdot);
+}
+
+void factor(const System&, Equations& eq) {
+  eq.regular = eq.schur.factor(eq.B);
+  ++eq.factorizations;
+}
+
+void add_wrench(const System& system, const Equations& eq, int marker, const Wrench& w, VectorXd& v) {
+  const int body = system.markers[at(marker)].body;
+  if (body == ground) return;
+  const Vector2d& d = eq.motion[at(marker)].d;
+  v[3 * body] += w[0];
+  v[3 * body + 1] += w[1];
+  v[3 * body + 2] += w[2] + d.x() * w[1] - d.y() * w[0];
+}
+
+void accelerate(const System& system, const State& state, Equations& eq) {
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const auto i = static_cast<Index>(3 * b);
+    eq.f[i] = system.bodies[b].m * system.gravity.x();
+    eq.f[i + 1] = system.bodies[b].m * system.gravity.y();
+    eq.f[i + 2] = 0;
+  }
+  for (std::size_t i = 0; i < system.forces.size(); ++i) {
+    const int ma = marker_a(system.forces[i]), mb = marker_b(system.forces[i]);
+    eq.force[i] = evaluate(system.forces[i], eq.motion[at(ma)], eq.motion[at(mb)], state.t);
+    add_wrench(system, eq, ma, eq.force[i].on_a, eq.f);
+    add_wrench(system, eq, mb, eq.force[i].on_b, eq.f);
+  }
+  for (std::size_t i = 0; i < system.contacts.size(); ++i) {
+    const ContactPair& pair = system.contacts[i];
+    eq.contact[i] = evaluate(pair, eq.motion[at(pair.journal)], eq.motion[at(pair.bearing)],
+                             state.impact_rate[i]);
+    if (eq.contact[i].normal.force == 0) continue;
+    add_wrench(system, eq, pair.journal, eq.contact[i].on_journal, eq.f);
+    add_wrench(system, eq, pair.bearing, eq.contact[i].on_bearing, eq.f);
+  }
+
+  // S λ = Cq M⁻¹ f − γ,  a = M⁻¹ (f − Cqᵀ λ)
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const auto i = static_cast<Index>(3 * b);
+    eq.a[i] = eq.f[i] / system.bodies[b].m;
+    eq.a[i + 1] = eq.f[i + 1] / system.bodies[b].m;
+    eq.a[i + 2] = eq.f[i + 2] / system.bodies[b].J;
+  }
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const ConstraintRows& r = eq.rows[k];
+    const MarkerMotion& a = eq.motion[at(marker_a(system.joints[k]))];
+    const MarkerMotion& b = eq.motion[at(marker_b(system.joints[k]))];
+    const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
+    for (int i = 0; i < m; ++i)  // −γ
+      eq.lambda[row + i] = r.kappa[i] + r.La(i, 0) * a.a0.x() + r.La(i, 1) * a.a0.y() +
+                           r.La(i, 2) * a.alpha0 + r.Lb(i, 0) * b.a0.x() + r.Lb(i, 1) * b.a0.y() +
+                           r.Lb(i, 2) * b.alpha0;
+  }
+  add_product(system, eq, eq.a.data(), eq.lambda);
+  eq.schur.solve(eq.lambda);
+  subtract_reaction(system, eq, eq.lambda, eq.a.data());
+  ++eq.evaluations;
+}
+
+void fill_derivative(const System& system, const VectorXd& y, const Equations& eq, VectorXd& dy) {
+  const Index n = system.n();
+  dy.head(n) = y.segment(n, n);
+  dy.segment(n, n) = eq.a;
+  for (Index i = 0; i < system.n_z(); ++i) {
+    const Integral& z = system.integrals[static_cast<std::size_t>(i)];
+    const std::size_t k = at(z.index);
+    double rate = 0;
+    switch (z.account) {
+      case Account::hysteresis: rate = eq.contact[k].normal.dissipation; break;
+      case Account::friction: rate = eq.contact[k].friction_loss; break;
+      case Account::damper: rate = eq.force[k].dissipation; break;
+      case Account::load: rate = eq.force[k].input; break;
+      case Account::driver: rate = eq.lambda[system.row_begin[k]] * eq.rows[k].Ct[0]; break;
+    }
+    dy[2 * n + i] = rate;
+  }
+}
+
+bool evaluate(const System& system, const State& state, Equations& eq, VectorXd& dy) {
+  pose(system, state.t, state.y, eq);
+  factor(system, eq);
+  if (!eq.regular) return false;
+  speed(system, state.t, state.y, eq);
+  accelerate(system, state, eq);
+  fill_derivative(system, state.y, eq, dy);
+  return true;
+}
+
+double position_violation(const System& system, const Equations& eq) {
+  return eq.C.size() == 0 ? 0 : eq.C.cwiseProduct(system.row_scale).lpNorm<Eigen::Infinity>();
+}
+
+double velocity_violation(const System& system, const VectorXd& y, const Equations& eq) {
+  if (eq.Cdot.size() == 0) return 0;
+  double fastest = 0;  // a rate: speeds over the mechanism's length, spins as they are
+  const Index n = system.n();
+  for (Index i = 0; i < n; ++i)
+    fastest = std::max(fastest, std::abs(y[n + i]) / (i % 3 == 2 ? 1 : system.length));
+  const double worst = eq.Cdot.cwiseProduct(system.row_scale).lpNorm<Eigen::Infinity>();
+  return fastest > 0 ? worst / fastest : worst > 0 ? 1 : 0;
+}
+
+bool project(const System& system, double t, VectorXd& y, Equations& eq) {
+  constexpr double enough = 1e-13, good = 1e-11;
+  constexpr int most = 8;
+  double worst = 0;
+  for (int i = 0; i < most; ++i) {
+    pose(system, t, y, eq);
+    factor(system, eq);
+    if (!eq.regular) return false;
+    const double before = worst;
+    worst = position_violation(system, eq);
+    if (worst <= enough || (i > 0 && worst <= good && worst > 0.1 * before)) break;
+    eq.mu = eq.C;
+    eq.schur.solve(eq.mu);
+    subtract_reaction(system, eq, eq.mu, y.data());
+  }
+  if (!(worst <= good)) return false;
+  speed(system, t, y, eq);
+  for (int i = 0; i < 2 && velocity_violation(system, y, eq) > enough; ++i) {
+    eq.mu = eq.Cdot;
+    eq.schur.solve(eq.mu);
+    subtract_reaction(system, eq, eq.mu, y.data() + system.n());
+    speed(system, t, y, eq);
+  }
+  return true;
+}
+
+}  // namespace pintle

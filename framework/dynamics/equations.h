@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "framework/dynamics/schur.h"
+#include "framework/dynamics/system.h"
+
+namespace pintle {
+
+/// Scratch of one evaluation of the equations of motion, sized by the system; one per thread.
+///   M a + Cqᵀ λ = f(q, s, t),   Cq a = γ,   Cq s = −Ct,   C = 0.
+/// Nothing here allocates after construction while the rows are few enough to be dense.
+struct Equations {
+  explicit Equations(const System&);
+
+  std::vector<MarkerMotion> motion;   ///< of each marker
+  std::vector<ConstraintRows> rows;   ///< of each joint, in poses of its markers
+  std::vector<Schur::Block> B;        ///< rows of Cq, two blocks a joint: L J
+  Schur schur;
+  Eigen::VectorXd C;                  ///< position violation [m or rad], n_rows
+  Eigen::VectorXd Cdot;               ///< velocity violation Cq s + Ct, n_rows
+  Eigen::VectorXd f, a, lambda;       ///< forces, accelerations, multipliers
+  std::vector<ContactEffect> contact;
+  std::vector<ForceEffect> force;
+  bool regular = true;                ///< false: the rows are dependent at this pose
+
+  long evaluations = 0, factorizations = 0;
+
+  Eigen::VectorXd mu, cos_, sin_;     ///< work
+};
+
+/// Poses of the markers, C and Cq. q is the first n numbers of y.
+void pose(const System&, double t, const Eigen::VectorXd& y, Equations&);
+/// Speeds of the markers, Ct, κ and Ċ. After pose.
+void speed(const System&, double t, const Eigen::VectorXd& y, Equations&);
+/// Factors S. After pose; sets `regular`.
+void factor(const System&, Equations&);
+/// Forces, λ, a. After speed and factor.
+void accelerate(const System&, const State&, Equations&);
+/// ẏ = [s, a, ż] after accelerate.
+void fill_derivative(const System&, const Eigen::VectorXd& y, const Equations&, Eigen::VectorXd& dy);
+
+/// Everything above in order. @returns false at a singular pose
+bool evaluate(const System&, const State&, Equations&, Eigen::VectorXd& dy);
+
+/// Largest |C| over the mechanism's length, and |Ċ| over its length and fastest angular rate.
+double position_violation(const System&, const Equations&);
+double velocity_violation(const System&, const Eigen::VectorXd& y, const Equations&);
+
+/// Moves q, then s, to C = 0 and Ċ = 0 by the shortest way in the metric of M; leaves pose, speed and
+/// factor as for the corrected state. @returns false if it does not converge
+bool project(const System&, double t, Eigen::VectorXd& y, Equations&);
+
+/// v ← v + Σ of a marker's wrench brought to its body's coordinates.
+void add_wrench(const System&, const Equations&, int marker, const Wrench&, Eigen::VectorXd& v);
+
+}  // namespace pintle

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace pintle {
+
+inline constexpr int ground = -1;
+
+/// A material point of a body with a direction drawn on it. Joints, springs, loads, contacts and
+/// drawings meet bodies only through markers; none can tell what kind of body carries them.
+struct Marker {
+  int body = ground;                               ///< index into System::bodies, or `ground`
+  Eigen::Vector2d x_BP = Eigen::Vector2d::Zero();  ///< position from the mass centre, body axes [m]
+  double angle = 0;                                ///< direction, body axes [rad]
+};
+
+/// Motion of a marker, world axes. Its pose is p = (r, angle), three numbers, and
+/// ṗ = J s,  p̈ = J ṡ + (a0, alpha0)  with s its body's speeds.
+struct MarkerMotion {
+  Eigen::Vector2d r;                               ///< position [m]
+  Eigen::Vector2d d;                               ///< from the body's coordinates' point to P [m]
+  Eigen::Vector2d u;                               ///< unit vector along the direction
+  double angle = 0;                                ///< direction, unwrapped [rad]
+  Eigen::Vector2d v = Eigen::Vector2d::Zero();     ///< velocity [m/s]
+  Eigen::Vector2d a0 = Eigen::Vector2d::Zero();    ///< acceleration when ṡ = 0 [m/s²]
+  double w = 0;                                    ///< angular velocity [rad/s]
+  double alpha0 = 0;                               ///< angular acceleration when ṡ = 0 [rad/s²]
+};
+
+/// A force and a couple at a marker, world axes: what does work on ṗ. [N, N, N m]
+using Wrench = Eigen::Vector3d;
+
+/// Quarter turn counter-clockwise, Zv.
+inline Eigen::Vector2d perp(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
+/// v × w = (Zv)·w
+inline double cross(const Eigen::Vector2d& v, const Eigen::Vector2d& w) {
+  return v.x() * w.y() - v.y() * w.x();
+}
+
+}  // namespace pintle

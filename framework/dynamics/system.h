@@ -1,0 +1,63 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "framework/dynamics/contact_pair.h"
+#include "framework/dynamics/forces.h"
+#include "framework/dynamics/joints.h"
+#include "framework/dynamics/marker.h"
+
+namespace pintle {
+
+/// A rigid body. Its coordinates are [x y θ] of its mass centre, so its inertia is three constants and
+/// it has no velocity-dependent inertia forces.
+struct Body {
+  std::string name;
+  double m = 0;                                    ///< [kg]
+  double J = 0;                                    ///< about the mass centre [kg m²]
+  Eigen::Vector2d x_BO = Eigen::Vector2d::Zero();  ///< origin of the user's axes from the mass centre [m]
+};
+
+/// What an integral of the ledger accounts for.
+enum class Account { hysteresis, friction, damper, load, driver };
+struct Integral {
+  Account account;
+  int index;  ///< contact, force or joint
+};
+
+/// A scene made ready to run: built once, then never changed. Ground is not among the bodies.
+struct System {
+  Eigen::Vector2d gravity = Eigen::Vector2d::Zero();  ///< [m/s²]
+  std::vector<Body> bodies;
+  std::vector<Marker> markers;  ///< every marker that a joint, force or contact uses
+  std::vector<Joint> joints;    ///< drivers included
+  std::vector<Force> forces;
+  std::vector<ContactPair> contacts;
+  std::vector<std::string> joint_names, force_names, contact_names;
+
+  double length = 1;               ///< size of the mechanism, for scaling [m]
+  std::vector<int> row_begin;      ///< first constraint row of joint i; one past
+  Eigen::VectorXd row_scale;       ///< 1/length for a row in metres, 1 for an angle
+  std::vector<Integral> integrals; ///< what z accounts for, in order
+  std::vector<int> contact_z, force_z, joint_z;  ///< first integral of each, −1 for none
+
+  int n() const { return 3 * static_cast<int>(bodies.size()); }
+  int n_rows() const { return row_begin.empty() ? 0 : row_begin.back(); }
+  int n_z() const { return static_cast<int>(integrals.size()); }
+  int n_y() const { return 2 * n() + n_z(); }
+};
+
+/// Fills what follows from the lists: rows, integrals. Call once, after the lists are complete.
+void number(System&);
+
+/// Everything that changes in time. Copy one to branch a run, store one to restart it.
+struct State {
+  double t = 0;             ///< [s]
+  Eigen::VectorXd y;        ///< coordinates q, speeds s, ledger integrals z: n + n + n_z
+  std::vector<double> impact_rate;  ///< per contact, latched approach speed; 0 while open [m/s]
+};
+
+}  // namespace pintle

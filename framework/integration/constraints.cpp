@@ -1,0 +1,89 @@
+#include "framework/integration/constraints.h"
+
+#include <Eigen/QR>
+
+namespace pintle {
+
+using Index = Eigen::Index;
+
+namespace {
+
+void fill_jacobian(const System& system, const Equations& eq, Eigen::MatrixXd& Cq) {
+  Cq.setZero(system.n_rows(), system.n());
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
+    const auto place = [&](int marker, std::size_t side) {
+      const int body = system.markers[static_cast<std::size_t>(marker)].body;
+      if (body != ground) Cq.block(row, 3 * body, m, 3) = eq.B[side].topRows(m);
+    };
+    place(marker_a(system.joints[k]), 2 * k);
+    place(marker_b(system.joints[k]), 2 * k + 1);
+  }
+}
+
+}  // namespace
+
+Eigen::MatrixXd dense_jacobian(const System& system, const Equations& eq) {
+  Eigen::MatrixXd Cq;
+  fill_jacobian(system, eq, Cq);
+  return Cq;
+}
+
+Partition::Partition(const System& system)
+    : Cq_(system.n_rows(), system.n()),
+      block_(system.n_rows(), system.n_rows()),
+      lu_(system.n_rows()),
+      step_(system.n_rows()) {}
+
+void Partition::assemble(const System& system, const Equations& eq) { fill_jacobian(system, eq, Cq_); }
+
+void Partition::choose(const System& system, const Equations& eq) {
+  assemble(system, eq);
+  Eigen::MatrixXd scaled = system.row_scale.asDiagonal() * Cq_;
+  for (Index i = 0; i < scaled.cols(); ++i)
+    if (i % 3 != 2) scaled.col(i) *= system.length;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
+  dependent_.clear();
+  for (Index i = 0; i < system.n_rows(); ++i)
+    dependent_.push_back(static_cast<int>(qr.colsPermutation().indices()[i]));
+  factor();
+  chosen_quality_ = quality_;
+  ++choices_;
+}
+
+void Partition::factor() {
+  for (std::size_t i = 0; i < dependent_.size(); ++i)
+    block_.col(static_cast<Index>(i)) = Cq_.col(dependent_[i]);
+  lu_.compute(block_);
+  const auto pivots = lu_.matrixLU().diagonal().cwiseAbs();
+  quality_ = pivots.size() == 0 ? 1 : pivots.minCoeff() / pivots.maxCoeff();
+}
+
+bool Partition::correct(const System& system, double t, Eigen::VectorXd& y, Equations& eq) {
+  constexpr double enough = 1e-13, good = 1e-11;
+  constexpr int most = 8;
+  double worst = 0;
+  for (int i = 0; i < most; ++i) {
+    pose(system, t, y, eq);
+    assemble(system, eq);
+    factor();
+    const double before = worst;
+    worst = position_violation(system, eq);
+    if (worst <= enough || (i > 0 && worst <= good && worst > 0.1 * before)) break;
+    step_.noalias() = lu_.solve(eq.C);
+    for (std::size_t k = 0; k < dependent_.size(); ++k)
+      y[dependent_[k]] -= step_[static_cast<Index>(k)];
+  }
+  if (!(worst <= good)) return false;
+  speed(system, t, y, eq);
+  for (int i = 0; i < 2 && velocity_violation(system, y, eq) > enough; ++i) {
+    step_.noalias() = lu_.solve(eq.Cdot);
+    for (std::size_t k = 0; k < dependent_.size(); ++k)
+      y[system.n() + dependent_[k]] -= step_[static_cast<Index>(k)];
+    speed(system, t, y, eq);
+  }
+  pintle::factor(system, eq);
+  return eq.regular;
+}
+
+}  // namespace pintle

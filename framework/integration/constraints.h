@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include "framework/dynamics/equations.h"
+
+namespace pintle {
+
+/// Generalised coordinate partitioning [Wehage1982]: as many coordinates as there are rows follow from
+/// the others. The dependent ones are those that a pivoted QR of Cq finds best determined.
+class Partition {
+ public:
+  explicit Partition(const System&);
+
+  /// Chooses the sets at the pose in `eq`.
+  void choose(const System&, const Equations&);
+  /// Puts the dependent part of y on C = 0, Ċ = 0, the independent part untouched.
+  /// @returns false if it does not converge
+  bool correct(const System&, double t, Eigen::VectorXd& y, Equations&);
+  /// The chosen set has become so ill determined that it should be chosen anew.
+  bool worn() const { return quality_ < 0.05 * chosen_quality_; }
+
+  int choices() const { return choices_; }
+  const std::vector<int>& dependent() const { return dependent_; }
+
+ private:
+  void assemble(const System&, const Equations&);
+  void factor();
+
+  Eigen::MatrixXd Cq_, block_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  Eigen::VectorXd step_;
+  std::vector<int> dependent_;
+  double quality_ = 1, chosen_quality_ = 1;  ///< smallest pivot over largest
+  int choices_ = 0;
+};
+
+/// Cq as a dense matrix, n_rows × n.
+Eigen::MatrixXd dense_jacobian(const System&, const Equations&);
+
+}  // namespace pintle

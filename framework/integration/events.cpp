@@ -1,0 +1,152 @@
+// Contact onset and loss as events in time: the part of Integrator that finds them and ends a step there.
+#include <algorithm>
+#include <cmath>
+
+#include "framework/integration/integrator.h"
+
+namespace pintle {
+
+namespace {
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+}  // namespace
+
+void Integrator::close(int contact, double rate) {
+  State& state = step_.to.state;
+  const double latched = std::max(rate, system_.contacts[at(contact)].slowest_impact);
+  state.impact_rate[at(contact)] = latched;
+  open_impact_[at(contact)] = static_cast<int>(impacts_.size());
+  Impact impact{.contact = contact, .begin = state.t, .approach = latched};
+  loss_at_begin_[at(contact)] = state.y[2 * system_.n() + system_.contact_z[at(contact)]] +
+                                (system_.contacts[at(contact)].friction
+                                     ? state.y[2 * system_.n() + system_.contact_z[at(contact)] + 1]
+                                     : 0);
+  peaks_[at(contact)] = {Peak{state.t, 0}, Peak{state.t, 0}};
+  impacts_.push_back(impact);
+}
+
+void Integrator::open(int contact) {
+  State& state = step_.to.state;
+  Impact& impact = impacts_[at(open_impact_[at(contact)])];
+  impact.end = state.t;
+  impact.separation = -touch(contact, state).rate;
+  state.impact_rate[at(contact)] = 0;
+  open_impact_[at(contact)] = -1;
+}
+
+// Deepest penetration, peak force and loss of the contacts that are closed during the last step.
+void Integrator::follow_impacts() {
+  for (int c = 0; c < static_cast<int>(system_.contacts.size()); ++c) {
+    if (open_impact_[at(c)] < 0) continue;
+    Impact& impact = impacts_[at(open_impact_[at(c)])];
+    const Touch from = before_[at(c)], to = touch(c, step_.to.state);
+    impact.deepest = std::max(impact.deepest, to.depth);
+    if (from.rate > 0 && to.rate < 0) {  // turns inside the step: vertex of the cubic's rate
+      const double t = step_.from.state.t + step_.h * from.rate / (from.rate - to.rate);
+      impact.deepest = std::max(impact.deepest, touch_at(c, t).depth);
+    }
+    const ContactPair& pair = system_.contacts[at(c)];
+    const double rate = step_.from.state.impact_rate[at(c)];
+    const Peak now{step_.to.state.t,
+                   to.depth > 0 ? evaluate(pair.normal, Approach{to.depth, to.rate, rate}).force : 0};
+    auto& last = peaks_[at(c)];
+    impact.peak_force = std::max(impact.peak_force, now.force);
+    if (last[1].force > last[0].force && last[1].force >= now.force && now.t > last[1].t &&
+        last[1].t > last[0].t) {  // parabola through three step ends
+      const double d1 = (last[1].force - last[0].force) / (last[1].t - last[0].t);
+      const double d2 = (now.force - last[1].force) / (now.t - last[1].t);
+      const double bend = (d2 - d1) / (now.t - last[0].t);
+      const double slope = d1 + bend * (last[1].t - last[0].t);
+      if (bend < 0)
+        impact.peak_force = std::max(impact.peak_force, last[1].force - slope * slope / (4 * bend));
+    }
+    last = {last[1], now};
+    const Eigen::Index z = 2 * system_.n() + system_.contact_z[at(c)];
+    impact.lost = step_.to.state.y[z] + (pair.friction ? step_.to.state.y[z + 1] : 0) -
+                  loss_at_begin_[at(c)];
+  }
+}
+
+// Where depth crosses zero between two times of the last step whose depths differ in sign: the
+// Illinois variant of regula falsi on the dense output.
+double Integrator::crossing(int contact, double t0, double t1, bool onset) {
+  const double sign = onset ? 1 : -1;
+  double f0 = sign * touch_at(contact, t0).depth, f1 = sign * touch_at(contact, t1).depth;
+  if (f0 >= 0) return t0;
+  for (int i = 0; i < 100 && t1 - t0 > 1e-16 * std::abs(t1); ++i) {
+    double t = t1 - f1 * (t1 - t0) / (f1 - f0);
+    if (!(t > t0 && t < t1)) t = 0.5 * (t0 + t1);
+    if (t <= t0 || t >= t1) break;
+    const double f = sign * touch_at(contact, t).depth;
+    if (f == 0) return t;
+    if (f < 0) {
+      t0 = t, f0 = f;
+      f1 /= 2;
+    } else {
+      t1 = t, f1 = f;
+      f0 /= 2;
+    }
+  }
+  return t1;
+}
+
+// The earliest onset or loss inside the last step; contact = −1 if there is none.
+double Integrator::first_event(int& contact, bool& onset) {
+  const double t0 = step_.from.state.t, t1 = step_.to.state.t, h = t1 - t0;
+  double first = t1;
+  contact = -1;
+  for (int c = 0; c < static_cast<int>(system_.contacts.size()); ++c) {
+    const bool closed = open_impact_[at(c)] >= 0;
+    const double sign = closed ? -1 : 1;  // the event is where sign·depth becomes positive
+    const Touch a = before_[at(c)], b = touch(c, step_.to.state);
+    const double fa = sign * a.depth, fb = sign * b.depth, ra = sign * a.rate, rb = sign * b.rate;
+    double begin = t0, end = t1;
+    bool found = fb > 0;
+    if (!found && ra > 0 && rb < 0) {  // may touch and leave within the step
+      const double peak = t0 + h * ra / (ra - rb);
+      if (sign * touch_at(c, peak).depth > 0) end = peak, found = true;
+    }
+    if (!found) continue;
+    if (fa >= 0 || std::abs(a.depth) < 1e-13 * system_.contacts[at(c)].gap.clearance()) {
+      // It starts at the wall: an event only if it does not go the other way first.
+      if (ra >= 0) {
+        end = t0;
+      } else {
+        begin = t0;
+        for (double part = 0.5; part > 1e-9; part /= 2)
+          if (sign * touch_at(c, t0 + part * (end - t0)).depth < 0) {
+            begin = t0 + part * (end - t0);
+            break;
+          }
+        if (begin == t0) end = t0;
+      }
+    }
+    const double t = end > begin ? crossing(c, begin, end, !closed) : t0;
+    if (contact < 0 || t < first) first = t, contact = c, onset = !closed;
+  }
+  return first;
+}
+
+// Ends the last step at the event near t: true steps of the scheme, not dense output, corrected until the
+// depth is zero to rounding.
+bool Integrator::finish_at(double t, int contact) {
+  const double t0 = step_.from.state.t, t1 = step_.to.state.t;
+  const double enough = 1e-15 * system_.length;
+  double best = t;
+  for (int i = 0; i < 6; ++i) {
+    if (best <= t0) {  // at once
+      step_.to = step_.from;
+      step_.h = 0;
+      return true;
+    }
+    if (!stages_.attempt(system_, best - t0, step_, eq_))
+      return stop("singular pose while locating an impact");
+    const Touch at_end = touch(contact, step_.to.state);
+    if (std::abs(at_end.depth) <= enough || at_end.rate == 0) return true;
+    const double next = std::clamp(best - at_end.depth / at_end.rate, t0, t1);
+    if (std::abs(next - best) <= 2e-16 * std::abs(t1)) return true;
+    best = next;
+  }
+  return true;
+}
+
+}  // namespace pintle

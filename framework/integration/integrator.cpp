@@ -1,0 +1,252 @@
+#include "framework/integration/integrator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "framework/dynamics/energy.h"
+
+namespace pintle {
+
+using Index = Eigen::Index;
+
+namespace {
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+std::string number_text(double x) {
+  std::ostringstream s;
+  s.precision(6);
+  s << x;
+  return s.str();
+}
+}  // namespace
+
+Integrator::Integrator(const System& system, const Scheme& scheme, State start)
+    : system_(system),
+      scheme_(scheme),
+      eq_(system),
+      stages_(system, *scheme.tableau, scheme.constraints),
+      reach_(system.bodies.size(), 0.0),
+      open_impact_(system.contacts.size(), -1),
+      peaks_(system.contacts.size()),
+      loss_at_begin_(system.contacts.size(), 0.0),
+      before_(system.contacts.size()) {
+  for (const Marker& m : system.markers)
+    if (m.body != ground) reach_[at(m.body)] = std::max(reach_[at(m.body)], m.x_BP.norm());
+  for (double& r : reach_)
+    if (r == 0) r = system.length;
+  fine_length_ = system.length;
+  for (const ContactPair& c : system.contacts) fine_length_ = std::min(fine_length_, c.gap.clearance());
+
+  start.impact_rate.resize(system.contacts.size(), 0.0);
+  step_.to.state = std::move(start);
+  step_.to.dy.setZero(system.n_y());
+  step_.error.setZero(system.n_y());
+  step_.from = step_.to;
+  scratch_ = step_.to;
+  dense_ = step_.to.state;
+  if (!stages_.settle(system_, step_.to, eq_)) {
+    stop("the start is a singular pose or off the constraints");
+    return;
+  }
+  for (int c = 0; c < static_cast<int>(system.contacts.size()); ++c) {
+    const Touch now = touch(c, step_.to.state);
+    if (now.depth > 0) close(c, now.rate);
+  }
+  stages_.settle(system_, step_.to, eq_);
+  step_.from = step_.to;
+}
+
+Counts Integrator::counts() const {
+  Counts c = counts_;
+  c.evaluations = eq_.evaluations;
+  c.factorizations = eq_.factorizations;
+  c.partitions = stages_.partitions();
+  return c;
+}
+
+bool Integrator::stop(const std::string& reason) {
+  failure_ = "t = " + number_text(step_.from.state.t) + " s: " + reason;
+  return false;
+}
+
+// Gap of a contact from the coordinates alone; leaves the equations as they are.
+Integrator::Touch Integrator::touch(int contact, const State& state) {
+  const ContactPair& pair = system_.contacts[at(contact)];
+  const auto moving = [&](int marker) {
+    const Marker& m = system_.markers[at(marker)];
+    if (m.body == ground) return MovingPoint{m.x_BP, Eigen::Vector2d::Zero(), 0};
+    const double* q = state.y.data() + 3 * m.body;
+    const double* s = q + system_.n();
+    const double c = std::cos(q[2]), d = std::sin(q[2]);
+    const Eigen::Vector2d arm(c * m.x_BP.x() - d * m.x_BP.y(), d * m.x_BP.x() + c * m.x_BP.y());
+    return MovingPoint{Eigen::Vector2d(q[0], q[1]) + arm,
+                       Eigen::Vector2d(s[0], s[1]) + s[2] * perp(arm), s[2]};
+  };
+  const Gap gap = evaluate(pair.gap, moving(pair.journal), moving(pair.bearing));
+  return {gap.depth, gap.rate};
+}
+
+Integrator::Touch Integrator::touch_at(int contact, double t) {
+  interpolate(system_, step_, t, dense_);
+  return touch(contact, dense_);
+}
+
+// Largest error over its scale. Lengths are judged against the smallest that matters (a clearance, else
+// the mechanism), angles by what they move, speeds against the fastest so far, integrals against the
+// kinetic energy so far.
+double Integrator::scaled_error() {
+  const Index n = system_.n();
+  const auto& y = step_.to.state.y;
+  double fastest = fastest_;
+  for (std::size_t b = 0; b < reach_.size(); ++b) {
+    const auto i = n + 3 * static_cast<Index>(b);
+    fastest = std::max({fastest, std::hypot(y[i], y[i + 1]), std::abs(y[i + 2]) * reach_[b]});
+  }
+  const double energy = std::max(energy_, kinetic_energy(system_, y));
+  const double length = fine_length_, speed = std::max(fastest, 1e-6 * length / step_.h);
+  double worst = 0;
+  for (Index b = 0; b < static_cast<Index>(reach_.size()); ++b) {
+    const double reach = reach_[at(static_cast<int>(b))];
+    const auto judge = [&](Index i, double scale) {
+      const double rounding = 1e-15 * std::abs(y[i]);
+      worst = std::max(worst, std::abs(step_.error[i]) / (scheme_.tolerance * scale + rounding));
+    };
+    judge(3 * b, length);
+    judge(3 * b + 1, length);
+    judge(3 * b + 2, length / reach);
+    judge(n + 3 * b, speed);
+    judge(n + 3 * b + 1, speed);
+    judge(n + 3 * b + 2, speed / reach);
+  }
+  for (Index i = 2 * n; i < y.size(); ++i)
+    worst = std::max(worst, std::abs(step_.error[i]) /
+                                (scheme_.tolerance * std::max(energy, std::abs(y[i])) + 1e-300));
+  return worst;
+}
+
+// One accepted error-controlled step of at most h_, never past `h_left`.
+bool Integrator::step_to(double h_left) {
+  const double order = scheme_.tableau->error_order + 1;
+  for (int tries = 0; tries < 60; ++tries) {
+    const bool last = h_ >= h_left * (1 - 1e-12);
+    const double h = last ? h_left : h_;
+    if (h < 4e-16 * std::max(std::abs(step_.from.state.t), h_left))
+      return stop("the step became too small (" + number_text(h) + " s) for the tolerance");
+    if (!stages_.attempt(system_, h, step_, eq_)) {
+      ++counts_.rejected;
+      h_ = h / 4;
+      continue;
+    }
+    const double error = std::max(scaled_error(), 1e-10);
+    if (error > 1) {
+      ++counts_.rejected;
+      h_ = h * std::max(0.2, 0.9 * std::pow(error, -1 / order));
+      continue;
+    }
+    const double grow = 0.9 * std::pow(error, -0.7 / order) * std::pow(error_before_, 0.4 / order);
+    error_before_ = std::max(error, 1e-4);
+    const double next = h * std::clamp(grow, 0.2, 5.0);
+    if (!last || next < h_) h_ = next;
+    h_ = std::min(h_, scheme_.max_step);
+    return true;
+  }
+  return stop(eq_.regular ? "no step is small enough for the tolerance"
+                          : "singular pose: the constraint rows have become dependent");
+}
+
+bool Integrator::advance(double until) {
+  if (!failure_.empty()) return false;
+  if (counts_.steps >= scheme_.max_steps) return stop("max steps reached");
+  std::swap(step_.from, step_.to);
+  step_.to.state.t = step_.from.state.t;
+  const double left = until - step_.from.state.t;
+  if (h_ == 0) {  // first guess: a hundredth of the time in which the motion changes by itself
+    const Index n = system_.n();
+    const double speed = step_.from.state.y.segment(n, n).norm(), accel = step_.from.dy.segment(n, n).norm();
+    h_ = std::min(left, accel > 0 ? 0.01 * std::max(speed / accel, 1e-3 * std::sqrt(fine_length_ / accel)) : left);
+    h_ = std::min(h_, scheme_.max_step);
+  }
+  for (int c = 0; c < static_cast<int>(system_.contacts.size()); ++c)
+    before_[at(c)] = touch(c, step_.from.state);
+
+  const double h_wish = h_;
+  if (!step_to(left)) {
+    step_.to = step_.from;
+    return false;
+  }
+  int contact = -1;
+  bool onset = false;
+  if (!system_.contacts.empty()) {
+    if (scheme_.onset_cut > 0) {
+      for (int halvings = 0; halvings < 200; ++halvings) {
+        contact = -1;
+        double deepest = 0;
+        for (int c = 0; c < static_cast<int>(system_.contacts.size()); ++c) {
+          const double depth = touch(c, step_.to.state).depth;
+          const bool closed = open_impact_[at(c)] >= 0;
+          if (!closed && depth > deepest) contact = c, onset = true, deepest = depth;
+          if (closed && depth <= 0 && deepest == 0) contact = c, onset = false;
+        }
+        if (contact < 0 || !onset || deepest <= scheme_.onset_cut) break;
+        h_ = step_.h / 2;
+        if (!step_to(h_)) {
+          step_.to = step_.from;
+          return false;
+        }
+      }
+    } else {
+      const double t = first_event(contact, onset);
+      if (contact >= 0 && !finish_at(t, contact)) {
+        step_.to = step_.from;
+        return false;
+      }
+    }
+  }
+
+  ++counts_.steps;
+  follow_impacts();
+  events_here_ = contact < 0 ? 0 : step_.h > 0 ? 1 : events_here_ + 1;
+  if (events_here_ > 100) return stop("contact \"" + system_.contact_names[at(contact)] +
+                                      "\" opens and closes without time passing");
+  if (contact >= 0) {
+    ++counts_.events;
+    (onset ? h_open_ : h_closed_) = h_wish;
+    if (onset)
+      close(contact, touch(contact, step_.to.state).rate);
+    else
+      open(contact);
+    const double remembered = onset ? h_closed_ : h_open_;
+    h_ = remembered > 0 ? std::min(remembered, scheme_.max_step) : h_wish;
+    error_before_ = 1;
+    if (!stages_.settle(system_, step_.to, eq_)) return stop("singular pose at an impact");
+  }
+  stages_.refresh(system_, eq_);
+
+  const Index n = system_.n();
+  const auto& y = step_.to.state.y;
+  for (std::size_t b = 0; b < reach_.size(); ++b) {
+    const auto i = n + 3 * static_cast<Index>(b);
+    fastest_ = std::max({fastest_, std::hypot(y[i], y[i + 1]), std::abs(y[i + 2]) * reach_[b]});
+  }
+  energy_ = std::max(energy_, kinetic_energy(system_, y));
+  worst_position_ = std::max(worst_position_, position_violation(system_, eq_));
+  worst_velocity_ = std::max(worst_velocity_, velocity_violation(system_, y, eq_));
+  return true;
+}
+
+void Integrator::restore() { stages_.settle(system_, step_.to, eq_); }
+
+bool Integrator::sample(double t, State& out) {
+  if (t >= step_.to.state.t) {
+    out = step_.to.state;
+  } else {
+    interpolate(system_, step_, t, out);
+  }
+  scratch_.state = out;
+  if (!stages_.settle(system_, scratch_, eq_)) return false;
+  out = scratch_.state;
+  return true;
+}
+
+}  // namespace pintle

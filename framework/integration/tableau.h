@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace pintle {
+
+/// An explicit Runge–Kutta pair. y₁ = y₀ + h Σ bᵢ kᵢ, error ≈ h Σ eᵢ kᵢ.
+/// If `closes`, the last stage is evaluated at y₁, and is the first of the next step.
+struct Tableau {
+  std::string_view name;
+  int order;                           ///< of y₁
+  int error_order;                     ///< of the lower member of the pair
+  bool closes;
+  std::vector<std::vector<double>> a;  ///< strictly lower triangle, a row a stage
+  std::vector<double> b, c, e;
+  int stages() const { return static_cast<int>(b.size()); }
+};
+
+/// All schemes, by the names a scene file uses: rkf45 (Fehlberg, propagating the fifth order),
+/// dopri5 (Dormand and Prince). Sources: [Fehlberg1969], [DormandPrince1980].
+std::span<const Tableau> tableaus();
+/// @returns nullptr if there is none of that name
+const Tableau* find_tableau(std::string_view name);
+
+}  // namespace pintle

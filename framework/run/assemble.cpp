@@ -1,0 +1,333 @@
+#include "framework/run/assemble.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <Eigen/CholmodSupport>
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <Eigen/SPQRSupport>
+#include <Eigen/SparseCore>
+
+namespace pintle {
+
+namespace {
+
+using Eigen::VectorXd;
+using Index = Eigen::Index;
+using Sparse = Eigen::SparseMatrix<double>;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The rows to be closed at the start: the joints, and two for each clearance joint.
+class Closure {
+ public:
+  Closure(const Scene& scene, const System& system)
+      : system_(system), eq_(system), offset_(system.contacts.size()), drift_(system.contacts.size()) {
+    for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+      offset_[c].setZero();
+      drift_[c].setZero();
+      for (const StartJournal& s : scene.start_journals)
+        if (s.joint == system.contact_names[c]) {
+          offset_[c] << s.eccentricity[0], s.eccentricity[1];
+          drift_[c] << s.speed[0], s.speed[1];
+        }
+    }
+  }
+
+  Index rows() const { return system_.n_rows() + 2 * static_cast<Index>(offset_.size()); }
+
+  /// C and, if asked, its Jacobian; lengths over the mechanism's length.
+  VectorXd violation(const VectorXd& y, Sparse* J = nullptr) {
+    pose(system_, 0, y, eq_);
+    VectorXd C(rows());
+    C.head(system_.n_rows()) = eq_.C.cwiseProduct(system_.row_scale);
+    for (std::size_t c = 0; c < offset_.size(); ++c) {
+      const ContactPair& pair = system_.contacts[c];
+      C.segment<2>(first(c)) = (eq_.motion[at(pair.journal)].r - eq_.motion[at(pair.bearing)].r - offset_[c]) /
+                               system_.length;
+    }
+    if (J) jacobian(*J);
+    return C;
+  }
+
+  /// Ċ at speeds s, scaled alike.
+  VectorXd drift(const VectorXd& y) {
+    pose(system_, 0, y, eq_);
+    speed(system_, 0, y, eq_);
+    VectorXd D(rows());
+    D.head(system_.n_rows()) = eq_.Cdot.cwiseProduct(system_.row_scale);
+    for (std::size_t c = 0; c < offset_.size(); ++c) {
+      const ContactPair& pair = system_.contacts[c];
+      D.segment<2>(first(c)) = (eq_.motion[at(pair.journal)].v - eq_.motion[at(pair.bearing)].v - drift_[c]) /
+                               system_.length;
+    }
+    return D;
+  }
+
+  /// The joint or clearance that a row belongs to, in words.
+  std::string name(Index row) const {
+    for (std::size_t k = 0; k < system_.joints.size(); ++k)
+      if (row < system_.row_begin[k + 1])
+        return (is_driver(system_.joints[k]) ? "driver \"" : "joint \"") + system_.joint_names[k] + "\"";
+    return "joint \"" + system_.contact_names[at(static_cast<int>((row - system_.n_rows()) / 2))] + "\"";
+  }
+  std::string amount(Index row, double scaled) const {
+    std::ostringstream s;
+    s.precision(3);
+    if (row < system_.n_rows() && system_.row_scale[row] == 1 && system_.length != 1)
+      s << std::abs(scaled) << " rad";
+    else
+      s << std::abs(scaled) * system_.length << " m";
+    return s.str();
+  }
+  int joint(Index row) const {
+    for (std::size_t k = 0; k < system_.joints.size(); ++k)
+      if (row < system_.row_begin[k + 1]) return static_cast<int>(k);
+    return -1;
+  }
+  const Equations& equations() const { return eq_; }
+
+ private:
+  Index first(std::size_t contact) const { return system_.n_rows() + 2 * static_cast<Index>(contact); }
+
+  void jacobian(Sparse& J) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t k = 0; k < system_.joints.size(); ++k)
+      for (int side = 0; side < 2; ++side) {
+        const int marker = side == 0 ? marker_a(system_.joints[k]) : marker_b(system_.joints[k]);
+        const int body = system_.markers[at(marker)].body;
+        if (body == ground) continue;
+        for (int row = system_.row_begin[k]; row < system_.row_begin[k + 1]; ++row)
+          for (int c = 0; c < 3; ++c)
+            entries.emplace_back(row, 3 * body + c,
+                                 system_.row_scale[row] * eq_.B[2 * k + at(side)](row - system_.row_begin[k], c));
+      }
+    for (std::size_t c = 0; c < offset_.size(); ++c)
+      for (int side = 0; side < 2; ++side) {
+        const int marker = side == 0 ? system_.contacts[c].journal : system_.contacts[c].bearing;
+        const int body = system_.markers[at(marker)].body;
+        if (body == ground) continue;
+        const double sign = (side == 0 ? 1 : -1) / system_.length;
+        const Eigen::Vector2d d = eq_.motion[at(marker)].d;
+        const auto row = static_cast<int>(first(c));
+        entries.emplace_back(row, 3 * body, sign);
+        entries.emplace_back(row + 1, 3 * body + 1, sign);
+        entries.emplace_back(row, 3 * body + 2, -sign * d.y());
+        entries.emplace_back(row + 1, 3 * body + 2, sign * d.x());
+      }
+    J.resize(rows(), system_.n());
+    J.setFromTriplets(entries.begin(), entries.end());
+  }
+
+  const System& system_;
+  Equations eq_;
+  std::vector<Eigen::Vector2d> offset_, drift_;
+};
+
+/// x = W Jᵀ (J W Jᵀ + μ)⁻¹ r, the step of least |x| in the metric W⁻¹; pinned coordinates have W = 0.
+VectorXd least_step(const Sparse& J, const VectorXd& W, const VectorXd& r, double mu, int sweeps) {
+  Sparse S = J * W.asDiagonal() * J.transpose();
+  double trace = 0;
+  for (Index i = 0; i < S.rows(); ++i) trace += S.coeff(i, i);
+  const double shift = std::max(mu * trace / static_cast<double>(std::max<Index>(S.rows(), 1)), 1e-300);
+  Sparse I(S.rows(), S.cols());
+  I.setIdentity();
+  S += shift * I;
+  Eigen::CholmodDecomposition<Sparse> solver(S);
+  VectorXd y = VectorXd::Zero(r.size()), x = VectorXd::Zero(J.cols());
+  for (int i = 0; i < sweeps; ++i) {  // undoes the shift where the rows are consistent
+    y += solver.solve(r - J * x);
+    x = W.asDiagonal() * (J.transpose() * y);
+  }
+  return x;
+}
+
+/// Rough pose with the scene's pins in place; W is 0 for what is pinned.
+struct Rough {
+  VectorXd y, W_pose, W_speed;
+};
+
+Rough rough_state(const Scene& scene, const System& system) {
+  Rough r;
+  r.y.setZero(system.n_y());
+  r.W_pose.resize(system.n());
+  r.W_speed.resize(system.n());
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const SceneBody& body = scene.bodies[b];
+    double x = body.at[0], y = body.at[1], angle = body.angle, vx = 0, vy = 0, w = 0;
+    const auto i = static_cast<Index>(3 * b);
+    r.W_pose.segment<3>(i) << system.length * system.length, system.length * system.length, 1;
+    r.W_speed.segment<3>(i) << 1 / system.bodies[b].m, 1 / system.bodies[b].m, 1 / system.bodies[b].J;
+    for (const StartBody& s : scene.start_bodies) {
+      if (s.body != body.name) continue;
+      if (s.angle) angle = *s.angle, r.W_pose[i + 2] = 0;
+      if (s.speed) w = *s.speed, r.W_speed[i + 2] = 0;
+      if (s.x) x = *s.x;
+      if (s.y) y = *s.y;
+      if (s.vx) vx = *s.vx;
+      if (s.vy) vy = *s.vy;
+      // The origin's place pins the mass centre if the two coincide or the angle is pinned too.
+      const bool same = system.bodies[b].x_BO.isZero();
+      if (s.x && (same || s.angle)) r.W_pose[i] = 0;
+      if (s.y && (same || s.angle)) r.W_pose[i + 1] = 0;
+      if (s.vx && (same || s.speed)) r.W_speed[i] = 0;
+      if (s.vy && (same || s.speed)) r.W_speed[i + 1] = 0;
+    }
+    const Eigen::Vector2d arm = Eigen::Rotation2Dd(angle) * system.bodies[b].x_BO;
+    r.y.segment<3>(i) << x - arm.x(), y - arm.y(), angle;
+    r.y.segment<3>(system.n() + i) << vx + w * arm.y(), vy - w * arm.x(), w;
+  }
+  return r;
+}
+
+[[noreturn]] void cannot(const std::string& what, const Closure& closure, const System& system,
+                         const VectorXd& left, const char* per) {
+  Index worst = 0;
+  left.cwiseAbs().maxCoeff(&worst);
+  std::string message = closure.name(worst) + " " + what + ": " + closure.amount(worst, left[worst]) + per +
+                        " remains";
+  const int joint = closure.joint(worst);
+  if (joint >= 0)
+    for (const Redundancy& r : redundant_rows(system, closure.equations())) {
+      std::vector<int> group = r.implied_by;
+      group.push_back(r.joint);
+      if (std::find(group.begin(), group.end(), joint) == group.end()) continue;
+      std::string others;
+      for (int k : group)
+        if (k != joint) others += (others.empty() ? "\"" : ", \"") + system.joint_names[at(k)] + "\"";
+      if (!others.empty()) message += "; it contradicts " + others;
+      break;
+    }
+  throw AssemblyError(message);
+}
+
+// Levenberg–Marquardt on C = 0, from the rough pose.
+int close_joints(const Scene& scene, Closure& closure, const System& system, Rough& r) {
+  constexpr double closed = 1e-12, acceptable = 1e-10;
+  Sparse J;
+  double mu = 1e-9;
+  VectorXd C = closure.violation(r.y, &J);
+  int i = 0;
+  for (; i < 300 && C.size() > 0 && C.lpNorm<Eigen::Infinity>() > closed; ++i) {
+    VectorXd step = least_step(J, r.W_pose, -C, mu, 1);
+    const double reach = std::max((step.array() / r.W_pose.array().max(1e-300).sqrt()).abs().maxCoeff(), 1e-300);
+    if (reach > 0.5) step *= 0.5 / reach;
+    VectorXd trial = r.y;
+    trial.head(system.n()) += step;
+    const VectorXd C_trial = closure.violation(trial);
+    if (C_trial.norm() < C.norm()) {
+      r.y = trial;
+      C = closure.violation(r.y, &J);
+      mu = std::max(mu / 10, 1e-15);
+    } else if (mu < 1e3) {
+      mu *= 10;
+    } else {
+      break;
+    }
+  }
+  if (C.size() > 0 && !(C.lpNorm<Eigen::Infinity>() <= acceptable)) {
+    closure.violation(r.y);
+    const bool pinned = !scene.start_bodies.empty();
+    cannot(pinned ? "cannot close with what `start` pins down" : "cannot close", closure, system, C, "");
+  }
+  return i;
+}
+
+void match_speeds(Closure& closure, const System& system, Rough& r) {
+  Sparse J;
+  closure.violation(r.y, &J);
+  if (J.rows() == 0) return;
+  const VectorXd D = closure.drift(r.y);
+  r.y.segment(system.n(), system.n()) += least_step(J, r.W_speed, -D, 1e-13, 8);
+  const VectorXd left = closure.drift(r.y);
+  const double scale = std::max({D.lpNorm<Eigen::Infinity>(), r.y.tail(r.y.size() - system.n()).lpNorm<Eigen::Infinity>(), 1e-12});
+  if (left.lpNorm<Eigen::Infinity>() > 1e-8 * scale)
+    cannot("cannot move as `start` and the drivers ask", closure, system, left, "/s");
+}
+
+int rank_of(const System& system, const Equations& eq) {
+  if (system.n_rows() == 0) return 0;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t k = 0; k < system.joints.size(); ++k)
+    for (int side = 0; side < 2; ++side) {
+      const int marker = side == 0 ? marker_a(system.joints[k]) : marker_b(system.joints[k]);
+      const int body = system.markers[at(marker)].body;
+      if (body == ground) continue;
+      for (int row = system.row_begin[k]; row < system.row_begin[k + 1]; ++row)
+        for (int c = 0; c < 3; ++c)
+          entries.emplace_back(row, 3 * body + c,
+                               system.row_scale[row] * (c < 2 ? system.length : 1) *
+                                   eq.B[2 * k + at(side)](row - system.row_begin[k], c));
+    }
+  Sparse Cq(system.n_rows(), system.n());
+  Cq.setFromTriplets(entries.begin(), entries.end());
+  const Sparse transposed = Cq.transpose();
+  Eigen::SPQR<Sparse> qr;
+  qr.setPivotThreshold(1e-9);
+  qr.compute(transposed);
+  return static_cast<int>(qr.rank());
+}
+
+}  // namespace
+
+std::string row_text(const System& system, int joint, int row) {
+  return "\"" + system.joint_names[at(joint)] + "\" (" + row_name(system.joints[at(joint)], row) + ")";
+}
+
+std::vector<Redundancy> redundant_rows(const System& system, const Equations& eq) {
+  std::vector<Redundancy> out;
+  if (system.n_rows() == 0 || system.n_rows() > 3000) return out;
+  Eigen::MatrixXd Cq = system.row_scale.asDiagonal() * dense_jacobian(system, eq);
+  for (Index i = 0; i < Cq.cols(); ++i)
+    if (i % 3 != 2) Cq.col(i) *= system.length;
+  // Gram–Schmidt, twice, row after row: what is left of a dependent row is rounding.
+  Eigen::MatrixXd Q(Cq.cols(), Cq.rows());
+  std::vector<int> independent;
+  Index used = 0;
+  for (std::size_t k = 0; k < system.joints.size(); ++k)
+    for (int row = system.row_begin[k]; row < system.row_begin[k + 1]; ++row) {
+      VectorXd v = Cq.row(row).transpose();
+      const double before = v.norm();
+      for (int pass = 0; pass < 2; ++pass) v -= Q.leftCols(used) * (Q.leftCols(used).transpose() * v);
+      if (v.norm() > 1e-9 * before) {
+        Q.col(used++) = v.normalized();
+        independent.push_back(row);
+        continue;
+      }
+      Redundancy r{static_cast<int>(k), row - system.row_begin[k], {}};
+      Eigen::MatrixXd basis(Cq.cols(), static_cast<Index>(independent.size()));
+      for (std::size_t i = 0; i < independent.size(); ++i)
+        basis.col(static_cast<Index>(i)) = Cq.row(independent[i]).transpose();
+      const VectorXd x = basis.colPivHouseholderQr().solve(VectorXd(Cq.row(row).transpose()));
+      for (std::size_t j = 0; j < system.joints.size(); ++j)
+        for (std::size_t i = 0; i < independent.size(); ++i)
+          if (independent[i] >= system.row_begin[j] && independent[i] < system.row_begin[j + 1] &&
+              std::abs(x[static_cast<Index>(i)]) > 1e-6 &&
+              (r.implied_by.empty() || r.implied_by.back() != static_cast<int>(j)))
+            r.implied_by.push_back(static_cast<int>(j));
+      out.push_back(r);
+    }
+  return out;
+}
+
+Assembly assemble(const Scene& scene, const Model& model) {
+  const System& system = model.system;
+  Closure closure(scene, system);
+  Rough r = rough_state(scene, system);
+  const VectorXd before = r.y.head(system.n());
+  Assembly out;
+  out.iterations = close_joints(scene, closure, system, r);
+  out.moved = (r.y.head(system.n()) - before).lpNorm<Eigen::Infinity>();
+  match_speeds(closure, system, r);
+  out.start.t = 0;
+  out.start.y = r.y;
+  out.start.impact_rate.assign(system.contacts.size(), 0.0);
+  closure.violation(r.y);
+  out.rank = rank_of(system, closure.equations());
+  if (out.rank < system.n_rows()) out.redundant = redundant_rows(system, closure.equations());
+  return out;
+}
+
+}  // namespace pintle

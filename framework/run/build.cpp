@@ -1,0 +1,262 @@
+#include "framework/run/build.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "framework/scene/nearest.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Vector2d;
+
+Vector2d vector(const Pair& p) { return {p[0], p[1]}; }
+std::string quoted(const std::string& s) { return "\"" + s + "\""; }
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+  return "." + did_you_mean(word, known);
+}
+
+/// What is needed to turn names into markers.
+class Builder {
+ public:
+  explicit Builder(const Scene& scene) : scene_(scene) {}
+
+  Model build() {
+    model_.system.gravity = vector(scene_.gravity);
+    if (scene_.bodies.empty()) throw SceneError(scene_.file, {0, "bodies"}, "there is no body; a scene needs at least one");
+    for (const SceneBody& b : scene_.bodies) add(b);
+    for (const SceneJoint& j : scene_.joints) add(j);
+    for (const SceneDriver& d : scene_.drivers) add(d);
+    for (const SceneLoad& l : scene_.loads) add(l);
+    judge_starts();
+    model_.system.length = size();
+    number(model_.system);
+    scheme();
+    return std::move(model_);
+  }
+
+ private:
+  [[noreturn]] void wrong(const Place& place, const std::string& message) const {
+    throw SceneError(scene_.file, place, message);
+  }
+
+  void unique(const std::string& name, const char* what, const Place& place) {
+    if (!names_.insert(name).second)
+      wrong(place, quoted(name) + " names two things; give this " + what + " a name of its own");
+  }
+
+  void add(const SceneBody& b) {
+    if (b.name == "ground")
+      wrong(b.place, "\"ground\" is the fixed world; give the body another name");
+    unique(b.name, "body", b.place);
+    if (!(b.mass > 0)) wrong(b.place, "mass must be above 0 kg");
+    if (!(b.inertia > 0)) wrong(b.place, "inertia must be above 0 kg m^2");
+    index_[b.name] = static_cast<int>(model_.system.bodies.size());
+    model_.system.bodies.push_back({b.name, b.mass, b.inertia, -vector(b.center)});
+    std::vector<Vector2d> outline;
+    for (const ScenePoint& p : b.points) outline.push_back(vector(p.at) - vector(b.center));
+    model_.outlines.push_back(std::move(outline));
+  }
+
+  int body(const PointRef& ref) const {
+    if (ref.body == "ground") return ground;
+    const auto found = index_.find(ref.body);
+    if (found != index_.end()) return found->second;
+    std::vector<std::string> known{"ground"};
+    for (const SceneBody& b : scene_.bodies) known.push_back(b.name);
+    wrong(ref.place, "there is no body " + quoted(ref.body) + suggestion(ref.body, known));
+  }
+
+  int marker(const PointRef& ref) {
+    const int b = body(ref);
+    Vector2d at = Vector2d::Zero();
+    double angle = 0;
+    const auto& points = b == ground ? scene_.ground : scene_.bodies[static_cast<std::size_t>(b)].points;
+    if (!ref.point.empty()) {
+      const auto p = std::find_if(points.begin(), points.end(),
+                                  [&](const ScenePoint& q) { return q.name == ref.point; });
+      if (p == points.end()) {
+        std::vector<std::string> known;
+        for (const ScenePoint& q : points) known.push_back(q.name);
+        wrong(ref.place, quoted(ref.body) + " has no point " + quoted(ref.point) + suggestion(ref.point, known));
+      }
+      at = vector(p->at);
+      angle = p->angle;
+    }
+    if (b != ground) at -= vector(scene_.bodies[static_cast<std::size_t>(b)].center);
+    const Marker m{b, at, angle};
+    for (std::size_t i = 0; i < model_.system.markers.size(); ++i) {
+      const Marker& known = model_.system.markers[i];
+      if (known.body == b && known.x_BP == at && known.angle == angle) return static_cast<int>(i);
+    }
+    model_.system.markers.push_back(m);
+    return static_cast<int>(model_.system.markers.size()) - 1;
+  }
+
+  void two_bodies(const PointRef& a, const PointRef& b, const Place& place) const {
+    if (body(a) == body(b))
+      wrong(place, "both ends are on " + quoted(a.body) + "; join two different bodies");
+  }
+
+  void add(const SceneJoint& j) {
+    unique(j.name, "joint", j.place);
+    two_bodies(j.a, j.b, j.place);
+    if (j.clearance) return add_contact(j);
+    const int a = marker(j.a), b = marker(j.b);
+    auto& joints = model_.system.joints;
+    switch (j.kind) {
+      case JointKind::revolute: joints.push_back(Revolute{a, b}); break;
+      case JointKind::slot: joints.push_back(Slot{a, b}); break;
+      case JointKind::prismatic: joints.push_back(Prismatic{a, b, j.angle}); break;
+      case JointKind::weld: joints.push_back(Weld{a, b, j.angle}); break;
+      case JointKind::distance:
+        if (!(j.length > 0))
+          wrong(j.place, "length must be above 0; for two points that coincide use revolute");
+        joints.push_back(Distance{a, b, j.length});
+        break;
+    }
+    model_.system.joint_names.push_back(j.name);
+    model_.pin_joints.emplace_back(static_cast<int>(joints.size()) - 1, b);
+  }
+
+  void add_contact(const SceneJoint& j) {
+    const SceneClearance& c = *j.clearance;
+    if (j.kind != JointKind::revolute)
+      wrong(c.place, "only a revolute joint takes a clearance");
+    if (c.bearing != j.a.body && c.bearing != j.b.body)
+      wrong(c.place, "bearing: " + quoted(c.bearing) + " is neither " + quoted(j.a.body) + " nor " +
+                         quoted(j.b.body) + suggestion(c.bearing, {j.a.body, j.b.body}));
+    if (!(c.radial > 0)) wrong(c.place, "radial must be above 0; leave out `clearance` for an ideal joint");
+    if (!(c.radial < c.bearing_radius))
+      wrong(c.place, "radial clearance must be below the bearing radius, else no journal is left");
+    const bool b_bears = c.bearing == j.b.body;
+
+    ContactPair pair{};
+    pair.journal = marker(b_bears ? j.a : j.b);
+    pair.bearing = marker(b_bears ? j.b : j.a);
+    pair.gap = {c.bearing_radius - c.radial, c.bearing_radius};
+    const SceneNormal& n = c.normal;
+    const ImpactFactor* factor = find_impact_factor(n.law);
+    if (!factor) {
+      std::vector<std::string> known;
+      for (const ImpactFactor& f : impact_factors()) known.emplace_back(f.name);
+      wrong(n.place, "there is no impact law " + quoted(n.law) + suggestion(n.law, known));
+    }
+    if (n.restitution < 0 || n.restitution > 1 || (n.restitution == 0 && !factor->zero_allowed))
+      wrong(n.place, "restitution must lie in " + std::string(factor->zero_allowed ? "[0, 1]" : "(0, 1]") + " for " + n.law);
+    const double k = contact_stiffness(c);
+    if (!(k > 0) || !std::isfinite(k))
+      wrong(n.place, "no stiffness: give `young` and `poisson`, or `stiffness`");
+    pair.normal = {k, n.exponent, factor->chi(n.restitution)};
+    if (c.friction && c.friction->coefficient != 0) {
+      pair.friction = Ambrosio{c.friction->coefficient, c.friction->v0, c.friction->v1};
+      pair.sliding = c.friction->sliding == SlidingSpeed::material ? Sliding::material : Sliding::geometric;
+    }
+    pair.slowest_impact = n.slowest_impact;
+    model_.system.contacts.push_back(pair);
+    model_.system.contact_names.push_back(j.name);
+  }
+
+  void add(const SceneDriver& d) {
+    unique(d.name, "driver", d.place);
+    two_bodies(d.a, d.b, d.place);
+    const int a = marker(d.a), b = marker(d.b);
+    if (d.kind == DriverKind::angle) {
+      model_.system.joints.push_back(AngleDriver{a, b, d.law.at});
+    } else {
+      if (!(d.law.at(0).value > 0)) wrong(d.place, "a driven distance must stay above 0; at t = 0 it is not");
+      model_.system.joints.push_back(DistanceDriver{a, b, d.law.at});
+    }
+    model_.system.joint_names.push_back(d.name);
+  }
+
+  void add(const SceneLoad& l) {
+    unique(l.name, "force", l.place);
+    auto& forces = model_.system.forces;
+    if (const auto* f = std::get_if<SceneForce>(&l.what)) {
+      if (body(f->at) == ground) wrong(f->at.place, "a force on the ground moves nothing; name a body's point");
+      const int b = marker(f->at);
+      forces.push_back(PointForce{marker({"ground", "", f->at.place}), b, f->x.at, f->y.at, f->follows});
+    } else if (const auto* q = std::get_if<SceneTorque>(&l.what)) {
+      two_bodies(q->a, q->b, l.place);
+      const int a = marker(q->a);
+      forces.push_back(Torque{a, marker(q->b), q->law.at});
+    } else if (const auto* s = std::get_if<SceneSpring>(&l.what)) {
+      two_bodies(s->a, s->b, l.place);
+      const int a = marker(s->a);
+      forces.push_back(Spring{a, marker(s->b), s->stiffness, s->damping, s->free_length});
+    } else {
+      const auto& r = std::get<SceneTorsionSpring>(l.what);
+      two_bodies(r.a, r.b, l.place);
+      const int a = marker(r.a);
+      forces.push_back(TorsionSpring{a, marker(r.b), r.stiffness, r.damping, r.free_angle});
+    }
+    model_.system.force_names.push_back(l.name);
+  }
+
+  void judge_starts() {
+    for (const StartBody& s : scene_.start_bodies)
+      if (!index_.count(s.body)) {
+        std::vector<std::string> known;
+        for (const auto& [name, i] : index_) known.push_back(name);
+        wrong(s.place, "there is no body " + quoted(s.body) + suggestion(s.body, known));
+      }
+    for (const StartJournal& s : scene_.start_journals)
+      if (const auto& known = model_.system.contact_names;
+          std::find(known.begin(), known.end(), s.joint) == known.end())
+        wrong(s.place, quoted(s.joint) + " is not a joint with clearance" + suggestion(s.joint, known));
+  }
+
+  // The largest arm of a body or distance between ground points: what "small" is measured by.
+  double size() const {
+    double length = 0;
+    for (const Marker& m : model_.system.markers) length = std::max(length, m.x_BP.norm());
+    for (const Joint& j : model_.system.joints)
+      if (const auto* d = std::get_if<Distance>(&j)) length = std::max(length, d->length);
+    for (const ContactPair& c : model_.system.contacts) length = std::max(length, c.gap.bearing);
+    return length > 0 ? length : 1;
+  }
+
+  void scheme() {
+    const RunOptions& run = scene_.run;
+    Scheme& s = model_.scheme;
+    s.tableau = find_tableau(run.method);
+    if (!s.tableau) {
+      std::vector<std::string> known;
+      for (const Tableau& t : tableaus()) known.emplace_back(t.name);
+      wrong(run.place, "there is no method " + quoted(run.method) + suggestion(run.method, known));
+    }
+    s.tolerance = run.tolerance;
+    s.constraints = run.constraints == "partitioning" ? Constraints::partitioning : Constraints::projection;
+    if (s.constraints == Constraints::partitioning && model_.system.n_rows() > 300)
+      wrong(run.place, "partitioning is dense and meant for up to 300 rows, this scene has " +
+                           std::to_string(model_.system.n_rows()) + "; use constraints: projection");
+    s.onset_cut = run.onset_cut.value_or(0);
+    if (run.max_step > 0) s.max_step = run.max_step;
+    s.max_steps = run.max_steps;
+  }
+
+  const Scene& scene_;
+  Model model_;
+  std::map<std::string, int> index_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+double contact_stiffness(const SceneClearance& c) {
+  if (c.normal.stiffness) return *c.normal.stiffness;
+  const Elasticity& j = c.normal.journal.young > 0 ? c.normal.journal : c.normal.bearing;
+  if (!(c.normal.bearing.young > 0)) return 0;
+  return hertz_stiffness(c.bearing_radius - c.radial, c.bearing_radius, j.young, j.poisson,
+                         c.normal.bearing.young, c.normal.bearing.poisson,
+                         c.normal.radii == RadiusConvention::internal);
+}
+
+Model build(const Scene& scene) { return Builder(scene).build(); }
+
+}  // namespace pintle

@@ -1,0 +1,185 @@
+#include "framework/run/results.h"
+
+#include <unistd.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+namespace pintle {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string csv_field(const std::string& s) {
+  if (s.find_first_of(",\"\n") == std::string::npos) return s;
+  std::string out(1, '"');
+  for (char c : s) out.append(c == '"' ? 2 : 1, c);
+  out += '"';
+  return out;
+}
+
+void append_number(std::string& out, double x) {
+  if (std::isnan(x)) return;  // an empty field
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, x).ptr;
+  out.append(text, end);
+}
+
+void write_file(const fs::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+std::string csv(const Table& table) {
+  std::string out;
+  for (std::size_t c = 0; c < table.columns(); ++c) {
+    if (c) out += ',';
+    out += csv_field(table.header[c]);
+  }
+  out += '\n';
+  for (std::size_t r = 0; r < table.rows(); ++r)
+    for (std::size_t c = 0; c < table.columns(); ++c) {
+      if (c) out += ',';
+      append_number(out, table.data[r * table.columns() + c]);
+      if (c + 1 == table.columns()) out += '\n';
+    }
+  return out;
+}
+
+std::string events_csv(const System& system, const std::vector<Impact>& impacts) {
+  std::string out =
+      "joint,begin [s],end [s],approach speed [m/s],separation speed [m/s],deepest penetration [m],"
+      "peak force [N],energy lost [J]\n";
+  for (const Impact& i : impacts) {
+    out += csv_field(system.contact_names[static_cast<std::size_t>(i.contact)]);
+    for (double x : {i.begin, i.end, i.approach, i.separation, i.deepest, i.peak_force, i.lost}) {
+      out += ',';
+      append_number(out, x);
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+Json energies_json(const Energies& e) {
+  return {{"kinetic", e.kinetic}, {"gravity", e.gravity}, {"springs", e.springs}, {"contacts", e.contacts},
+          {"stored", e.stored()}, {"lost", e.lost},       {"work in", e.input}};
+}
+
+Json assembly_json(const System& system, const Assembly& a) {
+  Json redundant = Json::array();
+  for (const Redundancy& r : a.redundant) redundant.push_back(row_text(system, r.joint, r.row));
+  return {{"bodies", system.bodies.size()},
+          {"coordinates", system.n()},
+          {"constraint rows", system.n_rows()},
+          {"rank", a.rank},
+          {"mobility", system.n() - a.rank},
+          {"contacts", system.contacts.size()},
+          {"forces", system.forces.size()},
+          {"ledger integrals", system.n_z()},
+          {"redundant rows", redundant}};
+}
+
+Json scene_json(const Scene& scene) {
+  return scene.filled_in.empty() ? Json(nullptr) : Json::parse(scene.filled_in, nullptr, false);
+}
+
+}  // namespace
+
+ResultsDirectory::ResultsDirectory(const fs::path& directory) : final_(directory) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(final_, error)))
+    throw std::runtime_error(final_.string() + ": exists already; name another directory with --out, or remove it");
+  staging_ = final_;
+  staging_ += ".part-" + std::to_string(::getpid());
+  fs::create_directories(staging_ / "frames", error);
+  if (error) throw std::runtime_error(staging_.string() + ": cannot be made (" + error.message() + "); name another place with --out");
+}
+
+ResultsDirectory::~ResultsDirectory() {
+  std::error_code error;
+  if (!committed_) fs::remove_all(staging_, error);
+}
+
+void ResultsDirectory::commit() {
+  std::error_code error;
+  if (fs::is_empty(staging_ / "frames", error)) fs::remove(staging_ / "frames", error);
+  fs::rename(staging_, final_, error);
+  if (error) {
+    committed_ = true;  // keep what there is
+    throw std::runtime_error(final_.string() + ": cannot be made (" + error.message() + "); the results are in " + staging_.string());
+  }
+  committed_ = true;
+}
+
+std::string run_json(const Scene& scene, const Model& model, const Assembly& assembly, const Run& run) {
+  const System& system = model.system;
+  Json losses = Json::object();
+  for (int i = 0; i < system.n_z(); ++i) {
+    const std::size_t last = run.ledger.rows();
+    if (last > 0)
+      losses[integral_name(system, system.integrals[static_cast<std::size_t>(i)])] =
+          run.ledger.data[(last - 1) * run.ledger.columns() + 6 + static_cast<std::size_t>(i)];
+  }
+  Json contacts = Json::object();
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    const ContactPair& p = system.contacts[c];
+    contacts[system.contact_names[c]] = {{"stiffness [N/m^n]", p.normal.k},
+                                         {"exponent", p.normal.n},
+                                         {"hysteresis factor", p.normal.chi},
+                                         {"restitution delivered", effective_restitution(p.normal.chi)},
+                                         {"journal radius [m]", p.gap.journal},
+                                         {"bearing radius [m]", p.gap.bearing}};
+  }
+  const Json out = {
+      {"program", "pintle"},
+      {"version", PINTLE_VERSION},
+      {"title", scene.title},
+      {"file", scene.file},
+      {"status", status_text(run.status)},
+      {"reason", run.reason},
+      {"reached [s]", run.t_end},
+      {"model", assembly_json(system, assembly)},
+      {"contacts", contacts},
+      {"energy at start [J]", energies_json(run.first)},
+      {"energy at end [J]", energies_json(run.last)},
+      {"ledger [J]", losses},
+      {"unexplained [J]", run.unexplained},
+      {"worst unexplained [J]", run.worst_unexplained},
+      {"energy in play [J]", run.energy_in_play},
+      {"worst scaled violation", {{"position", run.worst_position}, {"velocity", run.worst_velocity}}},
+      {"counts",
+       {{"steps", run.counts.steps},
+        {"rejected", run.counts.rejected},
+        {"evaluations", run.counts.evaluations},
+        {"factorizations", run.counts.factorizations},
+        {"events", run.counts.events},
+        {"impacts", run.impacts.size()},
+        {"partitions chosen", run.counts.partitions}}},
+      {"timings [s]", {{"integration", run.seconds}}},
+      {"scene", scene_json(scene)}};
+  return out.dump(2) + "\n";
+}
+
+std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly) {
+  const Json out = {{"title", scene.title}, {"file", scene.file}, {"model", assembly_json(model.system, assembly)},
+                    {"scene", scene_json(scene)}};
+  return out.dump(2) + "\n";
+}
+
+void write_results(const fs::path& directory, const Scene& scene, const Model& model, const Assembly& assembly,
+                   const Run& run) {
+  write_file(directory / "trajectory.csv", csv(run.trajectory));
+  write_file(directory / "ledger.csv", csv(run.ledger));
+  write_file(directory / "events.csv", events_csv(model.system, run.impacts));
+  write_file(directory / "run.json", run_json(scene, model, assembly, run));
+}
+
+}  // namespace pintle

@@ -1,0 +1,127 @@
+#include "framework/run/simulate.h"
+
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+namespace pintle {
+
+namespace {
+
+/// Times k·interval, k = 0, 1, …, the last one `until` itself; none if interval is 0.
+class Clock {
+ public:
+  Clock(double interval, double until) : interval_(interval), until_(until) {
+    if (interval > 0) last_ = static_cast<long>(std::ceil(until / interval - 1e-9));
+  }
+  bool due(double t) const { return k_ <= last_ && next() <= t; }
+  double next() const { return k_ >= last_ ? until_ : static_cast<double>(k_) * interval_; }
+  void tick() { ++k_; }
+
+ private:
+  double interval_, until_;
+  long k_ = 0, last_ = -1;
+};
+
+/// Energy that can be held against: the largest stored so far, and all that came in or went.
+double in_play(const Energies& e, const Energies& first) {
+  return std::abs(e.kinetic) + std::abs(e.gravity - first.gravity) + e.springs + e.contacts + std::abs(e.lost) +
+         std::abs(e.input);
+}
+
+}  // namespace
+
+const char* status_text(Status s) {
+  switch (s) {
+    case Status::finished: return "finished";
+    case Status::failed: return "failed";
+    case Status::interrupted: return "interrupted";
+    case Status::ledger_over_bound: return "ledger over its bound";
+  }
+  return "";
+}
+
+Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners) {
+  using clock = std::chrono::steady_clock;
+  const System& system = model.system;
+  const double until = scene.run.until;
+  Run run;
+  run.trajectory = trajectory_table(system);
+  run.ledger = ledger_table(system);
+  Clock outputs(scene.output.every > 0 ? scene.output.every : until / 1000, until);
+  Clock frames(scene.output.frames > 1 && listeners.frame ? until / (scene.output.frames - 1) : 0, until);
+
+  const auto begin = clock::now();
+  clock::duration spent_listening{};
+  Integrator integrator(system, model.scheme, assembly.start);
+  State sampled;
+  bool started = false;
+  const auto book = [&](const State& state) {
+    const Energies e = energies(system, state, integrator.equations());
+    if (!started) run.first = e, started = true;
+    run.energy_in_play = std::max(run.energy_in_play, in_play(e, run.first));
+    run.last = e;
+    run.unexplained = e.balance() - run.first.balance();
+    if (std::abs(run.unexplained) > std::abs(run.worst_unexplained)) run.worst_unexplained = run.unexplained;
+  };
+  // Everything due up to the present step's end. @returns false if an output cannot be evaluated
+  const auto report = [&] {
+    bool used = false;
+    while (outputs.due(integrator.state().t)) {
+      if (!integrator.sample(outputs.next(), sampled)) return false;
+      used = true;
+      book(sampled);
+      record(system, sampled, integrator.equations(), run.trajectory);
+      record_ledger(system, sampled, run.last, run.unexplained, run.ledger);
+      outputs.tick();
+    }
+    while (frames.due(integrator.state().t)) {
+      if (!integrator.sample(frames.next(), sampled)) return false;
+      used = true;
+      const auto before = clock::now();
+      listeners.frame(sampled, integrator.equations());
+      spent_listening += clock::now() - before;
+      frames.tick();
+    }
+    if (used) integrator.restore();
+    return true;
+  };
+
+  bool going = integrator.failure().empty() && report();
+  while (going && integrator.state().t < until) {
+    if (listeners.progress && integrator.counts().steps % 64 == 0 && !listeners.progress(integrator.state().t)) {
+      run.status = Status::interrupted;
+      run.reason = "stopped by the user";
+      break;
+    }
+    going = integrator.advance(until) && report();
+  }
+  if (!going) {
+    run.status = Status::failed;
+    run.reason = integrator.failure().empty() ? "an output could not be evaluated" : integrator.failure();
+  }
+  if (started) {
+    integrator.restore();
+    book(integrator.state());
+  }
+
+  run.t_end = integrator.state().t;
+  run.impacts = integrator.impacts();
+  run.counts = integrator.counts();
+  run.worst_position = integrator.worst_position();
+  run.worst_velocity = integrator.worst_velocity();
+  run.seconds = std::chrono::duration<double>(clock::now() - begin - spent_listening).count();
+  if (run.status == Status::finished &&
+      !(std::abs(run.worst_unexplained) <= scene.run.ledger_bound * run.energy_in_play)) {
+    std::ostringstream s;
+    s.precision(3);
+    s << "the ledger leaves " << run.worst_unexplained << " J unexplained, "
+      << std::abs(run.worst_unexplained) / run.energy_in_play << " of the energy in play; bound "
+      << scene.run.ledger_bound << " (tighten run.tolerance, or raise run.ledger bound)";
+    run.status = Status::ledger_over_bound;
+    run.reason = s.str();
+  }
+  return run;
+}
+
+}  // namespace pintle

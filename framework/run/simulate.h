@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+
+#include "framework/dynamics/energy.h"
+#include "framework/run/assemble.h"
+#include "framework/run/drawing.h"
+#include "framework/run/trajectory.h"
+
+namespace pintle {
+
+enum class Status { finished, failed, interrupted, ledger_over_bound };
+const char* status_text(Status);
+
+/// Everything a run has found, complete up to the time it reached.
+struct Run {
+  Status status = Status::finished;
+  std::string reason;               ///< in words, when not finished
+  double t_end = 0;                 ///< reached [s]
+  Table trajectory, ledger;
+  std::vector<Impact> impacts;
+  Energies first, last;             ///< the books at the start and at the end
+  double unexplained = 0;           ///< at the end [J]
+  double worst_unexplained = 0;     ///< largest in magnitude at any output [J]
+  double energy_in_play = 0;        ///< what `unexplained` is held against [J]
+  Counts counts;
+  double worst_position = 0, worst_velocity = 0;  ///< scaled constraint violations
+  double seconds = 0;               ///< of computing, frames and files excluded
+};
+
+/// What a run tells while it goes; each may be empty.
+struct Listeners {
+  std::function<bool(double t)> progress;              ///< false stops the run
+  std::function<void(const State&, const Equations&)> frame;  ///< at each animation frame
+};
+
+/// Runs a model from its assembled start to `run.until`. Never throws for numerical reasons.
+Run simulate(const Scene&, const Model&, const Assembly&, const Listeners& = {});
+
+}  // namespace pintle

@@ -1,0 +1,167 @@
+#include "framework/run/vtk.h"
+
+#include <array>
+#include <cassert>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+namespace pintle {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array part_names{"link",   "joint",  "journal", "bearing",
+                                "spring", "guide", "trace",   "force"};
+constexpr int force_part = static_cast<int>(Part::trace) + 1;
+static_assert(part_names.size() == force_part + 1);
+
+[[noreturn]] void fail(const fs::path& path, const std::string& why) {
+  throw std::runtime_error(path.string() + ": cannot be written (" + why + ")");
+}
+
+/// Whole or not at all: to a neighbour first, which then takes the name.
+void write_file(const fs::path& path, const std::string& text) {
+  fs::path part = path;
+  part += ".part";
+  errno = 0;
+  std::ofstream out(part, std::ios::binary | std::ios::trunc);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  out.close();
+  std::error_code error;
+  if (!out) {
+    const std::string why = errno != 0 ? std::strerror(errno) : "the disk may be full";
+    fs::remove(part, error);
+    fail(path, why);
+  }
+  fs::rename(part, path, error);
+  if (error) {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    fail(path, error.message());
+  }
+}
+
+template <class Names>
+vtkNew<vtkStringArray> strings(const char* name, const Names& values) {
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  for (const auto& value : values) array->InsertNextValue(value);
+  return array;
+}
+
+vtkNew<vtkDoubleArray> number(const char* name, double value) {
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  return array;
+}
+
+vtkNew<vtkUnstructuredGrid> grid_of(const Drawing& drawing) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> force;
+  force->SetName("force [N]");
+  force->SetNumberOfComponents(3);
+  vtkNew<vtkIntArray> part, owner;
+  part->SetName("part");
+  owner->SetName("owner");
+
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->AllocateExact(static_cast<vtkIdType>(drawing.lines.size() + drawing.forces.size()), 2);
+  const auto add_point = [&](const Eigen::Vector2d& at, const Eigen::Vector2d& f) {
+    force->InsertNextTuple3(f.x(), f.y(), 0);
+    return points->InsertNextPoint(at.x(), at.y(), 0);
+  };
+  const auto add_cell = [&](int type, const std::vector<vtkIdType>& ids, int p, int o) {
+    assert(o >= 0 && o < static_cast<int>(drawing.owners.size()));
+    grid->InsertNextCell(type, static_cast<vtkIdType>(ids.size()), ids.data());
+    part->InsertNextValue(p);
+    owner->InsertNextValue(o);
+  };
+
+  std::vector<vtkIdType> ids;
+  for (const DrawnLine& line : drawing.lines) {
+    ids.clear();
+    for (const auto& r : line.points) ids.push_back(add_point(r, Eigen::Vector2d::Zero()));
+    if (ids.empty()) continue;
+    const int type = ids.size() == 1 ? VTK_VERTEX : VTK_POLY_LINE;
+    if (line.closed && ids.size() > 2) ids.push_back(ids.front());
+    add_cell(type, ids, static_cast<int>(line.part), line.owner);
+  }
+  for (const DrawnForce& f : drawing.forces) {
+    add_cell(VTK_VERTEX, {add_point(f.at, f.force)}, force_part, f.owner);
+  }
+
+  grid->SetPoints(points);
+  grid->GetPointData()->AddArray(force);
+  grid->GetCellData()->AddArray(part);
+  grid->GetCellData()->AddArray(owner);
+  grid->GetFieldData()->AddArray(number("TimeValue", drawing.t));
+  grid->GetFieldData()->AddArray(number("clearance exaggeration", drawing.exaggeration));
+  grid->GetFieldData()->AddArray(strings("parts", part_names));
+  grid->GetFieldData()->AddArray(strings("owners", drawing.owners));
+  return grid;
+}
+
+/// Shortest decimal that reads back as the same number.
+std::string text(double value) {
+  std::array<char, 32> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+}  // namespace
+
+FrameWriter::FrameWriter(fs::path directory) : directory_(std::move(directory)) {
+  std::error_code error;
+  const fs::path frames = directory_ / "frames";
+  fs::create_directories(frames, error);
+  if (error) fail(frames, error.message());
+}
+
+void FrameWriter::add(const Drawing& drawing) {
+  const auto grid = grid_of(drawing);
+  // To a string, so that VTK touches no file and prints nothing when one cannot be written.
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetInputDataObject(grid);
+  writer->SetDataModeToAppended();
+  writer->SetCompressorTypeToZLib();
+  writer->WriteToOutputStringOn();
+
+  std::array<char, 32> name;
+  std::snprintf(name.data(), name.size(), "frames/%05zu.vtu", frames_.size());
+  const fs::path path = directory_ / name.data();
+  if (writer->Write() == 0) fail(path, "VTK could not encode the frame");
+  write_file(path, writer->GetOutputString());
+  frames_.emplace_back(drawing.t, name.data());
+}
+
+void FrameWriter::finish() {
+  std::string pvd =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
+  for (const auto& [t, file] : frames_) {
+    pvd += "    <DataSet timestep=\"" + text(t) + "\" part=\"0\" file=\"" + file + "\"/>\n";
+  }
+  pvd += "  </Collection>\n</VTKFile>\n";
+  write_file(directory_ / "mechanism.pvd", pvd);
+}
+
+}  // namespace pintle
