@@ -13,40 +13,51 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// v += B_kᵀ x for both sides of joint k, over the bodies they are on; x starts at the joint's row.
-template <class Add>
-void for_sides(const System& system, std::size_t k, Add add) {
-  const int a = system.markers[at(marker_a(system.joints[k]))].body;
-  const int b = system.markers[at(marker_b(system.joints[k]))].body;
-  if (a != ground) add(2 * k, 3 * a);
-  if (b != ground) add(2 * k + 1, 3 * b);
-}
-
 // v −= M⁻¹ Cqᵀ x
-void subtract_reaction(const System& system, const Equations& eq, const VectorXd& x, double* v) {
-  for (std::size_t k = 0; k < system.joints.size(); ++k) {
-    const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
-    for_sides(system, k, [&](std::size_t side, int q) {
-      const Body& body = system.bodies[at(q / 3)];
-      double g[3] = {0, 0, 0};
-      for (int r = 0; r < m; ++r)
-        for (int c = 0; c < 3; ++c) g[c] += eq.B[side](r, c) * x[row + r];
-      v[q] -= g[0] / body.m;
-      v[q + 1] -= g[1] / body.m;
-      v[q + 2] -= g[2] / body.J;
-    });
+void subtract_reaction(const Equations& eq, const VectorXd& x, double* v) {
+  for (const Equations::Side& side : eq.sides) {
+    const Schur::Block& B = eq.B[side.block];
+    double g0 = 0, g1 = 0, g2 = 0;
+    for (int r = 0; r < side.m; ++r) {
+      const double xr = x.data()[side.row + r];
+      g0 += B(r, 0) * xr;
+      g1 += B(r, 1) * xr;
+      g2 += B(r, 2) * xr;
+    }
+    const double* w = eq.W.data() + side.q;
+    v[side.q] -= g0 * w[0];
+    v[side.q + 1] -= g1 * w[1];
+    v[side.q + 2] -= g2 * w[2];
   }
 }
 
 // out += Cq v
-void add_product(const System& system, const Equations& eq, const double* v, VectorXd& out) {
-  for (std::size_t k = 0; k < system.joints.size(); ++k) {
-    const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
-    for_sides(system, k, [&](std::size_t side, int q) {
-      for (int r = 0; r < m; ++r)
-        out[row + r] += eq.B[side](r, 0) * v[q] + eq.B[side](r, 1) * v[q + 1] +
-                        eq.B[side](r, 2) * v[q + 2];
-    });
+void add_product(const Equations& eq, const double* v, VectorXd& out) {
+  for (const Equations::Side& side : eq.sides) {
+    const Schur::Block& B = eq.B[side.block];
+    const double v0 = v[side.q], v1 = v[side.q + 1], v2 = v[side.q + 2];
+    double* o = out.data() + side.row;
+    for (int r = 0; r < side.m; ++r) o[r] += B(r, 0) * v0 + B(r, 1) * v1 + B(r, 2) * v2;
+  }
+}
+
+// λ and a from a = M⁻¹ f. A body of little inertia on a long arm leaves Cq a − γ above rounding;
+// the residual, solved for again, takes that away.
+void solve_reactions(Equations& eq) {
+  constexpr double rounding = 1e-14;
+  constexpr int refinements = 2;
+  eq.lambda.setZero();
+  if (eq.lambda.size() == 0) return;
+  double size = 0;
+  for (int i = 0; i <= refinements; ++i) {
+    eq.mu = -eq.gamma;
+    add_product(eq, eq.a.data(), eq.mu);
+    const double residual = eq.mu.lpNorm<Eigen::Infinity>();
+    if (i == 0) size = residual;
+    if (i > 0 && residual <= rounding * size) break;
+    eq.schur.solve(eq.mu);
+    eq.lambda += eq.mu;
+    subtract_reaction(eq, eq.mu, eq.a.data());
   }
 }
 
@@ -64,6 +75,7 @@ Equations::Equations(const System& system)
       lambda(C),
       contact(system.contacts.size()),
       force(system.forces.size()),
+      gamma(C),
       mu(C),
       cos_(VectorXd::Zero(static_cast<Index>(system.bodies.size()))),
       sin_(cos_) {
@@ -74,6 +86,18 @@ Equations::Equations(const System& system)
     motion[i].angle = marker.angle;
     motion[i].u = {std::cos(marker.angle), std::sin(marker.angle)};
   }
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const std::array<int, 2> markers{marker_a(system.joints[k]), marker_b(system.joints[k])};
+    ends.push_back({at(markers[0]), at(markers[1])});
+    for (std::size_t s = 0; s < 2; ++s)
+      if (const int body = system.markers[at(markers[s])].body; body != ground)
+        sides.push_back({k, 2 * k + s, markers[s], 3 * body, system.row_begin[k],
+                         system.row_begin[k + 1] - system.row_begin[k], s == 1});
+  }
+  W.resize(system.n());
+  for (std::size_t b = 0; b < system.bodies.size(); ++b)
+    W.segment<3>(static_cast<Index>(3 * b)) << 1 / system.bodies[b].m, 1 / system.bodies[b].m,
+        1 / system.bodies[b].J;
 }
 
 void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
@@ -96,20 +120,20 @@ void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
       m.u = {std::cos(m.angle), std::sin(m.angle)};
   }
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
-    const int ma = marker_a(system.joints[k]), mb = marker_b(system.joints[k]);
     ConstraintRows& r = eq.rows[k];
-    evaluate_pose(system.joints[k], eq.motion[at(ma)], eq.motion[at(mb)], t, r);
-    const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
-    const auto chain = [m](const ConstraintRows::Block& L, const Vector2d& d, Schur::Block& B) {
-      for (int i = 0; i < m; ++i) {
-        B(i, 0) = L(i, 0);
-        B(i, 1) = L(i, 1);
-        B(i, 2) = L(i, 2) - L(i, 0) * d.y() + L(i, 1) * d.x();
-      }
-    };
-    chain(r.La, eq.motion[at(ma)].d, eq.B[2 * k]);
-    chain(r.Lb, eq.motion[at(mb)].d, eq.B[2 * k + 1]);
-    for (int i = 0; i < m; ++i) eq.C[row + i] = r.C[i];
+    evaluate_pose(system.joints[k], eq.motion[eq.ends[k][0]], eq.motion[eq.ends[k][1]], t, r);
+    for (int row = system.row_begin[k], i = 0; row < system.row_begin[k + 1]; ++row, ++i)
+      eq.C[row] = r.C[i];
+  }
+  for (const Equations::Side& side : eq.sides) {  // B = L J
+    const ConstraintRows::Block& L = side.is_b ? eq.rows[side.joint].Lb : eq.rows[side.joint].La;
+    const Vector2d& d = eq.motion[at(side.marker)].d;
+    Schur::Block& B = eq.B[side.block];
+    for (int i = 0; i < side.m; ++i) {
+      B(i, 0) = L(i, 0);
+      B(i, 1) = L(i, 1);
+      B(i, 2) = L(i, 2) - L(i, 0) * d.y() + L(i, 1) * d.x();
+    }
   }
 }
 
@@ -125,12 +149,11 @@ void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
   }
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     ConstraintRows& r = eq.rows[k];
-    evaluate_speed(system.joints[k], eq.motion[at(marker_a(system.joints[k]))],
-                   eq.motion[at(marker_b(system.joints[k]))], t, r);
-    const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
-    for (int i = 0; i < m; ++i) eq.Cdot[row + i] = r.Ct[i];
+    evaluate_speed(system.joints[k], eq.motion[eq.ends[k][0]], eq.motion[eq.ends[k][1]], t, r);
+    for (int row = system.row_begin[k], i = 0; row < system.row_begin[k + 1]; ++row, ++i)
+      eq.Cdot[row] = r.Ct[i];
   }
-  add_product(system, eq, s, eq.Cdot);
+  add_product(eq, s, eq.Cdot);
 }
 
 void factor(const System&, Equations& eq) {
@@ -170,25 +193,17 @@ void accelerate(const System& system, const State& state, Equations& eq) {
   }
 
   // S λ = Cq M⁻¹ f − γ,  a = M⁻¹ (f − Cqᵀ λ)
-  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
-    const auto i = static_cast<Index>(3 * b);
-    eq.a[i] = eq.f[i] / system.bodies[b].m;
-    eq.a[i + 1] = eq.f[i + 1] / system.bodies[b].m;
-    eq.a[i + 2] = eq.f[i + 2] / system.bodies[b].J;
+  eq.a = eq.W.cwiseProduct(eq.f);
+  for (std::size_t k = 0; k < system.joints.size(); ++k)
+    for (int row = system.row_begin[k], i = 0; row < system.row_begin[k + 1]; ++row, ++i)
+      eq.gamma[row] = -eq.rows[k].kappa[i];
+  for (const Equations::Side& side : eq.sides) {
+    const ConstraintRows::Block& L = side.is_b ? eq.rows[side.joint].Lb : eq.rows[side.joint].La;
+    const MarkerMotion& m = eq.motion[at(side.marker)];
+    for (int i = 0; i < side.m; ++i)
+      eq.gamma[side.row + i] -= L(i, 0) * m.a0.x() + L(i, 1) * m.a0.y() + L(i, 2) * m.alpha0;
   }
-  for (std::size_t k = 0; k < system.joints.size(); ++k) {
-    const ConstraintRows& r = eq.rows[k];
-    const MarkerMotion& a = eq.motion[at(marker_a(system.joints[k]))];
-    const MarkerMotion& b = eq.motion[at(marker_b(system.joints[k]))];
-    const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
-    for (int i = 0; i < m; ++i)  // −γ
-      eq.lambda[row + i] = r.kappa[i] + r.La(i, 0) * a.a0.x() + r.La(i, 1) * a.a0.y() +
-                           r.La(i, 2) * a.alpha0 + r.Lb(i, 0) * b.a0.x() + r.Lb(i, 1) * b.a0.y() +
-                           r.Lb(i, 2) * b.alpha0;
-  }
-  add_product(system, eq, eq.a.data(), eq.lambda);
-  eq.schur.solve(eq.lambda);
-  subtract_reaction(system, eq, eq.lambda, eq.a.data());
+  solve_reactions(eq);
   ++eq.evaluations;
 }
 
@@ -248,14 +263,14 @@ bool project(const System& system, double t, VectorXd& y, Equations& eq) {
     if (worst <= enough || (i > 0 && worst <= good && worst > 0.1 * before)) break;
     eq.mu = eq.C;
     eq.schur.solve(eq.mu);
-    subtract_reaction(system, eq, eq.mu, y.data());
+    subtract_reaction(eq, eq.mu, y.data());
   }
   if (!(worst <= good)) return false;
   speed(system, t, y, eq);
   for (int i = 0; i < 2 && velocity_violation(system, y, eq) > enough; ++i) {
     eq.mu = eq.Cdot;
     eq.schur.solve(eq.mu);
-    subtract_reaction(system, eq, eq.mu, y.data() + system.n());
+    subtract_reaction(eq, eq.mu, y.data() + system.n());
     speed(system, t, y, eq);
   }
   return true;

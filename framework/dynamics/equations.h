@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,6 +16,16 @@ namespace pintle {
 struct Equations {
   explicit Equations(const System&);
 
+  /// One side of a joint on a body that moves, with the indices it needs at hand.
+  struct Side {
+    std::size_t joint, block;  ///< B[block] is its share of Cq
+    int marker, q, row, m;     ///< marker; first coordinate; first row; rows
+    bool is_b;
+  };
+  std::vector<Side> sides;
+  std::vector<std::array<std::size_t, 2>> ends;  ///< markers a and b of each joint
+  Eigen::VectorXd W;                  ///< M⁻¹, diagonal, n
+
   std::vector<MarkerMotion> motion;   ///< of each marker
   std::vector<ConstraintRows> rows;   ///< of each joint, in poses of its markers
   std::vector<Schur::Block> B;        ///< rows of Cq, two blocks a joint: L J
@@ -28,6 +39,7 @@ struct Equations {
 
   long evaluations = 0, factorizations = 0;
 
+  Eigen::VectorXd gamma;              ///< right-hand side at acceleration level, Cq a = γ
   Eigen::VectorXd mu, cos_, sin_;     ///< work
 };
 

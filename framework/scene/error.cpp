@@ -1,13 +1,17 @@
 #include "framework/scene/error.h"
 
+#include <sstream>
+
 namespace pintle {
 
 namespace {
 std::string sentence(const std::string& file, const Place& place, const std::string& message) {
-  std::string s = file.empty() ? "scene" : file;
-  if (place.line > 0) s += ":" + std::to_string(place.line);
-  if (!place.key.empty()) s += ": " + place.key;
-  return s + ": " + message;
+  std::ostringstream s;
+  s << (file.empty() ? "scene" : file);
+  if (place.line > 0) s << ':' << place.line;
+  if (!place.key.empty()) s << ": " << place.key;
+  s << ": " << message;
+  return s.str();
 }
 }  // namespace
 

@@ -1,0 +1,197 @@
+#include <nlohmann/json.hpp>
+
+#include "framework/scene/reader_parts.h"
+
+namespace pintle {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json(const Pair& p) {
+  return Json::array({p[0], p[1]});
+}
+
+std::string json(const PointRef& ref) {
+  return ref.point.empty() ? ref.body : ref.body + "." + ref.point;
+}
+
+Json ends(const PointRef& a, const PointRef& b) {
+  return Json::array({json(a), json(b)});
+}
+
+Json json(const Law& law) {
+  if (law.constant) return law.at(0).value;
+  if (law.text.starts_with('{')) return Json::parse(law.text);
+  return law.text;
+}
+
+Json points(const std::vector<ScenePoint>& all) {
+  Json out = Json::object();
+  for (const ScenePoint& p : all) out[p.name] = {{"at", json(p.at)}, {"angle", p.angle}};
+  return out;
+}
+
+// A parameter keeps its unit, so that laws in t that use it read back.
+Json parameter(const std::string& name, double value, const Parameters& parameters) {
+  const auto found = parameters.find(name);
+  const std::string unit = found == parameters.end() ? "" : si_unit(found->second.dimension);
+  if (unit.empty()) return value;
+  return Json(value).dump() + " " + unit;
+}
+
+Json json(const SceneBody& body) {
+  return {
+      {"rigid", {{"mass", body.mass}, {"inertia", body.inertia}, {"center", json(body.center)}}},
+      {"points", points(body.points)},
+      {"pose", {{"at", json(body.at)}, {"angle", body.angle}}}};
+}
+
+Json json(const SceneNormal& normal) {
+  Json law = Json::object();
+  if (normal.law != "hertz") law["restitution"] = normal.restitution;
+  law["exponent"] = normal.exponent;
+  law["radii"] = normal.radii == RadiusConvention::internal ? "internal" : "external";
+  law["slowest impact"] = normal.slowest_impact;
+  if (normal.stiffness) {
+    law["stiffness"] = *normal.stiffness;
+  } else {
+    law["young"] = normal.bearing.young;
+    law["poisson"] = normal.bearing.poisson;
+    law["journal"] = {{"young", normal.journal.young}, {"poisson", normal.journal.poisson}};
+  }
+  Json out = Json::object();
+  out[normal.law] = law;
+  return out;
+}
+
+Json json(const SceneClearance& clearance) {
+  Json out = {{"radial", clearance.radial},
+              {"bearing radius", clearance.bearing_radius},
+              {"bearing", clearance.bearing},
+              {"normal", json(clearance.normal)}};
+  if (const auto& f = clearance.friction)
+    out["friction"]["ambrosio"] = {
+        {"coefficient", f->coefficient},
+        {"v0", f->v0},
+        {"v1", f->v1},
+        {"sliding", f->sliding == SlidingSpeed::material ? "material" : "geometric"}};
+  return out;
+}
+
+Json json(const SceneJoint& joint) {
+  const Json two = ends(joint.a, joint.b);
+  Json out = Json::object();
+  switch (joint.kind) {
+    case JointKind::revolute:
+      out["revolute"] = two;
+      break;
+    case JointKind::prismatic:
+      out = {{"prismatic", two}, {"angle", joint.angle}};
+      break;
+    case JointKind::slot:
+      out["slot"] = two;
+      break;
+    case JointKind::weld:
+      out = {{"weld", two}, {"angle", joint.angle}};
+      break;
+    case JointKind::distance:
+      out = {{"distance", two}, {"length", joint.length}};
+      break;
+  }
+  if (joint.clearance) out["clearance"] = json(*joint.clearance);
+  return out;
+}
+
+Json json(const SceneDriver& driver) {
+  Json out = Json::object();
+  out[driver.kind == DriverKind::angle ? "angle" : "distance"] = ends(driver.a, driver.b);
+  out["law"] = json(driver.law);
+  return out;
+}
+
+Json load(const SceneForce& f) {
+  return {
+      {"force", Json::array({json(f.x), json(f.y)})}, {"at", json(f.at)}, {"follows", f.follows}};
+}
+Json load(const SceneTorque& f) {
+  return {{"torque", json(f.law)}, {"on", json(f.b)}, {"from", json(f.a)}};
+}
+Json load(const SceneSpring& f) {
+  Json out = {{"spring", ends(f.a, f.b)}, {"damping", f.damping}, {"free length", f.free_length}};
+  if (f.stiffness > 0) out["stiffness"] = f.stiffness;
+  return out;
+}
+Json load(const SceneTorsionSpring& f) {
+  Json out = {
+      {"torsion spring", ends(f.a, f.b)}, {"damping", f.damping}, {"free angle", f.free_angle}};
+  if (f.stiffness > 0) out["stiffness"] = f.stiffness;
+  return out;
+}
+
+Json json(const StartBody& start) {
+  Json out = Json::object();
+  const auto put = [&](const char* key, const std::optional<double>& value) {
+    if (value) out[key] = *value;
+  };
+  put("x", start.x);
+  put("y", start.y);
+  put("angle", start.angle);
+  put("vx", start.vx);
+  put("vy", start.vy);
+  put("speed", start.speed);
+  return out;
+}
+
+Json starts(const Scene& scene) {
+  Json out = Json::object();
+  for (const StartBody& s : scene.start_bodies) out[s.body] = json(s);
+  for (const StartJournal& s : scene.start_journals)
+    out[s.joint] = {{"eccentricity", json(s.eccentricity)}, {"speed", json(s.speed)}};
+  return out;
+}
+
+Json json(const RunOptions& run) {
+  Json out = {{"until", run.until},
+              {"method", run.method},
+              {"tolerance", run.tolerance},
+              {"constraints", run.constraints},
+              {"onset", "locate"},
+              {"max steps", run.max_steps},
+              {"ledger bound", run.ledger_bound}};
+  if (run.onset_cut) out["onset"] = {{"cut", *run.onset_cut}};
+  if (run.max_step > 0) out["max step"] = run.max_step;
+  return out;
+}
+
+Json json(const OutputOptions& output, double until) {
+  Json out = {{"every", output.every > 0 ? output.every : until / 1000}, {"frames", output.frames}};
+  if (output.exaggerate > 0) out["exaggerate"] = output.exaggerate;
+  return out;
+}
+
+}  // namespace
+
+std::string filled_in(const Scene& scene, const Parameters& parameters) {
+  Json out = Json::object();
+  if (!scene.title.empty()) out["title"] = scene.title;
+  out["gravity"] = json(scene.gravity);
+  Json& named = out["parameters"] = Json::object();
+  for (const auto& [name, value] : scene.parameters)
+    named[name] = parameter(name, value, parameters);
+  out["ground"]["points"] = points(scene.ground);
+  for (const SceneBody& b : scene.bodies) out["bodies"][b.name] = json(b);
+  Json& joints = out["joints"] = Json::object();
+  for (const SceneJoint& j : scene.joints) joints[j.name] = json(j);
+  Json& drivers = out["drivers"] = Json::object();
+  for (const SceneDriver& d : scene.drivers) drivers[d.name] = json(d);
+  Json& forces = out["forces"] = Json::object();
+  for (const SceneLoad& l : scene.loads)
+    forces[l.name] = std::visit([](const auto& what) { return load(what); }, l.what);
+  out["start"] = starts(scene);
+  out["run"] = json(scene.run);
+  out["output"] = json(scene.output, scene.run.until);
+  return out.dump(2);
+}
+
+}  // namespace pintle

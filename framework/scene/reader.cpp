@@ -1,0 +1,112 @@
+#include "framework/scene/reader.h"
+
+#include <algorithm>
+#include <map>
+
+#include "framework/scene/nearest.h"
+#include "framework/scene/reader_parts.h"
+#include "framework/scene/text_file.h"
+
+namespace pintle {
+
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{10} << 20;
+
+// An override is written as a parameter's value is; a bare number takes the parameter's own unit's
+// dimension, SI.
+Quantity overridden(const std::string& name, const std::string& text, const Quantity& written,
+                    const Source& source) {
+  const Place place{0, "--set " + name};
+  try {
+    const Quantity q = read_quantity(text, source.parameters);
+    if (bare(q.dimension)) return {q.value, written.dimension};
+    if (!bare(written.dimension) && !same(q.dimension, written.dimension))
+      throw ExpressionError("\"" + text + "\" is " + describe(q.dimension) +
+                            ", but the scene gives " + name + " as " + describe(written.dimension));
+    return q;
+  } catch (const ExpressionError& error) {
+    throw SceneError(source.file, place, error.what());
+  }
+}
+
+Quantity parameter(const Node& node, const std::vector<std::string>& all) {
+  if (const std::string fault = fault_of_name(node.name()); !fault.empty())
+    node.fail("\"" + node.name() + "\" cannot name a parameter: " + fault);
+  const std::string text = node.text("a value such as 0.1 mm");
+  try {
+    return read_quantity(text, node.source().parameters);
+  } catch (const ExpressionError& error) {
+    const std::string said = error.what();
+    for (const std::string& other : all)
+      if (said.find(": \"" + other + "\" is neither") != std::string::npos)
+        node.fail("\"" + text + "\": " + other +
+                  " is not known yet; parameters are read from the " + "top, so write " + other +
+                  " above " + node.name());
+    node.fail(said);
+  }
+}
+
+void read_parameters(const Node& root, const Overrides& overrides, Source& source, Scene& scene) {
+  std::map<std::string, std::string> set;
+  for (const auto& [name, text] : overrides) set[name] = text;
+  std::vector<std::string> all;
+  if (root.has("parameters")) {
+    const Node group = root.at("parameters");
+    const std::vector<Node> entries = group.entries("names and values: {clearance: 0.1 mm}");
+    all = group.keys();
+    for (const Node& node : entries) {
+      const std::string name = node.name();
+      Quantity q = parameter(node, all);
+      if (const auto found = set.find(name); found != set.end())
+        q = overridden(name, found->second, q, source);
+      source.parameters[name] = q;
+      scene.parameters.emplace_back(name, q.value);
+    }
+  }
+  for (const auto& [name, text] : set)
+    if (!source.parameters.contains(name))
+      throw SceneError(source.file, {0, "--set " + name},
+                       all.empty() ? "the scene has no parameters; name one under parameters"
+                                   : "the scene has no such parameter." + did_you_mean(name, all));
+}
+
+Scene read(const std::string& text, const std::string& file, const Overrides& overrides,
+           const std::filesystem::path& folder) {
+  const Yaml tree = parse_yaml(text, file);
+  Source source{file, {}};
+  const Node root(tree, source, {tree.line, {}});
+  if (tree.kind == Yaml::Kind::nothing) root.fail("is empty; docs/scene.md shows what to write");
+  check_keys(root, "");
+
+  Scene scene;
+  scene.file = file;
+  read_parameters(root, overrides, source, scene);
+  if (root.has("title")) scene.title = root.at("title").text("a line of text");
+  if (root.has("gravity")) scene.gravity = root.at("gravity").pair(dimension::acceleration);
+  read_run(root, scene);
+  read_bodies(root, scene);
+  read_joints(root, scene);
+  read_drivers(root, folder, scene);
+  read_forces(root, folder, scene);
+  read_start(root, scene);
+  read_output(root, scene);
+  scene.filled_in = filled_in(scene, source.parameters);
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file, const Overrides& overrides) {
+  const std::string text = read_text_file(file, most_bytes);
+  return read(text, file.string(), overrides, file.parent_path());
+}
+
+Scene read_scene_text(const std::string& text, const std::string& name, const Overrides& overrides,
+                      const std::filesystem::path& folder) {
+  if (const int line = line_not_text(text); line > 0)
+    throw SceneError(name, {line, {}}, "is not text (a zero byte, or bytes that are not UTF-8)");
+  return read(text, name, overrides, folder);
+}
+
+}  // namespace pintle

@@ -1,0 +1,138 @@
+#include <algorithm>
+
+#include "framework/scene/nearest.h"
+#include "framework/scene/reader_parts.h"
+
+namespace pintle {
+
+namespace {
+
+void read_if(const Node& group, std::string_view key, const Dimension& expected,
+             std::optional<double>& value) {
+  if (group.has(key)) value = group.at(key).quantity(expected);
+}
+
+// x and y of `both`, or each alone.
+void read_plane(const Node& group, std::string_view both, std::string_view x_key,
+                std::string_view y_key, const Dimension& expected, std::optional<double>& x,
+                std::optional<double>& y) {
+  if (group.has(both)) {
+    for (const std::string_view alone : {x_key, y_key})
+      if (group.has(alone))
+        group.at(alone).fail("is said twice: leave out " + std::string(alone) + " or " +
+                             std::string(both));
+    const Pair pair = group.at(both).pair(expected);
+    x = pair[0];
+    y = pair[1];
+  }
+  read_if(group, x_key, expected, x);
+  read_if(group, y_key, expected, y);
+}
+
+void refuse(const Node& group, std::initializer_list<std::string_view> keys, const char* message) {
+  for (const std::string_view key : keys)
+    if (group.has(key)) group.at(key).fail(message);
+}
+
+StartBody read_start_body(const Node& node) {
+  refuse(node, {"eccentricity"}, "belongs to a joint with clearance, but this is a body; use at");
+  StartBody start;
+  start.body = node.name();
+  start.place = node.place();
+  read_plane(node, "at", "x", "y", dimension::length, start.x, start.y);
+  read_plane(node, "velocity", "vx", "vy", dimension::speed, start.vx, start.vy);
+  read_if(node, "angle", dimension::angle, start.angle);
+  if (node.has("speed") && node.at("speed").is_list())
+    node.at("speed").fail("of a body is its angular speed, one value; write velocity: [vx, vy]");
+  read_if(node, "speed", dimension::angular_speed, start.speed);
+  return start;
+}
+
+StartJournal read_start_journal(const Node& node) {
+  refuse(node, {"at", "x", "y", "angle", "velocity", "vx", "vy"},
+         "belongs to a body, but this is a joint; its journal has eccentricity and speed");
+  StartJournal start;
+  start.joint = node.name();
+  start.place = node.place();
+  if (node.has("eccentricity"))
+    start.eccentricity = node.at("eccentricity").pair(dimension::length);
+  if (node.has("speed")) start.speed = node.at("speed").pair(dimension::speed);
+  return start;
+}
+
+void read_start_entry(const Node& node, Scene& scene) {
+  check_keys(node, "start.*");
+  const std::string name = node.name();
+  const bool body = std::ranges::find(scene.bodies, name, &SceneBody::name) != scene.bodies.end();
+  const auto joint = std::ranges::find(scene.joints, name, &SceneJoint::name);
+  const bool journal = joint != scene.joints.end() && joint->clearance;
+  if (body && journal)
+    node.fail("both a body and a joint are named \"" + name + "\"; rename one of them");
+  if (body) {
+    scene.start_bodies.push_back(read_start_body(node));
+  } else if (journal) {
+    scene.start_journals.push_back(read_start_journal(node));
+  } else if (joint != scene.joints.end()) {
+    node.fail("the joint \"" + name + "\" has no clearance for a journal to start in; " +
+              "give it one, or start a body");
+  } else {
+    std::vector<std::string> known;
+    for (const SceneBody& b : scene.bodies) known.push_back(b.name);
+    for (const SceneJoint& j : scene.joints)
+      if (j.clearance) known.push_back(j.name);
+    node.fail("there is no body or clearance joint \"" + name + "\"." + did_you_mean(name, known));
+  }
+}
+
+void read_onset(const Node& node, RunOptions& run) {
+  if (node.is_map()) {
+    check_keys(node, "run.onset");
+    run.onset_cut = node.at("cut").quantity(dimension::length, rule::positive);
+  } else if (node.text("locate or {cut: 1e-8 m}") != "locate") {
+    node.fail(node.shown() + " must be locate or {cut: 1e-8 m}");
+  }
+}
+
+}  // namespace
+
+void read_start(const Node& root, Scene& scene) {
+  if (!root.has("start")) return;
+  for (const Node& node :
+       root.at("start").entries("bodies and how they start: {crank: {speed: 5 rad/s}}"))
+    read_start_entry(node, scene);
+}
+
+void read_run(const Node& root, Scene& scene) {
+  const Node node = root.at("run");
+  check_keys(node, "run");
+  RunOptions& run = scene.run;
+  run.place = node.place();
+  run.until = node.at("until").quantity(dimension::time, rule::positive);
+  if (node.has("method")) run.method = node.at("method").one_of(choices("run", "method"));
+  if (node.has("constraints"))
+    run.constraints = node.at("constraints").one_of(choices("run", "constraints"));
+  if (node.has("onset")) read_onset(node.at("onset"), run);
+  read_optional(node, "tolerance", dimension::number, rule::inside_zero_one, run.tolerance);
+  read_optional(node, "max step", dimension::time, rule::positive, run.max_step);
+  if (node.has("max steps")) run.max_steps = node.at("max steps").count(1);
+  read_optional(node, "ledger bound", dimension::number, rule::positive, run.ledger_bound);
+}
+
+void read_output(const Node& root, Scene& scene) {
+  if (!root.has("output")) return;
+  const Node node = root.at("output");
+  check_keys(node, "output");
+  OutputOptions& output = scene.output;
+  output.place = node.place();
+  read_optional(node, "every", dimension::time, rule::positive, output.every);
+  if (output.every > scene.run.until)
+    node.at("every").fail(node.at("every").shown() + " is longer than the run; shorten it");
+  if (node.has("frames")) {
+    const long frames = node.at("frames").count(0);
+    if (frames > 1'000'000) node.at("frames").fail("is more than a million; ask for fewer");
+    output.frames = static_cast<int>(frames);
+  }
+  read_optional(node, "exaggerate", dimension::number, rule::positive, output.exaggerate);
+}
+
+}  // namespace pintle

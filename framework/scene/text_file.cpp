@@ -1,0 +1,66 @@
+#include "framework/scene/text_file.h"
+
+#include <fstream>
+
+#include "framework/scene/error.h"
+
+namespace pintle {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Bytes of the UTF-8 character that begins at s[i]; 0 if none does.
+std::size_t character(const std::string& s, std::size_t i) {
+  const auto byte = [&](std::size_t k) {
+    return static_cast<unsigned char>(k < s.size() ? s[k] : 0);
+  };
+  const unsigned char c = byte(i);
+  if (c == 0) return 0;
+  if (c < 0x80) return 1;
+  const std::size_t n = c >= 0xf5 ? 0 : c >= 0xf0 ? 4 : c >= 0xe0 ? 3 : c >= 0xc2 ? 2 : 0;
+  for (std::size_t k = 1; k < n; ++k)
+    if ((byte(i + k) & 0xc0) != 0x80) return 0;
+  return n;
+}
+
+}  // namespace
+
+int line_not_text(const std::string& s) {
+  int line = 1;
+  for (std::size_t i = 0; i < s.size();) {
+    const std::size_t n = character(s, i);
+    if (n == 0) return line;
+    if (s[i] == '\n') ++line;
+    i += n;
+  }
+  return 0;
+}
+
+std::string read_text_file(const fs::path& path, std::size_t most_bytes, const std::string& key) {
+  const auto fail = [&](const std::string& message, int line = 0) {
+    throw SceneError(path.string(), {line, key}, message);
+  };
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) fail("there is no such file; check the path");
+  if (fs::is_directory(status)) fail("is a directory; name a file in it");
+  if (!fs::is_regular_file(status)) fail("is not an ordinary file; write the text to one");
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (error) fail("cannot be read: " + error.message());
+  if (size > most_bytes)
+    fail("has " + std::to_string(size >> 20) + " MB; at most " + std::to_string(most_bytes >> 20) +
+         " MB are read. Is it the right file?");
+
+  std::ifstream in(path, std::ios::binary);
+  std::string text(static_cast<std::size_t>(size), '\0');
+  in.read(text.data(), static_cast<std::streamsize>(size));
+  if (!in) fail("cannot be read; check its permissions");
+  if (const int line = line_not_text(text); line > 0)
+    fail("is not text (a zero byte, or bytes that are not UTF-8); is it the right file?", line);
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+    fail("is empty; docs/scene.md shows what to write");
+  return text;
+}
+
+}  // namespace pintle

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace pintle {
+
+/// Powers of length, mass, time and angle. Halves occur: a contact stiffness is in N/m^1.5. Angle
+/// is carried so that 30 deg is not taken for a bare number, but it never separates two dimensions:
+/// N m and N m/rad, 1/s and rad/s are the same.
+struct Dimension {
+  double length = 0, mass = 0, time = 0, angle = 0;
+};
+
+namespace dimension {
+inline constexpr Dimension number{}, length{1, 0, 0, 0}, mass{0, 1, 0, 0}, time{0, 0, 1, 0},
+    angle{0, 0, 0, 1}, speed{1, 0, -1, 0}, angular_speed{0, 0, -1, 1}, acceleration{1, 0, -2, 0},
+    inertia{2, 1, 0, 0}, force{1, 1, -2, 0}, torque{2, 1, -2, 0}, stress{-1, 1, -2, 0},
+    stiffness{0, 1, -2, 0}, damping{0, 1, -1, 0}, torsion_stiffness{2, 1, -2, -1},
+    torsion_damping{2, 1, -1, -1};
+}  // namespace dimension
+
+Dimension product(const Dimension&, const Dimension&);
+Dimension power(const Dimension&, double exponent);
+/// Equal but for angle.
+bool same(const Dimension&, const Dimension&);
+/// No unit at all: neither dimension nor angle.
+bool bare(const Dimension&);
+
+/// "a length [m]", "a moment of inertia [kg m^2]", or the base units for one without a name.
+std::string describe(const Dimension&);
+/// The SI unit as an expression can read it back: "m", "kg*m^2", empty for a number.
+std::string si_unit(const Dimension&);
+
+struct Unit {
+  std::string_view name;
+  double factor;  ///< to SI
+  Dimension dimension;
+};
+/// Every unit the language knows.
+std::span<const Unit> units();
+/// @returns nullptr if there is none of that name; names are case-sensitive
+const Unit* find_unit(std::string_view name);
+
+}  // namespace pintle
