@@ -29,20 +29,18 @@ Eigen::MatrixXd dense_jacobian(const System& system, const Equations& eq) {
   return Cq;
 }
 
-Partition::Partition(const System& system)
-    : Cq_(system.n_rows(), system.n()),
-      block_(system.n_rows(), system.n_rows()),
-      lu_(system.n_rows()),
-      step_(system.n_rows()) {}
-
-void Partition::assemble(const System& system, const Equations& eq) { fill_jacobian(system, eq, Cq_); }
+void Partition::assemble(const System& system, const Equations& eq) {
+  fill_jacobian(system, eq, Cq_);
+  Cq_ = system.row_scale.asDiagonal() * Cq_;
+  for (Index i = 0; i < Cq_.cols(); ++i)
+    if (i % 3 != 2) Cq_.col(i) *= system.length;
+}
 
 void Partition::choose(const System& system, const Equations& eq) {
   assemble(system, eq);
-  Eigen::MatrixXd scaled = system.row_scale.asDiagonal() * Cq_;
-  for (Index i = 0; i < scaled.cols(); ++i)
-    if (i % 3 != 2) scaled.col(i) *= system.length;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(Cq_);
+  block_.resize(system.n_rows(), system.n_rows());
+  step_.resize(system.n_rows());
   dependent_.clear();
   for (Index i = 0; i < system.n_rows(); ++i)
     dependent_.push_back(static_cast<int>(qr.colsPermutation().indices()[i]));
@@ -55,8 +53,14 @@ void Partition::factor() {
   for (std::size_t i = 0; i < dependent_.size(); ++i)
     block_.col(static_cast<Index>(i)) = Cq_.col(dependent_[i]);
   lu_.compute(block_);
-  const auto pivots = lu_.matrixLU().diagonal().cwiseAbs();
-  quality_ = pivots.size() == 0 ? 1 : pivots.minCoeff() / pivots.maxCoeff();
+  quality_ = block_.size() == 0 ? 1 : lu_.matrixLU().diagonal().cwiseAbs().minCoeff();
+}
+
+// q or s, as `y` points to, −= scaled solution of block · x = violation
+void Partition::subtract(const System& system, const Eigen::VectorXd& violation, double* y) {
+  step_ = lu_.solve(violation.cwiseProduct(system.row_scale));
+  for (std::size_t k = 0; k < dependent_.size(); ++k)
+    y[dependent_[k]] -= step_[static_cast<Index>(k)] * (dependent_[k] % 3 == 2 ? 1 : system.length);
 }
 
 bool Partition::correct(const System& system, double t, Eigen::VectorXd& y, Equations& eq) {
@@ -70,16 +74,12 @@ bool Partition::correct(const System& system, double t, Eigen::VectorXd& y, Equa
     const double before = worst;
     worst = position_violation(system, eq);
     if (worst <= enough || (i > 0 && worst <= good && worst > 0.1 * before)) break;
-    step_.noalias() = lu_.solve(eq.C);
-    for (std::size_t k = 0; k < dependent_.size(); ++k)
-      y[dependent_[k]] -= step_[static_cast<Index>(k)];
+    subtract(system, eq.C, y.data());
   }
   if (!(worst <= good)) return false;
   speed(system, t, y, eq);
   for (int i = 0; i < 2 && velocity_violation(system, y, eq) > enough; ++i) {
-    step_.noalias() = lu_.solve(eq.Cdot);
-    for (std::size_t k = 0; k < dependent_.size(); ++k)
-      y[system.n() + dependent_[k]] -= step_[static_cast<Index>(k)];
+    subtract(system, eq.Cdot, y.data() + system.n());
     speed(system, t, y, eq);
   }
   pintle::factor(system, eq);

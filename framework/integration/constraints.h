@@ -13,15 +13,13 @@ namespace pintle {
 /// the others. The dependent ones are those that a pivoted QR of Cq finds best determined.
 class Partition {
  public:
-  explicit Partition(const System&);
-
   /// Chooses the sets at the pose in `eq`.
   void choose(const System&, const Equations&);
   /// Puts the dependent part of y on C = 0, Ċ = 0, the independent part untouched.
   /// @returns false if it does not converge
   bool correct(const System&, double t, Eigen::VectorXd& y, Equations&);
   /// The chosen set has become so ill determined that it should be chosen anew.
-  bool worn() const { return quality_ < 0.05 * chosen_quality_; }
+  bool worn() const { return quality_ < 0.3 * chosen_quality_; }
 
   int choices() const { return choices_; }
   const std::vector<int>& dependent() const { return dependent_; }
@@ -29,12 +27,13 @@ class Partition {
  private:
   void assemble(const System&, const Equations&);
   void factor();
+  void subtract(const System&, const Eigen::VectorXd& violation, double* y);
 
-  Eigen::MatrixXd Cq_, block_;
+  Eigen::MatrixXd Cq_, block_;   ///< free of units: rows by row_scale, x and y by the length
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
   Eigen::VectorXd step_;
   std::vector<int> dependent_;
-  double quality_ = 1, chosen_quality_ = 1;  ///< smallest pivot over largest
+  double quality_ = 1, chosen_quality_ = 1;  ///< smallest pivot of the scaled block
   int choices_ = 0;
 };
 

@@ -106,19 +106,13 @@ double Integrator::first_event(int& contact, bool& onset) {
       if (sign * touch_at(c, peak).depth > 0) end = peak, found = true;
     }
     if (!found) continue;
-    if (fa >= 0 || std::abs(a.depth) < 1e-13 * system_.contacts[at(c)].gap.clearance()) {
-      // It starts at the wall: an event only if it does not go the other way first.
-      if (ra >= 0) {
-        end = t0;
-      } else {
-        begin = t0;
-        for (double part = 0.5; part > 1e-9; part /= 2)
-          if (sign * touch_at(c, t0 + part * (end - t0)).depth < 0) {
-            begin = t0 + part * (end - t0);
-            break;
-          }
-        if (begin == t0) end = t0;
-      }
+    if (ra < 0) {  // it goes away first: search from where it has gone away
+      for (double part = 0.5; part > 1e-9 && begin == t0; part /= 2)
+        if (const double t = t0 + part * (end - t0); sign * touch_at(c, t).depth < std::min(fa, 0.0))
+          begin = t;
+      if (begin == t0) continue;
+    } else if (fa >= 0) {
+      end = t0;
     }
     const double t = end > begin ? crossing(c, begin, end, !closed) : t0;
     if (contact < 0 || t < first) first = t, contact = c, onset = !closed;

@@ -9,7 +9,6 @@ using Index = Eigen::Index;
 Stages::Stages(const System& system, const Tableau& tableau, Constraints constraints)
     : tableau_(tableau),
       constraints_(constraints),
-      partition_(system),
       k_(static_cast<std::size_t>(tableau.stages()), Eigen::VectorXd::Zero(system.n_y())) {
   stage_.y.setZero(system.n_y());
   stage_.impact_rate.assign(system.contacts.size(), 0.0);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "framework/scene/nearest.h"
 
@@ -88,13 +89,10 @@ class Builder {
       angle = p->angle;
     }
     if (b != ground) at -= vector(scene_.bodies[static_cast<std::size_t>(b)].center);
-    const Marker m{b, at, angle};
-    for (std::size_t i = 0; i < model_.system.markers.size(); ++i) {
-      const Marker& known = model_.system.markers[i];
-      if (known.body == b && known.x_BP == at && known.angle == angle) return static_cast<int>(i);
-    }
-    model_.system.markers.push_back(m);
-    return static_cast<int>(model_.system.markers.size()) - 1;
+    const auto [known, is_new] = markers_.try_emplace({b, at.x(), at.y(), angle},
+                                                      static_cast<int>(model_.system.markers.size()));
+    if (is_new) model_.system.markers.push_back({b, at, angle});
+    return known->second;
   }
 
   void two_bodies(const PointRef& a, const PointRef& b, const Place& place) const {
@@ -243,6 +241,7 @@ class Builder {
   const Scene& scene_;
   Model model_;
   std::map<std::string, int> index_;
+  std::map<std::tuple<int, double, double, double>, int> markers_;
   std::set<std::string> names_;
 };
 

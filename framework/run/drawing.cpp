@@ -72,7 +72,11 @@ std::vector<Vector2d> coil(const Vector2d& a, const Vector2d& b, double width) {
 Drafting::Drafting(const Scene& scene, const Model& model) {
   const System& system = model.system;
   pin = 0.03 * system.length;
-  for (const ContactPair& c : system.contacts) pin = std::min(std::max(pin, 0.0), c.gap.bearing);
+  double half = 1.6 * pin;  // of a block, large enough for its bearings
+  for (const ContactPair& c : system.contacts) {
+    pin = std::min(pin, c.gap.bearing);
+    half = std::max(half, c.gap.bearing);
+  }
   const double width = 1.6 * pin;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     owners.push_back(system.bodies[b].name);
@@ -81,7 +85,7 @@ Drafting::Drafting(const Scene& scene, const Model& model) {
     if (span > 0) {
       links.push_back(outline(model.outlines[b], width));
     } else {  // a body known by one point: a block around it
-      auto box = block(3.2 * pin, 2.2 * pin);
+      auto box = block(2 * half, 1.4 * half);
       const Vector2d center = model.outlines[b].empty() ? Vector2d(0, 0) : model.outlines[b][0];
       for (Vector2d& p : box) p += center;
       links.push_back(std::move(box));

@@ -20,16 +20,16 @@ std::string Node::shown() const {
   return "\"" + yaml_->text.substr(0, most) + (cut ? "…\"" : "\"");
 }
 
-Node Node::child(const YamlEntry& entry) const {
+Node Node::child(const Yaml& entry) const {
   const std::string path = place_.key.empty() ? entry.key : place_.key + "." + entry.key;
-  return {entry.value, *source_, {entry.line, path}, entry.key};
+  return {entry, *source_, {entry.line, path}, entry.key};
 }
 
 std::vector<Node> Node::entries(const std::string& remedy) const {
   if (!is_map()) fail("is " + shown() + "; write " + remedy);
   std::vector<Node> out;
-  out.reserve(yaml_->entries.size());
-  for (const YamlEntry& entry : yaml_->entries) out.push_back(child(entry));
+  out.reserve(yaml_->items.size());
+  for (const Yaml& entry : yaml_->items) out.push_back(child(entry));
   return out;
 }
 
@@ -50,17 +50,16 @@ std::vector<Node> Node::items(std::size_t n, const std::string& remedy) const {
 }
 
 bool Node::has(std::string_view key) const {
-  return std::ranges::any_of(yaml_->entries, [&](const YamlEntry& e) { return e.key == key; });
+  return std::ranges::any_of(yaml_->items, [&](const Yaml& e) { return e.key == key; });
 }
 
 Node Node::at(std::string_view key) const {
-  return child(
-      *std::ranges::find_if(yaml_->entries, [&](const YamlEntry& e) { return e.key == key; }));
+  return child(*std::ranges::find_if(yaml_->items, [&](const Yaml& e) { return e.key == key; }));
 }
 
 std::vector<std::string> Node::keys() const {
   std::vector<std::string> out;
-  for (const YamlEntry& e : yaml_->entries) out.push_back(e.key);
+  for (const Yaml& e : yaml_->items) out.push_back(e.key);
   return out;
 }
 

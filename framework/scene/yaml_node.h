@@ -12,20 +12,12 @@
 /// yaml_tree.cpp includes yaml-cpp.
 namespace pintle {
 
-struct YamlEntry;
-
 struct Yaml {
   enum class Kind { nothing, scalar, list, map } kind = Kind::nothing;
-  int line = 0;                         ///< 1-based
-  std::string text = {};                ///< scalar
-  std::vector<Yaml> items = {};         ///< list
-  std::vector<YamlEntry> entries = {};  ///< map, in the order written; keys are unique
-};
-
-struct YamlEntry {
-  std::string key;
-  int line;
-  Yaml value;
+  int line = 0;                  ///< 1-based; of the key, if it has one
+  std::string key = {};          ///< in a map; unique there
+  std::string text = {};         ///< scalar
+  std::vector<Yaml> items = {};  ///< list and map, in the order written
 };
 
 /// Anchors, aliases, tags, repeated keys and a second document are refused: a scene is a tree that
@@ -96,7 +88,7 @@ class Node {
   Law law(const Dimension&) const;  ///< an expression in t
 
  private:
-  Node child(const YamlEntry&) const;
+  Node child(const Yaml& entry) const;
   const Yaml* yaml_;
   const Source* source_;
   Place place_;

@@ -97,11 +97,11 @@ class TreeBuilder : public YAML::EventHandler {
       return;
     }
     Open& parent = open_.back();
-    if (parent.yaml.kind == Yaml::Kind::list) {
-      parent.yaml.items.push_back(std::move(yaml));
-      return;
+    if (parent.has_key) {
+      yaml.key = std::move(parent.key);
+      yaml.line = parent.key_line;
     }
-    parent.yaml.entries.push_back({std::move(parent.key), parent.key_line, std::move(yaml)});
+    parent.yaml.items.push_back(std::move(yaml));
     parent.has_key = false;
   }
 

@@ -1,0 +1,23 @@
+# find_package(pintle) in another project gives pintle::pintle; headers keep the names they have
+# here, "contact/normal_law.h", under include/pintle.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(pintle_config ${CMAKE_INSTALL_LIBDIR}/cmake/pintle)
+
+install(TARGETS pintle EXPORT pintleTargets)
+install(DIRECTORY contact framework DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pintle
+  FILES_MATCHING PATTERN "*.h")
+install(EXPORT pintleTargets NAMESPACE pintle:: DESTINATION ${pintle_config})
+
+configure_package_config_file(cmake/pintleConfig.cmake.in pintleConfig.cmake
+  INSTALL_DESTINATION ${pintle_config})
+write_basic_package_version_file(pintleConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${CMAKE_CURRENT_BINARY_DIR}/pintleConfig.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/pintleConfigVersion.cmake
+  cmake/FindSuiteSparse.cmake
+  DESTINATION ${pintle_config})
+
+if(PROJECT_IS_TOP_LEVEL)
+  install(TARGETS pintle_app)
+endif()

@@ -1,0 +1,347 @@
+// The exam every force element sits, and the contact pair with them. A new force joins by one line
+// in `kinds`.
+
+#include "framework/dynamics/forces.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <ostream>
+#include <random>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "framework/dynamics/contact_pair.h"
+#include "framework/dynamics/equations.h"
+
+namespace pintle {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+// Tolerances, relative to the size of the terms.
+constexpr double rounding = 1e-12;
+// Central difference over `step`: 1e-10 cut-off times third derivatives up to 1e2, 1e-11 rounding.
+constexpr double difference = 1e-7;
+constexpr double step = 1e-5;
+constexpr int draws = 200;
+
+Jet sine(double t) {
+  return {0.7 + 0.3 * std::sin(2 * t), 0.6 * std::cos(2 * t), -1.2 * std::sin(2 * t)};
+}
+Jet steady(double) {
+  return {-1.3, 0, 0};
+}
+
+struct Kind {
+  const char* name;
+  Force force;
+  bool internal = true;  // acts between its two bodies, so its wrenches cancel
+};
+void PrintTo(const Kind& kind, std::ostream* out) {
+  *out << kind.name;
+}
+const Kind kinds[] = {
+    {"PointForce", PointForce{0, 1, sine, steady, false}, false},
+    {"FollowerForce", PointForce{0, 1, sine, steady, true}, false},
+    {"Torque", Torque{0, 1, sine}},
+    {"Spring", Spring{0, 1, 40, 0, 0.5}},
+    {"DampedSpring", Spring{0, 1, 40, 3, 0.5}},
+    {"Damper", Spring{0, 1, 0, 3, 0.5}},
+    {"TorsionSpring", TorsionSpring{0, 1, 25, 0, -0.8}},
+    {"DampedTorsionSpring", TorsionSpring{0, 1, 25, 2, -0.8}},
+};
+bool is_load(const Force& f) {
+  return std::holds_alternative<PointForce>(f) || std::holds_alternative<Torque>(f);
+}
+
+class Draw {
+ public:
+  explicit Draw(unsigned seed) : random_(seed) {}
+  double within(double low, double high) {
+    return low + (high - low) * static_cast<double>(random_()) / 4294967296.0;
+  }
+  Vector3d pose() { return {within(-1, 1), within(-1, 1), within(-12, 12)}; }
+  Vector3d rates() { return {within(-2, 2), within(-2, 2), within(-3, 3)}; }
+  // Two poses whose points are apart: a spring has no direction where they meet.
+  std::pair<Vector3d, Vector3d> poses() {
+    for (;;) {
+      std::pair<Vector3d, Vector3d> p{pose(), pose()};
+      if ((p.first - p.second).head<2>().norm() > 0.3) return p;
+    }
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+MarkerMotion moving(const Vector3d& p, const Vector3d& p_rate) {
+  MarkerMotion m;
+  m.r = p.head<2>();
+  m.d.setZero();
+  m.angle = p[2];
+  m.u = {std::cos(p[2]), std::sin(p[2])};
+  m.v = p_rate.head<2>();
+  m.w = p_rate[2];
+  return m;
+}
+double moment(const Vector3d& p, const Wrench& wrench) {
+  return cross(p.head<2>(), wrench.head<2>()) + wrench[2];
+}
+
+class ForceContract : public testing::TestWithParam<Kind> {
+ protected:
+  const Force& force_ = GetParam().force;
+  Draw draw_{5};
+  double stored(const Vector3d& a, const Vector3d& b) const {
+    return evaluate(force_, moving(a, {0, 0, 0}), moving(b, {0, 0, 0}), 0.3).stored;
+  }
+};
+
+// wrench_a·ṗ_a + wrench_b·ṗ_b = input − dissipation − d(stored)/dt
+TEST_P(ForceContract, PowerGoesWhereItSays) {
+  for (int n = 0; n < draws; ++n) {
+    const auto [a, b] = draw_.poses();
+    const Vector3d da = draw_.rates(), db = draw_.rates();
+    const ForceEffect e = evaluate(force_, moving(a, da), moving(b, db), draw_.within(-3, 3));
+    const double power = e.on_a.dot(da) + e.on_b.dot(db);
+    const double rate =
+        (stored(a + step * da, b + step * db) - stored(a - step * da, b - step * db)) / (2 * step);
+    const double terms = 1 + std::abs(e.input) + e.dissipation + std::abs(rate) + e.stored;
+    EXPECT_NEAR(power, e.input - e.dissipation - rate, terms * difference) << "draw " << n;
+  }
+}
+
+TEST_P(ForceContract, LosesButNeverGains) {
+  for (int n = 0; n < draws; ++n) {
+    const auto [a, b] = draw_.poses();
+    const ForceEffect e =
+        evaluate(force_, moving(a, draw_.rates()), moving(b, draw_.rates()), draw_.within(-3, 3));
+    EXPECT_GE(e.dissipation, 0);
+    EXPECT_GE(e.stored, 0);
+    if (!is_load(force_)) {
+      EXPECT_EQ(e.input, 0);
+    }
+  }
+}
+
+// What remains at rest is −∇(stored), and for a load, which stores nothing, what its law says.
+TEST_P(ForceContract, ConservativePartIsTheSlopeOfTheStoredEnergy) {
+  for (int n = 0; n < draws; ++n) {
+    const auto [a, b] = draw_.poses();
+    const ForceEffect e = evaluate(force_, moving(a, {0, 0, 0}), moving(b, {0, 0, 0}), 0.3);
+    if (is_load(force_)) {
+      EXPECT_EQ(e.stored, 0);
+      continue;
+    }
+    for (int i = 0; i < 3; ++i) {
+      const Vector3d d = step * Vector3d::Unit(i);
+      const double over_a = (stored(a + d, b) - stored(a - d, b)) / (2 * step);
+      const double over_b = (stored(a, b + d) - stored(a, b - d)) / (2 * step);
+      EXPECT_NEAR(e.on_a[i], -over_a, (1 + e.stored + e.on_a.norm()) * difference);
+      EXPECT_NEAR(e.on_b[i], -over_b, (1 + e.stored + e.on_b.norm()) * difference);
+    }
+  }
+}
+
+// Except for what acts from outside: that leaves marker a alone.
+TEST_P(ForceContract, ItsTwoWrenchesCancel) {
+  for (int n = 0; n < draws; ++n) {
+    const auto [a, b] = draw_.poses();
+    const ForceEffect e =
+        evaluate(force_, moving(a, draw_.rates()), moving(b, draw_.rates()), draw_.within(-3, 3));
+    if (!GetParam().internal) {
+      EXPECT_EQ(e.on_a.norm(), 0);
+      continue;
+    }
+    const double terms = 1 + e.on_a.norm();
+    EXPECT_LT((e.on_a + e.on_b).head<2>().norm(), terms * rounding);
+    EXPECT_LT(std::abs(moment(a, e.on_a) + moment(b, e.on_b)), 10 * terms * rounding);
+  }
+}
+
+TEST(PointForce, TurnsWithItsBodyOnlyIfItFollows) {
+  const double t = 0.4, turn = 2.1;
+  const Vector3d at(0.2, -0.5, 3.0);
+  const MarkerMotion still = moving({0, 0, 0}, {0, 0, 0}), b = moving(at, {0, 0, 0}),
+                     turned = moving(at + Vector3d(0, 0, turn), {0, 0, 0});
+  const Force fixed = PointForce{0, 1, sine, steady, false};
+  EXPECT_EQ(evaluate(fixed, still, b, t).on_b, Wrench(sine(t).value, steady(t).value, 0));
+  EXPECT_EQ(evaluate(fixed, still, turned, t).on_b, evaluate(fixed, still, b, t).on_b);
+
+  const Force follower = PointForce{0, 1, sine, steady, true};
+  const Vector2d law(sine(t).value, steady(t).value);
+  const auto along = [&](double angle) -> Vector2d { return Eigen::Rotation2Dd(angle) * law; };
+  EXPECT_LT((evaluate(follower, still, b, t).on_b.head<2>() - along(at[2])).norm(), rounding);
+  EXPECT_LT((evaluate(follower, still, turned, t).on_b.head<2>() - along(at[2] + turn)).norm(),
+            rounding);
+}
+
+TEST(Spring, OfNoLengthGivesNoForce) {
+  const MarkerMotion here = moving({0.1, 0.2, 0}, {1, 2, 3});
+  const ForceEffect e = evaluate(Spring{0, 1, 40, 3, 0.5}, here, here, 0);
+  EXPECT_EQ(e.on_a.norm() + e.on_b.norm() + e.dissipation, 0);
+  EXPECT_DOUBLE_EQ(e.stored, 0.5 * 40 * 0.25);
+}
+
+// ---- in a system: the power that reaches the bodies, the ground taking none -------------------
+
+enum class Sides { bodies, ground_a, ground_b };
+
+class ForceBetween : public testing::TestWithParam<std::tuple<Kind, Sides>> {};
+
+TEST_P(ForceBetween, PowerOnTheBodiesGoesWhereItSays) {
+  const auto& [kind, sides] = GetParam();
+  System system;
+  system.bodies = {{"first", 2.0, 0.3}, {"second", 0.7, 0.05}};
+  system.markers = {{0, {0.3, -0.2}, 0.9}, {1, {-0.25, 0.4}, -2.2}};
+  if (sides != Sides::bodies)
+    system.markers[sides == Sides::ground_a ? 0 : 1] = {ground, {0.15, -0.1}, 0.9};
+  system.forces = {kind.force};
+  system.force_names = {kind.name};
+  number(system);
+  Equations eq(system);
+  VectorXd dy(system.n_y());
+  const int n_q = system.n();
+  Draw draw(13);
+  for (int n = 0; n < draws; ++n) {
+    State s;
+    s.t = 0.3;
+    s.y.setZero(system.n_y());
+    const auto [p, q] = draw.poses();
+    s.y.head<6>() << p, q;
+    s.y.segment<3>(n_q) = draw.rates();
+    s.y.segment<3>(n_q + 3) = draw.rates();
+    const auto stored_after = [&](double t) {
+      State later = s;
+      later.y.head(n_q) += t * s.y.segment(n_q, n_q);
+      evaluate(system, later, eq, dy);
+      return eq.force[0].stored;
+    };
+    const double rate = (stored_after(step) - stored_after(-step)) / (2 * step);
+    evaluate(system, s, eq, dy);
+    if ((eq.motion[0].r - eq.motion[1].r).norm() < 0.3) continue;
+    const ForceEffect& e = eq.force[0];
+    const double terms = 1 + std::abs(e.input) + e.dissipation + std::abs(rate) + e.stored;
+    EXPECT_NEAR(eq.f.dot(s.y.segment(n_q, n_q)), e.input - e.dissipation - rate,
+                terms * difference)
+        << "draw " << n;
+  }
+}
+
+// ---- the contact pair -------------------------------------------------------------------------
+
+struct Touching {
+  ContactPair pair;
+  Vector3d journal, bearing, journal_rate, bearing_rate;  // poses and their rates
+  double impact_rate;
+};
+
+// Overlaps over decades, sinking in, leaving, and leaving fast enough for the force to be clamped.
+std::vector<Touching> overlaps(std::optional<Ambrosio> friction) {
+  std::vector<Touching> out;
+  Draw draw(17);
+  for (double depth : {1e-8, 1e-6, 1e-4})
+    for (double chi : {0.0, 0.6})
+      for (double clearance : {1e-5, 1e-3})
+        for (int n = 0; n < 12; ++n) {
+          Touching c;
+          c.pair = {0, 1, {0.02 - clearance, 0.02}, {1e9, 1.5, chi}, friction};
+          c.bearing << 0, 0, draw.within(-12, 12);  // far from the origin, depth loses its digits
+          c.journal = draw.pose();
+          const double angle = draw.within(-M_PI, M_PI);
+          c.journal.head<2>() = c.bearing.head<2>() + (clearance + depth) * Vector2d(std::cos(angle),
+                                                                                  std::sin(angle));
+          c.bearing_rate = draw.rates();
+          c.journal_rate = c.bearing_rate + 0.3 * draw.rates();
+          c.impact_rate = draw.within(0.05, 0.6);
+          out.push_back(c);
+        }
+  return out;
+}
+ContactEffect effect_after(const Touching& c, double t) {
+  return evaluate(c.pair, moving(c.journal + t * c.journal_rate, c.journal_rate),
+                  moving(c.bearing + t * c.bearing_rate, c.bearing_rate), c.impact_rate);
+}
+
+TEST(ContactPair, PowerGoesToStorageHysteresisAndFriction) {
+  for (const bool rough : {false, true})
+    for (const Touching& c :
+         overlaps(rough ? std::optional<Ambrosio>({0.3, 1e-3, 1e-2}) : std::nullopt)) {
+      const ContactEffect e = effect_after(c, 0);
+      ASSERT_GT(e.gap.depth, 0);
+      const double power = e.on_journal.dot(c.journal_rate) + e.on_bearing.dot(c.bearing_rate);
+      const double h = 1e-4 * e.gap.depth;  // rates below 1 m/s: 1e-8 cut-off
+      const double rate =
+          (effect_after(c, h).normal.stored - effect_after(c, -h).normal.stored) / (2 * h);
+      const double terms = std::abs(rate) + e.normal.dissipation + std::abs(e.friction_loss) +
+                           e.normal.force * std::abs(e.gap.rate);
+      // Rounding: 1e-16 of a clearance, 1e5 depths, over the change of depth, 1e-5 of it.
+      EXPECT_NEAR(power, -rate - e.normal.dissipation - e.friction_loss, terms * 2e-6);
+    }
+}
+
+TEST(ContactPair, OnlyLoses) {
+  for (const Touching& c : overlaps(Ambrosio{0.3, 1e-3, 1e-2})) {
+    const ContactEffect e = effect_after(c, 0);
+    EXPECT_GE(e.normal.dissipation, 0);
+    EXPECT_GE(e.friction_loss, 0);
+    EXPECT_GE(e.normal.force, 0);
+  }
+}
+
+// The two surface points are `depth` apart, so friction T leaves the couple depth·T and no more.
+TEST(ContactPair, ForcesAreOppositeAndMomentsUpToTheOverlap) {
+  for (const Touching& c : overlaps(Ambrosio{0.3, 1e-3, 1e-2})) {
+    const ContactEffect e = effect_after(c, 0);
+    EXPECT_EQ((e.on_journal + e.on_bearing).head<2>().norm(), 0);
+    const double couple = moment(c.journal, e.on_journal) + moment(c.bearing, e.on_bearing);
+    EXPECT_NEAR(couple, e.gap.depth * e.friction, 10 * rounding * (1 + e.normal.force));
+  }
+}
+
+TEST(ContactPair, ActsOnlyOnceLatchedAndOverlapping) {
+  Touching c = overlaps(std::nullopt).front();
+  c.impact_rate = 0;
+  EXPECT_EQ(effect_after(c, 0).on_journal.norm(), 0);
+  c.impact_rate = 0.1;
+  c.journal.head<2>() = c.bearing.head<2>();
+  const ContactEffect e = effect_after(c, 0);
+  EXPECT_EQ(e.on_journal.norm() + e.on_bearing.norm() + e.normal.stored, 0);
+  EXPECT_DOUBLE_EQ(e.gap.depth, -c.pair.gap.clearance());
+}
+
+std::string kind_name(const testing::TestParamInfo<Kind>& info) {
+  return info.param.name;
+}
+std::string case_name(const testing::TestParamInfo<std::tuple<Kind, Sides>>& info) {
+  const char* sides[] = {"TwoBodies", "GroundFirst", "GroundSecond"};
+  return std::string(std::get<0>(info.param).name) +
+         sides[static_cast<int>(std::get<1>(info.param))];
+}
+INSTANTIATE_TEST_SUITE_P(Each, ForceContract, testing::ValuesIn(kinds), kind_name);
+INSTANTIATE_TEST_SUITE_P(Each, ForceBetween,
+                         testing::Combine(testing::ValuesIn(kinds),
+                                          testing::Values(Sides::bodies, Sides::ground_a,
+                                                          Sides::ground_b)),
+                         case_name);
+
+TEST(ForceContract, EveryKindSitsTheExam) {
+  std::vector<std::size_t> seen;
+  for (const Kind& kind : kinds) seen.push_back(kind.force.index());
+  std::sort(seen.begin(), seen.end());
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+  EXPECT_EQ(seen.size(), std::variant_size_v<Force>);
+}
+
+}  // namespace
+}  // namespace pintle

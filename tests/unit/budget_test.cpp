@@ -1,0 +1,361 @@
+// Facts about cost that do not depend on the machine: counts, no times. An executable of its own,
+// because it counts every allocation of the process.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "framework/integration/constraints.h"
+#include "framework/run/assemble.h"
+
+// ---- the counter: malloc and its kin, which operator new, Eigen and C libraries all end in ------
+
+namespace {
+std::atomic<bool> counting{false};
+std::atomic<long> allocations{0};
+void note() {
+  if (counting.load(std::memory_order_relaxed)) ++allocations;
+}
+}  // namespace
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define PINTLE_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || \
+    __has_feature(memory_sanitizer)
+#define PINTLE_SANITIZED 1
+#endif
+#endif
+
+#if defined(PINTLE_SANITIZED)  // owns malloc, and offers a hook
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t),
+                                                         void (*)(const volatile void*));
+[[maybe_unused]] const int hooked = __sanitizer_install_malloc_and_free_hooks(
+    [](const volatile void*, std::size_t) { note(); }, [](const volatile void*) {});
+#elif defined(__GLIBC__)
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
+void* malloc(std::size_t size) noexcept {
+  note();
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) noexcept {
+  note();
+  return __libc_calloc(count, size);
+}
+void* realloc(void* old, std::size_t size) noexcept {
+  note();
+  return __libc_realloc(old, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+  note();
+  return __libc_memalign(alignment, size);
+}
+}
+#else  // no malloc to stand in for; operator new sees most
+void* operator new(std::size_t size) {
+  note();
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+#endif
+
+namespace pintle {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+// Allocations while f runs.
+template <class F>
+long allocated(F f) {
+  allocations = 0;
+  counting = true;
+  f();
+  counting = false;
+  return allocations;
+}
+
+TEST(AllocationCounter, SeesNewMallocAndEigen) {
+  const std::size_t size = 1000 + static_cast<std::size_t>(std::rand() % 2);
+  std::unique_ptr<std::vector<double>> made;
+  void* block = nullptr;
+  VectorXd x;
+  EXPECT_EQ(allocated([] {}), 0);
+  EXPECT_GE(allocated([&] { made = std::make_unique<std::vector<double>>(size); }), 2);
+  EXPECT_GE(allocated([&] { block = std::malloc(size); }), 1);
+  EXPECT_GE(allocated([&] { x.setZero(static_cast<Eigen::Index>(size)); }), 1);
+  std::free(block);
+}
+
+// ---- the slider-crank, as a scene ---------------------------------------------------------------
+
+SceneBody rod(const std::string& name, double length, Pair at, double angle) {
+  SceneBody b;
+  b.name = name;
+  b.mass = 2 * length;
+  b.inertia = b.mass * length * length / 12;
+  b.center = {length / 2, 0};
+  b.points = {{"A", {0, 0}, 0, {}}, {"B", {length, 0}, 0, {}}};
+  b.at = at;
+  b.angle = angle;
+  return b;
+}
+SceneJoint joint(const std::string& name, JointKind kind, const PointRef& a, const PointRef& b) {
+  SceneJoint j;
+  j.name = name;
+  j.kind = kind;
+  j.a = a;
+  j.b = b;
+  return j;
+}
+Scene slider_crank() {
+  Scene s;
+  s.gravity = {0, -9.81};
+  SceneBody slider;
+  slider.name = "slider";
+  slider.mass = 0.14;
+  slider.inertia = 1e-4;
+  slider.at = {0.17, 0};
+  s.bodies = {rod("crank", 0.05, {0, 0}, 0.3), rod("coupler", 0.12, {0.05, 0.01}, 0), slider};
+  s.joints = {joint("bearing", JointKind::revolute, {"ground", "", {}}, {"crank", "A", {}}),
+              joint("crank pin", JointKind::revolute, {"crank", "B", {}}, {"coupler", "A", {}}),
+              joint("gudgeon pin", JointKind::revolute, {"coupler", "B", {}}, {"slider", "", {}}),
+              joint("guide", JointKind::prismatic, {"ground", "", {}}, {"slider", "", {}})};
+  StartBody crank;
+  crank.body = "crank";
+  crank.angle = 0.3;
+  crank.speed = 50;
+  s.start_bodies = {crank};
+  return s;
+}
+void add_driver(Scene& s) {
+  SceneDriver d;
+  d.name = "motor";
+  d.a = {"ground", "", {}};
+  d.b = {"crank", "", {}};
+  d.law = {[](double t) { return Jet{0.3 + 50 * t, 50, 0}; }, "", false};
+  s.drivers = {d};
+}
+void add_springs(Scene& s) {
+  const auto law = [](double t) { return Jet{std::sin(30 * t), 0, 0}; };
+  const PointRef wall{"ground", "", {}}, slider{"slider", "", {}}, crank{"crank", "", {}};
+  s.loads = {{"spring", SceneSpring{wall, slider, 200, 2, 0.1}, {}},
+             {"coil", SceneTorsionSpring{wall, crank, 0.1, 1e-3, 0}, {}},
+             {"push", SceneForce{slider, {law, "", false}, {law, "", false}, true}, {}},
+             {"twist", SceneTorque{wall, crank, {law, "", false}}, {}}};
+}
+void add_clearance(Scene& s) {
+  SceneClearance c;
+  c.radial = 1e-4;
+  c.bearing_radius = 0.01;
+  c.bearing = "slider";
+  c.normal.stiffness = 1e10;
+  c.normal.restitution = 0.9;
+  c.friction.emplace().coefficient = 0.05;
+  s.joints[2].clearance = c;
+}
+
+TEST(Budget, RigidSliderCrankHasNineCoordinatesAndEightRows) {
+  Scene s = slider_crank();
+  const System ideal = build(s).system;
+  EXPECT_EQ(ideal.n(), 9);
+  EXPECT_EQ(ideal.n_rows(), 8);
+  EXPECT_EQ(ideal.n_z(), 0);
+  EXPECT_EQ(ideal.n_y(), 18);
+  add_clearance(s);
+  const System loose = build(s).system;
+  EXPECT_EQ(loose.n(), 9);
+  EXPECT_EQ(loose.n_rows(), 6);
+  EXPECT_EQ(loose.n_z(), 2);  // hysteresis and friction
+}
+
+// ---- allocation -----------------------------------------------------------------------------------
+
+struct Setting {
+  const char* name;
+  void (*add)(Scene&);
+};
+const Setting settings[] = {
+    {"ideal", [](Scene&) {}},
+    {"driven", add_driver},
+    {"springs", add_springs},
+    {"clearance", add_clearance},
+    {"everything",
+     [](Scene& s) {
+       add_driver(s);
+       add_springs(s);
+       add_clearance(s);
+     }},
+};
+
+// Only two things may allocate after the first steps: the list of impacts as it doubles, and
+// partitioning at the rare steps that choose a new set of coordinates.
+TEST(Budget, AdvanceDoesNotAllocateAfterTheFirstSteps) {
+  for (const Setting& setting : settings)
+    for (const char* method : {"rkf45", "dopri5"})
+      for (const char* constraints : {"projection", "partitioning"}) {
+        SCOPED_TRACE(std::string(setting.name) + " " + method + " " + constraints);
+        Scene scene = slider_crank();
+        setting.add(scene);
+        scene.run.method = method;
+        scene.run.constraints = constraints;
+        const Model model = build(scene);
+        Integrator run(model.system, model.scheme, assemble(scene, model).start);
+        for (int i = 0; i < 5; ++i) ASSERT_TRUE(run.advance(10));
+        long in_steps = 0, at_impacts = 0;
+        std::size_t begun = 0;
+        for (int i = 0; i < 3000; ++i) {
+          const std::size_t impacts = run.impacts().size();
+          const long choices = run.counts().partitions;
+          bool going = false;
+          const long count = allocated([&] { going = run.advance(10); });
+          ASSERT_TRUE(going) << run.failure();
+          if (run.counts().partitions > choices) continue;
+          if (run.impacts().size() > impacts) {
+            ++begun;
+            at_impacts += count;
+          } else {
+            in_steps += count;
+          }
+        }
+        EXPECT_EQ(in_steps, 0);
+        if (model.system.contacts.empty()) continue;
+        EXPECT_GT(begun, 3u) << "no impact, no exam";
+        EXPECT_LE(at_impacts, 2 + std::log2(static_cast<double>(run.impacts().size())));
+      }
+}
+
+TEST(Budget, SamplingDoesNotAllocate) {
+  Scene scene = slider_crank();
+  add_springs(scene);
+  add_clearance(scene);
+  const Model model = build(scene);
+  Integrator run(model.system, model.scheme, assemble(scene, model).start);
+  State out;
+  const auto sample = [&] {
+    const Step& last = run.last();
+    return run.sample(last.from.state.t + 0.5 * last.h, out);
+  };
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(run.advance(10) && sample());
+  for (int i = 0; i < 200; ++i) {
+    run.restore();
+    ASSERT_TRUE(run.advance(10));
+    bool settled = false;
+    EXPECT_EQ(allocated([&] { settled = sample(); }), 0);
+    EXPECT_TRUE(settled);
+  }
+}
+
+// Both pairs need six new evaluations a step; a seventh is taken over from the step before.
+TEST(Budget, AStepTakesSixEvaluations) {
+  for (const char* method : {"rkf45", "dopri5"}) {
+    Scene scene = slider_crank();
+    scene.run.method = method;
+    const Model model = build(scene);
+    Integrator run(model.system, model.scheme, assemble(scene, model).start);
+    const Counts before = run.counts();
+    for (int i = 0; i < 500; ++i) ASSERT_TRUE(run.advance(10));
+    const Counts after = run.counts();
+    EXPECT_EQ(after.evaluations - before.evaluations,
+              6 * (after.steps + after.rejected - before.steps - before.rejected));
+    // A factorization an evaluation, and up to three more where the end is projected.
+    EXPECT_LE(after.factorizations - before.factorizations,
+              1.5 * static_cast<double>(after.evaluations - before.evaluations));
+  }
+}
+
+// ---- many rows --------------------------------------------------------------------------------------
+
+// Rods of length 0.1 hung in a row, angles and spins at random but the same each time.
+struct Chain {
+  System system;
+  State state;
+};
+Chain chain(int links) {
+  constexpr double half = 0.05, m = 0.2, J = m * 0.01 / 12;
+  Chain c;
+  c.system.gravity = {0.3, -9.81};
+  c.system.markers.push_back({});
+  for (int i = 0; i < links; ++i) {
+    c.system.bodies.push_back({"link", m, J});
+    c.system.markers.push_back({i, {-half, 0}, 0});
+    c.system.markers.push_back({i, {half, 0}, 0});
+    c.system.joints.emplace_back(Revolute{2 * i, 2 * i + 1});
+    c.system.joint_names.push_back("pin");
+  }
+  c.system.length = half;
+  number(c.system);
+  c.state.y.setZero(c.system.n_y());
+  Vector2d end(0, 0), end_rate(0, 0);
+  for (int i = 0; i < links; ++i) {
+    const double angle = 1.5 * std::sin(3.0 * i), spin = 2 * std::cos(5.0 * i);
+    const Vector2d u(std::cos(angle), std::sin(angle));
+    c.state.y.segment<3>(3 * i) << end + half * u, angle;
+    c.state.y.segment<3>(c.system.n() + 3 * i) << end_rate + half * spin * perp(u), spin;
+    end += 2 * half * u;
+    end_rate += 2 * half * spin * perp(u);
+  }
+  return c;
+}
+
+// [M Cqᵀ; Cq 0] [a; λ] = [f; γ], written down for this chain alone and solved densely.
+VectorXd reference_accelerations(const Chain& c) {
+  constexpr double half = 0.05;
+  const int n = c.system.n(), rows = c.system.n_rows();
+  MatrixXd K = MatrixXd::Zero(n + rows, n + rows);
+  VectorXd r = VectorXd::Zero(n + rows);
+  for (int i = 0; i < n / 3; ++i) {
+    const Body& b = c.system.bodies[static_cast<std::size_t>(i)];
+    K.diagonal().segment<3>(3 * i) << b.m, b.m, b.J;
+    r.segment<2>(3 * i) = b.m * c.system.gravity;
+    const double angle = c.state.y[3 * i + 2], spin = c.state.y[n + 3 * i + 2];
+    const Vector2d u = half * Vector2d(std::cos(angle), std::sin(angle));
+    // Pin i: r_i − u − (r_j + u_j) = 0; its second derivative holds +spin² u + spin_j² u_j.
+    const int row = n + 2 * i;
+    K.block<2, 2>(row, 3 * i).setIdentity();
+    K.block<2, 1>(row, 3 * i + 2) = -perp(u);
+    r.segment<2>(row) -= spin * spin * u;
+    if (i + 1 < n / 3) {
+      K.block<2, 2>(row + 2, 3 * i) = -MatrixXd::Identity(2, 2);
+      K.block<2, 1>(row + 2, 3 * i + 2) = -perp(u);
+      r.segment<2>(row + 2) -= spin * spin * u;
+    }
+  }
+  K.topRightCorner(n, rows) = K.bottomLeftCorner(rows, n).transpose();
+  return K.partialPivLu().solve(r).head(n);
+}
+
+TEST(Schur, IsSparseAboveFortyEightRowsAndGivesTheSameAccelerations) {
+  for (int links : {1, 5, 24, 25, 60}) {
+    const Chain c = chain(links);
+    Equations eq(c.system);
+    VectorXd dy(c.system.n_y());
+    ASSERT_TRUE(evaluate(c.system, c.state, eq, dy));
+    EXPECT_EQ(eq.schur.sparse(), 2 * links > 48);
+    const VectorXd a = reference_accelerations(c);
+    // Condition number of S grows with the square of the links, 1e4 for sixty.
+    EXPECT_LT((dy.segment(c.system.n(), c.system.n()) - a).norm(), 1e-10 * a.norm()) << links;
+  }
+}
+
+}  // namespace
+}  // namespace pintle

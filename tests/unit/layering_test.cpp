@@ -1,0 +1,120 @@
+// Who may include whom: docs name the layers, this table keeps them. Leaves know mathematics, the
+// framework knows mechanics, the app knows files.
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Paths = std::vector<std::string_view>;
+
+/// A folder and whose headers it may include beside its own; paths are prefixes.
+struct Layer {
+  std::string_view folder;
+  Paths may;
+};
+const std::vector<Layer> layers{
+    {"elements/", {}},
+    {"contact/", {}},
+    {"meshes/", {}},
+    {"framework/time_law.h", {}},
+    {"framework/component/", {"elements/", "meshes/"}},
+    {"framework/dynamics/", {"contact/", "framework/component/inertia.h", "framework/time_law.h"}},
+    {"framework/integration/", {"framework/dynamics/"}},
+    {"framework/scene/", {"framework/time_law.h"}},
+    {"framework/run/", {"framework/", "contact/", "meshes/"}},
+    {"app/", {"framework/", "elements/", "contact/", "meshes/"}},
+    {"examples/", {"framework/", "elements/", "contact/", "meshes/"}},
+    {"benchmarks/", {"framework/", "elements/", "contact/", "meshes/", "tests/oracles/"}},
+    {"tests/oracles/", {}},
+    {"tests/", {"framework/", "elements/", "contact/", "meshes/", "app/"}},
+};
+
+/// A dependency, by how its headers begin, and the only files that may know it.
+struct Foreign {
+  std::string_view header;
+  Paths may;
+};
+const std::vector<Foreign> foreign{
+    {"vtk", {"framework/run/vtk.cpp", "app/picture.cpp", "tests/unit/vtk_test.cpp"}},
+    {"yaml-cpp/", {"framework/scene/", "tests/"}},
+    {"muParser", {"framework/scene/expression.cpp"}},
+    {"cholmod", {"framework/dynamics/schur.cpp", "framework/component/"}},
+    {"Eigen/CholmodSupport", {"framework/run/assemble.cpp"}},
+    {"Eigen/SPQRSupport", {"framework/run/assemble.cpp"}},
+    {"klu", {}},
+    {"umfpack", {}},
+    {"SuiteSparseQR", {}},
+    {"gmsh", {"meshes/gmsh.cpp"}},
+    {"CLI/", {"app/"}},
+    {"nlohmann/", {"framework/scene/", "framework/run/", "app/", "tests/", "benchmarks/"}},
+    {"valijson/", {"tests/"}},
+    {"gtest/", {"tests/"}},
+    {"benchmark/", {"benchmarks/"}},
+};
+
+bool starts_with_any(std::string_view path, const Paths& prefixes) {
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](std::string_view p) { return path.starts_with(p); });
+}
+
+/// @param file    path from the root   @param header  as written   @param quoted  "…" rather than
+/// <…>
+bool allowed(std::string_view file, std::string_view header, bool quoted) {
+  if (!quoted) {
+    for (const auto& f : foreign) {
+      if (header.starts_with(f.header) && !starts_with_any(file, f.may)) return false;
+    }
+    return true;
+  }
+  if (header.find('/') == std::string_view::npos) return true;  // a neighbour
+  const auto layer = std::find_if(layers.begin(), layers.end(),
+                                  [&](const Layer& l) { return file.starts_with(l.folder); });
+  if (layer == layers.end()) return false;
+  return header.starts_with(layer->folder) || starts_with_any(header, layer->may);
+}
+
+TEST(Layering, EveryIncludeIsAnEdgeOfTheTable) {
+  const fs::path root = PINTLE_SOURCE_DIR;
+  const std::regex include(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
+  int seen = 0;
+  for (const auto* folder :
+       {"elements", "contact", "meshes", "framework", "app", "examples", "benchmarks", "tests"}) {
+    if (!fs::exists(root / folder)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const auto kind = entry.path().extension();
+      const std::string file = entry.path().lexically_relative(root).generic_string();
+      if ((kind != ".h" && kind != ".cpp") || file.starts_with("tests/consumer/")) continue;
+      std::ifstream in(entry.path());
+      int number = 1;
+      for (std::string line; std::getline(in, line); ++number) {
+        std::smatch match;
+        if (!std::regex_search(line, match, include)) continue;
+        ++seen;
+        EXPECT_TRUE(allowed(file, match.str(2), match.str(1) == "\""))
+            << file << ":" << number << ": may not include " << match.str(2);
+      }
+    }
+  }
+  EXPECT_GT(seen, 100) << "the scan has missed the sources";
+}
+
+TEST(Layering, TheTableForbidsWhatItShould) {
+  EXPECT_FALSE(allowed("contact/gap.h", "framework/dynamics/marker.h", true));
+  EXPECT_FALSE(allowed("framework/dynamics/joints.cpp", "framework/component/fe_model.h", true));
+  EXPECT_FALSE(allowed("framework/integration/step.cpp", "framework/scene/scene.h", true));
+  EXPECT_FALSE(allowed("tests/oracles/pendulum.h", "contact/gap.h", true));
+  EXPECT_FALSE(allowed("framework/run/simulate.cpp", "vtkPoints.h", false));
+  EXPECT_FALSE(allowed("framework/run/build.cpp", "yaml-cpp/yaml.h", false));
+  EXPECT_TRUE(allowed("framework/run/build.cpp", "framework/dynamics/system.h", true));
+}
+
+}  // namespace

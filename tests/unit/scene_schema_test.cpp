@@ -1,0 +1,274 @@
+// Holds docs/scene.schema.json against the reader: the same keys, the same choices, the same
+// verdicts.
+#include <gtest/gtest.h>
+
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "contact/normal_law.h"
+#include "framework/scene/keys.h"
+#include "framework/scene/reader.h"
+
+namespace pintle {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+const Json& schema_json() {
+  static const Json json =
+      Json::parse(std::ifstream(fs::path(PINTLE_SOURCE_DIR) / "docs/scene.schema.json"));
+  return json;
+}
+
+// Every schema that may apply where `schema` does: itself, what it refers to, and its alternatives.
+void collect(const Json& schema, std::vector<const Json*>& out) {
+  out.push_back(&schema);
+  if (schema.contains("$ref")) {
+    const std::string name =
+        schema["$ref"].get<std::string>().substr(std::string("#/definitions/").size());
+    collect(schema_json()["definitions"][name], out);
+  }
+  for (const char* word : {"allOf", "anyOf", "oneOf"})
+    if (schema.contains(word))
+      for (const Json& part : schema[word]) collect(part, out);
+}
+
+std::vector<const Json*> alternatives(const std::vector<const Json*>& schemas) {
+  std::vector<const Json*> out;
+  for (const Json* schema : schemas) collect(*schema, out);
+  return out;
+}
+
+// The schemas one key deeper; * takes whatever name is given.
+std::vector<const Json*> inside(const std::vector<const Json*>& schemas, const std::string& key) {
+  std::vector<const Json*> out;
+  for (const Json* schema : schemas) {
+    const bool any = key == "*";
+    if (schema->contains("properties"))
+      for (const auto& [name, value] : (*schema)["properties"].items())
+        if (any || name == key) out.push_back(&value);
+    if (any && schema->contains("additionalProperties") &&
+        (*schema)["additionalProperties"].is_object())
+      out.push_back(&(*schema)["additionalProperties"]);
+  }
+  return alternatives(out);
+}
+
+std::vector<const Json*> schemas_at(const std::string& path) {
+  std::vector<const Json*> at = alternatives({&schema_json()});
+  for (std::size_t begin = 0; begin < path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    at = inside(at, path.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return at;
+}
+
+std::set<std::string> keys_in(const std::vector<const Json*>& schemas) {
+  std::set<std::string> out;
+  for (const Json* schema : schemas)
+    if (schema->contains("properties"))
+      for (const auto& [name, value] : (*schema)["properties"].items()) out.insert(name);
+  return out;
+}
+
+// Required by every alternative that has keys at all.
+bool required_in(const std::vector<const Json*>& schemas, const std::string& key) {
+  return std::ranges::all_of(schemas, [&](const Json* schema) {
+    if (!schema->contains("properties")) return true;
+    const Json list = schema->value("required", Json::array());
+    return std::any_of(list.begin(), list.end(), [&](const Json& word) { return word == key; });
+  });
+}
+
+TEST(SceneSchema, KnowsExactlyTheKeysOfTheReader) {
+  for (const KeyTable& table : key_tables()) {
+    std::set<std::string> known;
+    for (const Key& key : table.keys) known.insert(key.name);
+    EXPECT_EQ(keys_in(schemas_at(table.path)), known) << "at \"" << table.path << "\"";
+  }
+}
+
+TEST(SceneSchema, RequiresExactlyWhatTheReaderRequires) {
+  for (const KeyTable& table : key_tables())
+    for (const Key& key : table.keys)
+      EXPECT_EQ(required_in(schemas_at(table.path), key.name), key.required)
+          << table.path << "." << key.name;
+}
+
+TEST(SceneSchema, OffersExactlyTheChoicesOfTheReader) {
+  for (const KeyTable& table : key_tables())
+    for (const Key& key : table.keys) {
+      std::set<std::string> offered;
+      for (const Json* schema : inside(schemas_at(table.path), key.name)) {
+        if (schema->contains("enum"))
+          for (const Json& word : (*schema)["enum"]) offered.insert(word.get<std::string>());
+        if (schema->value("type", Json()) == "boolean") offered = {"false", "true"};
+      }
+      EXPECT_EQ(offered, std::set<std::string>(key.choices.begin(), key.choices.end()))
+          << table.path << "." << key.name;
+    }
+}
+
+TEST(SceneSchema, OffersExactlyTheNormalLawsOfContact) {
+  std::set<std::string> known;
+  for (const ImpactFactor& factor : impact_factors()) known.emplace(factor.name);
+  EXPECT_EQ(keys_in(schemas_at("joints.*.clearance.normal")), known);
+}
+
+// Groups of the schema that no table of the reader describes would be keys it does not know.
+void count_groups(const Json& schema, std::set<const Json*>& groups) {
+  std::vector<const Json*> here;
+  collect(schema, here);
+  for (const Json* part : here) {
+    if (part->contains("properties") && !groups.insert(part).second) continue;
+    if (part->contains("properties"))
+      for (const auto& [name, value] : (*part)["properties"].items()) count_groups(value, groups);
+    for (const char* word : {"additionalProperties", "items"})
+      if (part->contains(word) && (*part)[word].is_object()) count_groups((*part)[word], groups);
+  }
+}
+
+TEST(SceneSchema, HasNoGroupTheReaderLacks) {
+  std::set<const Json*> all, seen;
+  count_groups(schema_json(), all);
+  for (const KeyTable& table : key_tables())
+    for (const Json* schema : schemas_at(table.path))
+      if (schema->contains("properties")) seen.insert(schema);
+  for (const Json* group : all) {
+    const bool names_laws = (*group)["properties"].contains("hertz");
+    EXPECT_TRUE(names_laws || seen.contains(group)) << group->dump().substr(0, 200);
+  }
+}
+
+// The tree as an editor sees it: plain scalars that are JSON numbers or truths become those.
+Json as_json(const Yaml& yaml) {
+  switch (yaml.kind) {
+    case Yaml::Kind::nothing:
+      return nullptr;
+    case Yaml::Kind::scalar: {
+      const Json value = Json::parse(yaml.text, nullptr, false);
+      return value.is_number() || value.is_boolean() ? value : Json(yaml.text);
+    }
+    case Yaml::Kind::list: {
+      Json list = Json::array();
+      for (const Yaml& item : yaml.items) list.push_back(as_json(item));
+      return list;
+    }
+    case Yaml::Kind::map:
+      break;
+  }
+  Json map = Json::object();
+  for (const Yaml& entry : yaml.items) map[entry.key] = as_json(entry);
+  return map;
+}
+
+// Empty if the schema accepts the scene.
+std::string verdict(const std::string& text) {
+  valijson::Schema schema;
+  valijson::SchemaParser parser;
+  parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_json()), schema);
+  const Json scene = as_json(parse_yaml(text, "scene"));
+  valijson::ValidationResults results;
+  const valijson::adapters::NlohmannJsonAdapter target(scene);
+  if (valijson::Validator().validate(schema, target, &results)) return {};
+  std::string out = "refused";
+  for (valijson::ValidationResults::Error error; results.popError(error);) {
+    out += "; ";
+    for (const std::string& part : error.context) out += part;
+    out += ": " + error.description;
+  }
+  return out;
+}
+
+const std::string base = R"(
+parameters: {c: 0.1 mm}
+ground: {points: {C: [0, 1], D: {at: [0, 0], angle: 1}}}
+bodies:
+  crank: {rigid: {mass: 1 kg, inertia: 0.1, center: [0, 0]}, points: {A: [10 mm, 0]}, pose: {at: [0, 0], angle: 1}}
+joints:
+  pin: {revolute: [ground, crank.A], clearance: {radial: c, bearing radius: 1 cm, bearing: crank,
+        normal: {flores: {restitution: 0.5, young: 2e11, poisson: 0.3, radii: external,
+                          journal: {young: 1 GPa, poisson: 0.2}}},
+        friction: {ambrosio: {coefficient: 0.1, v0: 0.001, v1: 0.01, sliding: geometric}}}}
+  rod: {distance: [ground, crank], length: 1}
+  track: {slot: [ground, crank]}
+drivers: {motor: {angle: [ground, crank], law: 3*t}, jack: {distance: [ground, crank], law: 1 + t}}
+forces:
+  load: {force: [0, 1 N], at: crank.A, follows: true}
+  brake: {torque: 3, on: crank, from: ground}
+  coil: {spring: [ground, crank], stiffness: 10, free length: 0}
+  pot: {spring: [ground, crank], damping: 10}
+  hair: {torsion spring: [ground, crank], stiffness: 10, free angle: 1}
+start: {crank: {at: [0, 0], vx: 1, speed: 2}, pin: {eccentricity: [0, 0], speed: [0, 1]}}
+run: {until: 1, method: dopri5, constraints: partitioning, onset: {cut: 1 nm}, max steps: 10}
+output: {every: 0.1, frames: 3, exaggerate: 2}
+)";
+
+TEST(SceneSchema, AcceptsWhatTheReaderAccepts) {
+  EXPECT_EQ(verdict(base), "");
+  const Scene scene = read_scene_text(base, "base");
+  EXPECT_EQ(verdict(scene.filled_in), "") << scene.filled_in;
+}
+
+TEST(SceneSchema, AcceptsEveryExample) {
+  for (const auto& entry :
+       fs::recursive_directory_iterator(fs::path(PINTLE_SOURCE_DIR) / "examples")) {
+    if (entry.path().extension() != ".yaml") continue;
+    std::ifstream in(entry.path());
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    EXPECT_EQ(verdict(text), "") << entry.path();
+    EXPECT_NO_THROW(read_scene(entry.path())) << entry.path();
+  }
+}
+
+TEST(SceneSchema, RefusesWithTheReader) {
+  const std::vector<std::pair<std::string, std::string>> spoiled{
+      {"mass: 1 kg", "mas: 1 kg"},
+      {"mass: 1 kg", "mass: -1 kg"},
+      {"mass: 1 kg, ", ""},
+      {"mass: 1 kg", "mass: [1, 2]"},
+      {"[10 mm, 0]", "[10 mm, 0, 0]"},
+      {"revolute: [ground", "revolt: [ground"},
+      {"length: 1}", "angle: 1}"},
+      {"length: 1}", "length: 1, slot: [ground, crank]}"},
+      {"restitution: 0.5", "restitution: 1.5"},
+      {"flores", "hertz"},
+      {"radii: external", "radii: outer"},
+      {"geometric", "geometrical"},
+      {"young: 2e11, ", ""},
+      {"young: 2e11", "stiffness: 1, young: 2e11"},
+      {"law: 3*t", "low: 3*t"},
+      {"law: 3*t", "law: {file: a.csv}"},
+      {"follows: true", "follows: 3"},
+      {", at: crank.A", ""},
+      {", free length: 0", ""},
+      {"damping: 10", "stiffness: 0"},
+      {"at: [0, 0], vx", "at: [0, 0], x: 1, vx"},
+      {"until: 1", "until: 0"},
+      {"method: dopri5", "method: euler"},
+      {"{cut: 1 nm}", "later"},
+      {"frames: 3", "frames: -3"},
+      {"max steps: 10", "max steps: 1.5"},
+      {"output:", "outputs:"},
+      {"crank.A]", "crank.A.B]"}};
+  for (const auto& [from, to] : spoiled) {
+    std::string text = base;
+    ASSERT_NE(text.find(from), std::string::npos) << from;
+    text.replace(text.find(from), from.size(), to);
+    EXPECT_THROW(read_scene_text(text, "spoiled"), SceneError) << to;
+    EXPECT_NE(verdict(text), "") << to;
+  }
+}
+
+}  // namespace
+}  // namespace pintle
