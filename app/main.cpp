@@ -77,17 +77,6 @@ fs::path free_directory(const fs::path& scene) {
   return path;
 }
 
-[[nodiscard]] std::string redundancy_message(const Scene& scene, const System& system, const Assembly& a) {
-  const Redundancy& r = a.redundant.front();
-  std::string message = scene.file + ": joints: " + row_text(system, r.joint, r.row) +
-                        " repeats what other joints already hold";
-  std::string others;
-  for (int k : r.implied_by)
-    if (k != r.joint) others += (others.empty() ? "\"" : ", \"") + system.joint_names[static_cast<std::size_t>(k)] + "\"";
-  if (!others.empty()) message += " (" + others + ")";
-  return message + "; remove it, or replace one of them by a looser joint (slot, clearance)";
-}
-
 void print_check(const Scene& scene, const Model& model, const Assembly& a) {
   const System& s = model.system;
   std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
@@ -180,20 +169,15 @@ int check(const Options& options) {
     std::cout << check_json(scene, model, assembly);
   else
     print_check(scene, model, assembly);
-  if (assembly.redundant.empty()) return ok;
-  throw AssemblyError(redundancy_message(scene, model.system, assembly));
+  refuse_redundancy(scene, model, assembly);
+  return ok;
 }
 
 int run(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
   const Model model = build(scene);
-  Assembly assembly;
-  try {
-    assembly = assemble(scene, model);
-  } catch (const AssemblyError& e) {
-    throw AssemblyError(scene.file + ": " + e.what());
-  }
-  if (!assembly.redundant.empty()) throw AssemblyError(redundancy_message(scene, model.system, assembly));
+  const Assembly assembly = assemble(scene, model);
+  refuse_redundancy(scene, model, assembly);
 
   const fs::path out = options.out.empty() ? free_directory(options.scene) : fs::path(options.out);
   ResultsDirectory results(out);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include <Eigen/CholmodSupport>
@@ -20,7 +21,25 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// The rows to be closed at the start: the joints, and two for each clearance joint.
+/// A coordinate of a body's origin, or its rate, that the scene gives.
+struct Pin {
+  int body, axis;
+  double value;  ///< [m] or [m/s]
+};
+
+/// Where the scene says something of this name.
+Place place_of(const Scene& scene, const std::string& name) {
+  for (const SceneJoint& j : scene.joints)
+    if (j.name == name) return j.place;
+  for (const SceneDriver& d : scene.drivers)
+    if (d.name == name) return d.place;
+  for (const StartBody& s : scene.start_bodies)
+    if (s.body == name) return s.place;
+  return {};
+}
+
+/// The rows to be closed at the start: the joints, two for each clearance joint, and what the scene
+/// pins of the origins of bodies: their places first, then, for the speeds, their rates.
 class Closure {
  public:
   Closure(const Scene& scene, const System& system)
@@ -36,7 +55,8 @@ class Closure {
     }
   }
 
-  Index rows() const { return system_.n_rows() + 2 * static_cast<Index>(offset_.size()); }
+  void pin(std::vector<Pin> pins) { pins_ = std::move(pins); }
+  Index rows() const { return first_pin() + static_cast<Index>(pins_.size()); }
 
   /// C and, if asked, its Jacobian; lengths over the mechanism's length.
   VectorXd violation(const VectorXd& y, Sparse* J = nullptr) {
@@ -48,7 +68,11 @@ class Closure {
       C.segment<2>(first(c)) = (eq_.motion[at(pair.journal)].r - eq_.motion[at(pair.bearing)].r - offset_[c]) /
                                system_.length;
     }
-    if (J) jacobian(*J);
+    for (std::size_t p = 0; p < pins_.size(); ++p) {
+      const Pin& pin = pins_[p];
+      C[first_pin() + static_cast<Index>(p)] = (y[3 * pin.body + pin.axis] + arm(y, pin)[pin.axis] - pin.value) / system_.length;
+    }
+    if (J) jacobian(y, *J);
     return C;
   }
 
@@ -63,15 +87,19 @@ class Closure {
       D.segment<2>(first(c)) = (eq_.motion[at(pair.journal)].v - eq_.motion[at(pair.bearing)].v - drift_[c]) /
                                system_.length;
     }
+    for (std::size_t p = 0; p < pins_.size(); ++p) {
+      const Pin& pin = pins_[p];
+      const double* s = y.data() + system_.n() + 3 * pin.body;
+      D[first_pin() + static_cast<Index>(p)] = (s[pin.axis] + s[2] * perp(arm(y, pin))[pin.axis] - pin.value) / system_.length;
+    }
     return D;
   }
 
-  /// The joint or clearance that a row belongs to, in words.
-  std::string name(Index row) const {
-    for (std::size_t k = 0; k < system_.joints.size(); ++k)
-      if (row < system_.row_begin[k + 1])
-        return (is_driver(system_.joints[k]) ? "driver \"" : "joint \"") + system_.joint_names[k] + "\"";
-    return "joint \"" + system_.contact_names[at(static_cast<int>((row - system_.n_rows()) / 2))] + "\"";
+  /// The joint, clearance or body that a row belongs to.
+  std::string owner(Index row) const {
+    if (const int k = joint(row); k >= 0) return system_.joint_names[at(k)];
+    if (row < first_pin()) return system_.contact_names[at(static_cast<int>((row - system_.n_rows()) / 2))];
+    return system_.bodies[at(pins_[at(static_cast<int>(row - first_pin()))].body)].name;
   }
   std::string amount(Index row, double scaled) const {
     std::ostringstream s;
@@ -91,8 +119,12 @@ class Closure {
 
  private:
   Index first(std::size_t contact) const { return system_.n_rows() + 2 * static_cast<Index>(contact); }
+  Index first_pin() const { return first(offset_.size()); }
+  Eigen::Vector2d arm(const VectorXd& y, const Pin& pin) const {
+    return Eigen::Rotation2Dd(y[3 * pin.body + 2]) * system_.bodies[at(pin.body)].x_BO;
+  }
 
-  void jacobian(Sparse& J) const {
+  void jacobian(const VectorXd& y, Sparse& J) const {
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t k = 0; k < system_.joints.size(); ++k)
       for (int side = 0; side < 2; ++side) {
@@ -117,6 +149,12 @@ class Closure {
         entries.emplace_back(row, 3 * body + 2, -sign * d.y());
         entries.emplace_back(row + 1, 3 * body + 2, sign * d.x());
       }
+    for (std::size_t p = 0; p < pins_.size(); ++p) {
+      const Pin& pin = pins_[p];
+      const auto row = static_cast<int>(first_pin() + static_cast<Index>(p));
+      entries.emplace_back(row, 3 * pin.body + pin.axis, 1 / system_.length);
+      entries.emplace_back(row, 3 * pin.body + 2, perp(arm(y, pin))[pin.axis] / system_.length);
+    }
     J.resize(rows(), system_.n());
     J.setFromTriplets(entries.begin(), entries.end());
   }
@@ -124,6 +162,7 @@ class Closure {
   const System& system_;
   Equations eq_;
   std::vector<Eigen::Vector2d> offset_, drift_;
+  std::vector<Pin> pins_;
 };
 
 /// x = W Jᵀ (J W Jᵀ + μ)⁻¹ r, the step of least |x| in the metric W⁻¹; pinned coordinates have W = 0.
@@ -144,9 +183,10 @@ VectorXd least_step(const Sparse& J, const VectorXd& W, const VectorXd& r, doubl
   return x;
 }
 
-/// Rough pose with the scene's pins in place; W is 0 for what is pinned.
+/// Rough pose, angles and spins that the scene pins in place (their W is 0), and its pins of origins.
 struct Rough {
   VectorXd y, W_pose, W_speed;
+  std::vector<Pin> places, rates;
 };
 
 Rough rough_state(const Scene& scene, const System& system) {
@@ -154,40 +194,36 @@ Rough rough_state(const Scene& scene, const System& system) {
   r.y.setZero(system.n_y());
   r.W_pose.resize(system.n());
   r.W_speed.resize(system.n());
+  std::map<std::string, const StartBody*> starts;
+  for (const StartBody& s : scene.start_bodies) starts[s.body] = &s;
+  const double area = system.length * system.length;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     const SceneBody& body = scene.bodies[b];
-    double x = body.at[0], y = body.at[1], angle = body.angle, vx = 0, vy = 0, w = 0;
     const auto i = static_cast<Index>(3 * b);
-    r.W_pose.segment<3>(i) << system.length * system.length, system.length * system.length, 1;
+    const int index = static_cast<int>(b);
+    r.W_pose.segment<3>(i) << area, area, 1;
     r.W_speed.segment<3>(i) << 1 / system.bodies[b].m, 1 / system.bodies[b].m, 1 / system.bodies[b].J;
-    for (const StartBody& s : scene.start_bodies) {
-      if (s.body != body.name) continue;
+    double x = body.at[0], y = body.at[1], angle = body.angle;
+    if (const auto found = starts.find(body.name); found != starts.end()) {
+      const StartBody& s = *found->second;
       if (s.angle) angle = *s.angle, r.W_pose[i + 2] = 0;
-      if (s.speed) w = *s.speed, r.W_speed[i + 2] = 0;
-      if (s.x) x = *s.x;
-      if (s.y) y = *s.y;
-      if (s.vx) vx = *s.vx;
-      if (s.vy) vy = *s.vy;
-      // The origin's place pins the mass centre if the two coincide or the angle is pinned too.
-      const bool same = system.bodies[b].x_BO.isZero();
-      if (s.x && (same || s.angle)) r.W_pose[i] = 0;
-      if (s.y && (same || s.angle)) r.W_pose[i + 1] = 0;
-      if (s.vx && (same || s.speed)) r.W_speed[i] = 0;
-      if (s.vy && (same || s.speed)) r.W_speed[i + 1] = 0;
+      if (s.speed) r.y[system.n() + i + 2] = *s.speed, r.W_speed[i + 2] = 0;
+      if (s.x) x = *s.x, r.places.push_back({index, 0, *s.x});
+      if (s.y) y = *s.y, r.places.push_back({index, 1, *s.y});
+      if (s.vx) r.rates.push_back({index, 0, *s.vx});
+      if (s.vy) r.rates.push_back({index, 1, *s.vy});
     }
     const Eigen::Vector2d arm = Eigen::Rotation2Dd(angle) * system.bodies[b].x_BO;
     r.y.segment<3>(i) << x - arm.x(), y - arm.y(), angle;
-    r.y.segment<3>(system.n() + i) << vx + w * arm.y(), vy - w * arm.x(), w;
   }
   return r;
 }
 
-[[noreturn]] void cannot(const std::string& what, const Closure& closure, const System& system,
-                         const VectorXd& left, const char* per) {
+[[noreturn]] void cannot(const Scene& scene, const std::string& what, const Closure& closure, const System& system,
+                         const VectorXd& left, const char* per, const char* remedy) {
   Index worst = 0;
   left.cwiseAbs().maxCoeff(&worst);
-  std::string message = closure.name(worst) + " " + what + ": " + closure.amount(worst, left[worst]) + per +
-                        " remains";
+  std::string message = what + ": " + closure.amount(worst, left[worst]) + per + " remains";
   const int joint = closure.joint(worst);
   if (joint >= 0)
     for (const Redundancy& r : redundant_rows(system, closure.equations())) {
@@ -200,12 +236,13 @@ Rough rough_state(const Scene& scene, const System& system) {
       if (!others.empty()) message += "; it contradicts " + others;
       break;
     }
-  throw AssemblyError(message);
+  throw AssemblyError(scene.file, place_of(scene, closure.owner(worst)), message + "; " + remedy);
 }
 
 // Levenberg–Marquardt on C = 0, from the rough pose.
 int close_joints(const Scene& scene, Closure& closure, const System& system, Rough& r) {
   constexpr double closed = 1e-12, acceptable = 1e-10;
+  closure.pin(r.places);
   Sparse J;
   double mu = 1e-9;
   VectorXd C = closure.violation(r.y, &J);
@@ -230,12 +267,14 @@ int close_joints(const Scene& scene, Closure& closure, const System& system, Rou
   if (C.size() > 0 && !(C.lpNorm<Eigen::Infinity>() <= acceptable)) {
     closure.violation(r.y);
     const bool pinned = !scene.start_bodies.empty();
-    cannot(pinned ? "cannot close with what `start` pins down" : "cannot close", closure, system, C, "");
+    cannot(scene, pinned ? "cannot close with what `start` pins down" : "cannot close", closure, system, C, "",
+           "check lengths and points, or give the bodies rough poses (`pose`) nearer to the wanted one");
   }
   return i;
 }
 
-void match_speeds(Closure& closure, const System& system, Rough& r) {
+void match_speeds(const Scene& scene, Closure& closure, const System& system, Rough& r) {
+  closure.pin(r.rates);
   Sparse J;
   closure.violation(r.y, &J);
   if (J.rows() == 0) return;
@@ -244,7 +283,8 @@ void match_speeds(Closure& closure, const System& system, Rough& r) {
   const VectorXd left = closure.drift(r.y);
   const double scale = std::max({D.lpNorm<Eigen::Infinity>(), r.y.tail(r.y.size() - system.n()).lpNorm<Eigen::Infinity>(), 1e-12});
   if (left.lpNorm<Eigen::Infinity>() > 1e-8 * scale)
-    cannot("cannot move as `start` and the drivers ask", closure, system, left, "/s");
+    cannot(scene, "cannot move as `start` and the drivers ask", closure, system, left, "/s",
+           "leave out a speed in `start`, or a driver");
 }
 
 int rank_of(const System& system, const Equations& eq) {
@@ -274,6 +314,20 @@ int rank_of(const System& system, const Equations& eq) {
 
 std::string row_text(const System& system, int joint, int row) {
   return "\"" + system.joint_names[at(joint)] + "\" (" + row_name(system.joints[at(joint)], row) + ")";
+}
+
+void refuse_redundancy(const Scene& scene, const Model& model, const Assembly& assembly) {
+  if (assembly.redundant.empty()) return;
+  const Redundancy& r = assembly.redundant.front();
+  const System& system = model.system;
+  std::string others;
+  for (int k : r.implied_by)
+    if (k != r.joint) others += (others.empty() ? "\"" : ", \"") + system.joint_names[at(k)] + "\"";
+  const std::string& name = system.joint_names[at(r.joint)];
+  throw AssemblyError(scene.file, place_of(scene, name),
+                      std::string("redundant: its row \"") + row_name(system.joints[at(r.joint)], r.row) +
+                          "\" repeats, at the starting pose, what " + (others.empty() ? "nothing moves" : others) +
+                          " already hold; remove it, or make one of them looser (slot, clearance)");
 }
 
 std::vector<Redundancy> redundant_rows(const System& system, const Equations& eq) {
@@ -320,7 +374,7 @@ Assembly assemble(const Scene& scene, const Model& model) {
   Assembly out;
   out.iterations = close_joints(scene, closure, system, r);
   out.moved = (r.y.head(system.n()) - before).lpNorm<Eigen::Infinity>();
-  match_speeds(closure, system, r);
+  match_speeds(scene, closure, system, r);
   out.start.t = 0;
   out.start.y = r.y;
   out.start.impact_rate.assign(system.contacts.size(), 0.0);

@@ -27,6 +27,9 @@ struct Assembly {
 /// @throws AssemblyError  naming the joint that stays open, by how much, and what it contradicts
 Assembly assemble(const Scene&, const Model&);
 
+/// @throws AssemblyError  the assembly found a redundant row; names the joint and what implies it
+void refuse_redundancy(const Scene&, const Model&, const Assembly&);
+
 /// The rows of Cq at a state that depend on rows before them.
 std::vector<Redundancy> redundant_rows(const System&, const Equations&);
 

@@ -18,4 +18,7 @@ std::string sentence(const std::string& file, const Place& place, const std::str
 SceneError::SceneError(const std::string& file, const Place& place, const std::string& message)
     : std::runtime_error(sentence(file, place, message)) {}
 
+AssemblyError::AssemblyError(const std::string& file, const Place& place, const std::string& message)
+    : std::runtime_error(sentence(file, place, message)) {}
+
 }  // namespace pintle

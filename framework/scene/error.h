@@ -14,9 +14,10 @@ struct SceneError : std::runtime_error {
   SceneError(const std::string& file, const Place& place, const std::string& message);
 };
 
-/// The mechanism cannot be put together at t = 0: names the joint and what remains open.
+/// The mechanism cannot be put together at t = 0, or holds a joint twice: names the joint, what remains
+/// open and what to do, in the form of a SceneError.
 struct AssemblyError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  AssemblyError(const std::string& file, const Place& place, const std::string& message);
 };
 
 }  // namespace pintle

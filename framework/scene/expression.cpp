@@ -140,7 +140,8 @@ std::string rewritten(const std::vector<Word>& words) {
     if (words[i].kind == Word::Kind::function && !is_function(words[i].text))
       throw ExpressionError("there is no function \"" + words[i].text + "\"." +
                             did_you_mean(words[i].text, function_names()));
-    out += words[i].kind == Word::Kind::number ? "$" + std::to_string(i) : words[i].text;
+    out +=
+        words[i].kind == Word::Kind::number ? std::to_string(i).insert(0, 1, '$') : words[i].text;
     if (words[i].kind != Word::Kind::function) out += ' ';
   }
   return out;
@@ -211,7 +212,7 @@ int build(const std::vector<Word>& words, const Parameters& parameters, Formula&
 std::string quoted(std::string_view text) {
   constexpr std::size_t shown = 60;
   const bool cut = text.size() > shown;
-  return "\"" + std::string(text.substr(0, shown)) + (cut ? "…\"" : "\"");
+  return std::string("\"").append(text.substr(0, shown)).append(cut ? "…\"" : "\"");
 }
 
 bool fits(const Quantity& q, const Dimension& expected) {

@@ -8,6 +8,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Appends without looking whether the name is there: names are unique, and a search would make a
+// large scene quadratic.
+void append(Json& object, const std::string& name, Json value) {
+  object.get_ref<Json::object_t&>().push_back({name, std::move(value)});
+}
+
 Json json(const Pair& p) {
   return Json::array({p[0], p[1]});
 }
@@ -28,7 +34,7 @@ Json json(const Law& law) {
 
 Json points(const std::vector<ScenePoint>& all) {
   Json out = Json::object();
-  for (const ScenePoint& p : all) out[p.name] = {{"at", json(p.at)}, {"angle", p.angle}};
+  for (const ScenePoint& p : all) append(out, p.name, {{"at", json(p.at)}, {"angle", p.angle}});
   return out;
 }
 
@@ -145,9 +151,9 @@ Json json(const StartBody& start) {
 
 Json starts(const Scene& scene) {
   Json out = Json::object();
-  for (const StartBody& s : scene.start_bodies) out[s.body] = json(s);
+  for (const StartBody& s : scene.start_bodies) append(out, s.body, json(s));
   for (const StartJournal& s : scene.start_journals)
-    out[s.joint] = {{"eccentricity", json(s.eccentricity)}, {"speed", json(s.speed)}};
+    append(out, s.joint, {{"eccentricity", json(s.eccentricity)}, {"speed", json(s.speed)}});
   return out;
 }
 
@@ -178,16 +184,17 @@ std::string filled_in(const Scene& scene, const Parameters& parameters) {
   out["gravity"] = json(scene.gravity);
   Json& named = out["parameters"] = Json::object();
   for (const auto& [name, value] : scene.parameters)
-    named[name] = parameter(name, value, parameters);
+    append(named, name, parameter(name, value, parameters));
   out["ground"]["points"] = points(scene.ground);
-  for (const SceneBody& b : scene.bodies) out["bodies"][b.name] = json(b);
+  Json& bodies = out["bodies"] = Json::object();
+  for (const SceneBody& b : scene.bodies) append(bodies, b.name, json(b));
   Json& joints = out["joints"] = Json::object();
-  for (const SceneJoint& j : scene.joints) joints[j.name] = json(j);
+  for (const SceneJoint& j : scene.joints) append(joints, j.name, json(j));
   Json& drivers = out["drivers"] = Json::object();
-  for (const SceneDriver& d : scene.drivers) drivers[d.name] = json(d);
+  for (const SceneDriver& d : scene.drivers) append(drivers, d.name, json(d));
   Json& forces = out["forces"] = Json::object();
   for (const SceneLoad& l : scene.loads)
-    forces[l.name] = std::visit([](const auto& what) { return load(what); }, l.what);
+    append(forces, l.name, std::visit([](const auto& what) { return load(what); }, l.what));
   out["start"] = starts(scene);
   out["run"] = json(scene.run);
   out["output"] = json(scene.output, scene.run.until);

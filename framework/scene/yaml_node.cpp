@@ -17,7 +17,7 @@ std::string Node::shown() const {
   if (is_list()) return "a list of " + std::to_string(yaml_->items.size());
   if (!is_scalar()) return "nothing";
   const bool cut = yaml_->text.size() > most;
-  return "\"" + yaml_->text.substr(0, most) + (cut ? "…\"" : "\"");
+  return std::string("\"").append(yaml_->text, 0, most).append(cut ? "…\"" : "\"");
 }
 
 Node Node::child(const Yaml& entry) const {
