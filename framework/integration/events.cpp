@@ -106,11 +106,12 @@ double Integrator::first_event(int& contact, bool& onset) {
       if (sign * touch_at(c, peak).depth > 0) end = peak, found = true;
     }
     if (!found) continue;
-    if (ra < 0) {  // it goes away first: search from where it has gone away
+    const double wall = 1e-9 * system_.contacts[at(c)].gap.clearance();
+    if (fa > -wall && ra < 0) {  // at the wall and going away: search from where it has gone away
       for (double part = 0.5; part > 1e-9 && begin == t0; part /= 2)
         if (const double t = t0 + part * (end - t0); sign * touch_at(c, t).depth < std::min(fa, 0.0))
           begin = t;
-      if (begin == t0) continue;
+      if (begin == t0 && fa >= 0) continue;
     } else if (fa >= 0) {
       end = t0;
     }

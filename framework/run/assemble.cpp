@@ -37,6 +37,12 @@ Place place_of(const Scene& scene, const std::string& name) {
     if (s.body == name) return s.place;
   return {};
 }
+/// The same, naming the thing itself where the scene was not read from a file.
+Place named_place(const Scene& scene, const std::string& name) {
+  Place place = place_of(scene, name);
+  if (place.key.empty()) place.key = "\"" + name + "\"";
+  return place;
+}
 
 /// The rows to be closed at the start: the joints, two for each clearance joint, and what the scene
 /// pins of the origins of bodies: their places first, then, for the speeds, their rates.
@@ -236,7 +242,7 @@ Rough rough_state(const Scene& scene, const System& system) {
       if (!others.empty()) message += "; it contradicts " + others;
       break;
     }
-  throw AssemblyError(scene.file, place_of(scene, closure.owner(worst)), message + "; " + remedy);
+  throw AssemblyError(scene.file, named_place(scene, closure.owner(worst)), message + "; " + remedy);
 }
 
 // Levenberg–Marquardt on C = 0, from the rough pose.
@@ -324,7 +330,7 @@ void refuse_redundancy(const Scene& scene, const Model& model, const Assembly& a
   for (int k : r.implied_by)
     if (k != r.joint) others += (others.empty() ? "\"" : ", \"") + system.joint_names[at(k)] + "\"";
   const std::string& name = system.joint_names[at(r.joint)];
-  throw AssemblyError(scene.file, place_of(scene, name),
+  throw AssemblyError(scene.file, named_place(scene, name),
                       std::string("redundant: its row \"") + row_name(system.joints[at(r.joint)], r.row) +
                           "\" repeats, at the starting pose, what " + (others.empty() ? "nothing moves" : others) +
                           " already hold; remove it, or make one of them looser (slot, clearance)");
