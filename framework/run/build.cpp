@@ -146,6 +146,8 @@ class Builder {
     }
     if (n.restitution < 0 || n.restitution > 1 || (n.restitution == 0 && !factor->zero_allowed))
       wrong(n.place, "restitution must lie in " + std::string(factor->zero_allowed ? "[0, 1]" : "(0, 1]") + " for " + n.law);
+    if (!n.stiffness && n.exponent != 1.5)
+      wrong(n.place, "`young` and `poisson` give the stiffness of exponent 1.5; with another exponent give `stiffness`");
     const double k = contact_stiffness(c);
     if (!(k > 0) || !std::isfinite(k))
       wrong(n.place, "no stiffness: give `young` and `poisson`, or `stiffness`");

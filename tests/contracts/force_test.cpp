@@ -232,8 +232,7 @@ TEST_P(ForceBetween, PowerOnTheBodiesGoesWhereItSays) {
     if ((eq.motion[0].r - eq.motion[1].r).norm() < 0.3) continue;
     const ForceEffect& e = eq.force[0];
     const double terms = 1 + std::abs(e.input) + e.dissipation + std::abs(rate) + e.stored;
-    EXPECT_NEAR(eq.f.dot(s.y.segment(n_q, n_q)), e.input - e.dissipation - rate,
-                terms * difference)
+    EXPECT_NEAR(eq.f.dot(s.y.segment(n_q, n_q)), e.input - e.dissipation - rate, terms * difference)
         << "draw " << n;
   }
 }
@@ -259,8 +258,8 @@ std::vector<Touching> overlaps(std::optional<Ambrosio> friction) {
           c.bearing << 0, 0, draw.within(-12, 12);  // far from the origin, depth loses its digits
           c.journal = draw.pose();
           const double angle = draw.within(-M_PI, M_PI);
-          c.journal.head<2>() = c.bearing.head<2>() + (clearance + depth) * Vector2d(std::cos(angle),
-                                                                                  std::sin(angle));
+          c.journal.head<2>() = c.bearing.head<2>() +
+                                (clearance + depth) * Vector2d(std::cos(angle), std::sin(angle));
           c.bearing_rate = draw.rates();
           c.journal_rate = c.bearing_rate + 0.3 * draw.rates();
           c.impact_rate = draw.within(0.05, 0.6);

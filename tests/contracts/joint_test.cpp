@@ -51,13 +51,34 @@ void PrintTo(const Kind& kind, std::ostream* out) {
   *out << kind.name;
 }
 const Kind kinds[] = {
-    {"Revolute", [](int a, int b, double) { return Joint{Revolute{a, b}}; }},
-    {"Slot", [](int a, int b, double) { return Joint{Slot{a, b}}; }},
-    {"Prismatic", [](int a, int b, double angle) { return Joint{Prismatic{a, b, angle}}; }},
-    {"Weld", [](int a, int b, double angle) { return Joint{Weld{a, b, angle}}; }},
-    {"Distance", [](int a, int b, double) { return Joint{Distance{a, b, 0.8}}; }},
-    {"AngleDriver", [](int a, int b, double) { return Joint{AngleDriver{a, b, sine}}; }},
-    {"DistanceDriver", [](int a, int b, double) { return Joint{DistanceDriver{a, b, sine}}; }},
+    {"Revolute",
+     [](int a, int b, double) {
+       return Joint{Revolute{a, b}};
+     }},
+    {"Slot",
+     [](int a, int b, double) {
+       return Joint{Slot{a, b}};
+     }},
+    {"Prismatic",
+     [](int a, int b, double angle) {
+       return Joint{Prismatic{a, b, angle}};
+     }},
+    {"Weld",
+     [](int a, int b, double angle) {
+       return Joint{Weld{a, b, angle}};
+     }},
+    {"Distance",
+     [](int a, int b, double) {
+       return Joint{Distance{a, b, 0.8}};
+     }},
+    {"AngleDriver",
+     [](int a, int b, double) {
+       return Joint{AngleDriver{a, b, sine}};
+     }},
+    {"DistanceDriver",
+     [](int a, int b, double) {
+       return Joint{DistanceDriver{a, b, sine}};
+     }},
 };
 
 class Draw {

@@ -1,6 +1,10 @@
 // Where the energy goes: the books of whole runs, and what is kept of runs that end early.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <ostream>
+#include <string>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -21,7 +25,9 @@ struct Case {
   const char* name;
   SliderCrank options;
 };
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.name;
+}
 
 const Case cases[] = {
     {"Table2At50", {.speed = 50}},
@@ -39,8 +45,12 @@ const Case cases[] = {
     {"FrictionThreeTenths",
      {.clearance = 2e-3, .speed = 300, .restitution = 0.9, .friction = 0.3, .until = 0.1}},
     {"DrivenAt5000rpm",
-     {.clearance = 5e-4, .speed = 5000 * M_PI / 30, .restitution = 0.9, .friction = 0.1,
-      .driven = true, .until = 0.012}},
+     {.clearance = 5e-4,
+      .speed = 5000 * M_PI / 30,
+      .restitution = 0.9,
+      .friction = 0.1,
+      .driven = true,
+      .until = 0.012}},
 };
 
 class PaperLedger : public testing::TestWithParam<std::tuple<Case, const char*>> {};
@@ -53,9 +63,8 @@ TEST_P(PaperLedger, LeavesNothingUnexplained) {
   EXPECT_LT(std::abs(w.run.worst_unexplained), books * w.run.first.stored());
   EXPECT_LT(w.run.worst_position, 1e-10);
   EXPECT_LT(w.run.worst_velocity, 1e-10);
-  RecordProperty("unexplained",
-                 std::to_string(std::log10(std::abs(w.run.worst_unexplained) /
-                                           w.run.first.stored())));
+  RecordProperty("unexplained", std::to_string(std::log10(std::abs(w.run.worst_unexplained) /
+                                                          w.run.first.stored())));
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, PaperLedger,
@@ -68,8 +77,13 @@ INSTANTIATE_TEST_SUITE_P(Cases, PaperLedger,
 
 TEST(PaperLedger, GeometricSlidingSpeedHidesTheWorkThatTheOracleFinds) {
   // Until 6 ms all impacts are reproducible; what the law's own speed shows, and does not, is too.
-  const SliderCrank o{.clearance = 2e-3, .speed = 300, .restitution = 0.9, .friction = 0.1,
-                      .geometric = true, .until = 6e-3, .tolerance = 1e-11};
+  const SliderCrank o{.clearance = 2e-3,
+                      .speed = 300,
+                      .restitution = 0.9,
+                      .friction = 0.1,
+                      .geometric = true,
+                      .until = 6e-3,
+                      .tolerance = 1e-11};
   const Whole w = run(scene(o));
   po::State s = po::start(oracle(o));
   po::simulate(oracle(o), po::Options{.tolerance = 1e-12}, o.until, s);
@@ -81,8 +95,8 @@ TEST(PaperLedger, GeometricSlidingSpeedHidesTheWorkThatTheOracleFinds) {
 }
 
 TEST(PaperLedger, OverItsBoundHasItsOwnStatusAndKeepsEverything) {
-  pintle::Scene s = scene(SliderCrank{.clearance = 2e-3, .speed = 300, .friction = 0.1,
-                                      .geometric = true, .until = 6e-3});
+  pintle::Scene s = scene(SliderCrank{
+      .clearance = 2e-3, .speed = 300, .friction = 0.1, .geometric = true, .until = 6e-3});
   const Whole over = run(s);
   EXPECT_EQ(over.run.status, Status::ledger_over_bound);
   EXPECT_NE(over.run.reason.find("unexplained"), std::string::npos) << over.run.reason;
@@ -143,10 +157,11 @@ TEST(Driver, PutsInTheEnergyThatTheClosedFormGains) {
   pintle::Scene s = four_bar(f, links, 9.81, 0.4, 2, 6);
   s.run.until = 1.5, s.run.tolerance = 1e-11;
   const Whole w = run(s);
-  const double t = 1.5, gained = po::energy(f, {0.4 + 2 * t + 3 * t * t, 2 + 6 * t, 6}, links, 9.81) -
-                                 po::energy(f, {0.4, 2, 6}, links, 9.81);
-  EXPECT_NEAR(w.ledger("motor.work in [J]"), gained, closed_form * gained);
-  EXPECT_NEAR(w.run.unexplained, 0, closed_form * gained);
+  const double t = 1.5,
+               gained = po::energy(f, {0.4 + 2 * t + 3 * t * t, 2 + 6 * t, 6}, links, 9.81) -
+                        po::energy(f, {0.4, 2, 6}, links, 9.81);
+  EXPECT_NEAR(w.ledger("motor.work in [J]"), gained, closed_form * std::abs(gained));
+  EXPECT_NEAR(w.run.unexplained, 0, closed_form * std::abs(gained));
 }
 
 TEST(Load, WorkIsForceTimesPath) {

@@ -222,8 +222,8 @@ Scene andrews() {
     const std::string number = std::to_string(i), name = std::string("K").append(number);
     const auto& b = geometry["bodies"][name];
     const auto& p = data["parameters"];
-    SceneBody made = body(name, p[std::string("m").append(number)],
-                          p[std::string("i").append(number)], {});
+    SceneBody made =
+        body(name, p[std::string("m").append(number)], p[std::string("i").append(number)], {});
     made.center = b["com"].get<Pair>();
     made.at = pins.at(b["origin"]);
     made.angle = angle[i - 1];
@@ -237,7 +237,8 @@ Scene andrews() {
   }
   for (const auto& [name, reaction] :
        data["joint_reactions_t0.03_Cartesian_model_N(lambda of constraint pos_a-pos_b=0; force on "
-            "body of a = J^T lam)"].items()) {
+            "body of a = J^T lam)"]
+           .items()) {
     // "E:K2-K3"
     const auto colon = name.find(':'), dash = name.find('-');
     const std::string pin = name.substr(0, colon);
@@ -311,7 +312,8 @@ Scene mirrored(Scene s) {
   };
   flip(s.gravity);
   flip_points(s.ground);
-  for (SceneBody& b : s.bodies) flip_points(b.points), flip(b.at), flip(b.center), b.angle = -b.angle;
+  for (SceneBody& b : s.bodies)
+    flip_points(b.points), flip(b.at), flip(b.center), b.angle = -b.angle;
   for (SceneJoint& j : s.joints) j.angle = -j.angle;
   for (StartBody& b : s.start_bodies) {
     for (auto* x : {&b.y, &b.vy, &b.angle, &b.speed})

@@ -63,9 +63,9 @@ pintle_oracle::Params oracle(const SliderCrank&);
 /// The clearance that `scene(SliderCrank)` would give the gudgeon pin.
 pintle::SceneClearance clearance(const std::string& bearing, double radial, double restitution);
 
-/// A body "bob" hung at the ground's point "P" in the origin, its point "end" 1 m from it. Swings as
-/// a point mass at "end": either the centre of mass held there by a rigid link, or a body with its
-/// centre half-way and the inertia that has the same period.
+/// A body "bob" hung at the ground's point "P" in the origin, its point "end" 1 m from it. Swings
+/// as a point mass at "end": either the centre of mass held there by a rigid link, or a body with
+/// its centre half-way and the inertia that has the same period.
 enum class Hanging { by_link, by_pin };
 pintle::Scene pendulum(Hanging, double release, double gravity = 9.81);
 

@@ -14,12 +14,12 @@ namespace po = pintle_oracle;
 
 // Demanded of the framework: what a first few impacts, each of which magnifies what came before it
 // by a factor of order 10, leave of the two integrators' tolerances of 1e-12.
-constexpr double motion = 1e-7;         // of the largest value in the run
-constexpr double impact_time = 1e-9;    // [s]
-constexpr double impact_speed = 1e-6;   // relative
-// Peak and depth are read off between steps by a parabola, the loss off the ledger; both second order
-// in the relative change over a step or better.
-constexpr double impact_shape = 1e-4;   // relative
+constexpr double motion = 1e-7;        // of the largest value in the run
+constexpr double impact_time = 1e-9;   // [s]
+constexpr double impact_speed = 1e-6;  // relative
+// Peak and depth are read off between steps by a parabola, the loss off the ledger; both second
+// order in the relative change over a step or better.
+constexpr double impact_shape = 1e-4;  // relative
 
 /// The oracle at the instants t, and its impacts up to the last one.
 struct Expected {
@@ -55,10 +55,12 @@ struct Case {
   SliderCrank options;
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.name;
+}
 
-// Spans end soon after the first impacts, before the journal stays at the wall, where there is such an
-// end.
+// Spans end soon after the first impacts, before the journal stays at the wall, where there is such
+// an end.
 const Case cases[] = {
     {"Table2At50", 4, {.speed = 50, .until = 4e-3}},
     {"Table2At100", 4, {.speed = 100, .until = 2e-3}},
@@ -66,23 +68,38 @@ const Case cases[] = {
     {"Table2At200", 4, {.speed = 200, .until = 1e-3}},
     {"HalfMillimetre", 4, {.clearance = 0.5e-3, .until = 10e-3}},
     {"TwoMillimetres", 4, {.clearance = 2e-3, .speed = 300, .restitution = 0.9, .until = 8e-3}},
-    {"MaterialFriction", 4,
+    {"MaterialFriction",
+     4,
      {.clearance = 2e-3, .speed = 300, .restitution = 0.9, .friction = 0.1, .until = 8e-3}},
-    {"GeometricFriction", 4,
-     {.clearance = 2e-3, .speed = 300, .restitution = 0.9, .friction = 0.1, .geometric = true,
+    {"GeometricFriction",
+     4,
+     {.clearance = 2e-3,
+      .speed = 300,
+      .restitution = 0.9,
+      .friction = 0.1,
+      .geometric = true,
       .until = 6e-3}},
-    {"BearingOnCoupler", 4,
+    {"BearingOnCoupler",
+     4,
      {.clearance = 0.5e-3, .friction = 0.05, .bearing_on_slider = false, .until = 8e-3}},
-    {"EccentricStart", 3,
-     {.clearance = 0.5e-3, .angle = 0.7, .friction = 0.02, .eccentricity = {-2e-4, 3e-4},
+    {"EccentricStart",
+     3,
+     {.clearance = 0.5e-3,
+      .angle = 0.7,
+      .friction = 0.02,
+      .eccentricity = {-2e-4, 3e-4},
       .until = 8e-3}},
-    {"DrivenAt5000rpm", 3,
-     {.clearance = 0.5e-3, .speed = 5000 * M_PI / 30, .friction = 0.1, .driven = true,
+    {"DrivenAt5000rpm",
+     3,
+     {.clearance = 0.5e-3,
+      .speed = 5000 * M_PI / 30,
+      .friction = 0.1,
+      .driven = true,
       .until = 1.5e-3}},
 };
 
-class PaperSliderCrank
-    : public testing::TestWithParam<std::tuple<Case, const char*, const char*>> {};
+class PaperSliderCrank : public testing::TestWithParam<std::tuple<Case, const char*, const char*>> {
+};
 
 TEST_P(PaperSliderCrank, MovesAndStrikesAsInMinimalCoordinates) {
   auto [c, method, constraints] = GetParam();
@@ -128,22 +145,25 @@ TEST_P(PaperSliderCrank, MovesAndStrikesAsInMinimalCoordinates) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Cases, PaperSliderCrank,
-    testing::Combine(testing::ValuesIn(cases), testing::Values("dopri5", "rkf45"),
-                     testing::Values("projection", "partitioning")),
-    [](const auto& i) {
-      return std::string(std::get<0>(i.param).name) + "_" + std::get<1>(i.param) + "_" +
-             std::get<2>(i.param);
-    });
+INSTANTIATE_TEST_SUITE_P(Cases, PaperSliderCrank,
+                         testing::Combine(testing::ValuesIn(cases),
+                                          testing::Values("dopri5", "rkf45"),
+                                          testing::Values("projection", "partitioning")),
+                         [](const auto& i) {
+                           return std::string(std::get<0>(i.param).name) + "_" +
+                                  std::get<1>(i.param) + "_" + std::get<2>(i.param);
+                         });
 
 // A loss found to rounding must not be taken back by rounding: no stay of no depth and no length.
 TEST(PaperSliderCrank, LossOfContactIsNotFollowedByAnOnsetAtOnce) {
   for (const char* method : {"dopri5", "rkf45"})
     for (const char* constraints : {"projection", "partitioning"})
       for (const double tolerance : {1e-8, 1e-9, 1e-10, 1e-11, 1e-12}) {
-        const Whole w = run(scene(SliderCrank{.speed = 50, .until = 4e-3, .tolerance = tolerance,
-                                              .method = method, .constraints = constraints}));
+        const Whole w = run(scene(SliderCrank{.speed = 50,
+                                              .until = 4e-3,
+                                              .tolerance = tolerance,
+                                              .method = method,
+                                              .constraints = constraints}));
         SCOPED_TRACE(std::string(method) + ", " + constraints + ", " + std::to_string(tolerance));
         for (const pintle::Impact& i : w.run.impacts)
           EXPECT_FALSE(i.end - i.begin < 1e-12) << "begins " << i.begin;
@@ -151,13 +171,17 @@ TEST(PaperSliderCrank, LossOfContactIsNotFollowedByAnOnsetAtOnce) {
       }
 }
 
-// Contact forces are stiff: K δ^1.5 turns a difference in place of 1e-11 of the clearance into one of
-// force that is some 1e-7 of its peak; the driving torque inherits it over the lever.
+// Contact forces are stiff: K δ^1.5 turns a difference in place of 1e-11 of the clearance into one
+// of force that is some 1e-7 of its peak; the driving torque inherits it over the lever.
 constexpr double force_in_contact = 1e-5;
 
 TEST(PaperSliderCrank, DrivingTorqueWithClearanceIsThatOfMinimalCoordinates) {
-  SliderCrank o{.clearance = 0.5e-3, .speed = 5000 * M_PI / 30, .friction = 0.1, .driven = true,
-                .until = 1.5e-3, .tolerance = 1e-11};
+  SliderCrank o{.clearance = 0.5e-3,
+                .speed = 5000 * M_PI / 30,
+                .friction = 0.1,
+                .driven = true,
+                .until = 1.5e-3,
+                .tolerance = 1e-11};
   const Whole w = run(scene(o));
   const Expected e = expected(o, w.column("t [s]"));
   EXPECT_LT(relative_difference(w.column("motor.torque on crank [N m]"),
@@ -171,16 +195,23 @@ TEST(PaperSliderCrank, DrivingTorqueWithClearanceIsThatOfMinimalCoordinates) {
 }
 
 TEST(PaperSliderCrank, EccentricityAndSlidingAreThoseOfMinimalCoordinates) {
-  SliderCrank o{.clearance = 2e-3, .speed = 300, .restitution = 0.9, .friction = 0.1,
-                .until = 6e-3, .tolerance = 1e-11};
+  SliderCrank o{.clearance = 2e-3,
+                .speed = 300,
+                .restitution = 0.9,
+                .friction = 0.1,
+                .until = 6e-3,
+                .tolerance = 1e-11};
   const Whole w = run(scene(o));
   const Expected e = expected(o, w.column("t [s]"));
   EXPECT_LT(relative_difference(w.column("gudgeon pin.ex [m]"),
-                                series(e, [](const po::Sample& s) { return s.e[0]; })), motion);
+                                series(e, [](const po::Sample& s) { return s.e[0]; })),
+            motion);
   EXPECT_LT(relative_difference(w.column("gudgeon pin.ey [m]"),
-                                series(e, [](const po::Sample& s) { return s.e[1]; })), motion);
+                                series(e, [](const po::Sample& s) { return s.e[1]; })),
+            motion);
   EXPECT_LT(relative_difference(w.column("gudgeon pin.sliding [m/s]"),
-                                series(e, [](const po::Sample& s) { return s.slip; })), motion);
+                                series(e, [](const po::Sample& s) { return s.slip; })),
+            motion);
   EXPECT_LT(relative_difference(w.column("gudgeon pin.friction [N]"),
                                 series(e, [](const po::Sample& s) { return s.friction; })),
             force_in_contact);
@@ -193,8 +224,12 @@ constexpr double smooth = 1e-9;  // a hundred times the tolerance below, over so
 class IdealSliderCrank : public testing::TestWithParam<bool> {};
 
 TEST_P(IdealSliderCrank, MotionJointForceAndTorqueAreThoseOfOneFreedom) {
-  const SliderCrank o{.clearance = 0, .angle = 0.3, .driven = GetParam(), .until = 0.1,
-                      .tolerance = 1e-12, .outputs = 50};
+  const SliderCrank o{.clearance = 0,
+                      .angle = 0.3,
+                      .driven = GetParam(),
+                      .until = 0.1,
+                      .tolerance = 1e-12,
+                      .outputs = 50};
   const Whole w = run(scene(o));
   ASSERT_EQ(w.run.status, pintle::Status::finished) << w.run.reason;
   std::vector<po::Ideal> ideal;
@@ -228,7 +263,9 @@ struct PendulumRun {
   Hanging hanging;
   const char *method, *constraints;
 };
-void PrintTo(const PendulumRun& r, std::ostream* out) { *out << r.method; }
+void PrintTo(const PendulumRun& r, std::ostream* out) {
+  *out << r.method;
+}
 class OnePendulum : public testing::TestWithParam<PendulumRun> {};
 
 // The body's turn of a pendulum held by a link is not that of the rod: take the place of its end.
@@ -263,16 +300,16 @@ TEST_P(OnePendulum, IsWherePublishedAndHasTheForceOfTheClosedForm) {
   EXPECT_NEAR(by_pin ? std::sin(angle.back()) : y.back(), -0.9614192050991237, published);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Held, OnePendulum,
-    testing::Values(PendulumRun{Hanging::by_link, "dopri5", "projection"},
-                    PendulumRun{Hanging::by_link, "rkf45", "partitioning"},
-                    PendulumRun{Hanging::by_pin, "dopri5", "partitioning"},
-                    PendulumRun{Hanging::by_pin, "rkf45", "projection"}),
-    [](const auto& i) {
-      return std::string(i.param.hanging == Hanging::by_link ? "Link" : "Pin") + "_" +
-             i.param.method + "_" + i.param.constraints;
-    });
+INSTANTIATE_TEST_SUITE_P(Held, OnePendulum,
+                         testing::Values(PendulumRun{Hanging::by_link, "dopri5", "projection"},
+                                         PendulumRun{Hanging::by_link, "rkf45", "partitioning"},
+                                         PendulumRun{Hanging::by_pin, "dopri5", "partitioning"},
+                                         PendulumRun{Hanging::by_pin, "rkf45", "projection"}),
+                         [](const auto& i) {
+                           return std::string(i.param.hanging == Hanging::by_link ? "Link"
+                                                                                  : "Pin") +
+                                  "_" + i.param.method + "_" + i.param.constraints;
+                         });
 
 TEST(DoublePendulum, SwingsAsInItsTwoAngles) {
   // Not chaotic in so short a time: neighbouring motions part by less than a hundred times.
@@ -334,10 +371,14 @@ TEST_P(FourBarByDriver, HasTheKinematicsAndTorqueOfTheClosedForm) {
       EXPECT_NEAR(wrapped(c[i] - m[i].coupler.angle), 0, 1e-9);
       EXPECT_NEAR(wrapped(r[i] - m[i].rocker.angle), 0, 1e-9);
     }
-    check("coupler.speed [rad/s]", [](const auto& i) { return i.coupler.rate; }, 1e-9);
-    check("rocker.speed [rad/s]", [](const auto& i) { return i.rocker.rate; }, 1e-9);
-    check("coupler.alpha [rad/s^2]", [](const auto& i) { return i.coupler.acceleration; }, 1e-8);
-    check("rocker.alpha [rad/s^2]", [](const auto& i) { return i.rocker.acceleration; }, 1e-8);
+    check(
+        "coupler.speed [rad/s]", [](const auto& i) { return i.coupler.rate; }, 1e-9);
+    check(
+        "rocker.speed [rad/s]", [](const auto& i) { return i.rocker.rate; }, 1e-9);
+    check(
+        "coupler.alpha [rad/s^2]", [](const auto& i) { return i.coupler.acceleration; }, 1e-8);
+    check(
+        "rocker.alpha [rad/s^2]", [](const auto& i) { return i.rocker.acceleration; }, 1e-8);
     EXPECT_LT(relative_difference(w.column("motor.torque on crank [N m]"), torque), 1e-8);
   }
 }

@@ -1,4 +1,5 @@
-// Whole runs against published numbers: Andrews' mechanism, SUNDIALS' slider-crank, the paper's Table 2.
+// Whole runs against published numbers: Andrews' mechanism, SUNDIALS' slider-crank, the paper's
+// Table 2.
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -18,7 +19,9 @@ const Combination combinations[] = {{"dopri5", "projection"},
                                     {"dopri5", "partitioning"},
                                     {"rkf45", "projection"},
                                     {"rkf45", "partitioning"}};
-void PrintTo(const Combination& c, std::ostream* out) { *out << c.method << " " << c.constraints; }
+void PrintTo(const Combination& c, std::ostream* out) {
+  *out << c.method << " " << c.constraints;
+}
 std::string name_of(const testing::TestParamInfo<Combination>& i) {
   return std::string(i.param.method) + "_" + i.param.constraints;
 }
@@ -73,7 +76,8 @@ TEST_P(Andrews, EndsWhereTheHighPrecisionSolutionDoes) {
 
   constexpr double multipliers = 5e-6;
   const char* key =
-      "joint_reactions_t0.03_Cartesian_model_N(lambda of constraint pos_a-pos_b=0; force on body of "
+      "joint_reactions_t0.03_Cartesian_model_N(lambda of constraint pos_a-pos_b=0; force on body "
+      "of "
       "a = J^T lam)";
   double worst = 0;
   for (std::size_t k = 0; k < w.model.system.joints.size(); ++k) {
@@ -116,8 +120,7 @@ std::vector<double> integral(const std::vector<double>& y, double h, std::size_t
   std::vector<double> out{0};
   double sum = 0;
   for (std::size_t i = 0; i + 4 < y.size(); i += 4) {
-    sum += 2 * h / 45 *
-           (7 * y[i] + 32 * y[i + 1] + 12 * y[i + 2] + 32 * y[i + 3] + 7 * y[i + 4]);
+    sum += 2 * h / 45 * (7 * y[i] + 32 * y[i + 1] + 12 * y[i + 2] + 32 * y[i + 3] + 7 * y[i + 4]);
     if ((i + 4) % rows_between == 0) out.push_back(sum);
   }
   return out;
@@ -137,10 +140,13 @@ TEST_P(Sundials, SliderCrankFollowsThePublishedTable) {
   const Whole w = run(s);
   ASSERT_EQ(w.run.status, pintle::Status::finished) << w.run.reason;
 
-  const std::vector<std::vector<double>> ours = {
-      w.column("t [s]"),           w.column("crank.angle [rad]"),   w.column("rod.x [m]"),
-      w.column("rod.angle [rad]"), w.column("crank.speed [rad/s]"), w.column("rod.vx [m/s]"),
-      w.column("rod.speed [rad/s]")};
+  const std::vector<std::vector<double>> ours = {w.column("t [s]"),
+                                                 w.column("crank.angle [rad]"),
+                                                 w.column("rod.x [m]"),
+                                                 w.column("rod.angle [rad]"),
+                                                 w.column("crank.speed [rad/s]"),
+                                                 w.column("rod.vx [m/s]"),
+                                                 w.column("rod.speed [rad/s]")};
   const auto G = integral(w.run.ledger.column("kinetic [J]"), s.output.every, between);
   std::ifstream file(PINTLE_SOURCE_DIR "/tests/data/sundials_slider_crank.csv");
   std::string line;
@@ -168,15 +174,15 @@ INSTANTIATE_TEST_SUITE_P(Schemes, Sundials, testing::ValuesIn(combinations), nam
 // --- the paper's Table 2 ---
 
 struct Row {
-  double speed;            // [rad/s]
-  double energy;           // at the start, as printed [J]
-  double loss;             // in 0.05 s, as printed [J]
-  double half_digit;       // of the printed loss [J]
+  double speed;       // [rad/s]
+  double energy;      // at the start, as printed [J]
+  double loss;        // in 0.05 s, as printed [J]
+  double half_digit;  // of the printed loss [J]
 };
 
 TEST(Table2, InitialEnergiesAreThePrintedOnesToAllDigits) {
-  for (const auto& [speed, energy] : {std::pair{50.0, 0.5777}, {100.0, 2.3108}, {150.0, 5.1992},
-                                      {200.0, 9.2431}}) {
+  for (const auto& [speed, energy] :
+       {std::pair{50.0, 0.5777}, {100.0, 2.3108}, {150.0, 5.1992}, {200.0, 9.2431}}) {
     pintle::Scene s = scene(SliderCrank{.speed = speed, .until = 1e-5});
     EXPECT_NEAR(run(s).run.first.stored(), energy, 0.5e-4) << speed << " rad/s";
   }
@@ -193,7 +199,9 @@ TEST(Table2, InitialEnergiesAreThoseOfTheFormula) {
 }
 
 class Table2At : public testing::TestWithParam<Row> {};
-void PrintTo(const Row& r, std::ostream* out) { *out << r.speed << " rad/s"; }
+void PrintTo(const Row& r, std::ostream* out) {
+  *out << r.speed << " rad/s";
+}
 
 // Losses are printed with one or two digits; 15 per cent or the rounding of the print, whichever is
 // more. What the paper calls energy leaves out what the contact stores.

@@ -81,7 +81,8 @@ SceneDriver drive(const std::string& name, const std::string& body, Law law) {
 
 Scene slider_crank(double crank, double coupler, double angle) {
   Scene s;
-  s.bodies = {rod("crank", crank, {0.02, -0.01}, angle + 0.2), rod("coupler", coupler, {0, 0.1}, 0)};
+  s.bodies = {rod("crank", crank, {0.02, -0.01}, angle + 0.2),
+              rod("coupler", coupler, {0, 0.1}, 0)};
   SceneBody slider;
   slider.name = "slider";
   slider.mass = 0.5;
@@ -150,8 +151,8 @@ TEST(Assemble, RoughPoseChoosesTheBranchOfAFourBar) {
   for (const bool open : {true, false}) {
     Scene s = four_bar(0.4, 0.1, 0.35, 0.3);
     s.start_bodies = {start_angle("crank", 1.0)};
-    const auto truth = evaluate(pintle_oracle::FourBar{0.4, 0.1, 0.35, 0.3, open},
-                                pintle_oracle::Turn{1.0, 0, 0});
+    const auto truth =
+        evaluate(pintle_oracle::FourBar{0.4, 0.1, 0.35, 0.3, open}, pintle_oracle::Turn{1.0, 0, 0});
     ASSERT_TRUE(truth.closes);
     s.bodies[1].angle = truth.coupler.angle + 0.3;
     s.bodies[2].angle = truth.rocker.angle - 0.3;
@@ -164,7 +165,9 @@ TEST(Assemble, RoughPoseChoosesTheBranchOfAFourBar) {
 // Forty rods of 0.1 m thrown about, between pivots 3 m apart.
 TEST(Assemble, ClosesAChainOfFortyLinksFromAPoorPose) {
   std::mt19937 random(3);
-  const auto within = [&](double r) { return r * (static_cast<double>(random()) / 2147483648.0 - 1); };
+  const auto within = [&](double r) {
+    return r * (static_cast<double>(random()) / 2147483648.0 - 1);
+  };
   Scene s;
   s.ground = {{"end", {3, 0}, 0, {}}};
   PointRef last{"ground", "", {}};
@@ -296,7 +299,8 @@ TEST(Assemble, NamesAJointThatCannotClose) {
 
 TEST(Assemble, NamesBothOfTwoDriversThatContradict) {
   Scene s = four_bar(0.4, 0.1, 0.35, 0.3);
-  s.drivers = {drive("motor", "crank", constant(1.0)), drive("other motor", "crank", constant(1.2))};
+  s.drivers = {drive("motor", "crank", constant(1.0)),
+               drive("other motor", "crank", constant(1.2))};
   const std::string message = complaint(s);
   EXPECT_TRUE(says(message, "\"motor\"")) << message;
   EXPECT_TRUE(says(message, "\"other motor\"")) << message;
@@ -304,13 +308,15 @@ TEST(Assemble, NamesBothOfTwoDriversThatContradict) {
 
 TEST(Assemble, NamesBothDriversWhenOnlyTheirSpeedsContradict) {
   Scene s = four_bar(0.4, 0.1, 0.35, 0.3);
-  s.drivers = {drive("motor", "crank", steady(1.0, 5)), drive("other motor", "crank", steady(1.0, 6))};
+  s.drivers = {drive("motor", "crank", steady(1.0, 5)),
+               drive("other motor", "crank", steady(1.0, 6))};
   const std::string message = complaint(s);
   EXPECT_TRUE(says(message, "\"motor\"")) << message;
   EXPECT_TRUE(says(message, "\"other motor\"")) << message;
 }
 
-// A third rod of the crank's length, parallel to crank and rocker: it moves, though one row is idle.
+// A third rod of the crank's length, parallel to crank and rocker: it moves, though one row is
+// idle.
 TEST(Assemble, NamesTheIdleRowOfAParallelogramWithAThirdLink) {
   Scene s = four_bar(0.4, 0.2, 0.4, 0.2);
   s.start_bodies = {start_angle("crank", 1.0)};
@@ -334,7 +340,8 @@ TEST(Assemble, NamesTheIdleRowOfAParallelogramWithAThirdLink) {
 
 TEST(Assemble, TwoDriversThatAgreeAreRedundantNotWrong) {
   Scene s = four_bar(0.4, 0.1, 0.35, 0.3);
-  s.drivers = {drive("motor", "crank", steady(1.0, 5)), drive("other motor", "crank", steady(1.0, 5))};
+  s.drivers = {drive("motor", "crank", steady(1.0, 5)),
+               drive("other motor", "crank", steady(1.0, 5))};
   const Put p = put(s);
   EXPECT_EQ(p.assembly.rank, 9);
   ASSERT_EQ(p.assembly.redundant.size(), 1u);

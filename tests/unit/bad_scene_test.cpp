@@ -214,11 +214,16 @@ TEST(BadScene, ExpressionWithCommasInBracesIsToldToUseQuotes) {
 TEST(BadScene, BombsAndDepthDoNotHang) {
   std::string bomb = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
   for (int i = 1; i < 40; ++i) {
-    bomb += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [";
-    for (int k = 0; k < 10; ++k) bomb += (k ? ", *a" : "*a") + std::to_string(i - 1);
+    const std::string n = std::to_string(i);
+    bomb.append("a").append(n).append(": &a").append(n).append(" [");
+    for (int k = 0; k < 10; ++k) bomb.append(k ? ", *a" : "*a").append(std::to_string(i - 1));
     bomb += "]\n";
   }
   expect_says(refusal_of(bomb), {"scene.yaml:1:", "anchor"});
+  std::string list = "a: [";
+  for (int i = 0; i < 150'000; ++i) list += "x, ";
+  list += "]";
+  expect_says(refusal_of(list), {"scene.yaml:1:", "more than 100 000 values"});
   expect_says(refusal_of(std::string(200'000, '[')), {"scene.yaml:1:"});
   expect_says(refusal_of(std::string(200'000, '{')), {"scene.yaml:1:"});
 }

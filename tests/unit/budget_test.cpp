@@ -36,7 +36,8 @@ void note() {
 #endif
 
 #if defined(PINTLE_SANITIZED)  // owns malloc, and offers a hook
-extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t),
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*,
+                                                                  std::size_t),
                                                          void (*)(const volatile void*));
 [[maybe_unused]] const int hooked = __sanitizer_install_malloc_and_free_hooks(
     [](const volatile void*, std::size_t) { note(); }, [](const volatile void*) {});
@@ -188,7 +189,8 @@ TEST(Budget, RigidSliderCrankHasNineCoordinatesAndEightRows) {
   EXPECT_EQ(loose.n_z(), 2);  // hysteresis and friction
 }
 
-// ---- allocation -----------------------------------------------------------------------------------
+// ---- allocation
+// -----------------------------------------------------------------------------------
 
 struct Setting {
   const char* name;
@@ -283,7 +285,8 @@ TEST(Budget, AStepTakesSixEvaluations) {
   }
 }
 
-// ---- many rows --------------------------------------------------------------------------------------
+// ---- many rows
+// --------------------------------------------------------------------------------------
 
 // Rods of length 0.1 hung in a row, angles and spins at random but the same each time.
 struct Chain {
