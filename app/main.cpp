@@ -35,6 +35,15 @@ constexpr const char* exit_codes =
     "  pintle run examples/slider_crank_clearance.yaml --set clearance=0.1mm --out worn\n"
     "  paraview worn/mechanism.pvd\n";
 
+constexpr const char* what_it_writes =
+    "It writes\n"
+    "  trajectory.csv   motion of each body, force of each joint, eccentricity and contact of each clearance\n"
+    "  ledger.csv       each energy, loss and work against time, and what none of them explains\n"
+    "  events.csv       an impact a row: begin, end, speeds, deepest penetration, peak force, energy lost\n"
+    "  run.json         the scene with every value filled in, status, counts, timings\n"
+    "  mechanism.pvd    the animation for ParaView, with frames/*.vtu, if the scene asks for frames\n"
+    "Exit codes: see pintle --help\n";
+
 volatile std::sig_atomic_t interrupted = 0;
 extern "C" void interrupt(int) { interrupted = 1; }
 
@@ -222,11 +231,14 @@ int main(int argc, char** argv) {
   auto* run_command = app.add_subcommand("run", "Run a scene and write its results");
   auto* check_command = app.add_subcommand("check", "Say what a scene holds and requires, and run nothing");
   for (auto* command : {run_command, check_command}) {
-    command->add_option("scene", options.scene, "scene file (YAML)")->required();
-    command->add_option("--set", options.set, "override a parameter of the scene, NAME=VALUE with unit; may be repeated");
+    command->add_option("scene", options.scene, "scene file (YAML)")->required()->type_name("SCENE.yaml");
+    command->add_option("--set", options.set, "override a parameter of the scene, e.g. --set clearance=0.1mm; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("NAME=VALUE");
     command->add_flag("--json", options.json, "print JSON instead of text");
   }
-  run_command->add_option("-o,--out", options.out, "directory for the results; it must not exist (default: runs/SCENE, numbered)");
+  run_command->add_option("-o,--out", options.out, "directory for the results; it must not exist (default: runs/SCENE, numbered)")->type_name("DIR");
+  run_command->footer(what_it_writes);
   run_command->add_flag("-q,--quiet", options.quiet, "print nothing but errors");
   try {
     app.parse(argc, argv);

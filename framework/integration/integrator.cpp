@@ -51,10 +51,22 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
   }
   for (int c = 0; c < static_cast<int>(system.contacts.size()); ++c) {
     const Touch now = touch(c, step_.to.state);
-    if (now.depth > 0) close(c, now.rate);
+    if (now.depth > 0) close(c, std::max(now.rate, speed_to_reach(c, now.depth)));
   }
   stages_.settle(system_, step_.to, eq_);
   step_.from = step_.to;
+}
+
+// A start inside the wall has no approach speed. It gets that of the impact which would have come this
+// deep: ½ m v² = k δⁿ⁺¹/(n + 1), m the two bodies' reduced mass.
+double Integrator::speed_to_reach(int contact, double depth) const {
+  const ContactPair& pair = system_.contacts[at(contact)];
+  double inverse_mass = 0;
+  for (int marker : {pair.journal, pair.bearing})
+    if (const int body = system_.markers[at(marker)].body; body != ground)
+      inverse_mass += 1 / system_.bodies[at(body)].m;
+  const double stored = pair.normal.k * std::pow(depth, pair.normal.n + 1) / (pair.normal.n + 1);
+  return std::sqrt(2 * stored * inverse_mass);
 }
 
 Counts Integrator::counts() const {

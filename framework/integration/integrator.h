@@ -71,6 +71,7 @@ class Integrator {
   bool finish_at(double t, int contact);
   void open(int contact);
   void close(int contact, double rate);
+  double speed_to_reach(int contact, double depth) const;
   void follow_impacts();
   bool stop(const std::string& reason);
 
