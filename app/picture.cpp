@@ -20,12 +20,9 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
-#include <vtkFieldData.h>
-#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
 #include <vtkPNGWriter.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -33,19 +30,14 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
-#include <vtkStringArray.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
 #include <vtkWindowToImageFilter.h>
-#include <vtkXMLDataElement.h>
-#include <vtkXMLUnstructuredGridReader.h>
-#include <vtkXMLUtilities.h>
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 
-#include "framework/run/vtk.h"
+#include "app/frames.h"
 
 namespace {
 
@@ -62,80 +54,6 @@ struct Choice {
   int width = 1400, height = 0;                            ///< [px]; height 0: as the content asks
   std::string around;                                      ///< an owner to fill the picture with
 };
-
-/// The file of the chosen frame, from mechanism.pvd.
-fs::path frame_file(const Choice& choice) {
-  const fs::path pvd = choice.directory / "mechanism.pvd";
-  if (!fs::is_regular_file(pvd)) throw std::runtime_error(pvd.string() + ": no such file");
-  const auto root =
-      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
-  vtkXMLDataElement* list = root ? root->FindNestedElementWithName("Collection") : nullptr;
-  const int count = list ? list->GetNumberOfNestedElements() : 0;
-  if (count == 0) throw std::runtime_error(pvd.string() + ": lists no frames");
-
-  int n = choice.frame < 0 ? count + choice.frame : choice.frame;
-  if (!std::isnan(choice.time)) {
-    const auto distance = [&](int i) {
-      return std::abs(std::atof(list->GetNestedElement(i)->GetAttribute("timestep")) - choice.time);
-    };
-    n = 0;
-    for (int i = 1; i < count; ++i) {
-      if (distance(i) < distance(n)) n = i;
-    }
-  }
-  if (n < 0 || n >= count) {
-    throw std::runtime_error(pvd.string() + ": has " + std::to_string(count) + " frames, 0 to " +
-                             std::to_string(count - 1) + "; asked for " +
-                             std::to_string(choice.frame));
-  }
-  return choice.directory / list->GetNestedElement(n)->GetAttribute("file");
-}
-
-pintle::Drawing read_frame(const fs::path& file) {
-  if (!fs::is_regular_file(file)) throw std::runtime_error(file.string() + ": no such file");
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  vtkUnstructuredGrid* grid = reader->GetOutput();
-  vtkDataArray* part = grid->GetCellData()->GetArray("part");
-  vtkDataArray* owner = grid->GetCellData()->GetArray("owner");
-  vtkDataArray* force = grid->GetPointData()->GetArray("force [N]");
-  vtkFieldData* facts = grid->GetFieldData();
-  auto* owners = vtkStringArray::SafeDownCast(facts->GetAbstractArray("owners"));
-  vtkDataArray* time = facts->GetArray("TimeValue");
-  vtkDataArray* exaggeration = facts->GetArray("clearance exaggeration");
-  if (!part || !owner || !force || !owners || !time || !exaggeration) {
-    throw std::runtime_error(file.string() + ": is not a frame of pintle");
-  }
-  pintle::Drawing drawing;
-  drawing.t = time->GetTuple1(0);
-  drawing.exaggeration = exaggeration->GetTuple1(0);
-  for (vtkIdType i = 0; i < owners->GetNumberOfValues(); ++i) {
-    drawing.owners.push_back(owners->GetValue(i));
-  }
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c) {
-    grid->GetCellPoints(c, ids);
-    const auto point = [&](vtkIdType i) {
-      const double* r = grid->GetPoint(ids->GetId(i));
-      return Vector2d(r[0], r[1]);
-    };
-    const int kind = static_cast<int>(part->GetTuple1(c)),
-              who = static_cast<int>(owner->GetTuple1(c));
-    if (kind > static_cast<int>(Part::trace)) {
-      const double* f = force->GetTuple3(ids->GetId(0));
-      drawing.forces.push_back({point(0), {f[0], f[1]}, who});
-      continue;
-    }
-    pintle::DrawnLine line{static_cast<Part>(kind), who, false, {}};
-    vtkIdType n = ids->GetNumberOfIds();
-    line.closed = n > 2 && ids->GetId(0) == ids->GetId(n - 1);
-    if (line.closed) --n;
-    for (vtkIdType i = 0; i < n; ++i) line.points.push_back(point(i));
-    drawing.lines.push_back(std::move(line));
-  }
-  return drawing;
-}
 
 // Colours and words -------------------------------------------------------------------------------
 
@@ -492,7 +410,7 @@ int main(int argc, char** argv) {
     if (std::getenv("DISPLAY") == nullptr) {
       throw std::runtime_error("no display; run it as  xvfb-run -a pintle-picture …");
     }
-    write_picture(read_frame(frame_file(choice)), choice);
+    write_picture(pintle::read_frame(pintle::frame_file(choice.directory, choice.frame, choice.time)), choice);
   } catch (const std::exception& e) {
     std::cerr << "pintle-picture: " << e.what() << '\n';
     return 1;

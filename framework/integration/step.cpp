@@ -15,14 +15,9 @@ Stages::Stages(const System& system, const Tableau& tableau, Constraints constra
 }
 
 bool Stages::evaluate_stage(const System& system, State& state, Equations& eq, Eigen::VectorXd& dy) {
-  if (constraints_ == Constraints::partitioning && system.n_rows() > 0) {
-    if (!partition_.correct(system, state.t, state.y, eq)) return false;
-  } else {
-    pose(system, state.t, state.y, eq);
-    factor(system, eq);
-    if (!eq.regular) return false;
-    speed(system, state.t, state.y, eq);
-  }
+  if (constraints_ == Constraints::projection || system.n_rows() == 0)
+    return evaluate(system, state, eq, dy);
+  if (!partition_.correct(system, state.t, state.y, eq)) return false;
   accelerate(system, state, eq);
   fill_derivative(system, state.y, eq, dy);
   return true;
