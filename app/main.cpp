@@ -242,7 +242,9 @@ int main(int argc, char** argv) {
   run_command->add_flag("-q,--quiet", options.quiet, "print nothing but errors");
   try {
     app.parse(argc, argv);
-    return run_command->parsed() ? run(options) : check(options);
+    const int exit = run_command->parsed() ? run(options) : check(options);
+    if (!std::cout.flush()) throw std::runtime_error("what there was to print could not be written to standard output");
+    return exit;
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? ok : bad_scene;
   } catch (const SceneError& e) {
