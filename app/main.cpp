@@ -140,6 +140,7 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
   rows.emplace_back("constraints held to", number(run.worst_position, 2) + " in position, " + number(run.worst_velocity, 2) + " in speed (scaled)");
   rows.emplace_back("results", out.string() + (scene.output.frames > 1 ? ", animation " + (out / "mechanism.pvd").string() : ""));
   print_rows(std::cout, rows);
+  for (const std::string& w : run.warnings) std::cout << "  warning: " << w << "\n";
   std::cout << "  " << status_text(run.status) << (run.reason.empty() ? "" : ": " + run.reason) << "\n";
   std::cout << "  unexplained energy: " << number(run.unexplained, 3) << " J, "
             << number(run.energy_in_play > 0 ? std::abs(run.unexplained) / run.energy_in_play : 0, 3)

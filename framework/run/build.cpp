@@ -91,7 +91,10 @@ class Builder {
     if (b != ground) at -= vector(scene_.bodies[static_cast<std::size_t>(b)].center);
     const auto [known, is_new] = markers_.try_emplace({b, at.x(), at.y(), angle},
                                                       static_cast<int>(model_.system.markers.size()));
-    if (is_new) model_.system.markers.push_back({b, at, angle});
+    if (is_new) {
+      model_.system.markers.push_back({b, at, angle});
+      if (b != ground) model_.outlines[static_cast<std::size_t>(b)].push_back(at);
+    }
     return known->second;
   }
 
@@ -205,10 +208,16 @@ class Builder {
         for (const auto& [name, i] : index_) known.push_back(name);
         wrong(s.place, "there is no body " + quoted(s.body) + suggestion(s.body, known));
       }
-    for (const StartJournal& s : scene_.start_journals)
-      if (const auto& known = model_.system.contact_names;
-          std::find(known.begin(), known.end(), s.joint) == known.end())
+    for (const StartJournal& s : scene_.start_journals) {
+      const auto& known = model_.system.contact_names;
+      const auto found = std::find(known.begin(), known.end(), s.joint);
+      if (found == known.end())
         wrong(s.place, quoted(s.joint) + " is not a joint with clearance" + suggestion(s.joint, known));
+      const JournalBearing& gap = model_.system.contacts[static_cast<std::size_t>(found - known.begin())].gap;
+      if (vector(s.eccentricity).norm() > gap.clearance() + too_deep * gap.journal)
+        wrong(s.place, "eccentricity puts the journal deeper into the wall than a tenth of its radius, where no contact law holds; "
+                       "the clearance is " + std::to_string(1e3 * gap.clearance()) + " mm");
+    }
   }
 
   // The largest arm of a body or distance between ground points: what "small" is measured by.

@@ -10,11 +10,14 @@
 
 namespace pintle {
 
+/// Overlap, over the journal's radius, beyond which no contact law of ours means anything.
+inline constexpr double too_deep = 0.1;
+
 /// A scene made ready to run.
 struct Model {
   System system;
   Scheme scheme;
-  std::vector<std::vector<Eigen::Vector2d>> outlines;  ///< named points of each body, for drawing [m]
+  std::vector<std::vector<Eigen::Vector2d>> outlines;  ///< points of each body, named or joined, for drawing [m]
   std::vector<std::pair<int, int>> pin_joints;         ///< joint, marker: where a joint is drawn
 };
 

@@ -80,10 +80,12 @@ Drafting::Drafting(const Scene& scene, const Model& model) {
   const double width = 1.6 * pin;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     owners.push_back(system.bodies[b].name);
+    std::vector<Vector2d> points = model.outlines[b];
+    if (!points.empty()) points.emplace_back(0, 0);  // a link reaches to its mass centre
     double span = 0;
-    for (const Vector2d& p : model.outlines[b]) span = std::max(span, (p - model.outlines[b][0]).norm());
+    for (const Vector2d& p : points) span = std::max(span, (p - points[0]).norm());
     if (span > 0) {
-      links.push_back(outline(model.outlines[b], width));
+      links.push_back(outline(points, width));
     } else {  // a body known by one point: a block around it
       auto box = block(2 * half, 1.4 * half);
       const Vector2d center = model.outlines[b].empty() ? Vector2d(0, 0) : model.outlines[b][0];

@@ -145,6 +145,7 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
       {"file", scene.file},
       {"status", status_text(run.status)},
       {"reason", run.reason},
+      {"warnings", run.warnings},
       {"reached [s]", run.t_end},
       {"model", assembly_json(system, assembly)},
       {"contacts", contacts},

@@ -29,6 +29,23 @@ double in_play(const Energies& e, const Energies& first) {
          std::abs(e.input);
 }
 
+void warn_of_depth(const System& system, Run& run) {
+  std::vector<double> deepest(system.contacts.size(), 0.0);
+  for (const Impact& i : run.impacts) {
+    double& d = deepest[static_cast<std::size_t>(i.contact)];
+    d = std::max(d, i.deepest);
+  }
+  for (std::size_t c = 0; c < deepest.size(); ++c)
+    if (deepest[c] > too_deep * system.contacts[c].gap.journal) {
+      std::ostringstream s;
+      s.precision(3);
+      s << "\"" << system.contact_names[c] << "\": the journal went " << deepest[c]
+        << " m into the wall, more than a tenth of its radius; no contact law holds there (is the stiffness "
+        << system.contacts[c].normal.k << " N/m^" << system.contacts[c].normal.n << " meant?)";
+      run.warnings.push_back(s.str());
+    }
+}
+
 }  // namespace
 
 const char* status_text(Status s) {
@@ -98,7 +115,13 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   }
   if (!going) {
     run.status = Status::failed;
-    run.reason = integrator.failure().empty() ? "an output could not be evaluated" : integrator.failure();
+    run.reason = integrator.failure();
+    if (run.reason.empty()) {
+      std::ostringstream s;
+      s << "t = " << sampled.t << " s: the output there cannot be evaluated (a singular pose, or numbers beyond what a "
+           "double holds: check masses, stiffnesses and speeds)";
+      run.reason = s.str();
+    }
   }
   if (started) {
     integrator.restore();
@@ -107,6 +130,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
 
   run.t_end = integrator.state().t;
   run.impacts = integrator.impacts();
+  warn_of_depth(system, run);
   run.counts = integrator.counts();
   run.worst_position = integrator.worst_position();
   run.worst_velocity = integrator.worst_velocity();

@@ -16,6 +16,7 @@ const char* status_text(Status);
 struct Run {
   Status status = Status::finished;
   std::string reason;               ///< in words, when not finished
+  std::vector<std::string> warnings;  ///< what makes the numbers doubtful, in words
   double t_end = 0;                 ///< reached [s]
   Table trajectory, ledger;
   std::vector<Impact> impacts;
