@@ -16,6 +16,11 @@ void Integrator::close(int contact, double rate) {
   state.impact_rate[at(contact)] = latched;
   open_impact_[at(contact)] = static_cast<int>(impacts_.size());
   Impact impact{.contact = contact, .begin = state.t, .approach = latched};
+  if (const Touch now = touch(contact, state); now.depth > 0) {  // a start inside the wall
+    impact.deepest = now.depth;
+    impact.peak_force =
+        evaluate(system_.contacts[at(contact)].normal, Approach{now.depth, now.rate, latched}).force;
+  }
   loss_at_begin_[at(contact)] = state.y[2 * system_.n() + system_.contact_z[at(contact)]] +
                                 (system_.contacts[at(contact)].friction
                                      ? state.y[2 * system_.n() + system_.contact_z[at(contact)] + 1]

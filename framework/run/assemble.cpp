@@ -333,7 +333,8 @@ void refuse_redundancy(const Scene& scene, const Model& model, const Assembly& a
   throw AssemblyError(scene.file, named_place(scene, name),
                       std::string("redundant: its row \"") + row_name(system.joints[at(r.joint)], r.row) +
                           "\" repeats, at the starting pose, what " + (others.empty() ? "nothing moves" : others) +
-                          " already hold; remove it, or make one of them looser (slot, clearance)");
+                          " already hold; remove it, or make one of them looser (slot, clearance); if it is "
+                          "redundant at this pose only (a dead centre, a folded linkage), start elsewhere");
 }
 
 std::vector<Redundancy> redundant_rows(const System& system, const Equations& eq) {

@@ -124,6 +124,8 @@ Drawing draw(const Model& model, const Drafting& drafting, const State& state, c
       const Vector2d foot = a.r + a.u * a.u.dot(m.r - a.r);
       out.lines.push_back({Part::guide, bodies + joint, false,
                            {foot - 0.5 * system.length * a.u, foot + 0.5 * system.length * a.u}});
+      if (std::holds_alternative<Slot>(system.joints[at(joint)]))
+        out.lines.push_back({Part::joint, bodies + joint, true, circle(m.r, 0.6 * drafting.pin)});
     } else if (std::holds_alternative<Distance>(system.joints[at(joint)])) {
       out.lines.push_back({Part::joint, bodies + joint, false,
                            {eq.motion[at(marker_a(system.joints[at(joint)]))].r, m.r}});
