@@ -127,26 +127,28 @@ double Integrator::first_event(int& contact, bool& onset) {
 }
 
 // Ends the last step at the event near t: true steps of the scheme, not dense output, corrected until the
-// depth is zero to rounding.
+// depth is zero to rounding. @returns false if it is not found so; step_.h is then as before
 bool Integrator::finish_at(double t, int contact) {
-  const double t0 = step_.from.state.t, t1 = step_.to.state.t;
-  const double enough = 1e-15 * system_.length;
-  double best = t;
-  for (int i = 0; i < 6; ++i) {
-    if (best <= t0) {  // at once
-      step_.to = step_.from;
-      step_.h = 0;
-      return true;
-    }
-    if (!stages_.attempt(system_, best - t0, step_, eq_))
-      return stop("singular pose while locating an impact");
-    const Touch at_end = touch(contact, step_.to.state);
-    if (std::abs(at_end.depth) <= enough || at_end.rate == 0) return true;
-    const double next = std::clamp(best - at_end.depth / at_end.rate, t0, t1);
-    if (std::abs(next - best) <= 2e-16 * std::abs(t1)) return true;
-    best = next;
+  const double t0 = step_.from.state.t, t1 = step_.to.state.t, h = step_.h;
+  const double enough = 1e-15 * system_.length, wall = 1e-9 * system_.contacts[at(contact)].gap.clearance();
+  if (t <= t0) {  // at once
+    step_.to = step_.from;
+    step_.h = 0;
+    return true;
   }
-  return true;
+  double depth = 0;
+  for (int i = 0; i < 6 && t > t0; ++i) {
+    if (!stages_.attempt(system_, t - t0, step_, eq_)) return stop("singular pose while locating an impact");
+    const Touch at_end = touch(contact, step_.to.state);
+    depth = at_end.depth;
+    if (std::abs(depth) <= enough || at_end.rate == 0) return true;
+    const double next = std::clamp(t - depth / at_end.rate, t0, t1);
+    if (std::abs(next - t) <= 2e-16 * std::abs(t1)) return true;
+    t = next;
+  }
+  if (t > t0 && std::abs(depth) <= wall) return true;
+  step_.h = h;
+  return false;
 }
 
 }  // namespace pintle

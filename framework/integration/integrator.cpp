@@ -208,10 +208,15 @@ bool Integrator::advance(double until) {
         }
       }
     } else {
-      const double t = first_event(contact, onset);
-      if (contact >= 0 && !finish_at(t, contact)) {
-        step_.to = step_.from;
-        return false;
+      double t = first_event(contact, onset);
+      // Where the dense output of a long step promises an event that true steps do not find: a shorter step.
+      for (int halvings = 0; contact >= 0 && !finish_at(t, contact); ++halvings) {
+        h_ = step_.h / 2;
+        if (!failure_.empty() || halvings > 40 || !step_to(h_)) {
+          step_.to = step_.from;
+          return !failure_.empty() ? false : stop("an impact cannot be located; tighten run.tolerance");
+        }
+        t = first_event(contact, onset);
       }
     }
   }

@@ -423,12 +423,12 @@ void figure3(Page& page) {
                           f("ideal moment up to %.0f N m; with clearance up to %.0f N m in the "
                             "first revolution, %.0f N m in the second",
                             largest(free), first, second),
-                          "no number is printed; the same kind of curve"});
+                          "a curve without printed numbers: nothing to compare"});
   page.summary.push_back(
       {"Fig. 3(b), journal orbit, 0.01 mm", "curve: the journal follows the wall",
        f("%d impacts in the first 0.2 ms, then along the wall, at most %.2f µm deep",
          ended(orbiting), deepest),
-       "no number is printed; the same kind of curve"});
+       "a curve without printed numbers: nothing to compare"});
   const auto driven = [](const Run& r) {
     return f("%d; %.6f J; %.6f J", ended(r), r.last.input, r.last.lost);
   };
@@ -835,19 +835,21 @@ void figure9(Page& page) {
       << "\nThe sliding speed does fall as μ grows, and c_d with it: a little with the speed of "
          "the surfaces, strongly with the speed of the place of contact. But the product μ c_d "
          "grows throughout, with either. "
-         "So a smaller c_d slows the growth of friction and does not turn it round.\n\n"
-         "**What the program shows instead.** Within a hit friction can stop the sliding. First "
-         "three hits, speed of the surfaces, e = 0.9: sliding speed at begin → end [m/s]; work of "
-         "friction [J]:\n\n"
+         "So it is not the coefficient that falls.\n\n"
+         "**What the program shows** is that friction ends the sliding itself, and its work is "
+         "force times distance slid. First three hits, speed of the surfaces, e = 0.9: sliding "
+         "speed at begin → end [m/s]; work of friction [J]:\n\n"
          "| μ | first | second | third |\n|---|---|---|---|\n"
       << hits
-      << "\nOnce it is stopped within the hit, a larger μ takes no more. So the work of friction "
-         "in the first 10 ms stops growing (e = 0.9, from μ = 0.15) or falls (e = 0.8), while "
-         "hysteresis gets less because friction has taken energy and the next hits come at other "
-         "times and speeds. The two together give a sum that falls, or has no fixed sense. "
+      << "\nIn the first hit this work is largest at μ = 0.1 and falls beyond: the greater force "
+         "slows the sliding sooner, and from 0.2 on stops it within the hit. So far the printed "
+         "observation and the falling tangential speed are right. "
+         "Over the first 10 ms the work of friction stops growing (e = 0.9, from μ = 0.15) or "
+         "falls (e = 0.8, beyond 0.15), while hysteresis gets less because friction has taken "
+         "energy and the next hits come at other times and speeds. "
          "The largest loss at 0.1 after 15 and 20 ms (place of contact, e = 0.8) is a matter of "
-         "hysteresis alone: 0.835 J at 0.1 against 0.710 at 0.05 and 0.800 at 0.2, while the work "
-         "of friction falls from 0.05 on. "
+         "hysteresis: 0.835 J at 0.1 against 0.710 at 0.05 and 0.800 at 0.2, while the work of "
+         "friction falls from 0.05 on. "
          "Later, when the hits are over and the journal slides along the wall, the work of "
          "friction grows with μ and so does the loss.\n\n";
   page.text << "### Eq. (22): what the sliding speed of the place of contact leaves unexplained\n\n"
