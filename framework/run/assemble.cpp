@@ -110,7 +110,8 @@ class Closure {
   std::string amount(Index row, double scaled) const {
     std::ostringstream s;
     s.precision(3);
-    if (row < system_.n_rows() && system_.row_scale[row] == 1 && system_.length != 1)
+    const int k = joint(row);
+    if (k >= 0 && is_angle_row(system_.joints[at(k)], static_cast<int>(row) - system_.row_begin[at(k)]))
       s << std::abs(scaled) << " rad";
     else
       s << std::abs(scaled) * system_.length << " m";

@@ -34,6 +34,7 @@ class Builder {
     for (const SceneDriver& d : scene_.drivers) add(d);
     for (const SceneLoad& l : scene_.loads) add(l);
     judge_starts();
+    judge_output();
     model_.system.length = size();
     number(model_.system);
     scheme();
@@ -218,6 +219,13 @@ class Builder {
         wrong(s.place, "eccentricity puts the journal deeper into the wall than a tenth of its radius, where no contact law holds; "
                        "the clearance is " + std::to_string(1e3 * gap.clearance()) + " mm");
     }
+  }
+
+  void judge_output() const {
+    constexpr double most = 1e7;
+    if (scene_.output.every > 0 && scene_.run.until / scene_.output.every > most)
+      wrong(scene_.output.place, "`every` asks for more than ten million rows; make it longer, or run.until shorter");
+    if (scene_.output.frames == 1) wrong(scene_.output.place, "one frame is no animation; ask for 0, or 2 and more");
   }
 
   // The largest arm of a body or distance between ground points: what "small" is measured by.
