@@ -251,29 +251,16 @@ double velocity_violation(const System& system, const VectorXd& y, const Equatio
 }
 
 bool project(const System& system, double t, VectorXd& y, Equations& eq) {
-  constexpr double enough = 1e-13, good = 1e-11;
-  constexpr int most = 8;
-  double worst = 0;
-  for (int i = 0; i < most; ++i) {
-    pose(system, t, y, eq);
+  const auto factored = [&] {
     factor(system, eq);
-    if (!eq.regular) return false;
-    const double before = worst;
-    worst = position_violation(system, eq);
-    if (worst <= enough || (i > 0 && worst <= good && worst > 0.1 * before)) break;
-    eq.mu = eq.C;
+    return eq.regular;
+  };
+  const auto subtract = [&](const VectorXd& violation, double* x) {
+    eq.mu = violation;
     eq.schur.solve(eq.mu);
-    subtract_reaction(eq, eq.mu, y.data());
-  }
-  if (!(worst <= good)) return false;
-  speed(system, t, y, eq);
-  for (int i = 0; i < 2 && velocity_violation(system, y, eq) > enough; ++i) {
-    eq.mu = eq.Cdot;
-    eq.schur.solve(eq.mu);
-    subtract_reaction(eq, eq.mu, y.data() + system.n());
-    speed(system, t, y, eq);
-  }
-  return true;
+    subtract_reaction(eq, eq.mu, x);
+  };
+  return onto_constraints(system, t, y, eq, factored, subtract);
 }
 
 }  // namespace pintle

@@ -61,6 +61,33 @@ bool evaluate(const System&, const State&, Equations&, Eigen::VectorXd& dy);
 double position_violation(const System&, const Equations&);
 double velocity_violation(const System&, const Eigen::VectorXd& y, const Equations&);
 
+/// Newton's iteration for q on C = 0, then s on Ċ = 0, at time t. `factor()` prepares, at a pose, what
+/// `subtract(violation, x)` needs to take a violation out of x, the coordinates or the speeds in y;
+/// it returns false at a pose where that cannot be had. Leaves pose and speed at the corrected state.
+/// @returns false if it does not converge
+template <class Factor, class Subtract>
+bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equations& eq, Factor factor,
+                      Subtract subtract) {
+  constexpr double enough = 1e-13, good = 1e-11;
+  constexpr int most = 8;
+  double worst = 0;
+  for (int i = 0; i < most; ++i) {
+    pose(system, t, y, eq);
+    if (!factor()) return false;
+    const double before = worst;
+    worst = position_violation(system, eq);
+    if (worst <= enough || (i > 0 && worst <= good && worst > 0.1 * before)) break;
+    subtract(eq.C, y.data());
+  }
+  if (!(worst <= good)) return false;
+  speed(system, t, y, eq);
+  for (int i = 0; i < 2 && velocity_violation(system, y, eq) > enough; ++i) {
+    subtract(eq.Cdot, y.data() + system.n());
+    speed(system, t, y, eq);
+  }
+  return true;
+}
+
 /// Moves q, then s, to C = 0 and Ċ = 0 by the shortest way in the metric of M; leaves pose, speed and
 /// factor as for the corrected state. @returns false if it does not converge
 bool project(const System&, double t, Eigen::VectorXd& y, Equations&);

@@ -64,24 +64,13 @@ void Partition::subtract(const System& system, const Eigen::VectorXd& violation,
 }
 
 bool Partition::correct(const System& system, double t, Eigen::VectorXd& y, Equations& eq) {
-  constexpr double enough = 1e-13, good = 1e-11;
-  constexpr int most = 8;
-  double worst = 0;
-  for (int i = 0; i < most; ++i) {
-    pose(system, t, y, eq);
+  const auto factored = [&] {
     assemble(system, eq);
     factor();
-    const double before = worst;
-    worst = position_violation(system, eq);
-    if (worst <= enough || (i > 0 && worst <= good && worst > 0.1 * before)) break;
-    subtract(system, eq.C, y.data());
-  }
-  if (!(worst <= good)) return false;
-  speed(system, t, y, eq);
-  for (int i = 0; i < 2 && velocity_violation(system, y, eq) > enough; ++i) {
-    subtract(system, eq.Cdot, y.data() + system.n());
-    speed(system, t, y, eq);
-  }
+    return true;
+  };
+  const auto take = [&](const Eigen::VectorXd& violation, double* x) { subtract(system, violation, x); };
+  if (!onto_constraints(system, t, y, eq, factored, take)) return false;
   pintle::factor(system, eq);
   return eq.regular;
 }
