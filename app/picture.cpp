@@ -15,34 +15,28 @@
 #include <string>
 #include <vector>
 
-#include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkCellType.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
 #include <vtkPNGWriter.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 
+#include "app/canvas.h"
 #include "app/frames.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector2d;
+using pintle::Canvas;
+using pintle::Colour;
 using pintle::Part;
 
 // What to draw ------------------------------------------------------------------------------------
@@ -56,8 +50,6 @@ struct Choice {
 };
 
 // Colours and words -------------------------------------------------------------------------------
-
-using Colour = Eigen::Vector3d;  // red, green, blue in 0 … 1
 
 const Colour ink{0.16, 0.18, 0.22}, white{1, 1, 1}, red{0.80, 0.16, 0.14};
 
@@ -95,76 +87,6 @@ double round_length(double length) {
 }
 
 // How to draw -------------------------------------------------------------------------------------
-
-/// Filled flat shapes in pixels, a layer above the other.
-class Canvas {
- public:
-  Canvas() { colours_->SetNumberOfComponents(3); }
-
-  void fill(const std::vector<Vector2d>& outline, const Colour& colour) {
-    shapes_->InsertNextCell(static_cast<int>(outline.size()));
-    for (const Vector2d& r : outline) {
-      shapes_->InsertCellPoint(points_->InsertNextPoint(r.x(), r.y(), layer_));
-    }
-    const Colour byte = 255 * colour;
-    colours_->InsertNextTuple3(byte.x(), byte.y(), byte.z());
-  }
-
-  /// A line with round corners and ends.
-  void stroke(const std::vector<Vector2d>& line, bool closed, double width, const Colour& colour) {
-    const std::size_t n = line.size();
-    for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
-      const Vector2d &a = line[i], &b = line[(i + 1) % n];
-      const Vector2d along = (b - a).normalized() * width / 2, across{-along.y(), along.x()};
-      if (a != b) fill({a - across, b - across, b + across, a + across}, colour);
-    }
-    for (const Vector2d& r : line) disc(r, width / 2, colour);
-  }
-
-  void disc(const Vector2d& centre, double radius, const Colour& colour) {
-    std::vector<Vector2d> outline;
-    const int corners = 12 + static_cast<int>(radius);
-    for (int i = 0; i < corners; ++i) {
-      const double angle = 2 * std::numbers::pi * i / corners;
-      outline.push_back(centre + radius * Vector2d(std::cos(angle), std::sin(angle)));
-    }
-    fill(outline, colour);
-  }
-
-  void arrow(const Vector2d& from, const Vector2d& to, double width, const Colour& colour) {
-    const Vector2d way = to - from;
-    if (way.norm() < 1) return;
-    const Vector2d along = way.normalized(), across{-along.y(), along.x()};
-    const double head = std::min(4 * width, way.norm());
-    const Vector2d neck = to - head * along;
-    stroke({from, neck}, false, width, colour);
-    fill({to, neck + 0.42 * head * across, neck - 0.42 * head * across}, colour);
-  }
-
-  /// What follows lies over what came before.
-  void next_layer() { layer_ += 1; }
-
-  vtkSmartPointer<vtkActor> actor() const {
-    vtkNew<vtkPolyData> shapes;
-    shapes->SetPoints(points_);
-    shapes->SetPolys(shapes_);
-    shapes->GetCellData()->SetScalars(colours_);
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(shapes);
-    const auto actor = vtkSmartPointer<vtkActor>::New();
-    actor->SetMapper(mapper);
-    actor->GetProperty()->LightingOff();
-    return actor;
-  }
-
-  double layer() const { return layer_; }
-
- private:
-  double layer_ = 0;
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkCellArray> shapes_;
-  vtkNew<vtkUnsignedCharArray> colours_;
-};
 
 /// The part of the world that is seen, and where: a uniform scale.
 struct View {
