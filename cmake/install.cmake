@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set(pintle_config ${CMAKE_INSTALL_LIBDIR}/cmake/pintle)
 
 install(TARGETS pintle EXPORT pintleTargets)
-install(DIRECTORY contact framework DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pintle
+install(DIRECTORY contact elements framework meshes DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pintle
   FILES_MATCHING PATTERN "*.h")
 install(EXPORT pintleTargets NAMESPACE pintle:: DESTINATION ${pintle_config})
 
@@ -15,6 +15,7 @@ write_basic_package_version_file(pintleConfigVersion.cmake COMPATIBILITY SameMin
 install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/pintleConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/pintleConfigVersion.cmake
+  cmake/FindGmsh.cmake
   cmake/FindSuiteSparse.cmake
   DESTINATION ${pintle_config})
 

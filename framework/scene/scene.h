@@ -7,19 +7,13 @@
 #include <variant>
 #include <vector>
 
+#include "framework/scene/elastic.h"
+#include "framework/scene/place.h"
 #include "framework/time_law.h"
 
 /// What the user means: plain data with names and defaults, SI units throughout, no matrices.
 /// Written by hand in C++ or by the reader (reader.h). Only `build` judges it.
 namespace pintle {
-
-using Pair = std::array<double, 2>;
-
-/// Where a thing was written, so that `build` can name it; line 0 for a scene made in C++.
-struct Place {
-  int line = 0;    ///< 1-based
-  std::string key; ///< path of keys, "joints.gudgeon pin.clearance.radial"
-};
 
 /// A time law and the text it was written as (kept for run.json and messages).
 struct Law {
@@ -33,6 +27,8 @@ struct ScenePoint {
   std::string name;
   Pair at{0, 0};     ///< [m]
   double angle = 0;  ///< [rad]
+  std::string hole = {};                     ///< of a plate: the point is the middle of this hole …
+  RimCoupling coupling = RimCoupling::none;  ///< … and follows its rim so
   Place place;
 };
 
@@ -48,6 +44,7 @@ struct SceneBody {
   double inertia = 0;    ///< about the mass centre [kg m²]
   Pair center{0, 0};     ///< mass centre in body axes [m]
   std::vector<ScenePoint> points;
+  std::optional<SceneElastic> elastic = {};  ///< made of elements: mass, inertia, center come from them
   Pair at{0, 0};         ///< rough starting position of the body's origin, world [m]
   double angle = 0;      ///< rough starting angle [rad]
   Place place;
@@ -181,6 +178,8 @@ struct Scene {
   std::string title;
   Pair gravity{0, 0}; ///< [m/s²]
   std::vector<std::pair<std::string, double>> parameters;  ///< after overrides, SI
+  std::vector<SceneMaterial> materials;
+  std::optional<SceneStatic> statics;
   std::vector<ScenePoint> ground;  ///< points of the ground
   std::vector<SceneBody> bodies;
   std::vector<SceneJoint> joints;

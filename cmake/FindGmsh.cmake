@@ -1,0 +1,10 @@
+# Debian's Gmsh 4.8 ships no CMake configuration. Gives Gmsh::Gmsh.
+find_path(Gmsh_INCLUDE_DIR gmsh.h)
+find_library(Gmsh_LIBRARY gmsh)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Gmsh REQUIRED_VARS Gmsh_INCLUDE_DIR Gmsh_LIBRARY)
+if(Gmsh_FOUND AND NOT TARGET Gmsh::Gmsh)
+  add_library(Gmsh::Gmsh INTERFACE IMPORTED)
+  target_include_directories(Gmsh::Gmsh SYSTEM INTERFACE ${Gmsh_INCLUDE_DIR})
+  target_link_libraries(Gmsh::Gmsh INTERFACE ${Gmsh_LIBRARY})
+endif()

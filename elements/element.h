@@ -1,0 +1,43 @@
+#pragma once
+
+#include <concepts>
+
+#include <Eigen/Core>
+
+/// What every element answers. All matrices are in body axes; the nodal freedoms of a node are
+/// [u_x u_y] or, in beams, [u_x u_y φ] (m, m, rad), node after node.
+///
+/// With T, x, R the nodal values of a unit translation, of position and of a unit rotation, M and G
+/// alone give every invariant of a floating frame: docs/theory/elements.md.
+namespace pintle {
+
+template <class E> using Coords = Eigen::Matrix<double, 2, E::nodes>;           ///< [m]
+template <class E> using Freedoms = Eigen::Matrix<double, E::dofs, 1>;
+template <class E> using Square = Eigen::Matrix<double, E::dofs, E::dofs>;
+template <class E> using ShapeMatrix = Eigen::Matrix<double, 2, E::dofs>;
+/// Stress at the element's own points, a column each. Plane: [σx σy τxy σz] in Pa, body axes, at the
+/// integration points. Line: [N V M] in N, N, N m, at the two ends, element axes: N pulls, M > 0
+/// stretches the side to the right of the axis (−y of the element), V = −dM/ds.
+template <class E> using Stress = Eigen::Matrix<double, E::stress_rows, E::points>;
+
+template <class E>
+concept Element = requires(const E& e, const Coords<E>& x, const Freedoms<E>& u,
+                           const Stress<E>& s, const Eigen::Vector2d& xi) {
+  requires E::dofs == E::nodes * E::dofs_per_node;
+  /// K = ∫ BᵀDB. Symmetric; its null space is the three rigid motions of the plane.
+  { stiffness(e, x) } -> std::same_as<Square<E>>;
+  /// M = ∫ ρ NᵀN, consistent. Symmetric; TᵀMT is the mass.
+  { mass(e, x) } -> std::same_as<Square<E>>;
+  /// Diagonal of a lumped mass matrix: non-negative, with the mass of the element.
+  { lumped_mass(e, x) } -> std::same_as<Freedoms<E>>;
+  /// G = ∫ ρ NᵀZᵀN, Z = [0 −1; 1 0]. Skew.
+  { skew_mass(e, x) } -> std::same_as<Square<E>>;
+  /// Displacement = shape · freedoms. Plane: ξ in the reference cell; line: ξ.x() ∈ [0, 1], of the axis.
+  { shape(e, x, xi) } -> std::same_as<ShapeMatrix<E>>;
+  /// The stress that freedoms u cause.
+  { stress(e, x, u) } -> std::same_as<Stress<E>>;
+  /// K_g of a given stress: ½ uᵀ K_g u is the work of that stress on the quadratic part of strain.
+  { geometric_stiffness(e, x, s) } -> std::same_as<Square<E>>;
+};
+
+}  // namespace pintle

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include <Eigen/Core>
+
+namespace pintle {
+
+/// What a slice of the body feels out of its plane: nothing pulls on it, or nothing moves.
+enum class PlaneState { stress, strain };
+
+struct Isotropic {
+  double young = 0;    ///< E [Pa]
+  double poisson = 0;  ///< ν, in (−1, ½)
+};
+
+/// Axes 1 and 2 in the plane, 1 turned by `angle` from the body's x axis; 3 out of it.
+/// ν₁₂ is −ε₂/ε₁ under tension along 1. What has a 3 in its name matters in plane strain alone.
+struct Orthotropic {
+  double young_1 = 0, young_2 = 0;  ///< E₁, E₂ [Pa]
+  double poisson_12 = 0;            ///< ν₁₂
+  double shear_12 = 0;              ///< G₁₂ [Pa]
+  double angle = 0;                 ///< [rad]
+  std::optional<double> young_3, poisson_13, poisson_23;
+};
+
+struct Material {
+  std::variant<Isotropic, Orthotropic> elastic;
+  double density = 0;  ///< ρ [kg/m³]
+};
+
+/// What a plane element needs of a material: σ = D ε with ε = [εx εy γxy], σz = Dz ε, body axes.
+struct PlaneMaterial {
+  Eigen::Matrix3d D;      ///< [Pa] symmetric positive definite
+  Eigen::RowVector3d Dz;  ///< [Pa] zero in plane stress
+};
+/// @throws std::invalid_argument  the constants are not those of a stable solid (D not positive
+///         definite), or plane strain of an orthotropic material lacks its third axis
+PlaneMaterial plane_material(const Material&, PlaneState);
+
+/// Young's and shear modulus along the body's x axis: what a beam lying there feels.
+struct BeamModuli {
+  double E, G;  ///< [Pa]
+  double nu;    ///< as Cowper's shear factor asks for it: E/2G − 1
+};
+/// `direction`: angle of the beam's axis from the body's x axis [rad].
+BeamModuli beam_moduli(const Material&, double direction);
+
+}  // namespace pintle

@@ -1,0 +1,1 @@
+#include "elements/plane.h"

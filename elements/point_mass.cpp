@@ -1,0 +1,1 @@
+#include "elements/point_mass.h"

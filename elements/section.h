@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <variant>
+
+namespace pintle {
+
+/// Cross-sections of beams. Height lies in the plane of the mechanism, width across it. All in m.
+struct RectangleSection { double height, width; };
+struct CircleSection { double diameter; };
+struct TubeSection { double outer, inner; };  ///< diameters
+/// Flanges lie across the plane's height: `height` over all, `width` of the flanges.
+struct ISection { double height, width, web, flange; };
+/// Whatever else: A, I and the distances from the axis to the outermost fibres.
+struct GivenSection {
+  double area;                   ///< A [m²]
+  double second_moment;          ///< I about the axis across the plane [m⁴]
+  double fibre = 0;              ///< distance to the outermost fibre; 0: bending stress is not told [m]
+  std::optional<double> shear_factor;  ///< κ; unset: 5/6
+};
+using SectionShape = std::variant<RectangleSection, CircleSection, TubeSection, ISection, GivenSection>;
+
+/// Which shear factor κ (shear stiffness κGA) a Timoshenko beam takes.
+/// `cowper`: by section and Poisson's ratio [Cowper1966]; `five_sixths`: 5/6 for each section.
+enum class ShearFactor { cowper, five_sixths };
+
+struct Section {
+  double A;      ///< area [m²]
+  double I;      ///< second moment about the axis across the plane [m⁴]
+  double kappa;  ///< shear factor –
+  double fibre;  ///< axis to outermost fibre: half the height [m]
+};
+/// @throws std::invalid_argument  a size is not positive or they contradict each other
+Section section(const SectionShape&, ShearFactor, double poisson);
+
+/// Between two sections of one kind, size by size, t from 0 to 1: how a tapered beam is cut.
+/// @throws std::invalid_argument  the kinds differ
+SectionShape between(const SectionShape&, const SectionShape&, double t);
+
+}  // namespace pintle

@@ -1,0 +1,1 @@
+#include "framework/component/statics.h"
