@@ -27,9 +27,9 @@ struct ScenePoint {
   std::string name;
   Pair at{0, 0};     ///< [m]
   double angle = 0;  ///< [rad]
+  Place place = {};
   std::string hole = {};                     ///< of a plate: the point is the middle of this hole …
   RimCoupling coupling = RimCoupling::none;  ///< … and follows its rim so
-  Place place;
 };
 
 /// "crank.A", "ground" (the point 0, 0) or "crank" (the origin of its axes).
