@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+/// Linear elastic solids, seen by a plane element as D and by a beam as two moduli. Small strain,
+/// no temperature, no loss. Theory: docs/theory/elements.md.
 namespace pintle {
 
 /// What a slice of the body feels out of its plane: nothing pulls on it, or nothing moves.
@@ -27,7 +29,7 @@ struct Orthotropic {
 
 struct Material {
   std::variant<Isotropic, Orthotropic> elastic;
-  double density = 0;  ///< ρ [kg/m³]
+  double density = 0;  ///< ρ [kg/m³], 0: no mass
 };
 
 /// What a plane element needs of a material: σ = D ε with ε = [εx εy γxy], σz = Dz ε, body axes.
@@ -36,15 +38,18 @@ struct PlaneMaterial {
   Eigen::RowVector3d Dz;  ///< [Pa] zero in plane stress
 };
 /// @throws std::invalid_argument  the constants are not those of a stable solid (D not positive
-///         definite), or plane strain of an orthotropic material lacks its third axis
+///         definite), or plane strain of an orthotropic material lacks its third axis, or the
+///         density is negative
 PlaneMaterial plane_material(const Material&, PlaneState);
 
-/// Young's and shear modulus along the body's x axis: what a beam lying there feels.
+/// Young's and shear modulus along a beam's axis. Of a beam cut from an orthotropic solid at an
+/// angle, the coupling of stretch and shear is left out.
 struct BeamModuli {
   double E, G;  ///< [Pa]
   double nu;    ///< as Cowper's shear factor asks for it: E/2G − 1
 };
 /// `direction`: angle of the beam's axis from the body's x axis [rad].
+/// @throws std::invalid_argument  as plane_material in plane stress
 BeamModuli beam_moduli(const Material&, double direction);
 
 }  // namespace pintle

@@ -4,8 +4,9 @@
 #include "elements/material.h"
 
 /// Plane-stress and plane-strain elements, isoparametric; freedoms [u_x u_y] per node. Nodes run
-/// counter-clockwise, corners first, then the middles of the sides 12, 23, …, then the centre: VTK's
-/// and Gmsh's order. Theory: docs/theory/elements.md.
+/// counter-clockwise, corners first, then the middles of the sides 12, 23, …, then the centre:
+/// VTK's and Gmsh's order. Reference cell: [−1, 1]² with node 1 at (−1, −1), or the triangle (0, 0)
+/// (1, 0) (0, 1). Small strain; material and thickness constant. Theory: docs/theory/plane.md.
 namespace pintle {
 
 /// Constant over an element.
@@ -15,21 +16,38 @@ struct PlaneProperties {
   double thickness = 0;  ///< [m]
 };
 
-/// The kinds; N nodes, P integration points of the stiffness.
+/// The kinds. Displacement is of order p + 1 in L2, energy and frequency of order 2p; p = 1 for
+/// three and four nodes, 2 for the others.
 enum class PlaneKind {
-  triangle3,            ///< constant strain: stiff in bending, for comparison
-  triangle6,            ///< quadratic
-  quadrilateral4,       ///< bilinear with incompatible modes that pass the patch test [TaylorBeresfordWilson1976]
-  quadrilateral4_plain, ///< bilinear: locks in bending, for comparison
-  quadrilateral8,       ///< serendipity, 3 × 3 points
+  triangle3,       ///< constant strain: stiff in bending, for comparison
+  triangle6,       ///< quadratic, 3 points
+  quadrilateral4,  ///< bilinear with incompatible modes, exact for a rectangle in pure bending;
+                   ///< passes the patch test in any shape [TaylorBeresfordWilson1976]
+  quadrilateral4_plain,    ///< bilinear: locks in bending, for comparison
+  quadrilateral8,          ///< serendipity, 3 × 3 points
   quadrilateral8_reduced,  ///< serendipity, 2 × 2 points
-  quadrilateral9,       ///< biquadratic, 3 × 3 points
+  quadrilateral9,          ///< biquadratic, 3 × 3 points
 };
 
+/// One kind with its constants: N nodes, and the P integration points of its stiffness, at which
+/// its stress is told. What is not constant is `p`.
 template <PlaneKind kind, int N, int P>
 struct PlaneElement {
   static constexpr PlaneKind plane_kind = kind;
   static constexpr int nodes = N, dofs_per_node = 2, dofs = 2 * N, points = P, stress_rows = 4;
+
+  /// Deformations of an element alone that cost it no energy. The serendipity element at 2 × 2
+  /// points has one, (ξ(1 − 3η²), −η(1 − 3ξ²)) when square: rank dofs − 4. Two that share a side
+  /// cannot both take it, so a mesh of two elements has none.
+  static constexpr int spurious_modes = kind == PlaneKind::quadrilateral8_reduced ? 1 : 0;
+  /// Whether displacement stays accurate in plane strain as ν → ½: to 2 % at ν = 0.4999 with four
+  /// elements across the wall of a thick cylinder. The others ask for more constancy of volume than
+  /// their freedoms can give: at 3 × 3 points one level of refinement late, three and four nodes
+  /// (without incompatible modes) for good.
+  static constexpr bool near_incompressible = kind == PlaneKind::triangle6 ||
+                                              kind == PlaneKind::quadrilateral4 ||
+                                              kind == PlaneKind::quadrilateral8_reduced;
+
   PlaneProperties p;
 };
 using Triangle3 = PlaneElement<PlaneKind::triangle3, 3, 1>;
@@ -40,33 +58,72 @@ using Quadrilateral8 = PlaneElement<PlaneKind::quadrilateral8, 8, 9>;
 using Quadrilateral8Reduced = PlaneElement<PlaneKind::quadrilateral8_reduced, 8, 4>;
 using Quadrilateral9 = PlaneElement<PlaneKind::quadrilateral9, 9, 9>;
 
-// Defined in plane.cpp for the seven kinds above.
-template <PlaneKind k, int N, int P> Square<PlaneElement<k, N, P>> stiffness(const PlaneElement<k, N, P>&, const Eigen::Matrix<double, 2, N>&);
-template <PlaneKind k, int N, int P> Square<PlaneElement<k, N, P>> mass(const PlaneElement<k, N, P>&, const Eigen::Matrix<double, 2, N>&);
-template <PlaneKind k, int N, int P> Freedoms<PlaneElement<k, N, P>> lumped_mass(const PlaneElement<k, N, P>&, const Eigen::Matrix<double, 2, N>&);
-template <PlaneKind k, int N, int P> Square<PlaneElement<k, N, P>> skew_mass(const PlaneElement<k, N, P>&, const Eigen::Matrix<double, 2, N>&);
-template <PlaneKind k, int N, int P> ShapeMatrix<PlaneElement<k, N, P>> shape(const PlaneElement<k, N, P>&, const Eigen::Matrix<double, 2, N>&, const Eigen::Vector2d& xi);
-template <PlaneKind k, int N, int P> Stress<PlaneElement<k, N, P>> stress(const PlaneElement<k, N, P>&, const Eigen::Matrix<double, 2, N>&, const Eigen::Matrix<double, 2 * N, 1>&);
-template <PlaneKind k, int N, int P> Square<PlaneElement<k, N, P>> geometric_stiffness(const PlaneElement<k, N, P>&, const Eigen::Matrix<double, 2, N>&, const Eigen::Matrix<double, 4, P>&);
+template <class E>
+concept PlaneElementType = requires {
+  { E::plane_kind } -> std::convertible_to<PlaneKind>;
+};
 
-/// Where `stress` is told, reference cell and body axes.
-template <PlaneKind k, int N, int P> Eigen::Matrix<double, 2, P> stress_points(const PlaneElement<k, N, P>&, const Eigen::Matrix<double, 2, N>&);
-/// Stress at the nodes, extrapolated from the points where it is best: 4 × N.
-template <PlaneKind k, int N, int P> Eigen::Matrix<double, 4, N> nodal_stress(const PlaneElement<k, N, P>&, const Eigen::Matrix<double, 4, P>&);
+// Defined in plane.cpp and plane_stress.cpp for the seven kinds above. @pre for all that take x:
+// the Jacobian is positive at the integration points; a mesh is judged by `nodal_jacobians`
+// beforehand.
 
-/// Determinant of the Jacobian at each node [m²]: ≤ 0 there makes stress, if not stiffness, meaningless.
-template <PlaneKind k, int N, int P> Eigen::Matrix<double, 1, N> nodal_jacobians(const PlaneElement<k, N, P>&, const Eigen::Matrix<double, 2, N>&);
+/// Symmetric positive semidefinite; its null space is the rigid motions and the spurious modes.
+template <PlaneElementType E>
+Square<E> stiffness(const E&, const Coords<E>& x);
+/// Consistent; exact to rounding, curved sides included. Incompatible modes carry no mass.
+template <PlaneElementType E>
+Square<E> mass(const E&, const Coords<E>& x);
+/// Positive, total exact. Three and four nodes: row sums, which keep the mass centre as well; the
+/// others: the consistent diagonal, scaled [HintonRockZienkiewicz1976].
+template <PlaneElementType E>
+Freedoms<E> lumped_mass(const E&, const Coords<E>& x);
+/// Skew; as exact as `mass`.
+template <PlaneElementType E>
+Square<E> skew_mass(const E&, const Coords<E>& x);
+/// N at ξ in the reference cell; incompatible modes, which the nodes do not see, left out.
+template <PlaneElementType E>
+ShapeMatrix<E> shape(const E&, const Coords<E>& x, const Eigen::Vector2d& xi);
+/// [σx σy τxy σz] at the integration points [Pa], strain of the incompatible modes included.
+template <PlaneElementType E>
+Stress<E> stress(const E&, const Coords<E>& x, const Freedoms<E>& u);
+/// Of in-plane stress s at the integration points; σz and incompatible modes do not enter.
+template <PlaneElementType E>
+Square<E> geometric_stiffness(const E&, const Coords<E>& x, const Stress<E>& s);
 
-/// A side's share of a traction, force per area [Pa, body axes], constant along it: nodes in order
-/// along the side (ends, then middle), two values for each. 2 or 3 nodes.
-Eigen::VectorXd side_load(const Eigen::Matrix2Xd& side, const Eigen::Vector2d& traction, double thickness);
-/// The same of a pressure [Pa] pushing against the side's right, which is into a body that lies on
-/// its left turned about: a body's outline runs counter-clockwise, so pressure pushes to its left.
+/// Where `stress` is told, reference cell: 2 × P [–].
+template <PlaneElementType E>
+Eigen::Matrix<double, 2, E::points> reference_points(const E&);
+/// The same in body axes: 2 × P [m].
+template <PlaneElementType E>
+Eigen::Matrix<double, 2, E::points> stress_points(const E&, const Coords<E>& x);
+/// Stress at the nodes, 4 × N [Pa], from stress at the points: the (bi)linear field of least
+/// squares, which for nine points is the one through the values at the 2 × 2 Gauss points, where
+/// stress is best. Three nodes: constant. Exact for stress linear in the reference coordinates.
+template <PlaneElementType E>
+Eigen::Matrix<double, 4, E::nodes> nodal_stress(const E&, const Stress<E>& s);
+
+/// Determinant of the Jacobian at each node [m²]. Zero at a corner of 180°, negative beyond or
+/// where nodes run clockwise; ≤ 0 anywhere makes stress there, if not stiffness, meaningless.
+template <PlaneElementType E>
+Eigen::Matrix<double, 1, E::nodes> nodal_jacobians(const E&, const Coords<E>& x);
+
+/// A side's share of a traction, force per area [Pa, body axes], constant along it: [f_x f_y] of
+/// each node [N]. A side has 2 or 3 nodes, columns of `side` [m] in order along it: ends, then
+/// middle. Resultant and moment are those of the traction on the (parabolic) side, to rounding for
+/// arcs up to 90°.
+/// @throws std::invalid_argument  a side of another number of nodes
+Eigen::VectorXd side_load(const Eigen::Matrix2Xd& side, const Eigen::Vector2d& traction,
+                          double thickness);
+/// The same of a pressure [Pa], which pushes to the side's left: into the body, as an outline runs
+/// counter-clockwise with the body on its left (and a hole's rim clockwise). Exact to rounding, so
+/// a uniform pressure on a closed outline has neither resultant nor moment.
+/// @throws std::invalid_argument  a side of another number of nodes
 Eigen::VectorXd side_pressure(const Eigen::Matrix2Xd& side, double pressure, double thickness);
 
-/// [σx σy τxy σz] → what is read off. [Pa]
+/// Von Mises stress of [σx σy τxy σz]. [Pa]
 double von_mises(const Eigen::Vector4d&);
-/// The two principal stresses in the plane, larger first, and the angle of the first [Pa, Pa, rad].
+/// The two principal stresses in the plane, larger first [Pa], and the angle of the first from the
+/// x axis, in (−π/2, π/2] [rad].
 Eigen::Vector3d principal(const Eigen::Vector4d&);
 
 }  // namespace pintle

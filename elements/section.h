@@ -6,34 +6,47 @@
 namespace pintle {
 
 /// Cross-sections of beams. Height lies in the plane of the mechanism, width across it. All in m.
-struct RectangleSection { double height, width; };
-struct CircleSection { double diameter; };
-struct TubeSection { double outer, inner; };  ///< diameters
-/// Flanges lie across the plane's height: `height` over all, `width` of the flanges.
-struct ISection { double height, width, web, flange; };
+struct RectangleSection {
+  double height, width;
+};
+struct CircleSection {
+  double diameter;
+};
+struct TubeSection {
+  double outer, inner;
+};  ///< diameters
+/// Flanges lie across the plane's height: `height` over all, `width` of the flanges, `web` and
+/// `flange` the thicknesses. No fillets.
+struct ISection {
+  double height, width, web, flange;
+};
 /// Whatever else: A, I and the distances from the axis to the outermost fibres.
 struct GivenSection {
-  double area;                   ///< A [m²]
-  double second_moment;          ///< I about the axis across the plane [m⁴]
-  double fibre = 0;              ///< distance to the outermost fibre; 0: bending stress is not told [m]
-  std::optional<double> shear_factor;  ///< κ; unset: 5/6
+  double area;           ///< A [m²]
+  double second_moment;  ///< I about the axis across the plane [m⁴]
+  double fibre = 0;      ///< distance to the outermost fibre; 0: bending stress is not told [m]
+  std::optional<double> shear_factor;  ///< κ, then taken as it is; unset: 5/6
 };
-using SectionShape = std::variant<RectangleSection, CircleSection, TubeSection, ISection, GivenSection>;
+using SectionShape =
+    std::variant<RectangleSection, CircleSection, TubeSection, ISection, GivenSection>;
 
 /// Which shear factor κ (shear stiffness κGA) a Timoshenko beam takes.
-/// `cowper`: by section and Poisson's ratio [Cowper1966]; `five_sixths`: 5/6 for each section.
+/// `cowper`: by section and Poisson's ratio [Cowper1966]: solid formulas for rectangle, circle and
+/// tube, the thin-walled one for I; `five_sixths`: 5/6 for each section.
 enum class ShearFactor { cowper, five_sixths };
 
 struct Section {
   double A;      ///< area [m²]
   double I;      ///< second moment about the axis across the plane [m⁴]
-  double kappa;  ///< shear factor –
+  double kappa;  ///< shear factor, in (0, 1] for 0 ≤ ν ≤ ½ –
   double fibre;  ///< axis to outermost fibre: half the height [m]
 };
+/// `poisson` matters to `cowper` alone.
 /// @throws std::invalid_argument  a size is not positive or they contradict each other
 Section section(const SectionShape&, ShearFactor, double poisson);
 
 /// Between two sections of one kind, size by size, t from 0 to 1: how a tapered beam is cut.
+/// An unset shear factor stays unset, beside a set one it counts as 5/6.
 /// @throws std::invalid_argument  the kinds differ
 SectionShape between(const SectionShape&, const SectionShape&, double t);
 
