@@ -22,53 +22,76 @@ struct Block {
   std::vector<int> nodes;     ///< E::nodes an element
   std::vector<int> cells;     ///< which cell of the mesh, counted through its blocks
   int size() const { return static_cast<int>(nodes.size()) / E::nodes; }
-  const E& element(int i) const { return properties[properties.size() == 1 ? 0 : static_cast<std::size_t>(i)]; }
+  const E& element(int i) const {
+    return properties[properties.size() == 1 ? 0 : static_cast<std::size_t>(i)];
+  }
   Coords<E> coords(int i, const Eigen::Matrix2Xd& x) const {
     Coords<E> c;
-    for (int k = 0; k < E::nodes; ++k) c.col(k) = x.col(nodes[static_cast<std::size_t>(i * E::nodes + k)]);
+    const int* node = &nodes[static_cast<std::size_t>(i * E::nodes)];
+    for (int k = 0; k < E::nodes; ++k) c.col(k) = x.col(node[k]);
     return c;
   }
 };
-using AnyBlock = std::variant<Block<Bar>, Block<BeamEuler>, Block<BeamTimoshenko>, Block<Triangle3>, Block<Triangle6>,
-                              Block<Quadrilateral4>, Block<Quadrilateral4Plain>, Block<Quadrilateral8>,
-                              Block<Quadrilateral8Reduced>, Block<Quadrilateral9>>;
+using AnyBlock =
+    std::variant<Block<Bar>, Block<BeamEuler>, Block<BeamTimoshenko>, Block<Triangle3>,
+                 Block<Triangle6>, Block<Quadrilateral4>, Block<Quadrilateral4Plain>,
+                 Block<Quadrilateral8>, Block<Quadrilateral8Reduced>, Block<Quadrilateral9>>;
+template <class E>
+inline constexpr bool is_line = E::stress_rows == 3;  ///< bars and beams; else plane
 
-struct Lump { int node; PointMass mass; };
+/// A mass fixed to a node.
+struct Lump {
+  int node;
+  PointMass mass;
+};
 
-/// Where a mechanism may take hold of a body: a node, or the middle of a hole whose rim is coupled to it.
-/// Its displacement and rotation are freedoms of their own, so that joints see three numbers.
+/// Where a mechanism may take hold of a body: a node, or the middle of a hole whose rim is coupled
+/// to it. Its displacement and rotation are freedoms of their own, so that joints see three
+/// numbers.
 struct Port {
   std::string name;
-  Eigen::Vector2d x;                ///< body axes [m]
-  int freedom[3] = {-1, -1, -1};    ///< independent freedoms u_x, u_y, φ; φ −1 where it has no rotation
+  Eigen::Vector2d x;  ///< body axes [m]
+  /// Independent freedoms u_x, u_y, φ; φ −1 where it has no rotation.
+  int freedom[3] = {-1, -1, -1};
 };
 
 /// How the rim of a hole follows the port in its middle.
 enum class Coupling {
   rigid,    ///< the rim moves as a rigid ring
-  average,  ///< the port moves as the rim does on average (weighted by its length); the rim stays soft
+  average,  ///< the port moves as the rim does on average (weighted by length); the rim stays soft
 };
 
 /// A body made of elements. Nodal freedoms (N of them) come node by node; the independent ones (n)
-/// are those left when couplings have tied rims to ports: u = L ũ.
+/// are those left when couplings have tied rims to ports: u = L ũ. They keep the nodal order, then
+/// come u_x, u_y, φ of each rim's port. Theory: docs/theory/couplings.md.
 struct FeModel {
-  Eigen::Matrix2Xd x;            ///< nodes, body axes [m]
+  Eigen::Matrix2Xd x;  ///< nodes, body axes [m]
   std::vector<AnyBlock> blocks;
   std::vector<Lump> lumps;       ///< a lump with J > 0 sits on a node with a rotation
   std::vector<int> begin;        ///< first nodal freedom of each node, one past; 2 or 3 each
   Sparse L;                      ///< N × n; 0 × 0 stands for the identity
-  std::vector<Port> ports;
+  std::vector<int> independent;  ///< of each nodal freedom, −1 where L gives it; empty: all its own
+  std::vector<Port> ports;       ///< those at nodes, then those of rims
   int N() const { return begin.back(); }
   int n() const { return L.size() == 0 ? N() : static_cast<int>(L.cols()); }
-  const Port* port(std::string_view name) const;
+  const Port* port(std::string_view name) const;  ///< nullptr: there is none
+  /// The independent freedom that a nodal one is, or −1.
+  int independent_of(int nodal) const {
+    return independent.empty() ? nodal : independent[static_cast<std::size_t>(nodal)];
+  }
 };
 
-/// Numbers the freedoms of blocks and lumps; no ports yet.
-/// @throws std::invalid_argument  a node without an element, or a lump's J on a node without rotation
+/// Numbers the freedoms of blocks and lumps; no ports yet. A node has a rotation if an element
+/// there has one.
+/// @throws std::invalid_argument  a node without an element or one that is not there, an element
+///         count that does not fit its properties, a lump's J on a node without rotation
 FeModel fe_model(Eigen::Matrix2Xd x, std::vector<AnyBlock> blocks, std::vector<Lump> lumps = {});
 
 /// A port at a node.
-struct NodePort { std::string name; int node; };
+struct NodePort {
+  std::string name;
+  int node;
+};
 /// A port in the middle of a rim. `weights`: length of rim that belongs to each node [m], > 0.
 struct RimPort {
   std::string name;
@@ -77,19 +100,32 @@ struct RimPort {
   std::vector<double> weights;
   Coupling coupling = Coupling::rigid;
 };
-/// Adds ports to a model that has none, and L. New freedoms stand after the nodal ones that stay.
-/// @throws std::invalid_argument  two rims share a node; a rim's nodes do not fix three motions
+/// Adds ports to a model that has none, and L.
+/// @throws std::invalid_argument  two ports have one name; two rims share a node, or a port sits on
+///         a node of a rim; a rim's nodes or weights do not fix three motions
 void add_ports(FeModel&, const std::vector<NodePort>&, const std::vector<RimPort>&);
 
+/// An element's freedoms out of a nodal field u, N; `node`: its nodes.
+template <class E>
+Freedoms<E> gathered(const FeModel& model, const int* node, const Eigen::VectorXd& u) {
+  Freedoms<E> e;
+  for (int k = 0; k < E::nodes; ++k)
+    e.template segment<E::dofs_per_node>(k * E::dofs_per_node) =
+        u.segment<E::dofs_per_node>(model.begin[static_cast<std::size_t>(node[k])]);
+  return e;
+}
+
 /// Nodal fields, N each: unit translations T, position x, unit rotation R (about the origin).
+/// Rotations of nodes are 0, 0 and 1 in them.
 struct RigidFields {
   Eigen::MatrixX2d T;
   Eigen::VectorXd x, R;
 };
 RigidFields rigid_fields(const FeModel&);
 /// The same in independent freedoms, n × 3: translations along x and y, rotation about the origin.
+/// L times these are T and R.
 Eigen::MatrixX3d rigid_motions(const FeModel&);
-/// u = L ũ and its transpose on forces.
+/// u = L ũ, N × k, and its transpose on forces, which keeps their resultant and moment.
 Eigen::MatrixXd nodal(const FeModel&, const Eigen::MatrixXd& independent);
 Eigen::VectorXd independent_load(const FeModel&, const Eigen::VectorXd& nodal_load);
 

@@ -1,0 +1,125 @@
+#include "framework/component/statics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Index;
+
+struct Counts {
+  Index lines = 0, plane = 0, points = 0;  // elements, elements, integration points
+};
+
+Counts counts(const FeModel& model) {
+  Counts n;
+  for (const AnyBlock& any : model.blocks)
+    std::visit(
+        [&]<class E>(const Block<E>& block) {
+          (is_line<E> ? n.lines : n.plane) += block.size();
+          if constexpr (!is_line<E>) n.points += Index{E::points} * block.size();
+        },
+        any);
+  return n;
+}
+
+// Fills a field block by block; `line` and `point` are where the next element's columns begin.
+struct Filling {
+  const FeModel& model;
+  const Eigen::VectorXd& u;
+  const std::vector<Fibre>& fibres;
+  StressField& field;
+  Index line = 0, point = 0;
+  double jump = 0;  // [Pa]
+
+  template <class E>
+  void operator()(const Block<E>& block) {
+    if constexpr (is_line<E>)
+      lines(block);
+    else
+      plane(block);
+  }
+
+  template <class E>
+  void lines(const Block<E>& block) {
+    for (int i = 0; i < block.size(); ++i, ++line) {
+      const int* node = &block.nodes[static_cast<std::size_t>(i * E::nodes)];
+      const Stress<E> forces =
+          stress(block.element(i), block.coords(i, model.x), gathered<E>(model, node, u));
+      field.section_forces.middleCols<2>(2 * line) = forces;
+      if (fibres.empty()) continue;
+      const Fibre& fibre = fibres[static_cast<std::size_t>(line)];
+      for (int k = 0; k < 2; ++k) {
+        const double here =
+            std::abs(forces(0, k)) / fibre.A + std::abs(forces(2, k)) * fibre.distance / fibre.I;
+        double& most = field.von_mises[node[k]];
+        most = std::max(most, here);
+      }
+    }
+  }
+
+  template <class E>
+  void plane(const Block<E>& block) {
+    Eigen::Matrix4Xd mean = Eigen::Matrix4Xd::Zero(4, model.x.cols());
+    std::vector<int> meet(static_cast<std::size_t>(model.x.cols()), 0);
+    std::vector<double> own(block.nodes.size());  // von Mises at the element's nodes
+    for (int i = 0; i < block.size(); ++i, point += E::points) {
+      const int* node = &block.nodes[static_cast<std::size_t>(i * E::nodes)];
+      const E& e = block.element(i);
+      const Coords<E> x = block.coords(i, model.x);
+      const Stress<E> at_points = stress(e, x, gathered<E>(model, node, u));
+      field.at_points.middleCols<E::points>(point) = at_points;
+      field.points.middleCols<E::points>(point) = stress_points(e, x);
+      const Eigen::Matrix<double, 4, E::nodes> at_nodes = nodal_stress(e, at_points);
+      for (int k = 0; k < E::nodes; ++k) {
+        mean.col(node[k]) += at_nodes.col(k);
+        ++meet[static_cast<std::size_t>(node[k])];
+        own[static_cast<std::size_t>(i * E::nodes + k)] =
+            pintle::von_mises(Eigen::Vector4d(at_nodes.col(k)));
+      }
+    }
+    std::vector<double> of_mean(meet.size(), 0);
+    for (Index i = 0; i < mean.cols(); ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      if (meet[at] == 0) continue;
+      mean.col(i) /= meet[at];
+      of_mean[at] = pintle::von_mises(Eigen::Vector4d(mean.col(i)));
+      if (of_mean[at] < field.von_mises[i]) continue;
+      field.von_mises[i] = of_mean[at];
+      field.nodal.col(i) = mean.col(i);
+    }
+    for (std::size_t k = 0; k < own.size(); ++k)
+      jump = std::max(jump, std::abs(own[k] - of_mean[static_cast<std::size_t>(block.nodes[k])]));
+  }
+};
+
+}  // namespace
+
+StressField stress_field(const FeModel& model, const Eigen::VectorXd& u,
+                         const std::vector<Fibre>& fibres) {
+  if (u.size() != model.N())
+    throw std::invalid_argument("displacement: " + std::to_string(u.size()) + " numbers, must be " +
+                                std::to_string(model.N()) + ", one per nodal freedom");
+  const Counts n = counts(model);
+  if (!fibres.empty() && static_cast<Index>(fibres.size()) != n.lines)
+    throw std::invalid_argument("fibres: " + std::to_string(fibres.size()) + " for " +
+                                std::to_string(n.lines) + " line elements; give one each or none");
+  StressField field;
+  if (n.plane > 0) field.nodal.setZero(4, model.x.cols());
+  if (n.plane > 0 || !fibres.empty()) field.von_mises.setZero(model.x.cols());
+  field.section_forces.resize(3, 2 * n.lines);
+  field.at_points.resize(4, n.points);
+  field.points.resize(2, n.points);
+  Filling filling{model, u, fibres, field};
+  for (const AnyBlock& any : model.blocks) std::visit([&](const auto& b) { filling(b); }, any);
+  const double largest = field.von_mises.size() > 0 ? field.von_mises.maxCoeff() : 0;
+  field.jump = largest > 0 ? filling.jump / largest : 0;
+  return field;
+}
+
+}  // namespace pintle
