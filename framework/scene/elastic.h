@@ -25,21 +25,21 @@ enum class BeamTheory { euler, timoshenko };
 
 /// A beam along straight pieces between points of the body.
 struct SceneBeam {
-  std::vector<std::string> through;     ///< names of points, two or more, in order
+  std::vector<std::string> through;  ///< names of points, two or more, in order
   SectionShape section = CircleSection{0};
-  std::optional<SectionShape> taper_to; ///< section at the far end, sizes linear along the beam
+  std::optional<SectionShape> taper_to;  ///< section at the far end, sizes linear along the beam
   BeamTheory theory = BeamTheory::timoshenko;
   ShearFactor shear = ShearFactor::cowper;
-  bool rotary = true;                   ///< rotary inertia of the sections
-  bool bar = false;                     ///< bars: axial only, pinned at every node
+  bool rotary = true;  ///< rotary inertia of the sections
+  bool bar = false;    ///< bars: axial only, pinned at every node
   SceneMaterial material;
-  std::optional<double> mass;           ///< scales the density so that the body has this mass [kg]
-  int elements = 0;                     ///< over the whole length, shared by length; 0: 20
+  std::optional<double> mass;  ///< scales the density so that the body has this mass [kg]
+  int elements = 0;            ///< over the whole length, shared by length; 0: 20
 };
 
 struct SceneFile {
-  std::string path;     ///< beside the scene file
-  double scale = 1;     ///< m per unit of the file
+  std::string path;  ///< beside the scene file
+  double scale = 1;  ///< m per unit of the file
 };
 struct SceneGrid {
   std::array<Pair, 4> corners;  ///< counter-clockwise [m]
@@ -49,12 +49,12 @@ struct SceneGrid {
 /// A plane part of even thickness.
 struct ScenePlate {
   std::variant<Link, SceneFile, SceneGrid> shape;
-  double thickness = 0;              ///< [m]
+  double thickness = 0;  ///< [m]
   PlaneState state = PlaneState::stress;
   SceneMaterial material;
-  std::optional<double> mass;        ///< scales the density so that the body has this mass [kg]
-  std::string element;               ///< a name known to elements: "triangle6"; empty: triangle6, or as the mesh file has it
-  double size = 0, hole_size = 0;    ///< [m]; 0: chosen
+  std::optional<double> mass;  ///< scales the density so that the body has this mass [kg]
+  std::string element;         ///< "triangle6" …; empty: triangle6, or as the mesh file has it
+  double size = 0, hole_size = 0;  ///< [m]; 0: chosen
 };
 
 enum class RimCoupling { none, rigid, average };
@@ -81,22 +81,24 @@ struct SceneKeep {
 };
 struct SceneModes {
   enum class Frame { tangent, chord, mean_axes } frame = Frame::mean_axes;
-  std::string a, b;                      ///< the tie's points; empty: the first and last marker of the body
+  std::string a, b;  ///< the tie's points; empty: the first and last marker of the body
   enum class Method { normal, craig_bampton, free } method = Method::normal;
   SceneKeep keep;
   Place place;
 };
 
-/// Damping of the shapes: C = αM + βK, from ratios at two modes, or a ratio each (the last for the rest).
+/// Damping of the shapes: C = αM + βK, from ratios at two modes, or a ratio each (the last for the
+/// rest).
 struct SceneDamping {
   std::optional<std::array<double, 2>> rayleigh_ratios;
-  std::array<int, 2> rayleigh_modes{1, 2};          ///< counted from 1
-  std::optional<std::array<double, 2>> rayleigh;    ///< α [1/s], β [s]
+  std::array<int, 2> rayleigh_modes{1, 2};        ///< counted from 1
+  std::optional<std::array<double, 2>> rayleigh;  ///< α [1/s], β [s]
   std::vector<double> ratios;
   Place place;
 };
 
-/// A body of elements: exactly one of beam and plate. Without `modes` a mechanism meets it as rigid.
+/// A body of elements: exactly one of beam and plate. Without `modes` a mechanism meets it as
+/// rigid.
 struct SceneElastic {
   std::variant<SceneBeam, ScenePlate> shape;
   bool lumped = false;  ///< lumped instead of consistent mass
@@ -107,16 +109,18 @@ struct SceneElastic {
 };
 
 struct SceneStaticLoad {
-  enum class Kind { force, torque, traction, pressure, line, acceleration, spin } kind = Kind::force;
+  enum class Kind { force, torque, traction, pressure, line, acceleration, spin };
+  Kind kind = Kind::force;
   std::string name;
-  std::string at;       ///< point (force, torque) or group (traction, pressure); spin: point or empty (origin)
-  Pair vector{0, 0};    ///< force [N], traction [Pa], line load [N/m], acceleration [m/s²]; body axes
-  double value = 0;     ///< torque [N m], pressure [Pa], spin [rad/s]
+  /// Point (force, torque), group (traction, pressure), or point or empty (spin: origin).
+  std::string at;
+  Pair vector{0, 0};  ///< force [N], traction [Pa], line load [N/m], acceleration [m/s²]; body axes
+  double value = 0;   ///< torque [N m], pressure [Pa], spin [rad/s]
   Place place;
 };
 /// A static load case on one body, held by its supports.
 struct SceneStatic {
-  std::string body;     ///< empty: the only elastic body
+  std::string body;  ///< empty: the only elastic body
   std::vector<SceneStaticLoad> loads;
   Place place;
 };

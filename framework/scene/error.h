@@ -14,8 +14,8 @@ struct SceneError : std::runtime_error {
   SceneError(const std::string& file, const Place& place, const std::string& message);
 };
 
-/// The mechanism cannot be put together at t = 0, or holds a joint twice: names the joint, what remains
-/// open and what to do, in the form of a SceneError.
+/// The mechanism cannot be put together at t = 0, or holds a joint twice: names the joint, what
+/// remains open and what to do, in the form of a SceneError.
 struct AssemblyError : std::runtime_error {
   AssemblyError(const std::string& file, const Place& place, const std::string& message);
 };

@@ -51,7 +51,7 @@ double step(double x, double x0, double x1) {
 
 // What a name stands for while a formula is built.
 struct Names {
-  const Parameters& parameters;
+  const Vocabulary& known;
   const std::vector<Word>& words;
   Formula& formula;
   std::deque<double> terms;  // muParser keeps pointers into it
@@ -59,21 +59,17 @@ struct Names {
   int term(const std::string& name);
 };
 
-// Names that people try and that are absent on purpose.
+// Names that people try and that are absent on purpose; units of that kind: unit.cpp.
 struct Absent {
   const char *name, *remedy;
 };
-constexpr std::array absent{
-    Absent{"Hz", "Hz counts turns, not radians: write 50*rev/s, 3000 rpm or 50/s, as you mean it"},
-    Absent{"inf", "every value must be finite"},
-    Absent{"Inf", "every value must be finite"},
-    Absent{"infinity", "every value must be finite"},
-    Absent{"nan", "every value must be finite"},
-    Absent{"NaN", "every value must be finite"},
-    Absent{"min", "minutes are not offered: write 60 s"},
-    Absent{"inch", "inches are not offered: write 25.4 mm"},
-    Absent{"e", "Euler's number is exp(1); a power of ten is written 1e-3"},
-    Absent{"ln", "the natural logarithm is log"}};
+constexpr std::array absent{Absent{"inf", "every value must be finite"},
+                            Absent{"Inf", "every value must be finite"},
+                            Absent{"infinity", "every value must be finite"},
+                            Absent{"nan", "every value must be finite"},
+                            Absent{"NaN", "every value must be finite"},
+                            Absent{"e", "Euler's number is exp(1); a power of ten is written 1e-3"},
+                            Absent{"ln", "the natural logarithm is log"}};
 
 constexpr bool fixed = false;  // keeps muParser from folding: our terms fold themselves
 
@@ -151,6 +147,8 @@ std::string rewritten(const std::vector<Word>& words) {
   if (is_function(name)) throw ExpressionError("the function " + name + " needs its parentheses");
   for (const Absent& a : absent)
     if (name == a.name) throw ExpressionError(std::string("it contains ") + name + ": " + a.remedy);
+  if (const std::string_view remedy = instead_of(name); !remedy.empty())
+    throw ExpressionError(std::string("it contains ") + name + ": " + std::string(remedy));
   std::vector<std::string> known{"t", "pi"};
   for (const auto& [parameter, value] : parameters) known.push_back(parameter);
   for (const Unit& u : units()) known.emplace_back(u.name);
@@ -160,12 +158,12 @@ std::string rewritten(const std::vector<Word>& words) {
 
 int Names::term(const std::string& name) {
   if (name[0] == '$') return formula.constant({words[std::stoul(name.substr(1))].value, {}});
-  if (const auto found = parameters.find(name); found != parameters.end())
+  if (const auto found = known.parameters.find(name); found != known.parameters.end())
     return formula.constant(found->second);
   if (name == "t") return formula.time();
   if (name == "pi") return formula.constant({std::numbers::pi, {}});
-  if (const Unit* u = find_unit(name)) return formula.constant({u->factor, u->dimension});
-  unknown(name, parameters);
+  if (const Unit* u = known.unit(name)) return formula.constant({u->factor, u->dimension});
+  unknown(name, known.parameters);
 }
 
 double* place_of(const char* name, void* names) {
@@ -195,9 +193,9 @@ std::string reason(const mu::ParserError& error) {
 }
 
 // Builds the formula; returns its last term.
-int build(const std::vector<Word>& words, const Parameters& parameters, Formula& formula) {
+int build(const std::vector<Word>& words, const Vocabulary& known, Formula& formula) {
   const std::string text = rewritten(words);
-  Names names{parameters, words, formula, {}};
+  Names names{known, words, formula, {}};
   const Building guard(formula);
   try {
     Grammar grammar;
@@ -232,9 +230,9 @@ Law law_from(const Formula& formula, int root, std::string_view text) {
 }
 
 Law law_with(const std::vector<Word>& words, std::string_view text, const Dimension& of_time,
-             const Dimension& expected, const Parameters& parameters) {
+             const Dimension& expected, const Vocabulary& known) {
   Formula formula(of_time);
-  const int root = build(words, parameters, formula);
+  const int root = build(words, known, formula);
   if (!fits(formula.quantity(root), expected))
     wrong_dimension(formula.quantity(root).dimension, expected);
   return law_from(formula, root, text);
@@ -244,18 +242,22 @@ bool contains_time(const std::vector<Word>& words) {
   return std::ranges::any_of(words, [](const Word& w) { return w.text == "t"; });
 }
 
-}  // namespace
-
-Quantity read_quantity(std::string_view text, const Parameters& parameters) {
+Quantity constant(std::string_view text, const Vocabulary& known) {
   try {
     Formula formula(dimension::time);
-    const int root = build(spell(text), parameters, formula);
+    const int root = build(spell(text, known), known, formula);
     if (formula.uses_time())
       throw ExpressionError("it depends on t, but this value cannot change in time");
     return formula.quantity(root);
   } catch (const ExpressionError& error) {
     throw ExpressionError(quoted(text) + ": " + error.what());
   }
+}
+
+}  // namespace
+
+Quantity read_quantity(std::string_view text, const Parameters& parameters) {
+  return constant(text, {parameters});
 }
 
 double read_quantity(std::string_view text, const Dimension& expected,
@@ -266,15 +268,28 @@ double read_quantity(std::string_view text, const Dimension& expected,
                         describe(expected));
 }
 
+double read_frequency(std::string_view text, const Parameters& parameters) {
+  const Quantity q = constant(text, {parameters, frequency_units()});
+  if (bare(q.dimension)) return q.value;
+  if (!same(q.dimension, dimension::angular_speed))
+    throw ExpressionError(quoted(text) + " is " + describe(q.dimension) +
+                          "; expected a frequency [Hz]");
+  if (q.dimension.angle != 1)
+    throw ExpressionError(quoted(text) +
+                          " does not say whether turns or radians are counted; write Hz or rad/s");
+  return q.value / (2 * std::numbers::pi);
+}
+
 Law read_law(std::string_view text, const Dimension& expected, const Parameters& parameters) {
   try {
-    const std::vector<Word> words = spell(text);
+    const Vocabulary known{parameters};
+    const std::vector<Word> words = spell(text, known);
     try {
-      return law_with(words, text, dimension::time, expected, parameters);
+      return law_with(words, text, dimension::time, expected, known);
     } catch (const ExpressionError& error) {
       if (!contains_time(words)) throw;
       try {
-        return law_with(words, text, dimension::number, expected, parameters);
+        return law_with(words, text, dimension::number, expected, known);
       } catch (const ExpressionError&) {
         throw ExpressionError(std::string(error.what()) +
                               " (t is a time; give every factor of t its unit, or none)");

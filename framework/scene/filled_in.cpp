@@ -1,15 +1,8 @@
-#include <nlohmann/json.hpp>
-
+#include "framework/scene/filled_in_parts.h"
 #include "framework/scene/reader_parts.h"
 
 namespace pintle {
 
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-// Appends without looking whether the name is there: names are unique, and a search would make a
-// large scene quadratic.
 void append(Json& object, const std::string& name, Json value) {
   object.get_ref<Json::object_t&>().push_back({name, std::move(value)});
 }
@@ -17,6 +10,10 @@ void append(Json& object, const std::string& name, Json value) {
 Json json(const Pair& p) {
   return Json::array({p[0], p[1]});
 }
+
+namespace {
+
+using pintle::json;
 
 std::string json(const PointRef& ref) {
   return ref.point.empty() ? ref.body : ref.body + "." + ref.point;
@@ -34,7 +31,15 @@ Json json(const Law& law) {
 
 Json points(const std::vector<ScenePoint>& all) {
   Json out = Json::object();
-  for (const ScenePoint& p : all) append(out, p.name, {{"at", json(p.at)}, {"angle", p.angle}});
+  for (const ScenePoint& p : all) {
+    Json point = {{"angle", p.angle}};
+    if (p.hole.empty())
+      point["at"] = json(p.at);
+    else
+      point.update({{"hole", p.hole},
+                    {"coupling", p.coupling == RimCoupling::average ? "average" : "rigid"}});
+    append(out, p.name, point);
+  }
   return out;
 }
 
@@ -47,10 +52,14 @@ Json parameter(const std::string& name, double value, const Parameters& paramete
 }
 
 Json json(const SceneBody& body) {
-  return {
-      {"rigid", {{"mass", body.mass}, {"inertia", body.inertia}, {"center", json(body.center)}}},
-      {"points", points(body.points)},
-      {"pose", {{"at", json(body.at)}, {"angle", body.angle}}}};
+  Json out = Json::object();
+  if (body.elastic)
+    out = json(*body.elastic);
+  else
+    out["rigid"] = {{"mass", body.mass}, {"inertia", body.inertia}, {"center", json(body.center)}};
+  out["points"] = points(body.points);
+  out["pose"] = {{"at", json(body.at)}, {"angle", body.angle}};
+  return out;
 }
 
 Json json(const SceneNormal& normal) {
@@ -170,8 +179,12 @@ Json json(const RunOptions& run) {
   return out;
 }
 
-Json json(const OutputOptions& output, double until) {
-  Json out = {{"every", output.every > 0 ? output.every : until / 1000}, {"frames", output.frames}};
+Json json(const OutputOptions& output, const Scene& scene) {
+  Json out = {{"frames", output.frames}};
+  if (output.every > 0)
+    out["every"] = output.every;
+  else if (scene.has_run)
+    out["every"] = scene.run.until / 1000;
   if (output.exaggerate > 0) out["exaggerate"] = output.exaggerate;
   return out;
 }
@@ -185,6 +198,8 @@ std::string filled_in(const Scene& scene, const Parameters& parameters) {
   Json& named = out["parameters"] = Json::object();
   for (const auto& [name, value] : scene.parameters)
     append(named, name, parameter(name, value, parameters));
+  Json& materials = out["materials"] = Json::object();
+  for (const SceneMaterial& m : scene.materials) append(materials, m.name, json(m));
   out["ground"]["points"] = points(scene.ground);
   Json& bodies = out["bodies"] = Json::object();
   for (const SceneBody& b : scene.bodies) append(bodies, b.name, json(b));
@@ -196,8 +211,9 @@ std::string filled_in(const Scene& scene, const Parameters& parameters) {
   for (const SceneLoad& l : scene.loads)
     append(forces, l.name, std::visit([](const auto& what) { return load(what); }, l.what));
   out["start"] = starts(scene);
-  out["run"] = json(scene.run);
-  out["output"] = json(scene.output, scene.run.until);
+  if (scene.statics) out["static"] = json(*scene.statics);
+  if (scene.has_run) out["run"] = json(scene.run);
+  out["output"] = json(scene.output, scene);
   return out.dump(2);
 }
 

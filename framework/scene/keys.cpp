@@ -10,28 +10,144 @@ namespace {
 
 constexpr bool required = true, optional = false;
 
+// Groups that stand in several places.
+const std::vector<Key> orthotropic_keys{{"young", required, "[140 GPa, 10 GPa]"},
+                                        {"poisson", required, "0.3"},
+                                        {"shear", required, "5 GPa"},
+                                        {"angle"}};
+const std::vector<Key> section_keys{{"rectangle"}, {"circle"},        {"tube"},  {"i"},
+                                    {"area"},      {"second moment"}, {"fibre"}, {"shear factor"}};
+const std::vector<Key> i_section_keys{{"height", required, "100 mm"},
+                                      {"width", required, "55 mm"},
+                                      {"web", required, "4 mm"},
+                                      {"flange", required, "6 mm"}};
+const std::vector<Key> eye_keys{{"bore", required, "10 mm"}, {"outer", required, "20 mm"}};
+const std::vector<Key> keep_keys{
+    {"keep", optional, "", {"all"}}, {"count"}, {"below"}, {"effective mass"}};
+const std::vector<std::string> element_names{"triangle3",      "triangle6",
+                                             "quadrilateral4", "quadrilateral4-plain",
+                                             "quadrilateral8", "quadrilateral8-reduced",
+                                             "quadrilateral9"};
+constexpr const char* two_eyes = "[{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]";
+
 const std::vector<KeyTable>& tables() {
   static const std::vector<KeyTable> all{
       {"",
        {{"title"},
         {"gravity"},
         {"parameters"},
+        {"materials"},
         {"ground"},
         {"bodies", required, "{crank: {rigid: {mass: 0.3 kg, inertia: 1e-4 kg m^2}}}"},
         {"joints"},
         {"drivers"},
         {"forces"},
+        {"static"},
         {"start"},
-        {"run", required, "{until: 1 s}"},
+        {"run"},
         {"output"}}},
+      {"materials.*", {{"young"}, {"poisson"}, {"orthotropic"}, {"density"}}},
+      {"materials.*.orthotropic", orthotropic_keys},
       {"ground", {{"points"}}},
       {"ground.points.*", {{"at", required, "[10 mm, 0]"}, {"angle"}}},
       {"bodies.*",
-       {{"rigid", required, "{mass: 0.3 kg, inertia: 1e-4 kg m^2}"}, {"points"}, {"pose"}}},
+       {{"rigid"},
+        {"beam"},
+        {"plate"},
+        {"points"},
+        {"pose"},
+        {"modes"},
+        {"damping"},
+        {"mass matrix", optional, "", {"consistent", "lumped"}},
+        {"lumps"},
+        {"supports"}}},
       {"bodies.*.rigid",
        {{"mass", required, "0.3 kg"}, {"inertia", required, "1e-4 kg m^2"}, {"center"}}},
-      {"bodies.*.points.*", {{"at", required, "[10 mm, 0]"}, {"angle"}}},
+      {"bodies.*.points.*",
+       {{"at"}, {"angle"}, {"hole"}, {"coupling", optional, "", {"rigid", "average"}}}},
       {"bodies.*.pose", {{"at"}, {"angle"}}},
+      {"bodies.*.beam",
+       {{"from"},
+        {"to"},
+        {"through"},
+        {"section", required, "{rectangle: [10 mm, 5 mm]}"},
+        {"taper to"},
+        {"theory", optional, "", {"timoshenko", "euler", "bar"}},
+        {"shear factor", optional, "", {"cowper", "5/6"}},
+        {"rotary inertia", optional, "", {"true", "false"}},
+        {"material"},
+        {"young"},
+        {"poisson"},
+        {"orthotropic"},
+        {"density"},
+        {"mass"},
+        {"elements"}}},
+      {"bodies.*.beam.section", section_keys},
+      {"bodies.*.beam.section.i", i_section_keys},
+      {"bodies.*.beam.taper to", section_keys},
+      {"bodies.*.beam.taper to.i", i_section_keys},
+      {"bodies.*.beam.orthotropic", orthotropic_keys},
+      {"bodies.*.plate",
+       {{"file"},
+        {"link"},
+        {"grid"},
+        {"thickness", required, "8 mm"},
+        {"plane", optional, "", {"stress", "strain"}},
+        {"element", optional, "", element_names},
+        {"size"},
+        {"hole size"},
+        {"scale"},
+        {"unit", optional, "", {"m", "km", "cm", "mm", "um", "nm"}},
+        {"material"},
+        {"young"},
+        {"poisson"},
+        {"orthotropic"},
+        {"density"},
+        {"mass"}}},
+      {"bodies.*.plate.orthotropic", orthotropic_keys},
+      {"bodies.*.plate.link", {{"bar"}, {"eye bar"}, {"tapered bar"}, {"triangle"}, {"disc"}}},
+      {"bodies.*.plate.link.bar", {{"length", required, "100 mm"}, {"width", required, "20 mm"}}},
+      {"bodies.*.plate.link.eye bar",
+       {{"length", required, "100 mm"},
+        {"width", required, "12 mm"},
+        {"eyes", required, two_eyes}}},
+      {"bodies.*.plate.link.eye bar.eyes.*", eye_keys},
+      {"bodies.*.plate.link.tapered bar",
+       {{"length", required, "100 mm"}, {"widths", required, "[20 mm, 10 mm]"}}},
+      {"bodies.*.plate.link.triangle",
+       {{"centers", required, "[[0, 0], [100 mm, 0], [40 mm, 60 mm]]"},
+        {"eyes", required, "a list of three such as {bore: 10 mm, outer: 20 mm}"}}},
+      {"bodies.*.plate.link.triangle.eyes.*", eye_keys},
+      {"bodies.*.plate.link.disc", {{"diameter", required, "100 mm"}, {"bore", required, "20 mm"}}},
+      {"bodies.*.plate.grid",
+       {{"corners", required, "[[0, 0], [1 m, 0], [1 m, 0.5 m], [0, 0.5 m]]"},
+        {"cells", required, "[10, 5]"}}},
+      {"bodies.*.modes",
+       {{"frame", optional, "", {"tangent", "chord", "mean axes"}},
+        {"keep", optional, "", {"all"}},
+        {"count"},
+        {"below"},
+        {"effective mass"},
+        {"craig-bampton"},
+        {"free"}}},
+      {"bodies.*.modes.frame", {{"tangent"}, {"chord"}}},
+      {"bodies.*.modes.craig-bampton", keep_keys},
+      {"bodies.*.modes.free", keep_keys},
+      {"bodies.*.damping", {{"rayleigh"}, {"ratios"}}},
+      {"bodies.*.damping.rayleigh", {{"ratios"}, {"modes"}, {"alpha"}, {"beta"}}},
+      {"bodies.*.lumps.*", {{"mass"}, {"inertia"}}},
+      {"static", {{"body"}, {"loads", required, "{pull: {at: B, force: [1 kN, 0]}}"}}},
+      {"static.loads.*",
+       {{"force"},
+        {"torque"},
+        {"at"},
+        {"pressure"},
+        {"traction"},
+        {"on"},
+        {"acceleration"},
+        {"spin"},
+        {"about"},
+        {"line load"}}},
       {"joints.*",
        {{"revolute"},
         {"prismatic"},
@@ -146,6 +262,17 @@ void check_keys(const Node& group, std::string_view path) {
     if (key.required && !group.has(key.name))
       missing += (missing.empty() ? "" : ", and ") + key.name + ": " + key.example;
   if (!missing.empty()) group.fail("lacks a required key; add for example " + missing);
+}
+
+std::string which_key(const Node& group, std::span<const std::string> keys,
+                      const std::string& what) {
+  std::vector<std::string> found;
+  for (const std::string& key : keys)
+    if (group.has(key)) found.push_back(key);
+  if (found.empty()) group.fail("does not say " + what + "; add " + listed(keys));
+  if (found.size() > 1)
+    group.fail("says " + what + " by " + listed(found, "and") + " at once; keep one of them");
+  return found.front();
 }
 
 std::size_t which_kind(const Node& group, std::span<const KindKeys> kinds) {

@@ -18,7 +18,8 @@ struct Key {
   std::vector<std::string> choices = {};  ///< the words its value may be; empty: any value
 };
 
-/// The keys of one group. A path names them from the top; * stands for a name the user gives.
+/// The keys of one group. A path names them from the top; * stands for a name the user gives, or
+/// for an entry of a list.
 struct KeyTable {
   std::string path;  ///< "bodies.*.rigid"
   std::vector<Key> keys;
@@ -32,6 +33,11 @@ std::span<const std::string> choices(std::string_view path, std::string_view key
 /// Judges the keys of a group: none unknown, none missing.
 /// @throws SceneError  with the nearest known key, or an example of the missing one
 void check_keys(const Node& group, std::string_view path);
+
+/// Of several keys that say one thing, the one that is there. `what`: "its material".
+/// @throws SceneError  none or several are there
+std::string which_key(const Node& group, std::span<const std::string> keys,
+                      const std::string& what);
 
 /// Of several keys that say what a thing is, the one that is there; and no key that belongs to the
 /// others. `kinds` lists for each such key what may stand beside it.

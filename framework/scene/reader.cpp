@@ -85,17 +85,26 @@ Scene read(const std::string& text, const std::string& file, const Overrides& ov
   if (root.has("title")) scene.title = root.at("title").text("a line of text");
   if (root.has("gravity")) scene.gravity = root.at("gravity").pair(dimension::acceleration);
   read_run(root, scene);
+  read_materials(root, scene);
   read_bodies(root, scene);
   read_joints(root, scene);
   read_drivers(root, folder, scene);
   read_forces(root, folder, scene);
   read_start(root, scene);
+  read_static(root, scene);
   read_output(root, scene);
   scene.filled_in = filled_in(scene, source.parameters);
   return scene;
 }
 
 }  // namespace
+
+void require_run(const Scene& scene) {
+  if (!scene.has_run)
+    throw SceneError(scene.file, {0, "run"},
+                     "is missing: the scene does not say how long to run; add for example "
+                     "run: {until: 1 s}");
+}
 
 Scene read_scene(const std::filesystem::path& file, const Overrides& overrides) {
   const std::string text = read_text_file(file, most_bytes);

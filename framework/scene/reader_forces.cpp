@@ -65,6 +65,11 @@ SceneTorsionSpring read_torsion_spring(const Node& node) {
   return spring;
 }
 
+// Until when laws are judged.
+double end_of_run(const Scene& scene) {
+  return scene.has_run ? scene.run.until : 0;
+}
+
 }  // namespace
 
 void read_drivers(const Node& root, const std::filesystem::path& folder, Scene& scene) {
@@ -79,7 +84,7 @@ void read_drivers(const Node& root, const std::filesystem::path& folder, Scene& 
     driver.kind = kind == 0 ? DriverKind::angle : DriverKind::distance;
     std::tie(driver.a, driver.b) = read_ends(node.at(driver_kinds[kind].kind));
     driver.law = read_time_law(node.at("law"), kind == 0 ? dimension::angle : dimension::length,
-                               Smoothness::driver, folder, scene.run.until);
+                               Smoothness::driver, folder, end_of_run(scene));
     scene.drivers.push_back(std::move(driver));
   }
 }
@@ -92,10 +97,10 @@ void read_forces(const Node& root, const std::filesystem::path& folder, Scene& s
     check_keys(node, "forces.*");
     switch (which_kind(node, force_kinds)) {
       case 0:
-        load.what = read_force(node, folder, scene.run.until);
+        load.what = read_force(node, folder, end_of_run(scene));
         break;
       case 1:
-        load.what = read_torque(node, folder, scene.run.until);
+        load.what = read_torque(node, folder, end_of_run(scene));
         break;
       case 2:
         load.what = read_spring(node);

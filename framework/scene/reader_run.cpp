@@ -103,6 +103,8 @@ void read_start(const Node& root, Scene& scene) {
 }
 
 void read_run(const Node& root, Scene& scene) {
+  scene.has_run = root.has("run");
+  if (!scene.has_run) return;
   const Node node = root.at("run");
   check_keys(node, "run");
   RunOptions& run = scene.run;
@@ -125,7 +127,7 @@ void read_output(const Node& root, Scene& scene) {
   OutputOptions& output = scene.output;
   output.place = node.place();
   read_optional(node, "every", dimension::time, rule::positive, output.every);
-  if (output.every > scene.run.until)
+  if (scene.has_run && output.every > scene.run.until)
     node.at("every").fail(node.at("every").shown() + " is longer than the run; shorten it");
   if (node.has("frames")) {
     const long frames = node.at("frames").count(0);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -116,6 +117,29 @@ PointRef read_point_ref(const Node& node) {
   if (malformed)
     node.fail(node.shown() + " is no point; write body.point such as crank.A, or a body");
   return ref;
+}
+
+void check_own_point(const Node& node, const std::string& name, const SceneBody& body) {
+  std::vector<std::string> known;
+  for (const ScenePoint& p : body.points) known.push_back(p.name);
+  if (known.empty())
+    node.fail("\"" + name + "\" is no point: " + body.name + " has none; add points: {" + name +
+              ": [0, 0]}");
+  if (std::ranges::find(known, name) == known.end())
+    node.fail(body.name + " has no point \"" + name + "\"." + did_you_mean(name, known));
+}
+
+std::string read_own_point(const Node& node, const SceneBody& body) {
+  const std::string name = node.text("the name of a point of the body");
+  check_own_point(node, name, body);
+  return name;
+}
+
+std::vector<double> read_quantities(const Node& node, std::size_t n, const Dimension& expected,
+                                    Rule must, const std::string& remedy) {
+  std::vector<double> out;
+  for (const Node& item : node.items(n, remedy)) out.push_back(item.quantity(expected, must));
+  return out;
 }
 
 std::pair<PointRef, PointRef> read_ends(const Node& node) {

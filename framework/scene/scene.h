@@ -28,7 +28,7 @@ struct ScenePoint {
   Pair at{0, 0};     ///< [m]
   double angle = 0;  ///< [rad]
   Place place = {};
-  std::string hole = {};                     ///< of a plate: the point is the middle of this hole …
+  std::string hole = {};  ///< of a plate: the point is the middle of this hole …
   RimCoupling coupling = RimCoupling::none;  ///< … and follows its rim so
 };
 
@@ -40,13 +40,14 @@ struct PointRef {
 
 struct SceneBody {
   std::string name;
-  double mass = 0;       ///< [kg]
-  double inertia = 0;    ///< about the mass centre [kg m²]
-  Pair center{0, 0};     ///< mass centre in body axes [m]
+  double mass = 0;     ///< [kg]
+  double inertia = 0;  ///< about the mass centre [kg m²]
+  Pair center{0, 0};   ///< mass centre in body axes [m]
   std::vector<ScenePoint> points;
-  std::optional<SceneElastic> elastic = {};  ///< made of elements: mass, inertia, center come from them
-  Pair at{0, 0};         ///< rough starting position of the body's origin, world [m]
-  double angle = 0;      ///< rough starting angle [rad]
+  std::optional<SceneElastic> elastic =
+      {};            ///< made of elements: mass, inertia, center come from them
+  Pair at{0, 0};     ///< rough starting position of the body's origin, world [m]
+  double angle = 0;  ///< rough starting angle [rad]
   Place place;
 };
 
@@ -65,26 +66,26 @@ struct SceneNormal {
   std::string law = "lankarani-nikravesh";  ///< a name known to contact/normal_law.h
   double restitution = 1;
   double exponent = 1.5;
-  std::optional<double> stiffness;     ///< given directly [N/mⁿ]; else from elasticity and radii
+  std::optional<double> stiffness;  ///< given directly [N/mⁿ]; else from elasticity and radii
   Elasticity bearing, journal;
   RadiusConvention radii = RadiusConvention::internal;
-  double slowest_impact = 1e-6;        ///< floor of the latched approach speed [m/s]
+  double slowest_impact = 1e-6;  ///< floor of the latched approach speed [m/s]
   Place place;
 };
 
 enum class SlidingSpeed { material, geometric };
 
 struct SceneFriction {
-  double coefficient = 0;  ///< –
+  double coefficient = 0;       ///< –
   double v0 = 1e-3, v1 = 1e-2;  ///< Ambrósio's two speeds [m/s], v0 < v1
   SlidingSpeed sliding = SlidingSpeed::material;
   Place place;
 };
 
 struct SceneClearance {
-  double radial = 0;                 ///< bearing radius − journal radius [m]
-  double bearing_radius = 0;         ///< [m]
-  std::string bearing;               ///< name of the joint's body that carries the bearing
+  double radial = 0;          ///< bearing radius − journal radius [m]
+  double bearing_radius = 0;  ///< [m]
+  std::string bearing;        ///< name of the joint's body that carries the bearing
   SceneNormal normal;
   std::optional<SceneFriction> friction;
   Place place;
@@ -96,8 +97,8 @@ struct SceneJoint {
   std::string name;
   JointKind kind = JointKind::revolute;
   PointRef a, b;
-  double length = 0;  ///< distance [m]
-  double angle = 0;   ///< prismatic, weld: b's direction less a's [rad]
+  double length = 0;                        ///< distance [m]
+  double angle = 0;                         ///< prismatic, weld: b's direction less a's [rad]
   std::optional<SceneClearance> clearance;  ///< revolute only
   Place place;
 };
@@ -141,8 +142,8 @@ struct SceneLoad {
 /// What the scene pins down of a body at t = 0. Unset: found by assembly.
 struct StartBody {
   std::string body;
-  std::optional<double> x, y, angle;     ///< of the body's origin and axes [m, m, rad]
-  std::optional<double> vx, vy, speed;   ///< [m/s, m/s, rad/s]
+  std::optional<double> x, y, angle;    ///< of the body's origin and axes [m, m, rad]
+  std::optional<double> vx, vy, speed;  ///< [m/s, m/s, rad/s]
   Place place;
 };
 /// Where a journal starts in its bearing, world axes; by default concentric and moving with it.
@@ -154,29 +155,29 @@ struct StartJournal {
 };
 
 struct RunOptions {
-  double until = 1;                    ///< [s]
-  std::string method = "dopri5";       ///< rkf45 | dopri5
-  double tolerance = 1e-8;             ///< local error, relative
+  double until = 1;                        ///< [s]
+  std::string method = "dopri5";           ///< rkf45 | dopri5
+  double tolerance = 1e-8;                 ///< local error, relative
   std::string constraints = "projection";  ///< projection | partitioning
-  std::optional<double> onset_cut;     ///< cut the step until first penetration is below this [m];
-                                       ///< unset: locate the onset as an event
-  double max_step = 0;                 ///< [s]; 0: none
+  std::optional<double> onset_cut;  ///< cut the step until first penetration is below this [m];
+                                    ///< unset: locate the onset as an event
+  double max_step = 0;              ///< [s]; 0: none
   long max_steps = 100'000'000;
-  double ledger_bound = 1e-3;          ///< unexplained energy, relative to the energy in play
+  double ledger_bound = 1e-3;  ///< unexplained energy, relative to the energy in play
   Place place;
 };
 
 struct OutputOptions {
-  double every = 0;      ///< output interval [s]; 0: a thousandth of the run
-  int frames = 0;        ///< animation frames; 0: none
-  double exaggerate = 0; ///< drawn clearance times this; 0: chosen so that the gap can be seen
+  double every = 0;       ///< output interval [s]; 0: a thousandth of the run
+  int frames = 0;         ///< animation frames; 0: none
+  double exaggerate = 0;  ///< drawn clearance times this; 0: chosen so that the gap can be seen
   Place place;
 };
 
 struct Scene {
-  std::string file;   ///< for messages
+  std::string file;  ///< for messages
   std::string title;
-  Pair gravity{0, 0}; ///< [m/s²]
+  Pair gravity{0, 0};                                      ///< [m/s²]
   std::vector<std::pair<std::string, double>> parameters;  ///< after overrides, SI
   std::vector<SceneMaterial> materials;
   std::optional<SceneStatic> statics;
@@ -187,6 +188,7 @@ struct Scene {
   std::vector<SceneLoad> loads;
   std::vector<StartBody> start_bodies;
   std::vector<StartJournal> start_journals;
+  bool has_run = true;  ///< false: nothing to run (reader.h: require_run); `run` is without meaning
   RunOptions run;
   OutputOptions output;
   std::string filled_in;  ///< the scene as JSON text with every parameter and default filled in

@@ -1,11 +1,12 @@
 #include "framework/scene/spelling.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <utility>
 
-#include "framework/scene/formula.h"
+#include "framework/scene/unit.h"
 
 namespace pintle {
 
@@ -53,7 +54,7 @@ std::string plain(std::string_view text) {
 
 class Speller {
  public:
-  explicit Speller(const std::string& text) : rest_(text) {}
+  Speller(const std::string& text, const Vocabulary& known) : rest_(text), known_(known) {}
 
   std::vector<Word> words() {
     for (skip_space(); !rest_.empty(); skip_space()) {
@@ -91,10 +92,13 @@ class Speller {
     const Kind k = words_.back().kind;
     return k == Kind::number || k == Kind::name || k == Kind::close;
   }
+  std::string between(std::string_view next) const {
+    return "nothing stands between " + words_.back().text + " and " + std::string(next);
+  }
   [[noreturn]] void side_by_side(std::string_view next) const {
     const std::string last = words_.back().text;
-    throw ExpressionError("nothing stands between " + last + " and " + std::string(next) +
-                          ": write " + (last == ")" ? "" : last) + "*" + std::string(next));
+    throw ExpressionError(between(next) + ": write " + (last == ")" ? "" : last) + "*" +
+                          std::string(next));
   }
 
   void number();
@@ -119,6 +123,7 @@ class Speller {
   void sign();
 
   std::string_view rest_;
+  const Vocabulary& known_;
   std::vector<Word> words_;
   std::vector<bool> divided_{false};  // per open parenthesis: the current product has divided
   const std::string hint_ = "; inside { } or [ ] an expression with commas must stand in quotes";
@@ -128,7 +133,13 @@ void Speller::number() {
   double value = 0;
   const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
   const auto length = static_cast<std::size_t>(end - rest_.data());
-  if (after_value()) side_by_side(rest_.substr(0, length));
+  const bool reciprocal = length == 1 && value == 1 && rest_.size() > 2 && rest_[1] == '/' &&
+                          is_letter(rest_[2]) && !words_.empty() &&
+                          words_.back().kind == Kind::number && !divided_.back();
+  if (reciprocal)
+    words_.push_back({Kind::sign, "*"});
+  else if (after_value())
+    side_by_side(rest_.substr(0, length));
   if (error != std::errc())
     throw ExpressionError(std::string(rest_.substr(0, length)) +
                           " is too large or too small for a number");
@@ -143,7 +154,10 @@ void Speller::name() {
   while (next < rest_.size() && rest_[next] == ' ') ++next;
   const bool calls = next < rest_.size() && rest_[next] == '(';
   if (after_value()) {
-    if (calls || !find_unit(text)) side_by_side(text);
+    const bool value = calls || text == "t" || text == "pi" || known_.parameters.contains(text);
+    if (value) side_by_side(text);
+    if (!known_.unit(text))
+      throw ExpressionError(between(text) + ", and " + no_unit(std::string(text)));
     multiply_by_unit(text);
   }
   take(calls ? Kind::function : Kind::name, length);
@@ -188,12 +202,17 @@ void Speller::sign() {
 
 }  // namespace
 
-std::vector<Word> spell(std::string_view text) {
+const Unit* Vocabulary::unit(std::string_view name) const {
+  const auto found = std::ranges::find(more_units, name, &Unit::name);
+  return found != more_units.end() ? &*found : find_unit(name);
+}
+
+std::vector<Word> spell(std::string_view text, const Vocabulary& known) {
   if (text.size() > longest_text)
     throw ExpressionError("it is longer than " + std::to_string(longest_text) +
                           " characters: name parts of it in parameters, or use a table");
   const std::string ascii = plain(text);
-  std::vector<Word> words = Speller(ascii).words();
+  std::vector<Word> words = Speller(ascii, known).words();
   if (words.empty()) throw ExpressionError("it is empty: write a value");
   return words;
 }

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 #include <sstream>
+#include <vector>
+
+#include "framework/scene/nearest.h"
 
 namespace pintle {
 
@@ -31,6 +34,29 @@ constexpr std::array known_units{
     Unit{"kJ", 1e3, d::torque},    Unit{"W", 1, power_of_work},
     Unit{"kW", 1e3, power_of_work}};
 
+constexpr std::array turns{Unit{"Hz", 2 * pi, d::angular_speed},
+                           Unit{"kHz", 2e3 * pi, d::angular_speed}};
+
+struct Absent {
+  std::string_view name, remedy;
+};
+constexpr std::array absent{
+    Absent{"Hz", "Hz counts turns, not radians: write 50*rev/s, 3000 rpm or 50/s, as you mean it"},
+    Absent{"kHz", "Hz counts turns, not radians: write 1000*rev/s or 1000/s, as you mean it"},
+    Absent{"min", "minutes are not offered: write 60 s"},
+    Absent{"inch", "inches are not offered: write 25.4 mm"},
+    Absent{"in", "inches are not offered: write 25.4 mm"},
+    Absent{"ft", "feet are not offered: write 0.3048 m"},
+    Absent{"lb", "pounds are not offered: write 0.45359237 kg"},
+    Absent{"lbf", "pounds are not offered: write 4.4482216 N"},
+    Absent{"psi", "pounds are not offered: write 6894.7573 Pa"},
+    Absent{"ton", "write 1000 kg"},
+    Absent{"Nm", "a product of units is written with a space: N m"},
+    Absent{"Nmm", "a product of units is written with a space: N mm"},
+    Absent{"kNm", "a product of units is written with a space: kN m"},
+    Absent{"Ns", "a product of units is written with a space: N s"},
+    Absent{"kgm", "a product of units is written with a space: kg m"}};
+
 struct Named {
   Dimension dimension;
   const char *words, *unit;
@@ -47,13 +73,14 @@ const std::array named{Named{d::number, "a number", ""},
                        Named{d::force, "a force", "N"},
                        Named{d::torque, "a torque or energy", "N*m"},
                        Named{d::stress, "a stress", "Pa"},
-                       Named{d::stiffness, "a stiffness", "N/m"},
+                       Named{d::stiffness, "a stiffness or line load", "N/m"},
                        Named{d::damping, "a damping", "N*s/m"},
                        Named{d::torsion_damping, "a torsional damping", "N*m*s/rad"},
                        Named{power_of_work, "a power", "W"},
-                       Named{{2, 0, 0, 0}, "an area", "m^2"},
+                       Named{d::area, "an area", "m^2"},
+                       Named{d::second_moment, "a second moment of area", "m^4"},
                        Named{{3, 0, 0, 0}, "a volume", "m^3"},
-                       Named{{-3, 1, 0, 0}, "a density", "kg/m^3"}};
+                       Named{d::density, "a density", "kg/m^3"}};
 
 bool near(double a, double b) {
   return std::abs(a - b) < 1e-9;
@@ -117,6 +144,28 @@ const Unit* find_unit(std::string_view name) {
   for (const Unit& u : known_units)
     if (u.name == name) return &u;
   return nullptr;
+}
+
+std::span<const Unit> frequency_units() {
+  return turns;
+}
+
+std::string_view instead_of(std::string_view word) {
+  for (const Absent& a : absent)
+    if (a.name == word) return a.remedy;
+  return {};
+}
+
+std::string no_unit(const std::string& word) {
+  std::vector<std::string> known;
+  for (const Unit& u : known_units) known.emplace_back(u.name);
+  const std::string best = nearest(word, known);
+  std::string out = word + " is no unit here";
+  if (const std::string_view remedy = instead_of(word); !remedy.empty())
+    out.append(": ").append(remedy);
+  else if (!best.empty())
+    out += ": did you mean " + best + "?";
+  return out + (out.back() == '?' ? "" : ".") + " Units: " + listed(known, "and");
 }
 
 }  // namespace pintle

@@ -18,7 +18,8 @@ inline constexpr Dimension number{}, length{1, 0, 0, 0}, mass{0, 1, 0, 0}, time{
     angle{0, 0, 0, 1}, speed{1, 0, -1, 0}, angular_speed{0, 0, -1, 1}, acceleration{1, 0, -2, 0},
     inertia{2, 1, 0, 0}, force{1, 1, -2, 0}, torque{2, 1, -2, 0}, stress{-1, 1, -2, 0},
     stiffness{0, 1, -2, 0}, damping{0, 1, -1, 0}, torsion_stiffness{2, 1, -2, -1},
-    torsion_damping{2, 1, -1, -1};
+    torsion_damping{2, 1, -1, -1}, area{2, 0, 0, 0}, second_moment{4, 0, 0, 0},
+    density{-3, 1, 0, 0}, line_load{0, 1, -2, 0}, rate{0, 0, -1, 0};
 }  // namespace dimension
 
 Dimension product(const Dimension&, const Dimension&);
@@ -42,5 +43,14 @@ struct Unit {
 std::span<const Unit> units();
 /// @returns nullptr if there is none of that name; names are case-sensitive
 const Unit* find_unit(std::string_view name);
+
+/// Hz and kHz as turns: units only where the value is a frequency and nothing else (`modes.below`).
+std::span<const Unit> frequency_units();
+
+/// What to write instead of a unit that people try and that is absent on purpose ("Hz", "inch",
+/// "Nm"); empty for any other word.
+std::string_view instead_of(std::string_view word);
+/// "lb is no unit here: write 0.45359237 kg. Units: m, km, …".
+std::string no_unit(const std::string& word);
 
 }  // namespace pintle

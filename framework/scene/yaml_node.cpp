@@ -41,8 +41,17 @@ std::vector<Node> Node::items(std::size_t n, const std::string& remedy) const {
     fail("is " + shown() + "; write " + remedy +
          (torn ? std::string(". ") + hint_about_commas : ""));
   }
+  return children();
+}
+
+std::vector<Node> Node::list(std::size_t least, const std::string& remedy) const {
+  if (!is_list() || yaml_->items.size() < least) fail("is " + shown() + "; write " + remedy);
+  return children();
+}
+
+std::vector<Node> Node::children() const {
   std::vector<Node> out;
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < yaml_->items.size(); ++i)
     out.push_back({yaml_->items[i],
                    *source_,
                    {yaml_->items[i].line, place_.key + "[" + std::to_string(i + 1) + "]"}});
@@ -73,6 +82,18 @@ double Node::quantity(const Dimension& expected, Rule must) const {
   double value = 0;
   try {
     value = read_quantity(written, expected, source_->parameters);
+  } catch (const ExpressionError& error) {
+    fail(error.what());
+  }
+  if (!must.holds(value)) fail(shown() + " " + must.words);
+  return value;
+}
+
+double Node::frequency(Rule must) const {
+  const std::string written = text("a frequency such as 5 kHz");
+  double value = 0;
+  try {
+    value = read_frequency(written, source_->parameters);
   } catch (const ExpressionError& error) {
     fail(error.what());
   }

@@ -37,6 +37,9 @@ inline constexpr Rule not_negative{[](double x) { return x >= 0; }, "must not be
 inline constexpr Rule zero_to_one{[](double x) { return x >= 0 && x <= 1; },
                                   "must lie between 0 and 1"};
 inline constexpr Rule at_least_one{[](double x) { return x >= 1; }, "must be at least 1"};
+inline constexpr Rule solid_poisson{[](double x) { return x > -1 && x < 0.5; },
+                                    "must be greater than -1 and less than 0.5; take 0.4999 for a "
+                                    "nearly incompressible solid"};
 inline constexpr Rule poisson{[](double x) { return x > -1 && x <= 0.5; },
                               "must lie between -1 and 0.5"};
 inline constexpr Rule inside_zero_one{[](double x) { return x > 0 && x < 1; },
@@ -75,12 +78,15 @@ class Node {
   std::vector<Node> entries(const std::string& remedy) const;
   /// @throws SceneError  not a list of n
   std::vector<Node> items(std::size_t n, const std::string& remedy) const;
+  /// @throws SceneError  not a list of at least so many
+  std::vector<Node> list(std::size_t least, const std::string& remedy) const;
   bool has(std::string_view key) const;
   Node at(std::string_view key) const;  ///< @pre has(key)
   std::vector<std::string> keys() const;
 
   std::string text(const std::string& remedy) const;
   double quantity(const Dimension&, Rule = rule::any) const;
+  double frequency(Rule = rule::any) const;  ///< [Hz]
   Pair pair(const Dimension&) const;
   long count(long least) const;  ///< a whole number ≥ least
   bool yes() const;              ///< true or false
@@ -89,6 +95,7 @@ class Node {
 
  private:
   Node child(const Yaml& entry) const;
+  std::vector<Node> children() const;  // of a list
   const Yaml* yaml_;
   const Source* source_;
   Place place_;

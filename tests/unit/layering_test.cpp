@@ -55,7 +55,7 @@ const std::vector<Foreign> foreign{
     {"klu", {}},
     {"umfpack", {}},
     {"SuiteSparseQR", {}},
-    {"gmsh", {"meshes/gmsh.cpp"}},
+    {"gmsh.h", {"meshes/gmsh"}},
     {"Spectra/", {"tests/", "benchmarks/"}},
     {"CLI/", {"app/"}},
     {"nlohmann/", {"framework/scene/", "framework/run/", "app/", "tests/", "benchmarks/"}},

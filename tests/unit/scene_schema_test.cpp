@@ -48,7 +48,7 @@ std::vector<const Json*> alternatives(const std::vector<const Json*>& schemas) {
   return out;
 }
 
-// The schemas one key deeper; * takes whatever name is given.
+// The schemas one key deeper; * takes whatever name is given, and every entry of a list.
 std::vector<const Json*> inside(const std::vector<const Json*>& schemas, const std::string& key) {
   std::vector<const Json*> out;
   for (const Json* schema : schemas) {
@@ -59,6 +59,7 @@ std::vector<const Json*> inside(const std::vector<const Json*>& schemas, const s
     if (any && schema->contains("additionalProperties") &&
         (*schema)["additionalProperties"].is_object())
       out.push_back(&(*schema)["additionalProperties"]);
+    if (any && schema->contains("items")) out.push_back(&(*schema)["items"]);
   }
   return alternatives(out);
 }
@@ -192,9 +193,53 @@ std::string verdict(const std::string& text) {
 
 const std::string base = R"(
 parameters: {c: 0.1 mm}
+materials:
+  steel: {young: 2e11, poisson: 0.3, density: 7850}
+  ply: {orthotropic: {young: [1e11, 1e10], poisson: 0.3, shear: 5e9, angle: 30 deg}}
 ground: {points: {C: [0, 1], D: {at: [0, 0], angle: 1}}}
 bodies:
   crank: {rigid: {mass: 1 kg, inertia: 0.1, center: [0, 0]}, points: {A: [10 mm, 0]}, pose: {at: [0, 0], angle: 1}}
+  rod:
+    beam: {from: A, to: B, section: {tube: [0.02, 0.01]}, taper to: {tube: [0.01, 5 mm]}, material: ply, mass: 1,
+           theory: timoshenko, shear factor: 5/6, rotary inertia: false, elements: 4}
+    points: {A: [0, 0], B: {at: [1, 0], angle: 1}}
+    modes: {frame: {chord: [A, B]}, below: 5 kHz}
+    damping: {rayleigh: {ratios: [0.01, 0.02], modes: [1, 3]}}
+    mass matrix: lumped
+    lumps: {B: {mass: 0.1, inertia: 0.01}}
+    supports: {A: fixed, B: [y, rotation]}
+  mast:
+    beam: {through: [A, B, C], section: {i: {height: 0.1, width: 0.05, web: 0.004, flange: 0.006}}, material: steel, theory: euler}
+    points: {A: [0, 0], B: [1, 0], C: [1, 1]}
+    modes: {frame: tangent, keep: all}
+    damping: {ratios: [0.01, 0.02]}
+  bracket:
+    plate:
+      link: {triangle: {centers: [[0, 0], [0.09, 0], [0.02, 0.07]], eyes: [{bore: 0.01, outer: 0.024}, {bore: 0.01, outer: 0.024}, {bore: 0.012, outer: 0.026}]}}
+      thickness: 0.008
+      plane: strain
+      element: quadrilateral8-reduced
+      size: 3 mm
+      hole size: 1 mm
+      young: 7e10
+      poisson: 0.33
+      density: 2700
+    points: {foot: {hole: eye 1, coupling: average}, head: {hole: eye 3, angle: 1}}
+    modes: {frame: mean axes, craig-bampton: {effective mass: 0.9}}
+    damping: {rayleigh: {alpha: 3 1/s, beta: 1e-5}}
+    supports: {foot: pinned, outline: y}
+  membrane:
+    plate: {grid: {corners: [[0, 0], [1, 0], [1, 1], [0, 1]], cells: [4, 2]}, thickness: 1, orthotropic: {young: [1e9, 2e9, 3e9], poisson: [0.2, 0.1, 0.1], shear: 1e9}, density: 1}
+    modes: {free: {count: 3}}
+static:
+  body: bracket
+  loads:
+    pull: {force: [0, 1 N], at: head}
+    turn: {torque: 1, at: foot}
+    edge: {traction: [0, 1], on: outline}
+    fit: {pressure: 1, on: eye 2}
+    weight: {acceleration: [0, -9.81]}
+    spin: {spin: 3000 rpm, about: foot}
 joints:
   pin: {revolute: [ground, crank.A], clearance: {radial: c, bearing radius: 1 cm, bearing: crank,
         normal: {flores: {restitution: 0.5, young: 2e11, poisson: 0.3, radii: external,
@@ -260,7 +305,50 @@ TEST(SceneSchema, RefusesWithTheReader) {
       {"frames: 3", "frames: -3"},
       {"max steps: 10", "max steps: 1.5"},
       {"output:", "outputs:"},
-      {"crank.A]", "crank.A.B]"}};
+      {"crank.A]", "crank.A.B]"},
+      {"young: 2e11, poisson: 0.3, density", "young: 2e11, density"},
+      {"poisson: 0.3, density", "poisson: 0.5, density"},
+      {"density: 7850", "density: -7850"},
+      {"young: [1e11, 1e10]", "young: 1e11"},
+      {"shear: 5e9, ", ""},
+      {"from: A, ", ""},
+      {"through: [A, B, C]", "through: [A]"},
+      {"to: B, section", "to: B, through: [A, B], section"},
+      {"section: {tube", "section: {pipe"},
+      {"section: {tube: [0.02, 0.01]}", "section: {tube: [0.02, 0.01], circle: 1}"},
+      {"section: {tube: [0.02, 0.01]}", "section: {tube: 0.02}"},
+      {"web: 0.004, ", ""},
+      {"material: ply, mass: 1", "material: ply, young: 1e9, mass: 1"},
+      {"mass: 1,\n", "mass: 1, density: 2,\n"},
+      {"theory: euler", "theory: bernoulli"},
+      {"shear factor: 5/6", "shear factor: 0.83"},
+      {"elements: 4", "elements: 0"},
+      {"below: 5 kHz", "below: 5 kHz, count: 3"},
+      {"below: 5 kHz", "below: -5"},
+      {"{effective mass: 0.9}", "{effective mass: 1.5}"},
+      {"keep: all", "keep: some"},
+      {"keep: all", "keep: all, free: {}"},
+      {"frame: tangent", "frame: chordal"},
+      {"modes: [1, 3]", "modes: [0, 3]"},
+      {"ratios: [0.01, 0.02]}", "ratios: [0.01, 2]}"},
+      {"alpha: 3 1/s", "ratios: [0.1, 0.1]"},
+      {"mass matrix: lumped", "mass matrix: diagonal"},
+      {"lumps: {B: {mass: 0.1, inertia: 0.01}}", "lumps: {B: {}}"},
+      {"A: fixed", "A: clamped"},
+      {"  crank: {rigid", "  crank: {supports: {}, rigid"},
+      {"    plate: {grid", "    beam: {}\n    plate: {grid"},
+      {"link: {triangle", "link: {triangel"},
+      {"thickness: 0.008", "thickness: 0"},
+      {"plane: strain", "plane: shear"},
+      {"quadrilateral8-reduced", "quad8"},
+      {"      size: 3 mm\n", "      size: 3 mm\n      scale: 2\n"},
+      {"cells: [4, 2]", "cells: [4, 0]"},
+      {"{hole: eye 1, coupling: average}", "{coupling: average}"},
+      {"{hole: eye 1, coupling: average}", "{hole: eye 1, coupling: soft}"},
+      {"torque: 1, at: foot", "torque: 1"},
+      {"torque: 1, at", "torque: 1, on"},
+      {"pressure: 1, on: eye 2", "pressure: [1, 2], on: eye 2"},
+      {"  body: bracket\n  loads:", "  body: bracket\n  load:"}};
   for (const auto& [from, to] : spoiled) {
     std::string text = base;
     ASSERT_NE(text.find(from), std::string::npos) << from;

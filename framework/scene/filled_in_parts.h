@@ -1,0 +1,21 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "framework/scene/scene.h"
+
+/// The scene as JSON, part by part: what the reader would read back to the same part.
+namespace pintle {
+
+using Json = nlohmann::ordered_json;
+
+/// Appends without looking whether the name is there: names are unique, and a search would make a
+/// large scene quadratic.
+void append(Json& object, const std::string& name, Json value);
+
+Json json(const Pair&);
+Json json(const SceneMaterial&);  ///< as an entry of `materials`
+Json json(const SceneElastic&);   ///< the body but for points and pose
+Json json(const SceneStatic&);
+
+}  // namespace pintle
