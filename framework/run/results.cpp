@@ -2,11 +2,11 @@
 
 #include <unistd.h>
 
-#include <charconv>
 #include <cmath>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
+
+#include "framework/run/text.h"
 
 namespace pintle {
 
@@ -14,28 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-std::string csv_field(const std::string& s) {
-  if (s.find_first_of(",\"\n") == std::string::npos) return s;
-  std::string out(1, '"');
-  for (char c : s) out.append(c == '"' ? 2 : 1, c);
-  out += '"';
-  return out;
-}
-
-void append_number(std::string& out, double x) {
-  if (std::isnan(x)) return;  // an empty field
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, x).ptr;
-  out.append(text, end);
-}
-
-void write_file(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
-}
 
 std::string csv(const Table& table) {
   std::string out;
@@ -177,10 +155,10 @@ std::string check_json(const Scene& scene, const Model& model, const Assembly& a
 
 void write_results(const fs::path& directory, const Scene& scene, const Model& model, const Assembly& assembly,
                    const Run& run) {
-  write_file(directory / "trajectory.csv", csv(run.trajectory));
-  write_file(directory / "ledger.csv", csv(run.ledger));
-  write_file(directory / "events.csv", events_csv(model.system, run.impacts));
-  write_file(directory / "run.json", run_json(scene, model, assembly, run));
+  write_text(directory / "trajectory.csv", csv(run.trajectory));
+  write_text(directory / "ledger.csv", csv(run.ledger));
+  write_text(directory / "events.csv", events_csv(model.system, run.impacts));
+  write_text(directory / "run.json", run_json(scene, model, assembly, run));
 }
 
 }  // namespace pintle

@@ -128,7 +128,78 @@ std::string text(double value) {
   return {buffer.data(), end};
 }
 
+void write_vtu(const fs::path& path, vtkUnstructuredGrid* grid) {
+  // To a string, so that VTK touches no file and prints nothing when one cannot be written.
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetInputDataObject(grid);
+  writer->SetDataModeToAppended();
+  writer->SetCompressorTypeToZLib();
+  writer->WriteToOutputStringOn();
+  if (writer->Write() == 0) fail(path, "VTK could not encode it");
+  write_file(path, writer->GetOutputString());
+}
+
+vtkNew<vtkDoubleArray> array_of(const Field& field) {
+  const Eigen::MatrixXd& v = field.values;
+  const int rows = static_cast<int>(v.rows()), components = rows == 2 ? 3 : rows;
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(field.name.c_str());
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(v.cols());
+  for (Eigen::Index i = 0; i < v.cols(); ++i)
+    for (int k = 0; k < components; ++k) array->SetComponent(i, k, k < rows ? v(k, i) : 0);
+  return array;
+}
+
+int vtk_cell(CellShape shape) {
+  switch (shape) {
+    case CellShape::line2: return VTK_LINE;
+    case CellShape::line3: return VTK_QUADRATIC_EDGE;
+    case CellShape::triangle3: return VTK_TRIANGLE;
+    case CellShape::triangle6: return VTK_QUADRATIC_TRIANGLE;
+    case CellShape::quadrilateral4: return VTK_QUAD;
+    case CellShape::quadrilateral8: return VTK_QUADRATIC_QUAD;
+    case CellShape::quadrilateral9: return VTK_BIQUADRATIC_QUAD;
+  }
+  return VTK_EMPTY_CELL;
+}
+
 }  // namespace
+
+void write_grid(const fs::path& path, const Eigen::Matrix2Xd& at, const std::vector<Cells>& cells,
+                const std::vector<Field>& on_points, const std::vector<Field>& on_cells, double t) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(at.cols());
+  for (Eigen::Index i = 0; i < at.cols(); ++i) points->SetPoint(i, at(0, i), at(1, i), 0);
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+  std::size_t count = 0;
+  for (const Cells& block : cells) count += block.size();
+  grid->AllocateEstimate(static_cast<vtkIdType>(count), 9);
+  for (const Cells& block : cells) {
+    const auto n = static_cast<std::size_t>(nodes_of(block.shape));
+    for (std::size_t c = 0; c < block.size(); ++c) {
+      std::array<vtkIdType, 9> ids;
+      std::copy_n(block.nodes.begin() + static_cast<std::ptrdiff_t>(c * n), n, ids.begin());
+      grid->InsertNextCell(vtk_cell(block.shape), static_cast<vtkIdType>(n), ids.data());
+    }
+  }
+  for (const Field& f : on_points) grid->GetPointData()->AddArray(array_of(f));
+  for (const Field& f : on_cells) grid->GetCellData()->AddArray(array_of(f));
+  grid->GetFieldData()->AddArray(number("TimeValue", t));
+  write_vtu(path, grid);
+}
+
+void write_collection(const fs::path& path, const std::vector<std::pair<double, std::string>>& frames) {
+  std::string pvd =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
+  for (const auto& [t, file] : frames) {
+    pvd += "    <DataSet timestep=\"" + text(t) + "\" part=\"0\" file=\"" + file + "\"/>\n";
+  }
+  pvd += "  </Collection>\n</VTKFile>\n";
+  write_file(path, pvd);
+}
 
 FrameWriter::FrameWriter(fs::path directory) : directory_(std::move(directory)) {
   std::error_code error;
@@ -138,30 +209,14 @@ FrameWriter::FrameWriter(fs::path directory) : directory_(std::move(directory)) 
 }
 
 void FrameWriter::add(const Drawing& drawing) {
-  const auto grid = grid_of(drawing);
-  // To a string, so that VTK touches no file and prints nothing when one cannot be written.
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetInputDataObject(grid);
-  writer->SetDataModeToAppended();
-  writer->SetCompressorTypeToZLib();
-  writer->WriteToOutputStringOn();
-
   std::array<char, 32> name;
   std::snprintf(name.data(), name.size(), "frames/%05zu.vtu", frames_.size());
-  const fs::path path = directory_ / name.data();
-  if (writer->Write() == 0) fail(path, "VTK could not encode the frame");
-  write_file(path, writer->GetOutputString());
+  write_vtu(directory_ / name.data(), grid_of(drawing));
   frames_.emplace_back(drawing.t, name.data());
 }
 
 void FrameWriter::finish() {
-  std::string pvd =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
-  for (const auto& [t, file] : frames_) {
-    pvd += "    <DataSet timestep=\"" + text(t) + "\" part=\"0\" file=\"" + file + "\"/>\n";
-  }
-  pvd += "  </Collection>\n</VTKFile>\n";
-  write_file(directory_ / "mechanism.pvd", pvd);
+  write_collection(directory_ / "mechanism.pvd", frames_);
 }
 
 }  // namespace pintle

@@ -7,7 +7,23 @@
 
 #include <Eigen/Core>
 
+#include "meshes/mesh.h"
+
 namespace pintle {
+
+/// Values at points or cells, a column each: 1 row a scalar, 2 a vector of the plane.
+struct Field {
+  std::string name;  ///< with its unit: "von Mises [Pa]"
+  Eigen::MatrixXd values;
+};
+
+/// Points, z = 0, and cells with fields on them, as an unstructured grid in one .vtu.
+/// @throws std::runtime_error  naming the path that cannot be written
+void write_grid(const std::filesystem::path&, const Eigen::Matrix2Xd& points, const std::vector<Cells>&,
+                const std::vector<Field>& on_points, const std::vector<Field>& on_cells = {}, double t = 0);
+
+/// A .pvd: when to show which file, given relative to it.
+void write_collection(const std::filesystem::path&, const std::vector<std::pair<double, std::string>>& frames);
 
 /// What kind of thing a drawn line is; written as the cell field `part` and named in field data.
 enum class Part { link, joint, journal, bearing, spring, guide, trace };

@@ -1,0 +1,176 @@
+// Commands on one body of elements: modes, mesh and static.
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <numbers>
+
+#include "app/options.h"
+#include "framework/run/body_drawing.h"
+#include "framework/run/modes.h"
+#include "framework/run/results.h"
+#include "framework/run/static_case.h"
+#include "framework/run/text.h"
+
+namespace pintle::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int default_frames = 24;
+constexpr Eigen::Index frames_up_to = 30'000;  ///< nodes; larger bodies are animated only when asked
+
+std::string place(const Eigen::Vector2d& x) { return "(" + number(x.x()) + ", " + number(x.y()) + ") m"; }
+
+std::string cells(const Mesh& mesh) {
+  std::string out;
+  for (const Cells& c : mesh.cells) out += (out.empty() ? "" : " + ") + std::to_string(c.size()) + " " + name_of(c.shape);
+  return out;
+}
+
+void print_head(const Scene& scene) { std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n"; }
+
+void add_body(Rows& rows, const ElasticBody& e) {
+  const RigidInertia inertia = rigid_inertia(e.model, e.M);
+  rows.insert(rows.end(),
+              {{"body", e.scene->name},
+               {"mesh", std::to_string(e.mesh.x.cols()) + " nodes, " + cells(e.mesh) + ", " + std::to_string(e.model.n()) + " freedoms"},
+               {"mass", number(inertia.m) + " kg, centre " + place(inertia.c / inertia.m) + ", inertia there " +
+                            number(inertia.J - inertia.c.squaredNorm() / inertia.m) + " kg m^2"}});
+}
+
+void print_warnings(const ElasticBody& e) {
+  for (const std::string& w : e.warnings) std::cout << "  warning: " << w << "\n";
+}
+
+std::string percent(double part, double whole) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", whole > 0 ? 100 * part / whole : 0);
+  return text;
+}
+
+void print_table(const ModeTable& t, const ModesReport& r) {
+  std::printf("\n  %s\n  %4s %15s %9s %9s %11s %9s %10s\n", t.title.c_str(), "mode", "frequency [Hz]", "mass x %", "mass y %",
+              "rotation %", "damping", "residual");
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 0; i < t.modes.omega.size(); ++i) {
+    sum += t.mass.col(i);
+    std::printf("  %4d %15.8g %9s %9s %11s %9.4g %10.1e\n", static_cast<int>(i + 1), t.modes.omega[i] / (2 * std::numbers::pi),
+                percent(t.mass(0, i), r.inertia.m).c_str(), percent(t.mass(1, i), r.inertia.m).c_str(),
+                percent(t.mass(2, i), r.centre_inertia).c_str(), t.zeta[i], t.modes.residual[i]);
+  }
+  std::printf("  %4s %15s %9s %9s %11s\n", "sum", "", percent(sum[0], r.inertia.m).c_str(), percent(sum[1], r.inertia.m).c_str(),
+              percent(sum[2], r.centre_inertia).c_str());
+  std::fflush(stdout);
+}
+
+void write_shapes(const fs::path& directory, const ElasticBody& e, const ModeTable& t, const std::string& prefix, int frames) {
+  const BodyDrawing drawing(e);
+  write_shapes(directory / (prefix + "s.vtu"), drawing, t.modes.shapes);
+  if (frames < 1) return;
+  for (Eigen::Index i = 0; i < t.modes.omega.size(); ++i) {
+    char name[64];
+    std::snprintf(name, sizeof name, "%s_%02d", prefix.c_str(), static_cast<int>(i + 1));
+    write_shape_animation(directory, name, drawing, t.modes.shapes.col(i), frames);
+  }
+}
+
+}  // namespace
+
+int modes(const Options& options) {
+  const Scene scene = read_scene(options.scene, overrides(options));
+  const ElasticBody e = elastic_body(scene, elastic_of(scene, options.body));
+  const ModesReport report = modes_of(scene, e, options.count);
+  const bool large = e.mesh.x.cols() > frames_up_to;
+  const int frames = options.frames >= 0 ? options.frames : large ? 0 : default_frames;
+  const fs::path out = results_directory(options, "-modes");
+  ResultsDirectory results(out);
+  write_shapes(results.path(), e, report.natural, "mode", frames);
+  write_text(results.path() / "modes.csv", modes_csv(report.natural, report));
+  if (report.reduced) {
+    write_shapes(results.path(), e, *report.reduced, "reduced", frames);
+    write_text(results.path() / "reduced.csv", modes_csv(*report.reduced, report));
+  }
+  write_text(results.path() / "modes.json", modes_json(scene, e, report));
+  results.commit();
+  if (options.json) {
+    std::cout << modes_json(scene, e, report);
+  } else if (!options.quiet) {
+    print_head(scene);
+    Rows rows;
+    add_body(rows, e);
+    rows.emplace_back("rigid motions", std::to_string(report.rigid) + ", at 0 Hz, not listed");
+    if (report.natural.modes.sturm) rows.emplace_back("Sturm count", std::to_string(*report.natural.modes.sturm) + " up to the last mode: none is missed");
+    print_rows(std::cout, rows);
+    print_table(report.natural, report);
+    if (report.rigid == 3) std::cout << "  (free modes carry no momentum: their effective masses are zero)\n";
+    if (report.reduced) print_table(*report.reduced, report);
+    std::cout << "\n";
+    print_warnings(e);
+    if (frames == 0 && options.frames < 0) std::cout << "  no animations of so large a mesh unless asked for: --frames 24\n";
+    print_rows(std::cout, {{"time", number(e.mesh_seconds, 3) + " s mesh, " + number(e.assembly_seconds, 3) + " s assembly, " + number(report.seconds, 3) + " s modes"},
+                           {"results", out.string() + (frames > 0 ? ", animations " + (out / "mode_01.pvd").string() + " …" : "")}});
+  }
+  return ok;
+}
+
+int mesh(const Options& options) {
+  const Scene scene = read_scene(options.scene, overrides(options));
+  const ElasticBody e = elastic_body(scene, elastic_of(scene, options.body));
+  const fs::path out = results_directory(options, "-mesh");
+  ResultsDirectory results(out);
+  write_mesh_report(results.path(), scene, e);
+  results.commit();
+  if (options.json) {
+    std::cout << mesh_json(scene, e);
+  } else if (!options.quiet) {
+    print_head(scene);
+    Rows rows;
+    add_body(rows, e);
+    if (e.plate()) {
+      const double degrees = 180 / std::numbers::pi;
+      rows.emplace_back("scaled Jacobian", number(e.quality.least_jacobian, 3) + " least, " + number(e.quality.mean_jacobian, 3) + " mean (1 is best, at 0 a cell folds)");
+      rows.emplace_back("aspect ratio", number(e.quality.greatest_aspect, 3) + " at most");
+      rows.emplace_back("corner angles", number(e.quality.least_angle * degrees, 3) + " to " + number(e.quality.greatest_angle * degrees, 3) + " deg");
+    }
+    for (const Group& g : e.mesh.groups) rows.emplace_back("group \"" + g.name + "\"", std::to_string(g.nodes.size()) + " nodes");
+    for (const Port& p : e.model.ports) rows.emplace_back("point \"" + p.name + "\"", place(p.x));
+    rows.emplace_back("results", (out / "mesh.vtu").string());
+    print_rows(std::cout, rows);
+    print_warnings(e);
+  }
+  return ok;
+}
+
+int statics(const Options& options) {
+  const Scene scene = read_scene(options.scene, overrides(options));
+  const std::string name = !options.body.empty() || !scene.statics ? options.body : scene.statics->body;
+  const ElasticBody e = elastic_body(scene, elastic_of(scene, name));
+  const StaticReport r = solve_case(scene, e);
+  const fs::path out = results_directory(options, "-static");
+  ResultsDirectory results(out);
+  write_case(results.path(), scene, e, r);
+  results.commit();
+  if (options.json) {
+    std::cout << static_json(scene, e, r);
+  } else if (!options.quiet) {
+    print_head(scene);
+    Rows rows;
+    add_body(rows, e);
+    const auto resultant = [](const Eigen::Vector3d& f) { return number(f[0]) + " N, " + number(f[1]) + " N, " + number(f[2]) + " N m about the origin"; };
+    rows.emplace_back("loads together", resultant(r.load));
+    for (const SupportReaction& s : r.reactions) rows.emplace_back("reaction at " + s.at, resultant(s.resultant));
+    for (const PortDisplacement& p : r.ports)
+      rows.emplace_back("moved: " + p.name, number(p.u[0]) + " m, " + number(p.u[1]) + " m" + (std::isnan(p.u[2]) ? "" : ", " + number(p.u[2]) + " rad"));
+    rows.emplace_back("greatest displacement", number(r.greatest_displacement) + " m at " + place(r.displaced_at));
+    rows.emplace_back("greatest von Mises stress", number(r.greatest_stress * 1e-6) + " MPa at " + place(r.stressed_at));
+    if (e.plate()) rows.emplace_back("stress jump", percent(r.stress.jump, 1) + " % between neighbouring elements (a sign of mesh error)");
+    rows.emplace_back("strain energy", number(r.solution.strain_energy) + " J");
+    rows.emplace_back("results", (out / "static.vtu").string());
+    print_rows(std::cout, rows);
+    print_warnings(e);
+  }
+  return ok;
+}
+
+}  // namespace pintle::app

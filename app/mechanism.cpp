@@ -1,0 +1,163 @@
+// Commands on a whole mechanism: check and run.
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <iomanip>
+#include <iostream>
+
+#include "app/options.h"
+#include "framework/run/results.h"
+#include "framework/run/rigid_bodies.h"
+
+namespace pintle::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+volatile std::sig_atomic_t interrupted = 0;
+extern "C" void interrupt(int) { interrupted = 1; }
+
+void print_check(const Scene& scene, const Model& model, const Assembly& a) {
+  const System& s = model.system;
+  std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
+  print_rows(std::cout,
+             {{"bodies", std::to_string(s.bodies.size()) + " rigid, " + std::to_string(s.n()) + " coordinates"},
+              {"constraint rows", std::to_string(s.n_rows()) + ", rank " + std::to_string(a.rank) +
+                                      (a.redundant.empty() ? "" : ", " + std::to_string(s.n_rows() - a.rank) + " redundant")},
+              {"mobility", std::to_string(s.n() - a.rank)},
+              {"clearance joints", s.contacts.empty() ? "none" : std::to_string(s.contacts.size())},
+              {"forces", s.forces.empty() ? "none" : std::to_string(s.forces.size())},
+              {"gravity", s.gravity.isZero() ? "off" : number(s.gravity.x()) + ", " + number(s.gravity.y()) + " m/s^2"},
+              {"ledger integrals", std::to_string(s.n_z())},
+              {"scheme", std::string(model.scheme.tableau->name) + ", tolerance " + number(model.scheme.tolerance) +
+                             ", constraints by " + scene.run.constraints},
+              {"constraint equations", s.n_rows() > Schur::dense_rows ? "sparse (CHOLMOD)" : s.n_rows() > 0 ? "dense" : "none"},
+              {"assembly", "closed in " + std::to_string(a.iterations) + " iterations, worst coordinate moved by " + number(a.moved, 3)}});
+  for (std::size_t c = 0; c < s.contacts.size(); ++c) {
+    const ContactPair& p = s.contacts[c];
+    std::cout << "  clearance at \"" << s.contact_names[c] << "\": " << number(p.gap.clearance()) << " m, stiffness "
+              << number(p.normal.k) << " N/m^" << number(p.normal.n) << ", restitution delivered "
+              << number(effective_restitution(p.normal.chi), 4)
+              << (p.friction ? ", friction " + number(p.friction->mu) : ", no friction") << "\n";
+  }
+}
+
+void print_run(const Scene& scene, const Model& model, const Run& run, const fs::path& out) {
+  std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
+  Rows rows{
+      {"time reached", number(run.t_end) + " s"},
+      {"energy at start", number(run.first.stored(), 9) + " J"},
+      {"energy at end", number(run.last.stored(), 9) + " J"}};
+  const System& s = model.system;
+  for (int i = 0; i < s.n_z() && run.ledger.rows() > 0; ++i)
+    rows.emplace_back("  " + integral_name(s, s.integrals[static_cast<std::size_t>(i)]),
+                      number(run.ledger.data[(run.ledger.rows() - 1) * run.ledger.columns() + 6 + static_cast<std::size_t>(i)]) + " J");
+  for (std::size_t c = 0; c < s.contacts.size(); ++c) {
+    long begun = 0, ended = 0;
+    double deepest = 0, force = 0;
+    for (const Impact& i : run.impacts)
+      if (i.contact == static_cast<int>(c)) {
+        ++begun;
+        ended += std::isnan(i.end) ? 0 : 1;
+        deepest = std::max(deepest, i.deepest);
+        force = std::max(force, i.peak_force);
+      }
+    rows.emplace_back("contacts at " + s.contact_names[c],
+                      std::to_string(begun) + (begun > ended ? " (the last goes on)" : "") + ", peak force " +
+                          number(force, 4) + " N, deepest " + number(deepest, 4) + " m");
+  }
+  rows.emplace_back("steps", std::to_string(run.counts.steps) + " (" + std::to_string(run.counts.rejected) + " rejected), " +
+                                 std::to_string(run.counts.evaluations) + " evaluations in " + number(run.seconds, 3) + " s");
+  rows.emplace_back("constraints held to", number(run.worst_position, 2) + " in position, " + number(run.worst_velocity, 2) + " in speed (scaled)");
+  rows.emplace_back("results", out.string() + (scene.output.frames > 1 ? ", animation " + (out / "mechanism.pvd").string() : ""));
+  print_rows(std::cout, rows);
+  for (const std::string& w : run.warnings) std::cout << "  warning: " << w << "\n";
+  std::cout << "  " << status_text(run.status) << (run.reason.empty() ? "" : ": " + run.reason) << "\n";
+  std::cout << "  unexplained energy: " << number(run.unexplained, 3) << " J, "
+            << number(run.energy_in_play > 0 ? std::abs(run.unexplained) / run.energy_in_play : 0, 3)
+            << " of the energy in play\n";
+}
+
+/// A line on the terminal that says how far the run is; nothing if stderr is not one.
+class Progress {
+ public:
+  Progress(double until, bool quiet) : until_(until), on_(!quiet && ::isatty(STDERR_FILENO)) {}
+  ~Progress() {
+    if (shown_) std::cerr << "\r\033[K" << std::flush;
+  }
+  bool operator()(double t) {
+    const auto now = std::chrono::steady_clock::now();
+    if (on_ && now - last_ > std::chrono::milliseconds(200)) {
+      last_ = now;
+      shown_ = true;
+      std::cerr << "\r  " << std::fixed << std::setprecision(1) << 100 * t / until_ << " %  t = " << std::defaultfloat
+                << std::setprecision(6) << t << " s\033[K" << std::flush;
+    }
+    return !interrupted;
+  }
+
+ private:
+  double until_;
+  bool on_, shown_ = false;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+int check(const Options& options) {
+  Scene scene = read_scene(options.scene, overrides(options));
+  require_run(scene);
+  fill_rigid_bodies(scene);
+  const Model model = build(scene);
+  const Assembly assembly = assemble(scene, model);
+  if (options.json)
+    std::cout << check_json(scene, model, assembly);
+  else
+    print_check(scene, model, assembly);
+  refuse_redundancy(scene, model, assembly);
+  return ok;
+}
+
+int run(const Options& options) {
+  Scene scene = read_scene(options.scene, overrides(options));
+  require_run(scene);
+  fill_rigid_bodies(scene);
+  const Model model = build(scene);
+  const Assembly assembly = assemble(scene, model);
+  refuse_redundancy(scene, model, assembly);
+
+  const fs::path out = results_directory(options);
+  ResultsDirectory results(out);
+  FrameWriter writer(results.path());
+  const Drafting drafting(scene, model);
+  Progress progress(scene.run.until, options.quiet);
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  Listeners listeners;
+  listeners.progress = [&](double t) { return progress(t); };
+  if (scene.output.frames > 1)
+    listeners.frame = [&](const State& state, const Equations& eq) { writer.add(draw(model, drafting, state, eq)); };
+  const Run result = simulate(scene, model, assembly, listeners);
+  if (scene.output.frames > 1) writer.finish();
+  write_results(results.path(), scene, model, assembly, result);
+  results.commit();
+
+  if (options.json)
+    std::cout << run_json(scene, model, assembly, result);
+  else if (!options.quiet)
+    print_run(scene, model, result, out);
+  if (result.status != Status::finished && (options.quiet || options.json))
+    std::cerr << scene.file << ": " << status_text(result.status) << ": " << result.reason << "\n";
+  switch (result.status) {
+    case Status::finished: return ok;
+    case Status::failed: return run_failed;
+    case Status::interrupted: return stopped;
+    case Status::ledger_over_bound: return ledger_over;
+  }
+  return trouble;
+}
+
+}  // namespace pintle::app

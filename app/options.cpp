@@ -1,0 +1,43 @@
+#include "app/options.h"
+
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+namespace pintle::app {
+
+namespace fs = std::filesystem;
+
+Overrides overrides(const Options& options) {
+  Overrides out;
+  for (const std::string& s : options.set) {
+    const auto equals = s.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw SceneError("--set " + s + ": write it as NAME=VALUE, for example --set clearance=0.1mm");
+    out.emplace_back(s.substr(0, equals), s.substr(equals + 1));
+  }
+  return out;
+}
+
+std::string number(double x, int digits) {
+  std::ostringstream s;
+  s << std::setprecision(digits) << x;
+  return s.str();
+}
+
+void print_rows(std::ostream& out, const Rows& rows) {
+  std::size_t width = 0;
+  for (const auto& row : rows) width = std::max(width, row.first.size());
+  for (const auto& [left, right] : rows)
+    out << "  " << std::left << std::setw(static_cast<int>(width) + 2) << left << right << "\n";
+}
+
+fs::path results_directory(const Options& options, const std::string& suffix) {
+  if (!options.out.empty()) return options.out;
+  const fs::path base = fs::path("runs") / (fs::path(options.scene).stem().string() + suffix);
+  fs::path path = base;
+  for (int k = 2; fs::exists(path); ++k) path = base.string() + "-" + std::to_string(k);
+  return path;
+}
+
+}  // namespace pintle::app

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/scene/reader.h"
+
+/// What the commands share.
+namespace pintle::app {
+
+enum Exit { ok = 0, trouble = 1, bad_scene = 2, no_assembly = 3, run_failed = 4, ledger_over = 5, stopped = 6 };
+
+struct Options {
+  std::string scene, out, body;
+  std::vector<std::string> set;
+  bool quiet = false, json = false;
+  int count = 6, frames = -1;
+};
+
+// One a command; each returns its exit code.
+int check(const Options&);
+int run(const Options&);
+int modes(const Options&);
+int mesh(const Options&);
+int statics(const Options&);
+
+Overrides overrides(const Options&);
+std::string number(double x, int digits = 6);
+using Rows = std::vector<std::pair<std::string, std::string>>;
+void print_rows(std::ostream&, const Rows&);  ///< the second column aligned
+/// runs/NAME, or runs/NAME-2, …: never over something that is there; `suffix` joins the scene's name.
+std::filesystem::path results_directory(const Options&, const std::string& suffix = "");
+
+}  // namespace pintle::app

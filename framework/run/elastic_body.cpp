@@ -1,0 +1,188 @@
+#include "framework/run/elastic_body.h"
+
+#include <chrono>
+#include <cmath>
+#include <iomanip>
+#include <numeric>
+#include <sstream>
+
+#include "framework/component/assembly.h"
+#include "framework/component/from_mesh.h"
+#include "framework/run/elastic_parts.h"
+#include "framework/run/in_body.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Vector2d;
+
+std::string described(const WorstCell& cell) {
+  std::ostringstream s;
+  s << name_of(cell.shape) << " " << cell.number << " at " << shown(cell.at) << " (scaled Jacobian "
+    << std::setprecision(3) << cell.quality.jacobian << ")";
+  return s.str();
+}
+
+void judge(const MeshQuality& q, std::vector<std::string>& warnings) {
+  if (!q.inverted.empty())
+    throw std::invalid_argument("its mesh has " + std::to_string(q.inverted.size()) + " inverted cell(s), the worst " +
+                                described(q.inverted.front()) + "; refine there, take another element, or mend the mesh");
+  if (!q.bad.empty())
+    warnings.push_back(std::to_string(q.bad.size()) + " badly shaped cell(s), the worst " + described(q.bad.front()) + ": stress there is not to be trusted");
+}
+
+/// The material with the density that gives `mass` to a body whose mass at density 1 is `volume`.
+Material with_mass(Material material, const std::optional<double>& mass, double volume) {
+  if (mass) material.density = *mass / volume;
+  return material;
+}
+
+AnyBlock line_block(const SceneBeam& beam, const Mesh& mesh, std::vector<Fibre>& fibres, const Material& material) {
+  const std::vector<int>& nodes = mesh.cells.front().nodes;
+  const int n = static_cast<int>(mesh.cells.front().size());
+  Block<Bar> bars;
+  Block<BeamEuler> euler;
+  Block<BeamTimoshenko> timoshenko;
+  double length = 0;
+  for (int i = 0; i < n; ++i) length += (mesh.x.col(nodes[static_cast<std::size_t>(2 * i + 1)]) - mesh.x.col(nodes[static_cast<std::size_t>(2 * i)])).norm();
+  double begun = 0;
+  std::vector<int> cells(static_cast<std::size_t>(n));
+  std::iota(cells.begin(), cells.end(), 0);
+  fibres.clear();
+  for (int i = 0; i < n; ++i) {
+    const Vector2d d = mesh.x.col(nodes[static_cast<std::size_t>(2 * i + 1)]) - mesh.x.col(nodes[static_cast<std::size_t>(2 * i)]);
+    const double middle = (begun + d.norm() / 2) / length;
+    begun += d.norm();
+    const BeamModuli moduli = beam_moduli(material, std::atan2(d.y(), d.x()));
+    const Section s = section(beam.taper_to ? between(beam.section, *beam.taper_to, middle) : beam.section, beam.shear, moduli.nu);
+    const double EA = moduli.E * s.A, EI = moduli.E * s.I, rhoA = material.density * s.A;
+    const double rhoI = beam.rotary ? material.density * s.I : 0;
+    if (beam.bar)
+      bars.properties.push_back({EA, rhoA});
+    else if (beam.theory == BeamTheory::euler)
+      euler.properties.push_back({EA, EI, rhoA, rhoI});
+    else
+      timoshenko.properties.push_back({EA, EI, s.kappa * moduli.G * s.A, rhoA, rhoI});
+    fibres.push_back({s.A, s.I, beam.bar ? 0 : s.fibre});
+  }
+  const auto filled = [&](auto block) -> AnyBlock {
+    block.nodes = nodes;
+    block.cells = cells;
+    return block;
+  };
+  if (beam.bar) return filled(std::move(bars));
+  if (beam.theory == BeamTheory::euler) return filled(std::move(euler));
+  return filled(std::move(timoshenko));
+}
+
+double total_mass(const std::vector<AnyBlock>& blocks, const Eigen::Matrix2Xd& x) {
+  double m = 0;
+  for (const AnyBlock& any : blocks)
+    std::visit([&](const auto& block) {
+      for (int i = 0; i < block.size(); ++i) {
+        const auto lumped = lumped_mass(block.element(i), block.coords(i, x));
+        for (int k = 0; k < lumped.size(); k += static_cast<int>(lumped.size()) / static_cast<int>(block.coords(i, x).cols())) m += lumped[k];
+      }
+    }, any);
+  return m;
+}
+
+std::vector<AnyBlock> blocks_of(const SceneBody& body, const Mesh& mesh, std::vector<Fibre>& fibres) {
+  const auto at_density = [&](double density, const std::optional<double>& mass, double volume) -> std::vector<AnyBlock> {
+    if (const SceneBeam* beam = beam_of(body)) {
+      Material material = beam->material.material;
+      material.density = density;
+      return {line_block(*beam, mesh, fibres, with_mass(material, mass, volume))};
+    }
+    const ScenePlate& plate = plate_of(body);
+    Material material = plate.material.material;
+    material.density = density;
+    material = with_mass(material, mass, volume);
+    return plane_blocks(mesh, {plane_material(material, plate.state), material.density, plate.thickness}, plate.element);
+  };
+  const SceneBeam* beam = beam_of(body);
+  const std::optional<double>& mass = beam ? beam->mass : plate_of(body).mass;
+  if (!mass) return at_density((beam ? beam->material : plate_of(body).material).material.density, {}, 1);
+  return at_density(1, mass, total_mass(at_density(1, {}, 1), mesh.x));
+}
+
+RimPort rim_port(const Scene& scene, const Mesh& mesh, const ScenePoint& p) {
+  Group rim = group_of(scene, mesh, p.hole, p.place, "give the curve of the hole a physical name in the drawing");
+  rim.sides = sides_of(mesh, rim);
+  if (rim.sides.empty())
+    throw SceneError(scene.file, p.place, "\"" + p.hole + "\" is no rim: none of the mesh's sides lies along it; name the curve of a hole");
+  RimPort port{p.name, Vector2d::Zero(), rim.nodes, rim_weights(mesh, rim), p.coupling == RimCoupling::average ? Coupling::average : Coupling::rigid};
+  double length = 0;
+  for (std::size_t i = 0; i < rim.nodes.size(); ++i) {
+    port.x += port.weights[i] * mesh.x.col(rim.nodes[i]);
+    length += port.weights[i];
+  }
+  port.x /= length;
+  return port;
+}
+
+NodePort node_port(const Scene& scene, const SceneBody& body, const Mesh& mesh, const ScenePoint& p) {
+  const double size = (mesh.x.rowwise().maxCoeff() - mesh.x.rowwise().minCoeff()).norm();
+  const int node = nearest_node(mesh, vector(p.at), size);
+  const double gap = (mesh.x.col(node) - vector(p.at)).norm();
+  const bool given = !beam_of(body) && is_finished_mesh(plate_of(body));
+  if (gap > (given ? 1e-4 : 1e-7) * size)
+    throw SceneError(scene.file, p.place, "no node lies at " + shown(vector(p.at)) + "; the nearest, " +
+                     std::to_string(mesh.node_numbers[static_cast<std::size_t>(node)]) + ", is at " + shown(mesh.x.col(node)) +
+                     (beam_of(body) ? "; put the point on the beam's axis" : "; put the point there, or mesh a drawing, where points become nodes"));
+  return {p.name, node};
+}
+
+void add_ports(const Scene& scene, const SceneBody& body, const Mesh& mesh, FeModel& model) {
+  std::vector<NodePort> nodes;
+  std::vector<RimPort> rims;
+  for (const ScenePoint& p : body.points)
+    if (p.hole.empty())
+      nodes.push_back(node_port(scene, body, mesh, p));
+    else
+      rims.push_back(rim_port(scene, mesh, p));
+  pintle::add_ports(model, nodes, rims);
+}
+
+std::vector<Lump> lumps_of(const Scene& scene, const SceneBody& body, const Mesh& mesh) {
+  std::vector<Lump> lumps;
+  for (const SceneLump& l : body.elastic->lumps) {
+    const ScenePoint& p = point_of(scene, body, l.at, l.place);
+    if (!p.hole.empty())
+      throw SceneError(scene.file, l.place, "\"" + l.at + "\" is the middle of a hole, where no material is; put the mass of its pin on a body of its own");
+    lumps.push_back({node_port(scene, body, mesh, p).node, {l.mass, l.inertia}});
+  }
+  return lumps;
+}
+
+double seconds(std::chrono::steady_clock::time_point since) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+}
+
+}  // namespace
+
+ElasticBody elastic_body(const Scene& scene, const SceneBody& body) {
+  ElasticBody e;
+  e.scene = &body;
+  const auto start = std::chrono::steady_clock::now();
+  e.mesh = mesh_of(scene, body);
+  e.mesh_seconds = seconds(start);
+  const auto meshed = std::chrono::steady_clock::now();
+  in_body(scene, body, [&] {
+    if (e.mesh.plane()) {
+      e.quality = quality(e.mesh);
+      judge(e.quality, e.warnings);
+      e.thickness = plate_of(body).thickness;
+    }
+    e.model = fe_model(e.mesh.x, blocks_of(body, e.mesh, e.fibres), lumps_of(scene, body, e.mesh));
+    add_ports(scene, body, e.mesh, e.model);
+    const Assembler assembler(e.model);
+    e.K = assembler.stiffness();
+    e.M = assembler.mass(body.elastic->lumped ? MassKind::lumped : MassKind::consistent);
+  });
+  e.assembly_seconds = seconds(meshed);
+  return e;
+}
+
+}  // namespace pintle

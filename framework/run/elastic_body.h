@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/component/fe_model.h"
+#include "framework/component/statics.h"
+#include "framework/scene/scene.h"
+#include "meshes/mesh.h"
+#include "meshes/quality.h"
+
+namespace pintle {
+
+/// A body of elements made ready: meshed, numbered, assembled. Matrices are N × N, nodal.
+struct ElasticBody {
+  const SceneBody* scene = nullptr;
+  Mesh mesh;
+  MeshQuality quality;         ///< of plane meshes
+  FeModel model;
+  Sparse K, M;
+  std::vector<Fibre> fibres;   ///< of lines, one an element
+  double thickness = 0;        ///< of plates [m]
+  std::vector<std::string> warnings;
+  double mesh_seconds = 0, assembly_seconds = 0;
+  bool plate() const { return mesh.plane(); }
+};
+
+/// The body called `name`, or the only one of elements if `name` is empty.
+/// @throws SceneError  there is none, or several and no name; the remedy lists them
+const SceneBody& elastic_of(const Scene&, const std::string& name);
+
+/// Its mesh alone: generated, or read from its file beside the scene.
+/// @throws SceneError  whatever is wrong with shape, file or mesh: an inverted cell, a body in pieces, …
+Mesh mesh_of(const Scene&, const SceneBody&);
+
+/// @throws SceneError  as mesh_of, and whatever is wrong with points, holes, material or lumps
+ElasticBody elastic_body(const Scene&, const SceneBody&);
+
+/// What one entry of the body's supports holds.
+struct NamedSupport {
+  std::string at;
+  Supports held;
+};
+/// @throws SceneError  a place that is neither a point nor a group
+std::vector<NamedSupport> supports_of(const Scene&, const ElasticBody&);
+/// All of them as one.
+Supports together(const std::vector<NamedSupport>&);
+
+/// The load vector of the scene's static case, independent freedoms, n.
+/// @throws SceneError  a place that is not there, or a load that such a body cannot take
+Eigen::VectorXd loads_of(const Scene&, const ElasticBody&);
+
+}  // namespace pintle

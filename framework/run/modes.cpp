@@ -1,0 +1,216 @@
+#include "framework/run/modes.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numbers>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/component/eigen_lowest.h"
+#include "framework/run/in_body.h"
+#include "framework/run/text.h"
+#include "framework/scene/nearest.h"
+
+namespace pintle {
+
+namespace {
+
+Component component_of(const ElasticBody& e) {
+  return {e.model, independent(e.model, e.K), independent(e.model, e.M)};
+}
+
+int port_index(const Scene& scene, const ElasticBody& e, const std::string& name, const Place& place) {
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < e.model.ports.size(); ++i) {
+    if (e.model.ports[i].name == name) return static_cast<int>(i);
+    known.push_back(e.model.ports[i].name);
+  }
+  throw SceneError(scene.file, place, "\"" + e.scene->name + "\" has no point \"" + name + "\"." + did_you_mean(name, known));
+}
+
+FrameTie tie_of(const Scene& scene, const ElasticBody& e, const SceneModes& modes) {
+  using Frame = SceneModes::Frame;
+  if (modes.frame == Frame::mean_axes) return {FrameTie::mean_axes};
+  const std::size_t needed = modes.frame == Frame::tangent ? 1 : 2;
+  if (e.model.ports.size() < needed)
+    throw SceneError(scene.file, modes.place, "the frame needs " + std::string(needed == 1 ? "a point" : "two points") + " of the body; add " + (needed == 1 ? "it" : "them") + " under points");
+  std::string a = modes.a, b = modes.b;
+  if (const auto* beam = std::get_if<SceneBeam>(&e.scene->elastic->shape); beam && a.empty()) a = beam->through.front();
+  if (const auto* beam = std::get_if<SceneBeam>(&e.scene->elastic->shape); beam && b.empty()) b = beam->through.back();
+  if (a.empty()) a = e.scene->points.front().name;
+  if (b.empty()) b = e.scene->points.back().name;
+  const int first = port_index(scene, e, a, modes.place);
+  if (modes.frame == Frame::tangent) return {FrameTie::tangent, first};
+  return {FrameTie::chord, first, port_index(scene, e, b, modes.place)};
+}
+
+/// The ports that joints, drivers and forces take hold of; all of them where nothing does.
+std::vector<int> interface_of(const Scene& scene, const ElasticBody& e) {
+  std::set<std::string> used;
+  const auto note = [&](const PointRef& ref) {
+    if (ref.body == e.scene->name) used.insert(ref.point);
+  };
+  for (const SceneJoint& j : scene.joints) note(j.a), note(j.b);
+  for (const SceneDriver& d : scene.drivers) note(d.a), note(d.b);
+  for (const SceneLoad& l : scene.loads)
+    std::visit([&](const auto& w) {
+      if constexpr (requires { w.at; }) note(w.at);
+      else note(w.a), note(w.b);
+    }, l.what);
+  std::vector<int> ports;
+  for (std::size_t i = 0; i < e.model.ports.size(); ++i)
+    if (used.empty() || used.contains(e.model.ports[i].name)) ports.push_back(static_cast<int>(i));
+  return ports;
+}
+
+Keep keep_of(const SceneKeep& k) {
+  return {k.count, k.below, k.effective_mass, !k.count && !k.below && !k.effective_mass};
+}
+
+/// The lowest modes of the body with `held` freedoms at zero, as shapes of all freedoms.
+ModalModel held_modes(const ElasticBody& e, const Component& c, const Supports& held, int count, int& rigid) {
+  const std::vector<int> free = free_freedoms(e.model, held);
+  const Sparse K = restricted(c.K, free), M = restricted(c.M, free);
+  EigenOptions options;
+  options.count = count;
+  EigenPairs pairs = eigen_lowest(K, M, options);
+  if (pairs.zero > 0) {  // the supports leave motions: as many elastic modes as were asked for
+    rigid = pairs.zero;
+    options.count = count + rigid;
+    pairs = eigen_lowest(K, M, options);
+  }
+  if (!pairs.converged || pairs.missed > 0)
+    throw std::runtime_error("its modes were not found: " + (pairs.reason.empty() ? std::to_string(pairs.missed) + " missed by the Sturm check" : pairs.reason));
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(e.model.n(), count);
+  for (std::size_t i = 0; i < free.size(); ++i) all.row(free[i]) = pairs.shapes.row(static_cast<Eigen::Index>(i)).tail(count);
+  ModalModel out;
+  out.shapes = nodal(e.model, all);
+  out.omega = pairs.lambda.tail(count).cwiseSqrt();
+  out.residual = pairs.residual.tail(count);
+  out.sturm = static_cast<int>(pairs.lambda.size()) + pairs.missed;
+  return out;
+}
+
+std::string title_of(const SceneModes& m) {
+  const std::string frame = m.frame == SceneModes::Frame::tangent ? "tangent frame" : m.frame == SceneModes::Frame::chord ? "chord frame" : "mean axes";
+  switch (m.method) {
+    case SceneModes::Method::normal: return "normal modes, " + frame;
+    case SceneModes::Method::craig_bampton: return "Craig-Bampton, " + frame;
+    case SceneModes::Method::free: return "free modes with residual attachment, " + frame;
+  }
+  return frame;
+}
+
+nlohmann::ordered_json table_json(const ModeTable& t, const ModesReport& r) {
+  auto rows = nlohmann::ordered_json::array();
+  for (Eigen::Index i = 0; i < t.modes.omega.size(); ++i)
+    rows.push_back({{"mode", i + 1},
+                    {"frequency [Hz]", t.modes.omega[i] / (2 * std::numbers::pi)},
+                    {"omega [rad/s]", t.modes.omega[i]},
+                    {"effective mass x [kg]", t.mass(0, i)},
+                    {"effective mass y [kg]", t.mass(1, i)},
+                    {"effective inertia [kg m^2]", t.mass(2, i)},
+                    {"share x", t.mass(0, i) / r.inertia.m},
+                    {"share y", t.mass(1, i) / r.inertia.m},
+                    {"share rotation", r.centre_inertia > 0 ? t.mass(2, i) / r.centre_inertia : 0},
+                    {"damping ratio", t.zeta[i]},
+                    {"residual", t.modes.residual[i]}});
+  return {{"basis", t.title}, {"modes", rows}};
+}
+
+}  // namespace
+
+Eigen::VectorXd damping_of(const Scene& scene, const SceneBody& body, const Eigen::VectorXd& omega) {
+  const auto& damping = body.elastic->damping;
+  if (!damping) return Eigen::VectorXd::Zero(omega.size());
+  if (!damping->ratios.empty()) {
+    Eigen::VectorXd zeta(omega.size());
+    for (Eigen::Index i = 0; i < omega.size(); ++i)
+      zeta[i] = damping->ratios[std::min(static_cast<std::size_t>(i), damping->ratios.size() - 1)];
+    return zeta;
+  }
+  if (damping->rayleigh) return ratios({(*damping->rayleigh)[0], (*damping->rayleigh)[1]}, omega);
+  const auto [i, j] = damping->rayleigh_modes;
+  const auto& z = *damping->rayleigh_ratios;
+  if (omega.size() == 1 && z[0] == z[1]) return Eigen::VectorXd::Constant(1, z[0]);
+  if (std::max(i, j) > omega.size())
+    throw SceneError(scene.file, damping->place, "Rayleigh damping is set by modes " + std::to_string(i) + " and " + std::to_string(j) + ", but there are " + std::to_string(omega.size()) + "; name two of those under modes, or keep more");
+  return in_body(scene, body, [&] { return ratios(rayleigh(omega[i - 1], z[0], omega[j - 1], z[1]), omega); });
+}
+
+ModalModel reduce(const Scene& scene, const ElasticBody& e) {
+  const SceneModes& m = *e.scene->elastic->modes;
+  const FrameTie tie = tie_of(scene, e, m);
+  return in_body(scene, *e.scene, [&] {
+    const Component c = component_of(e);
+    switch (m.method) {
+      case SceneModes::Method::craig_bampton: return craig_bampton(c, interface_of(scene, e), tie, keep_of(m.keep));
+      case SceneModes::Method::free: return free_modes(c, interface_of(scene, e), tie, keep_of(m.keep));
+      case SceneModes::Method::normal: break;
+    }
+    return normal_modes(c, tie, keep_of(m.keep));
+  });
+}
+
+ModesReport modes_of(const Scene& scene, const ElasticBody& e, int count) {
+  ModesReport r;
+  r.inertia = rigid_inertia(e.model, e.M);
+  r.centre_inertia = r.inertia.J - r.inertia.c.squaredNorm() / r.inertia.m;
+  const std::vector<NamedSupport> supports = supports_of(scene, e);
+  const auto start = std::chrono::steady_clock::now();
+  in_body(scene, *e.scene, [&] {
+    const Component c = component_of(e);
+    r.natural.title = "free";
+    for (const NamedSupport& s : supports) r.natural.title = (&s == &supports.front() ? "held at " : r.natural.title + ", ") + s.at;
+    if (supports.empty()) {
+      r.natural.modes = normal_modes(c, {FrameTie::mean_axes}, {count, {}, {}, false});
+      r.rigid = 3;
+    } else {
+      r.natural.modes = held_modes(e, c, together(supports), count, r.rigid);
+    }
+  });
+  r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (e.scene->elastic->modes) {
+    r.reduced.emplace();
+    r.reduced->title = title_of(*e.scene->elastic->modes);
+    r.reduced->modes = reduce(scene, e);
+  }
+  for (ModeTable* t : {&r.natural, r.reduced ? &*r.reduced : nullptr}) {
+    if (!t) continue;
+    t->mass = effective_mass(e.model, e.M, t->modes);
+    t->zeta = damping_of(scene, *e.scene, t->modes.omega);
+  }
+  return r;
+}
+
+std::string modes_csv(const ModeTable& t, const ModesReport& r) {
+  std::string out = "mode,frequency [Hz],effective mass x [kg],effective mass y [kg],effective inertia [kg m^2],share x,share y,share rotation,damping ratio,residual\n";
+  for (Eigen::Index i = 0; i < t.modes.omega.size(); ++i) {
+    out += std::to_string(i + 1);
+    for (const double v : {t.modes.omega[i] / (2 * std::numbers::pi), t.mass(0, i), t.mass(1, i), t.mass(2, i), t.mass(0, i) / r.inertia.m,
+                           t.mass(1, i) / r.inertia.m, r.centre_inertia > 0 ? t.mass(2, i) / r.centre_inertia : 0, t.zeta[i], t.modes.residual[i]}) {
+      out += ',';
+      append_number(out, v);
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+std::string modes_json(const Scene& scene, const ElasticBody& e, const ModesReport& r) {
+  nlohmann::ordered_json out = {
+      {"program", "pintle"}, {"version", PINTLE_VERSION}, {"command", "modes"}, {"title", scene.title}, {"file", scene.file}, {"body", e.scene->name},
+      {"nodes", e.mesh.x.cols()}, {"cells", e.mesh.cell_count()}, {"freedoms", e.model.n()},
+      {"mass [kg]", r.inertia.m},
+      {"centre [m]", {r.inertia.c.x() / r.inertia.m, r.inertia.c.y() / r.inertia.m}},
+      {"inertia about the centre [kg m^2]", r.centre_inertia},
+      {"warnings", e.warnings}, {"rigid motions", r.rigid}, {"natural", table_json(r.natural, r)}};
+  if (r.natural.modes.sturm) out["natural"]["Sturm count"] = *r.natural.modes.sturm;
+  if (r.reduced) out["reduced"] = table_json(*r.reduced, r);
+  out["timings [s]"] = {{"mesh", e.mesh_seconds}, {"assembly", e.assembly_seconds}, {"modes", r.seconds}};
+  out["scene"] = scene.filled_in.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json::parse(scene.filled_in, nullptr, false);
+  return out.dump(2) + "\n";
+}
+
+}  // namespace pintle
