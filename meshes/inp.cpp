@@ -1,1 +1,266 @@
 #include "meshes/inp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "meshes/inp_deck.h"
+#include "meshes/rim.h"
+
+namespace pintle {
+
+namespace {
+
+/// From a file's numbers to places in a list.
+class NumberIndex {
+ public:
+  explicit NumberIndex(const std::vector<long>& numbers) : order_(numbers.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
+    const auto by_number = [&](int a, int b) {
+      return numbers[static_cast<std::size_t>(a)] < numbers[static_cast<std::size_t>(b)];
+    };
+    if (!std::is_sorted(numbers.begin(), numbers.end()))
+      std::stable_sort(order_.begin(), order_.end(), by_number);
+    for (const int i : order_) sorted_.push_back(numbers[static_cast<std::size_t>(i)]);
+  }
+  int find(long number) const {  // −1: there is none
+    if (sorted_.empty() || number < sorted_.front() || number > sorted_.back()) return -1;
+    const std::size_t guess =
+        static_cast<std::size_t>(number - sorted_.front());  // mostly without gaps
+    if (guess < sorted_.size() && sorted_[guess] == number) return order_[guess];
+    const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), number);
+    return *at == number ? order_[static_cast<std::size_t>(at - sorted_.begin())] : -1;
+  }
+  std::pair<int, int> twice() const {  // the places of a number that comes twice, or −1
+    const auto at = std::adjacent_find(sorted_.begin(), sorted_.end());
+    if (at == sorted_.end()) return {-1, -1};
+    const std::size_t k = static_cast<std::size_t>(at - sorted_.begin());
+    return {order_[k], order_[k + 1]};
+  }
+
+ private:
+  std::vector<int> order_;
+  std::vector<long> sorted_;
+};
+
+using SetKind = InpDeck::SetKind;
+
+struct Builder {
+  const InpDeck& deck;
+  NumberIndex node_index{deck.node_numbers}, element_index{deck.element_numbers};
+  std::map<std::pair<std::string, SetKind>, std::size_t> set_index{};
+  std::vector<int> nodes{};  // of all elements, looked up
+
+  InpPlace place_of_element(int e) const {
+    return deck.elements[static_cast<std::size_t>(e)].place;
+  }
+  const InpDeck::Element& element(int e) const {
+    return deck.elements[static_cast<std::size_t>(e)];
+  }
+  int corner(const InpDeck::Element& e, int k) const {
+    return nodes[e.first + static_cast<std::size_t>(k)];
+  }
+  static bool is_plane(const InpDeck::Element& e) { return corners_of(e.kind.shape) > 2; }
+
+  void check_numbers() {
+    if (const auto [a, b] = node_index.twice(); b >= 0)
+      deck.text.refuse(
+          deck.node_places[static_cast<std::size_t>(b)], "node ",
+          deck.node_numbers[static_cast<std::size_t>(b)], " is defined again, first on line ",
+          deck.node_places[static_cast<std::size_t>(a)].line, "; a number belongs to one node");
+    if (const auto [a, b] = element_index.twice(); b >= 0)
+      deck.text.refuse(place_of_element(b), "element ",
+                       deck.element_numbers[static_cast<std::size_t>(b)],
+                       " is defined again, first on line ", place_of_element(a).line,
+                       "; a number belongs to one element");
+  }
+
+  void look_up_nodes() {
+    nodes.reserve(deck.element_nodes.size());
+    for (std::size_t e = 0; e < deck.elements.size(); ++e) {
+      const InpDeck::Element& el = deck.elements[e];
+      const std::size_t end = el.first + static_cast<std::size_t>(nodes_of(el.kind.shape));
+      for (std::size_t k = el.first; k < end; ++k) {
+        const int node = node_index.find(deck.element_nodes[k]);
+        if (node < 0)
+          deck.text.refuse(el.place, "element ", deck.element_numbers[e], " names node ",
+                           deck.element_nodes[k], ", which no *NODE defines");
+        if (std::find(nodes.begin() + static_cast<std::ptrdiff_t>(el.first), nodes.end(), node) !=
+            nodes.end())
+          deck.text.refuse(el.place, "element ", deck.element_numbers[e], " names node ",
+                           deck.element_nodes[k],
+                           " twice; collapsed elements are not read: take a triangle");
+        nodes.push_back(node);
+      }
+      if (el.kind.shape == CellShape::line3) middle_last(el.first);
+    }
+  }
+
+  // Abaqus puts the middle node of a line second, Gmsh last; where it lies says which.
+  void middle_last(std::size_t first) {
+    const auto miss = [&](std::size_t middle, std::size_t a, std::size_t b) {
+      const auto i = [&](std::size_t k) { return static_cast<std::size_t>(nodes[first + k]); };
+      return std::hypot(deck.x[i(middle)] - (deck.x[i(a)] + deck.x[i(b)]) / 2,
+                        deck.y[i(middle)] - (deck.y[i(a)] + deck.y[i(b)]) / 2);
+    };
+    if (miss(1, 0, 2) < miss(2, 0, 1)) std::swap(nodes[first + 1], nodes[first + 2]);
+  }
+
+  Mesh cells(double scale) const {
+    Mesh mesh;
+    mesh.x.resize(2, static_cast<Eigen::Index>(deck.x.size()));
+    for (std::size_t i = 0; i < deck.x.size(); ++i)
+      mesh.x.col(static_cast<Eigen::Index>(i)) << scale * deck.x[i], scale * deck.y[i];
+    mesh.node_numbers = deck.node_numbers;
+    const bool plane = std::any_of(deck.elements.begin(), deck.elements.end(), is_plane);
+    for (std::size_t e = 0; e < deck.elements.size(); ++e) {
+      const InpDeck::Element& el = deck.elements[e];
+      if (is_plane(el) != plane) continue;
+      auto block = std::find_if(mesh.cells.begin(), mesh.cells.end(),
+                                [&](const Cells& c) { return c.shape == el.kind.shape; });
+      if (block == mesh.cells.end())
+        block = mesh.cells.insert(mesh.cells.end(), Cells{el.kind.shape, {}, {}});
+      const auto first = nodes.begin() + static_cast<std::ptrdiff_t>(el.first);
+      block->nodes.insert(block->nodes.end(), first, first + nodes_of(el.kind.shape));
+      block->numbers.push_back(deck.element_numbers[e]);
+    }
+    return mesh;
+  }
+
+  std::size_t set_of(const InpDeck::Item& item, SetKind kind, const std::string& name) const {
+    const auto found = set_index.find({upper(name), kind});
+    if (found == set_index.end())
+      deck.text.refuse(item.place, "there is no ", kind == SetKind::node ? "node" : "element",
+                       " set \"", name, "\"; define it, or correct the name");
+    return found->second;
+  }
+
+  // The places of a set's members, in the order of naming, those of the sets it names among them.
+  std::vector<int> members(std::size_t s, std::size_t depth = 0) const {
+    const InpDeck::Set& set = deck.sets[s];
+    if (depth > deck.sets.size())
+      deck.text.refuse(set.place, "the set \"", set.name, "\" contains itself; leave that out");
+    std::vector<int> out;
+    for (const InpDeck::Item& item : set.items) {
+      if (item.label == "ELSET") {
+        for (const int e : members(set_of(item, SetKind::element, item.name), depth + 1))
+          for (int k = 0; k < nodes_of(element(e).kind.shape); ++k)
+            out.push_back(corner(element(e), k));
+      } else if (!item.name.empty()) {
+        const std::vector<int> more = members(set_of(item, set.kind, item.name), depth + 1);
+        out.insert(out.end(), more.begin(), more.end());
+      } else {
+        const bool node = set.kind == SetKind::node;
+        const int at = (node ? node_index : element_index).find(item.number);
+        if (at < 0 && !item.may_miss)
+          deck.text.refuse(item.place, "the set \"", set.name, "\" names ",
+                           node ? "node " : "element ", item.number, ", which is not defined");
+        if (at >= 0) out.push_back(at);
+      }
+    }
+    return out;
+  }
+
+  // Which side of the element a surface's label means: 0 to 3, −1 for all free ones.
+  int side_of(const InpDeck::Item& item, const InpDeck::Element& e) const {
+    if (item.label.empty()) return -1;
+    const int number = item.label.size() == 2 ? item.label[1] - '0' : 0,
+              corners = corners_of(e.kind.shape);
+    int side = -1;
+    if (item.label[0] == 'E' && e.kind.shell) side = number - 1;
+    if (item.label[0] == 'S') side = e.kind.shell ? number - 3 : number - 1;
+    if (side < 0 || side >= corners)
+      deck.text.refuse(item.place, "\"", item.label, "\" is no side of ",
+                       e.kind.shell ? "a shell" : "an element", " with ", corners,
+                       " corners; its sides are ", e.kind.shell ? "E1" : "S1", " to ",
+                       e.kind.shell ? "E" : "S", corners,
+                       e.kind.shell ? " (S1 and S2 are its faces)" : "");
+    return side;
+  }
+
+  void add_free(std::vector<int>& sides, const Rim& rim, const InpDeck::Element& e, int k) const {
+    const int at = rim.find(corner(e, k), corner(e, (k + 1) % corners_of(e.kind.shape)));
+    if (at >= 0) sides.push_back(at);
+  }
+
+  std::vector<int> surface_sides(const InpDeck::Set& set, const Rim& rim) const {
+    std::vector<int> sides;
+    for (const InpDeck::Item& item : set.items) {
+      const std::vector<int> elements = [&] {
+        if (!item.name.empty()) return members(set_of(item, SetKind::element, item.name));
+        const int e = element_index.find(item.number);
+        if (e < 0)
+          deck.text.refuse(item.place, "the surface \"", set.name, "\" names element ", item.number,
+                           ", which is not defined");
+        return std::vector<int>{e};
+      }();
+      for (const int e : elements) {
+        if (!is_plane(element(e))) continue;
+        const int side = side_of(item, element(e));
+        const int corners = corners_of(element(e).kind.shape);
+        for (int k = 0; k < corners; ++k)
+          if (side < 0 || k == side) add_free(sides, rim, element(e), k);
+      }
+    }
+    return sides;
+  }
+
+  Group& group_named(Mesh& mesh, const std::string& name) const {
+    for (Group& g : mesh.groups)
+      if (upper(g.name) == upper(name)) return g;
+    return mesh.groups.emplace_back(Group{name, {}, {}});
+  }
+
+  void groups(Mesh& mesh, const Rim& rim) {
+    for (std::size_t s = 0; s < deck.sets.size(); ++s)
+      set_index[{upper(deck.sets[s].name), deck.sets[s].kind}] = s;
+    for (std::size_t s = 0; s < deck.sets.size(); ++s) {
+      const InpDeck::Set& set = deck.sets[s];
+      Group& group = group_named(mesh, set.name);
+      if (set.kind == SetKind::surface) {
+        rim.add_to(group, surface_sides(set, rim));
+        continue;
+      }
+      std::vector<int> sides;
+      for (const int i : members(s)) {
+        if (set.kind == SetKind::node) {
+          group.nodes.push_back(i);
+          continue;
+        }
+        const InpDeck::Element& e = element(i);
+        for (int k = 0; k < nodes_of(e.kind.shape); ++k) group.nodes.push_back(corner(e, k));
+        if (!is_plane(e)) add_free(sides, rim, e, 0);
+      }
+      rim.add_to(group, std::move(sides));
+    }
+  }
+};
+
+}  // namespace
+
+Mesh read_inp(const std::filesystem::path& path, double scale) {
+  if (!(scale > 0) || !std::isfinite(scale))
+    throw std::invalid_argument(path.string() + ": scale = " + std::to_string(scale) +
+                                ", must be positive: m per unit of the file");
+  const InpDeck deck = read_inp_deck(path);
+  if (deck.elements.empty())
+    throw std::invalid_argument(
+        path.string() + ": no *ELEMENT in it; it needs plane elements or beams between its nodes");
+  Builder builder{deck};
+  builder.check_numbers();
+  builder.look_up_nodes();
+  Mesh mesh = builder.cells(scale);
+  const Rim rim(mesh);
+  builder.groups(mesh, rim);
+  name_loops(mesh, rim);
+  drop_unused_nodes(mesh);
+  std::erase_if(mesh.groups, [](const Group& g) { return g.nodes.empty(); });
+  return mesh;
+}
+
+}  // namespace pintle

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -13,8 +14,8 @@ struct Eye { double bore, outer; };  ///< diameters
 
 /// Rectangle from (0, −width/2) to (length, width/2). Edges "left", "right", "top", "bottom".
 struct StraightBar { double length, width; };
-/// Two eyes `length` apart, the first at (0, 0), the second at (length, 0), joined by a shank.
-/// Holes "eye 1", "eye 2"; the outline is "outline".
+/// Two eyes `length` apart, the first at (0, 0), the second at (length, 0), joined by a shank no wider than
+/// either. Holes "eye 1", "eye 2"; the outline is "outline".
 struct EyeBar { double length, width; Eye first, second; };
 /// Trapezium from x = 0 to `length`, symmetric about the x axis. Edges as a straight bar's.
 struct TaperedBar { double length, width_left, width_right; };
@@ -25,7 +26,23 @@ struct Triangle { Eigen::Vector2d center[3]; Eye eye[3]; };
 struct Disc { double diameter, bore; };
 
 using Link = std::variant<StraightBar, EyeBar, TaperedBar, Triangle, Disc>;
-/// @throws std::invalid_argument  a size is not positive, a bore not inside its eye, eyes overlap, …
+/// @throws std::invalid_argument  a size is not positive or not finite; a bore not inside its eye; the outer
+///     circles of two eyes overlap; a shank wider than an eye; an eye of a triangle that does not reach its
+///     outline
 void judge(const Link&);
+
+/// A straight edge, or an arc about `center` of less than half a turn.
+struct Edge {
+  Eigen::Vector2d from, to;
+  bool arc = false;
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+};
+/// Edges head to tail; `names` are their groups, one each.
+struct Loop {
+  std::vector<Edge> edges;
+  std::vector<std::string> names;
+};
+/// The outline, counter-clockwise, then the holes.  @pre judge(link) has passed
+std::vector<Loop> drawing(const Link&);
 
 }  // namespace pintle

@@ -1,0 +1,88 @@
+#include "meshes/gmsh_session.h"
+
+#include <gmsh.h>
+
+#include <algorithm>
+
+namespace pintle {
+
+namespace {
+
+constexpr std::pair<const char*, double> defaults[]{
+    {"General.Terminal", 0},
+    {"General.NumThreads", 1},
+    {"General.AbortOnError", 0},
+    {"Mesh.Algorithm", 6},               // Frontal-Delaunay
+    {"Mesh.RecombinationAlgorithm", 2},  // all quadrilaterals, by halves
+    {"Mesh.RecombineAll", 0},
+    {"Mesh.SubdivisionAlgorithm", 0},
+    {"Mesh.RandomSeed", 1},
+    {"Mesh.RandomFactor", 1e-9},
+    {"Mesh.Smoothing", 1},
+    {"Mesh.ElementOrder", 1},
+    {"Mesh.SecondOrderLinear", 0},
+    {"Mesh.SecondOrderIncomplete", 0},
+    {"Mesh.HighOrderOptimize", 0},
+    {"Mesh.MeshSizeFactor", 1},
+    {"Mesh.MeshSizeMin", 0},
+    {"Mesh.MeshSizeMax", 1e22},
+    {"Mesh.MeshSizeFromPoints", 1},
+    {"Mesh.MeshSizeFromCurvature", 0},
+    {"Mesh.MeshSizeExtendFromBoundary", 1}};
+
+// Gmsh has no question for whether it is open: before the first time its clock stands at −1, after
+// it has been closed every call throws.
+bool alive() {
+  try {
+    return gmsh::logger::getWallTime() >= 0;
+  } catch (...) {
+    return false;
+  }
+}
+
+}  // namespace
+
+GmshSession::GmshSession() : mine_(!alive()) {
+  if (mine_) gmsh::initialize(0, nullptr, false);
+  if (!mine_) gmsh::model::getCurrent(previous_);
+  for (const auto& [name, value] : defaults) {
+    double old = 0;
+    gmsh::option::getNumber(name, old);
+    before_.emplace_back(name, old);
+    gmsh::option::setNumber(name, value);
+  }
+  gmsh::option::getString("Geometry.OCCTargetUnit", unit_before_);
+  gmsh::option::setString("Geometry.OCCTargetUnit", "M");
+  gmsh::logger::start();
+  gmsh::model::add("pintle");
+}
+
+GmshSession::~GmshSession() {
+  try {
+    gmsh::logger::stop();
+    gmsh::model::mesh::removeSizeCallback();
+    gmsh::model::remove();
+    if (mine_) {
+      // Else Gmsh answers the next question of alive() aloud.
+      gmsh::option::setNumber("General.Verbosity", 0);
+      gmsh::finalize();
+      return;
+    }
+    for (const auto& [name, value] : before_) gmsh::option::setNumber(name, value);
+    gmsh::option::setString("Geometry.OCCTargetUnit", unit_before_);
+    gmsh::model::setCurrent(previous_);
+  } catch (...) {  // nothing is left that could be saved
+  }
+}
+
+std::string gmsh_errors() {
+  std::vector<std::string> log;
+  gmsh::logger::get(log);
+  std::string all;
+  for (const std::string& line : log)
+    if (line.starts_with("Error") && all.size() < 500)
+      all += (all.empty() ? "" : "; ") + line.substr(std::min(line.size(), line.find(": ") + 2));
+  return all;
+}
+
+}  // namespace pintle

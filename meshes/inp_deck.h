@@ -1,0 +1,52 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "meshes/inp_text.h"
+#include "meshes/mesh.h"
+
+namespace pintle {
+
+/// What an element's name says of its shape.
+struct InpKind {
+  CellShape shape;
+  bool shell = false;  ///< S1 and S2 are its faces; its sides have other labels
+};
+/// @param reason  why there is none: what the name stands for, and what to do
+std::optional<InpKind> inp_kind(const std::string& type, std::string& reason);
+
+/// An input file as it stands: numbers not yet looked up, but every card and field well formed.
+struct InpDeck {
+  struct Element {
+    InpKind kind;
+    std::size_t first;  ///< into element_nodes
+    InpPlace place;
+  };
+  struct Item {  ///< of a set: a number, or the name of another set
+    long number = 0;
+    std::string name;
+    InpPlace place;
+    bool may_miss = false;  ///< from GENERATE, whose range may have gaps
+    std::string label;      ///< of a surface: the side
+  };
+  enum class SetKind { node, element, surface };
+  struct Set {
+    std::string name;  ///< as first written
+    SetKind kind;
+    std::vector<Item> items;
+    InpPlace place;
+  };
+  InpText text;
+  std::vector<long> node_numbers, element_numbers, element_nodes;
+  std::vector<double> x, y;
+  std::vector<InpPlace> node_places;
+  std::vector<Element> elements;
+  std::vector<Set> sets;
+};
+/// @throws as read_inp
+InpDeck read_inp_deck(const std::filesystem::path&);
+
+}  // namespace pintle

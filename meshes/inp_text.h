@@ -1,0 +1,60 @@
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace pintle {
+
+/// Where a line of an input file stands.
+struct InpPlace {
+  int file = 0;  ///< into InpText::files
+  int line = 0;  ///< from 1
+};
+
+/// The lines of an input file and of those that it includes, comments and blank lines left out.
+struct InpText {
+  struct Line {
+    std::string_view text;
+    InpPlace place;
+  };
+  std::vector<std::filesystem::path> files;
+  std::deque<std::string> contents;  ///< what the lines point into
+  std::vector<Line> lines;
+
+  /// @throws std::invalid_argument  "file:line: " and the parts
+  template <class... Parts>
+  [[noreturn]] void refuse(InpPlace at, const Parts&... parts) const {
+    std::ostringstream text;
+    (text << ... << parts);
+    fail(at, text.str());
+  }
+  [[noreturn]] void fail(InpPlace at, const std::string& what) const;
+};
+
+/// @throws std::runtime_error     a file cannot be read
+/// @throws std::invalid_argument  files that include each other
+InpText read_inp_text(const std::filesystem::path&);
+
+/// `*KEYWORD, NAME=value, FLAG`: upper case but for the values.
+struct InpCard {
+  std::string keyword;  ///< without the star, inner blanks made one
+  std::vector<std::pair<std::string, std::string>> parameters;
+  InpPlace place;
+  const std::string* find(std::string_view name) const;  ///< nullptr: not given
+};
+InpCard inp_card(std::string_view line, InpPlace);
+
+std::string upper(std::string_view);
+std::string_view trimmed(std::string_view);
+/// Cuts the next field off a data line; false when nothing is left. A comma at the end opens no
+/// field.
+bool next_field(std::string_view& rest, std::string_view& field);
+bool to_number(std::string_view field, long& value);    ///< false: the field is no whole number
+bool to_number(std::string_view field, double& value);  ///< reads Fortran's 1.5D+00 too
+
+}  // namespace pintle
