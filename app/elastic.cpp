@@ -20,7 +20,14 @@ namespace fs = std::filesystem;
 constexpr int default_frames = 24;
 constexpr Eigen::Index frames_up_to = 30'000;  ///< nodes; larger bodies are animated only when asked
 
-std::string place(const Eigen::Vector2d& x) { return "(" + number(x.x()) + ", " + number(x.y()) + ") m"; }
+/// x, or 0 where it is nothing but rounding beside `scale`.
+double tidy(double x, double scale) { return std::abs(x) < 1e-9 * scale ? 0 : x; }
+
+std::string place(const Eigen::Vector2d& x, double size) {
+  return "(" + number(tidy(x.x(), size)) + ", " + number(tidy(x.y(), size)) + ") m";
+}
+
+double size_of(const Mesh& mesh) { return (mesh.x.rowwise().maxCoeff() - mesh.x.rowwise().minCoeff()).norm(); }
 
 std::string cells(const Mesh& mesh) {
   std::string out;
@@ -35,7 +42,7 @@ void add_body(Rows& rows, const ElasticBody& e) {
   rows.insert(rows.end(),
               {{"body", e.scene->name},
                {"mesh", std::to_string(e.mesh.x.cols()) + " nodes, " + cells(e.mesh) + ", " + std::to_string(e.model.n()) + " freedoms"},
-               {"mass", number(inertia.m) + " kg, centre " + place(inertia.c / inertia.m) + ", inertia there " +
+               {"mass", number(inertia.m) + " kg, centre " + place(inertia.c / inertia.m, 100 * size_of(e.mesh)) + ", inertia there " +
                             number(inertia.J - inertia.c.squaredNorm() / inertia.m) + " kg m^2"}});
 }
 
@@ -49,15 +56,18 @@ std::string percent(double part, double whole) {
   return text;
 }
 
-void print_table(const ModeTable& t, const ModesReport& r) {
+/// `residual`: also what is left of K φ − ω² M φ; static shapes are no modes of the body and have a large one.
+void print_table(const ModeTable& t, const ModesReport& r, bool residual) {
   std::printf("\n  %s\n  %4s %15s %9s %9s %11s %9s %10s\n", t.title.c_str(), "mode", "frequency [Hz]", "mass x %", "mass y %",
-              "rotation %", "damping", "residual");
+              "rotation %", "damping", residual ? "residual" : "");
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (Eigen::Index i = 0; i < t.modes.omega.size(); ++i) {
     sum += t.mass.col(i);
-    std::printf("  %4d %15.8g %9s %9s %11s %9.4g %10.1e\n", static_cast<int>(i + 1), t.modes.omega[i] / (2 * std::numbers::pi),
+    std::printf("  %4d %15.8g %9s %9s %11s %9.4g", static_cast<int>(i + 1), t.modes.omega[i] / (2 * std::numbers::pi),
                 percent(t.mass(0, i), r.inertia.m).c_str(), percent(t.mass(1, i), r.inertia.m).c_str(),
-                percent(t.mass(2, i), r.centre_inertia).c_str(), t.zeta[i], t.modes.residual[i]);
+                percent(t.mass(2, i), r.centre_inertia).c_str(), t.zeta[i]);
+    if (residual) std::printf(" %10.1e", t.modes.residual[i]);
+    std::printf("\n");
   }
   std::printf("  %4s %15s %9s %9s %11s\n", "sum", "", percent(sum[0], r.inertia.m).c_str(), percent(sum[1], r.inertia.m).c_str(),
               percent(sum[2], r.centre_inertia).c_str());
@@ -66,7 +76,7 @@ void print_table(const ModeTable& t, const ModesReport& r) {
 
 void write_shapes(const fs::path& directory, const ElasticBody& e, const ModeTable& t, const std::string& prefix, int frames) {
   const BodyDrawing drawing(e);
-  write_shapes(directory / (prefix + "s.vtu"), drawing, t.modes.shapes);
+  write_shapes(directory / (prefix + (prefix == "mode" ? "s.vtu" : ".vtu")), drawing, t.modes.shapes);
   if (frames < 1) return;
   for (Eigen::Index i = 0; i < t.modes.omega.size(); ++i) {
     char name[64];
@@ -102,9 +112,10 @@ int modes(const Options& options) {
     rows.emplace_back("rigid motions", std::to_string(report.rigid) + ", at 0 Hz, not listed");
     if (report.natural.modes.sturm) rows.emplace_back("Sturm count", std::to_string(*report.natural.modes.sturm) + " up to the last mode: none is missed");
     print_rows(std::cout, rows);
-    print_table(report.natural, report);
+    print_table(report.natural, report, true);
     if (report.rigid == 3) std::cout << "  (free modes carry no momentum: their effective masses are zero)\n";
-    if (report.reduced) print_table(*report.reduced, report);
+    if (report.reduced)
+      print_table(*report.reduced, report, e.scene->elastic->modes->method == SceneModes::Method::normal);
     std::cout << "\n";
     print_warnings(e);
     if (frames == 0 && options.frames < 0) std::cout << "  no animations of so large a mesh unless asked for: --frames 24\n";
@@ -134,7 +145,7 @@ int mesh(const Options& options) {
       rows.emplace_back("corner angles", number(e.quality.least_angle * degrees, 3) + " to " + number(e.quality.greatest_angle * degrees, 3) + " deg");
     }
     for (const Group& g : e.mesh.groups) rows.emplace_back("group \"" + g.name + "\"", std::to_string(g.nodes.size()) + " nodes");
-    for (const Port& p : e.model.ports) rows.emplace_back("point \"" + p.name + "\"", place(p.x));
+    for (const Port& p : e.model.ports) rows.emplace_back("point \"" + p.name + "\"", place(p.x, size_of(e.mesh)));
     rows.emplace_back("results", (out / "mesh.vtu").string());
     print_rows(std::cout, rows);
     print_warnings(e);
@@ -157,13 +168,17 @@ int statics(const Options& options) {
     print_head(scene);
     Rows rows;
     add_body(rows, e);
-    const auto resultant = [](const Eigen::Vector3d& f) { return number(f[0]) + " N, " + number(f[1]) + " N, " + number(f[2]) + " N m about the origin"; };
+    const double size = size_of(e.mesh), force = r.load.norm(), motion = r.greatest_displacement;
+    const auto resultant = [&](const Eigen::Vector3d& f) {
+      return number(tidy(f[0], force)) + " N, " + number(tidy(f[1], force)) + " N, " + number(tidy(f[2], force * size)) + " N m about the origin";
+    };
     rows.emplace_back("loads together", resultant(r.load));
     for (const SupportReaction& s : r.reactions) rows.emplace_back("reaction at " + s.at, resultant(s.resultant));
     for (const PortDisplacement& p : r.ports)
-      rows.emplace_back("moved: " + p.name, number(p.u[0]) + " m, " + number(p.u[1]) + " m" + (std::isnan(p.u[2]) ? "" : ", " + number(p.u[2]) + " rad"));
-    rows.emplace_back("greatest displacement", number(r.greatest_displacement) + " m at " + place(r.displaced_at));
-    rows.emplace_back("greatest von Mises stress", number(r.greatest_stress * 1e-6) + " MPa at " + place(r.stressed_at));
+      rows.emplace_back("moved: " + p.name, number(tidy(p.u[0], motion)) + " m, " + number(tidy(p.u[1], motion)) + " m" +
+                                               (std::isnan(p.u[2]) ? "" : ", " + number(tidy(p.u[2], motion / size)) + " rad"));
+    rows.emplace_back("greatest displacement", number(r.greatest_displacement) + " m at " + place(r.displaced_at, size));
+    rows.emplace_back("greatest von Mises stress", number(r.greatest_stress * 1e-6) + " MPa at " + place(r.stressed_at, size));
     if (e.plate()) rows.emplace_back("stress jump", percent(r.stress.jump, 1) + " % between neighbouring elements (a sign of mesh error)");
     rows.emplace_back("strain energy", number(r.solution.strain_energy) + " J");
     rows.emplace_back("results", (out / "static.vtu").string());

@@ -78,7 +78,10 @@ Eigen::Matrix2Xd BodyDrawing::displacement(const Eigen::VectorXd& u) const {
 }
 
 Eigen::Matrix4Xd BodyDrawing::stress(const Eigen::VectorXd& u) const {
-  const StressField field = stress_field(body_.model, u, body_.fibres);
+  return stress(stress_field(body_.model, u, body_.fibres));
+}
+
+Eigen::Matrix4Xd BodyDrawing::stress(const StressField& field) const {
   if (body_.plate()) return field.nodal;
   Eigen::Matrix4Xd out = Eigen::Matrix4Xd::Zero(4, points.cols());
   const int stations = pieces_per_beam + 1;

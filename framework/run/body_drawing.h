@@ -15,7 +15,8 @@ struct BodyDrawing {
   explicit BodyDrawing(const ElasticBody&);
   Eigen::Matrix2Xd displacement(const Eigen::VectorXd& u) const;  ///< of each point [m]
   /// [σx σy τxy σz] at each point, 4 × points [Pa]; of beams the stress along the axis stands in σx.
-  Eigen::Matrix4Xd stress(const Eigen::VectorXd& u) const;
+  Eigen::Matrix4Xd stress(const StressField&) const;
+  Eigen::Matrix4Xd stress(const Eigen::VectorXd& u) const;  ///< of displacement u
 
   Eigen::Matrix2Xd points;
   std::vector<Cells> cells;

@@ -75,7 +75,7 @@ Mesh plate_mesh(const Scene& scene, const SceneBody& body, const ScenePlate& pla
   if (const auto* link = std::get_if<Link>(&plate.shape)) return mesh_link(*link, options);
   const SceneFile& file = std::get<SceneFile>(plate.shape);
   const fs::path path = fs::path(scene.file).parent_path() / file.path;
-  return path.extension() == ".inp" ? read_inp(path, file.scale) : read_geometry(path, options, file.scale);
+  return kind_of(path) == ".inp" ? read_inp(path, file.scale) : read_geometry(path, options, file.scale);
 }
 
 void judge(const Mesh& mesh) {

@@ -46,8 +46,13 @@ std::vector<NamedSupport> supports_of(const Scene&, const ElasticBody&);
 /// All of them as one.
 Supports together(const std::vector<NamedSupport>&);
 
-/// The load vector of the scene's static case, independent freedoms, n.
+/// The scene's static case as forces.
+struct BodyLoad {
+  Eigen::VectorXd independent;  ///< on independent freedoms, n
+  Eigen::MatrixXd on_beams;     ///< what of it acts between the nodes of each line element: its share of the nodal
+                                ///< forces [f_x f_y m] at both ends, 6 × elements, body axes; 6 × 0 of plates
+};
 /// @throws SceneError  a place that is not there, or a load that such a body cannot take
-Eigen::VectorXd loads_of(const Scene&, const ElasticBody&);
+BodyLoad loads_of(const Scene&, const ElasticBody&);
 
 }  // namespace pintle

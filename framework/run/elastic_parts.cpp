@@ -1,6 +1,6 @@
 #include "framework/run/elastic_parts.h"
 
-#include <filesystem>
+#include <cctype>
 #include <iomanip>
 #include <sstream>
 
@@ -14,10 +14,16 @@ std::string shown(const Eigen::Vector2d& p) {
   return s.str();
 }
 
+std::string kind_of(const std::filesystem::path& file) {
+  std::string kind = file.extension().string();
+  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return kind;
+}
+
 bool is_finished_mesh(const ScenePlate& plate) {
   const auto* file = std::get_if<SceneFile>(&plate.shape);
   if (!file) return false;
-  const auto kind = std::filesystem::path(file->path).extension();
+  const std::string kind = kind_of(file->path);
   return kind == ".msh" || kind == ".inp";
 }
 

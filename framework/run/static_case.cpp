@@ -91,6 +91,21 @@ std::vector<SupportReaction> share(const ElasticBody& e, const std::vector<Named
   return out;
 }
 
+/// Section forces are those of the displacements; what acts between the nodes comes off: what an end of an element
+/// carries is K u − p there, turned into its axes, at end 1 with the other sign.
+void take_off(const ElasticBody& e, const Eigen::MatrixXd& on_beams, Eigen::Matrix3Xd& forces) {
+  const std::vector<int>& nodes = e.mesh.cells.front().nodes;
+  for (Eigen::Index i = 0; i < on_beams.cols(); ++i) {
+    const auto node = [&](Eigen::Index end) { return e.mesh.x.col(nodes[static_cast<std::size_t>(2 * i + end)]); };
+    const Eigen::Vector2d t = (node(1) - node(0)).normalized();
+    for (const int end : {0, 1}) {
+      const Eigen::Vector3d p = on_beams.col(i).segment<3>(3 * end);
+      const Eigen::Vector3d turned(t.dot(p.head<2>()), t.x() * p.y() - t.y() * p.x(), p.z());
+      forces.col(2 * i + end) += end == 0 ? turned : Eigen::Vector3d(-turned);
+    }
+  }
+}
+
 }  // namespace
 
 StaticReport solve_case(const Scene& scene, const ElasticBody& e) {
@@ -99,15 +114,16 @@ StaticReport solve_case(const Scene& scene, const ElasticBody& e) {
   const std::vector<NamedSupport> supports = supports_of(scene, e);
   if (supports.empty())
     throw SceneError(scene.file, e.scene->place, "\"" + e.scene->name + "\" has no supports, so a load would carry it away; add supports: {A: fixed}");
-  const Eigen::VectorXd load = loads_of(scene, e);
+  const BodyLoad load = loads_of(scene, e);
   StaticReport r;
   const auto start = std::chrono::steady_clock::now();
   in_body(scene, *e.scene, [&] {
-    r.solution = solve_static(e.model, e.K, together(supports), load);
+    r.solution = solve_static(e.model, e.K, together(supports), load.independent);
     r.stress = stress_field(e.model, r.solution.u, e.fibres);
+    take_off(e, load.on_beams, r.stress.section_forces);
   });
   r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  r.load = rigid_motions(e.model).transpose() * load;
+  r.load = rigid_motions(e.model).transpose() * load.independent;
   r.reactions = share(e, supports, r.solution.reactions);
   for (const Port& p : e.model.ports) {
     Eigen::Vector3d u;
@@ -118,7 +134,7 @@ StaticReport solve_case(const Scene& scene, const ElasticBody& e) {
   Eigen::Index at = 0;
   r.greatest_displacement = drawing.displacement(r.solution.u).colwise().norm().maxCoeff(&at);
   r.displaced_at = drawing.points.col(at);
-  const Eigen::Matrix4Xd s = drawing.stress(r.solution.u);
+  const Eigen::Matrix4Xd s = drawing.stress(r.stress);
   for (Eigen::Index i = 0; i < s.cols(); ++i)
     if (const double v = von_mises(s.col(i)); v > r.greatest_stress) {
       r.greatest_stress = v;
@@ -146,7 +162,7 @@ std::string static_json(const Scene& scene, const ElasticBody& e, const StaticRe
 
 void write_case(const std::filesystem::path& directory, const Scene& scene, const ElasticBody& e, const StaticReport& r) {
   const BodyDrawing drawing(e);
-  std::vector<Field> fields = stress_fields(drawing.stress(r.solution.u));
+  std::vector<Field> fields = stress_fields(drawing.stress(r.stress));
   fields.insert(fields.begin(), Field{"displacement [m]", drawing.displacement(r.solution.u)});
   write_grid(directory / "static.vtu", drawing.points, drawing.cells, fields);
   write_text(directory / "points.csv", points_csv(r));

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 
 #include "framework/component/loads.h"
 #include "framework/run/elastic_parts.h"
@@ -38,8 +39,34 @@ Supports together(const std::vector<NamedSupport>& all) {
   return out;
 }
 
-Eigen::VectorXd loads_of(const Scene& scene, const ElasticBody& e) {
+namespace {
+
+/// M_e · field at each line element plus the share of a line load q, 6 × elements.
+Eigen::MatrixXd beam_loads(const FeModel& model, const std::function<Vector2d(const Vector2d&)>& field, const Vector2d& q) {
+  Eigen::MatrixXd out;
+  std::visit([&](const auto& block) {
+    using E = std::decay_t<decltype(block.properties.front())>;
+    if constexpr (is_line<E>) {
+      constexpr int d = E::dofs_per_node;
+      out = Eigen::MatrixXd::Zero(6, block.size());
+      for (int i = 0; i < block.size(); ++i) {
+        const Coords<E> x = block.coords(i, model.x);
+        Freedoms<E> a = Freedoms<E>::Zero();
+        for (int k = 0; k < 2; ++k) a.template segment<2>(k * d) = field(x.col(k));
+        const Freedoms<E> p = mass(block.element(i), x) * a + line_load(block.element(i), x, q);
+        for (int k = 0; k < 2; ++k) out.template block<d, 1>(3 * k, i) = p.template segment<d>(k * d);
+      }
+    }
+  }, model.blocks.front());
+  return out;
+}
+
+}  // namespace
+
+BodyLoad loads_of(const Scene& scene, const ElasticBody& e) {
   Eigen::VectorXd nodal = Eigen::VectorXd::Zero(e.model.N()), direct = Eigen::VectorXd::Zero(e.model.n());
+  Eigen::MatrixXd on_beams = Eigen::MatrixXd::Zero(6, static_cast<Eigen::Index>(e.plate() ? 0 : e.mesh.cell_count()));
+  const auto nowhere = [](const Vector2d&) -> Vector2d { return {0, 0}; };
   using Kind = SceneStaticLoad::Kind;
   for (const SceneStaticLoad& l : scene.statics->loads) {
     const Vector2d v = vector(l.vector);
@@ -61,12 +88,21 @@ Eigen::VectorXd loads_of(const Scene& scene, const ElasticBody& e) {
       case Kind::line:
         if (e.plate()) throw SceneError(scene.file, l.place, "a plate takes no line load; use traction or pressure on an edge");
         nodal += line_load(e.model, v);
+        on_beams += beam_loads(e.model, nowhere, v);
         break;
-      case Kind::acceleration: nodal += acceleration_load(e.model, e.M, v); break;
-      case Kind::spin: nodal += spin_load(e.model, e.M, l.value, port ? port->x : Vector2d(0, 0)); break;
+      case Kind::acceleration:
+        nodal += acceleration_load(e.model, e.M, v);
+        if (!e.plate()) on_beams += beam_loads(e.model, [&](const Vector2d&) { return v; }, {0, 0});
+        break;
+      case Kind::spin: {
+        const Vector2d about = port ? port->x : Vector2d(0, 0);
+        nodal += spin_load(e.model, e.M, l.value, about);
+        if (!e.plate()) on_beams += beam_loads(e.model, [&](const Vector2d& x) -> Vector2d { return l.value * l.value * (x - about); }, {0, 0});
+        break;
+      }
     }
   }
-  return direct + independent_load(e.model, nodal);
+  return {direct + independent_load(e.model, nodal), on_beams};
 }
 
 }  // namespace pintle
