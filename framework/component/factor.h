@@ -1,29 +1,51 @@
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <memory>
 #include <string>
 
-#include <Eigen/SparseCore>
-
 namespace pintle {
 
-/// A = LLᵀ of a symmetric positive definite sparse matrix, by CHOLMOD: fill-reducing order, supernodes,
-/// all right-hand sides at once. The order is kept, so that a second matrix of the same pattern costs the
-/// numbers alone.
+/// How a factor L is cut into supernodes: runs of columns with one pattern, children before
+/// parents. All arrays belong to the factor. Rows and columns count in the fill-reducing order.
+struct Supernodes {
+  int n;                 ///< freedoms
+  int count;             ///< supernodes
+  const int* first;      ///< first column of each, one past: count + 1
+  const int* row_begin;  ///< where its rows begin in `row`, count + 1
+  const int* row;        ///< ascending; its own columns first
+  const int* order;      ///< order[k]: the freedom that is eliminated k-th, n
+};
+
+/// A = LLᵀ of a symmetric positive definite sparse matrix, by CHOLMOD: fill-reducing order,
+/// supernodes, all right-hand sides at once. The order is kept, so that a second matrix of the same
+/// pattern costs the numbers alone. Order: AMD, and nested dissection where that leaves much fill
+/// (benchmarks/modes.cpp). Not to be shared between threads: solving uses workspace that is kept.
 class Factor {
  public:
   Factor();
   ~Factor();
   Factor(Factor&&) noexcept;
   Factor& operator=(Factor&&) noexcept;
+  /// Finds order and supernodes, unless A has the pattern of the last matrix.
+  /// @throws  as compute
+  void analyse(const Eigen::SparseMatrix<double>& A);
   /// Both triangles may be stored; the lower is read.
-  /// @returns false  A is not positive definite (`pivot`: the column where it failed)
+  /// @returns false  A is not positive definite (`pivot`: the column where it failed). A pivot of
+  /// which
+  ///                 cancellation left less than `nothing` of the diagonal entry is none.
+  /// @throws std::invalid_argument  A is not square
+  /// @throws std::runtime_error     out of memory
   bool compute(const Eigen::SparseMatrix<double>& A);
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;  ///< @pre computed
-  void solve_into(const Eigen::MatrixXd& B, Eigen::MatrixXd& X) const;  ///< reuses X's storage and CHOLMOD's
-  int pivot() const;
-  double nonzeros() const;  ///< of L
-  double flops() const;     ///< of the numerical factorisation
+  void solve_into(const Eigen::MatrixXd& B,
+                  Eigen::MatrixXd& X) const;  ///< reuses X's storage and CHOLMOD's
+  int pivot() const;                          ///< −1 after a success
+  double nonzeros() const;                    ///< of L
+  double flops() const;                       ///< of the numerical factorisation
+  Supernodes supernodes() const;              ///< @pre analysed
+
+  static constexpr double nothing = 4e-16;
 
  private:
   struct Data;
@@ -31,8 +53,13 @@ class Factor {
 };
 
 /// Number of negative eigenvalues of a symmetric sparse matrix: the signs of the pivots of its LDLᵀ
-/// (Sylvester; Haynsworth's additivity over supernodes, pivoting inside each).
-/// @throws std::runtime_error  a supernode is singular to rounding: the matrix has an eigenvalue at zero
+/// (Sylvester; Haynsworth's additivity over supernodes, pivoting inside each). Both triangles may
+/// be stored; the lower is read. Costs what a Cholesky factorisation costs; L is not kept.
+/// @throws std::runtime_error  a supernode is singular to rounding: the matrix, or a part of it
+/// that is
+///                             eliminated on the way, has an eigenvalue at zero. Shift it slightly.
 int negative_eigenvalues(const Eigen::SparseMatrix<double>& A);
+/// The same in the order of a factor of a matrix with A's pattern, which saves finding one.
+int negative_eigenvalues(const Eigen::SparseMatrix<double>& A, const Supernodes&);
 
 }  // namespace pintle
