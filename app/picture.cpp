@@ -29,6 +29,7 @@
 #include <Eigen/Geometry>
 
 #include "app/canvas.h"
+#include "app/field_picture.h"
 #include "app/frames.h"
 
 namespace {
@@ -315,14 +316,16 @@ int main(int argc, char** argv) {
   Choice choice;
   std::string size;
   CLI::App app{
-      "Draws one frame of a run as a picture.\n"
+      "Draws one frame of a run as a picture, or a field of a body that modes, static or mesh wrote.\n"
       "Needs a display, be it a virtual one:  xvfb-run -a pintle-picture DIR OUT.png"};
-  app.add_option("dir", choice.directory, "What `pintle run --out` wrote")->required();
+  app.add_option("dir", choice.directory, "What `pintle run --out` wrote, or a .vtu file with --field")->required();
   app.add_option("picture", choice.picture, "The PNG file to write")->required();
   auto* frame = app.add_option("--frame", choice.frame, "Frame, from 0; -1 is the last (default)");
   app.add_option("--time", choice.time, "The frame nearest to this time [s]")->excludes(frame);
   app.add_option("--size", size, "WIDTHxHEIGHT or WIDTH in pixels (1400, as high as needed)");
   app.add_option("--around", choice.around, "Fill the picture with this body or joint");
+  std::string field;
+  app.add_option("--field", field, "Draw this field of the .vtu file, e.g. \"von Mises [Pa]\"")->excludes(frame);
   CLI11_PARSE(app, argc, argv);
   vtkObject::GlobalWarningDisplayOff();  // what fails is said below, once
   try {
@@ -332,7 +335,10 @@ int main(int argc, char** argv) {
     if (std::getenv("DISPLAY") == nullptr) {
       throw std::runtime_error("no display; run it as  xvfb-run -a pintle-picture …");
     }
-    write_picture(pintle::read_frame(pintle::frame_file(choice.directory, choice.frame, choice.time)), choice);
+    if (!field.empty())
+      pintle::write_field_picture(choice.directory, field, choice.width, choice.picture);
+    else
+      write_picture(pintle::read_frame(pintle::frame_file(choice.directory, choice.frame, choice.time)), choice);
   } catch (const std::exception& e) {
     std::cerr << "pintle-picture: " << e.what() << '\n';
     return 1;

@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "framework/component/tall.h"
 
@@ -33,14 +32,16 @@ void Subspace::reserve(Index capacity) {
 }
 
 // Takes from Z what lies in Q, E = QᵀMZ, until nothing more comes. @returns ZᵀMZ of what is left
-MatrixXd Subspace::clear(MatrixXd& Z, MatrixXd& E) const {
+MatrixXd Subspace::clear(MatrixXd& Z, MatrixXd& E) {
   MatrixXd G;
   E = MatrixXd::Zero(used_, Z.cols());
   for (int pass = 0; pass < 3; ++pass) {
-    const MatrixXd MZ = product(M_, Z), e = inner(Q_.leftCols(used_), MZ);
+    MZ_.resize(Z.rows(), Z.cols());
+    product(M_, Z, MZ_, lanes_);
+    const MatrixXd e = inner(Q_.leftCols(used_), MZ_);
     add(-1, Q_.leftCols(used_), e, Z);
     E += e;
-    G = inner(Z, MZ);
+    G = inner(Z, MZ_);
     G = (0.5 * (G + G.transpose())).eval();
     const Eigen::ArrayXd left = G.diagonal(), taken = e.colwise().squaredNorm().transpose();
     if ((left > cancelled * taken || left < nothing * nothing).all()) break;
@@ -50,13 +51,14 @@ MatrixXd Subspace::clear(MatrixXd& Z, MatrixXd& E) const {
 
 // Appends Z V, made orthonormal, to Q and M times it to MQ. @returns the factor U: Z V = Q_new U
 MatrixXd Subspace::append(const MatrixXd& Z, const MatrixXd& V, const VectorXd& length) {
-  const Index fresh = V.cols(), before = MQ_.cols();
+  const Index fresh = V.cols();
   auto added = Q_.middleCols(used_, fresh);
   added.setZero();
   add(1, Z, V * length.cwiseInverse().asDiagonal(), added);
-  MQ_.conservativeResize(M_.rows(), before + fresh);
-  auto mass = MQ_.rightCols(fresh);
-  product(M_, added, mass);
+  if (MQ_.cols() < filled_ + fresh) MQ_.conservativeResize(M_.rows(), filled_ + fresh);
+  auto mass = MQ_.middleCols(filled_, fresh);
+  product(M_, added, mass, lanes_);
+  filled_ += fresh;
   used_ += fresh;
   if (length[0] > even * length[fresh - 1]) return MatrixXd(length.asDiagonal());
   const Eigen::LLT<MatrixXd> polish(inner(added, mass));
@@ -67,7 +69,7 @@ MatrixXd Subspace::append(const MatrixXd& Z, const MatrixXd& V, const VectorXd& 
 }
 
 // Appends to Q what of Z, columns of length about one, is new. @returns E with Z = Q E
-MatrixXd Subspace::absorb(MatrixXd Z) {
+MatrixXd Subspace::absorb(MatrixXd& Z) {
   MatrixXd E;
   const Spectrum gram = spectrum(clear(Z, E));
   const Index columns = Z.cols();
@@ -88,22 +90,21 @@ MatrixXd Subspace::absorb(MatrixXd Z) {
   const MatrixXd W = gram.vectors.leftCols(rest);
   MatrixXd left = MatrixXd::Zero(Z.rows(), rest);
   add(1, Z, W, left);
-  Z.resize(0, 0);
-  const MatrixXd e = absorb(std::move(left));
+  const MatrixXd e = absorb(left);
   E.conservativeResizeLike(MatrixXd::Zero(used_, columns));
   E.topRows(e.rows()) += e * W.transpose();
   return E;
 }
 
 void Subspace::add_loads(const MatrixXd& R) {
-  if (MQ_.rows() == 0) MQ_.resize(M_.rows(), 0);
   MatrixXd Z = A_.solve(R);
   solves_ += R.cols();
   const VectorXd length =
       Z.cwiseProduct(product(M_, Z)).colwise().sum().transpose().cwiseMax(0).cwiseSqrt();
   for (Index j = 0; j < Z.cols(); ++j)
     if (length[j] > 0) Z.col(j) /= length[j];
-  absorb(std::move(Z));
+  absorb(Z);
+  MQ_.conservativeResize(M_.rows(), filled_);
   const Index fresh = width() - C_.rows();
   C_.conservativeResize(width(), old_);
   C_.bottomRows(fresh).setZero();
@@ -122,8 +123,9 @@ void Subspace::step() {
   for (Index j = 0; j < b; ++j) Z_.col(j) /= length[j];
 
   const Index solved = used_;
-  MQ_.resize(M_.rows(), 0);
+  filled_ = 0;
   const MatrixXd E = absorb(Z_) * length.asDiagonal();
+  if (filled_ < MQ_.cols()) MQ_.conservativeResize(Eigen::NoChange, filled_);
   H += E.topRows(solved);
   old_ = solved;
   T_.block(0, start, old_, b) = H;

@@ -26,26 +26,27 @@ int leading(Index stride, Index rows) {
 
 }  // namespace
 
-void product(const Sparse& A, const Tall& B, Eigen::Ref<MatrixXd> out) {
-  using Row = Eigen::Matrix<double, 1, lanes>;
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
+void product(const Sparse& A, const Tall& B, Eigen::Ref<MatrixXd> out, MatrixXd& scratch) {
+  using Lanes = Eigen::Matrix<double, lanes, 1>;
   const Index n = A.rows();
-  Rows packed(n, static_cast<int>(lanes));
+  scratch.resize(lanes, n);
   for (Index c = 0; c < B.cols(); c += lanes) {
     const Index width = std::min<Index>(lanes, B.cols() - c);
-    if (width < lanes) packed.setZero();
-    for (Index j = 0; j < width; ++j) packed.col(j) = B.col(c + j);
+    if (width < lanes) scratch.setZero();
+    for (Index j = 0; j < width; ++j) scratch.row(j) = B.col(c + j).transpose();
+    const double* x = scratch.data();
     for (int i = 0; i < n; ++i) {
-      Row sum = Row::Zero();
-      for (Sparse::InnerIterator a(A, i); a; ++a) sum += a.value() * packed.row(a.row());
+      Lanes sum = Lanes::Zero();
+      for (Sparse::InnerIterator a(A, i); a; ++a)
+        sum += a.value() * Eigen::Map<const Lanes>(x + lanes * a.row());
       for (Index j = 0; j < width; ++j) out(i, c + j) = sum[j];
     }
   }
 }
 
 MatrixXd product(const Sparse& A, const Tall& B) {
-  MatrixXd out(B.rows(), B.cols());
-  product(A, B, out);
+  MatrixXd out(B.rows(), B.cols()), scratch;
+  product(A, B, out, scratch);
   return out;
 }
 

@@ -6,9 +6,10 @@ namespace pintle {
 
 // Products of tall matrices, n × a few, which Eigen would take column by column. By BLAS.
 
-/// A B for A symmetric with both triangles stored: eight columns of B at a time.
+/// A B for A symmetric with both triangles stored: eight columns of B at a time, which are packed
+/// into `scratch`, 8 × n, whose storage is kept.
 void product(const Eigen::SparseMatrix<double>& A, const Eigen::Ref<const Eigen::MatrixXd>& B,
-             Eigen::Ref<Eigen::MatrixXd> out);
+             Eigen::Ref<Eigen::MatrixXd> out, Eigen::MatrixXd& scratch);
 Eigen::MatrixXd product(const Eigen::SparseMatrix<double>& A,
                         const Eigen::Ref<const Eigen::MatrixXd>& B);
 

@@ -46,7 +46,7 @@ struct Foreign {
 };
 const std::vector<Foreign> foreign{
     {"vtk", {"framework/run/vtk.cpp", "app/picture.cpp", "app/canvas.h", "app/canvas.cpp",
-             "app/frames.cpp", "tests/unit/vtk_test.cpp"}},
+             "app/field_picture.cpp", "app/frames.cpp", "tests/unit/vtk_test.cpp"}},
     {"yaml-cpp/", {"framework/scene/", "tests/"}},
     {"muParser", {"framework/scene/expression.cpp"}},
     {"cholmod", {"framework/dynamics/schur.cpp", "framework/component/"}},

@@ -1,0 +1,123 @@
+#include "app/field_picture.h"
+
+#include <stdexcept>
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellData.h>
+#include <vtkDataSetMapper.h>
+#include <vtkDataSetSurfaceFilter.h>
+#include <vtkLookupTable.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkPointData.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkScalarBarActor.h>
+#include <vtkTextProperty.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkWindowToImageFilter.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+namespace pintle {
+
+namespace {
+
+std::string names(vtkFieldData* data) {
+  std::string out;
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i) out += std::string(out.empty() ? "" : ", ") + data->GetArrayName(i);
+  return out;
+}
+
+vtkNew<vtkLookupTable> colours(vtkDataArray* values) {
+  vtkNew<vtkLookupTable> table;
+  table->SetHueRange(0.66, 0);
+  table->SetSaturationRange(0.75, 0.85);
+  table->SetValueRange(0.85, 0.9);
+  if (values->GetNumberOfComponents() > 1) table->SetVectorModeToMagnitude();
+  double range[2];
+  values->GetRange(range, values->GetNumberOfComponents() > 1 ? -1 : 0);
+  table->SetTableRange(range);
+  table->Build();
+  return table;
+}
+
+}  // namespace
+
+void write_field_picture(const std::filesystem::path& file, const std::string& field, int width, const std::filesystem::path& picture) {
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  if (reader->CanReadFile(file.c_str()) == 0) throw std::runtime_error(file.string() + ": is not a .vtu file that can be read");
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  vtkUnstructuredGrid* grid = reader->GetOutput();
+  vtkDataArray* values = grid->GetPointData()->GetArray(field.c_str());
+  const bool on_cells = values == nullptr;
+  if (on_cells) values = grid->GetCellData()->GetArray(field.c_str());
+  if (!values)
+    throw std::runtime_error(file.string() + ": has no field \"" + field + "\"; it has " + names(grid->GetPointData()) + " on points, " + names(grid->GetCellData()) + " on cells");
+
+  const auto table = colours(values);
+  vtkNew<vtkDataSetSurfaceFilter> surface;
+  surface->SetInputData(grid);
+  surface->SetNonlinearSubdivisionLevel(2);
+  vtkNew<vtkDataSetMapper> mapper;
+  mapper->SetInputConnection(surface->GetOutputPort());
+  if (on_cells) mapper->SetScalarModeToUseCellFieldData();
+  else mapper->SetScalarModeToUsePointFieldData();
+  mapper->SelectColorArray(field.c_str());
+  mapper->SetLookupTable(table);
+  mapper->UseLookupTableScalarRangeOn();
+  vtkNew<vtkActor> body;
+  body->SetMapper(mapper);
+  body->GetProperty()->LightingOff();
+
+  vtkNew<vtkScalarBarActor> scale;
+  scale->SetLookupTable(table);
+  scale->SetTitle(field.c_str());
+  scale->SetOrientationToHorizontal();
+  scale->SetPosition(0.2, 0.02);
+  scale->SetWidth(0.6);
+  scale->SetHeight(0.1);
+  scale->SetNumberOfLabels(3);
+  scale->UnconstrainedFontSizeOn();
+  for (vtkTextProperty* text : {scale->GetTitleTextProperty(), scale->GetLabelTextProperty()}) {
+    text->SetColor(0.1, 0.1, 0.1);
+    text->ShadowOff();
+    text->ItalicOff();
+    text->BoldOff();
+    text->SetFontSize(width / 45);
+  }
+
+  double b[6];
+  grid->GetBounds(b);
+  const double w = b[1] - b[0], h = b[3] - b[2], height = width * std::min(1.0, std::max(0.35, 1.25 * h / w));
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1, 1, 1);
+  renderer->AddActor(body);
+  renderer->AddActor2D(scale);
+  vtkNew<vtkRenderWindow> window;
+  window->OffScreenRenderingOn();
+  window->SetMultiSamples(8);
+  window->SetSize(width, static_cast<int>(height));
+  window->AddRenderer(renderer);
+  vtkCamera* camera = renderer->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  const double half = std::max(0.5 * h / 0.78, 0.5 * w * height / width / 0.95);  // room below for the scale
+  camera->SetParallelScale(half);
+  camera->SetFocalPoint((b[0] + b[1]) / 2, (b[2] + b[3]) / 2 - 0.1 * half, 0);
+  camera->SetPosition((b[0] + b[1]) / 2, (b[2] + b[3]) / 2 - 0.1 * half, 10 * (w + h));
+  renderer->ResetCameraClippingRange();
+  window->Render();
+
+  vtkNew<vtkWindowToImageFilter> image;
+  image->SetInput(window);
+  image->ReadFrontBufferOff();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputConnection(image->GetOutputPort());
+  writer->SetFileName(picture.c_str());
+  writer->Write();
+  if (writer->GetErrorCode() != 0) throw std::runtime_error(picture.string() + ": cannot be written");
+}
+
+}  // namespace pintle
