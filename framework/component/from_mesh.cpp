@@ -53,20 +53,10 @@ bool may_stand_among(CellShape shape, CellShape named) {
   }
 }
 
-// ∫ N_i ds of a side's nodes: ends, then middle.
-std::vector<double> shares(const Eigen::Matrix2Xd& x) {
-  if (x.cols() == 2) return std::vector<double>(2, (x.col(1) - x.col(0)).norm() / 2);
-  const double g = std::sqrt(0.6);
-  const double at[] = {-g, 0, g}, weight[] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
-  std::vector<double> share(3, 0);
-  for (int k = 0; k < 3; ++k) {
-    const double s = at[k];
-    const Eigen::Vector3d N(s * (s - 1) / 2, s * (s + 1) / 2, 1 - s * s);
-    const Eigen::Vector3d dN(s - 0.5, s + 0.5, -2 * s);
-    const double ds = weight[k] * (x * dN).norm();
-    for (int i = 0; i < 3; ++i) share[static_cast<std::size_t>(i)] += N[i] * ds;
-  }
-  return share;
+// ∫ N_i ds of a side's nodes: what a unit traction along x puts on them.
+Eigen::VectorXd shares(const Eigen::Matrix2Xd& x) {
+  const Eigen::VectorXd load = side_load(x, {1, 0}, 1);
+  return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<2>>(load.data(), x.cols());
 }
 
 }  // namespace
@@ -126,12 +116,12 @@ std::vector<double> rim_weights(const Mesh& mesh, const Group& rim) {
     for (std::size_t first = 0; first + nodes <= cells.nodes.size(); first += nodes) {
       for (std::size_t k = 0; k < nodes; ++k)
         x.col(static_cast<Eigen::Index>(k)) = mesh.x.col(cells.nodes[first + k]);
-      const std::vector<double> share = shares(x);
+      const Eigen::VectorXd share = shares(x);
       for (std::size_t k = 0; k < nodes; ++k) {
         const auto at =
             std::lower_bound(rim.nodes.begin(), rim.nodes.end(), cells.nodes[first + k]);
         if (at != rim.nodes.end() && *at == cells.nodes[first + k])
-          weights[static_cast<std::size_t>(at - rim.nodes.begin())] += share[k];
+          weights[static_cast<std::size_t>(at - rim.nodes.begin())] += share[static_cast<Eigen::Index>(k)];
       }
     }
   }

@@ -11,8 +11,8 @@ using Method = SceneModes::Method;
 
 const std::vector<std::string> keep_keys{"keep", "count", "below", "effective mass"};
 
-// At most one of the keys that say how many shapes stay.
-SceneKeep read_keep(const Node& node) {
+// At most one of the keys that say how many shapes stay; a count is at least `least`.
+SceneKeep read_keep(const Node& node, long least) {
   SceneKeep keep;
   std::vector<std::string> said;
   for (const std::string& key : keep_keys)
@@ -21,7 +21,7 @@ SceneKeep read_keep(const Node& node) {
     node.fail("says how many shapes stay by " + listed(said, "and") + " at once; keep one of them");
   if (node.has("keep")) node.at("keep").one_of(choices("bodies.*.modes", "keep"));
   if (node.has("count")) {
-    const long count = node.at("count").count(1);
+    const long count = node.at("count").count(least);
     if (count > 100'000) node.at("count").fail("is more than 100 000; ask for fewer");
     keep.count = static_cast<int>(count);
   }
@@ -73,10 +73,10 @@ SceneModes read_modes(const Node& node, const SceneBody& body) {
                            "; move it into its braces: " + key + ": {" + keep + ": …}");
     check_keys(node.at(key), std::string("bodies.*.modes.") + key);
     modes.method = method;
-    modes.keep = read_keep(node.at(key));
+    modes.keep = read_keep(node.at(key), 0);  // none: the static shapes alone
     return modes;
   }
-  modes.keep = read_keep(node);
+  modes.keep = read_keep(node, 1);
   return modes;
 }
 
