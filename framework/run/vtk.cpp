@@ -2,13 +2,11 @@
 
 #include <array>
 #include <cassert>
-#include <cerrno>
-#include <charconv>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <stdexcept>
 #include <system_error>
+
+#include "framework/run/text.h"
 
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -35,28 +33,6 @@ static_assert(part_names.size() == force_part + 1);
 
 [[noreturn]] void fail(const fs::path& path, const std::string& why) {
   throw std::runtime_error(path.string() + ": cannot be written (" + why + ")");
-}
-
-/// Whole or not at all: to a neighbour first, which then takes the name.
-void write_file(const fs::path& path, const std::string& text) {
-  fs::path part = path;
-  part += ".part";
-  errno = 0;
-  std::ofstream out(part, std::ios::binary | std::ios::trunc);
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
-  out.close();
-  std::error_code error;
-  if (!out) {
-    const std::string why = errno != 0 ? std::strerror(errno) : "the disk may be full";
-    fs::remove(part, error);
-    fail(path, why);
-  }
-  fs::rename(part, path, error);
-  if (error) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    fail(path, error.message());
-  }
 }
 
 template <class Names>
@@ -121,13 +97,6 @@ vtkNew<vtkUnstructuredGrid> grid_of(const Drawing& drawing) {
   return grid;
 }
 
-/// Shortest decimal that reads back as the same number.
-std::string text(double value) {
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
-}
-
 void write_vtu(const fs::path& path, vtkUnstructuredGrid* grid) {
   // To a string, so that VTK touches no file and prints nothing when one cannot be written.
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
@@ -136,7 +105,7 @@ void write_vtu(const fs::path& path, vtkUnstructuredGrid* grid) {
   writer->SetCompressorTypeToZLib();
   writer->WriteToOutputStringOn();
   if (writer->Write() == 0) fail(path, "VTK could not encode it");
-  write_file(path, writer->GetOutputString());
+  write_text(path, writer->GetOutputString());
 }
 
 vtkNew<vtkDoubleArray> array_of(const Field& field) {
@@ -195,10 +164,12 @@ void write_collection(const fs::path& path, const std::vector<std::pair<double, 
   std::string pvd =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
   for (const auto& [t, file] : frames) {
-    pvd += "    <DataSet timestep=\"" + text(t) + "\" part=\"0\" file=\"" + file + "\"/>\n";
+    pvd += "    <DataSet timestep=\"";
+    append_number(pvd, t);
+    pvd += "\" part=\"0\" file=\"" + file + "\"/>\n";
   }
   pvd += "  </Collection>\n</VTKFile>\n";
-  write_file(path, pvd);
+  write_text(path, pvd);
 }
 
 FrameWriter::FrameWriter(fs::path directory) : directory_(std::move(directory)) {
