@@ -69,6 +69,7 @@ void print_table(const ModeTable& t, const ModesReport& r, bool residual) {
     if (residual) std::printf(" %10.1e", t.modes.residual[i]);
     std::printf("\n");
   }
+  if (t.modes.omega.size() == 0) std::printf("  none: the body stays rigid\n");
   std::printf("  %4s %15s %9s %9s %11s\n", "sum", "", percent(sum[0], r.inertia.m).c_str(), percent(sum[1], r.inertia.m).c_str(),
               percent(sum[2], r.centre_inertia).c_str());
   std::fflush(stdout);

@@ -61,8 +61,8 @@ void add_options(CLI::App& command, Options& options) {
   if (name == "static") command.footer("It writes static.vtu (displacement, stress), points.csv, section_forces.csv (beams) and static.json.\nExit codes: see pintle --help\n");
   if (name == "mesh") command.footer("It writes mesh.vtu (quality of each cell, groups) and mesh.json.\nExit codes: see pintle --help\n");
   if (name != "modes") return;
-  command.add_option("-n,--count", options.count, "how many natural modes (default 6)")->type_name("N")->check(CLI::PositiveNumber);
-  command.add_option("--frames", options.frames, "frames of each animation, 0 for none (default 24, none above 30000 nodes)")->type_name("N")->check(CLI::NonNegativeNumber);
+  command.add_option("-n,--count", options.count, "how many natural modes (default 6)")->type_name("N")->check(CLI::Range(1, 100'000));
+  command.add_option("--frames", options.frames, "frames of each animation, 0 for none (default 24, none above 30000 nodes)")->type_name("N")->check(CLI::Range(0, 100'000));
   command.footer(what_modes_writes);
 }
 

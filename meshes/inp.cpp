@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "meshes/inp_deck.h"
+#include "meshes/quality.h"
 #include "meshes/rim.h"
 
 namespace pintle {
@@ -255,6 +256,7 @@ Mesh read_inp(const std::filesystem::path& path, double scale) {
   builder.check_numbers();
   builder.look_up_nodes();
   Mesh mesh = builder.cells(scale);
+  if (mesh.plane()) orient(mesh);  // a cell that runs the other way would look like a hole
   const Rim rim(mesh);
   builder.groups(mesh, rim);
   name_loops(mesh, rim);

@@ -60,7 +60,7 @@ void judge_count(double cells, double size) {
   if (cells <= most_cells) return;
   std::ostringstream text;
   text << "cells of size " << size << " would be about " << cells << ", more than " << most_cells
-       << "; make `size` or `hole_size` larger";
+       << "; make `size` or `hole size` larger";
   throw std::invalid_argument(text.str());
 }
 

@@ -1,5 +1,6 @@
 #include "framework/run/elastic_body.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iomanip>
@@ -107,11 +108,29 @@ std::vector<AnyBlock> blocks_of(const SceneBody& body, const Mesh& mesh, std::ve
   return at_density(1, mass, total_mass(at_density(1, {}, 1), mesh.x));
 }
 
+/// Whether sides close a loop that has the body inside: the outline, not a hole.
+bool is_outline(const Mesh& mesh, const std::vector<Cells>& sides) {
+  std::vector<int> begins, ends;
+  double twice_area = 0;
+  for (const Cells& c : sides)
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      const int a = c.nodes[i * static_cast<std::size_t>(nodes_of(c.shape))], b = c.nodes[i * static_cast<std::size_t>(nodes_of(c.shape)) + 1];
+      begins.push_back(a);
+      ends.push_back(b);
+      twice_area += mesh.x(0, a) * mesh.x(1, b) - mesh.x(1, a) * mesh.x(0, b);
+    }
+  std::sort(begins.begin(), begins.end());
+  std::sort(ends.begin(), ends.end());
+  return begins == ends && twice_area > 0;
+}
+
 RimPort rim_port(const Scene& scene, const Mesh& mesh, const ScenePoint& p) {
   Group rim = group_of(scene, mesh, p.hole, p.place, "give the curve of the hole a physical name in the drawing");
   rim.sides = sides_of(mesh, rim);
   if (rim.sides.empty())
     throw SceneError(scene.file, p.place, "\"" + p.hole + "\" is no rim: none of the mesh's sides lies along it; name the curve of a hole");
+  if (is_outline(mesh, rim.sides))
+    throw SceneError(scene.file, p.place, "\"" + p.hole + "\" is the outline of the body, not a hole in it; name a hole, or hold the edge under supports");
   RimPort port{p.name, Vector2d::Zero(), rim.nodes, rim_weights(mesh, rim), p.coupling == RimCoupling::average ? Coupling::average : Coupling::rigid};
   double length = 0;
   for (std::size_t i = 0; i < rim.nodes.size(); ++i) {
@@ -150,7 +169,7 @@ std::vector<Lump> lumps_of(const Scene& scene, const SceneBody& body, const Mesh
   for (const SceneLump& l : body.elastic->lumps) {
     const ScenePoint& p = point_of(scene, body, l.at, l.place);
     if (!p.hole.empty())
-      throw SceneError(scene.file, l.place, "\"" + l.at + "\" is the middle of a hole, where no material is; put the mass of its pin on a body of its own");
+      throw SceneError(scene.file, l.place, "\"" + l.at + "\" is the middle of a hole, where no material is; give the lump to a point of the plate itself");
     lumps.push_back({node_port(scene, body, mesh, p).node, {l.mass, l.inertia}});
   }
   return lumps;

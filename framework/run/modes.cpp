@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iomanip>
 #include <numbers>
 #include <set>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -82,6 +84,9 @@ ModalModel held_modes(const ElasticBody& e, const Component& c, const Supports& 
   }
   if (!pairs.converged || pairs.missed > 0)
     throw std::runtime_error("its modes were not found: " + (pairs.reason.empty() ? std::to_string(pairs.missed) + " missed by the Sturm check" : pairs.reason));
+  for (Eigen::Index i = pairs.zero; i < pairs.lambda.size(); ++i)
+    if (!(pairs.lambda[i] > 0) || pairs.residual[i] > 1e-2)
+      throw std::runtime_error("it has motions without stiffness besides those of a rigid body (bars hinged in a line?); hold them, or take a beam theory that bends");
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(e.model.n(), count);
   for (std::size_t i = 0; i < free.size(); ++i) all.row(free[i]) = pairs.shapes.row(static_cast<Eigen::Index>(i)).tail(count);
   ModalModel out;
@@ -90,6 +95,12 @@ ModalModel held_modes(const ElasticBody& e, const Component& c, const Supports& 
   out.residual = pairs.residual.tail(count);
   out.sturm = static_cast<int>(pairs.lambda.size()) + pairs.missed;
   return out;
+}
+
+std::string hertz(double omega) {
+  std::ostringstream s;
+  s << std::setprecision(4) << omega / (2 * std::numbers::pi);
+  return s.str();
 }
 
 std::string title_of(const SceneModes& m) {
@@ -121,22 +132,32 @@ nlohmann::ordered_json table_json(const ModeTable& t, const ModesReport& r) {
 
 }  // namespace
 
-Eigen::VectorXd damping_of(const Scene& scene, const SceneBody& body, const Eigen::VectorXd& omega) {
+Eigen::VectorXd damping_of(const Scene& scene, const SceneBody& body, const Eigen::VectorXd& omega, const Eigen::VectorXd& basis) {
   const auto& damping = body.elastic->damping;
-  if (!damping) return Eigen::VectorXd::Zero(omega.size());
+  Eigen::VectorXd zeta = Eigen::VectorXd::Zero(omega.size());
+  if (!damping) return zeta;
   if (!damping->ratios.empty()) {
-    Eigen::VectorXd zeta(omega.size());
     for (Eigen::Index i = 0; i < omega.size(); ++i)
       zeta[i] = damping->ratios[std::min(static_cast<std::size_t>(i), damping->ratios.size() - 1)];
     return zeta;
   }
-  if (damping->rayleigh) return ratios({(*damping->rayleigh)[0], (*damping->rayleigh)[1]}, omega);
-  const auto [i, j] = damping->rayleigh_modes;
-  const auto& z = *damping->rayleigh_ratios;
-  if (omega.size() == 1 && z[0] == z[1]) return Eigen::VectorXd::Constant(1, z[0]);
-  if (std::max(i, j) > omega.size())
-    throw SceneError(scene.file, damping->place, "Rayleigh damping is set by modes " + std::to_string(i) + " and " + std::to_string(j) + ", but there are " + std::to_string(omega.size()) + "; name two of those under modes, or keep more");
-  return in_body(scene, body, [&] { return ratios(rayleigh(omega[i - 1], z[0], omega[j - 1], z[1]), omega); });
+  Rayleigh c;
+  if (damping->rayleigh) {
+    c = {(*damping->rayleigh)[0], (*damping->rayleigh)[1]};
+  } else {
+    const int first = damping->rayleigh_modes[0], second = damping->rayleigh_modes[1];
+    const auto& z = *damping->rayleigh_ratios;
+    if (basis.size() == 1 && z[0] == z[1]) return zeta.setConstant(z[0]);
+    if (std::max(first, second) > basis.size())
+      throw SceneError(scene.file, damping->place, "Rayleigh damping is set by modes " + std::to_string(first) + " and " + std::to_string(second) + ", but there are " + std::to_string(basis.size()) + "; name two of those under modes, or keep more");
+    c = in_body(scene, body, [&] { return rayleigh(basis[first - 1], z[0], basis[second - 1], z[1]); });
+  }
+  zeta = ratios(c, omega);
+  Eigen::Index at = 0;
+  if (zeta.size() > 0 && zeta.minCoeff(&at) < 0)
+    throw SceneError(scene.file, damping->place, "Rayleigh damping gives mode " + std::to_string(at + 1) + " at " + hertz(omega[at]) + " Hz the ratio " + hertz(2 * std::numbers::pi * zeta[at]) +
+                     ", which would feed it energy; bring the two ratios nearer to each other, or give a ratio to each mode");
+  return zeta;
 }
 
 ModalModel reduce(const Scene& scene, const ElasticBody& e) {
@@ -179,7 +200,7 @@ ModesReport modes_of(const Scene& scene, const ElasticBody& e, int count) {
   for (ModeTable* t : {&r.natural, r.reduced ? &*r.reduced : nullptr}) {
     if (!t) continue;
     t->mass = effective_mass(e.model, e.M, t->modes);
-    t->zeta = damping_of(scene, *e.scene, t->modes.omega);
+    t->zeta = damping_of(scene, *e.scene, t->modes.omega, (r.reduced ? *r.reduced : r.natural).modes.omega);
   }
   return r;
 }

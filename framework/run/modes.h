@@ -30,8 +30,10 @@ ModesReport modes_of(const Scene&, const ElasticBody&, int count);
 
 /// The basis that the scene's `modes` ask for. @pre the body has them
 ModalModel reduce(const Scene&, const ElasticBody&);
-/// Damping ratio of each shape by the scene's `damping`, zero without.
-Eigen::VectorXd damping_of(const Scene&, const SceneBody&, const Eigen::VectorXd& omega);
+/// Damping ratios at frequencies `omega` by the scene's `damping`, zero without. Rayleigh damping that is given by
+/// ratios is set by two of the frequencies `basis`, those of the shapes that a mechanism keeps.
+/// @throws SceneError  one of the two is not there, or a ratio comes out negative
+Eigen::VectorXd damping_of(const Scene&, const SceneBody&, const Eigen::VectorXd& omega, const Eigen::VectorXd& basis);
 
 std::string modes_csv(const ModeTable&, const ModesReport&);
 std::string modes_json(const Scene&, const ElasticBody&, const ModesReport&);

@@ -67,6 +67,11 @@ BodyLoad loads_of(const Scene& scene, const ElasticBody& e) {
   Eigen::VectorXd nodal = Eigen::VectorXd::Zero(e.model.N()), direct = Eigen::VectorXd::Zero(e.model.n());
   Eigen::MatrixXd on_beams = Eigen::MatrixXd::Zero(6, static_cast<Eigen::Index>(e.plate() ? 0 : e.mesh.cell_count()));
   const auto nowhere = [](const Vector2d&) -> Vector2d { return {0, 0}; };
+  const auto felt = [&](Eigen::VectorXd load, const SceneStaticLoad& l) {
+    if (load.norm() > 0 && independent_load(e.model, load).norm() < 1e-9 * load.norm())
+      throw SceneError(scene.file, l.place, "\"" + l.at + "\" is the rim of a rigid coupling, which takes the whole load and does not move; write coupling: average at its point, or leave the point out");
+    return load;
+  };
   using Kind = SceneStaticLoad::Kind;
   for (const SceneStaticLoad& l : scene.statics->loads) {
     const Vector2d v = vector(l.vector);
@@ -83,8 +88,8 @@ BodyLoad loads_of(const Scene& scene, const ElasticBody& e) {
         if (port->freedom[2] < 0) throw SceneError(scene.file, l.place, "\"" + l.at + "\" is a point of a plate and cannot take a torque; load a hole with a coupling");
         add_force(direct, *port, Vector2d::Zero(), l.value);
         break;
-      case Kind::traction: nodal += traction_load(e.model, sides(), v, e.thickness); break;
-      case Kind::pressure: nodal += pressure_load(e.model, sides(), l.value, e.thickness); break;
+      case Kind::traction: nodal += felt(traction_load(e.model, sides(), v, e.thickness), l); break;
+      case Kind::pressure: nodal += felt(pressure_load(e.model, sides(), l.value, e.thickness), l); break;
       case Kind::line:
         if (e.plate()) throw SceneError(scene.file, l.place, "a plate takes no line load; use traction or pressure on an edge");
         nodal += line_load(e.model, v);

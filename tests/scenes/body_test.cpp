@@ -159,6 +159,40 @@ TEST(BadBody, PointWhereNoNodeIsIsRefusedWithTheNearest) {
   expect_words(complaint("bodies:\n  rod:\n    beam: {from: A, to: B, section: {circle: 0.1}, " + steel + "}\n    points: {A: [0, 0], B: [2, 0], C: [1, 0.1]}\n"), {"points.C", "axis"});
 }
 
+TEST(BadBody, BarsHingedInALineHaveNoModes) {
+  expect_words(complaint("bodies:\n  rod:\n    beam: {from: A, to: B, section: {circle: 0.1}, elements: 10, theory: bar, " + steel + "}\n    points: {A: [0, 0], B: [1, 0]}\n    supports: {A: fixed}\n"), {"rod", "without stiffness"});
+}
+
+TEST(BadBody, DampingThatWouldFeedAModeIsRefused) {
+  expect_words(complaint(beam("    supports: {A: fixed}\n    damping: {rayleigh: {ratios: [0.2, 0.001]}}\n")), {"damping", "mode 6", "ratio -0.28", "feed"});
+}
+
+TEST(BadBody, OutlineIsNoHole) {
+  expect_words(complaint(plate("link: {disc: {diameter: 0.2, bore: 0.1}}", "    points: {A: {hole: outline}}\n")), {"points.A", "outline"});
+}
+
+TEST(BadBody, PressureThatARigidRimSwallowsIsRefused) {
+  expect_words(complaint(plate("link: {disc: {diameter: 0.2, bore: 0.1}}", "    points: {A: {hole: bore}}\n    supports: {outline: fixed}\n", "static: {loads: {p: {on: bore, pressure: 1 MPa}}}\n")), {"loads.p", "rigid", "average"});
+}
+
+TEST(Body, RayleighDampingIsOfTheBodyAndNotOfTheTable) {
+  const Scene scene = read_scene_text(beam("    modes: {frame: tangent, count: 4}\n    damping: {rayleigh: {ratios: [0.01, 0.01]}}\n"), "t");
+  const ElasticBody e = elastic_body(scene, scene.bodies[0]);
+  const ModesReport r = modes_of(scene, e, 4);
+  EXPECT_NEAR(r.reduced->zeta[0], 0.01, 1e-12);
+  EXPECT_NEAR(r.reduced->zeta[1], 0.01, 1e-12);
+  const Rayleigh c = rayleigh(r.reduced->modes.omega[0], 0.01, r.reduced->modes.omega[1], 0.01);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(r.natural.zeta[i], c.alpha / (2 * r.natural.modes.omega[i]) + c.beta * r.natural.modes.omega[i] / 2, 1e-12);
+}
+
+TEST_F(BadFile, WithAClockwiseCellHasNoHoleForIt) {
+  write("turned.inp", "*NODE\n1,0,0\n2,1,0\n3,2,0\n4,0,1\n5,1,1\n6,2,1\n*ELEMENT, TYPE=CPS4\n1,1,4,5,2\n2,2,3,6,5\n");
+  const Scene scene = read_scene_text(plate("file: turned.inp"), (folder / "test.yaml").string(), {}, folder);
+  const ElasticBody e = elastic_body(scene, scene.bodies[0]);
+  ASSERT_EQ(e.mesh.groups.size(), 1u);
+  EXPECT_EQ(e.mesh.groups[0].name, "outline");
+}
+
 TEST_F(BadFile, WithoutASurfaceOrACellIsRefused) {
   write("empty.inp", "*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n");
   expect_words(complaint(plate("file: empty.inp"), folder), {"test.yaml", "part", "empty.inp"});
