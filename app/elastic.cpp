@@ -1,4 +1,6 @@
 // Commands on one body of elements: modes, mesh and static.
+#include <unistd.h>
+
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -35,6 +37,11 @@ std::string cells(const Mesh& mesh) {
   return out;
 }
 
+/// What is being done, for someone who waits at a terminal.
+void say(const Options& options, const std::string& what) {
+  if (!options.quiet && !options.json && ::isatty(STDERR_FILENO)) std::cerr << "  " << what << " …\n";
+}
+
 void print_head(const Scene& scene) { std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n"; }
 
 void add_body(Rows& rows, const ElasticBody& e) {
@@ -48,6 +55,14 @@ void add_body(Rows& rows, const ElasticBody& e) {
 
 void print_warnings(const ElasticBody& e) {
   for (const std::string& w : e.warnings) std::cout << "  warning: " << w << "\n";
+}
+
+ElasticBody made(const Options& options, const Scene& scene, const std::string& name) {
+  const SceneBody& body = elastic_of(scene, name);
+  say(options, "meshing and assembling " + body.name);
+  ElasticBody e = elastic_body(scene, body);
+  say(options, std::to_string(e.mesh.x.cols()) + " nodes, " + std::to_string(e.model.n()) + " freedoms: computing");
+  return e;
 }
 
 std::string percent(double part, double whole) {
@@ -90,7 +105,7 @@ void write_shapes(const fs::path& directory, const ElasticBody& e, const ModeTab
 
 int modes(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
-  const ElasticBody e = elastic_body(scene, elastic_of(scene, options.body));
+  const ElasticBody e = made(options, scene, options.body);
   const ModesReport report = modes_of(scene, e, options.count);
   const bool large = e.mesh.x.cols() > frames_up_to;
   const int frames = options.frames >= 0 ? options.frames : large ? 0 : default_frames;
@@ -128,7 +143,7 @@ int modes(const Options& options) {
 
 int mesh(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
-  const ElasticBody e = elastic_body(scene, elastic_of(scene, options.body));
+  const ElasticBody e = made(options, scene, options.body);
   const fs::path out = results_directory(options, "-mesh");
   ResultsDirectory results(out);
   write_mesh_report(results.path(), scene, e);
@@ -157,7 +172,7 @@ int mesh(const Options& options) {
 int statics(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
   const std::string name = !options.body.empty() || !scene.statics ? options.body : scene.statics->body;
-  const ElasticBody e = elastic_body(scene, elastic_of(scene, name));
+  const ElasticBody e = made(options, scene, name);
   const StaticReport r = solve_case(scene, e);
   const fs::path out = results_directory(options, "-static");
   ResultsDirectory results(out);

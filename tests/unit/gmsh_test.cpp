@@ -8,13 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "meshes/quality.h"
@@ -34,11 +32,7 @@ constexpr std::array plane_shapes{CellShape::triangle3, CellShape::triangle6,
                                   CellShape::quadrilateral4, CellShape::quadrilateral8,
                                   CellShape::quadrilateral9};
 
-struct Round {
-  std::string name;
-  Vector2d center;
-  double radius;
-};
+struct Round { std::string name; Vector2d center; double radius; };
 struct Sample {
   const char* name;
   Link link;
