@@ -2,23 +2,15 @@
 
 #include <array>
 #include <numeric>
-#include <sstream>
-#include <stdexcept>
 
 #include "meshes/lattice.h"
+#include "meshes/refuse.h"
 
 namespace pintle {
 
 namespace {
 
 using Eigen::Vector2d;
-
-template <class... Parts>
-[[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream text;
-  (text << ... << parts);
-  throw std::invalid_argument(text.str());
-}
 
 }  // namespace
 

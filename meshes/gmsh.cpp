@@ -6,7 +6,6 @@
 #include <fstream>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "meshes/link_lattice.h"
 #include "meshes/quality.h"
 #include "meshes/sizes.h"
+#include "meshes/refuse.h"
 
 namespace pintle {
 
@@ -27,13 +27,6 @@ using std::size_t;
 using Tags = std::vector<int>;
 namespace fs = std::filesystem;
 namespace model = gmsh::model;
-
-template <class... Parts>
-[[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream text;
-  (text << ... << parts);
-  throw std::invalid_argument(text.str());
-}
 
 void set(const char* option, double value) {
   gmsh::option::setNumber(option, value);

@@ -6,14 +6,13 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "meshes/gmsh_figure.h"
 #include "meshes/quality.h"
 #include "meshes/rim.h"
+#include "meshes/refuse.h"
 
 namespace pintle {
 
@@ -22,13 +21,6 @@ namespace {
 using std::size_t;
 using Tags = std::vector<int>;
 namespace model = gmsh::model;
-
-template <class... Parts>
-[[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream text;
-  (text << ... << parts);
-  throw std::invalid_argument(text.str());
-}
 
 std::optional<CellShape> shape_of(int gmsh_type) {
   switch (gmsh_type) {

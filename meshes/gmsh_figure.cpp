@@ -1,5 +1,7 @@
 #include "meshes/gmsh_figure.h"
 
+#include "meshes/refuse.h"
+
 #include <gmsh.h>
 
 #include <algorithm>
@@ -7,8 +9,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 namespace pintle {
@@ -19,13 +19,6 @@ using Eigen::Vector2d;
 using std::size_t;
 using Tags = std::vector<int>;
 namespace model = gmsh::model;
-
-template <class... Parts>
-[[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream text;
-  (text << ... << parts);
-  throw std::invalid_argument(text.str());
-}
 
 Tags tags(const gmsh::vectorpair& entities) {
   Tags out;

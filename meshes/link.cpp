@@ -1,10 +1,10 @@
 #include "meshes/link.h"
 
+#include "meshes/refuse.h"
+
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <sstream>
-#include <stdexcept>
 
 namespace pintle {
 
@@ -12,13 +12,6 @@ namespace {
 
 using Eigen::Vector2d;
 using std::numbers::pi;
-
-template <class... Parts>
-[[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream text;
-  (text << ... << parts);
-  throw std::invalid_argument(text.str());
-}
 
 void positive(const char* link, const char* what, double value) {
   if (!(value > 0) || !std::isfinite(value))

@@ -1,19 +1,12 @@
 #include "framework/component/fe_model.h"
 
+#include "meshes/refuse.h"
+
 #include <algorithm>
-#include <sstream>
-#include <stdexcept>
 
 namespace pintle {
 
 namespace {
-
-template <class... Parts>
-[[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream words;
-  (words << ... << parts);
-  throw std::invalid_argument(words.str());
-}
 
 struct NodeSizes {
   std::vector<int>& size;

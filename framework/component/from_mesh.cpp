@@ -1,22 +1,15 @@
 #include "framework/component/from_mesh.h"
 
+#include "meshes/refuse.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
-#include <sstream>
-#include <stdexcept>
 
 namespace pintle {
 
 namespace {
-
-template <class... Parts>
-[[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream words;
-  (words << ... << parts);
-  throw std::invalid_argument(words.str());
-}
 
 template <class E>
 AnyBlock block(const Cells& cells, int first_cell, const PlaneProperties& p) {

@@ -8,6 +8,7 @@
 #include "framework/component/eigen_lowest.h"
 #include "framework/component/factor.h"
 #include "framework/component/reduction.h"
+#include "meshes/refuse.h"
 
 namespace pintle {
 namespace {
@@ -18,13 +19,6 @@ struct Problem {
   int rigid;
   std::string whose;
 };
-
-template <class... Parts>
-[[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream text;
-  (text << ... << parts);
-  throw std::invalid_argument(text.str());
-}
 
 void check(const Keep& keep) {
   const int wishes =

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <sstream>
+#include <stdexcept>
+
+namespace pintle {
+
+/// Throws std::invalid_argument with the parts put together as a stream would print them.
+template <class... Parts>
+[[noreturn]] void refuse(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  throw std::invalid_argument(text.str());
+}
+
+}  // namespace pintle
