@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include <Eigen/Core>
 
 namespace pintle {
@@ -12,6 +14,11 @@ struct Marker {
   int body = ground;                               ///< index into System::bodies, or `ground`
   Eigen::Vector2d x_BP = Eigen::Vector2d::Zero();  ///< position from the mass centre, body axes [m]
   double angle = 0;                                ///< direction, body axes [rad]
+  Eigen::Matrix2Xd shape = {};     ///< of a flexible body: displacement per modal coordinate, 2 × n
+  Eigen::RowVectorXd slope = {};   ///< … and turning of the direction, 1 × n
+  /// Of a body that stiffens under loads at its points: second-order displacement along x, along y,
+  /// n × n each; else empty.
+  std::array<Eigen::MatrixXd, 2> second = {};
 };
 
 /// Motion of a marker, world axes. Its pose is p = (r, angle), three numbers, and

@@ -35,6 +35,7 @@ struct SceneBeam {
   SceneMaterial material;
   std::optional<double> mass;  ///< scales the density so that the body has this mass [kg]
   int elements = 0;            ///< over the whole length, shared by length; 0: 20
+  int pieces = 1;              ///< floating frames it is cut into, welded to each other
 };
 
 struct SceneFile {
@@ -75,6 +76,7 @@ struct SceneLump {
 
 /// How many shapes stay; unset: all.
 struct SceneKeep {
+  bool automatic = false;  ///< those that the scene's own motion excites
   std::optional<int> count;
   std::optional<double> below;           ///< [Hz]
   std::optional<double> effective_mass;  ///< share, 0 to 1
@@ -97,6 +99,13 @@ struct SceneDamping {
   Place place;
 };
 
+/// Which loads stiffen a body that bends, through its foreshortening: docs/theory/motion.md.
+enum class Stiffening {
+  none,
+  rotation,  ///< its inertia: spin and the frame's accelerations
+  axial,     ///< these and the loads at its points
+};
+
 /// A body of elements: exactly one of beam and plate. Without `modes` a mechanism meets it as
 /// rigid.
 struct SceneElastic {
@@ -106,6 +115,7 @@ struct SceneElastic {
   std::vector<SceneSupport> supports;
   std::optional<SceneModes> modes;
   std::optional<SceneDamping> damping;
+  Stiffening stiffening = Stiffening::none;  ///< only with `modes`
 };
 
 struct SceneStaticLoad {

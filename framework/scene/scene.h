@@ -171,6 +171,9 @@ struct OutputOptions {
   double every = 0;       ///< output interval [s]; 0: a thousandth of the run
   int frames = 0;         ///< animation frames; 0: none
   double exaggerate = 0;  ///< drawn clearance times this; 0: chosen so that the gap can be seen
+  double deformation = 1;  ///< drawn deformation times this; 0: chosen so that it can be seen
+  std::vector<PointRef> points;  ///< whose motion, and on flexible bodies displacement, is recorded
+  std::vector<PointRef> stress;  ///< of flexible bodies, whose stress is recorded
   Place place;
 };
 
