@@ -20,6 +20,8 @@
 #include <vtkWindowToImageFilter.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include "app/canvas.h"
+
 namespace pintle {
 
 namespace {
@@ -32,14 +34,16 @@ std::string names(vtkFieldData* data) {
 
 vtkNew<vtkLookupTable> colours(vtkDataArray* values) {
   vtkNew<vtkLookupTable> table;
-  table->SetHueRange(0.66, 0);
-  table->SetSaturationRange(0.75, 0.85);
-  table->SetValueRange(0.85, 0.9);
+  constexpr int steps = 256;
+  table->SetNumberOfTableValues(steps);
   if (values->GetNumberOfComponents() > 1) table->SetVectorModeToMagnitude();
   double range[2];
   values->GetRange(range, values->GetNumberOfComponents() > 1 ? -1 : 0);
   table->SetTableRange(range);
-  table->Build();
+  for (int i = 0; i < steps; ++i) {
+    const Colour c = field_colour(i / (steps - 1.0));
+    table->SetTableValue(i, c.x(), c.y(), c.z());
+  }
   return table;
 }
 

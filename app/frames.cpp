@@ -1,11 +1,13 @@
 #include "app/frames.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
 
 #include <vtkCellData.h>
+#include <vtkCellType.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
@@ -22,39 +24,106 @@ namespace pintle {
 namespace fs = std::filesystem;
 using Eigen::Vector2d;
 
-fs::path frame_file(const fs::path& directory, int frame, double at) {
-  const fs::path pvd = directory / "mechanism.pvd";
+namespace {
+
+struct Frame {
+  double t;
+  FrameFiles files;
+};
+
+/// What a collection lists, frame by frame: a part 0 begins one.
+std::vector<Frame> frames_of(const fs::path& pvd) {
   if (!fs::is_regular_file(pvd)) throw std::runtime_error(pvd.string() + ": no such file");
   const auto root =
       vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
   vtkXMLDataElement* list = root ? root->FindNestedElementWithName("Collection") : nullptr;
-  const int count = list ? list->GetNumberOfNestedElements() : 0;
-  if (count == 0) throw std::runtime_error(pvd.string() + ": lists no frames");
-
-  int n = frame < 0 ? count + frame : frame;
-  if (!std::isnan(at)) {
-    const auto distance = [&](int i) {
-      return std::abs(std::atof(list->GetNestedElement(i)->GetAttribute("timestep")) - at);
-    };
-    n = 0;
-    for (int i = 1; i < count; ++i) {
-      if (distance(i) < distance(n)) n = i;
-    }
+  std::vector<Frame> frames;
+  for (int i = 0; list && i < list->GetNumberOfNestedElements(); ++i) {
+    vtkXMLDataElement* entry = list->GetNestedElement(i);
+    const char *t = entry->GetAttribute("timestep"), *part = entry->GetAttribute("part"),
+               *file = entry->GetAttribute("file");
+    if (!t || !file) continue;
+    const fs::path path = pvd.parent_path() / file;
+    if (!part || std::atoi(part) == 0)
+      frames.push_back({std::atof(t), {path, {}}});
+    else if (!frames.empty())
+      frames.back().files.bodies.push_back(path);
   }
-  if (n < 0 || n >= count) {
-    throw std::runtime_error(pvd.string() + ": has " + std::to_string(count) + " frames, 0 to " +
-                             std::to_string(count - 1) + "; asked for " +
-                             std::to_string(frame));
-  }
-  return directory / list->GetNestedElement(n)->GetAttribute("file");
+  if (frames.empty()) throw std::runtime_error(pvd.string() + ": lists no frames");
+  return frames;
 }
 
-Drawing read_frame(const fs::path& file) {
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const fs::path& file) {
   if (!fs::is_regular_file(file)) throw std::runtime_error(file.string() + ": no such file");
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(file.c_str());
   reader->Update();
-  vtkUnstructuredGrid* grid = reader->GetOutput();
+  return reader->GetOutput();
+}
+
+[[noreturn]] void not_ours(const fs::path& file) {
+  throw std::runtime_error(file.string() + ": is not a frame of pintle");
+}
+
+CellShape shape_of(int vtk_cell, const fs::path& file) {
+  switch (vtk_cell) {
+    case VTK_LINE:
+      return CellShape::line2;
+    case VTK_QUADRATIC_EDGE:
+      return CellShape::line3;
+    case VTK_TRIANGLE:
+      return CellShape::triangle3;
+    case VTK_QUADRATIC_TRIANGLE:
+      return CellShape::triangle6;
+    case VTK_QUAD:
+      return CellShape::quadrilateral4;
+    case VTK_QUADRATIC_QUAD:
+      return CellShape::quadrilateral8;
+    case VTK_BIQUADRATIC_QUAD:
+      return CellShape::quadrilateral9;
+  }
+  not_ours(file);
+}
+
+std::vector<Cells> cells_of(vtkUnstructuredGrid* grid, const fs::path& file) {
+  std::vector<Cells> cells;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c) {
+    const CellShape shape = shape_of(grid->GetCellType(c), file);
+    if (cells.empty() || cells.back().shape != shape) cells.push_back({shape, {}, {}});
+    grid->GetCellPoints(c, ids);
+    for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
+      cells.back().nodes.push_back(static_cast<int>(ids->GetId(k)));
+    cells.back().numbers.push_back(static_cast<long>(c) + 1);
+  }
+  return cells;
+}
+
+/// @param deformation  set to what the file says
+DrawnBody read_body(const fs::path& file, double& deformation) {
+  const auto grid = read_grid(file);
+  auto* name = vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("body"));
+  vtkDataArray* exaggeration = grid->GetFieldData()->GetArray("deformation exaggeration");
+  if (!name || name->GetNumberOfValues() == 0 || !exaggeration) not_ours(file);
+  deformation = exaggeration->GetTuple1(0);
+  DrawnBody body{
+      name->GetValue(0), Eigen::Matrix2Xd(2, grid->GetNumberOfPoints()), cells_of(grid, file), {}};
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+    body.points.col(i) = Vector2d(grid->GetPoint(i)[0], grid->GetPoint(i)[1]);
+  for (int f = 0; f < grid->GetPointData()->GetNumberOfArrays(); ++f) {
+    vtkDataArray* array = grid->GetPointData()->GetArray(f);
+    if (!array) continue;
+    const int rows = array->GetNumberOfComponents() == 3 ? 2 : array->GetNumberOfComponents();
+    Field field{array->GetName(), Eigen::MatrixXd(rows, array->GetNumberOfTuples())};
+    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+      for (int k = 0; k < rows; ++k) field.values(k, i) = array->GetComponent(i, k);
+    body.fields.push_back(std::move(field));
+  }
+  return body;
+}
+
+Drawing read_lines(const fs::path& file) {
+  const auto grid = read_grid(file);
   vtkDataArray* part = grid->GetCellData()->GetArray("part");
   vtkDataArray* owner = grid->GetCellData()->GetArray("owner");
   vtkDataArray* force = grid->GetPointData()->GetArray("force [N]");
@@ -63,7 +132,7 @@ Drawing read_frame(const fs::path& file) {
   vtkDataArray* time = facts->GetArray("TimeValue");
   vtkDataArray* exaggeration = facts->GetArray("clearance exaggeration");
   if (!part || !owner || !force || !owners || !time || !exaggeration) {
-    throw std::runtime_error(file.string() + ": is not a frame of pintle");
+    not_ours(file);
   }
   Drawing drawing;
   drawing.t = time->GetTuple1(0);
@@ -92,6 +161,33 @@ Drawing read_frame(const fs::path& file) {
     for (vtkIdType i = 0; i < n; ++i) line.points.push_back(point(i));
     drawing.lines.push_back(std::move(line));
   }
+  return drawing;
+}
+
+}  // namespace
+
+FrameFiles frame_files(const fs::path& directory, int frame, double at) {
+  const fs::path pvd = directory / "mechanism.pvd";
+  const std::vector<Frame> frames = frames_of(pvd);
+  const int count = static_cast<int>(frames.size());
+  int n = frame < 0 ? count + frame : frame;
+  if (!std::isnan(at)) {
+    const auto nearest = std::min_element(
+        frames.begin(), frames.end(),
+        [&](const Frame& a, const Frame& b) { return std::abs(a.t - at) < std::abs(b.t - at); });
+    n = static_cast<int>(nearest - frames.begin());
+  }
+  if (n < 0 || n >= count) {
+    throw std::runtime_error(pvd.string() + ": has " + std::to_string(count) + " frames, 0 to " +
+                             std::to_string(count - 1) + "; asked for " + std::to_string(frame));
+  }
+  return frames[static_cast<std::size_t>(n)].files;
+}
+
+Drawing read_frame(const FrameFiles& files) {
+  Drawing drawing = read_lines(files.lines);
+  for (const fs::path& file : files.bodies)
+    drawing.bodies.push_back(read_body(file, drawing.deformation));
   return drawing;
 }
 

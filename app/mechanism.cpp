@@ -1,6 +1,7 @@
 // Commands on a whole mechanism: check and run.
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -9,7 +10,7 @@
 
 #include "app/options.h"
 #include "framework/run/results.h"
-#include "framework/run/rigid_bodies.h"
+#include "framework/run/pieces.h"
 
 namespace pintle::app {
 
@@ -20,11 +21,19 @@ namespace fs = std::filesystem;
 volatile std::sig_atomic_t interrupted = 0;
 extern "C" void interrupt(int) { interrupted = 1; }
 
+std::string bodies_text(const System& s) {
+  const auto flexible = std::count_if(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.modes() > 0; });
+  const auto rigid = static_cast<long>(s.bodies.size()) - flexible;
+  const std::string text = flexible > 0 ? std::to_string(flexible) + " flexible with " + std::to_string(s.n() - s.n_rigid()) + " shapes" : "";
+  if (rigid == 0) return text;
+  return std::to_string(rigid) + " rigid" + (flexible > 0 ? ", " + text : "");
+}
+
 void print_check(const Scene& scene, const Model& model, const Assembly& a) {
   const System& s = model.system;
   std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
   print_rows(std::cout,
-             {{"bodies", std::to_string(s.bodies.size()) + " rigid, " + std::to_string(s.n()) + " coordinates"},
+             {{"bodies", bodies_text(s) + ", " + std::to_string(s.n()) + " coordinates"},
               {"constraint rows", std::to_string(s.n_rows()) + ", rank " + std::to_string(a.rank) +
                                       (a.redundant.empty() ? "" : ", " + std::to_string(s.n_rows() - a.rank) + " redundant")},
               {"mobility", std::to_string(s.n() - a.rank)},
@@ -43,6 +52,7 @@ void print_check(const Scene& scene, const Model& model, const Assembly& a) {
               << number(effective_restitution(p.normal.chi), 4)
               << (p.friction ? ", friction " + number(p.friction->mu) : ", no friction") << "\n";
   }
+  for (const std::string& w : model.warnings) std::cout << "  warning: " << w << "\n";
 }
 
 void print_run(const Scene& scene, const Model& model, const Run& run, const fs::path& out) {
@@ -54,7 +64,7 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
   const System& s = model.system;
   for (int i = 0; i < s.n_z() && run.ledger.rows() > 0; ++i)
     rows.emplace_back("  " + integral_name(s, s.integrals[static_cast<std::size_t>(i)]),
-                      number(run.ledger.data[(run.ledger.rows() - 1) * run.ledger.columns() + 6 + static_cast<std::size_t>(i)]) + " J");
+                      number(run.ledger.data[(run.ledger.rows() - 1) * run.ledger.columns() + first_integral(s) + static_cast<std::size_t>(i)]) + " J");
   for (std::size_t c = 0; c < s.contacts.size(); ++c) {
     long begun = 0, ended = 0;
     double deepest = 0, force = 0;
@@ -105,12 +115,16 @@ class Progress {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+Scene runnable(const Options& options) {
+  Scene scene = read_scene(options.scene, overrides(options));
+  require_run(scene);
+  return scene;
+}
+
 }  // namespace
 
 int check(const Options& options) {
-  Scene scene = read_scene(options.scene, overrides(options));
-  require_run(scene);
-  fill_rigid_bodies(scene);
+  const Scene scene = with_pieces(runnable(options));
   const Model model = build(scene);
   const Assembly assembly = assemble(scene, model);
   if (options.json)
@@ -122,9 +136,7 @@ int check(const Options& options) {
 }
 
 int run(const Options& options) {
-  Scene scene = read_scene(options.scene, overrides(options));
-  require_run(scene);
-  fill_rigid_bodies(scene);
+  const Scene scene = with_pieces(runnable(options));
   const Model model = build(scene);
   const Assembly assembly = assemble(scene, model);
   refuse_redundancy(scene, model, assembly);

@@ -10,7 +10,6 @@
 #include <iostream>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -28,9 +27,11 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 
+#include "app/body_fields.h"
 #include "app/canvas.h"
 #include "app/field_picture.h"
 #include "app/frames.h"
+#include "app/quantity.h"
 
 namespace {
 
@@ -38,7 +39,9 @@ namespace fs = std::filesystem;
 using Eigen::Vector2d;
 using pintle::Canvas;
 using pintle::Colour;
+using pintle::FieldRange;
 using pintle::Part;
+using pintle::quantity;
 
 // What to draw ------------------------------------------------------------------------------------
 
@@ -48,6 +51,7 @@ struct Choice {
   double time = std::numeric_limits<double>::quiet_NaN();  ///< [s]; the frame nearest to it
   int width = 1400, height = 0;                            ///< [px]; height 0: as the content asks
   std::string around;                                      ///< an owner to fill the picture with
+  std::string field;                                       ///< of flexible bodies, in colour
 };
 
 // Colours and words -------------------------------------------------------------------------------
@@ -64,29 +68,6 @@ Colour mix(const Colour& a, const Colour& b, double share_of_b) {
   return a + share_of_b * (b - a);
 }
 
-/// "12.5 ms": three digits and a prefix.
-std::string quantity(double value, const std::string& unit) {
-  constexpr std::array prefixes{"n", "µ", "m", "", "k", "M", "G"};
-  int step = 0;
-  if (value != 0) {
-    step = static_cast<int>(std::floor(std::log10(std::abs(value) * (1 + 1e-9)) / 3));
-  }
-  step = std::clamp(step, -3, 3);
-  std::array<char, 48> text;
-  std::snprintf(text.data(), text.size(), "%.3g %s%s", value / std::pow(1000.0, step),
-                prefixes[static_cast<std::size_t>(step + 3)], unit.c_str());
-  return text.data();
-}
-
-/// The largest of 1, 2, 5 · 10ⁿ not above `length`.
-double round_length(double length) {
-  const double decade = std::pow(10.0, std::floor(std::log10(length)));
-  for (const double digit : {5.0, 2.0}) {
-    if (digit * decade <= length) return digit * decade;
-  }
-  return decade;
-}
-
 // How to draw -------------------------------------------------------------------------------------
 
 /// The part of the world that is seen, and where: a uniform scale.
@@ -98,12 +79,15 @@ struct View {
     return Vector2d(width / 2.0, bottom + (height - bottom - top) / 2.0) +
            scale * (r - world.center());
   }
-  static constexpr int side = 36, bottom = 84, top = 76;  ///< margins [px]
+  int bottom = 84;  ///< margins [px]
+  static constexpr int side = 36, top = 76;
 };
+
+constexpr int field_row = 48;  ///< height of what the scale of a field takes below [px]
 
 /// Chooses the scale, and the height where it is free, so that `world` fills the picture.
 void fit(View& view, int asked_height) {
-  const int margins = View::bottom + View::top, inner = view.width - 2 * View::side;
+  const int margins = view.bottom + View::top, inner = view.width - 2 * View::side;
   Eigen::AlignedBox2d world = view.world;
   const double size = std::max(world.sizes().maxCoeff(), 1e-9);
   world.min().array() -= 0.03 * size;
@@ -130,11 +114,17 @@ double pixels_per_newton(const View& view, const pintle::Drawing& drawing) {
 
 View view_of(const pintle::Drawing& drawing, const Choice& choice) {
   View view{{}, choice.width, choice.height, 1};
+  if (!choice.field.empty()) view.bottom += field_row;
   const bool whole = choice.around.empty();
   for (const auto& line : drawing.lines) {
     const std::string& owner = drawing.owners.at(static_cast<std::size_t>(line.owner));
     if (!whole && (owner != choice.around || line.part == Part::trace)) continue;
     for (const auto& r : line.points) view.world.extend(r);
+  }
+  for (const auto& body : drawing.bodies) {
+    if (!whole && body.name != choice.around) continue;
+    for (Eigen::Index i = 0; i < body.points.cols(); ++i)
+      view.world.extend(Vector2d(body.points.col(i)));
   }
   if (view.world.isEmpty()) {
     throw std::runtime_error(whole ? "the frame is empty"
@@ -149,15 +139,40 @@ View view_of(const pintle::Drawing& drawing, const Choice& choice) {
   return view;
 }
 
-/// A colour for each owner that has a link, in the order of the owners.
+int owner_of(const pintle::Drawing& drawing, const pintle::DrawnBody& body) {
+  return static_cast<int>(std::find(drawing.owners.begin(), drawing.owners.end(), body.name) -
+                          drawing.owners.begin());
+}
+
+/// A colour for each owner that has a link or is flexible, in the order of the owners.
 std::map<int, Colour> body_colours(const pintle::Drawing& drawing) {
   std::map<int, Colour> colours;
   for (const auto& line : drawing.lines) {
     if (line.part == Part::link) colours[line.owner] = ink;
   }
+  for (const auto& body : drawing.bodies) colours[owner_of(drawing, body)] = ink;
   std::size_t n = 0;
   for (auto& [owner, colour] : colours) colour = palette[n++ % palette.size()];
   return colours;
+}
+
+void draw_bodies(Canvas& canvas, const View& view, const pintle::Drawing& drawing,
+                 const std::map<int, Colour>& colours, const std::string& field) {
+  const FieldRange range = field.empty() ? FieldRange{} : range_of(drawing, field);
+  for (const auto& body : drawing.bodies) {
+    Eigen::Matrix2Xd at(2, body.points.cols());
+    for (Eigen::Index i = 0; i < at.cols(); ++i) at.col(i) = view(body.points.col(i));
+    const Colour& own = colours.at(owner_of(drawing, body));
+    std::vector<Colour> inside;
+    for (const double value : values(body, field))
+      inside.push_back(pintle::field_colour(range.share(value)));
+    const bool plain = inside.empty();
+    if (plain) inside.push_back(mix(own, white, 0.65));
+    canvas.fill(at, body.cells, inside);
+    canvas.next_layer();
+    canvas.stroke_outline(at, body.cells, plain ? 4 : 2, plain ? own : ink);
+    canvas.next_layer();
+  }
 }
 
 void draw_lines(Canvas& canvas, const View& view, const pintle::Drawing& drawing,
@@ -232,12 +247,33 @@ vtkSmartPointer<vtkTextActor> words(const std::string& text, double x, double y,
   return actor;
 }
 
+/// The scale of a field's colours: its name, its least and its greatest value.
+void add_field_scale(vtkRenderer* renderer, Canvas& canvas, const View& view,
+                     const std::string& field, const FieldRange& range) {
+  const std::size_t unit = field.rfind(" [");
+  const bool has_unit = unit != std::string::npos && field.back() == ']';
+  const std::string symbol = has_unit ? field.substr(unit + 2, field.size() - unit - 3) : "";
+  constexpr int steps = 256;
+  const double left = 0.42 * view.width, right = 0.82 * view.width, y = view.bottom - field_row,
+               width = (right - left) / steps, height = 18;
+  for (int i = 0; i < steps; ++i) {
+    const double x = left + i * width;
+    canvas.fill({{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}},
+                pintle::field_colour((i + 0.5) / steps));
+  }
+  canvas.next_layer();
+  const std::string name = field.substr(0, has_unit ? unit : field.size());
+  renderer->AddActor2D(words(name, View::side, y, false, ink));
+  renderer->AddActor2D(words(quantity(range.least, symbol), left - 14, y, true, ink));
+  renderer->AddActor2D(words(quantity(range.greatest, symbol), right + 14, y, false, ink));
+}
+
 /// Time and bodies above; the scales of lengths and forces and the exaggeration below.
 void add_words(vtkRenderer* renderer, Canvas& canvas, const View& view,
                const pintle::Drawing& drawing, const std::map<int, Colour>& colours) {
   const double w = view.width, h = view.height, top = h - View::top / 2.0 - 8;
   canvas.fill({{0, h - View::top}, {w, h - View::top}, {w, h}, {0, h}}, white);
-  canvas.fill({{0, 0}, {w, 0}, {w, View::bottom}, {0, View::bottom}}, white);
+  canvas.fill({{0, 0}, {w, 0}, {w, 1.0 * view.bottom}, {0, 1.0 * view.bottom}}, white);
   canvas.next_layer();
   renderer->AddActor2D(words("t = " + quantity(drawing.t, "s"), View::side, top, false, ink));
   double x = view.width - View::side;
@@ -252,7 +288,7 @@ void add_words(vtkRenderer* renderer, Canvas& canvas, const View& view,
     x -= 32;
   }
 
-  const double length = round_length(0.2 * view.width / view.scale), y = View::bottom / 2.0 - 4;
+  const double length = pintle::round_length(0.2 * view.width / view.scale), y = 38;
   const double end = View::side + length * view.scale;
   canvas.stroke({{View::side, y + 8}, {View::side, y}, {end, y}, {end, y + 8}}, false, 2.5, ink);
   renderer->AddActor2D(words(quantity(length, "m"), end + 14, y - 6, false, ink));
@@ -260,11 +296,13 @@ void add_words(vtkRenderer* renderer, Canvas& canvas, const View& view,
   std::string below;
   const double largest = largest_force(drawing);
   if (largest > 0) below = "longest arrow " + quantity(largest, "N");
-  if (drawing.exaggeration != 1) {
-    std::array<char, 48> text;
-    std::snprintf(text.data(), text.size(), "clearance drawn %.3g times", drawing.exaggeration);
+  const auto add_times = [&](const char* what, double times) {
+    std::array<char, 64> text;
+    std::snprintf(text.data(), text.size(), "%s drawn %.3g times", what, times);
     below += (below.empty() ? "" : "      ") + std::string(text.data());
-  }
+  };
+  if (drawing.exaggeration != 1) add_times("clearance", drawing.exaggeration);
+  if (drawing.deformation != 1) add_times("deformation", drawing.deformation);
   renderer->AddActor2D(words(below, view.width - View::side, y - 6, true, ink));
 }
 
@@ -284,9 +322,12 @@ void write_picture(const pintle::Drawing& drawing, const Choice& choice) {
   for (const Part part : {Part::guide, Part::link, Part::spring, Part::joint, Part::bearing,
                           Part::journal, Part::trace}) {
     draw_lines(canvas, view, drawing, colours, part);
+    if (part == Part::link) draw_bodies(canvas, view, drawing, colours, choice.field);
   }
   draw_forces(canvas, view, drawing);
   add_words(renderer, canvas, view, drawing, colours);
+  if (!choice.field.empty())
+    add_field_scale(renderer, canvas, view, choice.field, range_of(drawing, choice.field));
   renderer->AddActor(canvas.actor());
 
   vtkCamera* camera = renderer->GetActiveCamera();
@@ -316,16 +357,19 @@ int main(int argc, char** argv) {
   Choice choice;
   std::string size;
   CLI::App app{
-      "Draws one frame of a run as a picture, or a field of a body that modes, static or mesh wrote.\n"
+      "Draws one frame of a run as a picture, or a field of a body that modes, static or mesh "
+      "wrote.\n"
       "Needs a display, be it a virtual one:  xvfb-run -a pintle-picture DIR OUT.png"};
-  app.add_option("dir", choice.directory, "What `pintle run --out` wrote, or a .vtu file with --field")->required();
+  app.add_option("dir", choice.directory,
+                 "What `pintle run --out` wrote, or a .vtu file with --field")
+      ->required();
   app.add_option("picture", choice.picture, "The PNG file to write")->required();
   auto* frame = app.add_option("--frame", choice.frame, "Frame, from 0; -1 is the last (default)");
   app.add_option("--time", choice.time, "The frame nearest to this time [s]")->excludes(frame);
   app.add_option("--size", size, "WIDTHxHEIGHT or WIDTH in pixels (1400, as high as needed)");
   app.add_option("--around", choice.around, "Fill the picture with this body or joint");
-  std::string field;
-  app.add_option("--field", field, "Draw this field of the .vtu file, e.g. \"von Mises [Pa]\"")->excludes(frame);
+  app.add_option("--field", choice.field,
+                 "Colour flexible bodies, or the .vtu file's, by this field: \"von Mises [Pa]\"");
   CLI11_PARSE(app, argc, argv);
   vtkObject::GlobalWarningDisplayOff();  // what fails is said below, once
   try {
@@ -335,10 +379,12 @@ int main(int argc, char** argv) {
     if (std::getenv("DISPLAY") == nullptr) {
       throw std::runtime_error("no display; run it as  xvfb-run -a pintle-picture …");
     }
-    if (!field.empty())
-      pintle::write_field_picture(choice.directory, field, choice.width, choice.picture);
+    if (!choice.field.empty() && !fs::is_directory(choice.directory))
+      pintle::write_field_picture(choice.directory, choice.field, choice.width, choice.picture);
     else
-      write_picture(pintle::read_frame(pintle::frame_file(choice.directory, choice.frame, choice.time)), choice);
+      write_picture(
+          pintle::read_frame(pintle::frame_files(choice.directory, choice.frame, choice.time)),
+          choice);
   } catch (const std::exception& e) {
     std::cerr << "pintle-picture: " << e.what() << '\n';
     return 1;

@@ -11,13 +11,27 @@ namespace {
 
 /// A component that reaches half of the largest is found again whatever the rounding, unless it
 /// lies on the threshold; the largest itself has equals of other sign on symmetric bodies.
-void fix_signs(Eigen::MatrixXd& shapes) {
-  for (auto shape : shapes.colwise()) {
+void fix_signs(ModalModel& model) {
+  for (Eigen::Index k = 0; k < model.shapes.cols(); ++k) {
+    const auto shape = model.shapes.col(k);
     const double half = shape.lpNorm<Eigen::Infinity>() / 2;
     Eigen::Index i = 0;
     while (i + 1 < shape.size() && std::abs(shape[i]) < half) ++i;
-    if (shape[i] < 0) shape = -shape;
+    if (shape[i] >= 0) continue;
+    model.shapes.col(k) *= -1;
+    model.ports.col(k) *= -1;
   }
+}
+
+Eigen::MatrixXd at_ports(const FeModel& model, const Eigen::MatrixXd& shapes) {
+  Eigen::MatrixXd ports = Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(model.ports.size()), shapes.cols());
+  Eigen::Index row = 0;
+  for (const Port& port : model.ports)
+    for (const int freedom : port.freedom) {
+      if (freedom >= 0) ports.row(row) = shapes.row(freedom);
+      ++row;
+    }
+  return ports;
 }
 
 Eigen::VectorXd residuals(const Component& c, const FrameTie& tie, const Modes& modes) {
@@ -62,8 +76,9 @@ ModalModel modal_model(const Component& c, const FrameTie& tie, const Modes& mod
   model.omega = modes.lambda.cwiseMax(0).cwiseSqrt();
   model.residual = residuals(c, tie, modes);
   model.shapes = nodal(c.model, modes.shapes);
+  model.ports = at_ports(c.model, modes.shapes);
   model.sturm = modes.sturm;
-  fix_signs(model.shapes);
+  fix_signs(model);
   return model;
 }
 

@@ -59,6 +59,7 @@ inline constexpr int most_for_all = 3000;
 /// fixed: its first component that reaches half of its largest is positive. k = 0 is a rigid body.
 struct ModalModel {
   Eigen::MatrixXd shapes;  ///< Φ, nodal freedoms N × k [kg^−½]
+  Eigen::MatrixXd ports;   ///< [u_x u_y φ] of each port, φ 0 where it cannot turn: 3·ports × k
   Eigen::VectorXd omega;   ///< [rad/s], k
   /// ‖Kφ − ω²Mφ − the tie's reactions‖/‖Kφ‖, k: near 0 for true modes, not for static shapes.
   /// Tangent and chord ties react at their ports; mean axes do not.

@@ -1,22 +1,22 @@
 #include "framework/dynamics/energy.h"
 
+#include "framework/dynamics/flexible.h"
+
 namespace pintle {
 
 double kinetic_energy(const System& system, const Eigen::VectorXd& y) {
-  double twice = 0;
-  const double* s = y.data() + system.n();
-  for (const Body& body : system.bodies) {
-    twice += body.m * (s[0] * s[0] + s[1] * s[1]) + body.J * s[2] * s[2];
-    s += 3;
-  }
-  return twice / 2;
+  double sum = 0;
+  for (int b = 0; b < static_cast<int>(system.bodies.size()); ++b) sum += kinetic_energy(system, y, b);
+  return sum;
 }
 
 Energies energies(const System& system, const State& state, const Equations& eq) {
   Energies e;
   e.kinetic = kinetic_energy(system, state.y);
-  for (std::size_t b = 0; b < system.bodies.size(); ++b)
-    e.gravity -= system.bodies[b].m * system.gravity.dot(state.y.segment<2>(3 * static_cast<int>(b)));
+  for (int b = 0; b < static_cast<int>(system.bodies.size()); ++b) {
+    e.gravity -= system.bodies[static_cast<std::size_t>(b)].m * system.gravity.dot(mass_centre(system, state.y, b));
+    e.strain += strain_energy(system, state.y, b);
+  }
   for (const ForceEffect& f : eq.force) e.springs += f.stored;
   for (const ContactEffect& c : eq.contact) e.contacts += c.normal.stored;
   for (int i = 0; i < system.n_z(); ++i) {

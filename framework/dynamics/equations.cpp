@@ -8,27 +8,43 @@ namespace pintle {
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 using Index = Eigen::Index;
+using Modal = Eigen::Map<const VectorXd>;
 
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+// v ← M⁻¹ v
+void multiply_inverse_mass(const System& system, const Equations& eq, VectorXd& v) {
+  const Index n = system.n_rigid();
+  if (eq.flexible.empty()) {
+    v.array() *= eq.W.array();
+    return;
+  }
+  for (Index b = 0; b < n / 3; ++b)
+    if (eq.flexible_of[static_cast<std::size_t>(b)] < 0) v.segment<3>(3 * b).array() *= eq.W.segment<3>(3 * b).array();
+  for (const FlexibleInertia& body : eq.flexible) solve(body, v.data());
+}
+
 // v −= M⁻¹ Cqᵀ x
-void subtract_reaction(const Equations& eq, const VectorXd& x, double* v) {
+void subtract_reaction(const System& system, Equations& eq, const VectorXd& x, double* v) {
+  eq.g.setZero();
   for (const Equations::Side& side : eq.sides) {
     const Schur::Block& B = eq.B[side.block];
-    double g0 = 0, g1 = 0, g2 = 0;
+    double* g = eq.g.data() + side.q;
     for (int r = 0; r < side.m; ++r) {
       const double xr = x.data()[side.row + r];
-      g0 += B(r, 0) * xr;
-      g1 += B(r, 1) * xr;
-      g2 += B(r, 2) * xr;
+      g[0] += B(r, 0) * xr;
+      g[1] += B(r, 1) * xr;
+      g[2] += B(r, 2) * xr;
     }
-    const double* w = eq.W.data() + side.q;
-    v[side.q] -= g0 * w[0];
-    v[side.q + 1] -= g1 * w[1];
-    v[side.q + 2] -= g2 * w[2];
+    if (side.flexible < 0) continue;
+    const FlexibleInertia& body = eq.flexible[at(side.flexible)];
+    for (int r = 0; r < side.m; ++r)
+      eq.g.segment(body.begin, body.n) += x[side.row + r] * eq.B_eta[side.block].row(r).transpose();
   }
+  multiply_inverse_mass(system, eq, eq.g);
+  Eigen::Map<VectorXd>(v, eq.g.size()) -= eq.g;
 }
 
 // out += Cq v
@@ -38,12 +54,16 @@ void add_product(const Equations& eq, const double* v, VectorXd& out) {
     const double v0 = v[side.q], v1 = v[side.q + 1], v2 = v[side.q + 2];
     double* o = out.data() + side.row;
     for (int r = 0; r < side.m; ++r) o[r] += B(r, 0) * v0 + B(r, 1) * v1 + B(r, 2) * v2;
+    if (side.flexible < 0) continue;
+    const FlexibleInertia& body = eq.flexible[at(side.flexible)];
+    const Eigen::Map<const VectorXd> eta(v + body.begin, body.n);
+    for (int r = 0; r < side.m; ++r) o[r] += eq.B_eta[side.block].row(r).dot(eta);
   }
 }
 
 // λ and a from a = M⁻¹ f. A body of little inertia on a long arm leaves Cq a − γ above rounding;
 // the residual, solved for again, takes that away.
-void solve_reactions(Equations& eq) {
+void solve_reactions(const System& system, Equations& eq) {
   constexpr double rounding = 1e-14;
   constexpr int refinements = 2;
   eq.lambda.setZero();
@@ -57,8 +77,48 @@ void solve_reactions(Equations& eq) {
     if (i > 0 && residual <= rounding * size) break;
     eq.schur.solve(eq.mu);
     eq.lambda += eq.mu;
-    subtract_reaction(eq, eq.mu, eq.a.data());
+    subtract_reaction(system, eq, eq.mu, eq.a.data());
   }
+}
+
+// d = A(x + Φη + ½ηᵀΨη), its derivative by η, and the direction turned by the slope.
+void pose_flexible(const System& system, const Marker& marker, const VectorXd& y, double c, double s, MarkerMotion& m) {
+  const double* q = y.data() + 3 * marker.body;
+  const Modal eta(y.data() + system.eta_begin[at(marker.body)], m.flex.cols());
+  Vector2d x = marker.x_BP;
+  for (int k = 0; k < 2; ++k) {
+    x[k] += marker.shape.row(k).dot(eta);
+    m.flex.row(k) = marker.shape.row(k);
+    const Eigen::MatrixXd& F = marker.second[at(k)];
+    for (Index i = 0; i < F.cols(); ++i) {
+      const double slope = F.col(i).dot(eta);
+      m.flex(k, i) += slope;
+      x[k] += 0.5 * slope * eta[i];
+    }
+  }
+  for (Index i = 0; i < m.flex.cols(); ++i) {
+    const double along = m.flex(0, i), across = m.flex(1, i);
+    m.flex.col(i) << c * along - s * across, s * along + c * across;
+  }
+  m.d = {c * x.x() - s * x.y(), s * x.x() + c * x.y()};
+  m.r = {q[0] + m.d.x(), q[1] + m.d.y()};
+  m.angle = q[2] + marker.angle + marker.slope.dot(eta);
+  m.u = {std::cos(m.angle), std::sin(m.angle)};
+}
+
+// What deformation adds to the motion of a point of the frame. @pre m.w is the frame's
+void speed_flexible(const System& system, const Marker& marker, const VectorXd& y, double c, double s, MarkerMotion& m) {
+  const Modal rate(y.data() + system.n() + system.eta_begin[at(marker.body)], m.flex.cols());
+  const Vector2d drift(m.flex.row(0).dot(rate), m.flex.row(1).dot(rate));
+  m.v += drift;
+  m.a0 += 2 * m.w * perp(drift);
+  if (marker.second[0].size() > 0) {
+    Vector2d bend = Vector2d::Zero();
+    for (int k = 0; k < 2; ++k)
+      for (Index i = 0; i < rate.size(); ++i) bend[k] += marker.second[at(k)].col(i).dot(rate) * rate[i];
+    m.a0 += Vector2d(c * bend.x() - s * bend.y(), s * bend.x() + c * bend.y());
+  }
+  m.w += marker.slope.dot(rate);
 }
 
 }  // namespace
@@ -67,6 +127,7 @@ Equations::Equations(const System& system)
     : motion(system.markers.size()),
       rows(system.joints.size()),
       B(2 * system.joints.size(), Schur::Block::Zero()),
+      B_eta(B.size()),
       schur(system),
       C(VectorXd::Zero(system.n_rows())),
       Cdot(C),
@@ -77,6 +138,7 @@ Equations::Equations(const System& system)
       force(system.forces.size()),
       gamma(C),
       mu(C),
+      g(f),
       cos_(VectorXd::Zero(static_cast<Index>(system.bodies.size()))),
       sin_(cos_) {
   for (std::size_t i = 0; i < motion.size(); ++i) {
@@ -86,15 +148,33 @@ Equations::Equations(const System& system)
     motion[i].angle = marker.angle;
     motion[i].u = {std::cos(marker.angle), std::sin(marker.angle)};
   }
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const int n = system.bodies[b].modes();
+    flexible_of.push_back(n > 0 ? static_cast<int>(flexible.size()) : -1);
+    if (n == 0) continue;
+    FlexibleInertia made;
+    made.body = static_cast<int>(b);
+    made.begin = system.eta_begin[b];
+    made.n = n;
+    made.B.setZero(3, n);
+    made.j.setZero(n);
+    made.work.setZero(n);
+    flexible.push_back(made);
+  }
+  for (std::size_t i = 0; i < motion.size(); ++i)
+    if (system.markers[i].body != ground) motion[i].flex.setZero(2, system.bodies[at(system.markers[i].body)].modes());
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const std::array<int, 2> markers{marker_a(system.joints[k]), marker_b(system.joints[k])};
     ends.push_back({at(markers[0]), at(markers[1])});
     for (std::size_t s = 0; s < 2; ++s)
-      if (const int body = system.markers[at(markers[s])].body; body != ground)
+      if (const int body = system.markers[at(markers[s])].body; body != ground) {
         sides.push_back({k, 2 * k + s, markers[s], 3 * body, system.row_begin[k],
-                         system.row_begin[k + 1] - system.row_begin[k], s == 1});
+                         system.row_begin[k + 1] - system.row_begin[k], s == 1, flexible_of[at(body)]});
+        B_eta[2 * k + s].setZero(3, system.bodies[at(body)].modes());
+      }
   }
-  W.resize(system.n());
+  B_hat = B;
+  W.resize(system.n_rigid());
   for (std::size_t b = 0; b < system.bodies.size(); ++b)
     W.segment<3>(static_cast<Index>(3 * b)) << 1 / system.bodies[b].m, 1 / system.bodies[b].m,
         1 / system.bodies[b].J;
@@ -111,6 +191,10 @@ void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
     MarkerMotion& m = eq.motion[i];
     const double c = eq.cos_[marker.body], s = eq.sin_[marker.body];
     const double* q = y.data() + 3 * marker.body;
+    if (m.flex.cols() > 0) {
+      pose_flexible(system, marker, y, c, s, m);
+      continue;
+    }
     m.d = {c * marker.x_BP.x() - s * marker.x_BP.y(), s * marker.x_BP.x() + c * marker.x_BP.y()};
     m.r = {q[0] + m.d.x(), q[1] + m.d.y()};
     m.angle = q[2] + marker.angle;
@@ -134,6 +218,11 @@ void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
       B(i, 1) = L(i, 1);
       B(i, 2) = L(i, 2) - L(i, 0) * d.y() + L(i, 1) * d.x();
     }
+    if (side.flexible < 0) continue;
+    Schur::Flex& B_eta = eq.B_eta[side.block];
+    const Eigen::Matrix2Xd& flex = eq.motion[at(side.marker)].flex;
+    for (int i = 0; i < side.m; ++i)
+      B_eta.row(i) = L(i, 0) * flex.row(0) + L(i, 1) * flex.row(1) + L(i, 2) * system.markers[at(side.marker)].slope;
   }
 }
 
@@ -146,6 +235,7 @@ void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
     m.w = s[3 * body + 2];
     m.v = {s[3 * body] - m.w * m.d.y(), s[3 * body + 1] + m.w * m.d.x()};
     m.a0 = -m.w * m.w * m.d;
+    if (m.flex.cols() > 0) speed_flexible(system, system.markers[i], y, eq.cos_[body], eq.sin_[body], m);
   }
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     ConstraintRows& r = eq.rows[k];
@@ -156,9 +246,54 @@ void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
   add_product(eq, s, eq.Cdot);
 }
 
-void factor(const System&, Equations& eq) {
-  eq.regular = eq.schur.factor(eq.B);
+void factor(const System& system, const VectorXd& y, Equations& eq) {
   ++eq.factorizations;
+  eq.regular = true;
+  for (FlexibleInertia& body : eq.flexible) {
+    evaluate_inertia(system, y, eq.cos_[body.body], eq.sin_[body.body], body);
+    eq.regular = eq.regular && invert(body);
+  }
+  if (!eq.regular) return;
+  if (eq.flexible.empty()) {
+    eq.regular = eq.schur.factor(eq.B, eq.B_eta);
+    return;
+  }
+  for (const Equations::Side& side : eq.sides) {  // Cq M⁻¹ Cqᵀ = B̂ B̂ᵀ + B_η B_ηᵀ
+    eq.B_hat[side.block] = eq.B[side.block];
+    if (side.flexible < 0) continue;
+    const FlexibleInertia& body = eq.flexible[at(side.flexible)];
+    Eigen::Matrix3d rest = eq.B[side.block];
+    rest.noalias() -= eq.B_eta[side.block] * body.B.transpose();
+    eq.B_hat[side.block].noalias() = rest * body.root;
+  }
+  eq.regular = eq.schur.factor(eq.B_hat, eq.B_eta);
+}
+
+MovingPoint moving_point(const System& system, int marker, const VectorXd& y) {
+  const Marker& m = system.markers[at(marker)];
+  if (m.body == ground) return {m.x_BP, Vector2d::Zero(), 0};
+  const double* q = y.data() + 3 * m.body;
+  const double* s = q + system.n();
+  const double c = std::cos(q[2]), d = std::sin(q[2]);
+  Vector2d x = m.x_BP, drift = Vector2d::Zero();
+  double w = s[2];
+  if (const Index n = m.shape.cols(); n > 0) {
+    const int begin = system.eta_begin[at(m.body)];
+    const Modal eta(y.data() + begin, n), rate(y.data() + system.n() + begin, n);
+    for (int k = 0; k < 2; ++k) {
+      x[k] += m.shape.row(k).dot(eta);
+      drift[k] = m.shape.row(k).dot(rate);
+      const Eigen::MatrixXd& F = m.second[at(k)];
+      for (Index i = 0; i < F.cols(); ++i) {
+        x[k] += 0.5 * F.col(i).dot(eta) * eta[i];
+        drift[k] += F.col(i).dot(eta) * rate[i];
+      }
+    }
+    w += m.slope.dot(rate);
+  }
+  const Vector2d arm(c * x.x() - d * x.y(), d * x.x() + c * x.y());
+  return {Vector2d(q[0], q[1]) + arm,
+          Vector2d(s[0], s[1]) + s[2] * perp(arm) + Vector2d(c * drift.x() - d * drift.y(), d * drift.x() + c * drift.y()), w};
 }
 
 void add_wrench(const System& system, const Equations& eq, int marker, const Wrench& w, VectorXd& v) {
@@ -168,15 +303,22 @@ void add_wrench(const System& system, const Equations& eq, int marker, const Wre
   v[3 * body] += w[0];
   v[3 * body + 1] += w[1];
   v[3 * body + 2] += w[2] + d.x() * w[1] - d.y() * w[0];
+  const Eigen::Matrix2Xd& flex = eq.motion[at(marker)].flex;
+  if (const Index n = flex.cols(); n > 0) {
+    const Eigen::RowVectorXd& slope = system.markers[at(marker)].slope;
+    v.segment(system.eta_begin[at(body)], n) += (w[0] * flex.row(0) + w[1] * flex.row(1) + w[2] * slope).transpose();
+  }
 }
 
 void accelerate(const System& system, const State& state, Equations& eq) {
+  eq.f.setZero();
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    if (eq.flexible_of[b] >= 0) continue;
     const auto i = static_cast<Index>(3 * b);
     eq.f[i] = system.bodies[b].m * system.gravity.x();
     eq.f[i + 1] = system.bodies[b].m * system.gravity.y();
-    eq.f[i + 2] = 0;
   }
+  for (FlexibleInertia& body : eq.flexible) add_forces(system, state.y, body, eq.f);
   for (std::size_t i = 0; i < system.forces.size(); ++i) {
     const int ma = marker_a(system.forces[i]), mb = marker_b(system.forces[i]);
     eq.force[i] = evaluate(system.forces[i], eq.motion[at(ma)], eq.motion[at(mb)], state.t);
@@ -193,7 +335,8 @@ void accelerate(const System& system, const State& state, Equations& eq) {
   }
 
   // S λ = Cq M⁻¹ f − γ,  a = M⁻¹ (f − Cqᵀ λ)
-  eq.a = eq.W.cwiseProduct(eq.f);
+  eq.a = eq.f;
+  multiply_inverse_mass(system, eq, eq.a);
   for (std::size_t k = 0; k < system.joints.size(); ++k)
     for (int row = system.row_begin[k], i = 0; row < system.row_begin[k + 1]; ++row, ++i)
       eq.gamma[row] = -eq.rows[k].kappa[i];
@@ -203,7 +346,7 @@ void accelerate(const System& system, const State& state, Equations& eq) {
     for (int i = 0; i < side.m; ++i)
       eq.gamma[side.row + i] -= L(i, 0) * m.a0.x() + L(i, 1) * m.a0.y() + L(i, 2) * m.alpha0;
   }
-  solve_reactions(eq);
+  solve_reactions(system, eq);
   ++eq.evaluations;
 }
 
@@ -221,6 +364,7 @@ void fill_derivative(const System& system, const VectorXd& y, const Equations& e
       case Account::damper: rate = eq.force[k].dissipation; break;
       case Account::load: rate = eq.force[k].input; break;
       case Account::driver: rate = eq.lambda[system.row_begin[k]] * eq.rows[k].Ct[0]; break;
+      case Account::damping: rate = damping_loss(system, y, z.index); break;
     }
     dy[2 * n + i] = rate;
   }
@@ -228,7 +372,7 @@ void fill_derivative(const System& system, const VectorXd& y, const Equations& e
 
 bool evaluate(const System& system, const State& state, Equations& eq, VectorXd& dy) {
   pose(system, state.t, state.y, eq);
-  factor(system, eq);
+  factor(system, state.y, eq);
   if (!eq.regular) return false;
   speed(system, state.t, state.y, eq);
   accelerate(system, state, eq);
@@ -244,21 +388,20 @@ double velocity_violation(const System& system, const VectorXd& y, const Equatio
   if (eq.Cdot.size() == 0) return 0;
   double fastest = 0;  // a rate: speeds over the mechanism's length, spins as they are
   const Index n = system.n();
-  for (Index i = 0; i < n; ++i)
-    fastest = std::max(fastest, std::abs(y[n + i]) / (i % 3 == 2 ? 1 : system.length));
+  for (Index i = 0; i < n; ++i) fastest = std::max(fastest, std::abs(y[n + i]) / system.scale[i]);
   const double worst = eq.Cdot.cwiseProduct(system.row_scale).lpNorm<Eigen::Infinity>();
   return fastest > 0 ? worst / fastest : worst > 0 ? 1 : 0;
 }
 
 bool project(const System& system, double t, VectorXd& y, Equations& eq) {
   const auto factored = [&] {
-    factor(system, eq);
+    factor(system, y, eq);
     return eq.regular;
   };
   const auto subtract = [&](const VectorXd& violation, double* x) {
     eq.mu = violation;
     eq.schur.solve(eq.mu);
-    subtract_reaction(eq, eq.mu, x);
+    subtract_reaction(system, eq, eq.mu, x);
   };
   return onto_constraints(system, t, y, eq, factored, subtract);
 }

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "contact/gap.h"
+#include "framework/dynamics/flexible.h"
 #include "framework/dynamics/schur.h"
 #include "framework/dynamics/system.h"
 
@@ -21,14 +23,19 @@ struct Equations {
     std::size_t joint, block;  ///< B[block] is its share of Cq
     int marker, q, row, m;     ///< marker; first coordinate; first row; rows
     bool is_b;
+    int flexible;              ///< index into `flexible`, −1 for a rigid body
   };
   std::vector<Side> sides;
   std::vector<std::array<std::size_t, 2>> ends;  ///< markers a and b of each joint
-  Eigen::VectorXd W;                  ///< M⁻¹, diagonal, n
+  Eigen::VectorXd W;                  ///< M⁻¹ of rigid bodies, diagonal, n_rigid
+  std::vector<FlexibleInertia> flexible;  ///< of each flexible body
+  std::vector<int> flexible_of;       ///< per body, index into `flexible` or −1
 
   std::vector<MarkerMotion> motion;   ///< of each marker
   std::vector<ConstraintRows> rows;   ///< of each joint, in poses of its markers
-  std::vector<Schur::Block> B;        ///< rows of Cq, two blocks a joint: L J
+  std::vector<Schur::Block> B;        ///< rows of Cq, two blocks a joint: L J on [x y θ] …
+  std::vector<Schur::Flex> B_eta;     ///< … and on η; empty for a rigid body
+  std::vector<Schur::Block> B_hat;    ///< B without what the shapes take over, in the metric of M⁻¹
   Schur schur;
   Eigen::VectorXd C;                  ///< position violation [m or rad], n_rows
   Eigen::VectorXd Cdot;               ///< velocity violation Cq s + Ct, n_rows
@@ -40,15 +47,15 @@ struct Equations {
   long evaluations = 0, factorizations = 0;
 
   Eigen::VectorXd gamma;              ///< right-hand side at acceleration level, Cq a = γ
-  Eigen::VectorXd mu, cos_, sin_;     ///< work
+  Eigen::VectorXd mu, g, cos_, sin_;  ///< work
 };
 
 /// Poses of the markers, C and Cq. q is the first n numbers of y.
 void pose(const System&, double t, const Eigen::VectorXd& y, Equations&);
 /// Speeds of the markers, Ct, κ and Ċ. After pose.
 void speed(const System&, double t, const Eigen::VectorXd& y, Equations&);
-/// Factors S. After pose; sets `regular`.
-void factor(const System&, Equations&);
+/// Inverts the inertia of flexible bodies and factors S. After pose; sets `regular`.
+void factor(const System&, const Eigen::VectorXd& y, Equations&);
 /// Forces, λ, a. After speed and factor.
 void accelerate(const System&, const State&, Equations&);
 /// ẏ = [s, a, ż] after accelerate.
@@ -91,6 +98,35 @@ bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equati
 /// Moves q, then s, to C = 0 and Ċ = 0 by the shortest way in the metric of M; leaves pose, speed and
 /// factor as for the corrected state. @returns false if it does not converge
 bool project(const System&, double t, Eigen::VectorXd& y, Equations&);
+
+/// Place, velocity and spin of a marker's point from the coordinates alone.
+MovingPoint moving_point(const System&, int marker, const Eigen::VectorXd& y);
+
+/// put(column of q, [∂r_x, ∂r_y, ∂angle]) for each coordinate that moves a marker. After pose.
+template <class Put>
+void visit_motion(const System& system, const Equations& eq, int marker, Put put) {
+  const Marker& m = system.markers[static_cast<std::size_t>(marker)];
+  if (m.body == ground) return;
+  const MarkerMotion& motion = eq.motion[static_cast<std::size_t>(marker)];
+  put(3 * m.body, Eigen::Vector3d(1, 0, 0));
+  put(3 * m.body + 1, Eigen::Vector3d(0, 1, 0));
+  put(3 * m.body + 2, Eigen::Vector3d(-motion.d.y(), motion.d.x(), 1));
+  const int begin = system.eta_begin[static_cast<std::size_t>(m.body)];
+  for (int i = 0; i < static_cast<int>(motion.flex.cols()); ++i)
+    put(begin + i, Eigen::Vector3d(motion.flex(0, i), motion.flex(1, i), m.slope[i]));
+}
+
+/// put(row, column, value) for each entry of Cq, zeros included. After pose.
+template <class Put>
+void visit_jacobian(const Equations& eq, Put put) {
+  for (const Equations::Side& side : eq.sides)
+    for (int r = 0; r < side.m; ++r) {
+      for (int c = 0; c < 3; ++c) put(side.row + r, side.q + c, eq.B[side.block](r, c));
+      if (side.flexible < 0) continue;
+      const FlexibleInertia& body = eq.flexible[static_cast<std::size_t>(side.flexible)];
+      for (int c = 0; c < body.n; ++c) put(side.row + r, body.begin + c, eq.B_eta[side.block](r, c));
+    }
+}
 
 /// v ← v + Σ of a marker's wrench brought to its body's coordinates.
 void add_wrench(const System&, const Equations&, int marker, const Wrench&, Eigen::VectorXd& v);

@@ -22,7 +22,7 @@ struct Marker {
 };
 
 /// Motion of a marker, world axes. Its pose is p = (r, angle), three numbers, and
-/// ṗ = J s,  p̈ = J ṡ + (a0, alpha0)  with s its body's speeds.
+/// ṗ = J s,  p̈ = J ṡ + (a0, alpha0)  with s its body's speeds:  J = [1 Zd flex; 0 1 slope].
 struct MarkerMotion {
   Eigen::Vector2d r;                               ///< position [m]
   Eigen::Vector2d d;                               ///< from the body's coordinates' point to P [m]
@@ -32,6 +32,7 @@ struct MarkerMotion {
   Eigen::Vector2d a0 = Eigen::Vector2d::Zero();    ///< acceleration when ṡ = 0 [m/s²]
   double w = 0;                                    ///< angular velocity [rad/s]
   double alpha0 = 0;                               ///< angular acceleration when ṡ = 0 [rad/s²]
+  Eigen::Matrix2Xd flex = {};                      ///< velocity per modal speed, 2 × n; rigid: 2 × 0
 };
 
 /// A force and a couple at a marker, world axes: what does work on ṗ. [N, N, N m]

@@ -53,7 +53,8 @@ Schur::Schur(const System& system) : n_(system.n_rows()) {
     for (std::size_t p = 0; p < sides[b].size(); ++p)
       for (std::size_t q = 0; q <= p; ++q) {
         const int i = sides[b][p], j = sides[b][q];
-        pairs_.push_back({i, j, height(i), height(j), {1 / body.m, 1 / body.m, 1 / body.J}, i == j});
+        const Eigen::Vector3d w = body.modes() > 0 ? Eigen::Vector3d(1, 1, 1) : Eigen::Vector3d(1 / body.m, 1 / body.m, 1 / body.J);
+        pairs_.push_back({i, j, height(i), height(j), w, body.modes() > 0, i == j});
         for (int r = 0; r < height(i); ++r)
           for (int c = 0; c < (i == j ? r + 1 : height(j)); ++c)
             entries.emplace_back(first_row(j) + c, first_row(i) + r);
@@ -98,7 +99,7 @@ Schur::Schur(const System& system) : n_(system.n_rows()) {
   sparse_->factor = cholmod_analyze(&A, &sparse_->common);
 }
 
-bool Schur::factor(const std::vector<Block>& B) {
+bool Schur::factor(const std::vector<Block>& B, const std::vector<Flex>& B_eta) {
   std::fill(values_.begin(), values_.end(), 0.0);
   const int* at = where_.data();
   for (const Pair& p : pairs_) {
@@ -107,8 +108,11 @@ bool Schur::factor(const std::vector<Block>& B) {
     for (int r = 0; r < p.mi; ++r) {
       const double x = Bi(r, 0) * p.w[0], y = Bi(r, 1) * p.w[1], z = Bi(r, 2) * p.w[2];
       const int columns = p.same ? r + 1 : p.mj;
-      for (int c = 0; c < columns; ++c)
-        values_[static_cast<std::size_t>(*at++)] += x * Bj(c, 0) + y * Bj(c, 1) + z * Bj(c, 2);
+      for (int c = 0; c < columns; ++c) {
+        double sum = x * Bj(c, 0) + y * Bj(c, 1) + z * Bj(c, 2);
+        if (p.flexible) sum += B_eta[static_cast<std::size_t>(p.i)].row(r).dot(B_eta[static_cast<std::size_t>(p.j)].row(c));
+        values_[static_cast<std::size_t>(*at++)] += sum;
+      }
     }
   }
   if (!sparse_) return factor_dense();

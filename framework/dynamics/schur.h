@@ -24,8 +24,13 @@ class Schur {
   /// One side of each joint: B = L J, m × 3 in a 3 × 3 block; index 2·joint + (0 for a, 1 for b).
   using Block = ConstraintRows::Block;
 
-  /// Sums and factors S. @returns false if it is singular to working precision
-  bool factor(const std::vector<Block>& B);
+  /// Its part on modal coordinates, 3 × n.
+  using Flex = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
+
+  /// Sums and factors S. Of a side on a flexible body B is what is left of it when the shapes follow,
+  /// in the metric of the inertia, so that S gains B Bᵀ + B_η B_ηᵀ. @returns false if S is singular to
+  /// working precision
+  bool factor(const std::vector<Block>& B, const std::vector<Flex>& B_eta);
   /// μ ← S⁻¹ μ. @pre factor returned true
   void solve(Eigen::VectorXd& mu);
 
@@ -36,7 +41,8 @@ class Schur {
   struct Pair {
     int i, j;        ///< sides, row_begin of i's joint ≥ that of j's
     int mi, mj;      ///< their rows
-    Eigen::Vector3d w;  ///< inverse inertia of the body they share
+    Eigen::Vector3d w;  ///< inverse inertia of the body they share; 1 of a flexible one
+    bool flexible;
     bool same;       ///< i == j: lower triangle only
   };
   bool factor_dense();

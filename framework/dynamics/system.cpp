@@ -1,10 +1,19 @@
 #include "framework/dynamics/system.h"
 
+#include <cmath>
 #include <variant>
 
 namespace pintle {
 
 void number(System& system) {
+  system.eta_begin.assign(1, system.n_rigid());
+  for (const Body& b : system.bodies) system.eta_begin.push_back(system.eta_begin.back() + b.modes());
+  system.scale.setConstant(system.n(), system.length);
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    system.scale[3 * static_cast<Eigen::Index>(b) + 2] = 1;
+    system.scale.segment(system.eta_begin[b], system.bodies[b].modes()) *= std::sqrt(system.bodies[b].m);
+  }
+
   system.row_begin.assign(1, 0);
   for (const Joint& j : system.joints) system.row_begin.push_back(system.row_begin.back() + rows(j));
 
@@ -38,6 +47,8 @@ void number(System& system) {
   }
   for (std::size_t i = 0; i < system.joints.size(); ++i)
     system.joint_z.push_back(is_driver(system.joints[i]) ? account(Account::driver, i) : -1);
+  for (std::size_t i = 0; i < system.bodies.size(); ++i)
+    if (system.bodies[i].modes() > 0 && !system.bodies[i].flex->zeta.isZero()) account(Account::damping, i);
 }
 
 }  // namespace pintle

@@ -10,15 +10,7 @@ namespace {
 
 void fill_jacobian(const System& system, const Equations& eq, Eigen::MatrixXd& Cq) {
   Cq.setZero(system.n_rows(), system.n());
-  for (std::size_t k = 0; k < system.joints.size(); ++k) {
-    const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
-    const auto place = [&](int marker, std::size_t side) {
-      const int body = system.markers[static_cast<std::size_t>(marker)].body;
-      if (body != ground) Cq.block(row, 3 * body, m, 3) = eq.B[side].topRows(m);
-    };
-    place(marker_a(system.joints[k]), 2 * k);
-    place(marker_b(system.joints[k]), 2 * k + 1);
-  }
+  visit_jacobian(eq, [&](int row, int column, double value) { Cq(row, column) = value; });
 }
 
 }  // namespace
@@ -32,13 +24,14 @@ Eigen::MatrixXd dense_jacobian(const System& system, const Equations& eq) {
 void Partition::assemble(const System& system, const Equations& eq) {
   fill_jacobian(system, eq, Cq_);
   Cq_ = system.row_scale.asDiagonal() * Cq_;
-  for (Index i = 0; i < Cq_.cols(); ++i)
-    if (i % 3 != 2) Cq_.col(i) *= system.length;
+  Cq_ *= system.scale.asDiagonal();
 }
 
 void Partition::choose(const System& system, const Equations& eq) {
   assemble(system, eq);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(Cq_);
+  Eigen::MatrixXd wanted = Cq_;  // shapes follow from the frame, not the frame from shapes
+  wanted.rightCols(system.n() - system.n_rigid()) *= 1e-3;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(wanted);
   block_.resize(system.n_rows(), system.n_rows());
   step_.resize(system.n_rows());
   dependent_.clear();
@@ -60,7 +53,7 @@ void Partition::factor() {
 void Partition::subtract(const System& system, const Eigen::VectorXd& violation, double* y) {
   step_ = lu_.solve(violation.cwiseProduct(system.row_scale));
   for (std::size_t k = 0; k < dependent_.size(); ++k)
-    y[dependent_[k]] -= step_[static_cast<Index>(k)] * (dependent_[k] % 3 == 2 ? 1 : system.length);
+    y[dependent_[k]] -= step_[static_cast<Index>(k)] * system.scale[dependent_[k]];
 }
 
 bool Partition::correct(const System& system, double t, Eigen::VectorXd& y, Equations& eq) {
@@ -71,7 +64,7 @@ bool Partition::correct(const System& system, double t, Eigen::VectorXd& y, Equa
   };
   const auto take = [&](const Eigen::VectorXd& violation, double* x) { subtract(system, violation, x); };
   if (!onto_constraints(system, t, y, eq, factored, take)) return false;
-  pintle::factor(system, eq);
+  pintle::factor(system, y, eq);
   return eq.regular;
 }
 

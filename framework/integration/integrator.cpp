@@ -85,17 +85,7 @@ bool Integrator::stop(const std::string& reason) {
 // Gap of a contact from the coordinates alone; leaves the equations as they are.
 Integrator::Touch Integrator::touch(int contact, const State& state) {
   const ContactPair& pair = system_.contacts[at(contact)];
-  const auto moving = [&](int marker) {
-    const Marker& m = system_.markers[at(marker)];
-    if (m.body == ground) return MovingPoint{m.x_BP, Eigen::Vector2d::Zero(), 0};
-    const double* q = state.y.data() + 3 * m.body;
-    const double* s = q + system_.n();
-    const double c = std::cos(q[2]), d = std::sin(q[2]);
-    const Eigen::Vector2d arm(c * m.x_BP.x() - d * m.x_BP.y(), d * m.x_BP.x() + c * m.x_BP.y());
-    return MovingPoint{Eigen::Vector2d(q[0], q[1]) + arm,
-                       Eigen::Vector2d(s[0], s[1]) + s[2] * perp(arm), s[2]};
-  };
-  const Gap gap = evaluate(pair.gap, moving(pair.journal), moving(pair.bearing));
+  const Gap gap = evaluate(pair.gap, moving_point(system_, pair.journal, state.y), moving_point(system_, pair.bearing, state.y));
   return {gap.depth, gap.rate};
 }
 
@@ -104,7 +94,7 @@ Integrator::Touch Integrator::touch_at(int contact, double t) {
   return touch(contact, dense_);
 }
 
-// Largest error over its scale. Lengths are judged against the smallest that matters (a clearance, else
+// Largest error over its scale. Lengths, modal ones by what their shapes move, are judged against the smallest that matters (a clearance, else
 // the mechanism), angles by what they move, speeds against the fastest so far, integrals against the
 // kinetic energy so far.
 double Integrator::scaled_error() {
@@ -130,6 +120,11 @@ double Integrator::scaled_error() {
     judge(n + 3 * b, speed);
     judge(n + 3 * b + 1, speed);
     judge(n + 3 * b + 2, speed / reach);
+    const double per_metre = std::sqrt(system_.bodies[at(static_cast<int>(b))].m);  // shapes of 1/√m
+    for (Index i = system_.eta_begin[at(static_cast<int>(b))]; i < system_.eta_begin[at(static_cast<int>(b)) + 1]; ++i) {
+      judge(i, length * per_metre);
+      judge(n + i, speed * per_metre);
+    }
   }
   for (Index i = 2 * n; i < y.size(); ++i)
     worst = std::max(worst, std::abs(step_.error[i]) /

@@ -133,29 +133,19 @@ class Closure {
 
   void jacobian(const VectorXd& y, Sparse& J) const {
     std::vector<Eigen::Triplet<double>> entries;
-    for (std::size_t k = 0; k < system_.joints.size(); ++k)
-      for (int side = 0; side < 2; ++side) {
-        const int marker = side == 0 ? marker_a(system_.joints[k]) : marker_b(system_.joints[k]);
-        const int body = system_.markers[at(marker)].body;
-        if (body == ground) continue;
-        for (int row = system_.row_begin[k]; row < system_.row_begin[k + 1]; ++row)
-          for (int c = 0; c < 3; ++c)
-            entries.emplace_back(row, 3 * body + c,
-                                 system_.row_scale[row] * eq_.B[2 * k + at(side)](row - system_.row_begin[k], c));
-      }
-    for (std::size_t c = 0; c < offset_.size(); ++c)
-      for (int side = 0; side < 2; ++side) {
-        const int marker = side == 0 ? system_.contacts[c].journal : system_.contacts[c].bearing;
-        const int body = system_.markers[at(marker)].body;
-        if (body == ground) continue;
-        const double sign = (side == 0 ? 1 : -1) / system_.length;
-        const Eigen::Vector2d d = eq_.motion[at(marker)].d;
-        const auto row = static_cast<int>(first(c));
-        entries.emplace_back(row, 3 * body, sign);
-        entries.emplace_back(row + 1, 3 * body + 1, sign);
-        entries.emplace_back(row, 3 * body + 2, -sign * d.y());
-        entries.emplace_back(row + 1, 3 * body + 2, sign * d.x());
-      }
+    visit_jacobian(eq_, [&](int row, int column, double value) {
+      entries.emplace_back(row, column, system_.row_scale[row] * value);
+    });
+    for (std::size_t c = 0; c < offset_.size(); ++c) {
+      const auto row = static_cast<int>(first(c));
+      const auto add = [&](int marker, double sign) {
+        visit_motion(system_, eq_, marker, [&](int column, const Eigen::Vector3d& dp) {
+          for (int i = 0; i < 2; ++i) entries.emplace_back(row + i, column, sign * dp[i] / system_.length);
+        });
+      };
+      add(system_.contacts[c].journal, 1);
+      add(system_.contacts[c].bearing, -1);
+    }
     for (std::size_t p = 0; p < pins_.size(); ++p) {
       const Pin& pin = pins_[p];
       const auto row = static_cast<int>(first_pin() + static_cast<Index>(p));
@@ -201,6 +191,8 @@ Rough rough_state(const Scene& scene, const System& system) {
   r.y.setZero(system.n_y());
   r.W_pose.resize(system.n());
   r.W_speed.resize(system.n());
+  r.W_pose.tail(system.n() - system.n_rigid()).setZero();  // undeformed if that closes
+  r.W_speed.tail(system.n() - system.n_rigid()).setZero();
   std::map<std::string, const StartBody*> starts;
   for (const StartBody& s : scene.start_bodies) starts[s.body] = &s;
   const double area = system.length * system.length;
@@ -280,11 +272,11 @@ int close_joints(const Scene& scene, Closure& closure, const System& system, Rou
   return i;
 }
 
-void match_speeds(const Scene& scene, Closure& closure, const System& system, Rough& r) {
+int match_speeds(const Scene& scene, Closure& closure, const System& system, Rough& r) {
   closure.pin(r.rates);
   Sparse J;
   closure.violation(r.y, &J);
-  if (J.rows() == 0) return;
+  if (J.rows() == 0) return 0;
   const VectorXd D = closure.drift(r.y);
   r.y.segment(system.n(), system.n()) += least_step(J, r.W_speed, -D, 1e-13, 8);
   const VectorXd left = closure.drift(r.y);
@@ -292,22 +284,36 @@ void match_speeds(const Scene& scene, Closure& closure, const System& system, Ro
   if (left.lpNorm<Eigen::Infinity>() > 1e-8 * scale)
     cannot(scene, "cannot move as `start` and the drivers ask", closure, system, left, "/s",
            "leave out a speed in `start`, or a driver");
+  return 1;
+}
+
+// Flexible bodies start undeformed and move as rigid ones; only where that cannot close they bend, soft
+// shapes before stiff ones.
+template <class Close>
+int undeformed_first(const System& system, Rough& r, VectorXd Rough::*weight, Close close) {
+  if (system.n() == system.n_rigid()) return close(r);
+  Rough bent = r;
+  try {
+    return close(r);
+  } catch (const AssemblyError&) {
+  }
+  for (std::size_t b = 0; b < system.bodies.size(); ++b)
+    if (const int n = system.bodies[b].modes(); n > 0) {
+      const VectorXd& omega = system.bodies[b].flex->omega;
+      const bool pose = weight == &Rough::W_pose;
+      (bent.*weight).segment(system.eta_begin[b], n) =
+          pose ? VectorXd((system.scale.segment(system.eta_begin[b], n) * omega.minCoeff()).cwiseQuotient(omega).cwiseAbs2()) : VectorXd::Ones(n);
+    }
+  r = bent;
+  return close(r);
 }
 
 int rank_of(const System& system, const Equations& eq) {
   if (system.n_rows() == 0) return 0;
   std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t k = 0; k < system.joints.size(); ++k)
-    for (int side = 0; side < 2; ++side) {
-      const int marker = side == 0 ? marker_a(system.joints[k]) : marker_b(system.joints[k]);
-      const int body = system.markers[at(marker)].body;
-      if (body == ground) continue;
-      for (int row = system.row_begin[k]; row < system.row_begin[k + 1]; ++row)
-        for (int c = 0; c < 3; ++c)
-          entries.emplace_back(row, 3 * body + c,
-                               system.row_scale[row] * (c < 2 ? system.length : 1) *
-                                   eq.B[2 * k + at(side)](row - system.row_begin[k], c));
-    }
+  visit_jacobian(eq, [&](int row, int column, double value) {
+    entries.emplace_back(row, column, system.row_scale[row] * system.scale[column] * value);
+  });
   Sparse Cq(system.n_rows(), system.n());
   Cq.setFromTriplets(entries.begin(), entries.end());
   const Sparse transposed = Cq.transpose();
@@ -342,8 +348,7 @@ std::vector<Redundancy> redundant_rows(const System& system, const Equations& eq
   std::vector<Redundancy> out;
   if (system.n_rows() == 0 || system.n_rows() > 3000) return out;
   Eigen::MatrixXd Cq = system.row_scale.asDiagonal() * dense_jacobian(system, eq);
-  for (Index i = 0; i < Cq.cols(); ++i)
-    if (i % 3 != 2) Cq.col(i) *= system.length;
+  Cq *= system.scale.asDiagonal();
   // Gram–Schmidt, twice, row after row: what is left of a dependent row is rounding.
   Eigen::MatrixXd Q(Cq.cols(), Cq.rows());
   std::vector<int> independent;
@@ -380,9 +385,9 @@ Assembly assemble(const Scene& scene, const Model& model) {
   Rough r = rough_state(scene, system);
   const VectorXd before = r.y.head(system.n());
   Assembly out;
-  out.iterations = close_joints(scene, closure, system, r);
+  out.iterations = undeformed_first(system, r, &Rough::W_pose, [&](Rough& from) { return close_joints(scene, closure, system, from); });
   out.moved = (r.y.head(system.n()) - before).lpNorm<Eigen::Infinity>();
-  match_speeds(scene, closure, system, r);
+  undeformed_first(system, r, &Rough::W_speed, [&](Rough& from) { return match_speeds(scene, closure, system, from); });
   out.start.t = 0;
   out.start.y = r.y;
   out.start.impact_rate.assign(system.contacts.size(), 0.0);

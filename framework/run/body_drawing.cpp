@@ -24,6 +24,19 @@ Eigen::Matrix<double, 1, 4> rotation(const Bar&, const Coords<Bar>& x, double) {
 // What a section of a bar shows: a fibre distance of a fiftieth of its length, since it has no height of its own.
 double half_height(const Fibre& fibre, double length) { return fibre.distance > 0 ? fibre.distance : 0.02 * length; }
 
+constexpr int stations = pieces_per_beam + 1;
+constexpr int across = 3;  // right side, axis, left side
+
+/// Where a point of the ribbon is: points go by element, by station along it, from right to left.
+struct BeamStation {
+  int element;
+  double t;     ///< along it, 0 to 1
+  double side;  ///< −1 at the right edge, 0 on the axis, 1 at the left edge
+};
+BeamStation beam_station(int point) {
+  return {point / (across * stations), static_cast<double>(point / across % stations) / pieces_per_beam, point % across - 1.0};
+}
+
 }  // namespace
 
 BodyDrawing::BodyDrawing(const ElasticBody& body) : body_(body) {
@@ -34,13 +47,12 @@ BodyDrawing::BodyDrawing(const ElasticBody& body) : body_(body) {
     return;
   }
   const FeModel& model = body.model;
-  const int stations = pieces_per_beam + 1;
   std::vector<Eigen::Triplet<double>> entries;
   Cells quads{CellShape::quadrilateral4, {}, {}};
   std::visit([&](const auto& block) {
     using E = std::decay_t<decltype(block.properties.front())>;
     if constexpr (E::stress_rows == 3) {
-      points.resize(2, block.size() * stations * 2);
+      points.resize(2, block.size() * stations * across);
       for (int i = 0; i < block.size(); ++i) {
         const Coords<E> x = block.coords(i, model.x);
         const Eigen::Vector2d d = x.col(1) - x.col(0), n = Eigen::Vector2d(-d.y(), d.x()).normalized();
@@ -49,9 +61,9 @@ BodyDrawing::BodyDrawing(const ElasticBody& body) : body_(body) {
           const double xi = static_cast<double>(s) / pieces_per_beam;
           const auto N = shape(block.element(i), x, {xi, 0});
           const auto turn = rotation(block.element(i), x, xi);
-          for (int side = 0; side < 2; ++side) {
-            const Eigen::Vector2d offset = (side == 0 ? -y : y) * n;
-            const int p = (i * stations + s) * 2 + side;
+          for (int side = 0; side < across; ++side) {
+            const Eigen::Vector2d offset = (side - 1) * y * n;
+            const int p = (i * stations + s) * across + side;
             points.col(p) = x.col(0) + xi * d + offset;
             for (int k = 0; k < E::dofs; ++k) {
               const int freedom = model.begin[static_cast<std::size_t>(block.nodes[static_cast<std::size_t>(i * 2 + k / E::dofs_per_node)])] + k % E::dofs_per_node;
@@ -60,9 +72,11 @@ BodyDrawing::BodyDrawing(const ElasticBody& body) : body_(body) {
             }
           }
           if (s == 0) continue;
-          const int p = (i * stations + s - 1) * 2;
-          quads.nodes.insert(quads.nodes.end(), {p, p + 2, p + 3, p + 1});
-          quads.numbers.push_back(static_cast<long>(quads.numbers.size()) + 1);
+          for (int side = 0; side + 1 < across; ++side) {
+            const int p = (i * stations + s - 1) * across + side;
+            quads.nodes.insert(quads.nodes.end(), {p, p + across, p + across + 1, p + 1});
+            quads.numbers.push_back(static_cast<long>(quads.numbers.size()) + 1);
+          }
         }
       }
     }
@@ -81,17 +95,25 @@ Eigen::Matrix4Xd BodyDrawing::stress(const Eigen::VectorXd& u) const {
   return stress(stress_field(body_.model, u, body_.fibres));
 }
 
+Eigen::Matrix3Xd BodyDrawing::section_forces(const StressField& field) const {
+  if (body_.plate()) return Eigen::Matrix3Xd(3, 0);
+  Eigen::Matrix3Xd out(3, points.cols());
+  for (int p = 0; p < points.cols(); ++p) {
+    const BeamStation at = beam_station(p);
+    out.col(p) = (1 - at.t) * field.section_forces.col(2 * at.element) + at.t * field.section_forces.col(2 * at.element + 1);
+  }
+  return out;
+}
+
 Eigen::Matrix4Xd BodyDrawing::stress(const StressField& field) const {
   if (body_.plate()) return field.nodal;
+  const Eigen::Matrix3Xd forces = section_forces(field);
   Eigen::Matrix4Xd out = Eigen::Matrix4Xd::Zero(4, points.cols());
-  const int stations = pieces_per_beam + 1;
   for (int p = 0; p < points.cols(); ++p) {
-    const int i = p / (2 * stations), s = p / 2 % stations;
-    const double t = static_cast<double>(s) / pieces_per_beam;
-    const Eigen::Vector3d f = (1 - t) * field.section_forces.col(2 * i) + t * field.section_forces.col(2 * i + 1);
-    const Fibre& fibre = body_.fibres[static_cast<std::size_t>(i)];
-    const double bending = fibre.I > 0 ? f[2] * fibre.distance / fibre.I : 0;
-    out(0, p) = f[0] / fibre.A + (p % 2 == 0 ? bending : -bending);  // M > 0 stretches the right side
+    const BeamStation at = beam_station(p);
+    const Fibre& fibre = body_.fibres[static_cast<std::size_t>(at.element)];
+    const double bending = fibre.I > 0 ? forces(2, p) * fibre.distance / fibre.I : 0;
+    out(0, p) = forces(0, p) / fibre.A - at.side * bending;  // M > 0 stretches the right side
   }
   return out;
 }
@@ -132,7 +154,7 @@ void write_shape_animation(const std::filesystem::path& directory, const std::st
                            const Eigen::VectorXd& shape, int frames) {
   const Scaled s = scaled(drawing, shape);
   const double drawn = 0.1 * drawing.size;  // greatest displacement in the picture [m]
-  std::vector<std::pair<double, std::string>> files;
+  std::vector<CollectedFile> files;
   for (int f = 0; f < frames; ++f) {
     const double phase = static_cast<double>(f) / frames, a = std::sin(2 * std::numbers::pi * phase);
     char file[96];
@@ -140,7 +162,7 @@ void write_shape_animation(const std::filesystem::path& directory, const std::st
     write_grid(directory / file, drawing.points + a * drawn * s.u, drawing.cells,
                {{"displacement [mm]", a * s.u}, {"von Mises [Pa/mm]", std::abs(a) * s.mises},
                 {"scale", Eigen::RowVectorXd::Constant(s.u.cols(), drawn / 1e-3)}}, {}, phase);
-    files.emplace_back(phase, file);
+    files.push_back({phase, file});
   }
   write_collection(directory / (name + ".pvd"), files);
 }

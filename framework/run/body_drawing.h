@@ -9,7 +9,7 @@
 namespace pintle {
 
 /// A body of elements as it is drawn: a plate as its own mesh, a beam as a ribbon as high as its sections,
-/// each element in pieces so that its cubic shows. Displacements and stresses of the drawn points are linear
+/// each element in pieces so that its cubic shows, with points at both edges and on the axis. Displacements and stresses of the drawn points are linear
 /// in the nodal freedoms.
 struct BodyDrawing {
   explicit BodyDrawing(const ElasticBody&);
@@ -17,6 +17,8 @@ struct BodyDrawing {
   /// [σx σy τxy σz] at each point, 4 × points [Pa]; of beams the stress along the axis stands in σx.
   Eigen::Matrix4Xd stress(const StressField&) const;
   Eigen::Matrix4Xd stress(const Eigen::VectorXd& u) const;  ///< of displacement u
+  /// [N V M] of the section at each point of a beam, 3 × points [N, N, N m]; 3 × 0 of plates.
+  Eigen::Matrix3Xd section_forces(const StressField&) const;
 
   Eigen::Matrix2Xd points;
   std::vector<Cells> cells;

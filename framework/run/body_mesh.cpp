@@ -46,7 +46,7 @@ Mesh beam_mesh(const Scene& scene, const SceneBody& body, const SceneBeam& beam)
   const std::vector<Vector2d> corners = axis(scene, body, beam);
   double length = 0;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) length += (corners[i + 1] - corners[i]).norm();
-  const int wanted = beam.elements > 0 ? beam.elements : 20;
+  const int wanted = beam.elements > 0 ? beam.elements : default_beam_elements;
   std::vector<int> cells;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i)
     cells.push_back(std::max(1, static_cast<int>(std::lround(wanted * (corners[i + 1] - corners[i]).norm() / length))));

@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "framework/run/mechanism_body.h"
 #include "framework/scene/nearest.h"
 
 namespace pintle {
@@ -29,12 +30,15 @@ class Builder {
   Model build() {
     model_.system.gravity = vector(scene_.gravity);
     if (scene_.bodies.empty()) throw SceneError(scene_.file, {0, "bodies"}, "there is no body; a scene needs at least one");
+    elements_.resize(scene_.bodies.size());
     for (const SceneBody& b : scene_.bodies) add(b);
     for (const SceneJoint& j : scene_.joints) add(j);
     for (const SceneDriver& d : scene_.drivers) add(d);
     for (const SceneLoad& l : scene_.loads) add(l);
     judge_starts();
     judge_output();
+    record();
+    keep_drawings();
     model_.system.length = size();
     number(model_.system);
     scheme();
@@ -55,12 +59,22 @@ class Builder {
     if (b.name == "ground")
       wrong(b.place, "\"ground\" is the fixed world; give the body another name");
     unique(b.name, "body", b.place);
-    if (!(b.mass > 0)) wrong(b.place, "mass must be above 0 kg");
-    if (!(b.inertia > 0)) wrong(b.place, "inertia must be above 0 kg m^2");
-    index_[b.name] = static_cast<int>(model_.system.bodies.size());
-    model_.system.bodies.push_back({b.name, b.mass, b.inertia, -vector(b.center)});
+    const std::size_t i = model_.system.bodies.size();
+    index_[b.name] = static_cast<int>(i);
     std::vector<Vector2d> outline;
-    for (const ScenePoint& p : b.points) outline.push_back(vector(p.at) - vector(b.center));
+    if (b.elastic) {
+      if (const auto* beam = std::get_if<SceneBeam>(&b.elastic->shape); beam && beam->pieces > 1)
+        wrong(b.place, "it is to be cut into pieces; build what with_pieces makes of the scene");
+      const MechanismBody& made = elements_[i].emplace(mechanism_body(scene_, b));
+      model_.system.bodies.push_back(made.body);
+      model_.warnings.insert(model_.warnings.end(), made.warnings.begin(), made.warnings.end());
+      for (const Port& p : made.elastic.model.ports) outline.push_back(p.x - made.centre);
+    } else {
+      if (!(b.mass > 0)) wrong(b.place, "mass must be above 0 kg");
+      if (!(b.inertia > 0)) wrong(b.place, "inertia must be above 0 kg m^2");
+      model_.system.bodies.push_back({b.name, b.mass, b.inertia, -vector(b.center)});
+      for (const ScenePoint& p : b.points) outline.push_back(vector(p.at) - vector(b.center));
+    }
     model_.outlines.push_back(std::move(outline));
   }
 
@@ -73,8 +87,13 @@ class Builder {
     wrong(ref.place, "there is no body " + quoted(ref.body) + suggestion(ref.body, known));
   }
 
-  int marker(const PointRef& ref) {
+  /// What takes hold of a direction needs one: on bodies of elements not every point has it.
+  enum class Holds { point, direction };
+
+  Marker marker_at(const PointRef& ref, Holds what) const {
     const int b = body(ref);
+    if (b != ground && elements_[static_cast<std::size_t>(b)])
+      return marker_of(scene_, *elements_[static_cast<std::size_t>(b)], b, ref, what == Holds::direction);
     Vector2d at = Vector2d::Zero();
     double angle = 0;
     const auto& points = b == ground ? scene_.ground : scene_.bodies[static_cast<std::size_t>(b)].points;
@@ -89,12 +108,18 @@ class Builder {
       at = vector(p->at);
       angle = p->angle;
     }
-    if (b != ground) at -= vector(scene_.bodies[static_cast<std::size_t>(b)].center);
-    const auto [known, is_new] = markers_.try_emplace({b, at.x(), at.y(), angle},
+    if (b != ground) at += model_.system.bodies[static_cast<std::size_t>(b)].x_BO;
+    return {b, at, angle};
+  }
+
+  int marker(const PointRef& ref, Holds what = Holds::point) {
+    const Marker made = marker_at(ref, what);
+    const bool flexible = made.shape.size() > 0;  // two points of one place may move differently
+    const auto [known, is_new] = markers_.try_emplace({made.body, made.x_BP.x(), made.x_BP.y(), made.angle, flexible ? ref.point : ""},
                                                       static_cast<int>(model_.system.markers.size()));
     if (is_new) {
-      model_.system.markers.push_back({b, at, angle});
-      if (b != ground) model_.outlines[static_cast<std::size_t>(b)].push_back(at);
+      model_.system.markers.push_back(made);
+      if (made.body != ground) model_.outlines[static_cast<std::size_t>(made.body)].push_back(made.x_BP);
     }
     return known->second;
   }
@@ -108,7 +133,9 @@ class Builder {
     unique(j.name, "joint", j.place);
     two_bodies(j.a, j.b, j.place);
     if (j.clearance) return add_contact(j);
-    const int a = marker(j.a), b = marker(j.b);
+    const bool turns = j.kind == JointKind::prismatic || j.kind == JointKind::weld;
+    const int a = marker(j.a, turns || j.kind == JointKind::slot ? Holds::direction : Holds::point);
+    const int b = marker(j.b, turns ? Holds::direction : Holds::point);
     auto& joints = model_.system.joints;
     switch (j.kind) {
       case JointKind::revolute: joints.push_back(Revolute{a, b}); break;
@@ -168,7 +195,8 @@ class Builder {
   void add(const SceneDriver& d) {
     unique(d.name, "driver", d.place);
     two_bodies(d.a, d.b, d.place);
-    const int a = marker(d.a), b = marker(d.b);
+    const Holds what = d.kind == DriverKind::angle ? Holds::direction : Holds::point;
+    const int a = marker(d.a, what), b = marker(d.b, what);
     if (d.kind == DriverKind::angle) {
       model_.system.joints.push_back(AngleDriver{a, b, d.law.at});
     } else {
@@ -183,12 +211,12 @@ class Builder {
     auto& forces = model_.system.forces;
     if (const auto* f = std::get_if<SceneForce>(&l.what)) {
       if (body(f->at) == ground) wrong(f->at.place, "a force on the ground moves nothing; name a body's point");
-      const int b = marker(f->at);
+      const int b = marker(f->at, f->follows ? Holds::direction : Holds::point);
       forces.push_back(PointForce{marker({"ground", "", f->at.place}), b, f->x.at, f->y.at, f->follows});
     } else if (const auto* q = std::get_if<SceneTorque>(&l.what)) {
       two_bodies(q->a, q->b, l.place);
-      const int a = marker(q->a);
-      forces.push_back(Torque{a, marker(q->b), q->law.at});
+      const int a = marker(q->a, Holds::direction);
+      forces.push_back(Torque{a, marker(q->b, Holds::direction), q->law.at});
     } else if (const auto* s = std::get_if<SceneSpring>(&l.what)) {
       two_bodies(s->a, s->b, l.place);
       const int a = marker(s->a);
@@ -196,8 +224,8 @@ class Builder {
     } else {
       const auto& r = std::get<SceneTorsionSpring>(l.what);
       two_bodies(r.a, r.b, l.place);
-      const int a = marker(r.a);
-      forces.push_back(TorsionSpring{a, marker(r.b), r.stiffness, r.damping, r.free_angle});
+      const int a = marker(r.a, Holds::direction);
+      forces.push_back(TorsionSpring{a, marker(r.b, Holds::direction), r.stiffness, r.damping, r.free_angle});
     }
     model_.system.force_names.push_back(l.name);
   }
@@ -219,6 +247,25 @@ class Builder {
         wrong(s.place, "eccentricity puts the journal deeper into the wall than a tenth of its radius, where no contact law holds; "
                        "the clearance is " + std::to_string(1e3 * gap.clearance()) + " mm");
     }
+  }
+
+  void record() {
+    for (const PointRef& p : scene_.output.points)
+      model_.points.push_back({p.point.empty() ? p.body : p.body + "." + p.point, marker_at(p, Holds::point)});
+    for (const PointRef& p : scene_.output.stress) {
+      const int b = body(p);
+      const std::optional<MechanismBody> none;
+      const auto& made = b == ground ? none : elements_[static_cast<std::size_t>(b)];
+      if (!made || !made->body.flex)
+        wrong(p.place, quoted(p.body) + " has no stress, it is rigid; make it a beam or plate with `modes`");
+      model_.stresses.push_back({p.body + "." + p.point, b, stress_probe(scene_, made->elastic, made->modes, p)});
+    }
+  }
+
+  void keep_drawings() {
+    if (scene_.output.frames < 2) return;
+    for (const auto& made : elements_)
+      if (made && made->body.flex) model_.drawings.emplace_back(made->elastic, made->modes, made->centre);
   }
 
   void judge_output() const {
@@ -260,7 +307,8 @@ class Builder {
   const Scene& scene_;
   Model model_;
   std::map<std::string, int> index_;
-  std::map<std::tuple<int, double, double, double>, int> markers_;
+  std::vector<std::optional<MechanismBody>> elements_;  ///< of bodies made of elements
+  std::map<std::tuple<int, double, double, double, std::string>, int> markers_;
   std::set<std::string> names_;
 };
 

@@ -78,8 +78,13 @@ Drafting::Drafting(const Scene& scene, const Model& model) {
     half = std::max(half, c.gap.bearing);
   }
   const double width = 1.6 * pin;
+  deformation = scene.output.deformation;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     owners.push_back(system.bodies[b].name);
+    if (system.bodies[b].flex) {  // drawn as it is
+      links.emplace_back();
+      continue;
+    }
     std::vector<Vector2d> points = model.outlines[b];
     if (!points.empty()) points.emplace_back(0, 0);  // a link reaches to its mass centre
     double span = 0;
@@ -109,8 +114,18 @@ Drawing draw(const Model& model, const Drafting& drafting, const State& state, c
   out.exaggeration = drafting.exaggeration;
   out.owners = drafting.owners;
   const int bodies = static_cast<int>(system.bodies.size()), joints = static_cast<int>(system.joints.size());
+  out.deformation = drafting.deformation;
+  auto flexible = model.drawings.begin();
   for (int b = 0; b < bodies; ++b) {
     const double* q = state.y.data() + 3 * b;
+    if (system.bodies[at(b)].flex) {
+      if (flexible == model.drawings.end()) continue;
+      const double* s = q + system.n();
+      const int begin = system.eta_begin[at(b)], n = system.bodies[at(b)].modes();
+      out.bodies.push_back(flexible++->at({Vector2d(q[0], q[1]), Vector2d(s[0], s[1]), q[2], s[2],
+                                           state.y.segment(begin, n), state.y.segment(system.n() + begin, n)}, drafting.deformation));
+      continue;
+    }
     const Eigen::Rotation2Dd A(q[2]);
     DrawnLine line{Part::link, b, true, {}};
     for (const Vector2d& x : drafting.links[at(b)]) line.points.emplace_back(Vector2d(q[0], q[1]) + A * x);

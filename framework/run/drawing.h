@@ -12,6 +12,7 @@ struct Drafting {
   std::vector<std::vector<Eigen::Vector2d>> links;                ///< closed outlines, body axes
   double pin = 0;                                                 ///< radius of a joint's circle [m]
   double exaggeration = 1;                                        ///< of clearances
+  double deformation = 1;                                         ///< of flexible bodies
 };
 
 /// The mechanism at an instant: links, joints, journal and bearing circles, springs, contact forces.

@@ -14,6 +14,12 @@ std::string shown(const Eigen::Vector2d& p) {
   return s.str();
 }
 
+std::string shown_number(double x) {
+  std::ostringstream s;
+  s << std::setprecision(4) << x;
+  return s.str();
+}
+
 std::string kind_of(const std::filesystem::path& file) {
   std::string kind = file.extension().string();
   for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "framework/component/assembly.h"
 #include "framework/component/eigen_lowest.h"
 #include "framework/run/in_body.h"
 #include "framework/run/text.h"
@@ -17,10 +18,6 @@
 namespace pintle {
 
 namespace {
-
-Component component_of(const ElasticBody& e) {
-  return {e.model, independent(e.model, e.K), independent(e.model, e.M)};
-}
 
 int port_index(const Scene& scene, const ElasticBody& e, const std::string& name, const Place& place) {
   std::vector<std::string> known;
@@ -31,27 +28,13 @@ int port_index(const Scene& scene, const ElasticBody& e, const std::string& name
   throw SceneError(scene.file, place, "\"" + e.scene->name + "\" has no point \"" + name + "\"." + did_you_mean(name, known));
 }
 
-FrameTie tie_of(const Scene& scene, const ElasticBody& e, const SceneModes& modes) {
-  using Frame = SceneModes::Frame;
-  if (modes.frame == Frame::mean_axes) return {FrameTie::mean_axes};
-  const std::size_t needed = modes.frame == Frame::tangent ? 1 : 2;
-  if (e.model.ports.size() < needed)
-    throw SceneError(scene.file, modes.place, "the frame needs " + std::string(needed == 1 ? "a point" : "two points") + " of the body; add " + (needed == 1 ? "it" : "them") + " under points");
-  std::string a = modes.a, b = modes.b;
-  if (const auto* beam = std::get_if<SceneBeam>(&e.scene->elastic->shape); beam && a.empty()) a = beam->through.front();
-  if (const auto* beam = std::get_if<SceneBeam>(&e.scene->elastic->shape); beam && b.empty()) b = beam->through.back();
-  if (a.empty()) a = e.scene->points.front().name;
-  if (b.empty()) b = e.scene->points.back().name;
-  const int first = port_index(scene, e, a, modes.place);
-  if (modes.frame == Frame::tangent) return {FrameTie::tangent, first};
-  return {FrameTie::chord, first, port_index(scene, e, b, modes.place)};
-}
-
 /// The ports that joints, drivers and forces take hold of; all of them where nothing does.
 std::vector<int> interface_of(const Scene& scene, const ElasticBody& e) {
   std::set<std::string> used;
   const auto note = [&](const PointRef& ref) {
-    if (ref.body == e.scene->name) used.insert(ref.point);
+    if (ref.body != e.scene->name) return;
+    const int origin = ref.point.empty() ? port_at_origin(e) : -1;
+    used.insert(origin < 0 ? ref.point : e.model.ports[static_cast<std::size_t>(origin)].name);
   };
   for (const SceneJoint& j : scene.joints) note(j.a), note(j.b);
   for (const SceneDriver& d : scene.drivers) note(d.a), note(d.b);
@@ -103,16 +86,6 @@ std::string hertz(double omega) {
   return s.str();
 }
 
-std::string title_of(const SceneModes& m) {
-  const std::string frame = m.frame == SceneModes::Frame::tangent ? "tangent frame" : m.frame == SceneModes::Frame::chord ? "chord frame" : "mean axes";
-  switch (m.method) {
-    case SceneModes::Method::normal: return "normal modes, " + frame;
-    case SceneModes::Method::craig_bampton: return "Craig-Bampton, " + frame;
-    case SceneModes::Method::free: return "free modes with residual attachment, " + frame;
-  }
-  return frame;
-}
-
 nlohmann::ordered_json table_json(const ModeTable& t, const ModesReport& r) {
   auto rows = nlohmann::ordered_json::array();
   for (Eigen::Index i = 0; i < t.modes.omega.size(); ++i)
@@ -131,6 +104,58 @@ nlohmann::ordered_json table_json(const ModeTable& t, const ModesReport& r) {
 }
 
 }  // namespace
+
+Component component_of(const ElasticBody& e) {
+  return {e.model, independent(e.model, e.K), independent(e.model, e.M)};
+}
+
+int port_at_origin(const ElasticBody& e) {
+  const double size = (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm();
+  for (std::size_t i = 0; i < e.model.ports.size(); ++i)
+    if (e.model.ports[i].x.norm() <= 1e-7 * size) return static_cast<int>(i);
+  return -1;
+}
+
+Sparse skew_mass_of(const ElasticBody& e) {
+  if (!e.scene->elastic->lumped) return Assembler(e.model).skew_mass();
+  std::vector<Eigen::Triplet<double>> entries;  // point masses: m Zᵀ at each node
+  for (std::size_t i = 0; i + 1 < e.model.begin.size(); ++i) {
+    const int x = e.model.begin[i];
+    const double m = e.M.coeff(x, x);
+    entries.emplace_back(x, x + 1, m);
+    entries.emplace_back(x + 1, x, -m);
+  }
+  Sparse G(e.model.N(), e.model.N());
+  G.setFromTriplets(entries.begin(), entries.end());
+  return G;
+}
+
+FrameTie tie_of(const Scene& scene, const ElasticBody& e) {
+  const SceneModes& modes = *e.scene->elastic->modes;
+  using Frame = SceneModes::Frame;
+  if (modes.frame == Frame::mean_axes) return {FrameTie::mean_axes};
+  const std::size_t needed = modes.frame == Frame::tangent ? 1 : 2;
+  if (e.model.ports.size() < needed)
+    throw SceneError(scene.file, modes.place, "the frame needs " + std::string(needed == 1 ? "a point" : "two points") + " of the body; add " + (needed == 1 ? "it" : "them") + " under points");
+  std::string a = modes.a, b = modes.b;
+  if (const auto* beam = std::get_if<SceneBeam>(&e.scene->elastic->shape); beam && a.empty()) a = beam->through.front();
+  if (const auto* beam = std::get_if<SceneBeam>(&e.scene->elastic->shape); beam && b.empty()) b = beam->through.back();
+  if (a.empty()) a = e.scene->points.front().name;
+  if (b.empty()) b = e.scene->points.back().name;
+  const int first = port_index(scene, e, a, modes.place);
+  if (modes.frame == Frame::tangent) return {FrameTie::tangent, first};
+  return {FrameTie::chord, first, port_index(scene, e, b, modes.place)};
+}
+
+std::string title_of(const SceneModes& m) {
+  const std::string frame = m.frame == SceneModes::Frame::tangent ? "tangent frame" : m.frame == SceneModes::Frame::chord ? "chord frame" : "mean axes";
+  switch (m.method) {
+    case SceneModes::Method::normal: return "normal modes, " + frame;
+    case SceneModes::Method::craig_bampton: return "Craig-Bampton, " + frame;
+    case SceneModes::Method::free: return "free modes with residual attachment, " + frame;
+  }
+  return frame;
+}
 
 Eigen::VectorXd damping_of(const Scene& scene, const SceneBody& body, const Eigen::VectorXd& omega, const Eigen::VectorXd& basis) {
   const auto& damping = body.elastic->damping;
@@ -162,7 +187,7 @@ Eigen::VectorXd damping_of(const Scene& scene, const SceneBody& body, const Eige
 
 ModalModel reduce(const Scene& scene, const ElasticBody& e) {
   const SceneModes& m = *e.scene->elastic->modes;
-  const FrameTie tie = tie_of(scene, e, m);
+  const FrameTie tie = tie_of(scene, e);
   return in_body(scene, *e.scene, [&] {
     const Component c = component_of(e);
     switch (m.method) {

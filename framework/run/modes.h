@@ -28,6 +28,17 @@ struct ModesReport {
 /// @throws SceneError  more modes than freedoms, a tie without its points, damping of a mode that is not kept, …
 ModesReport modes_of(const Scene&, const ElasticBody&, int count);
 
+/// Matrices in independent freedoms; G is nodal.
+Component component_of(const ElasticBody&);
+Sparse skew_mass_of(const ElasticBody&);
+/// The port that a body's name alone stands for; −1: there is none.
+int port_at_origin(const ElasticBody&);
+/// The frame that the body's `modes` ask for. @pre it has them
+/// @throws SceneError  a point is not there
+FrameTie tie_of(const Scene&, const ElasticBody&);
+/// "Craig-Bampton, chord frame"
+std::string title_of(const SceneModes&);
+
 /// The basis that the scene's `modes` ask for. @pre the body has them
 ModalModel reduce(const Scene&, const ElasticBody&);
 /// Damping ratios at frequencies `omega` by the scene's `damping`, zero without. Rayleigh damping that is given by

@@ -47,7 +47,7 @@ std::string events_csv(const System& system, const std::vector<Impact>& impacts)
 }
 
 Json energies_json(const Energies& e) {
-  return {{"kinetic", e.kinetic}, {"gravity", e.gravity}, {"springs", e.springs}, {"contacts", e.contacts},
+  return {{"kinetic", e.kinetic}, {"gravity", e.gravity}, {"springs", e.springs}, {"contacts", e.contacts}, {"strain", e.strain},
           {"stored", e.stored()}, {"lost", e.lost},       {"work in", e.input}};
 }
 
@@ -56,6 +56,7 @@ Json assembly_json(const System& system, const Assembly& a) {
   for (const Redundancy& r : a.redundant) redundant.push_back(row_text(system, r.joint, r.row));
   return {{"bodies", system.bodies.size()},
           {"coordinates", system.n()},
+          {"modal coordinates", system.n() - system.n_rigid()},
           {"constraint rows", system.n_rows()},
           {"rank", a.rank},
           {"mobility", system.n() - a.rank},
@@ -104,7 +105,7 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
     const std::size_t last = run.ledger.rows();
     if (last > 0)
       losses[integral_name(system, system.integrals[static_cast<std::size_t>(i)])] =
-          run.ledger.data[(last - 1) * run.ledger.columns() + 6 + static_cast<std::size_t>(i)];
+          run.ledger.data[(last - 1) * run.ledger.columns() + first_integral(system) + static_cast<std::size_t>(i)];
   }
   Json contacts = Json::object();
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
@@ -149,6 +150,7 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
 
 std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly) {
   const Json out = {{"title", scene.title}, {"file", scene.file}, {"model", assembly_json(model.system, assembly)},
+                    {"warnings", model.warnings},
                     {"scene", scene_json(scene)}};
   return out.dump(2) + "\n";
 }

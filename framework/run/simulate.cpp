@@ -25,7 +25,7 @@ class Clock {
 
 /// Energy that can be held against: the largest stored so far, and all that came in or went.
 double in_play(const Energies& e, const Energies& first) {
-  return std::abs(e.kinetic) + std::abs(e.gravity - first.gravity) + e.springs + e.contacts + std::abs(e.lost) +
+  return std::abs(e.kinetic) + std::abs(e.gravity - first.gravity) + e.springs + e.contacts + e.strain + std::abs(e.lost) +
          std::abs(e.input);
 }
 
@@ -63,7 +63,8 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   const System& system = model.system;
   const double until = scene.run.until;
   Run run;
-  run.trajectory = trajectory_table(system);
+  run.warnings = model.warnings;
+  run.trajectory = trajectory_table(model);
   run.ledger = ledger_table(system);
   Clock outputs(scene.output.every > 0 ? scene.output.every : until / 1000, until);
   Clock frames(scene.output.frames > 1 && listeners.frame ? until / (scene.output.frames - 1) : 0, until);
@@ -88,7 +89,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
       if (!integrator.sample(outputs.next(), sampled)) return false;
       used = true;
       book(sampled);
-      record(system, sampled, integrator.equations(), run.trajectory);
+      record(model, sampled, integrator.equations(), run.trajectory);
       record_ledger(system, sampled, run.last, run.unexplained, run.ledger);
       outputs.tick();
     }

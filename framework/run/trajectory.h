@@ -18,13 +18,17 @@ struct Table {
   std::vector<double> column(const std::string& name) const;
 };
 
-/// Motion of each body's origin, wrench of each joint on a named body, motion in each clearance.
-Table trajectory_table(const System&);
-void record(const System&, const State&, const Equations&, Table& trajectory);
+/// Motion of each body's origin, of a flexible one its modal coordinates; wrench of each joint on a named
+/// body, motion in each clearance; motion and stress of the points that the scene asks for.
+Table trajectory_table(const Model&);
+void record(const Model&, const State&, const Equations&, Table& trajectory);
 
 /// Energies, and each integral of the ledger.
 Table ledger_table(const System&);
 void record_ledger(const System&, const State&, const Energies&, double unexplained, Table& ledger);
+
+/// Its column of the first integral.
+std::size_t first_integral(const System&);
 
 /// Wrench of joint k on its body b (on a if b is the ground), world axes [N, N, N m].
 Wrench joint_wrench(const System&, const Equations&, int joint);

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -19,11 +19,18 @@ struct Field {
 
 /// Points, z = 0, and cells with fields on them, as an unstructured grid in one .vtu.
 /// @throws std::runtime_error  naming the path that cannot be written
-void write_grid(const std::filesystem::path&, const Eigen::Matrix2Xd& points, const std::vector<Cells>&,
-                const std::vector<Field>& on_points, const std::vector<Field>& on_cells = {}, double t = 0);
+void write_grid(const std::filesystem::path&, const Eigen::Matrix2Xd& points,
+                const std::vector<Cells>&, const std::vector<Field>& on_points,
+                const std::vector<Field>& on_cells = {}, double t = 0);
 
-/// A .pvd: when to show which file, given relative to it.
-void write_collection(const std::filesystem::path&, const std::vector<std::pair<double, std::string>>& frames);
+/// A file of a collection. Files of one time are shown together, as its parts.
+struct CollectedFile {
+  double t = 0;
+  std::string file;  ///< relative to the collection
+  int part = 0;
+};
+/// A .pvd: when to show which file.
+void write_collection(const std::filesystem::path&, const std::vector<CollectedFile>&);
 
 /// What kind of thing a drawn line is; written as the cell field `part` and named in field data.
 enum class Part { link, joint, journal, bearing, spring, guide, trace };
@@ -41,42 +48,69 @@ struct DrawnForce {
   int owner = 0;              ///< index into Drawing::owners
 };
 
+/// A flexible body of a frame: its grid as it is drawn, with fields on its points.
+struct DrawnBody {
+  std::string name;
+  Eigen::Matrix2Xd points;  ///< deformed, world axes [m]
+  std::vector<Cells> cells;
+  std::vector<Field> fields;
+};
+
 /// One frame of an animation.
 struct Drawing {
   double t = 0;             ///< [s]
   double exaggeration = 1;  ///< drawn clearance over true clearance
+  double deformation = 1;   ///< drawn deformation of the flexible bodies over the true one
   std::vector<std::string>
       owners;  ///< names of bodies, joints and contacts; the same in each frame
   std::vector<DrawnLine> lines;
   std::vector<DrawnForce> forces;
+  std::vector<DrawnBody> bodies;  ///< flexible ones; the same, with the same cells, in each frame
 };
 
-/// Writes `frames/NNNNN.vtu` (one a drawing) and `mechanism.pvd` (their times) under a directory;
-/// ParaView opens the second. The one pair of files of the library that knows VTK.
+/// Writes `frames/NNNNN.vtu` (the lines of a drawing), `frames/BODY_NNNNN.vtu` (a flexible body of
+/// it) and `mechanism.pvd` (their times) under a directory; ParaView opens the last. The one pair
+/// of files of the library that knows VTK.
 ///
-/// A frame is an unstructured grid, z = 0: a polyline for each line, then a vertex for each force.
+/// The lines are an unstructured grid, z = 0: a polyline for each line, then a vertex for each
+/// force; part 0 of the collection.
 ///
-/// | field                    | on     | what |
-/// |--------------------------|--------|-----------------------------------------------------------|
+/// | field                    | on     | what                                                     |
+/// |--------------------------|--------|----------------------------------------------------------|
 /// | `part`                   | cells  | the Part as a number, one past the last Part for a force |
-/// | `owner`                  | cells  | index into `owners` | | `force [N]`              | points
-/// | vector; zero except at a force's vertex                   | | `parts`, `owners`        | frame
-/// | the names of the two numberings                           | | `TimeValue`              | frame
-/// | t [s]                                                     | | `clearance exaggeration` | frame
-/// | drawn clearance over true clearance                       |
+/// | `owner`                  | cells  | index into `owners`                                      |
+/// | `force [N]`              | points | vector; zero except at a force's vertex                  |
+/// | `parts`, `owners`        | frame  | the names of the two numberings                          |
+/// | `TimeValue`              | frame  | t [s]                                                    |
+/// | `clearance exaggeration` | frame  | drawn clearance over true clearance                      |
 ///
-/// Every file appears whole or not at all.
+/// A body is its own grid with its own fields in single precision (points in double), parts 1, 2, …
+/// in the order of the drawing:
+///
+/// | field                      | on     | what                                  |
+/// |----------------------------|--------|---------------------------------------|
+/// | those of DrawnBody         | points | a field of 2 rows gets z = 0          |
+/// | `body`                     | frame  | its name                              |
+/// | `TimeValue`                | frame  | t [s]                                 |
+/// | `deformation exaggeration` | frame  | drawn deformation over the true one   |
+///
+/// BODY is the name with all but ASCII letters, digits, `.`, `-` and `_` replaced by `_`, and a
+/// number after it where two would be the same. Every file appears whole or not at all.
 /// @throws std::runtime_error  naming the path that cannot be written
 class FrameWriter {
  public:
   /// Makes `directory` and `directory/frames` where they are missing.
   explicit FrameWriter(std::filesystem::path directory);
+  ~FrameWriter();
   void add(const Drawing& drawing);
   void finish();  ///< writes mechanism.pvd; what was added before is kept even if never called
 
  private:
+  struct Bodies;  ///< what of the bodies is the same in each frame
   std::filesystem::path directory_;
-  std::vector<std::pair<double, std::string>> frames_;
+  int frames_ = 0;
+  std::vector<CollectedFile> files_;
+  std::unique_ptr<Bodies> bodies_;
 };
 
 }  // namespace pintle

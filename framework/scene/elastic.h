@@ -23,6 +23,8 @@ struct SceneMaterial {
 
 enum class BeamTheory { euler, timoshenko };
 
+inline constexpr int default_beam_elements = 20;
+
 /// A beam along straight pieces between points of the body.
 struct SceneBeam {
   std::vector<std::string> through;  ///< names of points, two or more, in order
@@ -34,7 +36,7 @@ struct SceneBeam {
   bool bar = false;    ///< bars: axial only, pinned at every node
   SceneMaterial material;
   std::optional<double> mass;  ///< scales the density so that the body has this mass [kg]
-  int elements = 0;            ///< over the whole length, shared by length; 0: 20
+  int elements = 0;            ///< over the whole length, shared by length; 0: the default
   int pieces = 1;              ///< floating frames it is cut into, welded to each other
 };
 

@@ -186,6 +186,12 @@ Json json(const OutputOptions& output, const Scene& scene) {
   else if (scene.has_run)
     out["every"] = scene.run.until / 1000;
   if (output.exaggerate > 0) out["exaggerate"] = output.exaggerate;
+  if (output.deformation > 0)
+    out["deformation"] = output.deformation;
+  else
+    out["deformation"] = "auto";
+  for (const PointRef& ref : output.points) out["points"].push_back(json(ref));
+  for (const PointRef& ref : output.stress) out["stress"].push_back(json(ref));
   return out;
 }
 

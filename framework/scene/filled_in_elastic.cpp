@@ -123,7 +123,7 @@ Json json(const SceneModes& modes) {
   if (modes.keep.count) keep["count"] = *modes.keep.count;
   if (modes.keep.below) keep["below"] = *modes.keep.below;
   if (modes.keep.effective_mass) keep["effective mass"] = *modes.keep.effective_mass;
-  if (keep.empty()) keep["keep"] = "all";
+  if (keep.empty()) keep["keep"] = modes.keep.automatic ? "auto" : "all";
   Json out = Json::object();
   if (modes.frame == Frame::mean_axes)
     out["frame"] = "mean axes";
@@ -147,6 +147,18 @@ Json json(const SceneDamping& damping) {
     return {
         {"rayleigh", {{"ratios", *damping.rayleigh_ratios}, {"modes", damping.rayleigh_modes}}}};
   return {{"ratios", damping.ratios}};
+}
+
+const char* json(Stiffening loads) {
+  switch (loads) {
+    case Stiffening::rotation:
+      return "rotation";
+    case Stiffening::axial:
+      return "axial";
+    case Stiffening::none:
+      break;
+  }
+  return "none";
 }
 
 Json json(const SceneSupport& support) {
@@ -198,8 +210,12 @@ Json json(const SceneElastic& elastic) {
     append(lumps, l.at, {{"mass", l.mass}, {"inertia", l.inertia}});
   Json& supports = out["supports"] = Json::object();
   for (const SceneSupport& s : elastic.supports) append(supports, s.at, json(s));
-  if (elastic.modes) out["modes"] = json(*elastic.modes);
   if (elastic.damping) out["damping"] = json(*elastic.damping);
+  if (!elastic.modes) return out;
+  out["modes"] = json(*elastic.modes);
+  out["stiffening"] = json(elastic.stiffening);
+  const auto* beam = std::get_if<SceneBeam>(&elastic.shape);
+  if (beam && !beam->bar) out["beam"]["pieces"] = beam->pieces;
   return out;
 }
 

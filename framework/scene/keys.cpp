@@ -23,7 +23,7 @@ const std::vector<Key> i_section_keys{{"height", required, "100 mm"},
                                       {"flange", required, "6 mm"}};
 const std::vector<Key> eye_keys{{"bore", required, "10 mm"}, {"outer", required, "20 mm"}};
 const std::vector<Key> keep_keys{
-    {"keep", optional, "", {"all"}}, {"count"}, {"below"}, {"effective mass"}};
+    {"keep", optional, "", {"all", "auto"}}, {"count"}, {"below"}, {"effective mass"}};
 const std::vector<std::string> element_names{"triangle3",      "triangle6",
                                              "quadrilateral4", "quadrilateral4-plain",
                                              "quadrilateral8", "quadrilateral8-reduced",
@@ -58,6 +58,7 @@ const std::vector<KeyTable>& tables() {
         {"pose"},
         {"modes"},
         {"damping"},
+        {"stiffening", optional, "", {"none", "rotation", "axial"}},
         {"mass matrix", optional, "", {"consistent", "lumped"}},
         {"lumps"},
         {"supports"}}},
@@ -81,7 +82,8 @@ const std::vector<KeyTable>& tables() {
         {"orthotropic"},
         {"density"},
         {"mass"},
-        {"elements"}}},
+        {"elements"},
+        {"pieces"}}},
       {"bodies.*.beam.section", section_keys},
       {"bodies.*.beam.section.i", i_section_keys},
       {"bodies.*.beam.taper to", section_keys},
@@ -124,7 +126,7 @@ const std::vector<KeyTable>& tables() {
         {"cells", required, "[10, 5]"}}},
       {"bodies.*.modes",
        {{"frame", optional, "", {"tangent", "chord", "mean axes"}},
-        {"keep", optional, "", {"all"}},
+        {"keep", optional, "", {"all", "auto"}},
         {"count"},
         {"below"},
         {"effective mass"},
@@ -225,7 +227,13 @@ const std::vector<KeyTable>& tables() {
         {"max steps"},
         {"ledger bound"}}},
       {"run.onset", {{"cut", required, "1e-8 m"}}},
-      {"output", {{"every"}, {"frames"}, {"exaggerate"}}}};
+      {"output",
+       {{"every"},
+        {"frames"},
+        {"exaggerate"},
+        {"deformation", optional, "", {"auto"}},
+        {"points"},
+        {"stress"}}}};
   return all;
 }
 

@@ -114,6 +114,16 @@ void read_theory(const Node& node, SceneBeam& beam) {
   }
 }
 
+int read_pieces(const Node& node, bool bar) {
+  if (bar)
+    node.fail(
+        "are welded to each other, but a bar is hinged at every node; take the theory euler or "
+        "timoshenko, or leave it out");
+  const long pieces = node.count(1);
+  if (pieces > 10'000) node.fail("is more than ten thousand bodies; ask for fewer");
+  return static_cast<int>(pieces);
+}
+
 }  // namespace
 
 SceneBeam read_beam(const Node& node, const SceneBody& body,
@@ -139,6 +149,7 @@ SceneBeam read_beam(const Node& node, const SceneBody& body,
     if (elements > 1'000'000) node.at("elements").fail("is more than a million; ask for fewer");
     beam.elements = static_cast<int>(elements);
   }
+  if (node.has("pieces")) beam.pieces = read_pieces(node.at("pieces"), beam.bar);
   return beam;
 }
 

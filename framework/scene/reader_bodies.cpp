@@ -58,8 +58,8 @@ void read_rigid(const Node& node, SceneBody& body) {
   if (node.has("center")) body.center = node.at("center").pair(dimension::length);
 }
 
-const std::vector<std::string> beside_elements{"points",      "pose",  "modes",   "damping",
-                                               "mass matrix", "lumps", "supports"};
+const std::vector<std::string> beside_elements{"points",     "pose",        "modes", "damping",
+                                               "stiffening", "mass matrix", "lumps", "supports"};
 const std::array<KindKeys, 3> body_kinds{
     {{"rigid", {"points", "pose"}}, {"beam", beside_elements}, {"plate", beside_elements}}};
 

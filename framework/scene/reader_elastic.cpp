@@ -19,7 +19,8 @@ SceneKeep read_keep(const Node& node, long least) {
     if (node.has(key)) said.push_back(key);
   if (said.size() > 1)
     node.fail("says how many shapes stay by " + listed(said, "and") + " at once; keep one of them");
-  if (node.has("keep")) node.at("keep").one_of(choices("bodies.*.modes", "keep"));
+  if (node.has("keep"))
+    keep.automatic = node.at("keep").one_of(choices("bodies.*.modes", "keep")) == "auto";
   if (node.has("count")) {
     const long count = node.at("count").count(least);
     if (count > 100'000) node.at("count").fail("is more than 100 000; ask for fewer");
@@ -80,6 +81,11 @@ SceneModes read_modes(const Node& node, const SceneBody& body) {
   return modes;
 }
 
+constexpr Rule damping_ratio{
+    [](double x) { return x >= 0 && x <= 1; },
+    "must lie between 0 and 1, where 1 is critical damping: 4 % is 0.04; what damps more than "
+    "critically is given by rayleigh: {alpha: 3 1/s, beta: 1e-5 s}"};
+
 void read_rayleigh(const Node& node, SceneDamping& damping) {
   check_keys(node, "bodies.*.damping.rayleigh");
   const bool factors = node.has("alpha") || node.has("beta");
@@ -96,7 +102,7 @@ void read_rayleigh(const Node& node, SceneDamping& damping) {
       node.at("modes").fail("belongs to ratios, not to alpha and beta; leave it out");
     return;
   }
-  const auto ratios = read_quantities(node.at("ratios"), 2, dimension::number, rule::zero_to_one,
+  const auto ratios = read_quantities(node.at("ratios"), 2, dimension::number, damping_ratio,
                                       "two damping ratios [0.02, 0.02]");
   damping.rayleigh_ratios = {ratios[0], ratios[1]};
   if (!node.has("modes")) return;
@@ -122,11 +128,25 @@ SceneDamping read_damping(const Node& node) {
   }
   const Node ratios = node.at("ratios");
   if (!ratios.is_list())
-    damping.ratios.push_back(ratios.quantity(dimension::number, rule::zero_to_one));
+    damping.ratios.push_back(ratios.quantity(dimension::number, damping_ratio));
   else
     for (const Node& item : ratios.list(1, "a ratio, or a list of one a mode: [0.01, 0.02]"))
-      damping.ratios.push_back(item.quantity(dimension::number, rule::zero_to_one));
+      damping.ratios.push_back(item.quantity(dimension::number, damping_ratio));
   return damping;
+}
+
+Stiffening read_stiffening(const Node& node) {
+  const std::string loads = node.one_of(choices("bodies.*", "stiffening"));
+  return loads == "rotation" ? Stiffening::rotation
+         : loads == "axial"  ? Stiffening::axial
+                             : Stiffening::none;
+}
+
+// What only a body that bends in a mechanism can be asked.
+[[noreturn]] void refuse_of_rigid(const Node& node) {
+  node.fail(
+      "is asked of a rigid body: without modes it does not bend in a mechanism; add for example "
+      "modes: {frame: chord, count: 4}, or leave it out");
 }
 
 std::vector<SceneLump> read_lumps(const Node& group, const SceneBody& body) {
@@ -180,6 +200,10 @@ SceneElastic read_elastic(const Node& node, const SceneBody& body,
     }
   if (node.has("modes")) out.modes = read_modes(node.at("modes"), body);
   if (node.has("damping")) out.damping = read_damping(node.at("damping"));
+  if (node.has("stiffening")) out.stiffening = read_stiffening(node.at("stiffening"));
+  if (out.modes) return out;
+  if (node.has("stiffening")) refuse_of_rigid(node.at("stiffening"));
+  if (beam && node.at("beam").has("pieces")) refuse_of_rigid(node.at("beam").at("pieces"));
   return out;
 }
 

@@ -93,6 +93,65 @@ void read_onset(const Node& node, RunOptions& run) {
   }
 }
 
+const std::vector<ScenePoint>* points_of(const std::string& body, const Scene& scene) {
+  if (body == "ground") return &scene.ground;
+  const auto found = std::ranges::find(scene.bodies, body, &SceneBody::name);
+  return found == scene.bodies.end() ? nullptr : &found->points;
+}
+
+// A point that is there; a body alone is the origin of its axes.
+PointRef read_known_point(const Node& node, const Scene& scene) {
+  const PointRef ref = read_point_ref(node);
+  const std::vector<ScenePoint>* points = points_of(ref.body, scene);
+  std::vector<std::string> known;
+  if (!points) {
+    for (const SceneBody& b : scene.bodies) known.push_back(b.name);
+    known.push_back("ground");
+    node.fail("there is no body \"" + ref.body + "\"." + did_you_mean(ref.body, known));
+  }
+  if (ref.point.empty() ||
+      std::ranges::find(*points, ref.point, &ScenePoint::name) != points->end())
+    return ref;
+  if (points->empty())
+    node.fail("\"" + ref.point + "\" is no point: " + ref.body + " has none; add points: {" +
+              ref.point + ": [0, 0]} to it");
+  for (const ScenePoint& p : *points) known.push_back(p.name);
+  node.fail(ref.body + " has no point \"" + ref.point + "\"." + did_you_mean(ref.point, known));
+}
+
+// Stress is where material is that deforms.
+void must_have_stress(const Node& node, const PointRef& ref, const Scene& scene) {
+  const auto body = std::ranges::find(scene.bodies, ref.body, &SceneBody::name);
+  if (body == scene.bodies.end())
+    node.fail("the ground has no stress; name a point of a body with modes");
+  if (!body->elastic || !body->elastic->modes)
+    node.fail(ref.body + " is rigid in a mechanism and has no stress; give it " +
+              (body->elastic ? "" : "a beam or a plate, and ") + "modes, or leave the point out");
+  if (ref.point.empty())
+    node.fail("is a body; name the point whose stress is meant: " + ref.body + "." +
+              (body->points.empty() ? "A" : body->points.front().name));
+  const ScenePoint& point = *std::ranges::find(body->points, ref.point, &ScenePoint::name);
+  if (!point.hole.empty())
+    node.fail("is the middle of a hole, where no material is; name a point of the plate itself");
+}
+
+std::vector<PointRef> read_output_points(const Node& node, const Scene& scene) {
+  std::vector<PointRef> refs;
+  for (const Node& item : node.list(1, "a list of points [coupler.M, rocker.D]")) {
+    PointRef ref = read_known_point(item, scene);
+    for (const PointRef& other : refs)
+      if (other.body == ref.body && other.point == ref.point)
+        item.fail(item.shown() + " stands there twice; leave one out");
+    refs.push_back(std::move(ref));
+  }
+  return refs;
+}
+
+double read_deformation(const Node& node) {
+  if (node.is_scalar() && node.text("auto or a number") == "auto") return 0;
+  return node.quantity(dimension::number, rule::positive);
+}
+
 }  // namespace
 
 void read_start(const Node& root, Scene& scene) {
@@ -135,6 +194,13 @@ void read_output(const Node& root, Scene& scene) {
     output.frames = static_cast<int>(frames);
   }
   read_optional(node, "exaggerate", dimension::number, rule::positive, output.exaggerate);
+  if (node.has("deformation")) output.deformation = read_deformation(node.at("deformation"));
+  if (node.has("points")) output.points = read_output_points(node.at("points"), scene);
+  if (!node.has("stress")) return;
+  output.stress = read_output_points(node.at("stress"), scene);
+  const auto items = node.at("stress").list(1, "a list of points");
+  for (std::size_t i = 0; i < items.size(); ++i)
+    must_have_stress(items[i], output.stress[i], scene);
 }
 
 }  // namespace pintle

@@ -8,7 +8,7 @@
 
 #include "framework/run/body_drawing.h"
 #include "framework/run/modes.h"
-#include "framework/run/rigid_bodies.h"
+#include "framework/run/build.h"
 #include "framework/run/static_case.h"
 #include "framework/scene/error.h"
 #include "framework/scene/reader.h"
@@ -100,14 +100,16 @@ TEST(Body, GivenMassSetsTheDensity) {
 }
 
 TEST(Body, WithoutModesIsRigidInAMechanismWithTheInertiaOfItsShape) {
-  Scene scene = read_scene_text(plate("link: {eye bar: {length: 0.2, width: 0.03, eyes: [{bore: 0.03, outer: 0.06}, {bore: 0.02, outer: 0.04}]}}",
+  const Scene scene = read_scene_text(plate("link: {eye bar: {length: 0.2, width: 0.03, eyes: [{bore: 0.03, outer: 0.06}, {bore: 0.02, outer: 0.04}]}}",
                                       "    points: {A: {hole: eye 1}, B: {hole: eye 2}}\n"), "t");
-  fill_rigid_bodies(scene);
-  EXPECT_NEAR(scene.bodies[0].points[1].at[0], 0.2, 1e-9);
-  EXPECT_GT(scene.bodies[0].mass, 0.4);
-  EXPECT_LT(scene.bodies[0].mass, 8000 * 0.01 * (0.2 * 0.03 + std::numbers::pi / 4 * (0.06 * 0.06 + 0.04 * 0.04)));
-  EXPECT_GT(scene.bodies[0].center[0], 0.03);
-  EXPECT_LT(scene.bodies[0].center[0], 0.1);
+  const Model model = build(scene);
+  const Body& body = model.system.bodies[0];
+  EXPECT_EQ(model.system.n(), 3);
+  EXPECT_NEAR(model.outlines[0][1].x() - body.x_BO.x(), 0.2, 1e-9);
+  EXPECT_GT(body.m, 0.4);
+  EXPECT_LT(body.m, 8000 * 0.01 * (0.2 * 0.03 + std::numbers::pi / 4 * (0.06 * 0.06 + 0.04 * 0.04)));
+  EXPECT_LT(body.x_BO.x(), -0.03);
+  EXPECT_GT(body.x_BO.x(), -0.1);
 }
 
 TEST(Body, RepeatedFrequenciesOfASymmetricRingComeInPairs) {

@@ -11,7 +11,18 @@ TEST(BadModes, ModesAreJudged) {
        "below: 5 kHz, count: 3",
        "scene.yaml:24: bodies.mast.modes: ",
        {"count and below at once"}},
-      {"keep: all", "keep: some", "scene.yaml:10: bodies.coupler.modes.keep: ", {"must be all"}},
+      {"keep: all",
+       "keep: some",
+       "scene.yaml:10: bodies.coupler.modes.keep: ",
+       {"must be all or auto"}},
+      {"keep: all",
+       "keep: auto, count: 3",
+       "scene.yaml:10: bodies.coupler.modes: ",
+       {"keep and count at once"}},
+      {"craig-bampton: {below: 8 kHz}",
+       "craig-bampton: {below: 8 kHz, keep: auto}",
+       "scene.yaml:37: bodies.rocker.modes.craig-bampton: ",
+       {"keep and below at once"}},
       {"below: 5 kHz",
        "below: -5 kHz",
        "scene.yaml:24: bodies.mast.modes.below: ",
@@ -56,6 +67,50 @@ TEST(BadModes, ModesAreJudged) {
   });
 }
 
+TEST(BadModes, StiffeningAndPiecesAreForBodiesThatBend) {
+  const std::string rod = with_beam("section: {circle: 1 mm}, " + steel_keys);
+  const std::string modes = "    modes: {count: 2}\n";
+  const std::string stiffening = "scene.yaml:5: bodies.rod.stiffening: ";
+  expect_one_line(refusal_of(rod + "    stiffening: axial\n"), stiffening,
+                  {"asked of a rigid body", "modes: {frame: chord, count: 4}"});
+  expect_one_line(refusal_of(rod + "    stiffening: axail\n" + modes), stiffening,
+                  {"none, rotation or axial", "Did you mean \"axial\"?"});
+  expect_one_line(refusal_of("bodies: {b: {rigid: {mass: 1, inertia: 1}, stiffening: axial}}\n"),
+                  "scene.yaml:1: bodies.b.stiffening: ", {"does not belong to rigid"});
+  const auto pieces = [&](const std::string& keys) {
+    return with_beam("section: {circle: 1 mm}, " + keys + ", " + steel_keys);
+  };
+  const std::string place = "scene.yaml:3: bodies.rod.beam.pieces: ";
+  expect_one_line(refusal_of(pieces("pieces: 8")), place, {"asked of a rigid body", "modes"});
+  expect_one_line(refusal_of(pieces("pieces: 0") + modes), place, {"at least 1"});
+  expect_one_line(refusal_of(pieces("pieces: 2.5") + modes), place, {"whole number"});
+  expect_one_line(refusal_of(pieces("pieces: 20000") + modes), place, {"ten thousand"});
+  expect_one_line(refusal_of(pieces("pieces: 8, theory: bar") + modes), place,
+                  {"hinged at every node", "euler or timoshenko"});
+}
+
+TEST(BadModes, StressIsRecordedWhereMaterialDeforms) {
+  const auto said = [](const std::string& point) {
+    return refusal_of(elastic_scene + "output: {stress: [coupler.B, " + point + "]}\n");
+  };
+  const std::string place = "scene.yaml:53: output.stress[2]: ";
+  expect_one_line(said("coupler.Q"), place, {"coupler has no point \"Q\"", "A or B"});
+  expect_one_line(said("couple.A"), place, {"Did you mean \"coupler\"?"});
+  expect_one_line(said("rocker.C"), place, {"middle of a hole", "of the plate itself"});
+  expect_one_line(said("mast"), place, {"is a body", "mast.foot"});
+  expect_one_line(said("ground"), place, {"the ground has no stress"});
+  expect_one_line(said("coupler.B"), place, {"stands there twice"});
+  const auto of_rigid = [](const std::string& body) {
+    return refusal_of("bodies:\n  b: {" + body + ", points: {A: [0, 0], B: [1, 0]}}\n" +
+                      "output: {stress: [b.A]}\n");
+  };
+  const std::string first = "scene.yaml:3: output.stress[1]: ";
+  expect_one_line(of_rigid("rigid: {mass: 1, inertia: 1}"), first,
+                  {"b is rigid", "a beam or a plate, and modes"});
+  expect_one_line(of_rigid("beam: {from: A, to: B, section: {circle: 1}, " + steel_keys + "}"),
+                  first, {"b is rigid", "give it modes"});
+}
+
 TEST(BadModes, HzStaysRefusedWhereRadiansCount) {
   expect_refused({{"spin: 3000 rpm",
                    "spin: 50 Hz",
@@ -72,7 +127,15 @@ TEST(BadModes, DampingIsJudged) {
       {"ratios: 0.02}",
        "ratios: 2}",
        "scene.yaml:38: bodies.rocker.damping.ratios: ",
-       {"between 0 and 1"}},
+       {"between 0 and 1", "4 % is 0.04", "rayleigh: {alpha:"}},
+      {"ratios: [0.04, 0.03]",
+       "ratios: [4, 3]",
+       "scene.yaml:11: bodies.coupler.damping.rayleigh.ratios[1]: ",
+       {"4 % is 0.04"}},
+      {"ratios: [0.01, 0.02]",
+       "ratios: [0.01, 1.2]",
+       "scene.yaml:43: bodies.sheet.damping.ratios[2]: ",
+       {"4 % is 0.04"}},
       {"ratios: 0.02}", "}", "scene.yaml:38: bodies.rocker.damping: ", {"rayleigh or ratios"}},
       {"modes: [1, 3]",
        "modes: [3, 3]",

@@ -228,6 +228,22 @@ TEST(BadScene, BombsAndDepthDoNotHang) {
   expect_says(refusal_of(std::string(200'000, '{')), {"scene.yaml:1:"});
 }
 
+TEST(BadScene, PointsOfTheOutputMustBeThere) {
+  const std::string place = "scene.yaml:35: output.points[2]: ";
+  const std::string whole = "frames: 200";
+  expect_refused({
+      {whole, "points: [ground, crank.AA]", place, {"crank has no point \"AA\"", "\"A\""}},
+      {whole, "points: [ground, cranc.A]", place, {"no body \"cranc\"", "\"crank\""}},
+      {whole, "points: [ground, slider.A]", place, {"slider has none", "points: {A: [0, 0]}"}},
+      {whole, "points: [ground, ground.A]", place, {"ground has none"}},
+      {whole, "points: [crank.A, crank.A]", place, {"stands there twice"}},
+      {whole, "points: crank.A", "scene.yaml:35: output.points: ", {"a list of points"}},
+      {whole, "points: []", "scene.yaml:35: output.points: ", {"a list of points"}},
+      {whole, "deformation: 0", "scene.yaml:35: output.deformation: ", {"greater than 0"}},
+      {whole, "deformation: 2 mm", "scene.yaml:35: output.deformation: ", {"a length [m]"}},
+  });
+}
+
 std::string refusal_of_file(const fs::path& file) {
   try {
     read_scene(file);

@@ -170,6 +170,45 @@ TEST(ElasticReader, FillsModes) {
   EXPECT_EQ(elastic(free, 3).modes->keep.count, 6);
 }
 
+TEST(ElasticReader, KeepsAutomaticallyOnlyWhereAsked) {
+  EXPECT_FALSE(elastic(whole(), 0).modes->keep.automatic) << "keep: all";
+  EXPECT_FALSE(elastic(whole(), 1).modes->keep.automatic) << "below";
+  const auto keep = [](const std::string& from, const std::string& to, std::size_t body) {
+    const Scene scene = read_scene_text(spoiled(from, to), "scene.yaml");
+    EXPECT_EQ(read_scene_text(scene.filled_in, "again.json").filled_in, scene.filled_in) << to;
+    return elastic(read_scene_text(scene.filled_in, "again.json"), body).modes->keep;
+  };
+  EXPECT_TRUE(keep("keep: all", "keep: auto", 0).automatic);
+  EXPECT_TRUE(keep("craig-bampton: {below: 8 kHz}", "craig-bampton: {keep: auto}", 2).automatic);
+  const SceneKeep free = keep("effective mass: 0.95", "free: {keep: auto}", 3);
+  EXPECT_TRUE(free.automatic);
+  EXPECT_FALSE(free.count || free.below || free.effective_mass);
+}
+
+TEST(ElasticReader, FillsStiffeningAndPieces) {
+  EXPECT_EQ(elastic(whole(), 0).stiffening, Stiffening::none);
+  EXPECT_EQ(beam(whole(), 0).pieces, 1);
+  const auto again = [](const std::string& from, const std::string& to) {
+    const Scene scene = read_scene_text(spoiled(from, to), "scene.yaml");
+    return read_scene_text(scene.filled_in, "again.json");
+  };
+  const std::string lumped = "mass matrix: lumped";
+  EXPECT_EQ(elastic(again(lumped, "stiffening: rotation"), 0).stiffening, Stiffening::rotation);
+  EXPECT_EQ(elastic(again(lumped, "stiffening: axial"), 0).stiffening, Stiffening::axial);
+  EXPECT_EQ(elastic(again(lumped, "stiffening: none"), 0).stiffening, Stiffening::none);
+  EXPECT_EQ(beam(again("elements: 1", "elements: 1, pieces: 8"), 0).pieces, 8);
+}
+
+TEST(ElasticReader, FillsThePointsWhoseStressIsRecorded) {
+  const Scene scene = read_scene_text(
+      elastic_scene + "output: {stress: [coupler.B, rocker.tip], points: [rocker.C]}\n", "s.yaml");
+  ASSERT_EQ(scene.output.stress.size(), 2u);
+  EXPECT_EQ(scene.output.stress[1].body + scene.output.stress[1].point, "rockertip");
+  EXPECT_EQ(scene.output.stress[1].place.key, "output.stress[2]");
+  EXPECT_EQ(scene.output.points[0].point, "C") << "the middle of a hole moves, if without stress";
+  EXPECT_EQ(read_scene_text(scene.filled_in, "again.json").filled_in, scene.filled_in);
+}
+
 TEST(ElasticReader, TakesAFrequencyInTurnsOrRadiansAndKeepsItInHz) {
   const auto below = [](const std::string& text) {
     const Scene scene = read_scene_text(spoiled("5 kHz", text), "scene.yaml");

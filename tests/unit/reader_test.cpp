@@ -88,6 +88,25 @@ TEST(Reader, FillsStartRunAndOutput) {
   EXPECT_EQ(scene.output.frames, 200);
 }
 
+TEST(Reader, FillsWhatIsDrawnAndRecorded) {
+  const Scene plain = read_scene_text(slider_crank, "scene.yaml");
+  EXPECT_EQ(plain.output.deformation, 1);
+  EXPECT_TRUE(plain.output.points.empty());
+  const auto output = [](const std::string& keys) {
+    const Scene scene = read_scene_text(with("frames: 200", keys), "scene.yaml");
+    const Scene again = read_scene_text(scene.filled_in, "again.json");
+    EXPECT_EQ(again.filled_in, scene.filled_in);
+    return again.output;
+  };
+  EXPECT_EQ(output("deformation: 100").deformation, 100);
+  EXPECT_EQ(output("deformation: auto").deformation, 0);
+  const auto points = output("points: [crank.A, ground, slider]").points;
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_EQ(points[0].body + "." + points[0].point, "crank.A");
+  EXPECT_EQ(points[1].body + points[2].body, "groundslider");
+  EXPECT_TRUE(points[1].point.empty() && points[2].point.empty());
+}
+
 TEST(Reader, FilledInSceneReadsBackToTheSameScene) {
   const Scene scene = read_scene_text(slider_crank, "scene.yaml");
   const Scene again = read_scene_text(scene.filled_in, "again.json");

@@ -201,10 +201,11 @@ bodies:
   crank: {rigid: {mass: 1 kg, inertia: 0.1, center: [0, 0]}, points: {A: [10 mm, 0]}, pose: {at: [0, 0], angle: 1}}
   rod:
     beam: {from: A, to: B, section: {tube: [0.02, 0.01]}, taper to: {tube: [0.01, 5 mm]}, material: ply, mass: 1,
-           theory: timoshenko, shear factor: 5/6, rotary inertia: false, elements: 4}
+           theory: timoshenko, shear factor: 5/6, rotary inertia: false, elements: 4, pieces: 2}
     points: {A: [0, 0], B: {at: [1, 0], angle: 1}}
     modes: {frame: {chord: [A, B]}, below: 5 kHz}
     damping: {rayleigh: {ratios: [0.01, 0.02], modes: [1, 3]}}
+    stiffening: axial
     mass matrix: lumped
     lumps: {B: {mass: 0.1, inertia: 0.01}}
     supports: {A: fixed, B: [y, rotation]}
@@ -230,7 +231,7 @@ bodies:
     supports: {foot: pinned, outline: y}
   membrane:
     plate: {grid: {corners: [[0, 0], [1, 0], [1, 1], [0, 1]], cells: [4, 2]}, thickness: 1, orthotropic: {young: [1e9, 2e9, 3e9], poisson: [0.2, 0.1, 0.1], shear: 1e9}, density: 1}
-    modes: {free: {count: 3}}
+    modes: {free: {keep: auto}}
 static:
   body: bracket
   loads:
@@ -256,7 +257,7 @@ forces:
   hair: {torsion spring: [ground, crank], stiffness: 10, free angle: 1}
 start: {crank: {at: [0, 0], vx: 1, speed: 2}, pin: {eccentricity: [0, 0], speed: [0, 1]}}
 run: {until: 1, method: dopri5, constraints: partitioning, onset: {cut: 1 nm}, max steps: 10}
-output: {every: 0.1, frames: 3, exaggerate: 2}
+output: {every: 0.1, frames: 3, exaggerate: 2, deformation: auto, points: [crank.A, ground.C, rod], stress: [rod.A]}
 )";
 
 TEST(SceneSchema, AcceptsWhatTheReaderAccepts) {
@@ -303,6 +304,18 @@ TEST(SceneSchema, RefusesWithTheReader) {
       {"method: dopri5", "method: euler"},
       {"{cut: 1 nm}", "later"},
       {"frames: 3", "frames: -3"},
+      {"deformation: auto", "deformation: 0"},
+      {"points: [crank.A, ground.C, rod]", "points: crank.A"},
+      {"points: [crank.A, ground.C, rod]", "points: [rod, rod]"},
+      {"stress: [rod.A]", "stress: [rod]"},
+      {"stress: [rod.A]", "stress: []"},
+      {"pieces: 2", "pieces: 0"},
+      {"theory: timoshenko, shear factor: 5/6, rotary inertia: false, elements", "theory: bar, elements"},
+      {"    modes: {frame: {chord: [A, B]}, below: 5 kHz}\n    damping: {rayleigh: {ratios: [0.01, 0.02], modes: [1, 3]}}\n    stiffening: axial\n", ""},
+      {"    modes: {frame: tangent, keep: all}\n", "    stiffening: axial\n"},
+      {"stiffening: axial", "stiffening: all"},
+      {"free: {keep: auto}", "free: {keep: auto, count: 3}"},
+      {"  crank: {rigid", "  crank: {stiffening: none, rigid"},
       {"max steps: 10", "max steps: 1.5"},
       {"output:", "outputs:"},
       {"crank.A]", "crank.A.B]"},

@@ -3,8 +3,10 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <ostream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -62,6 +64,27 @@ vtkSmartPointer<vtkUnstructuredGrid> read(const fs::path& file) {
   return reader->GetOutput();
 }
 
+/// A square of a triangle pair and a quadrilateral, deformed and with fields.
+DrawnBody body(const std::string& name) {
+  DrawnBody b;
+  b.name = name;
+  b.points.resize(2, 6);
+  b.points << 0, 1, 1, 0, 2, 2.1, 0, 0, 1, 1, 0, 1.0 / 3;
+  b.cells = {{CellShape::triangle3, {0, 1, 2, 0, 2, 3}, {1, 2}},
+             {CellShape::quadrilateral4, {1, 4, 5, 2}, {3}}};
+  Eigen::RowVectorXd mises(6);
+  mises << 0, 1e6, 2e6, 3e6, 4e6, 5e6;
+  b.fields = {{"displacement [m]", b.points / 8}, {"von Mises [Pa]", mises}};
+  return b;
+}
+
+Drawing flexible(double t, const std::vector<std::string>& bodies) {
+  Drawing d = drawing(t);
+  d.deformation = 40;
+  for (const std::string& name : bodies) d.bodies.push_back(body(name));
+  return d;
+}
+
 vtkSmartPointer<vtkUnstructuredGrid> written(const Drawing& d) {
   const Folder folder;
   FrameWriter(folder.path).add(d);
@@ -84,6 +107,29 @@ std::vector<std::string> names(vtkUnstructuredGrid* grid, const char* name) {
     values.push_back(const_cast<vtkStringArray*>(array)->GetValue(i));
   }
   return values;
+}
+
+/// What a collection lists: time, part, file.
+struct Listed {
+  double t;
+  int part;
+  std::string file;
+  bool operator==(const Listed&) const = default;
+};
+void PrintTo(const Listed& l, std::ostream* out) {
+  *out << l.t << " part " << l.part << " " << l.file;
+}
+std::vector<Listed> listed(const fs::path& pvd) {
+  std::vector<Listed> all;
+  const auto root =
+      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
+  vtkXMLDataElement* list = root ? root->FindNestedElementWithName("Collection") : nullptr;
+  for (int i = 0; list && i < list->GetNumberOfNestedElements(); ++i) {
+    vtkXMLDataElement* entry = list->GetNestedElement(i);
+    all.push_back({std::stod(entry->GetAttribute("timestep")),
+                   std::stoi(entry->GetAttribute("part")), entry->GetAttribute("file")});
+  }
+  return all;
 }
 
 std::string failure(const std::function<void()>& f) {
@@ -152,17 +198,109 @@ TEST(FrameWriter, ListsEachFrameWithItsExactTime) {
   for (const double t : times) writer.add(drawing(t));
   writer.finish();
 
-  const auto file = vtkSmartPointer<vtkXMLDataElement>::Take(
-      vtkXMLUtilities::ReadElementFromFile((folder.path / "mechanism.pvd").c_str()));
-  ASSERT_TRUE(file);
-  vtkXMLDataElement* list = file->FindNestedElementWithName("Collection");
-  ASSERT_TRUE(list);
-  ASSERT_EQ(list->GetNumberOfNestedElements(), 3);
-  for (int i = 0; i < 3; ++i) {
-    vtkXMLDataElement* frame = list->GetNestedElement(i);
-    EXPECT_EQ(std::stod(frame->GetAttribute("timestep")), times[i]);
-    const auto grid = read(folder.path / frame->GetAttribute("file"));
+  const std::vector<Listed> frames = listed(folder.path / "mechanism.pvd");
+  ASSERT_EQ(frames.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(frames[i].t, times[i]);
+    const auto grid = read(folder.path / frames[i].file);
     EXPECT_EQ(grid->GetFieldData()->GetArray("TimeValue")->GetTuple1(0), times[i]);
+  }
+}
+
+TEST(FlexibleFrame, KeepsPlacesExactlyAndCellsOfEachShape) {
+  const Folder folder;
+  FrameWriter(folder.path).add(flexible(0.1, {"plate"}));
+  const auto grid = read(folder.path / "frames/plate_00000.vtu");
+  const DrawnBody b = body("plate");
+  ASSERT_EQ(grid->GetNumberOfPoints(), 6);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(grid->GetPoint(i)[0], b.points(0, i));
+    EXPECT_EQ(grid->GetPoint(i)[1], b.points(1, i));
+    EXPECT_EQ(grid->GetPoint(i)[2], 0);
+  }
+  ASSERT_EQ(grid->GetNumberOfCells(), 3);
+  const std::vector<std::pair<int, std::vector<int>>> cells{
+      {VTK_TRIANGLE, {0, 1, 2}}, {VTK_TRIANGLE, {0, 2, 3}}, {VTK_QUAD, {1, 4, 5, 2}}};
+  for (int c = 0; c < 3; ++c) {
+    const auto& [type, nodes] = cells[static_cast<std::size_t>(c)];
+    EXPECT_EQ(grid->GetCellType(c), type);
+    ASSERT_EQ(grid->GetCell(c)->GetNumberOfPoints(), static_cast<vtkIdType>(nodes.size()));
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      EXPECT_EQ(grid->GetCell(c)->GetPointId(static_cast<int>(k)), nodes[k]);
+  }
+}
+
+TEST(FlexibleFrame, CarriesItsFieldsInSinglePrecisionAndWhoAndWhenItIs) {
+  const Folder folder;
+  FrameWriter(folder.path).add(flexible(0.1, {"plate"}));
+  const auto grid = read(folder.path / "frames/plate_00000.vtu");
+  const DrawnBody b = body("plate");
+  vtkDataArray* u = grid->GetPointData()->GetArray("displacement [m]");
+  vtkDataArray* mises = grid->GetPointData()->GetArray("von Mises [Pa]");
+  ASSERT_TRUE(u && mises);
+  EXPECT_EQ(u->GetDataType(), VTK_FLOAT);
+  ASSERT_EQ(u->GetNumberOfComponents(), 3);
+  ASSERT_EQ(mises->GetNumberOfComponents(), 1);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(u->GetComponent(i, 0), static_cast<float>(b.points(0, i) / 8));
+    EXPECT_EQ(u->GetComponent(i, 1), static_cast<float>(b.points(1, i) / 8));
+    EXPECT_EQ(u->GetComponent(i, 2), 0);
+    EXPECT_EQ(mises->GetTuple1(i), 1e6 * i);
+  }
+  EXPECT_EQ(names(grid, "body"), std::vector<std::string>{"plate"});
+  EXPECT_EQ(grid->GetFieldData()->GetArray("TimeValue")->GetTuple1(0), 0.1);
+  EXPECT_EQ(grid->GetFieldData()->GetArray("deformation exaggeration")->GetTuple1(0), 40);
+}
+
+TEST(FlexibleFrame, OfALaterTimeHasTheSameCellsAtItsOwnPlaces) {
+  const Folder folder;
+  FrameWriter writer(folder.path);
+  for (int k = 0; k < 3; ++k) {
+    Drawing d = flexible(k, {"plate"});
+    d.bodies[0].points.array() += k;
+    d.bodies[0].fields.resize(1);
+    writer.add(d);
+  }
+  const auto first = read(folder.path / "frames/plate_00000.vtu");
+  const auto last = read(folder.path / "frames/plate_00002.vtu");
+  EXPECT_EQ(last->GetNumberOfCells(), 3);
+  EXPECT_EQ(last->GetCell(2)->GetPointId(1), 4);
+  EXPECT_EQ(first->GetPoint(5)[1], 1.0 / 3);
+  EXPECT_EQ(last->GetPoint(5)[1], 1.0 / 3 + 2);
+  EXPECT_EQ(last->GetPointData()->GetNumberOfArrays(), 1);
+}
+
+TEST(FlexibleFrame, IsListedAsAPartBesideTheLines) {
+  const Folder folder;
+  FrameWriter writer(folder.path);
+  writer.add(flexible(0, {"crank", "rod"}));
+  writer.add(flexible(0.5, {"crank", "rod"}));
+  writer.finish();
+  const std::vector<Listed> expected{
+      {0, 0, "frames/00000.vtu"},         {0, 1, "frames/crank_00000.vtu"},
+      {0, 2, "frames/rod_00000.vtu"},     {0.5, 0, "frames/00001.vtu"},
+      {0.5, 1, "frames/crank_00001.vtu"}, {0.5, 2, "frames/rod_00001.vtu"}};
+  EXPECT_EQ(listed(folder.path / "mechanism.pvd"), expected);
+}
+
+TEST(FlexibleFrame, HasAFileOfItsOwnWhateverItsBodyIsCalled) {
+  const Folder folder;
+  FrameWriter writer(folder.path);
+  const std::vector<std::string> bodies{"piston rod", "piston/rod", "Piston_rod", "../../up",
+                                        "<&\">",      "Kurbel ü",   "",           "_2"};
+  writer.add(flexible(0, bodies));
+  writer.finish();
+  const std::vector<Listed> files = listed(folder.path / "mechanism.pvd");
+  ASSERT_EQ(files.size(), bodies.size() + 1);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const std::string& file = files[b + 1].file;
+    EXPECT_EQ(file.find_first_not_of(
+                  "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./"),
+              std::string::npos)
+        << file;
+    EXPECT_EQ(fs::path(file).parent_path(), "frames");
+    ASSERT_TRUE(fs::is_regular_file(folder.path / file)) << file;
+    EXPECT_EQ(names(read(folder.path / file), "body"), std::vector<std::string>{bodies[b]});
   }
 }
 

@@ -1,0 +1,129 @@
+#include "framework/component/foreshortening.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "framework/component/assembly.h"
+#include "framework/component/factor.h"
+#include "framework/component/reduction.h"
+#include "framework/component/statics.h"
+
+namespace pintle {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Loads with the reactions of the tie or, under mean axes, the inertia of the acceleration that
+/// they cause. The adjoint of `tied`: on any motion they do the work of f on that motion tied.
+MatrixXd in_equilibrium(const Component& c, const FrameTie& tie, const MatrixXd& loads) {
+  const MatrixXd B = tie_rows(c, tie);
+  const Eigen::MatrixX3d r = scaled_rigid_motions(c.model);
+  const Eigen::Matrix3d rB = (B * r).transpose();
+  return loads - B.transpose() * rB.fullPivLu().solve(r.transpose() * loads);
+}
+
+/// Displacement, but for a rigid motion, under loads in equilibrium: three freedoms that hold the
+/// body well carry nothing. Nodal.
+MatrixXd response(const Component& c, const MatrixXd& loads) {
+  const MatrixXd motions = scaled_rigid_motions(c.model).transpose();
+  const auto order = motions.colPivHouseholderQr().colsPermutation().indices();
+  const std::vector<int> moving = free_freedoms(c.model, {{order[0], order[1], order[2]}});
+  Factor held;
+  if (!held.compute(restricted(c.K, moving)))
+    throw std::runtime_error(
+        "foreshortening: parts of the body are not joined, or a part of it moves without "
+        "resistance; join them with elements that resist");
+  const MatrixXd moving_loads = loads(moving, Eigen::all);
+  MatrixXd u = MatrixXd::Zero(loads.rows(), loads.cols());
+  u(moving, Eigen::all) = held.solve(moving_loads);
+  return nodal(c.model, u);
+}
+
+/// A rim that moves as a rigid ring about its port.
+struct RigidRim {
+  Eigen::Index port;
+  std::vector<int> at;  // first freedom of each of its nodes
+  Eigen::Matrix2Xd r;   // from the port to each
+};
+
+/// A rigid coupling gives both displacements of each of its nodes; an averaging one gives three
+/// freedoms in all, so that it leaves a node one of two.
+std::vector<RigidRim> rigid_rims(const FeModel& model) {
+  std::vector<RigidRim> rims;
+  for (std::size_t p = 0; model.L.size() > 0 && p < model.ports.size(); ++p) {
+    const Port& port = model.ports[p];
+    RigidRim rim{static_cast<Eigen::Index>(p), {}, {}};
+    std::vector<int> nodes;
+    bool rigid = true;
+    for (Sparse::InnerIterator l(model.L, port.freedom[0]); rigid && l; ++l) {
+      const auto above = std::ranges::upper_bound(model.begin, static_cast<int>(l.row()));
+      nodes.push_back(static_cast<int>(above - model.begin.begin()) - 1);
+      rim.at.push_back(*(above - 1));
+      const int first = rim.at.back();
+      rigid = model.independent_of(first) < 0 && model.independent_of(first + 1) < 0;
+    }
+    if (!rigid) continue;
+    rim.r = model.x(Eigen::all, nodes).colwise() - port.x;
+    rims.push_back(std::move(rim));
+  }
+  return rims;
+}
+
+/// Σ r·f over a rim's nodes, f nodal.
+double virial(const RigidRim& rim, const VectorXd& f) {
+  double sum = 0;
+  for (std::size_t k = 0; k < rim.at.size(); ++k)
+    sum += rim.r.col(static_cast<Eigen::Index>(k)).dot(f.segment<2>(rim.at[k]));
+  return sum;
+}
+
+}  // namespace
+
+std::vector<MatrixXd> foreshortening(const Component& c, const FrameTie& tie,
+                                     const ModalModel& modes, const MatrixXd& loads) {
+  if (loads.rows() != c.model.n())
+    throw std::invalid_argument("foreshortening: loads of " + std::to_string(loads.rows()) +
+                                " rows, must be " + std::to_string(c.model.n()) +
+                                ", one per independent freedom");
+  const MatrixXd& phi = modes.shapes;
+  const MatrixXd u = response(c, in_equilibrium(c, tie, loads));
+  const Assembler assembler(c.model);
+  const std::vector<RigidRim> rims = rigid_rims(c.model);
+  const MatrixXd force = rims.empty() ? MatrixXd() : assembler.stiffness() * u;
+  std::vector<MatrixXd> all;
+  for (Eigen::Index k = 0; k < loads.cols(); ++k) {
+    MatrixXd F = -phi.transpose() * (assembler.geometric_stiffness(u.col(k)) * phi);
+    for (const RigidRim& rim : rims) {
+      const Eigen::RowVectorXd turn = modes.ports.row(3 * rim.port + 2);
+      F += virial(rim, force.col(k)) * turn.transpose() * turn;
+    }
+    all.push_back((F + F.transpose()) / 2);
+  }
+  return all;
+}
+
+Foreshortening inertia_foreshortening(const Component& c, const Sparse& M, const FrameTie& tie,
+                                      const ModalModel& modes) {
+  const RigidFields f = rigid_fields(c.model);
+  MatrixXd loads(c.model.n(), 4);
+  loads.col(0) = independent_load(c.model, M * f.T.col(0));
+  loads.col(1) = independent_load(c.model, M * f.T.col(1));
+  loads.col(2) = independent_load(c.model, M * f.x);
+  loads.col(3) = independent_load(c.model, M * f.R);
+  std::vector<MatrixXd> F = foreshortening(c, tie, modes, loads);
+  return {{std::move(F[0]), std::move(F[1])}, std::move(F[2]), std::move(F[3])};
+}
+
+std::array<MatrixXd, 2> port_foreshortening(const Component& c, const FrameTie& tie,
+                                            const ModalModel& modes, const Port& port) {
+  MatrixXd loads = MatrixXd::Zero(c.model.n(), 2);
+  loads(port.freedom[0], 0) = loads(port.freedom[1], 1) = 1;
+  std::vector<MatrixXd> F = foreshortening(c, tie, modes, loads);
+  return {std::move(F[0]), std::move(F[1])};
+}
+
+}  // namespace pintle

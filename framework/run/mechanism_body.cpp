@@ -1,0 +1,117 @@
+#include "framework/run/mechanism_body.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+#include "framework/component/assembly.h"
+#include "framework/component/foreshortening.h"
+#include "framework/run/elastic_parts.h"
+#include "framework/run/in_body.h"
+#include "framework/run/modes.h"
+#include "framework/scene/nearest.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Vector2d;
+
+// Inertia about the mass centre x_c instead of the origin: x − x_c, R about it.
+FlexInertia about(const Vector2d& centre, FlexInertia f) {
+  f.j -= centre.transpose() * f.S;
+  f.h += centre.y() * f.S.row(0) - centre.x() * f.S.row(1);
+  if (f.second) {
+    Foreshortening& F = *f.second;
+    F.j -= centre.x() * F.S[0] + centre.y() * F.S[1];
+    F.h += centre.y() * F.S[0] - centre.x() * F.S[1];
+  }
+  return f;
+}
+
+// The shapes must leave the frame some inertia: M − BBᵀ > 0, against the rigid body's.
+void judge_frame(const MechanismBody& b) {
+  Eigen::Matrix3Xd B(3, b.body.modes());
+  B << b.body.flex->S, b.body.flex->h;
+  const Eigen::Vector3d size(1 / std::sqrt(b.body.m), 1 / std::sqrt(b.body.m), 1 / std::sqrt(b.body.J));
+  const Eigen::Matrix3d left = Eigen::Matrix3d::Identity() - size.asDiagonal() * (B * B.transpose()) * size.asDiagonal();
+  const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(left).eigenvalues()[0];
+  if (!(least > 1e-10))
+    throw std::invalid_argument("its shapes leave the frame no inertia: the frame is tied to freedoms without mass; take the "
+                                "consistent mass matrix, rotary inertia, another frame or fewer shapes");
+}
+
+void warn_of_damping(MechanismBody& b) {
+  const auto& f = *b.body.flex;
+  for (Eigen::Index i = 0; i < f.zeta.size(); ++i)
+    if (f.zeta[i] > 1) {
+      b.warnings.push_back("\"" + b.body.name + "\": damping makes the shapes from " + std::to_string(i + 1) + " on (" +
+                           std::to_string(std::lround(f.omega[i] / (2 * std::numbers::pi))) + " Hz) over-critical, the ratio there is " +
+                           shown_number(f.zeta[i]));
+      return;
+    }
+}
+
+FlexInertia invariants(const Scene& scene, MechanismBody& b) {
+  const ElasticBody& e = b.elastic;
+  const SceneBody& body = *e.scene;
+  FlexInertia flex = flex_inertia(e.model, e.M, skew_mass_of(e), b.modes);
+  flex.zeta = damping_of(scene, body, b.modes.omega, b.modes.omega);
+  if (body.elastic->stiffening != Stiffening::none)
+    flex.second = inertia_foreshortening(component_of(e), e.M, b.tie, b.modes);
+  return about(b.centre, std::move(flex));
+}
+
+}  // namespace
+
+MechanismBody mechanism_body(const Scene& scene, const SceneBody& body) {
+  MechanismBody b{elastic_body(scene, body), {}, {}, {}, Vector2d::Zero(), {}};
+  for (const std::string& w : b.elastic.warnings) b.warnings.push_back("\"" + body.name + "\": " + w);
+  const RigidInertia inertia = rigid_inertia(b.elastic.model, b.elastic.M);
+  b.centre = inertia.c / inertia.m;
+  b.body = {body.name, inertia.m, inertia.J - inertia.c.squaredNorm() / inertia.m, -b.centre};
+  if (!(b.body.J > 0))
+    throw SceneError(scene.file, body.place, "it has no moment of inertia about its mass centre; give it more elements or rotary inertia");
+  if (!body.elastic->modes) return b;
+  b.tie = tie_of(scene, b.elastic);
+  b.modes = reduce(scene, b.elastic);
+  if (b.modes.omega.size() == 0) return b;
+  in_body(scene, body, [&] {
+    b.body.flex = invariants(scene, b);
+    judge_frame(b);
+  });
+  warn_of_damping(b);
+  return b;
+}
+
+Marker marker_of(const Scene& scene, const MechanismBody& b, int body, const PointRef& ref, bool turns) {
+  const ElasticBody& e = b.elastic;
+  const auto& ports = e.model.ports;
+  std::size_t i = 0;
+  if (ref.point.empty()) {
+    const int origin = port_at_origin(e);
+    i = origin < 0 ? ports.size() : static_cast<std::size_t>(origin);
+    if (i == ports.size() && b.body.flex)
+      throw SceneError(scene.file, ref.place, "\"" + ref.body + "\" alone is the origin of its axes, and a flexible body has no point there; name one of its points");
+    if (i == ports.size()) return {body, b.body.x_BO, 0};
+  } else {
+    while (i < ports.size() && ports[i].name != ref.point) ++i;
+    if (i == ports.size()) point_of(scene, *e.scene, ref.point, ref.place);  // says what there is
+  }
+  const Port& port = ports[i];
+  const ScenePoint& point = point_of(scene, *e.scene, port.name, ref.place);
+  Marker m{body, port.x - b.centre, ref.point.empty() ? 0 : point.angle};
+  if (!b.body.flex) return m;
+  if (turns && port.freedom[2] < 0)
+    throw SceneError(scene.file, ref.place, "\"" + ref.body + "." + port.name + "\" is a point of " + (e.plate() ? "a plate" : "a bar") +
+                                                ", which has no direction to hold or turn; " +
+                                                (e.plate() ? "take the middle of a hole, which turns with its rim" : "take a beam that bends"));
+  const auto row = 3 * static_cast<Eigen::Index>(i);
+  m.shape = b.modes.ports.middleRows<2>(row);
+  m.slope = b.modes.ports.row(row + 2);
+  if (e.scene->elastic->stiffening == Stiffening::axial)
+    m.second = port_foreshortening(component_of(e), b.tie, b.modes, port);
+  return m;
+}
+
+}  // namespace pintle

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/component/modal_model.h"
+#include "framework/dynamics/system.h"
+#include "framework/run/elastic_body.h"
+
+namespace pintle {
+
+/// A body of elements as a mechanism meets it: reduced to a few shapes if the scene says `modes`, rigid
+/// if not. Of finite-element size; gone once the mechanism is built, unless it is drawn.
+struct MechanismBody {
+  ElasticBody elastic;
+  FrameTie tie;
+  ModalModel modes;            ///< no shapes: rigid
+  Body body;                   ///< mass, inertia, invariants about the mass centre
+  Eigen::Vector2d centre;      ///< of mass, undeformed, body axes [m]
+  std::vector<std::string> warnings;
+};
+
+/// @throws SceneError  as elastic_body, reduce and damping_of; shapes that leave the frame no inertia
+MechanismBody mechanism_body(const Scene&, const SceneBody&);
+
+/// The marker of a named point; without a name, of the point at the origin.
+/// @param turns  whether what takes hold there needs a direction
+/// @throws SceneError  no such point; no point at the origin; a point of a plate, which has no direction
+Marker marker_of(const Scene&, const MechanismBody&, int body, const PointRef&, bool turns);
+
+}  // namespace pintle
