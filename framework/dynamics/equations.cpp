@@ -15,7 +15,7 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // v ← M⁻¹ v
-void multiply_inverse_mass(const System& system, const Equations& eq, VectorXd& v) {
+void multiply_inverse_mass(const System& system, Equations& eq, VectorXd& v) {
   const Index n = system.n_rigid();
   if (eq.flexible.empty()) {
     v.array() *= eq.W.array();
@@ -23,7 +23,7 @@ void multiply_inverse_mass(const System& system, const Equations& eq, VectorXd& 
   }
   for (Index b = 0; b < n / 3; ++b)
     if (eq.flexible_of[static_cast<std::size_t>(b)] < 0) v.segment<3>(3 * b).array() *= eq.W.segment<3>(3 * b).array();
-  for (const FlexibleInertia& body : eq.flexible) solve(body, v.data());
+  for (FlexibleInertia& body : eq.flexible) solve(body, v.data());
 }
 
 // v −= M⁻¹ Cqᵀ x
@@ -152,14 +152,7 @@ Equations::Equations(const System& system)
     const int n = system.bodies[b].modes();
     flexible_of.push_back(n > 0 ? static_cast<int>(flexible.size()) : -1);
     if (n == 0) continue;
-    FlexibleInertia made;
-    made.body = static_cast<int>(b);
-    made.begin = system.eta_begin[b];
-    made.n = n;
-    made.B.setZero(3, n);
-    made.j.setZero(n);
-    made.work.setZero(n);
-    flexible.push_back(made);
+    flexible.emplace_back(system, static_cast<int>(b));
   }
   for (std::size_t i = 0; i < motion.size(); ++i)
     if (system.markers[i].body != ground) motion[i].flex.setZero(2, system.bodies[at(system.markers[i].body)].modes());
@@ -174,6 +167,9 @@ Equations::Equations(const System& system)
       }
   }
   B_hat = B;
+  B_eta_hat = B_eta;
+  for (const Side& side : sides)
+    if (side.flexible >= 0 && flexible[at(side.flexible)].stiffens) B_eta_hat[side.block].setZero(3, flexible[at(side.flexible)].n + 3);
   W.resize(system.n_rigid());
   for (std::size_t b = 0; b < system.bodies.size(); ++b)
     W.segment<3>(static_cast<Index>(3 * b)) << 1 / system.bodies[b].m, 1 / system.bodies[b].m,
@@ -219,7 +215,7 @@ void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
       B(i, 2) = L(i, 2) - L(i, 0) * d.y() + L(i, 1) * d.x();
     }
     if (side.flexible < 0) continue;
-    Schur::Flex& B_eta = eq.B_eta[side.block];
+    RowBlock& B_eta = eq.B_eta[side.block];
     const Eigen::Matrix2Xd& flex = eq.motion[at(side.marker)].flex;
     for (int i = 0; i < side.m; ++i)
       B_eta.row(i) = L(i, 0) * flex.row(0) + L(i, 1) * flex.row(1) + L(i, 2) * system.markers[at(side.marker)].slope;
@@ -255,18 +251,17 @@ void factor(const System& system, const VectorXd& y, Equations& eq) {
   }
   if (!eq.regular) return;
   if (eq.flexible.empty()) {
-    eq.regular = eq.schur.factor(eq.B, eq.B_eta);
+    eq.regular = eq.schur.factor(eq.B, eq.B_eta_hat);
     return;
   }
-  for (const Equations::Side& side : eq.sides) {  // Cq M⁻¹ Cqᵀ = B̂ B̂ᵀ + B_η B_ηᵀ
+  for (const Equations::Side& side : eq.sides) {  // Cq M⁻¹ Cqᵀ = B̂ B̂ᵀ + B̂_η B̂_ηᵀ
     eq.B_hat[side.block] = eq.B[side.block];
     if (side.flexible < 0) continue;
-    const FlexibleInertia& body = eq.flexible[at(side.flexible)];
-    Eigen::Matrix3d rest = eq.B[side.block];
-    rest.noalias() -= eq.B_eta[side.block] * body.B.transpose();
-    eq.B_hat[side.block].noalias() = rest * body.root;
+    Eigen::Matrix3d B_hat;
+    to_metric(eq.flexible[at(side.flexible)], eq.B[side.block], eq.B_eta[side.block], B_hat, eq.B_eta_hat[side.block]);
+    eq.B_hat[side.block] = B_hat;
   }
-  eq.regular = eq.schur.factor(eq.B_hat, eq.B_eta);
+  eq.regular = eq.schur.factor(eq.B_hat, eq.B_eta_hat);
 }
 
 MovingPoint moving_point(const System& system, int marker, const VectorXd& y) {

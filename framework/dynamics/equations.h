@@ -34,8 +34,9 @@ struct Equations {
   std::vector<MarkerMotion> motion;   ///< of each marker
   std::vector<ConstraintRows> rows;   ///< of each joint, in poses of its markers
   std::vector<Schur::Block> B;        ///< rows of Cq, two blocks a joint: L J on [x y θ] …
-  std::vector<Schur::Flex> B_eta;     ///< … and on η; empty for a rigid body
-  std::vector<Schur::Block> B_hat;    ///< B without what the shapes take over, in the metric of M⁻¹
+  std::vector<RowBlock> B_eta;        ///< … and on η; empty for a rigid body
+  std::vector<Schur::Block> B_hat;    ///< both in the metric of M⁻¹: see to_metric
+  std::vector<RowBlock> B_eta_hat;
   Schur schur;
   Eigen::VectorXd C;                  ///< position violation [m or rad], n_rows
   Eigen::VectorXd Cdot;               ///< velocity violation Cq s + Ct, n_rows

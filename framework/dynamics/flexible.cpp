@@ -29,54 +29,142 @@ Vector2d first_moment(const FlexInertia& f, const Part& eta) {
   return w;
 }
 
+// [m 1, ZAw; ·, J]
+Eigen::Matrix3d rigid_block(double m, const Vector2d& arm, double J) {
+  const Vector2d turn = perp(arm);
+  Eigen::Matrix3d M;
+  M << m, 0, turn.x(), 0, m, turn.y(), turn.x(), turn.y(), J;
+  return M;
+}
+
+void turn_columns(double c, double s, Eigen::Matrix3Xd& B) {
+  for (Index i = 0; i < B.cols(); ++i) B.col(i).head<2>() = turned(c, s, B.col(i).head<2>());
+}
+
+bool invert(const Eigen::Matrix3d& R, FlexibleInertia::Inverse& out) {
+  const Eigen::LLT<Eigen::Matrix3d> factor(R);
+  if (factor.info() != Eigen::Success) return false;
+  out.root = factor.matrixU().solve(Eigen::Matrix3d::Identity());
+  out.inverse.noalias() = out.root * out.root.transpose();
+  return out.inverse.allFinite();
+}
+
+// Forces on η of ½ zᵀM z, z = M⁻¹Bη̇, which E adds to kinetic energy, times sign: −d/dt(Bᵀz) + ∂/∂η without
+// accelerations. bend = Ḃη̇, G_rate = Gη̇.
+void add_carried(const FlexibleInertia::Part& p, const Eigen::Vector3d& bend, const Part& rate, const VectorXd& G_rate,
+                 double sign, Eigen::Ref<VectorXd> modal) {
+  const Eigen::LLT<Eigen::Matrix3d> M(p.M);
+  const Eigen::Vector3d momentum = p.B * rate, z = M.solve(momentum);
+  const Vector2d w_rate = perp(momentum.head<2>());  // Zẇ
+  const Eigen::Vector3d M_rate_z(w_rate.x() * z[2], w_rate.y() * z[2], w_rate.dot(z.head<2>()) + 2 * p.j.dot(rate) * z[2]);
+  Eigen::Vector3d rest = M.solve(bend - M_rate_z);
+  rest.head<2>() -= z[2] * perp(z.head<2>());  // Zᵀ = −Z
+  modal += (2 * sign * z[2]) * G_rate;
+  modal.noalias() -= sign * p.B.transpose() * rest;
+  modal -= (sign * z[2] * z[2]) * p.j.transpose();
+}
+
 }  // namespace
+
+FlexibleInertia::FlexibleInertia(const System& system, int i)
+    : body(i),
+      begin(system.eta_begin[static_cast<std::size_t>(i)]),
+      n(system.bodies[static_cast<std::size_t>(i)].modes()),
+      stiffens(system.bodies[static_cast<std::size_t>(i)].flex->second.has_value()),
+      work(VectorXd::Zero(n)),
+      other(work) {
+  for (Part* part : {&whole, &linear}) {
+    part->B.setZero(3, n);
+    part->j.setZero(n);
+  }
+}
 
 void evaluate_inertia(const System& system, const VectorXd& q, double c, double s, FlexibleInertia& e) {
   const Body& body = system.bodies[static_cast<std::size_t>(e.body)];
   const FlexInertia& f = *body.flex;
   const Part eta(q.data() + e.begin, e.n);
-  e.arm = turned(c, s, first_moment(f, eta));
-  e.j = f.j + eta.transpose();
-  double J = body.J + (f.j + e.j).dot(eta);  // J₀ + 2jη + ηᵀη
-  if (f.second) {  // rows S(η), h(η) first, in body axes
+  FlexibleInertia::Part& p = e.whole;
+  p.B.topRows<2>() = f.S;  // body axes for now
+  e.work.noalias() = f.G.transpose() * eta;
+  p.B.row(2) = f.h + e.work.transpose();
+  p.j = f.j + eta.transpose();
+  double J = body.J + (f.j + p.j).dot(eta);  // J₀ + 2jη + ηᵀη
+  if (e.stiffens) {
+    e.linear.B = p.B;
+    e.linear.j = p.j;
+    turn_columns(c, s, e.linear.B);
+    e.linear.M = rigid_block(body.m, turned(c, s, {f.S.row(0).dot(eta), f.S.row(1).dot(eta)}), J);
     const Foreshortening& F = *f.second;
     e.work.noalias() = F.j * eta;
-    e.j += e.work.transpose();
+    p.j += e.work.transpose();
     J += e.work.dot(eta);
-    for (Index k = 0; k < 2; ++k) {
-      e.work.noalias() = F.S[static_cast<std::size_t>(k)] * eta;
-      e.B.row(k) = f.S.row(k) + e.work.transpose();
+    const std::array<const Eigen::MatrixXd*, 3> second{&F.S[0], &F.S[1], &F.h};
+    for (Index k = 0; k < 3; ++k) {
+      e.work.noalias() = *second[static_cast<std::size_t>(k)] * eta;
+      p.B.row(k) += e.work.transpose();
     }
-    e.work.noalias() = F.h * eta;
-    e.B.row(2) = f.h + e.work.transpose();
-  } else {
-    e.B.topRows<2>() = f.S;
-    e.B.row(2) = f.h;
   }
-  e.work.noalias() = f.G.transpose() * eta;
-  e.B.row(2) += e.work.transpose();
-  for (Index i = 0; i < e.n; ++i) e.B.col(i).head<2>() = turned(c, s, e.B.col(i).head<2>());
-  const Vector2d turn = perp(e.arm);
-  e.M << body.m, 0, turn.x(), 0, body.m, turn.y(), turn.x(), turn.y(), J;
+  turn_columns(c, s, p.B);
+  e.arm = turned(c, s, first_moment(f, eta));
+  p.M = rigid_block(body.m, e.arm, J);
 }
 
 bool invert(FlexibleInertia& e) {
-  Eigen::Matrix3d R = e.M;
-  R.noalias() -= e.B * e.B.transpose();
-  const Eigen::LLT<Eigen::Matrix3d> factor(R);
-  if (factor.info() != Eigen::Success) return false;
-  e.root = factor.matrixU().solve(Eigen::Matrix3d::Identity());
-  e.inverse.noalias() = e.root * e.root.transpose();
-  return e.inverse.allFinite();
+  if (e.stiffens && !invert(e.whole.M, e.rigid)) return false;
+  const FlexibleInertia::Part& p = e.stiffens ? e.linear : e.whole;
+  Eigen::Matrix3d R = p.M;
+  R.noalias() -= p.B * p.B.transpose();
+  return invert(R, e.frame);
 }
 
-void solve(const FlexibleInertia& e, double* v) {
+// Without foreshortening the shapes are eliminated first, for their block is 1; with it the frame, for then
+// 1 − B₁ᵀM₁⁻¹B₁ is left, whose inverse is 1 + B₁ᵀ(M₁ − B₁B₁ᵀ)⁻¹B₁.
+void solve(FlexibleInertia& e, double* v) {
   Eigen::Map<Eigen::Vector3d> r(v + 3 * e.body);
   Eigen::Map<VectorXd> eta(v + e.begin, e.n);
+  const Eigen::Matrix3Xd& B = e.whole.B;
   Eigen::Vector3d left = r;
-  left.noalias() -= e.B * eta;
-  r.noalias() = e.inverse * left;
-  eta.noalias() -= e.B.transpose() * r;
+  if (!e.stiffens) {
+    left.noalias() -= B * eta;
+    r.noalias() = e.frame.inverse * left;
+    eta.noalias() -= B.transpose() * r;
+    return;
+  }
+  r.noalias() = e.rigid.inverse * left;
+  eta.noalias() -= B.transpose() * r;
+  const Eigen::Vector3d carried = e.frame.inverse * (e.linear.B * eta);
+  eta.noalias() += e.linear.B.transpose() * carried;
+  left.noalias() -= B * eta;
+  r.noalias() = e.rigid.inverse * left;
+}
+
+void to_metric(const FlexibleInertia& e, const Eigen::Matrix3d& L_r, const Eigen::Ref<const RowBlock>& L_eta,
+               Eigen::Matrix3d& B_hat, RowBlock& B_eta_hat) {
+  if (!e.stiffens) {
+    Eigen::Matrix3d rest = L_r;
+    rest.noalias() -= L_eta * e.whole.B.transpose();
+    B_hat.noalias() = rest * e.frame.root;
+    B_eta_hat = L_eta;
+    return;
+  }
+  B_hat.noalias() = L_r * e.rigid.root;
+  const Eigen::Matrix3d gain = L_r * e.rigid.inverse;
+  auto shapes = B_eta_hat.leftCols(e.n);
+  shapes = L_eta;
+  shapes.noalias() -= gain * e.whole.B;
+  const Eigen::Matrix3d carried = shapes * e.linear.B.transpose();
+  B_eta_hat.rightCols<3>().noalias() = carried * e.frame.root;
+}
+
+Eigen::MatrixXd mass_matrix(const FlexibleInertia& e) {
+  Eigen::MatrixXd M = Eigen::MatrixXd::Identity(3 + e.n, 3 + e.n);
+  M.topLeftCorner<3, 3>() = e.whole.M;
+  M.topRightCorner(3, e.n) = e.whole.B;
+  M.bottomLeftCorner(e.n, 3) = e.whole.B.transpose();
+  if (e.stiffens)
+    M.bottomRightCorner(e.n, e.n) += e.whole.B.transpose() * e.whole.M.llt().solve(e.whole.B) -
+                                     e.linear.B.transpose() * e.linear.M.llt().solve(e.linear.B);
+  return M;
 }
 
 void add_forces(const System& system, const VectorXd& y, FlexibleInertia& e, VectorXd& f) {
@@ -93,20 +181,24 @@ void add_forces(const System& system, const VectorXd& y, FlexibleInertia& e, Vec
   r[0] += body.m * g.x();
   r[1] += body.m * g.y();
   r[2] += cross(e.arm, g);
-  modal.noalias() += e.B.topRows<2>().transpose() * g;
+  const FlexibleInertia::Part& p = e.whole;
+  modal.noalias() += p.B.topRows<2>().transpose() * g;
 
   Vector2d drift;  // A S(η) η̇
-  drift.noalias() = e.B.topRows<2>() * rate;
+  drift.noalias() = p.B.topRows<2>() * rate;
   r.head<2>() += spin * spin * e.arm - 2 * spin * perp(drift);
-  r[2] -= 2 * spin * e.j.dot(rate);
-  modal += spin * spin * e.j.transpose();
+  r[2] -= 2 * spin * p.j.dot(rate);
+  modal += spin * spin * p.j.transpose();
   e.work.noalias() = flex.G * rate;
   modal += 2 * spin * e.work;
-  if (flex.second) {
+  if (e.stiffens) {
     const Foreshortening& F = *flex.second;
     const double angle = y[3 * e.body + 2];
-    r.head<2>() -= turned(std::cos(angle), std::sin(angle), {form(F.S[0], rate, rate), form(F.S[1], rate, rate)});
-    r[2] -= form(F.h, rate, rate);
+    const Vector2d along = turned(std::cos(angle), std::sin(angle), {form(F.S[0], rate, rate), form(F.S[1], rate, rate)});
+    const Eigen::Vector3d bend(along.x(), along.y(), form(F.h, rate, rate));
+    r -= bend;
+    add_carried(e.whole, bend, rate, e.work, 1, modal);
+    add_carried(e.linear, Eigen::Vector3d::Zero(), rate, e.work, -1, modal);
   }
   modal -= flex.omega.cwiseAbs2().cwiseProduct(eta) + (2 * flex.zeta).cwiseProduct(flex.omega).cwiseProduct(rate);
 }
@@ -121,17 +213,21 @@ double kinetic_energy(const System& system, const VectorXd& y, int i) {
   const int begin = system.eta_begin[static_cast<std::size_t>(i)];
   const Part eta(y.data() + begin, body.modes()), rate(y.data() + system.n() + begin, body.modes());
   const double cosine = std::cos(q[2]), sine = std::sin(q[2]);
-  const Vector2d v(s[0], s[1]), w = first_moment(f, eta);
-  Vector2d drift(f.S.row(0).dot(rate), f.S.row(1).dot(rate));
-  double J = 2 * f.j.dot(eta) + eta.squaredNorm(), h = f.h.dot(rate) + form(f.G, eta, rate);
+  const Vector2d w = first_moment(f, eta), v = turned(cosine, -sine, {s[0], s[1]});  // body axes
+  Eigen::Vector3d carried(f.S.row(0).dot(rate), f.S.row(1).dot(rate), f.h.dot(rate) + form(f.G, eta, rate));
+  double J = 2 * f.j.dot(eta) + eta.squaredNorm(), beside = 0;
   if (f.second) {
     const Foreshortening& F = *f.second;
-    drift += Vector2d(form(F.S[0], eta, rate), form(F.S[1], eta, rate));
+    const auto energy = [&](const Vector2d& arm) {
+      return carried.dot(rigid_block(body.m, arm, body.J + J).llt().solve(carried)) / 2;
+    };
+    beside -= energy({f.S.row(0).dot(eta), f.S.row(1).dot(eta)});
     J += form(F.j, eta, eta);
-    h += form(F.h, eta, rate);
+    carried += Eigen::Vector3d(form(F.S[0], eta, rate), form(F.S[1], eta, rate), form(F.h, eta, rate));
+    beside += energy(w);
   }
-  return rigid + v.dot(turned(cosine, sine, s[2] * perp(w) + drift)) + s[2] * (s[2] * J / 2 + h) +
-         rate.squaredNorm() / 2;
+  return rigid + v.dot(s[2] * perp(w) + carried.head<2>()) + s[2] * (s[2] * J / 2 + carried[2]) +
+         rate.squaredNorm() / 2 + beside;
 }
 
 double strain_energy(const System& system, const VectorXd& y, int i) {

@@ -6,29 +6,47 @@
 
 namespace pintle {
 
-/// Inertia of a flexible body at a pose: with s = [ṙ θ̇ η̇] its mass matrix is
-///   [ M  B ]
-///   [ Bᵀ 1 ],   M 3 × 3, B = [A S(η); h(η) + ηᵀG] 3 × n,
-/// and S(η), h(η) are S, h unless the body stiffens. Theory: docs/theory/motion.md, Eqs. (6)–(12) of
-/// Ebrahimi, Salahshoor, Moradi (2017).
+/// Rows on modal coordinates, three at most.
+using RowBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Inertia of a flexible body at a pose, world axes. With s = [ṙ θ̇ η̇] its mass matrix is
+///   [ M    B   ]
+///   [ Bᵀ 1 + E ],   M 3 × 3, B = [A S; h + ηᵀG] 3 × n, E = 0.
+/// Of a body that stiffens S and h have a part linear in η, and E = BᵀM⁻¹B − B₁ᵀM₁⁻¹B₁, where M₁ and
+/// B₁ are without foreshortening: what the shapes move besides carrying momentum stays as it is, which
+/// keeps the whole positive. Theory: docs/theory/motion.md, Eqs. (6)–(12) of Ebrahimi, Salahshoor,
+/// Moradi (2017).
 struct FlexibleInertia {
-  int body = 0, begin = 0, n = 0;  ///< index, first modal coordinate in q, how many
-  Eigen::Vector2d arm = Eigen::Vector2d::Zero();  ///< A w, w = ∫ρ (x + u): first moment, world axes [kg m]
-  Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3Xd B;
-  /// (M − BBᵀ)⁻¹ = root rootᵀ
-  Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero(), root = Eigen::Matrix3d::Zero();
-  Eigen::RowVectorXd j;            ///< ½ ∂J/∂η = j(η) + ηᵀ
-  Eigen::VectorXd work;
+  explicit FlexibleInertia(const System&, int body);
+
+  int body, begin, n;  ///< index, first modal coordinate in q, how many
+  bool stiffens;
+  Eigen::Vector2d arm = Eigen::Vector2d::Zero();  ///< A w, w = ∫ρ (x + u): first moment [kg m]
+  struct Part {
+    Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3Xd B;
+    Eigen::RowVectorXd j;  ///< ½ ∂J/∂η
+  } whole, linear;         ///< linear: without foreshortening, only of a body that stiffens
+  struct Inverse {         ///< and its root: inverse = root rootᵀ
+    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero(), root = Eigen::Matrix3d::Zero();
+  } frame,                 ///< (M − BBᵀ)⁻¹ without foreshortening: of the frame, shapes following freely
+      rigid;               ///< M⁻¹, only of a body that stiffens
+  Eigen::VectorXd work, other;
 };
 
-/// Fills all but the inverse. No allocation after the first call.
+/// Fills all but the inverses. No allocation here and in what follows.
 void evaluate_inertia(const System&, const Eigen::VectorXd& q, double cos, double sin, FlexibleInertia&);
-/// Fills inverse and root. @returns false if M − BBᵀ, the inertia of the frame when the shapes are free
-/// to follow, is not positive
+/// Fills the inverses. @returns false if M − BBᵀ is not positive
 bool invert(FlexibleInertia&);
-/// v ← M⁻¹ v for the body's part of v, n_q. @pre invert returned true
-void solve(const FlexibleInertia&, double* v);
+/// v ← (mass matrix)⁻¹ v for the body's part of v, n_q. @pre invert returned true
+void solve(FlexibleInertia&, double* v);
+/// Rows [L_r L_η] (m × 3, m × n) brought to B̂, B̂_η such that the rows' products in the metric of the inverse
+/// mass matrix are B̂B̂ᵀ + B̂_ηB̂_ηᵀ. B̂_η: 3 × n, or 3 × (n + 3) of a body that stiffens.
+void to_metric(const FlexibleInertia&, const Eigen::Matrix3d& L_r, const Eigen::Ref<const RowBlock>& L_eta,
+               Eigen::Matrix3d& B_hat, RowBlock& B_eta_hat);
+/// The whole mass matrix, (3 + n) × (3 + n); for those who have time.
+Eigen::MatrixXd mass_matrix(const FlexibleInertia&);
+
 /// f += the body's part: gravity, velocity-dependent inertia, elastic and damping forces.
 void add_forces(const System&, const Eigen::VectorXd& y, FlexibleInertia&, Eigen::VectorXd& f);
 

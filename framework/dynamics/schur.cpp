@@ -99,7 +99,7 @@ Schur::Schur(const System& system) : n_(system.n_rows()) {
   sparse_->factor = cholmod_analyze(&A, &sparse_->common);
 }
 
-bool Schur::factor(const std::vector<Block>& B, const std::vector<Flex>& B_eta) {
+bool Schur::factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta) {
   std::fill(values_.begin(), values_.end(), 0.0);
   const int* at = where_.data();
   for (const Pair& p : pairs_) {

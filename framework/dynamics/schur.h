@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "framework/dynamics/flexible.h"
 #include "framework/dynamics/system.h"
 
 namespace pintle {
@@ -24,13 +25,9 @@ class Schur {
   /// One side of each joint: B = L J, m × 3 in a 3 × 3 block; index 2·joint + (0 for a, 1 for b).
   using Block = ConstraintRows::Block;
 
-  /// Its part on modal coordinates, 3 × n.
-  using Flex = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
-
-  /// Sums and factors S. Of a side on a flexible body B is what is left of it when the shapes follow,
-  /// in the metric of the inertia, so that S gains B Bᵀ + B_η B_ηᵀ. @returns false if S is singular to
-  /// working precision
-  bool factor(const std::vector<Block>& B, const std::vector<Flex>& B_eta);
+  /// Sums and factors S. Sides on flexible bodies are given in the metric of M⁻¹ (to_metric).
+  /// @returns false if S is singular to working precision
+  bool factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta);
   /// μ ← S⁻¹ μ. @pre factor returned true
   void solve(Eigen::VectorXd& mu);
 

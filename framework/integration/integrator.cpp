@@ -33,6 +33,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
       before_(system.contacts.size()) {
   for (const Marker& m : system.markers)
     if (m.body != ground) reach_[at(m.body)] = std::max(reach_[at(m.body)], m.x_BP.norm());
+  for (const Body& b : system.bodies) mass_ += b.m;
   for (double& r : reach_)
     if (r == 0) r = system.length;
   fine_length_ = system.length;
@@ -105,8 +106,8 @@ double Integrator::scaled_error() {
     const auto i = n + 3 * static_cast<Index>(b);
     fastest = std::max({fastest, std::hypot(y[i], y[i + 1]), std::abs(y[i + 2]) * reach_[b]});
   }
-  const double energy = std::max(energy_, kinetic_energy(system_, y));
-  const double length = fine_length_, speed = std::max(fastest, 1e-6 * length / step_.h);
+  const double length = fine_length_, slowest = 1e-6 * length / step_.h, speed = std::max(fastest, slowest);
+  const double energy = std::max({energy_, kinetic_energy(system_, y), mass_ * slowest * slowest / 2});
   double worst = 0;
   for (Index b = 0; b < static_cast<Index>(reach_.size()); ++b) {
     const double reach = reach_[at(static_cast<int>(b))];

@@ -83,7 +83,7 @@ class Integrator {
   Node scratch_;
   State dense_;
   double h_ = 0, h_open_ = 0, h_closed_ = 0, error_before_ = 1;
-  double fastest_ = 0, energy_ = 0, fine_length_ = 1;  ///< scales of the error norm
+  double fastest_ = 0, energy_ = 0, fine_length_ = 1, mass_ = 0;  ///< scales of the error norm
   std::vector<double> reach_;      ///< per body, largest |x_BP| of its markers [m]
   std::vector<int> open_impact_;   ///< per contact, index into impacts_, −1 while open
   struct Peak { double t, force; };

@@ -145,7 +145,9 @@ Motion motion(const Model& m, const Y& y, bool touching, double latch) {
 }  // namespace
 
 Beam beam(const Params& p) {
-  Beam out{.mass = Matrix3d::Zero(), .stiffness = Matrix3d::Zero()};
+  Beam out;
+  out.mass.setZero();
+  out.stiffness.setZero();
   const double length = p.coupler;
   for (int g = 0; g < 4; ++g) {
     const double xi = gauss_at[g];
