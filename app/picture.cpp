@@ -264,7 +264,9 @@ void add_field_scale(vtkRenderer* renderer, Canvas& canvas, const View& view,
   canvas.next_layer();
   const std::string name = field.substr(0, has_unit ? unit : field.size());
   renderer->AddActor2D(words(name, View::side, y, false, ink));
-  renderer->AddActor2D(words(quantity(range.least, symbol), left - 14, y, true, ink));
+  const bool from_zero = std::abs(range.least) < 1e-6 * std::abs(range.greatest);
+  renderer->AddActor2D(
+      words(quantity(from_zero ? 0 : range.least, symbol), left - 14, y, true, ink));
   renderer->AddActor2D(words(quantity(range.greatest, symbol), right + 14, y, false, ink));
 }
 

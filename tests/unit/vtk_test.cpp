@@ -270,6 +270,16 @@ TEST(FlexibleFrame, OfALaterTimeHasTheSameCellsAtItsOwnPlaces) {
   EXPECT_EQ(last->GetPointData()->GetNumberOfArrays(), 1);
 }
 
+TEST(FlexibleFrame, OfEachBodyHasItsOwnCells) {
+  const Folder folder;
+  Drawing d = flexible(0, {"plate", "strip"});
+  d.bodies[1].cells.pop_back();
+  FrameWriter writer(folder.path);
+  for (int k = 0; k < 2; ++k) writer.add(d);
+  EXPECT_EQ(read(folder.path / "frames/plate_00001.vtu")->GetNumberOfCells(), 3);
+  EXPECT_EQ(read(folder.path / "frames/strip_00001.vtu")->GetNumberOfCells(), 2);
+}
+
 TEST(FlexibleFrame, IsListedAsAPartBesideTheLines) {
   const Folder folder;
   FrameWriter writer(folder.path);
