@@ -29,6 +29,57 @@ std::string bodies_text(const System& s) {
   return std::to_string(rigid) + " rigid" + (flexible > 0 ? ", " + text : "");
 }
 
+/// In per cent, what is nothing but rounding as 0.
+std::string percent(double part) { return number(std::abs(part) < 1e-6 ? 0 : 100 * part, 3); }
+
+/// What is kept of each flexible body.
+void print_flexible(const Model& model) {
+  std::size_t width = 4;
+  for (const FlexibleReport& r : model.flexible) width = std::max(width, r.body.size());
+  const auto line = [&](const std::vector<std::string>& cells) {
+    constexpr int widths[] = {8, 22, 16, 24, 0};
+    std::cout << "  " << std::left << std::setw(static_cast<int>(width) + 2) << cells[0];
+    for (std::size_t i = 1; i < cells.size(); ++i) std::cout << std::setw(widths[i - 1]) << cells[i];
+    std::cout << "\n";
+  };
+  line({"body", "shapes", "frequencies [Hz]", "damping", "mass x, y, rotation %", "least compliance covered %"});
+  for (const FlexibleReport& r : model.flexible)
+    line({r.body, std::to_string(r.shapes), number(r.lowest, 5) + " to " + number(r.highest, 5),
+          number(r.least_damping, 3) + (r.most_damping > r.least_damping ? " to " + number(r.most_damping, 3) : ""),
+          r.mass ? percent(r.mass->x()) + ", " + percent(r.mass->y()) + ", " + percent(r.mass->z()) : "none (mean axes)",
+          percent(r.compliance) + (r.compliance_at.empty() ? "" : " (" + r.compliance_at + ")") + "; " + r.basis});
+}
+
+/// How `keep: auto` came to its modes.
+void print_choice(const FlexibleReport& r) {
+  std::cout << "  \"" << r.body << "\": keep auto: " << r.choice->reason << "\n";
+  if (r.choice->considered.empty()) return;
+  const auto line = [](const std::vector<std::string>& cells) {
+    constexpr int widths[] = {6, 16, 21, 0};
+    std::cout << "    " << std::left;
+    for (std::size_t i = 0; i < cells.size(); ++i) std::cout << std::setw(widths[i]) << cells[i];
+    std::cout << "\n";
+  };
+  line({"mode", "frequency [Hz]", "its strain energy %", "left out after it: energy %, displacement %"});
+  int k = 0;
+  for (const ConsideredMode& m : r.choice->considered)
+    line({std::to_string(++k), number(m.frequency, 6), percent(m.energy),
+          percent(m.left_energy) + ", " + percent(m.left_displacement) + (m.kept ? "  kept" : "")});
+}
+
+void print_estimates(const Model& model) {
+  for (const FlexibleReport& r : model.flexible)
+    if (r.choice) print_choice(r);
+  if (!model.rehearsal) return;
+  const Rehearsal& run = *model.rehearsal;
+  std::cout << "  rigid run: " << (run.steps > 0 ? number(run.until, 4) + " s in " + std::to_string(run.steps) + " steps, took " + number(run.seconds, 3) + " s" : "none")
+            << (run.trouble.empty() ? "" : "; " + run.trouble) << "\n";
+  for (const FlexibleReport& r : model.flexible)
+    if (r.motion)
+      std::cout << "    \"" << r.body << "\" deflects by about " << percent(r.motion->deflection) << " % of its size, slope " << number(r.motion->slope, 3)
+                << " rad; excited up to " << number(r.motion->excited_up_to, 4) << " Hz; its loads change its first frequency by " << percent(r.motion->by_all_loads) << " %\n";
+}
+
 void print_check(const Scene& scene, const Model& model, const Assembly& a) {
   const System& s = model.system;
   std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
@@ -52,6 +103,10 @@ void print_check(const Scene& scene, const Model& model, const Assembly& a) {
               << number(effective_restitution(p.normal.chi), 4)
               << (p.friction ? ", friction " + number(p.friction->mu) : ", no friction") << "\n";
   }
+  if (!model.flexible.empty()) {
+    print_flexible(model);
+    print_estimates(model);
+  }
   for (const std::string& w : model.warnings) std::cout << "  warning: " << w << "\n";
 }
 
@@ -61,6 +116,8 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
       {"time reached", number(run.t_end) + " s"},
       {"energy at start", number(run.first.stored(), 9) + " J"},
       {"energy at end", number(run.last.stored(), 9) + " J"}};
+  for (const FlexibleReport& r : model.flexible)
+    if (r.choice) rows.emplace_back("modes of " + r.body, r.choice->reason);
   const System& s = model.system;
   for (int i = 0; i < s.n_z() && run.ledger.rows() > 0; ++i)
     rows.emplace_back("  " + integral_name(s, s.integrals[static_cast<std::size_t>(i)]),
@@ -125,7 +182,7 @@ Scene runnable(const Options& options) {
 
 int check(const Options& options) {
   const Scene scene = with_pieces(runnable(options));
-  const Model model = build(scene);
+  const Model model = build_and_rehearse(scene);
   const Assembly assembly = assemble(scene, model);
   if (options.json)
     std::cout << check_json(scene, model, assembly);

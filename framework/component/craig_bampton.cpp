@@ -50,7 +50,19 @@ Sparse columns_of_identity(int n, const std::vector<int>& which) {
   return S;
 }
 
+Modes fixed_modes(const Component& c, const std::vector<int>& interior, const Keep& keep) {
+  return held_modes(c, columns_of_identity(c.model.n(), interior), keep,
+                    "the body with its interface held");
+}
+
 }  // namespace
+
+ModalModel fixed_interface_modes(const Component& c, const std::vector<int>& ports,
+                                 const FrameTie& tie, const Keep& keep) {
+  Modes fixed = fixed_modes(c, free_freedoms(c.model, {port_freedoms(c.model, ports)}), keep);
+  fixed.shapes = tied(c, tie, fixed.shapes);
+  return modal_model(c, tie, fixed);
+}
 
 ModalModel craig_bampton(const Component& c, const std::vector<int>& ports, const FrameTie& tie,
                          const Keep& keep) {
@@ -60,8 +72,7 @@ ModalModel craig_bampton(const Component& c, const std::vector<int>& ports, cons
   if (keep.all) return normal_modes(c, tie, keep);
 
   const std::vector<int> interior = free_freedoms(c.model, {interface});
-  const Modes fixed = held_modes(c, columns_of_identity(c.model.n(), interior), keep,
-                                 "the body with its interface held");
+  const Modes fixed = fixed_modes(c, interior, keep);
   Eigen::MatrixXd V(c.model.n(), fixed.shapes.cols() + C.cols());
   V.leftCols(fixed.shapes.cols()) = fixed.shapes;
   V.rightCols(C.cols()) = static_shapes(c, interface, interior, C);

@@ -1,47 +1,15 @@
 #include "framework/component/foreshortening.h"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
 #include "framework/component/assembly.h"
-#include "framework/component/factor.h"
-#include "framework/component/reduction.h"
-#include "framework/component/statics.h"
+#include "framework/component/static_response.h"
 
 namespace pintle {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// Loads with the reactions of the tie or, under mean axes, the inertia of the acceleration that
-/// they cause. The adjoint of `tied`: on any motion they do the work of f on that motion tied.
-MatrixXd in_equilibrium(const Component& c, const FrameTie& tie, const MatrixXd& loads) {
-  const MatrixXd B = tie_rows(c, tie);
-  const Eigen::MatrixX3d r = scaled_rigid_motions(c.model);
-  const Eigen::Matrix3d rB = (B * r).transpose();
-  return loads - B.transpose() * rB.fullPivLu().solve(r.transpose() * loads);
-}
-
-/// Displacement, but for a rigid motion, under loads in equilibrium: three freedoms that hold the
-/// body well carry nothing. Nodal.
-MatrixXd response(const Component& c, const MatrixXd& loads) {
-  const MatrixXd motions = scaled_rigid_motions(c.model).transpose();
-  const auto order = motions.colPivHouseholderQr().colsPermutation().indices();
-  const std::vector<int> moving = free_freedoms(c.model, {{order[0], order[1], order[2]}});
-  Factor held;
-  if (!held.compute(restricted(c.K, moving)))
-    throw std::runtime_error(
-        "foreshortening: parts of the body are not joined, or a part of it moves without "
-        "resistance; join them with elements that resist");
-  const MatrixXd moving_loads = loads(moving, Eigen::all);
-  MatrixXd u = MatrixXd::Zero(loads.rows(), loads.cols());
-  u(moving, Eigen::all) = held.solve(moving_loads);
-  return nodal(c.model, u);
-}
 
 /// A rim that moves as a rigid ring about its port.
 struct RigidRim {
@@ -85,12 +53,8 @@ double virial(const RigidRim& rim, const VectorXd& f) {
 
 std::vector<MatrixXd> foreshortening(const Component& c, const FrameTie& tie,
                                      const ModalModel& modes, const MatrixXd& loads) {
-  if (loads.rows() != c.model.n())
-    throw std::invalid_argument("foreshortening: loads of " + std::to_string(loads.rows()) +
-                                " rows, must be " + std::to_string(c.model.n()) +
-                                ", one per independent freedom");
   const MatrixXd& phi = modes.shapes;
-  const MatrixXd u = response(c, in_equilibrium(c, tie, loads));
+  const MatrixXd u = nodal(c.model, static_response(c, tie, loads));
   const Assembler assembler(c.model);
   const std::vector<RigidRim> rims = rigid_rims(c.model);
   const MatrixXd force = rims.empty() ? MatrixXd() : assembler.stiffness() * u;

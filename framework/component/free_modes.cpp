@@ -1,41 +1,16 @@
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <stdexcept>
-
-#include "framework/component/factor.h"
 #include "framework/component/reduction.h"
-#include "framework/component/statics.h"
+#include "framework/component/static_response.h"
 
 namespace pintle {
 namespace {
 
-/// Three freedoms that hold the body, far enough apart to hold it well.
-std::vector<int> determinate_hold(const FeModel& model) {
-  const Eigen::MatrixXd motions = scaled_rigid_motions(model).transpose();
-  const auto order = motions.colPivHouseholderQr().colsPermutation().indices();
-  return {order[0], order[1], order[2]};
-}
-
 /// Elastic displacement, without momentum, of the free body under unit loads on `loaded` and the
-/// inertia of the rigid acceleration that they cause. The loads are then in equilibrium, so that
-/// the hold carries nothing.
+/// inertia of the rigid acceleration that they cause.
 Eigen::MatrixXd inertia_relief(const Component& c, const std::vector<int>& loaded) {
   Eigen::MatrixXd load =
       Eigen::MatrixXd::Zero(c.model.n(), static_cast<Eigen::Index>(loaded.size()));
   for (std::size_t k = 0; k < loaded.size(); ++k) load(loaded[k], static_cast<Eigen::Index>(k)) = 1;
-  const Eigen::MatrixX3d r = scaled_rigid_motions(c.model);
-  const Eigen::MatrixXd Mr = c.M * r;
-  const Eigen::Matrix3d inertia = r.transpose() * Mr;
-  load -= Mr * inertia.fullPivLu().solve(r.transpose() * load);
-
-  const std::vector<int> moving = free_freedoms(c.model, {determinate_hold(c.model)});
-  Factor held;
-  if (!held.compute(restricted(c.K, moving)))
-    throw std::runtime_error("free modes: the body's parts are not joined");
-  const Eigen::MatrixXd moving_load = load(moving, Eigen::all);
-  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(load.rows(), load.cols());
-  u(moving, Eigen::all) = held.solve(moving_load);
-  return tied(c, {FrameTie::mean_axes}, u);
+  return static_response(c, {FrameTie::mean_axes}, load);
 }
 
 }  // namespace

@@ -86,6 +86,13 @@ ModalModel normal_modes(const Component&, const FrameTie&, const Keep&);
 ModalModel craig_bampton(const Component&, const std::vector<int>& ports, const FrameTie&,
                          const Keep&);
 
+/// The modes that Craig–Bampton adds to static shapes, brought to the tie: natural with the ports
+/// held, so that ΦᵀMΦ = I only before they are tied, and ΦᵀKΦ = diag(ω²) always. For judging which
+/// of them a motion needs.
+/// @throws as normal_modes, and std::invalid_argument  a port is named twice
+ModalModel fixed_interface_modes(const Component&, const std::vector<int>& ports, const FrameTie&,
+                                 const Keep&);
+
 /// Modes of the free body (`keep` counts those) and, for each freedom of the ports, the residual
 /// attachment shape: the static response of the freely accelerating body that the kept modes leave
 /// out. One that the others make up to 1e-10 is left out. Static response at the ports, in

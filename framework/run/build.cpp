@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "framework/run/mechanism_body.h"
 #include "framework/scene/nearest.h"
@@ -25,12 +26,12 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 /// What is needed to turn names into markers.
 class Builder {
  public:
-  explicit Builder(const Scene& scene) : scene_(scene) {}
+  Builder(const Scene& scene, bool rehearse) : scene_(scene), rehearse_(rehearse) {}
 
   Model build() {
     model_.system.gravity = vector(scene_.gravity);
     if (scene_.bodies.empty()) throw SceneError(scene_.file, {0, "bodies"}, "there is no body; a scene needs at least one");
-    elements_.resize(scene_.bodies.size());
+    make_elements();
     for (const SceneBody& b : scene_.bodies) add(b);
     for (const SceneJoint& j : scene_.joints) add(j);
     for (const SceneDriver& d : scene_.drivers) add(d);
@@ -39,6 +40,7 @@ class Builder {
     judge_output();
     record();
     keep_drawings();
+    report();
     model_.system.length = size();
     number(model_.system);
     scheme();
@@ -63,9 +65,8 @@ class Builder {
     index_[b.name] = static_cast<int>(i);
     std::vector<Vector2d> outline;
     if (b.elastic) {
-      if (const auto* beam = std::get_if<SceneBeam>(&b.elastic->shape); beam && beam->pieces > 1)
-        wrong(b.place, "it is to be cut into pieces; build what with_pieces makes of the scene");
-      const MechanismBody& made = elements_[i].emplace(mechanism_body(scene_, b));
+      const std::optional<int> chosen = choices_[i] ? std::optional<int>(choices_[i]->count) : std::nullopt;
+      const MechanismBody& made = elements_[i].emplace(mechanism_body(scene_, std::move(*meshed_[i]), chosen));
       model_.system.bodies.push_back(made.body);
       model_.warnings.insert(model_.warnings.end(), made.warnings.begin(), made.warnings.end());
       for (const Port& p : made.elastic.model.ports) outline.push_back(p.x - made.centre);
@@ -76,6 +77,62 @@ class Builder {
       for (const ScenePoint& p : b.points) outline.push_back(vector(p.at) - vector(b.center));
     }
     model_.outlines.push_back(std::move(outline));
+  }
+
+  /// Meshes all bodies of elements, and runs them rigid where something is to be judged by that.
+  void make_elements() {
+    const std::size_t n = scene_.bodies.size();
+    meshed_.resize(n), elements_.resize(n), choices_.resize(n);
+    std::vector<const ElasticBody*> all(n, nullptr);
+    bool flexible = false, automatic = false;
+    for (std::size_t i = 0; i < n; ++i) {
+      const SceneBody& b = scene_.bodies[i];
+      if (!b.elastic) continue;
+      if (const auto* beam = std::get_if<SceneBeam>(&b.elastic->shape); beam && beam->pieces > 1)
+        wrong(b.place, "it is to be cut into pieces; build what with_pieces makes of the scene");
+      all[i] = &meshed_[i].emplace(elastic_body(scene_, b));
+      judge_inertia(scene_, *all[i]);
+      flexible = flexible || b.elastic->modes;
+      automatic = automatic || (b.elastic->modes && b.elastic->modes->keep.automatic);
+    }
+    if (!automatic && !(rehearse_ && flexible)) return;
+    if (scene_.has_run)
+      run_ = rigid_run(scene_, all);
+    else
+      run_.trouble = "the scene has no `run`";
+    model_.rehearsal = {run_.until, run_.seconds, run_.steps, run_.trouble};
+    for (std::size_t i = 0; i < n; ++i)
+      if (all[i] && scene_.bodies[i].elastic->modes && scene_.bodies[i].elastic->modes->keep.automatic)
+        choices_[i] = run_.usable() ? choose_modes(scene_, *all[i], run_.bodies[i]) : choose_by_rule(scene_, *all[i], run_.trouble);
+  }
+
+  /// What the flexible bodies have kept, and what is doubtful about it.
+  void report() {
+    std::vector<Imposed> imposed;
+    for (const Body& b : model_.system.bodies)
+      if (b.modes() > 0 && imposed.empty()) imposed = imposed_frequencies(scene_);
+    for (std::size_t i = 0; i < elements_.size(); ++i) {
+      if (!elements_[i] || !elements_[i]->elastic.scene->elastic->modes) continue;
+      if (!elements_[i]->body.flex) {
+        model_.warnings.push_back(quoted(scene_.bodies[i].name) + " stays rigid: its `modes` keep no shape; raise below, or ask for a count");
+        continue;
+      }
+      FlexibleReport& r = model_.flexible.emplace_back(flexible_report(scene_, *elements_[i]));
+      r.choice = choices_[i];
+      model_.bending.push_back(bending_probe(*elements_[i], static_cast<int>(i)));
+      if (run_.usable()) r.motion = motion_estimate(scene_, *elements_[i], run_.bodies[i]);
+      const std::vector<std::string> found = doubts(scene_, r, imposed);
+      model_.warnings.insert(model_.warnings.end(), found.begin(), found.end());
+      if (!r.motion) doubt_spin(*elements_[i]);
+    }
+  }
+
+  /// Without a rigid run: a body whose spin is given.
+  void doubt_spin(const MechanismBody& b) {
+    if (b.elastic.scene->elastic->stiffening != Stiffening::none) return;
+    const double spin = given_spin(scene_, b.body.name);
+    if (!(spin > 0)) return;
+    if (const std::string doubt = spin_doubt(b.body.name, spin, stiffened_by_spin(scene_, b, spin)); !doubt.empty()) model_.warnings.push_back(doubt);
   }
 
   int body(const PointRef& ref) const {
@@ -305,8 +362,12 @@ class Builder {
   }
 
   const Scene& scene_;
+  bool rehearse_;
   Model model_;
   std::map<std::string, int> index_;
+  std::vector<std::optional<ElasticBody>> meshed_;      ///< until they are added
+  std::vector<std::optional<ModalChoice>> choices_;
+  RigidRun run_;
   std::vector<std::optional<MechanismBody>> elements_;  ///< of bodies made of elements
   std::map<std::tuple<int, double, double, double, std::string>, int> markers_;
   std::set<std::string> names_;
@@ -323,6 +384,8 @@ double contact_stiffness(const SceneClearance& c) {
                          c.normal.radii == RadiusConvention::internal);
 }
 
-Model build(const Scene& scene) { return Builder(scene).build(); }
+Model build(const Scene& scene) { return Builder(scene, false).build(); }
+
+Model build_and_rehearse(const Scene& scene) { return Builder(scene, true).build(); }
 
 }  // namespace pintle

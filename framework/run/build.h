@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/dynamics/system.h"
 #include "framework/integration/integrator.h"
 #include "framework/run/flexible_drawing.h"
+#include "framework/run/flexible_report.h"
 #include "framework/scene/error.h"
 #include "framework/scene/scene.h"
 
@@ -26,6 +28,13 @@ struct RecordedStress {
   StressProbe probe;
 };
 
+/// What stays of the rigid run that modes and doubts were judged by.
+struct Rehearsal {
+  double until = 0, seconds = 0;  ///< reached, and of computing [s]
+  long steps = 0;
+  std::string trouble;  ///< why there was none, or why it ended early
+};
+
 /// A scene made ready to run. Nothing here is of finite-element size but `drawings`, which there are only
 /// if frames are asked for.
 struct Model {
@@ -37,11 +46,18 @@ struct Model {
   std::vector<std::string> warnings;                   ///< what makes the model doubtful, in words
   std::vector<std::vector<Eigen::Vector2d>> outlines;  ///< points of each body, named or joined, for drawing [m]
   std::vector<std::pair<int, int>> pin_joints;         ///< joint, marker: where a joint is drawn
+  std::vector<FlexibleReport> flexible;                ///< of flexible bodies, in their order
+  std::vector<BendingProbe> bending;                   ///< likewise
+  std::optional<Rehearsal> rehearsal;                  ///< the rigid run, if there was one
 };
 
 /// Turns names into indices and judges everything that the reader cannot: the only place that does.
+/// Bodies that say `keep: auto` have their modes chosen by a rigid run.
 /// @throws SceneError  naming file, line, key, value and remedy
 Model build(const Scene&);
+/// The same, with a rigid run for every scene with flexible bodies, which estimates how they bend and
+/// stiffen and adds to the warnings: for `pintle check`.
+Model build_and_rehearse(const Scene&);
 
 /// Contact stiffness as the scene's words give it [N/mⁿ].
 double contact_stiffness(const SceneClearance&);

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "framework/component/assembly.h"
 #include "framework/component/foreshortening.h"
@@ -64,17 +65,23 @@ FlexInertia invariants(const Scene& scene, MechanismBody& b) {
 
 }  // namespace
 
-MechanismBody mechanism_body(const Scene& scene, const SceneBody& body) {
-  MechanismBody b{elastic_body(scene, body), {}, {}, {}, Vector2d::Zero(), {}};
+void judge_inertia(const Scene& scene, const ElasticBody& e) {
+  const RigidInertia inertia = rigid_inertia(e.model, e.M);
+  if (!(inertia.J - inertia.c.squaredNorm() / inertia.m > 0))
+    throw SceneError(scene.file, e.scene->place, "it has no moment of inertia about its mass centre; give it more elements or rotary inertia");
+}
+
+MechanismBody mechanism_body(const Scene& scene, ElasticBody elastic, std::optional<int> chosen) {
+  MechanismBody b{std::move(elastic), {}, {}, {}, Vector2d::Zero(), {}};
+  const SceneBody& body = *b.elastic.scene;
   for (const std::string& w : b.elastic.warnings) b.warnings.push_back("\"" + body.name + "\": " + w);
   const RigidInertia inertia = rigid_inertia(b.elastic.model, b.elastic.M);
   b.centre = inertia.c / inertia.m;
   b.body = {body.name, inertia.m, inertia.J - inertia.c.squaredNorm() / inertia.m, -b.centre};
-  if (!(b.body.J > 0))
-    throw SceneError(scene.file, body.place, "it has no moment of inertia about its mass centre; give it more elements or rotary inertia");
+  judge_inertia(scene, b.elastic);
   if (!body.elastic->modes) return b;
   b.tie = tie_of(scene, b.elastic);
-  b.modes = reduce(scene, b.elastic);
+  b.modes = reduce(scene, b.elastic, chosen);
   if (b.modes.omega.size() == 0) return b;
   in_body(scene, body, [&] {
     b.body.flex = invariants(scene, b);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,12 @@ struct MechanismBody {
   std::vector<std::string> warnings;
 };
 
-/// @throws SceneError  as elastic_body, reduce and damping_of; shapes that leave the frame no inertia
-MechanismBody mechanism_body(const Scene&, const SceneBody&);
+/// @throws SceneError  the body has no moment of inertia about its mass centre
+void judge_inertia(const Scene&, const ElasticBody&);
+
+/// @param chosen  how many modes where the scene says `keep: auto`; all without
+/// @throws SceneError  as reduce and damping_of; no moment of inertia; shapes that leave the frame none
+MechanismBody mechanism_body(const Scene&, ElasticBody, std::optional<int> chosen = {});
 
 /// The marker of a named point; without a name, of the point at the origin.
 /// @param turns  whether what takes hold there needs a direction

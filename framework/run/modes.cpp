@@ -11,7 +11,9 @@
 
 #include "framework/component/assembly.h"
 #include "framework/component/eigen_lowest.h"
+#include "framework/run/elastic_parts.h"
 #include "framework/run/in_body.h"
+#include "framework/run/modal_choice.h"
 #include "framework/run/text.h"
 #include "framework/scene/nearest.h"
 
@@ -28,29 +30,38 @@ int port_index(const Scene& scene, const ElasticBody& e, const std::string& name
   throw SceneError(scene.file, place, "\"" + e.scene->name + "\" has no point \"" + name + "\"." + did_you_mean(name, known));
 }
 
-/// The ports that joints, drivers and forces take hold of; all of them where nothing does.
-std::vector<int> interface_of(const Scene& scene, const ElasticBody& e) {
-  std::set<std::string> used;
-  const auto note = [&](const PointRef& ref) {
-    if (ref.body != e.scene->name) return;
-    const int origin = ref.point.empty() ? port_at_origin(e) : -1;
-    used.insert(origin < 0 ? ref.point : e.model.ports[static_cast<std::size_t>(origin)].name);
-  };
-  for (const SceneJoint& j : scene.joints) note(j.a), note(j.b);
-  for (const SceneDriver& d : scene.drivers) note(d.a), note(d.b);
-  for (const SceneLoad& l : scene.loads)
-    std::visit([&](const auto& w) {
-      if constexpr (requires { w.at; }) note(w.at);
-      else note(w.a), note(w.b);
-    }, l.what);
-  std::vector<int> ports;
-  for (std::size_t i = 0; i < e.model.ports.size(); ++i)
-    if (used.empty() || used.contains(e.model.ports[i].name)) ports.push_back(static_cast<int>(i));
-  return ports;
+Keep keep_of(const SceneKeep& k, const std::optional<int>& chosen) {
+  if (k.automatic && chosen) return {*chosen, {}, {}, false};
+  return {k.count, k.below, k.effective_mass, !k.count && !k.below && !k.effective_mass};
 }
 
-Keep keep_of(const SceneKeep& k) {
-  return {k.count, k.below, k.effective_mass, !k.count && !k.below && !k.effective_mass};
+/// Complaints of the reduction, at the scene's `modes`.
+template <class Work>
+auto in_modes(const Scene& scene, const SceneModes& modes, Work work) {
+  try {
+    return work();
+  } catch (const std::invalid_argument& error) {
+    throw SceneError(scene.file, modes.place, error.what());
+  } catch (const SceneError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw SceneError(scene.file, modes.place, error.what());
+  }
+}
+
+void judge(const Scene& scene, const ElasticBody& e, const FrameTie& tie) {
+  const SceneModes& modes = *e.scene->elastic->modes;
+  const Port& a = e.model.ports[static_cast<std::size_t>(tie.a)];
+  if (tie.kind == FrameTie::tangent && a.freedom[2] < 0)
+    throw SceneError(scene.file, modes.place, "the frame is tangent at " + a.name + ", a point of " + (e.plate() ? "a plate" : "a bar") +
+                                                  ", which has no direction; take " + (e.plate() ? "the middle of a hole, " : "") +
+                                                  "a chord through two points, or mean axes");
+  if (tie.kind == FrameTie::tangent) return;
+  const Port& b = e.model.ports[static_cast<std::size_t>(tie.b)];
+  const double size = (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm();
+  if ((b.x - a.x).norm() <= 1e-9 * size)
+    throw SceneError(scene.file, modes.place, "the frame's chord runs from " + a.name + " to " + b.name + ", which lie at the same place, " + shown(a.x) +
+                                                  "; name two points that lie apart, or tangent: " + a.name);
 }
 
 /// The lowest modes of the body with `held` freedoms at zero, as shapes of all freedoms.
@@ -116,6 +127,30 @@ int port_at_origin(const ElasticBody& e) {
   return -1;
 }
 
+std::vector<int> interface_of(const Scene& scene, const ElasticBody& e) {
+  std::set<std::string> used;
+  const auto note = [&](const PointRef& ref) {
+    if (ref.body != e.scene->name) return;
+    const int origin = ref.point.empty() ? port_at_origin(e) : -1;
+    used.insert(origin < 0 ? ref.point : e.model.ports[static_cast<std::size_t>(origin)].name);
+  };
+  for (const SceneJoint& j : scene.joints) note(j.a), note(j.b);
+  for (const SceneDriver& d : scene.drivers) note(d.a), note(d.b);
+  for (const SceneLoad& l : scene.loads)
+    std::visit([&](const auto& w) {
+      if constexpr (requires { w.at; }) note(w.at);
+      else note(w.a), note(w.b);
+    }, l.what);
+  std::vector<int> ports;
+  for (std::size_t i = 0; i < e.model.ports.size(); ++i)
+    if (used.empty() || used.contains(e.model.ports[i].name)) ports.push_back(static_cast<int>(i));
+  return ports;
+}
+
+ModalModel lowest_of(const ModalModel& m, Eigen::Index count) {
+  return {m.shapes.leftCols(count), m.ports.leftCols(count), m.omega.head(count), m.residual.head(count), {}};
+}
+
 Sparse skew_mass_of(const ElasticBody& e) {
   if (!e.scene->elastic->lumped) return Assembler(e.model).skew_mass();
   std::vector<Eigen::Triplet<double>> entries;  // point masses: m Zᵀ at each node
@@ -143,8 +178,9 @@ FrameTie tie_of(const Scene& scene, const ElasticBody& e) {
   if (a.empty()) a = e.scene->points.front().name;
   if (b.empty()) b = e.scene->points.back().name;
   const int first = port_index(scene, e, a, modes.place);
-  if (modes.frame == Frame::tangent) return {FrameTie::tangent, first};
-  return {FrameTie::chord, first, port_index(scene, e, b, modes.place)};
+  const FrameTie tie = modes.frame == Frame::tangent ? FrameTie{FrameTie::tangent, first} : FrameTie{FrameTie::chord, first, port_index(scene, e, b, modes.place)};
+  judge(scene, e, tie);
+  return tie;
 }
 
 std::string title_of(const SceneModes& m) {
@@ -185,17 +221,18 @@ Eigen::VectorXd damping_of(const Scene& scene, const SceneBody& body, const Eige
   return zeta;
 }
 
-ModalModel reduce(const Scene& scene, const ElasticBody& e) {
+ModalModel reduce(const Scene& scene, const ElasticBody& e, std::optional<int> chosen) {
   const SceneModes& m = *e.scene->elastic->modes;
   const FrameTie tie = tie_of(scene, e);
-  return in_body(scene, *e.scene, [&] {
+  const Keep keep = keep_of(m.keep, chosen);
+  return in_modes(scene, m, [&] {
     const Component c = component_of(e);
     switch (m.method) {
-      case SceneModes::Method::craig_bampton: return craig_bampton(c, interface_of(scene, e), tie, keep_of(m.keep));
-      case SceneModes::Method::free: return free_modes(c, interface_of(scene, e), tie, keep_of(m.keep));
+      case SceneModes::Method::craig_bampton: return craig_bampton(c, interface_of(scene, e), tie, keep);
+      case SceneModes::Method::free: return free_modes(c, interface_of(scene, e), tie, keep);
       case SceneModes::Method::normal: break;
     }
-    return normal_modes(c, tie, keep_of(m.keep));
+    return normal_modes(c, tie, keep);
   });
 }
 
@@ -220,7 +257,9 @@ ModesReport modes_of(const Scene& scene, const ElasticBody& e, int count) {
   if (e.scene->elastic->modes) {
     r.reduced.emplace();
     r.reduced->title = title_of(*e.scene->elastic->modes);
-    r.reduced->modes = reduce(scene, e);
+    std::optional<int> chosen;
+    if (e.scene->elastic->modes->keep.automatic) chosen = choose_modes(scene, e).count;
+    r.reduced->modes = reduce(scene, e, chosen);
   }
   for (ModeTable* t : {&r.natural, r.reduced ? &*r.reduced : nullptr}) {
     if (!t) continue;

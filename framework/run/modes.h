@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "framework/component/modal_model.h"
 #include "framework/run/elastic_body.h"
@@ -34,13 +35,20 @@ Sparse skew_mass_of(const ElasticBody&);
 /// The port that a body's name alone stands for; −1: there is none.
 int port_at_origin(const ElasticBody&);
 /// The frame that the body's `modes` ask for. @pre it has them
-/// @throws SceneError  a point is not there
+/// @throws SceneError  a point is not there, cannot turn (tangent), or two coincide (chord)
 FrameTie tie_of(const Scene&, const ElasticBody&);
 /// "Craig-Bampton, chord frame"
 std::string title_of(const SceneModes&);
 
-/// The basis that the scene's `modes` ask for. @pre the body has them
-ModalModel reduce(const Scene&, const ElasticBody&);
+/// Ports that joints, drivers and forces take hold of, in the body's order; all where nothing does.
+std::vector<int> interface_of(const Scene&, const ElasticBody&);
+/// The first `count` shapes.
+ModalModel lowest_of(const ModalModel&, Eigen::Index count);
+
+/// The basis that the scene's `modes` ask for, with `chosen` of the modes they count where they say
+/// `keep: auto`. @pre the body has them
+/// @throws SceneError  what is wrong with the modes, at the scene's `modes`
+ModalModel reduce(const Scene&, const ElasticBody&, std::optional<int> chosen = {});
 /// Damping ratios at frequencies `omega` by the scene's `damping`, zero without. Rayleigh damping that is given by
 /// ratios is set by two of the frequencies `basis`, those of the shapes that a mechanism keeps.
 /// @throws SceneError  one of the two is not there, or a ratio comes out negative

@@ -66,6 +66,41 @@ Json assembly_json(const System& system, const Assembly& a) {
           {"redundant rows", redundant}};
 }
 
+Json choice_json(const ModalChoice& c) {
+  Json modes = Json::array();
+  for (const ConsideredMode& m : c.considered)
+    modes.push_back({{"frequency [Hz]", m.frequency}, {"strain energy", m.energy}, {"left out of strain energy", m.left_energy},
+                     {"left out of displacement", m.left_displacement}, {"kept", m.kept}});
+  return {{"count", c.count}, {"reason", c.reason}, {"considered", modes}};
+}
+
+Json motion_json(const MotionEstimate& m) {
+  return {{"deflection over size", m.deflection}, {"slope [rad]", m.slope}, {"spin [rad/s]", m.spin},
+          {"excited up to [Hz]", m.excited_up_to},
+          {"first frequency changed by inertia", m.by_rotation},
+          {"first frequency changed by all loads", m.by_all_loads}};
+}
+
+Json flexible_json(const Model& model) {
+  Json all = Json::array();
+  for (const FlexibleReport& r : model.flexible) {
+    Json one = {{"body", r.body}, {"basis", r.basis}, {"shapes", r.shapes}, {"lowest [Hz]", r.lowest}, {"highest [Hz]", r.highest},
+                {"least damping", r.least_damping}, {"greatest damping", r.most_damping},
+                {"mass share", r.mass ? Json{{"x", r.mass->x()}, {"y", r.mass->y()}, {"rotation", r.mass->z()}} : Json(nullptr)},
+                {"compliance covered", r.compliance}, {"compliance covered least at", r.compliance_at}};
+    if (r.choice) one["choice"] = choice_json(*r.choice);
+    if (r.motion) one["rigid run"] = motion_json(*r.motion);
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+Json rehearsal_json(const Model& model) {
+  if (!model.rehearsal) return nullptr;
+  const Rehearsal& r = *model.rehearsal;
+  return {{"reached [s]", r.until}, {"steps", r.steps}, {"time [s]", r.seconds}, {"trouble", r.trouble}};
+}
+
 Json scene_json(const Scene& scene) {
   return scene.filled_in.empty() ? Json(nullptr) : Json::parse(scene.filled_in, nullptr, false);
 }
@@ -127,6 +162,8 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
       {"warnings", run.warnings},
       {"reached [s]", run.t_end},
       {"model", assembly_json(system, assembly)},
+      {"flexible bodies", flexible_json(model)},
+      {"rigid run", rehearsal_json(model)},
       {"contacts", contacts},
       {"energy at start [J]", energies_json(run.first)},
       {"energy at end [J]", energies_json(run.last)},
@@ -150,6 +187,8 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
 
 std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly) {
   const Json out = {{"title", scene.title}, {"file", scene.file}, {"model", assembly_json(model.system, assembly)},
+                    {"flexible bodies", flexible_json(model)},
+                    {"rigid run", rehearsal_json(model)},
                     {"warnings", model.warnings},
                     {"scene", scene_json(scene)}};
   return out.dump(2) + "\n";

@@ -1,5 +1,6 @@
 #include "framework/run/simulate.h"
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <sstream>
@@ -46,6 +47,32 @@ void warn_of_depth(const System& system, Run& run) {
     }
 }
 
+/// Greatest deflection and slope of each flexible body at the output times.
+class Bending {
+ public:
+  explicit Bending(const Model& model) : model_(model), greatest_(model.bending.size(), {0, 0}) {}
+  void see(const State& state) {
+    for (std::size_t k = 0; k < greatest_.size(); ++k) {
+      const BendingProbe& p = model_.bending[k];
+      const auto eta = state.y.segment(model_.system.eta_begin[static_cast<std::size_t>(p.index)], p.displacement.cols());
+      const Eigen::VectorXd u = p.displacement * eta;
+      for (Eigen::Index i = 0; i + 1 < u.size(); i += 2) greatest_[k][0] = std::max(greatest_[k][0], u.segment<2>(i).norm() / p.size);
+      if (p.slope.rows() > 0) greatest_[k][1] = std::max(greatest_[k][1], (p.slope * eta).lpNorm<Eigen::Infinity>());
+    }
+  }
+  void warn(std::vector<std::string>& warnings) const {
+    for (std::size_t k = 0; k < greatest_.size(); ++k) {
+      const BendingProbe& p = model_.bending[k];
+      const std::string doubt = deflection_doubt(p.body, greatest_[k][0], greatest_[k][1], "bent");
+      if (!doubt.empty()) warnings.push_back(doubt);
+    }
+  }
+
+ private:
+  const Model& model_;
+  std::vector<std::array<double, 2>> greatest_;  ///< over the body's size, [rad]
+};
+
 }  // namespace
 
 const char* status_text(Status s) {
@@ -73,6 +100,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   clock::duration spent_listening{};
   Integrator integrator(system, model.scheme, assembly.start);
   State sampled;
+  Bending bending(model);
   bool started = false;
   const auto book = [&](const State& state) {
     const Energies e = energies(system, state, integrator.equations());
@@ -89,6 +117,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
       if (!integrator.sample(outputs.next(), sampled)) return false;
       used = true;
       book(sampled);
+      bending.see(sampled);
       record(model, sampled, integrator.equations(), run.trajectory);
       record_ledger(system, sampled, run.last, run.unexplained, run.ledger);
       outputs.tick();
@@ -132,6 +161,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   run.t_end = integrator.state().t;
   run.impacts = integrator.impacts();
   warn_of_depth(system, run);
+  bending.warn(run.warnings);
   run.counts = integrator.counts();
   run.worst_position = integrator.worst_position();
   run.worst_velocity = integrator.worst_velocity();

@@ -1,0 +1,52 @@
+#include "framework/component/static_response.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <stdexcept>
+#include <string>
+
+#include "framework/component/factor.h"
+#include "framework/component/reduction.h"
+#include "framework/component/statics.h"
+
+namespace pintle {
+namespace {
+
+using Eigen::MatrixXd;
+
+/// Loads with the reactions of the tie or, under mean axes, the inertia of the acceleration that
+/// they cause. The adjoint of `tied`: on any motion they do the work of f on that motion tied.
+MatrixXd in_equilibrium(const Component& c, const FrameTie& tie, const MatrixXd& loads) {
+  const MatrixXd B = tie_rows(c, tie);
+  const Eigen::MatrixX3d r = scaled_rigid_motions(c.model);
+  const Eigen::Matrix3d rB = (B * r).transpose();
+  return loads - B.transpose() * rB.fullPivLu().solve(r.transpose() * loads);
+}
+
+/// Three freedoms that hold the body, far enough apart to hold it well.
+Supports determinate_hold(const FeModel& model) {
+  const MatrixXd motions = scaled_rigid_motions(model).transpose();
+  const auto order = motions.colPivHouseholderQr().colsPermutation().indices();
+  return {{order[0], order[1], order[2]}};
+}
+
+}  // namespace
+
+MatrixXd static_response(const Component& c, const FrameTie& tie, const MatrixXd& loads) {
+  if (loads.rows() != c.model.n())
+    throw std::invalid_argument("static response: loads of " + std::to_string(loads.rows()) +
+                                " rows, must be " + std::to_string(c.model.n()) +
+                                ", one per independent freedom");
+  const std::vector<int> moving = free_freedoms(c.model, determinate_hold(c.model));
+  Factor held;
+  if (!held.compute(restricted(c.K, moving)))
+    throw std::runtime_error(
+        "static response: parts of the body are not joined, or a part of it moves without "
+        "resistance; join them with elements that resist");
+  const MatrixXd moving_loads = in_equilibrium(c, tie, loads)(moving, Eigen::all);
+  MatrixXd u = MatrixXd::Zero(loads.rows(), loads.cols());
+  u(moving, Eigen::all) = held.solve(moving_loads);  // in equilibrium: the hold carries nothing
+  return tied(c, tie, u);
+}
+
+}  // namespace pintle

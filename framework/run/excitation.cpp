@@ -1,0 +1,275 @@
+#include "framework/run/excitation.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <unsupported/Eigen/FFT>
+
+#include "framework/component/inertia.h"
+#include "framework/component/loads.h"
+#include "framework/component/modal_model.h"
+#include "framework/integration/integrator.h"
+#include "framework/run/assemble.h"
+#include "framework/run/modes.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+constexpr double two_pi = 2 * std::numbers::pi;
+
+constexpr long most_steps = 20'000;
+constexpr double most_numbers = 1e7;  ///< kept of all bodies together: 80 MB
+constexpr int turns_seen = 10;        ///< of the slowest motor
+constexpr int steps_a_turn = 64;      ///< at least, of the fastest driver
+constexpr double least_tolerance = 1e-6;
+constexpr Index law_samples = 4096;
+
+/// The body as a rigid one with the same points, so that all names keep their meaning.
+SceneBody rigid_twin(const ElasticBody& e) {
+  SceneBody body = *e.scene;
+  const RigidInertia inertia = rigid_inertia(e.model, e.M);
+  const Vector2d centre = inertia.c / inertia.m;
+  body.mass = inertia.m;
+  body.inertia = inertia.J - inertia.c.squaredNorm() / inertia.m;
+  body.center = {centre.x(), centre.y()};
+  for (ScenePoint& p : body.points)
+    if (const Port* port = e.model.port(p.name)) p.at = {port->x.x(), port->x.y()};
+  body.elastic.reset();
+  return body;
+}
+
+Scene rigid_twin(const Scene& scene, const std::vector<const ElasticBody*>& elements) {
+  Scene twin = scene;
+  for (std::size_t b = 0; b < elements.size(); ++b)
+    if (elements[b]) twin.bodies[b] = rigid_twin(*elements[b]);
+  twin.output.points.clear();
+  twin.output.stress.clear();
+  twin.output.frames = 0;
+  return twin;
+}
+
+/// Where something acts on a body of elements: its wrench is the k-th of joints, contacts or forces.
+struct Grip {
+  enum Of { joint, contact, force } of;
+  std::size_t k;
+  bool first;  ///< on a, or the journal
+  std::size_t body;
+  Index row;  ///< of the load history
+};
+
+/// Finds the grips in the order in which `build` makes joints, drivers, contacts and forces.
+class Grips {
+ public:
+  Grips(const Scene& scene, const System& system, const std::vector<const ElasticBody*>& elements)
+      : scene_(scene), elements_(elements) {
+    std::size_t joints = 0, contacts = 0, forces = 0;
+    for (const SceneJoint& j : scene.joints) {
+      const bool gap = j.clearance.has_value();
+      const bool a_bears = gap && j.clearance->bearing != j.b.body;
+      const std::size_t k = gap ? contacts++ : joints++;
+      add(gap ? Grip::contact : Grip::joint, k, !a_bears, j.a);
+      add(gap ? Grip::contact : Grip::joint, k, a_bears, j.b);
+    }
+    for (const SceneDriver& d : scene.drivers) {
+      add(Grip::joint, joints, true, d.a);
+      add(Grip::joint, joints++, false, d.b);
+    }
+    for (const SceneLoad& l : scene.loads) {
+      std::visit([&](const auto& what) {
+        if constexpr (requires { what.at; }) {
+          add(Grip::force, forces, false, what.at);
+        } else {
+          add(Grip::force, forces, true, what.a);
+          add(Grip::force, forces, false, what.b);
+        }
+      }, l.what);
+      ++forces;
+    }
+    assert(joints == system.joints.size() && contacts == system.contacts.size() && forces == system.forces.size());
+    static_cast<void>(system);
+  }
+  const std::vector<Grip>& all() const { return all_; }
+
+ private:
+  void add(Grip::Of of, std::size_t k, bool first, const PointRef& ref) {
+    for (std::size_t b = 0; b < elements_.size(); ++b) {
+      if (scene_.bodies[b].name != ref.body || !elements_[b]) continue;
+      const ElasticBody& e = *elements_[b];
+      int port = ref.point.empty() ? port_at_origin(e) : -1;
+      for (std::size_t p = 0; p < e.model.ports.size() && port < 0; ++p)
+        if (e.model.ports[p].name == ref.point) port = static_cast<int>(p);
+      if (port >= 0) all_.push_back({of, k, first, b, inertia_loads + 3 * Index{port}});
+    }
+  }
+
+  const Scene& scene_;
+  const std::vector<const ElasticBody*>& elements_;
+  std::vector<Grip> all_;
+};
+
+Wrench wrench(const System& system, const Equations& eq, const Grip& g) {
+  if (g.of == Grip::contact) return g.first ? eq.contact[g.k].on_journal : eq.contact[g.k].on_bearing;
+  if (g.of == Grip::force) return g.first ? eq.force[g.k].on_a : eq.force[g.k].on_b;
+  const int row = system.row_begin[g.k], m = system.row_begin[g.k + 1] - row;
+  const auto& L = g.first ? eq.rows[g.k].La : eq.rows[g.k].Lb;
+  return -L.topRows(m).transpose() * eq.lambda.segment(row, m);
+}
+
+/// One column of every history at the present state.
+void keep(const System& system, const std::vector<Grip>& grips, const State& state, const Equations& eq, Index column,
+          std::vector<LoadHistory>& bodies) {
+  const auto n = static_cast<Index>(system.n());
+  const auto turned = [&](std::size_t b) { return Eigen::Rotation2Dd(-state.y[3 * static_cast<Index>(b) + 2]); };
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b].factor.size() == 0) continue;
+    const Index i = 3 * static_cast<Index>(b);
+    const double spin = state.y[n + i + 2];
+    auto out = bodies[b].factor.col(column);
+    out.setZero();
+    out.head<2>() = turned(b) * (system.gravity - eq.a.segment<2>(i));
+    out[2] = -eq.a[i + 2];
+    out[3] = spin * spin;
+    bodies[b].t.push_back(state.t);
+  }
+  for (const Grip& g : grips) {
+    if (bodies[g.body].factor.size() == 0) continue;
+    const Wrench w = wrench(system, eq, g);
+    auto out = bodies[g.body].factor.col(column);
+    out.segment<2>(g.row) += turned(g.body) * w.head<2>();
+    out[g.row + 2] += w[2];
+  }
+}
+
+/// Whether nothing but even motors and unchanging forces drives the scene.
+bool is_even(const Scene& scene, const std::vector<Imposed>& imposed) {
+  const auto turns = [](const Imposed& i) { return i.even && i.turns; };
+  bool even = !imposed.empty() && std::all_of(imposed.begin(), imposed.end(), turns);
+  for (const SceneLoad& l : scene.loads) {
+    if (const auto* f = std::get_if<SceneForce>(&l.what)) even = even && f->x.constant && f->y.constant;
+    if (const auto* q = std::get_if<SceneTorque>(&l.what)) even = even && q->law.constant;
+  }
+  return even;
+}
+
+double span_of(const Scene& scene, const std::vector<Imposed>& imposed) {
+  if (!is_even(scene, imposed)) return scene.run.until;
+  double slowest = 0;
+  for (const Imposed& i : imposed) slowest = std::max(slowest, turns_seen / i.frequency);
+  return std::min(scene.run.until, slowest);
+}
+
+Scheme scheme_of(const Model& model, double span, const std::vector<Imposed>& imposed) {
+  Scheme scheme = model.scheme;
+  scheme.tolerance = std::max(scheme.tolerance, least_tolerance);
+  scheme.max_step = std::min(scheme.max_step, span / steps_a_turn);
+  for (const Imposed& i : imposed)
+    if (i.frequency > 0) scheme.max_step = std::min(scheme.max_step, 1 / (steps_a_turn * i.frequency));
+  return scheme;
+}
+
+void march(const Scene& twin, const Model& model, const Assembly& assembly, const std::vector<Grip>& grips,
+           const std::vector<Imposed>& imposed, RigidRun& run) {
+  double rows = 1;
+  for (const LoadHistory& h : run.bodies) rows += static_cast<double>(h.factor.rows());
+  const long most = std::min(most_steps, static_cast<long>(most_numbers / rows));
+  for (LoadHistory& h : run.bodies) h.factor.conservativeResize(Eigen::NoChange, h.factor.rows() > 0 ? most + 1 : 0);
+  const double span = span_of(twin, imposed);
+  Integrator integrator(model.system, scheme_of(model, span, imposed), assembly.start);
+  if (integrator.failure().empty()) keep(model.system, grips, integrator.state(), integrator.equations(), 0, run.bodies);
+  while (integrator.failure().empty() && run.steps < most && integrator.state().t < span && integrator.advance(span))
+    keep(model.system, grips, integrator.state(), integrator.equations(), ++run.steps, run.bodies);
+  run.until = integrator.state().t;
+  run.trouble = integrator.failure();
+  for (LoadHistory& h : run.bodies)
+    h.factor.conservativeResize(Eigen::NoChange, h.factor.rows() > 0 ? run.steps + 1 : 0);
+}
+
+}  // namespace
+
+Eigen::MatrixXd loads_on(const ElasticBody& e) {
+  const FeModel& model = e.model;
+  const RigidFields f = rigid_fields(model);
+  const RigidInertia inertia = rigid_inertia(model, e.M);
+  const Vector2d c = inertia.c / inertia.m;
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(model.n(), inertia_loads + 3 * static_cast<Index>(model.ports.size()));
+  loads.col(0) = independent_load(model, e.M * f.T.col(0));
+  loads.col(1) = independent_load(model, e.M * f.T.col(1));
+  loads.col(2) = independent_load(model, e.M * f.R) + c.y() * loads.col(0) - c.x() * loads.col(1);
+  loads.col(3) = independent_load(model, e.M * f.x) - c.x() * loads.col(0) - c.y() * loads.col(1);
+  for (std::size_t p = 0; p < model.ports.size(); ++p)
+    for (Index k = 0; k < 3; ++k)
+      if (const int freedom = model.ports[p].freedom[k]; freedom >= 0)
+        loads(freedom, inertia_loads + 3 * static_cast<Index>(p) + k) = 1;
+  return loads;
+}
+
+RigidRun rigid_run(const Scene& scene, const std::vector<const ElasticBody*>& elements) {
+  RigidRun run;
+  const auto begin = std::chrono::steady_clock::now();
+  run.bodies.resize(scene.bodies.size());
+  for (std::size_t b = 0; b < elements.size(); ++b)
+    if (elements[b] && elements[b]->scene->elastic->modes)
+      run.bodies[b].factor.resize(inertia_loads + 3 * static_cast<Index>(elements[b]->model.ports.size()), 1);
+  const Scene twin = rigid_twin(scene, elements);
+  const Model model = build(twin);
+  try {
+    const Assembly assembly = assemble(twin, model);
+    if (!assembly.redundant.empty()) {
+      const Redundancy& r = assembly.redundant.front();
+      run.trouble = "with every body rigid, " + row_text(model.system, r.joint, r.row) + " repeats what other joints hold";
+    } else {
+      march(twin, model, assembly, Grips(scene, model.system, elements).all(), imposed_frequencies(scene), run);
+    }
+  } catch (const AssemblyError& error) {
+    run.trouble = error.what();
+  }
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return run;
+}
+
+VectorXd power_spectrum(const VectorXd& samples) {
+  const Index n = samples.size();
+  VectorXd windowed = samples.array() - samples.mean();
+  for (Index i = 0; i < n; ++i)  // Hann: what leaks falls off fast
+    windowed[i] *= 1 - std::cos(two_pi * static_cast<double>(i) / static_cast<double>(n));
+  Eigen::VectorXcd transform(n);
+  Eigen::FFT<double> fft;
+  fft.fwd(transform, windowed);
+  return transform.head(n / 2 + 1).cwiseAbs2();
+}
+
+std::vector<Imposed> imposed_frequencies(const Scene& scene) {
+  std::vector<Imposed> all;
+  const double until = scene.run.until;
+  for (const SceneDriver& d : scene.drivers) {
+    VectorXd acceleration(law_samples);
+    double fastest = 0;
+    for (Index i = 0; i < law_samples; ++i) {
+      const Jet law = d.law.at(until * static_cast<double>(i) / static_cast<double>(law_samples));
+      acceleration[i] = law.accel;
+      fastest = std::max(fastest, std::abs(law.rate));
+    }
+    Imposed out{d.name, 0, false, false};
+    // What is left of an even law is rounding of its rate.
+    out.even = acceleration.lpNorm<Eigen::Infinity>() * until <= 1e-6 * fastest;
+    if (!out.even) {
+      Index most = 0;
+      power_spectrum(acceleration).maxCoeff(&most);
+      out.frequency = static_cast<double>(std::max<Index>(1, most)) / until;
+    }
+    if (d.kind == DriverKind::angle && fastest / two_pi > out.frequency) out.frequency = fastest / two_pi, out.turns = true;
+    all.push_back(out);
+  }
+  return all;
+}
+
+}  // namespace pintle

@@ -1,0 +1,252 @@
+#include "framework/run/flexible_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+
+#include "framework/component/foreshortening.h"
+#include "framework/component/static_response.h"
+#include "framework/run/elastic_parts.h"
+#include "framework/run/in_body.h"
+#include "framework/run/modes.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double two_pi = 2 * std::numbers::pi;
+constexpr Index responding = 40;  ///< of the lowest shapes, in estimates
+constexpr Index stiffened = 12;   ///< of the lowest shapes that loads may mix
+/// Compliance beside the body's greatest of its kind below which a port counts as held by the tie.
+constexpr double held = 1e-9;
+constexpr double rounding = 1e-9;  ///< of a modal force beside its terms
+
+/// Reduced over full compliance uᵀf of unit loads at the ports in use, the least.
+void cover_compliance(const Scene& scene, const MechanismBody& b, FlexibleReport& report) {
+  const ElasticBody& e = b.elastic;
+  const MatrixXd loads = loads_on(e).rightCols(3 * static_cast<Index>(e.model.ports.size()));
+  const VectorXd full = loads.cwiseProduct(static_response(component_of(e), b.tie, loads)).colwise().sum();
+  const VectorXd kept = (b.modes.ports * b.modes.omega.cwiseInverse().asDiagonal()).rowwise().squaredNorm();
+  double greatest[2] = {0, 0};  // of forces, of couples
+  for (Index i = 0; i < full.size(); ++i) greatest[i % 3 == 2] = std::max(greatest[i % 3 == 2], full[i]);
+  report.compliance = std::numeric_limits<double>::infinity();
+  for (const int port : interface_of(scene, e))
+    for (Index k = 0; k < 3; ++k) {
+      const Index i = 3 * Index{port} + k;
+      if (!(full[i] > held * greatest[k == 2]) || kept[i] / full[i] >= report.compliance) continue;
+      report.compliance = kept[i] / full[i];
+      const char* names[3] = {", x", ", y", ", turning"};
+      report.compliance_at = e.model.ports[static_cast<std::size_t>(port)].name + names[k];
+    }
+  if (report.compliance_at.empty()) report.compliance = 1;
+}
+
+/// Greatest turn in a nodal field of displacements, of sections and ports.
+double greatest_turn(const ElasticBody& e, const VectorXd& nodal, const VectorXd& ports) {
+  double turn = 0;
+  for (std::size_t i = 0; i + 1 < e.model.begin.size(); ++i)
+    if (e.model.begin[i + 1] - e.model.begin[i] == 3) turn = std::max(turn, std::abs(nodal[e.model.begin[i] + 2]));
+  for (Index p = 2; p < ports.size(); p += 3) turn = std::max(turn, std::abs(ports[p]));
+  return turn;
+}
+
+double greatest_displacement(const ElasticBody& e, const VectorXd& nodal) {
+  double most = 0;
+  for (std::size_t i = 0; i + 1 < e.model.begin.size(); ++i) most = std::max(most, nodal.segment<2>(e.model.begin[i]).norm());
+  return most;
+}
+
+double size_of(const ElasticBody& e) { return (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm(); }
+
+/// Relative change of the first frequency when −F is added to its stiffness; −1: nothing is left of it.
+double change(const VectorXd& omega, const MatrixXd& F) {
+  MatrixXd K = -F;
+  K.diagonal() += omega.cwiseAbs2();
+  const double least = Eigen::SelfAdjointEigenSolver<MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  return std::sqrt(std::max(0.0, least)) / omega[0] - 1;
+}
+
+/// The same over a history, where it is greatest in magnitude: judged by the first shape alone, then exactly.
+double greatest_change(const VectorXd& omega, const std::vector<MatrixXd>& F, const MatrixXd& factor) {
+  VectorXd first(factor.rows());
+  for (Index k = 0; k < factor.rows(); ++k) first[k] = F[static_cast<std::size_t>(k)](0, 0);
+  const Eigen::RowVectorXd on_first = first.transpose() * factor;
+  Index ends[2];
+  on_first.minCoeff(&ends[0]);
+  on_first.maxCoeff(&ends[1]);
+  double greatest = 0;
+  for (const Index t : ends) {
+    MatrixXd sum = MatrixXd::Zero(omega.size(), omega.size());
+    for (Index k = 0; k < factor.rows(); ++k) sum += factor(k, t) * F[static_cast<std::size_t>(k)];
+    if (const double c = change(omega, sum); std::abs(c) > std::abs(greatest)) greatest = c;
+  }
+  return greatest;
+}
+
+void estimate_stiffening(const MechanismBody& b, const LoadHistory& history, MotionEstimate& out) {
+  const ModalModel modes = lowest_of(b.modes, std::min(stiffened, b.modes.omega.size()));
+  const std::vector<MatrixXd> F = foreshortening(component_of(b.elastic), b.tie, modes, loads_on(b.elastic));
+  out.by_rotation = greatest_change(modes.omega, F, history.factor.topRows<inertia_loads>());
+  out.by_all_loads = greatest_change(modes.omega, F, history.factor);
+}
+
+/// The port by which a joint pins the body to the ground, −1 if none does.
+int pivot(const Scene& scene, const ElasticBody& e) {
+  for (const SceneJoint& j : scene.joints) {
+    if (j.kind != JointKind::revolute && j.kind != JointKind::weld) continue;
+    const PointRef* own = j.a.body == e.scene->name && j.b.body == "ground" ? &j.a : j.b.body == e.scene->name && j.a.body == "ground" ? &j.b : nullptr;
+    if (!own) continue;
+    if (own->point.empty()) return port_at_origin(e);
+    for (std::size_t p = 0; p < e.model.ports.size(); ++p)
+      if (e.model.ports[p].name == own->point) return static_cast<int>(p);
+  }
+  return -1;
+}
+
+std::string percent(double part) {
+  return shown_number(std::round(1000 * part) / 10) + " %";
+}
+
+std::string changed(double change) {
+  if (change <= -1) return "take away all stiffness, so that it would buckle; the linear body does not know";
+  return std::string(change > 0 ? "raise" : "lower") + " its first frequency by " + percent(std::abs(change));
+}
+
+void doubt_frequency(const FlexibleReport& r, const std::vector<Imposed>& imposed, std::vector<std::string>& out) {
+  for (const Imposed& i : imposed)
+    if (i.frequency > r.highest)
+      out.push_back("modes of \"" + r.body + "\" reach " + shown_number(r.highest) + " Hz, but driver \"" + i.driver + "\" " +
+                    (i.turns ? "turns at " : "moves with ") + shown_number(i.frequency) + " Hz; keep more");
+}
+
+void doubt_linearity(const Scene& scene, const FlexibleReport& r, std::vector<std::string>& out) {
+  const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const SceneBody& b) { return b.name == r.body; });
+  const Stiffening now = body->elastic->stiffening;
+  const MotionEstimate& m = *r.motion;
+  const bool by_points = std::abs(m.by_all_loads - m.by_rotation) > stiffening_matters;
+  if (const std::string doubt = spin_doubt(r.body, m.spin, m.by_all_loads); now == Stiffening::none && !by_points && !doubt.empty())
+    out.push_back(doubt);
+  else if (now != Stiffening::axial && by_points)
+    out.push_back("the loads on \"" + r.body + "\" and its points " + changed(m.by_all_loads) + "; add stiffening: axial");
+  const std::string doubt = deflection_doubt(r.body, m.deflection, m.slope, "would bend");
+  if (!doubt.empty()) out.push_back(doubt + (now == Stiffening::none ? "" : " (estimated without its stiffening; a run tells)"));
+}
+
+}  // namespace
+
+FlexibleReport flexible_report(const Scene& scene, const MechanismBody& b) {
+  FlexibleReport r;
+  const FlexInertia& flex = *b.body.flex;
+  r.body = b.body.name;
+  r.basis = title_of(*b.elastic.scene->elastic->modes);
+  r.shapes = b.body.modes();
+  r.lowest = flex.omega.minCoeff() / two_pi;
+  r.highest = flex.omega.maxCoeff() / two_pi;
+  r.least_damping = flex.zeta.minCoeff();
+  r.most_damping = flex.zeta.maxCoeff();
+  if (b.tie.kind != FrameTie::mean_axes) {
+    const Eigen::Vector3d sum = effective_mass(b.elastic.model, b.elastic.M, b.modes).rowwise().sum();
+    r.mass = Eigen::Vector3d(sum[0] / b.body.m, sum[1] / b.body.m, sum[2] / b.body.J);
+  }
+  in_body(scene, *b.elastic.scene, [&] { cover_compliance(scene, b, r); });
+  return r;
+}
+
+MotionEstimate motion_estimate(const Scene& scene, const MechanismBody& b, const LoadHistory& history) {
+  MotionEstimate out;
+  const ModalModel modes = lowest_of(b.modes, std::min(responding, b.modes.omega.size()));
+  const MatrixXd work = work_of_loads(b.elastic, modes);
+  MatrixXd Q = work * history.factor;
+  const MatrixXd terms = work.cwiseAbs() * history.factor.cwiseAbs();
+  for (Index i = 0; i < Q.rows(); ++i)  // loads in equilibrium that leave a mode nothing but rounding
+    if (Q.row(i).lpNorm<Eigen::Infinity>() <= rounding * terms.row(i).maxCoeff()) Q.row(i).setZero();
+  const MatrixXd eta = oscillator_response(modes.omega, b.body.flex->zeta, history.t, Q);
+  out.spin = std::sqrt(history.factor.row(3).maxCoeff());
+  out.excited_up_to = excited_up_to(history.t, Q, modes.omega);
+  // The field at each mode's greatest amplitude and at the greatest displacement in the mean square.
+  std::vector<Index> times(1);
+  eta.colwise().squaredNorm().maxCoeff(&times[0]);
+  for (Index i = 0; i < std::min<Index>(3, eta.rows()); ++i) eta.row(i).cwiseAbs().maxCoeff(&times.emplace_back());
+  for (const Index t : times) {
+    const VectorXd u = modes.shapes * eta.col(t);
+    out.deflection = std::max(out.deflection, greatest_displacement(b.elastic, u) / size_of(b.elastic));
+    out.slope = std::max(out.slope, greatest_turn(b.elastic, u, modes.ports * eta.col(t)));
+  }
+  in_body(scene, *b.elastic.scene, [&] { estimate_stiffening(b, history, out); });
+  return out;
+}
+
+double stiffened_by_spin(const Scene& scene, const MechanismBody& b, double spin) {
+  const ModalModel modes = lowest_of(b.modes, std::min(stiffened, b.modes.omega.size()));
+  const MatrixXd loads = loads_on(b.elastic);
+  MatrixXd load = loads.col(3);
+  if (const int port = pivot(scene, b.elastic); port >= 0) {
+    const Eigen::Vector2d arm = b.centre - b.elastic.model.ports[static_cast<std::size_t>(port)].x;
+    load += loads.leftCols<2>() * arm - b.body.m * loads.middleCols<2>(inertia_loads + 3 * Index{port}) * arm;
+  }
+  return change(modes.omega, spin * spin * foreshortening(component_of(b.elastic), b.tie, modes, load).front());
+}
+
+BendingProbe bending_probe(const MechanismBody& b, int index) {
+  constexpr Index most = 32;
+  const FeModel& model = b.elastic.model;
+  BendingProbe probe{b.body.name, index, size_of(b.elastic), {}, {}};
+  std::vector<int> moved, turned;
+  const Index nodes = model.x.cols(), count = std::min(most, nodes);
+  for (Index k = 0; k < count; ++k) {
+    const auto node = static_cast<std::size_t>(count > 1 ? k * (nodes - 1) / (count - 1) : 0);
+    moved.insert(moved.end(), {model.begin[node], model.begin[node] + 1});
+    if (model.begin[node + 1] - model.begin[node] == 3) turned.push_back(model.begin[node] + 2);
+  }
+  const Index ports = static_cast<Index>(model.ports.size()), n = b.modes.omega.size();
+  probe.displacement.resize(static_cast<Index>(moved.size()) + 2 * ports, n);
+  probe.slope.resize(static_cast<Index>(turned.size()) + ports, n);
+  probe.displacement.topRows(static_cast<Index>(moved.size())) = b.modes.shapes(moved, Eigen::all);
+  probe.slope.topRows(static_cast<Index>(turned.size())) = b.modes.shapes(turned, Eigen::all);
+  for (Index p = 0; p < ports; ++p) {
+    probe.displacement.middleRows<2>(static_cast<Index>(moved.size()) + 2 * p) = b.modes.ports.middleRows<2>(3 * p);
+    probe.slope.row(static_cast<Index>(turned.size()) + p) = b.modes.ports.row(3 * p + 2);
+  }
+  return probe;
+}
+
+double given_spin(const Scene& scene, const std::string& body) {
+  double spin = 0;
+  for (const StartBody& s : scene.start_bodies)
+    if (s.body == body && s.speed) spin = std::abs(*s.speed);
+  for (const SceneDriver& d : scene.drivers) {
+    if (d.kind != DriverKind::angle) continue;
+    if (!(d.a.body == "ground" && d.b.body == body) && !(d.b.body == "ground" && d.a.body == body)) continue;
+    constexpr int samples = 256;
+    for (int i = 0; i <= samples; ++i) spin = std::max(spin, std::abs(d.law.at(scene.run.until * i / samples).rate));
+  }
+  return spin;
+}
+
+std::string spin_doubt(const std::string& body, double spin, double change) {
+  if (!(std::abs(change) > stiffening_matters)) return "";
+  return "at " + shown_number(spin) + " rad/s the loads of inertia on \"" + body + "\" " + changed(change) + "; add stiffening: rotation";
+}
+
+std::string deflection_doubt(const std::string& body, double deflection, double slope, const std::string& when) {
+  if (!(deflection > large_deflection || slope > large_slope)) return "";
+  return "\"" + body + "\" " + when + " by " + percent(deflection) + " of its size, its slope " + shown_number(slope) +
+         " rad, within one frame, where deformation is taken as small (up to " + percent(large_deflection) + " and " + shown_number(large_slope) +
+         " rad); cut a beam into pieces";
+}
+
+std::vector<std::string> doubts(const Scene& scene, const FlexibleReport& r, const std::vector<Imposed>& imposed) {
+  std::vector<std::string> out;
+  doubt_frequency(r, imposed, out);
+  if (r.motion) doubt_linearity(scene, r, out);
+  return out;
+}
+
+}  // namespace pintle
