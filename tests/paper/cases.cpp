@@ -30,9 +30,8 @@ Change output(double every, double until, double tol) {
   };
 }
 
-/// Kinetic and gravity: the paper's energy (Eqs. 24 and 25), without what a contact stores.
 double energy(const Energies& e) {
-  return e.kinetic + e.gravity;
+  return e.kinetic + e.gravity + e.strain;
 }
 double loss(const Run& r) {
   return energy(r.first) - energy(r.last);
@@ -54,8 +53,11 @@ Vector ms(const Run& r) {
 }
 Vector energies(const Run& r) {
   Vector e = r.ledger.column("kinetic [J]");
-  const Vector g = r.ledger.column("gravity [J]");
-  for (std::size_t i = 0; i < e.size(); ++i) e[i] += g[i];
+  for (const char* other : {"gravity [J]", "strain [J]"})
+    if (std::ranges::find(r.ledger.header, other) != r.ledger.header.end()) {
+      const Vector more = r.ledger.column(other);
+      for (std::size_t i = 0; i < e.size(); ++i) e[i] += more[i];
+    }
   return e;
 }
 double loss_at(const Run& r, double t) {

@@ -31,7 +31,7 @@ Run run(const std::string& name, const Change& change = {}, const Overrides& set
 SceneClearance& clearance(Scene& s);
 Change tolerance(double value);
 Change output(double every, double until = 0, double tol = 1e-11);
-/// Kinetic and gravity: the paper's energy (Eqs. 24 and 25), without what a contact stores.
+/// Kinetic, gravity and strain: the paper's energy (Eqs. 24 and 25), without what a contact stores.
 double energy(const Energies& e);
 double loss(const Run& r);
 int ended(const Run& r);

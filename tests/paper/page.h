@@ -31,6 +31,8 @@ void figures5_and_6(Page&);
 void table2(Page&);
 void figure9(Page&);
 void figure11(Page&);
+void figure12(Page&);
+void table3(Page&);
 void findings(Page&);
 
 }  // namespace paper
