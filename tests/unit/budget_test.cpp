@@ -4,79 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
-#include <new>
 #include <string>
 #include <vector>
 
 #include "framework/integration/constraints.h"
 #include "framework/run/assemble.h"
-
-// ---- the counter: malloc and its kin, which operator new, Eigen and C libraries all end in ------
-
-namespace {
-std::atomic<bool> counting{false};
-std::atomic<long> allocations{0};
-void note() {
-  if (counting.load(std::memory_order_relaxed)) ++allocations;
-}
-}  // namespace
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define PINTLE_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || \
-    __has_feature(memory_sanitizer)
-#define PINTLE_SANITIZED 1
-#endif
-#endif
-
-#if defined(PINTLE_SANITIZED)  // owns malloc, and offers a hook
-extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*,
-                                                                  std::size_t),
-                                                         void (*)(const volatile void*));
-[[maybe_unused]] const int hooked = __sanitizer_install_malloc_and_free_hooks(
-    [](const volatile void*, std::size_t) { note(); }, [](const volatile void*) {});
-#elif defined(__GLIBC__)
-extern "C" {
-void* __libc_malloc(std::size_t);
-void* __libc_calloc(std::size_t, std::size_t);
-void* __libc_realloc(void*, std::size_t);
-void* __libc_memalign(std::size_t, std::size_t);
-void* malloc(std::size_t size) noexcept {
-  note();
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) noexcept {
-  note();
-  return __libc_calloc(count, size);
-}
-void* realloc(void* old, std::size_t size) noexcept {
-  note();
-  return __libc_realloc(old, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
-  note();
-  return __libc_memalign(alignment, size);
-}
-}
-#else  // no malloc to stand in for; operator new sees most
-void* operator new(std::size_t size) {
-  note();
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
-#endif
+#include "framework/scene/reader.h"
+#include "tests/unit/heap.h"
 
 namespace pintle {
 namespace {
@@ -85,25 +23,23 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-// Allocations while f runs.
-template <class F>
-long allocated(F f) {
-  allocations = 0;
-  counting = true;
-  f();
-  counting = false;
-  return allocations;
-}
-
 TEST(AllocationCounter, SeesNewMallocAndEigen) {
   const std::size_t size = 1000 + static_cast<std::size_t>(std::rand() % 2);
   std::unique_ptr<std::vector<double>> made;
+  void* (*volatile take)(std::size_t) = std::malloc;  // plain malloc may be moved by the compiler
   void* block = nullptr;
   VectorXd x;
   EXPECT_EQ(allocated([] {}), 0);
   EXPECT_GE(allocated([&] { made = std::make_unique<std::vector<double>>(size); }), 2);
-  EXPECT_GE(allocated([&] { block = std::malloc(size); }), 1);
+  EXPECT_GE(allocated([&] { block = take(size); }), 1);
+  const long before = heap_in_use();
   EXPECT_GE(allocated([&] { x.setZero(static_cast<Eigen::Index>(size)); }), 1);
+  if (before >= 0) {
+    const auto bytes = static_cast<long>(size * sizeof(double));
+    EXPECT_LE(std::abs(heap_in_use() - before - bytes), 64) << "what is taken";
+    x.resize(0);
+    EXPECT_EQ(heap_in_use(), before) << "and what is given back";
+  }
   std::free(block);
 }
 
@@ -175,6 +111,23 @@ void add_clearance(Scene& s) {
   s.joints[2].clearance = c;
 }
 
+// A coupler of two shapes, its axes and points as of the rigid one.
+void bend_coupler(Scene& s, const char* stiffening) {
+  const SceneBody rigid = s.bodies[1];
+  s.bodies[1] = read_scene_text(
+                    "bodies:\n  coupler:\n"
+                    "    beam: {from: A, to: B, section: {circle: 10 mm}, elements: 10,\n"
+                    "           young: 20 GPa, poisson: 0.3, mass: 0.24 kg}\n"
+                    "    points: {A: [0, 0], B: [0.12, 0]}\n"
+                    "    modes: {frame: chord, count: 2}\n    damping: {ratios: 0.02}\n"
+                    "    stiffening: " +
+                        std::string(stiffening) + "\n",
+                    "coupler.yaml")
+                    .bodies[0];
+  s.bodies[1].at = rigid.at;
+  s.bodies[1].angle = rigid.angle;
+}
+
 TEST(Budget, RigidSliderCrankHasNineCoordinatesAndEightRows) {
   Scene s = slider_crank();
   const System ideal = build(s).system;
@@ -189,8 +142,28 @@ TEST(Budget, RigidSliderCrankHasNineCoordinatesAndEightRows) {
   EXPECT_EQ(loose.n_z(), 2);  // hysteresis and friction
 }
 
-// ---- allocation
-// -----------------------------------------------------------------------------------
+TEST(Budget, RigidMechanismHasNothingFlexible) {
+  Scene s = slider_crank();  // the slider on a rocker of its own: a four-bar
+  s.bodies[2] = rod("rocker", 0.08, {0.17, 0.08}, -1.6);
+  s.joints[2].b = {"rocker", "B", {}};
+  s.ground = {{"hub", {0.17, 0.08}, 0, {}}};
+  s.joints[3] = joint("hub", JointKind::revolute, {"ground", "hub", {}}, {"rocker", "A", {}});
+  const Model model = build(s);
+  const System& system = model.system;
+  EXPECT_EQ(system.n(), 9);
+  EXPECT_EQ(system.n(), system.n_rigid());
+  for (const Body& b : system.bodies) EXPECT_FALSE(b.flex);
+  for (const Marker& m : system.markers)
+    EXPECT_EQ(m.shape.size() + m.slope.size() + m.second[0].size() + m.second[1].size(), 0);
+  const Equations eq(system);
+  EXPECT_TRUE(eq.flexible.empty());
+  for (const auto& B : eq.B_eta) EXPECT_EQ(B.size(), 0);
+  for (const auto& B : eq.B_eta_hat) EXPECT_EQ(B.size(), 0);
+  for (const MarkerMotion& m : eq.motion) EXPECT_EQ(m.flex.size(), 0);
+  EXPECT_TRUE(model.drawings.empty() && model.stresses.empty());
+}
+
+// ---- allocation --------------------------------------------------------------------------------
 
 struct Setting {
   const char* name;
@@ -203,6 +176,15 @@ const Setting settings[] = {
     {"clearance", add_clearance},
     {"everything",
      [](Scene& s) {
+       add_driver(s);
+       add_springs(s);
+       add_clearance(s);
+     }},
+    {"flexible", [](Scene& s) { bend_coupler(s, "none"); }},
+    {"stiffening", [](Scene& s) { bend_coupler(s, "axial"); }},
+    {"flexible with everything",
+     [](Scene& s) {
+       bend_coupler(s, "axial");
        add_driver(s);
        add_springs(s);
        add_clearance(s);
@@ -248,6 +230,7 @@ TEST(Budget, AdvanceDoesNotAllocateAfterTheFirstSteps) {
 
 TEST(Budget, SamplingDoesNotAllocate) {
   Scene scene = slider_crank();
+  bend_coupler(scene, "rotation");
   add_springs(scene);
   add_clearance(scene);
   const Model model = build(scene);
@@ -285,8 +268,7 @@ TEST(Budget, AStepTakesSixEvaluations) {
   }
 }
 
-// ---- many rows
-// --------------------------------------------------------------------------------------
+// ---- many rows ---------------------------------------------------------------------------------
 
 // Rods of length 0.1 hung in a row, angles and spins at random but the same each time.
 struct Chain {

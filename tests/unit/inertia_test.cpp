@@ -16,6 +16,8 @@
 
 #include "tests/contracts/reduction_bodies.h"
 
+#include "framework/run/modes.h"
+
 namespace pintle {
 namespace {
 
@@ -37,8 +39,7 @@ struct Particle {
   Eigen::Matrix2Xd shape;  // 2 × k, after multiplication by the modal shapes
 };
 
-// Exact for polynomials of degree 9 in each direction: products of two biquadratic fields on
-// distorted cells.
+// Exact for degree 9 in each direction: products of two biquadratic fields on distorted cells.
 const double gauss_at[] = {-0.906179845938663993, -0.538469310105683091, 0, 0.538469310105683091,
                            0.906179845938663993};
 const double gauss_weight[] = {0.236926885056189088, 0.478628670499366468, 0.568888888888888889,
@@ -99,8 +100,7 @@ void add_plane(std::vector<Particle>& all, const FeModel& model, const Block<E>&
         weight *= (1 - xi.x()) / 4;
         xi.y() *= 1 - xi.x();
       }
-      // The map is of second degree at most in each direction: central differences over a half are
-      // exact.
+      // Of second degree at most in each direction: differences over a half are exact.
       const Vector2d a = at(xi + Vector2d(0.25, 0)) - at(xi - Vector2d(0.25, 0));
       const Vector2d b = at(xi + Vector2d(0, 0.25)) - at(xi - Vector2d(0, 0.25));
       const double area = 4 * (a.x() * b.y() - a.y() * b.x());
@@ -121,12 +121,28 @@ void add_lump(std::vector<Particle>& all, const FeModel& model, const Lump& lump
   }
 }
 
-std::vector<Particle> particles(const FeModel& model, const MatrixXd& phi) {
+/// Lumped elements are a mass at each of their nodes.
+template <class E>
+void add_lumped(std::vector<Particle>& all, const FeModel& model, const Block<E>& block,
+                const MatrixXd& phi) {
+  for (int i = 0; i < block.size(); ++i) {
+    const Freedoms<E> m = lumped_mass(block.element(i), block.coords(i, model.x));
+    for (int k = 0; k < E::nodes; ++k) {
+      const int f = k * E::dofs_per_node;
+      const int node = block.nodes[static_cast<std::size_t>(i * E::nodes + k)];
+      add_lump(all, model, {node, {m[f], E::dofs_per_node == 3 ? m[f + 2] : 0}}, phi);
+    }
+  }
+}
+
+std::vector<Particle> particles(const FeModel& model, const MatrixXd& phi, MassKind kind) {
   std::vector<Particle> all;
   for (const AnyBlock& any : model.blocks)
     std::visit(
         [&]<class E>(const Block<E>& block) {
-          if constexpr (std::is_same_v<E, BeamEuler> || std::is_same_v<E, BeamTimoshenko>)
+          if (kind == MassKind::lumped)
+            add_lumped(all, model, block, phi);
+          else if constexpr (std::is_same_v<E, BeamEuler> || std::is_same_v<E, BeamTimoshenko>)
             add_line(all, model, block, phi);
           else if constexpr (!std::is_same_v<E, Bar>)
             add_plane(all, model, block, phi);
@@ -156,7 +172,7 @@ double kinetic_energy(const std::vector<Particle>& all, const VectorXd& q, const
   return sum;
 }
 
-/// Docs' block mass matrix of [x y θ η].
+/// Block mass matrix of [x y θ η].
 MatrixXd mass_matrix(const RigidInertia& r, const FlexInertia& f, const VectorXd& q) {
   const auto n = f.omega.size();
   const VectorXd eta = q.tail(n);
@@ -184,26 +200,53 @@ VectorXd inertia_force(const RigidInertia& r, const FlexInertia& f, const Vector
   return force;
 }
 
+SampleBody plate_of(CellShape cells, const char* element = "") {
+  const Plate p = plate(4, 2, cells, bent_rectangle(0.2, 0.05));
+  return on_nodes(model_of(p, steel(PlaneState::stress), element), p.nodes.at("left")[1],
+                  p.nodes.at("right")[0]);
+}
+
 struct Subject {
   const char* name;
   SampleBody (*make)();
   FrameTie tie;
+  MassKind kind = MassKind::consistent;
 };
 void PrintTo(const Subject& s, std::ostream* out) {
   *out << s.name;
 }
+constexpr FrameTie chord{FrameTie::chord, 0, 1}, tangent{FrameTie::tangent, 0, -1}, mean{};
+using enum CellShape;
 const Subject subjects[] = {
-    {"EulerBeamTangent", [] { return euler_beam(6); }, {FrameTie::tangent, 0, -1}},
-    {"TimoshenkoBracketChord", timoshenko_bracket, {FrameTie::chord, 0, 1}},
-    {"TimoshenkoBracketMeanAxes", timoshenko_bracket, {FrameTie::mean_axes}},
+    {"EulerBeamTangent", [] { return euler_beam(6); }, tangent},
+    {"TimoshenkoBracketChord", timoshenko_bracket, chord},
+    {"TimoshenkoBracketMeanAxes", timoshenko_bracket, mean},
+    {"TimoshenkoBracketLumped", timoshenko_bracket, tangent, MassKind::lumped},
     {"PlateOnRigidEdgesTangent",
      [] { return plate_on_edges(Coupling::rigid); },
      {FrameTie::tangent, 1, -1}},
-    {"PlateOnAveragedEdgesMeanAxes",
-     [] { return plate_on_edges(Coupling::average); },
-     {FrameTie::mean_axes}},
-    {"PlateOnNodesChord", plate_on_nodes, {FrameTie::chord, 0, 1}},
+    {"PlateOnAveragedEdgesMeanAxes", [] { return plate_on_edges(Coupling::average); }, mean},
+    {"PlateOnEdgesLumped", [] { return plate_on_edges(Coupling::rigid); }, chord, MassKind::lumped},
+    {"PlateOnNodesChord", plate_on_nodes, chord},
+    {"Triangle3", [] { return plate_of(triangle3); }, mean},
+    {"Triangle6", [] { return plate_of(triangle6); }, mean},
+    {"Quadrilateral4", [] { return plate_of(quadrilateral4); }, mean},
+    {"Quadrilateral4Plain", [] { return plate_of(quadrilateral4, "quadrilateral4-plain"); }, chord},
+    {"Quadrilateral8", [] { return plate_of(quadrilateral8); }, chord},
+    {"Quadrilateral8Reduced", [] { return plate_of(quadrilateral8, "quadrilateral8-reduced"); },
+     mean},
+    {"Quadrilateral9", [] { return plate_of(quadrilateral9); }, mean},
+    {"Quadrilateral9Lumped", [] { return plate_of(quadrilateral9); }, mean, MassKind::lumped},
 };
+
+/// As a mechanism has it.
+Sparse skew_mass(const FeModel& model, const Sparse& M, MassKind kind) {
+  SceneBody scene;
+  scene.elastic.emplace().lumped = kind == MassKind::lumped;
+  ElasticBody e;
+  e.scene = &scene, e.model = model, e.M = M;
+  return skew_mass_of(e);
+}
 
 class Inertia : public testing::TestWithParam<Subject> {
  protected:
@@ -214,13 +257,13 @@ class Inertia : public testing::TestWithParam<Subject> {
         for (BeamEuler& e : beams->properties) e = euler_strip(1);
     return b;
   }();
-  const Assembler assembler{body.model};
-  const Sparse M = assembler.mass(), G = assembler.skew_mass();
-  const ModalModel modes =
-      craig_bampton(component(body.model), {0, 1}, GetParam().tie, {.count = 3});
+  const MassKind kind = GetParam().kind;
+  const Sparse M = Assembler(body.model).mass(kind), G = skew_mass(body.model, M, kind);
+  const ModalModel modes = craig_bampton(component(body.model, kind == MassKind::lumped), {0, 1},
+                                         GetParam().tie, {.count = 3});
   const RigidInertia rigid = rigid_inertia(body.model, M);
   const FlexInertia flex = flex_inertia(body.model, M, G, modes);
-  const std::vector<Particle> material = particles(body.model, modes.shapes);
+  const std::vector<Particle> material = particles(body.model, modes.shapes, kind);
   std::mt19937 random{7};
 
   double within(double reach) {
@@ -248,6 +291,26 @@ TEST_P(Inertia, OfTheUndeformedBodyIsThatOfItsMaterial) {
   EXPECT_NEAR(rigid.m, sum.m, rounding * sum.m);
   EXPECT_LT((rigid.c - sum.c).norm(), rounding * std::sqrt(sum.m * sum.J));
   EXPECT_NEAR(rigid.J, sum.J, rounding * sum.J);
+}
+
+// S, j, h and G by their definitions; ΦᵀMΦ = 1 besides.
+TEST_P(Inertia, OfTheShapesIsThatOfItsMaterial) {
+  const auto n = modes.omega.size();
+  MatrixXd S = MatrixXd::Zero(2, n), j = MatrixXd::Zero(1, n), h = j, G_sum = MatrixXd::Zero(n, n),
+           square = G_sum;
+  for (const Particle& p : material) {
+    const Eigen::Matrix2Xd turned = Z.transpose() * p.shape;
+    S += p.m * p.shape;
+    j += p.m * p.x.transpose() * p.shape;
+    h += p.m * p.x.transpose() * turned;
+    G_sum += p.m * p.shape.transpose() * turned;
+    square += p.m * p.shape.transpose() * p.shape;
+  }
+  EXPECT_LT((flex.S - S).norm(), rounding * std::sqrt(rigid.m));
+  EXPECT_LT((flex.j - j).norm(), rounding * std::sqrt(rigid.J));
+  EXPECT_LT((flex.h - h).norm(), rounding * std::sqrt(rigid.J));
+  EXPECT_LT((flex.G - G_sum).norm(), 10 * rounding);
+  EXPECT_LT((square - MatrixXd::Identity(n, n)).norm(), 10 * rounding);
 }
 
 TEST_P(Inertia, MakesTheKineticEnergyOfAnyMotion) {
@@ -308,9 +371,9 @@ TEST_P(Inertia, InvariantsFollowWhenTheBodyAxesAreMoved) {
   for (std::size_t k = 0; k + 1 < moved.begin.size(); ++k)
     carried.shapes.middleRows(moved.begin[k], 2) =
         (A.transpose() * modes.shapes.middleRows(moved.begin[k], 2)).eval();
-  const Assembler again(moved);
-  const RigidInertia r = rigid_inertia(moved, again.mass());
-  const FlexInertia f = flex_inertia(moved, again.mass(), again.skew_mass(), carried);
+  const Sparse M_moved = Assembler(moved).mass(kind);
+  const RigidInertia r = rigid_inertia(moved, M_moved);
+  const FlexInertia f = flex_inertia(moved, M_moved, skew_mass(moved, M_moved, kind), carried);
 
   const double size = std::sqrt(rigid.J / rigid.m) + p.norm(), root = std::sqrt(rigid.m);
   EXPECT_NEAR(r.m, rigid.m, rounding * rigid.m);
