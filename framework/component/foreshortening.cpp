@@ -82,12 +82,18 @@ Foreshortening inertia_foreshortening(const Component& c, const Sparse& M, const
   return {{std::move(F[0]), std::move(F[1])}, std::move(F[2]), std::move(F[3])};
 }
 
-std::array<MatrixXd, 2> port_foreshortening(const Component& c, const FrameTie& tie,
-                                            const ModalModel& modes, const Port& port) {
-  MatrixXd loads = MatrixXd::Zero(c.model.n(), 2);
-  loads(port.freedom[0], 0) = loads(port.freedom[1], 1) = 1;
+std::vector<std::array<MatrixXd, 2>> port_foreshortening(const Component& c, const FrameTie& tie,
+                                                         const ModalModel& modes) {
+  const std::vector<Port>& ports = c.model.ports;
+  MatrixXd loads = MatrixXd::Zero(c.model.n(), 2 * static_cast<Eigen::Index>(ports.size()));
+  Eigen::Index column = 0;
+  for (const Port& port : ports)
+    for (int d = 0; d < 2; ++d) loads(port.freedom[d], column++) = 1;
   std::vector<MatrixXd> F = foreshortening(c, tie, modes, loads);
-  return {std::move(F[0]), std::move(F[1])};
+  std::vector<std::array<MatrixXd, 2>> out;
+  for (std::size_t i = 0; i < ports.size(); ++i)
+    out.push_back({std::move(F[2 * i]), std::move(F[2 * i + 1])});
+  return out;
 }
 
 }  // namespace pintle

@@ -28,9 +28,8 @@ std::vector<Eigen::MatrixXd> foreshortening(const Component&, const FrameTie&, c
 Foreshortening inertia_foreshortening(const Component&, const Sparse& M, const FrameTie&,
                                       const ModalModel&);
 
-/// The same for unit forces along x and y at a port [m/kg]: its displacement at second order. Each
-/// call factors K; many ports are cheaper as columns of `loads` above.
-std::array<Eigen::MatrixXd, 2> port_foreshortening(const Component&, const FrameTie&,
-                                                   const ModalModel&, const Port&);
+/// The same for unit forces along x and y at each port [m/kg]: its displacement at second order.
+std::vector<std::array<Eigen::MatrixXd, 2>> port_foreshortening(const Component&, const FrameTie&,
+                                                                const ModalModel&);
 
 }  // namespace pintle

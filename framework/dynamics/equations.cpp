@@ -81,46 +81,6 @@ void solve_reactions(const System& system, Equations& eq) {
   }
 }
 
-// d = A(x + Φη + ½ηᵀΨη), its derivative by η, and the direction turned by the slope.
-void pose_flexible(const System& system, const Marker& marker, const VectorXd& y, double c, double s, MarkerMotion& m) {
-  const double* q = y.data() + 3 * marker.body;
-  const Modal eta(y.data() + system.eta_begin[at(marker.body)], m.flex.cols());
-  Vector2d x = marker.x_BP;
-  for (int k = 0; k < 2; ++k) {
-    x[k] += marker.shape.row(k).dot(eta);
-    m.flex.row(k) = marker.shape.row(k);
-    const Eigen::MatrixXd& F = marker.second[at(k)];
-    for (Index i = 0; i < F.cols(); ++i) {
-      const double slope = F.col(i).dot(eta);
-      m.flex(k, i) += slope;
-      x[k] += 0.5 * slope * eta[i];
-    }
-  }
-  for (Index i = 0; i < m.flex.cols(); ++i) {
-    const double along = m.flex(0, i), across = m.flex(1, i);
-    m.flex.col(i) << c * along - s * across, s * along + c * across;
-  }
-  m.d = {c * x.x() - s * x.y(), s * x.x() + c * x.y()};
-  m.r = {q[0] + m.d.x(), q[1] + m.d.y()};
-  m.angle = q[2] + marker.angle + marker.slope.dot(eta);
-  m.u = {std::cos(m.angle), std::sin(m.angle)};
-}
-
-// What deformation adds to the motion of a point of the frame. @pre m.w is the frame's
-void speed_flexible(const System& system, const Marker& marker, const VectorXd& y, double c, double s, MarkerMotion& m) {
-  const Modal rate(y.data() + system.n() + system.eta_begin[at(marker.body)], m.flex.cols());
-  const Vector2d drift(m.flex.row(0).dot(rate), m.flex.row(1).dot(rate));
-  m.v += drift;
-  m.a0 += 2 * m.w * perp(drift);
-  if (marker.second[0].size() > 0) {
-    Vector2d bend = Vector2d::Zero();
-    for (int k = 0; k < 2; ++k)
-      for (Index i = 0; i < rate.size(); ++i) bend[k] += marker.second[at(k)].col(i).dot(rate) * rate[i];
-    m.a0 += Vector2d(c * bend.x() - s * bend.y(), s * bend.x() + c * bend.y());
-  }
-  m.w += marker.slope.dot(rate);
-}
-
 }  // namespace
 
 Equations::Equations(const System& system)
@@ -188,7 +148,7 @@ void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
     const double c = eq.cos_[marker.body], s = eq.sin_[marker.body];
     const double* q = y.data() + 3 * marker.body;
     if (m.flex.cols() > 0) {
-      pose_flexible(system, marker, y, c, s, m);
+      pose_on_flexible(system, marker, y, c, s, m);
       continue;
     }
     m.d = {c * marker.x_BP.x() - s * marker.x_BP.y(), s * marker.x_BP.x() + c * marker.x_BP.y()};
@@ -231,7 +191,7 @@ void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
     m.w = s[3 * body + 2];
     m.v = {s[3 * body] - m.w * m.d.y(), s[3 * body + 1] + m.w * m.d.x()};
     m.a0 = -m.w * m.w * m.d;
-    if (m.flex.cols() > 0) speed_flexible(system, system.markers[i], y, eq.cos_[body], eq.sin_[body], m);
+    if (m.flex.cols() > 0) move_on_flexible(system, system.markers[i], y, eq.cos_[body], eq.sin_[body], m);
   }
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     ConstraintRows& r = eq.rows[k];
@@ -262,33 +222,6 @@ void factor(const System& system, const VectorXd& y, Equations& eq) {
     eq.B_hat[side.block] = B_hat;
   }
   eq.regular = eq.schur.factor(eq.B_hat, eq.B_eta_hat);
-}
-
-MovingPoint moving_point(const System& system, int marker, const VectorXd& y) {
-  const Marker& m = system.markers[at(marker)];
-  if (m.body == ground) return {m.x_BP, Vector2d::Zero(), 0};
-  const double* q = y.data() + 3 * m.body;
-  const double* s = q + system.n();
-  const double c = std::cos(q[2]), d = std::sin(q[2]);
-  Vector2d x = m.x_BP, drift = Vector2d::Zero();
-  double w = s[2];
-  if (const Index n = m.shape.cols(); n > 0) {
-    const int begin = system.eta_begin[at(m.body)];
-    const Modal eta(y.data() + begin, n), rate(y.data() + system.n() + begin, n);
-    for (int k = 0; k < 2; ++k) {
-      x[k] += m.shape.row(k).dot(eta);
-      drift[k] = m.shape.row(k).dot(rate);
-      const Eigen::MatrixXd& F = m.second[at(k)];
-      for (Index i = 0; i < F.cols(); ++i) {
-        x[k] += 0.5 * F.col(i).dot(eta) * eta[i];
-        drift[k] += F.col(i).dot(eta) * rate[i];
-      }
-    }
-    w += m.slope.dot(rate);
-  }
-  const Vector2d arm(c * x.x() - d * x.y(), d * x.x() + c * x.y());
-  return {Vector2d(q[0], q[1]) + arm,
-          Vector2d(s[0], s[1]) + s[2] * perp(arm) + Vector2d(c * drift.x() - d * drift.y(), d * drift.x() + c * drift.y()), w};
 }
 
 void add_wrench(const System& system, const Equations& eq, int marker, const Wrench& w, VectorXd& v) {

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "contact/gap.h"
 #include "framework/dynamics/flexible.h"
+#include "framework/dynamics/marker_motion.h"
 #include "framework/dynamics/schur.h"
 #include "framework/dynamics/system.h"
 
@@ -99,9 +99,6 @@ bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equati
 /// Moves q, then s, to C = 0 and Ċ = 0 by the shortest way in the metric of M; leaves pose, speed and
 /// factor as for the corrected state. @returns false if it does not converge
 bool project(const System&, double t, Eigen::VectorXd& y, Equations&);
-
-/// Place, velocity and spin of a marker's point from the coordinates alone.
-MovingPoint moving_point(const System&, int marker, const Eigen::VectorXd& y);
 
 /// put(column of q, [∂r_x, ∂r_y, ∂angle]) for each coordinate that moves a marker. After pose.
 template <class Put>

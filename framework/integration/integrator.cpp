@@ -173,6 +173,8 @@ bool Integrator::advance(double until) {
     const Index n = system_.n();
     const double speed = step_.from.state.y.segment(n, n).norm(), accel = step_.from.dy.segment(n, n).norm();
     h_ = std::min(left, accel > 0 ? 0.01 * std::max(speed / accel, 1e-3 * std::sqrt(fine_length_ / accel)) : left);
+    for (const Body& b : system_.bodies)  // no shape's first period is stepped over
+      if (b.modes() > 0) h_ = std::min(h_, 0.3 / b.flex->omega.maxCoeff());
     h_ = std::min(h_, scheme_.max_step);
   }
   for (int c = 0; c < static_cast<int>(system_.contacts.size()); ++c)

@@ -72,7 +72,7 @@ void judge_inertia(const Scene& scene, const ElasticBody& e) {
 }
 
 MechanismBody mechanism_body(const Scene& scene, ElasticBody elastic, std::optional<int> chosen) {
-  MechanismBody b{std::move(elastic), {}, {}, {}, Vector2d::Zero(), {}};
+  MechanismBody b{std::move(elastic), {}, {}, {}, Vector2d::Zero(), {}, {}};
   const SceneBody& body = *b.elastic.scene;
   for (const std::string& w : b.elastic.warnings) b.warnings.push_back("\"" + body.name + "\": " + w);
   const RigidInertia inertia = rigid_inertia(b.elastic.model, b.elastic.M);
@@ -85,6 +85,7 @@ MechanismBody mechanism_body(const Scene& scene, ElasticBody elastic, std::optio
   if (b.modes.omega.size() == 0) return b;
   in_body(scene, body, [&] {
     b.body.flex = invariants(scene, b);
+    if (body.elastic->stiffening == Stiffening::axial) b.second = port_foreshortening(component_of(b.elastic), b.tie, b.modes);
     judge_frame(b);
   });
   warn_of_damping(b);
@@ -117,7 +118,7 @@ Marker marker_of(const Scene& scene, const MechanismBody& b, int body, const Poi
   m.shape = b.modes.ports.middleRows<2>(row);
   m.slope = b.modes.ports.row(row + 2);
   if (e.scene->elastic->stiffening == Stiffening::axial)
-    m.second = port_foreshortening(component_of(e), b.tie, b.modes, port);
+    m.second = b.second[i];
   return m;
 }
 

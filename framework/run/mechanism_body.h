@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct MechanismBody {
   ModalModel modes;            ///< no shapes: rigid
   Body body;                   ///< mass, inertia, invariants about the mass centre
   Eigen::Vector2d centre;      ///< of mass, undeformed, body axes [m]
+  std::vector<std::array<Eigen::MatrixXd, 2>> second;  ///< of each port, if `stiffening: axial`
   std::vector<std::string> warnings;
 };
 

@@ -53,7 +53,7 @@ struct Reduced {
 
   Foreshortening inertia() const { return inertia_foreshortening(c, M, tie, modes); }
   std::array<MatrixXd, 2> at(int port) const {
-    return port_foreshortening(c, tie, modes, model.ports[static_cast<std::size_t>(port)]);
+    return port_foreshortening(c, tie, modes)[static_cast<std::size_t>(port)];
   }
   MatrixXd stiffness() const { return modes.omega.cwiseAbs2().asDiagonal(); }
 };
