@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <tuple>
 #include <utility>
 
+#include "framework/run/holding.h"
 #include "framework/run/mechanism_body.h"
 #include "framework/scene/nearest.h"
 
@@ -125,6 +127,8 @@ class Builder {
       model_.warnings.insert(model_.warnings.end(), found.begin(), found.end());
       if (!r.motion) doubt_spin(*elements_[i]);
     }
+    const std::vector<std::string> held = holding_warnings(scene_, elements_);
+    model_.warnings.insert(model_.warnings.end(), held.begin(), held.end());
   }
 
   /// Without a rigid run: a body whose spin is given.
@@ -197,8 +201,8 @@ class Builder {
     switch (j.kind) {
       case JointKind::revolute: joints.push_back(Revolute{a, b}); break;
       case JointKind::slot: joints.push_back(Slot{a, b}); break;
-      case JointKind::prismatic: joints.push_back(Prismatic{a, b, j.angle}); break;
-      case JointKind::weld: joints.push_back(Weld{a, b, j.angle}); break;
+      case JointKind::prismatic: joints.push_back(Prismatic{a, b, nearest_turn(j)}); break;
+      case JointKind::weld: joints.push_back(Weld{a, b, nearest_turn(j)}); break;
       case JointKind::distance:
         if (!(j.length > 0))
           wrong(j.place, "length must be above 0; for two points that coincide use revolute");
@@ -209,42 +213,26 @@ class Builder {
     model_.pin_joints.emplace_back(static_cast<int>(joints.size()) - 1, b);
   }
 
-  void add_contact(const SceneJoint& j) {
-    const SceneClearance& c = *j.clearance;
-    if (j.kind != JointKind::revolute)
-      wrong(c.place, "only a revolute joint takes a clearance");
-    if (c.bearing != j.a.body && c.bearing != j.b.body)
-      wrong(c.place, "bearing: " + quoted(c.bearing) + " is neither " + quoted(j.a.body) + " nor " +
-                         quoted(j.b.body) + suggestion(c.bearing, {j.a.body, j.b.body}));
-    if (!(c.radial > 0)) wrong(c.place, "radial must be above 0; leave out `clearance` for an ideal joint");
-    if (!(c.radial < c.bearing_radius))
-      wrong(c.place, "radial clearance must be below the bearing radius, else no journal is left");
-    const bool b_bears = c.bearing == j.b.body;
+  /// The joint's angle with the whole turns that its bodies' rough poses show.
+  double nearest_turn(const SceneJoint& j) const {
+    const auto direction = [&](const PointRef& ref) {
+      const int b = body(ref);
+      double angle = marker_at(ref, Holds::direction).angle;
+      if (b == ground) return angle;
+      angle += scene_.bodies[static_cast<std::size_t>(b)].angle;
+      for (const StartBody& s : scene_.start_bodies)
+        if (s.body == ref.body && s.angle) angle += *s.angle - scene_.bodies[static_cast<std::size_t>(b)].angle;
+      return angle;
+    };
+    constexpr double turn = 2 * std::numbers::pi;
+    return j.angle + turn * std::round((direction(j.b) - direction(j.a) - j.angle) / turn);
+  }
 
-    ContactPair pair{};
+  void add_contact(const SceneJoint& j) {
+    ContactPair pair = contact_of(scene_, j);
+    const bool b_bears = j.clearance->bearing == j.b.body;
     pair.journal = marker(b_bears ? j.a : j.b);
     pair.bearing = marker(b_bears ? j.b : j.a);
-    pair.gap = {c.bearing_radius - c.radial, c.bearing_radius};
-    const SceneNormal& n = c.normal;
-    const ImpactFactor* factor = find_impact_factor(n.law);
-    if (!factor) {
-      std::vector<std::string> known;
-      for (const ImpactFactor& f : impact_factors()) known.emplace_back(f.name);
-      wrong(n.place, "there is no impact law " + quoted(n.law) + suggestion(n.law, known));
-    }
-    if (n.restitution < 0 || n.restitution > 1 || (n.restitution == 0 && !factor->zero_allowed))
-      wrong(n.place, "restitution must lie in " + std::string(factor->zero_allowed ? "[0, 1]" : "(0, 1]") + " for " + n.law);
-    if (!n.stiffness && n.exponent != 1.5)
-      wrong(n.place, "`young` and `poisson` give the stiffness of exponent 1.5; with another exponent give `stiffness`");
-    const double k = contact_stiffness(c);
-    if (!(k > 0) || !std::isfinite(k))
-      wrong(n.place, "no stiffness: give `young` and `poisson`, or `stiffness`");
-    pair.normal = {k, n.exponent, factor->chi(n.restitution)};
-    if (c.friction && c.friction->coefficient != 0) {
-      pair.friction = Ambrosio{c.friction->coefficient, c.friction->v0, c.friction->v1};
-      pair.sliding = c.friction->sliding == SlidingSpeed::material ? Sliding::material : Sliding::geometric;
-    }
-    pair.slowest_impact = n.slowest_impact;
     model_.system.contacts.push_back(pair);
     model_.system.contact_names.push_back(j.name);
   }
@@ -314,7 +302,8 @@ class Builder {
       const std::optional<MechanismBody> none;
       const auto& made = b == ground ? none : elements_[static_cast<std::size_t>(b)];
       if (!made || !made->body.flex)
-        wrong(p.place, quoted(p.body) + " has no stress, it is rigid; make it a beam or plate with `modes`");
+        wrong(p.place, quoted(p.body) + " has no stress, " + (made && made->elastic.scene->elastic->modes
+                           ? "its `modes` keep no shape; keep more" : "it is rigid; make it a beam or plate with `modes`"));
       model_.stresses.push_back({p.body + "." + p.point, b, stress_probe(scene_, made->elastic, made->modes, p)});
     }
   }
@@ -342,6 +331,15 @@ class Builder {
     return length > 0 ? length : 1;
   }
 
+  bool has_laws() const {
+    const auto varies = [](const SceneLoad& l) {
+      const auto* f = std::get_if<SceneForce>(&l.what);
+      const auto* q = std::get_if<SceneTorque>(&l.what);
+      return (f && !(f->x.constant && f->y.constant)) || (q && !q->law.constant);
+    };
+    return !scene_.drivers.empty() || std::any_of(scene_.loads.begin(), scene_.loads.end(), varies);
+  }
+
   void scheme() {
     const RunOptions& run = scene_.run;
     Scheme& s = model_.scheme;
@@ -357,7 +355,12 @@ class Builder {
       wrong(run.place, "partitioning is dense and meant for up to 300 rows, this scene has " +
                            std::to_string(model_.system.n_rows()) + "; use constraints: projection");
     s.onset_cut = run.onset_cut.value_or(0);
-    if (run.max_step > 0) s.max_step = run.max_step;
+    // A law may do nothing for long and then act: no step of what rests until then may pass over it.
+    constexpr double steps_through_laws = 1000;
+    if (run.max_step > 0)
+      s.max_step = run.max_step;
+    else if (has_laws())
+      s.max_step = run.until / steps_through_laws;
     s.max_steps = run.max_steps;
   }
 
@@ -374,15 +377,6 @@ class Builder {
 };
 
 }  // namespace
-
-double contact_stiffness(const SceneClearance& c) {
-  if (c.normal.stiffness) return *c.normal.stiffness;
-  const Elasticity& j = c.normal.journal.young > 0 ? c.normal.journal : c.normal.bearing;
-  if (!(c.normal.bearing.young > 0)) return 0;
-  return hertz_stiffness(c.bearing_radius - c.radial, c.bearing_radius, j.young, j.poisson,
-                         c.normal.bearing.young, c.normal.bearing.poisson,
-                         c.normal.radii == RadiusConvention::internal);
-}
 
 Model build(const Scene& scene) { return Builder(scene, false).build(); }
 

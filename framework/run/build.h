@@ -6,6 +6,7 @@
 
 #include "framework/dynamics/system.h"
 #include "framework/integration/integrator.h"
+#include "framework/run/clearance.h"
 #include "framework/run/flexible_drawing.h"
 #include "framework/run/flexible_report.h"
 #include "framework/scene/error.h"
@@ -58,8 +59,5 @@ Model build(const Scene&);
 /// The same, with a rigid run for every scene with flexible bodies, which estimates how they bend and
 /// stiffen and adds to the warnings: for `pintle check`.
 Model build_and_rehearse(const Scene&);
-
-/// Contact stiffness as the scene's words give it [N/mⁿ].
-double contact_stiffness(const SceneClearance&);
 
 }  // namespace pintle

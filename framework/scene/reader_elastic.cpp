@@ -146,7 +146,7 @@ Stiffening read_stiffening(const Node& node) {
 [[noreturn]] void refuse_of_rigid(const Node& node) {
   node.fail(
       "is asked of a rigid body: without modes it does not bend in a mechanism; add for example "
-      "modes: {frame: chord, count: 4}, or leave it out");
+      "modes: {frame: chord, craig-bampton: {count: 2}}, or leave it out");
 }
 
 std::vector<SceneLump> read_lumps(const Node& group, const SceneBody& body) {

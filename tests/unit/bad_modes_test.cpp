@@ -72,7 +72,7 @@ TEST(BadModes, StiffeningAndPiecesAreForBodiesThatBend) {
   const std::string modes = "    modes: {count: 2}\n";
   const std::string stiffening = "scene.yaml:5: bodies.rod.stiffening: ";
   expect_one_line(refusal_of(rod + "    stiffening: axial\n"), stiffening,
-                  {"asked of a rigid body", "modes: {frame: chord, count: 4}"});
+                  {"asked of a rigid body", "craig-bampton: {count: 2}"});
   expect_one_line(refusal_of(rod + "    stiffening: axail\n" + modes), stiffening,
                   {"none, rotation or axial", "Did you mean \"axial\"?"});
   expect_one_line(refusal_of("bodies: {b: {rigid: {mass: 1, inertia: 1}, stiffening: axial}}\n"),
