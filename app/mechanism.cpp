@@ -37,9 +37,10 @@ void print_flexible(const Model& model) {
   std::size_t width = 4;
   for (const FlexibleReport& r : model.flexible) width = std::max(width, r.body.size());
   const auto line = [&](const std::vector<std::string>& cells) {
-    constexpr int widths[] = {8, 22, 16, 24, 0};
-    std::cout << "  " << std::left << std::setw(static_cast<int>(width) + 2) << cells[0];
-    for (std::size_t i = 1; i < cells.size(); ++i) std::cout << std::setw(widths[i - 1]) << cells[i];
+    const std::size_t widths[] = {width + 2, 8, 22, 20, 24, 0};
+    std::cout << "  ";
+    for (std::size_t i = 0; i < cells.size(); ++i)  // two blanks at least, however long the entry
+      std::cout << cells[i] << std::string(i + 1 == cells.size() ? 0 : std::max(widths[i], cells[i].size() + 2) - cells[i].size(), ' ');
     std::cout << "\n";
   };
   line({"body", "shapes", "frequencies [Hz]", "damping", "mass x, y, rotation %", "least compliance covered %"});
