@@ -51,7 +51,8 @@ Mesh with_gmsh(const std::string& what, Work work) {
   }
   if (const std::string logged = gmsh_errors(); !logged.empty()) words = logged;
   throw std::runtime_error(what + ": Gmsh cannot " +
-                           (words.empty() ? "make a mesh of it" : "make a mesh of it: " + words));
+                           (words.empty() ? "make a mesh of it" : "make a mesh of it: " + words) +
+                           "; take another size or element, or mend the drawing");
 }
 
 void generate(const Figure& f, const std::vector<Pinned>& pinned, SizeField field, double factor,

@@ -314,11 +314,11 @@ double position_violation(const System& system, const Equations& eq) {
 
 double velocity_violation(const System& system, const VectorXd& y, const Equations& eq) {
   if (eq.Cdot.size() == 0) return 0;
-  double fastest = 0;  // a rate: speeds over the mechanism's length, spins as they are
+  double fastest = 1e-9;  // a rate: speeds over the mechanism's length, spins as they are; less is rest [1/s]
   const Index n = system.n();
   for (Index i = 0; i < n; ++i) fastest = std::max(fastest, std::abs(y[n + i]) / system.scale[i]);
   const double worst = eq.Cdot.cwiseProduct(system.row_scale).lpNorm<Eigen::Infinity>();
-  return fastest > 0 ? worst / fastest : worst > 0 ? 1 : 0;
+  return worst / fastest;
 }
 
 bool project(const System& system, double t, VectorXd& y, Equations& eq) {
