@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "framework/run/elastic_parts.h"
 #include "framework/run/holding.h"
 #include "framework/run/mechanism_body.h"
 #include "framework/scene/nearest.h"
@@ -18,7 +19,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-Vector2d vector(const Pair& p) { return {p[0], p[1]}; }
 std::string quoted(const std::string& s) { return "\"" + s + "\""; }
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& known) {

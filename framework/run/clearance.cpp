@@ -7,23 +7,14 @@
 
 namespace pintle {
 
-namespace {
-
-std::string quoted(const std::string& s) { return "\"" + s + "\""; }
-std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
-  return "." + did_you_mean(word, known);
-}
-
-}  // namespace
-
 ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
   const auto wrong = [&](const Place& place, const std::string& message) { throw SceneError(scene.file, place, message); };
   const SceneClearance& c = *j.clearance;
   if (j.kind != JointKind::revolute)
     wrong(c.place, "only a revolute joint takes a clearance");
   if (c.bearing != j.a.body && c.bearing != j.b.body)
-    wrong(c.place, "bearing: " + quoted(c.bearing) + " is neither " + quoted(j.a.body) + " nor " +
-                       quoted(j.b.body) + suggestion(c.bearing, {j.a.body, j.b.body}));
+    wrong(c.place, "bearing: \"" + c.bearing + "\" is neither \"" + j.a.body + "\" nor \"" + j.b.body + "\"." +
+                       did_you_mean(c.bearing, std::vector{j.a.body, j.b.body}));
   if (!(c.radial > 0)) wrong(c.place, "radial must be above 0; leave out `clearance` for an ideal joint");
   if (!(c.radial < c.bearing_radius))
     wrong(c.place, "radial clearance must be below the bearing radius, else no journal is left");
@@ -35,7 +26,7 @@ ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
   if (!factor) {
     std::vector<std::string> known;
     for (const ImpactFactor& f : impact_factors()) known.emplace_back(f.name);
-    wrong(n.place, "there is no impact law " + quoted(n.law) + suggestion(n.law, known));
+    wrong(n.place, "there is no impact law \"" + n.law + "\"." + did_you_mean(n.law, known));
   }
   if (n.restitution < 0 || n.restitution > 1 || (n.restitution == 0 && !factor->zero_allowed))
     wrong(n.place, "restitution must lie in " + std::string(factor->zero_allowed ? "[0, 1]" : "(0, 1]") + " for " + n.law);

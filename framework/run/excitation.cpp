@@ -103,10 +103,7 @@ class Grips {
   void add(Grip::Of of, std::size_t k, bool first, const PointRef& ref) {
     for (std::size_t b = 0; b < elements_.size(); ++b) {
       if (scene_.bodies[b].name != ref.body || !elements_[b]) continue;
-      const ElasticBody& e = *elements_[b];
-      int port = ref.point.empty() ? port_at_origin(e) : -1;
-      for (std::size_t p = 0; p < e.model.ports.size() && port < 0; ++p)
-        if (e.model.ports[p].name == ref.point) port = static_cast<int>(p);
+      const int port = port_of(*elements_[b], ref.point);
       if (port >= 0) all_.push_back({of, k, first, b, inertia_loads + 3 * Index{port}});
     }
   }

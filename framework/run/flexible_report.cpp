@@ -102,10 +102,7 @@ int pivot(const Scene& scene, const ElasticBody& e) {
   for (const SceneJoint& j : scene.joints) {
     if (j.kind != JointKind::revolute && j.kind != JointKind::weld) continue;
     const PointRef* own = j.a.body == e.scene->name && j.b.body == "ground" ? &j.a : j.b.body == e.scene->name && j.a.body == "ground" ? &j.b : nullptr;
-    if (!own) continue;
-    if (own->point.empty()) return port_at_origin(e);
-    for (std::size_t p = 0; p < e.model.ports.size(); ++p)
-      if (e.model.ports[p].name == own->point) return static_cast<int>(p);
+    if (own) return port_of(e, own->point);
   }
   return -1;
 }

@@ -14,14 +14,13 @@ struct Hold {
 };
 
 std::vector<Hold> holds_on(const Scene& scene, const MechanismBody& b) {
-  const int origin = port_at_origin(b.elastic);
   std::vector<Hold> holds;
   for (const SceneJoint& j : scene.joints)
     for (const PointRef* ref : {&j.a, &j.b}) {
       if (ref->body != b.body.name) continue;
-      const bool by_origin = ref->point.empty() && origin >= 0;
-      holds.push_back({by_origin ? b.elastic.model.ports[static_cast<std::size_t>(origin)].name : ref->point,
-                       j.kind == JointKind::weld || j.kind == JointKind::prismatic});
+      if (const int port = port_of(b.elastic, ref->point); port >= 0)
+        holds.push_back({b.elastic.model.ports[static_cast<std::size_t>(port)].name,
+                         j.kind == JointKind::weld || j.kind == JointKind::prismatic});
     }
   return holds;
 }

@@ -94,19 +94,13 @@ MechanismBody mechanism_body(const Scene& scene, ElasticBody elastic, std::optio
 
 Marker marker_of(const Scene& scene, const MechanismBody& b, int body, const PointRef& ref, bool turns) {
   const ElasticBody& e = b.elastic;
-  const auto& ports = e.model.ports;
-  std::size_t i = 0;
-  if (ref.point.empty()) {
-    const int origin = port_at_origin(e);
-    i = origin < 0 ? ports.size() : static_cast<std::size_t>(origin);
-    if (i == ports.size() && b.body.flex)
-      throw SceneError(scene.file, ref.place, "\"" + ref.body + "\" alone is the origin of its axes, and a flexible body has no point there; name one of its points");
-    if (i == ports.size()) return {body, b.body.x_BO, 0};
-  } else {
-    while (i < ports.size() && ports[i].name != ref.point) ++i;
-    if (i == ports.size()) point_of(scene, *e.scene, ref.point, ref.place);  // says what there is
-  }
-  const Port& port = ports[i];
+  const int found = port_of(e, ref.point);
+  if (found < 0 && !ref.point.empty()) point_of(scene, *e.scene, ref.point, ref.place);  // says what there is
+  if (found < 0 && b.body.flex)
+    throw SceneError(scene.file, ref.place, "\"" + ref.body + "\" alone is the origin of its axes, and a flexible body has no point there; name one of its points");
+  if (found < 0) return {body, b.body.x_BO, 0};
+  const auto i = static_cast<std::size_t>(found);
+  const Port& port = e.model.ports[i];
   const ScenePoint& point = point_of(scene, *e.scene, port.name, ref.place);
   Marker m{body, port.x - b.centre, ref.point.empty() ? 0 : point.angle};
   if (!b.body.flex) return m;

@@ -21,12 +21,10 @@ namespace pintle {
 
 namespace {
 
-int port_index(const Scene& scene, const ElasticBody& e, const std::string& name, const Place& place) {
+int named_port(const Scene& scene, const ElasticBody& e, const std::string& name, const Place& place) {
+  if (const int port = port_of(e, name); port >= 0) return port;
   std::vector<std::string> known;
-  for (std::size_t i = 0; i < e.model.ports.size(); ++i) {
-    if (e.model.ports[i].name == name) return static_cast<int>(i);
-    known.push_back(e.model.ports[i].name);
-  }
+  for (const Port& p : e.model.ports) known.push_back(p.name);
   throw SceneError(scene.file, place, "\"" + e.scene->name + "\" has no point \"" + name + "\"." + did_you_mean(name, known));
 }
 
@@ -120,19 +118,17 @@ Component component_of(const ElasticBody& e) {
   return {e.model, independent(e.model, e.K), independent(e.model, e.M)};
 }
 
-int port_at_origin(const ElasticBody& e) {
+int port_of(const ElasticBody& e, const std::string& point) {
   const double size = (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm();
   for (std::size_t i = 0; i < e.model.ports.size(); ++i)
-    if (e.model.ports[i].x.norm() <= 1e-7 * size) return static_cast<int>(i);
+    if (point.empty() ? e.model.ports[i].x.norm() <= 1e-7 * size : e.model.ports[i].name == point) return static_cast<int>(i);
   return -1;
 }
 
 std::vector<int> interface_of(const Scene& scene, const ElasticBody& e) {
-  std::set<std::string> used;
+  std::set<int> used;
   const auto note = [&](const PointRef& ref) {
-    if (ref.body != e.scene->name) return;
-    const int origin = ref.point.empty() ? port_at_origin(e) : -1;
-    used.insert(origin < 0 ? ref.point : e.model.ports[static_cast<std::size_t>(origin)].name);
+    if (ref.body == e.scene->name) used.insert(port_of(e, ref.point));
   };
   for (const SceneJoint& j : scene.joints) note(j.a), note(j.b);
   for (const SceneDriver& d : scene.drivers) note(d.a), note(d.b);
@@ -142,8 +138,8 @@ std::vector<int> interface_of(const Scene& scene, const ElasticBody& e) {
       else note(w.a), note(w.b);
     }, l.what);
   std::vector<int> ports;
-  for (std::size_t i = 0; i < e.model.ports.size(); ++i)
-    if (used.empty() || used.contains(e.model.ports[i].name)) ports.push_back(static_cast<int>(i));
+  for (int i = 0; i < static_cast<int>(e.model.ports.size()); ++i)
+    if (used.empty() || used.contains(i)) ports.push_back(i);
   return ports;
 }
 
@@ -177,8 +173,8 @@ FrameTie tie_of(const Scene& scene, const ElasticBody& e) {
   if (const auto* beam = std::get_if<SceneBeam>(&e.scene->elastic->shape); beam && b.empty()) b = beam->through.back();
   if (a.empty()) a = e.scene->points.front().name;
   if (b.empty()) b = e.scene->points.back().name;
-  const int first = port_index(scene, e, a, modes.place);
-  const FrameTie tie = modes.frame == Frame::tangent ? FrameTie{FrameTie::tangent, first} : FrameTie{FrameTie::chord, first, port_index(scene, e, b, modes.place)};
+  const int first = named_port(scene, e, a, modes.place);
+  const FrameTie tie = modes.frame == Frame::tangent ? FrameTie{FrameTie::tangent, first} : FrameTie{FrameTie::chord, first, named_port(scene, e, b, modes.place)};
   judge(scene, e, tie);
   return tie;
 }

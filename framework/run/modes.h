@@ -32,8 +32,8 @@ ModesReport modes_of(const Scene&, const ElasticBody&, int count);
 /// Matrices in independent freedoms; G is nodal.
 Component component_of(const ElasticBody&);
 Sparse skew_mass_of(const ElasticBody&);
-/// The port that a body's name alone stands for; −1: there is none.
-int port_at_origin(const ElasticBody&);
+/// Index of the named port, without a name of the one at the origin; −1: there is none.
+int port_of(const ElasticBody&, const std::string& point);
 /// The frame that the body's `modes` ask for. @pre it has them
 /// @throws SceneError  a point is not there, cannot turn (tangent), or two coincide (chord)
 FrameTie tie_of(const Scene&, const ElasticBody&);
