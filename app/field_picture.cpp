@@ -9,7 +9,6 @@
 #include <vtkDataSetSurfaceFilter.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
@@ -17,10 +16,10 @@
 #include <vtkScalarBarActor.h>
 #include <vtkTextProperty.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkWindowToImageFilter.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include "app/canvas.h"
+#include "app/png.h"
 
 namespace pintle {
 
@@ -114,14 +113,7 @@ void write_field_picture(const std::filesystem::path& file, const std::string& f
   renderer->ResetCameraClippingRange();
   window->Render();
 
-  vtkNew<vtkWindowToImageFilter> image;
-  image->SetInput(window);
-  image->ReadFrontBufferOff();
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(image->GetOutputPort());
-  writer->SetFileName(picture.c_str());
-  writer->Write();
-  if (writer->GetErrorCode() != 0) throw std::runtime_error(picture.string() + ": cannot be written");
+  write_png(window, picture);
 }
 
 }  // namespace pintle

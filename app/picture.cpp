@@ -17,13 +17,11 @@
 #include <vtkCamera.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
-#include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
-#include <vtkWindowToImageFilter.h>
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 
@@ -31,6 +29,7 @@
 #include "app/canvas.h"
 #include "app/field_picture.h"
 #include "app/frames.h"
+#include "app/png.h"
 #include "app/quantity.h"
 
 namespace {
@@ -341,16 +340,7 @@ void write_picture(const pintle::Drawing& drawing, const Choice& choice) {
   camera->SetClippingRange(0.5, far + 1);
   window->Render();
 
-  vtkNew<vtkWindowToImageFilter> image;
-  image->SetInput(window);
-  image->ReadFrontBufferOff();
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(image->GetOutputPort());
-  writer->SetFileName(choice.picture.c_str());
-  writer->Write();
-  if (writer->GetErrorCode() != 0) {
-    throw std::runtime_error(choice.picture.string() + ": cannot be written");
-  }
+  pintle::write_png(window, choice.picture);
 }
 
 }  // namespace
