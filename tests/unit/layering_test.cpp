@@ -45,7 +45,7 @@ struct Foreign {
   Paths may;
 };
 const std::vector<Foreign> foreign{
-    {"vtk", {"framework/run/vtk.cpp", "app/picture.cpp", "app/canvas.h", "app/canvas.cpp",
+    {"vtk", {"framework/run/vtk.cpp", "app/picture.cpp", "app/png.cpp", "app/canvas.h", "app/canvas.cpp",
              "app/field_picture.cpp", "app/frames.cpp", "tests/unit/vtk_test.cpp"}},
     {"yaml-cpp/", {"framework/scene/", "tests/"}},
     {"muParser", {"framework/scene/expression.cpp"}},
