@@ -29,20 +29,7 @@ void multiply_inverse_mass(const System& system, Equations& eq, VectorXd& v) {
 // v −= M⁻¹ Cqᵀ x
 void subtract_reaction(const System& system, Equations& eq, const VectorXd& x, double* v) {
   eq.g.setZero();
-  for (const Equations::Side& side : eq.sides) {
-    const Schur::Block& B = eq.B[side.block];
-    double* g = eq.g.data() + side.q;
-    for (int r = 0; r < side.m; ++r) {
-      const double xr = x.data()[side.row + r];
-      g[0] += B(r, 0) * xr;
-      g[1] += B(r, 1) * xr;
-      g[2] += B(r, 2) * xr;
-    }
-    if (side.flexible < 0) continue;
-    const FlexibleInertia& body = eq.flexible[at(side.flexible)];
-    for (int r = 0; r < side.m; ++r)
-      eq.g.segment(body.begin, body.n) += x[side.row + r] * eq.B_eta[side.block].row(r).transpose();
-  }
+  add_reaction(eq, x, eq.g);
   multiply_inverse_mass(system, eq, eq.g);
   Eigen::Map<VectorXd>(v, eq.g.size()) -= eq.g;
 }
@@ -202,13 +189,45 @@ void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
   add_product(eq, s, eq.Cdot);
 }
 
+void weigh(const System& system, const VectorXd& y, Equations& eq) {
+  for (FlexibleInertia& body : eq.flexible) evaluate_inertia(system, y, eq.cos_[body.body], eq.sin_[body.body], body);
+}
+
+void add_mass_times(const System& system, const Equations& eq, const VectorXd& v, VectorXd& out) {
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const auto i = static_cast<Index>(3 * b);
+    if (eq.flexible_of[b] >= 0) {
+      add_mass_times(eq.flexible[at(eq.flexible_of[b])], v.data(), out.data());
+      continue;
+    }
+    out[i] += system.bodies[b].m * v[i];
+    out[i + 1] += system.bodies[b].m * v[i + 1];
+    out[i + 2] += system.bodies[b].J * v[i + 2];
+  }
+}
+
+void add_reaction(const Equations& eq, const VectorXd& x, VectorXd& out) {
+  for (const Equations::Side& side : eq.sides) {
+    const Schur::Block& B = eq.B[side.block];
+    double* o = out.data() + side.q;
+    for (int r = 0; r < side.m; ++r) {
+      const double xr = x.data()[side.row + r];
+      o[0] += B(r, 0) * xr;
+      o[1] += B(r, 1) * xr;
+      o[2] += B(r, 2) * xr;
+    }
+    if (side.flexible < 0) continue;
+    const FlexibleInertia& body = eq.flexible[at(side.flexible)];
+    for (int r = 0; r < side.m; ++r)
+      out.segment(body.begin, body.n) += x[side.row + r] * eq.B_eta[side.block].row(r).transpose();
+  }
+}
+
 void factor(const System& system, const VectorXd& y, Equations& eq) {
   ++eq.factorizations;
+  weigh(system, y, eq);
   eq.regular = true;
-  for (FlexibleInertia& body : eq.flexible) {
-    evaluate_inertia(system, y, eq.cos_[body.body], eq.sin_[body.body], body);
-    eq.regular = eq.regular && invert(body);
-  }
+  for (FlexibleInertia& body : eq.flexible) eq.regular = eq.regular && invert(body);
   if (!eq.regular) return;
   if (eq.flexible.empty()) {
     eq.regular = eq.schur.factor(eq.B, eq.B_eta_hat);
@@ -238,7 +257,7 @@ void add_wrench(const System& system, const Equations& eq, int marker, const Wre
   }
 }
 
-void accelerate(const System& system, const State& state, Equations& eq) {
+void load(const System& system, const State& state, Equations& eq) {
   eq.f.setZero();
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     if (eq.flexible_of[b] >= 0) continue;
@@ -261,6 +280,10 @@ void accelerate(const System& system, const State& state, Equations& eq) {
     add_wrench(system, eq, pair.journal, eq.contact[i].on_journal, eq.f);
     add_wrench(system, eq, pair.bearing, eq.contact[i].on_bearing, eq.f);
   }
+}
+
+void accelerate(const System& system, const State& state, Equations& eq) {
+  load(system, state, eq);
 
   // S λ = Cq M⁻¹ f − γ,  a = M⁻¹ (f − Cqᵀ λ)
   eq.a = eq.f;

@@ -55,10 +55,18 @@ struct Equations {
 void pose(const System&, double t, const Eigen::VectorXd& y, Equations&);
 /// Speeds of the markers, Ct, κ and Ċ. After pose.
 void speed(const System&, double t, const Eigen::VectorXd& y, Equations&);
-/// Inverts the inertia of flexible bodies and factors S. After pose; sets `regular`.
+/// Inertia of flexible bodies. After pose.
+void weigh(const System&, const Eigen::VectorXd& y, Equations&);
+/// Weighs, inverts the inertia of flexible bodies and factors S. After pose; sets `regular`.
 void factor(const System&, const Eigen::VectorXd& y, Equations&);
-/// Forces, λ, a. After speed and factor.
+/// f: gravity, what inertia does with speed, force elements, contacts. After speed and weigh.
+void load(const System&, const State&, Equations&);
+/// Loads, λ, a. After speed and factor.
 void accelerate(const System&, const State&, Equations&);
+/// out += M v, n. After weigh.
+void add_mass_times(const System&, const Equations&, const Eigen::VectorXd& v, Eigen::VectorXd& out);
+/// out += Cqᵀ x, x of n_rows. After pose.
+void add_reaction(const Equations&, const Eigen::VectorXd& x, Eigen::VectorXd& out);
 /// ẏ = [s, a, ż] after accelerate.
 void fill_derivative(const System&, const Eigen::VectorXd& y, const Equations&, Eigen::VectorXd& dy);
 

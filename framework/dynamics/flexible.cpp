@@ -156,6 +156,24 @@ void to_metric(const FlexibleInertia& e, const Eigen::Matrix3d& L_r, const Eigen
   B_eta_hat.rightCols<3>().noalias() = carried * e.frame.root;
 }
 
+void add_mass_times(const FlexibleInertia& e, const double* v, double* out) {
+  const Eigen::Map<const Eigen::Vector3d> r(v + 3 * e.body);
+  const Part eta(v + e.begin, e.n);
+  Eigen::Map<Eigen::Vector3d> frame(out + 3 * e.body);
+  Eigen::Map<VectorXd> shapes(out + e.begin, e.n);
+  const auto carried = [&](const FlexibleInertia::Part& p, double sign) {  // ± BᵀM⁻¹Bη
+    const Eigen::Vector3d momentum = p.B * eta, z = p.M.llt().solve(momentum);
+    shapes.noalias() += sign * p.B.transpose() * z;
+  };
+  frame.noalias() += e.whole.M * r;
+  frame.noalias() += e.whole.B * eta;
+  shapes.noalias() += e.whole.B.transpose() * r;
+  shapes += eta;
+  if (!e.stiffens) return;
+  carried(e.whole, 1);
+  carried(e.linear, -1);
+}
+
 Eigen::MatrixXd mass_matrix(const FlexibleInertia& e) {
   Eigen::MatrixXd M = Eigen::MatrixXd::Identity(3 + e.n, 3 + e.n);
   M.topLeftCorner<3, 3>() = e.whole.M;

@@ -44,6 +44,8 @@ void solve(FlexibleInertia&, double* v);
 /// mass matrix are B̂B̂ᵀ + B̂_ηB̂_ηᵀ. B̂_η: 3 × n, or 3 × (n + 3) of a body that stiffens.
 void to_metric(const FlexibleInertia&, const Eigen::Matrix3d& L_r, const Eigen::Ref<const RowBlock>& L_eta,
                Eigen::Matrix3d& B_hat, RowBlock& B_eta_hat);
+/// out += (mass matrix) v, both of n_q, the body's parts of them.
+void add_mass_times(const FlexibleInertia&, const double* v, double* out);
 /// The whole mass matrix, (3 + n) × (3 + n); for those who have time.
 Eigen::MatrixXd mass_matrix(const FlexibleInertia&);
 
