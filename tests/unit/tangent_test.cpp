@@ -1,0 +1,348 @@
+// The tangent of the equations of motion against differences of their residual, for every joint, force and
+// contact on bodies of every kind. A new joint or force joins by one line in `kinds`.
+
+#include "framework/dynamics/tangent.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <ostream>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "tests/contracts/moving_bodies.h"
+
+namespace pintle {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+// Differences of fourth order over `step` lose rounding/step, 1e-12 of the residual, and step⁴/30 of fifth
+// derivatives up to 1e6. A contact changes over its depth of 1e-3: its step is smaller, and its depth,
+// known to 1e-16 m, costs 1e-13 of a force whose slope is 1e3 forces a metre: 1e-10 of it.
+constexpr double step = 1e-4, contact_step = 2e-6;
+constexpr double difference = 1e-8;
+constexpr double rounding = 1e-13;
+constexpr int draws = 12;
+
+Jet sine(double t) {
+  return {0.7 + 0.3 * std::sin(2 * t), 0.6 * std::cos(2 * t), -1.2 * std::sin(2 * t)};
+}
+Jet steady(double) {
+  return {-1.3, 0, 0};
+}
+
+constexpr double clearance = 0.01, depth = 1e-3;
+
+struct Kind {
+  const char* name;
+  std::vector<Joint> joints = {};
+  std::vector<Force> forces = {};
+  std::vector<ContactPair> contacts = {};
+};
+void PrintTo(const Kind& kind, std::ostream* out) {
+  *out << kind.name;
+}
+// Friction that grows with the sliding speeds drawn here.
+ContactPair contact(double chi, std::optional<Ambrosio> friction = {}, Sliding sliding = Sliding::material) {
+  return {0, 1, {0.1 - clearance, 0.1}, {1e6, 1.5, chi}, friction, sliding};
+}
+const std::vector<Kind> kinds{
+    {"Nothing"},
+    {"Revolute", {Revolute{0, 1}}},
+    {"Slot", {Slot{0, 1}}},
+    {"Prismatic", {Prismatic{0, 1, -0.4}}},
+    {"Weld", {Weld{0, 1, -0.4}}},
+    {"Distance", {Distance{0, 1, 0.8}}},
+    {"AngleDriver", {AngleDriver{0, 1, sine}}},
+    {"DistanceDriver", {DistanceDriver{0, 1, sine}}},
+    {"PointForce", {}, {PointForce{0, 1, sine, steady, false}}},
+    {"FollowerForce", {}, {PointForce{0, 1, sine, steady, true}}},
+    {"Torque", {}, {Torque{0, 1, sine}}},
+    {"Spring", {}, {Spring{0, 1, 40, 0, 0.5}}},
+    {"DampedSpring", {}, {Spring{0, 1, 40, 3, 0.5}}},
+    {"TorsionSpring", {}, {TorsionSpring{0, 1, 25, 0, -0.8}}},
+    {"DampedTorsionSpring", {}, {TorsionSpring{0, 1, 25, 2, -0.8}}},
+    {"Contact", {}, {}, {contact(0)}},
+    {"LossyContact", {}, {}, {contact(2)}},
+    {"ContactWithFriction", {}, {}, {contact(2, Ambrosio{0.3, 0, 50})}},
+    {"ContactInFullSliding", {}, {}, {contact(0.6, Ambrosio{0.3, 1e-6, 2e-6})}},
+    {"ContactOfGeometricSliding", {}, {}, {contact(0.6, Ambrosio{0.3, 0, 50}, Sliding::geometric)}},
+    {"Several",
+     {Slot{0, 1}, Revolute{1, 0}},
+     {Spring{1, 0, 40, 3, 0.5}, TorsionSpring{0, 1, 25, 2, -0.8}, PointForce{1, 0, sine, steady, true}}},
+};
+
+System make_system(const Kind& kind, const Carriers& carriers) {
+  System s = two_bodies(carriers);
+  s.gravity = {0.6, -9.8};
+  s.joints = kind.joints;
+  s.forces = kind.forces;
+  s.contacts = kind.contacts;
+  s.joint_names.assign(s.joints.size(), kind.name);
+  s.force_names.assign(s.forces.size(), kind.name);
+  s.contact_names.assign(s.contacts.size(), kind.name);
+  number(s);
+  return s;
+}
+
+// A state in which a contact, if there is one, is pressed.
+State make_state(const System& system, Draw& draw, Equations& eq) {
+  State s = random_state(system, draw, eq);
+  if (system.contacts.empty()) return s;
+  s.impact_rate = {draw.within(0.5, 4)};
+  const double angle = draw.within(-M_PI, M_PI);
+  const Vector2d wanted = (clearance + depth) * Vector2d(std::cos(angle), std::sin(angle));
+  const Vector2d shift = wanted - (eq.motion[0].r - eq.motion[1].r);
+  if (system.markers[0].body != ground)
+    s.y.head<2>() += shift;
+  else
+    s.y.segment<2>(3) -= shift;
+  return s;
+}
+
+void prepare(const System& system, const State& s, Equations& eq) {
+  pose(system, s.t, s.y, eq);
+  weigh(system, s.y, eq);
+  speed(system, s.t, s.y, eq);
+  load(system, s, eq);
+}
+
+/// A state of a system with accelerations and multipliers, at random.
+struct Sample {
+  Sample(const System& of, Draw& draw, Equations& eq)
+      : system(of), state(make_state(of, draw, eq)), a(draw.matrix(of.n(), 1, 5)), lambda(draw.matrix(of.n_rows(), 1, 5)) {}
+  const System& system;
+  State state;
+  VectorXd a, lambda;
+
+  VectorXd residual(const State& s, Equations& eq) const {
+    prepare(system, s, eq);
+    VectorXd r = -eq.f;
+    add_mass_times(system, eq, a, r);
+    add_reaction(eq, lambda, r);
+    return r;
+  }
+  // ∂r/∂y_k
+  VectorXd slope(int k, Equations& eq) const {
+    const double h = system.contacts.empty() ? step : contact_step;
+    const auto change = [&](double by) -> VectorXd {
+      State forth = state, back = state;
+      forth.y[k] += by;
+      back.y[k] -= by;
+      return residual(forth, eq) - residual(back, eq);
+    };
+    return (8 * change(h) - change(2 * h)) / (12 * h);
+  }
+  MatrixXd ours(const Tangent::Weights& w, Equations& eq) const {
+    prepare(system, state, eq);
+    Tangent tangent(system);
+    std::vector<double> values(tangent.places().size(), 7.0);
+    tangent.evaluate(system, state, eq, a, lambda, w, values);
+    return dense(system, tangent, values);
+  }
+};
+
+double largest(const MatrixXd& A) {
+  return A.size() == 0 ? 0 : A.lpNorm<Eigen::Infinity>();
+}
+
+class TangentOf : public testing::TestWithParam<std::tuple<Kind, Carriers>> {
+ protected:
+  System system_ = make_system(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  Equations eq_{system_};
+  Draw draw_{29};
+  const int n_ = system_.n();
+
+  void expect_differences(const Tangent::Weights& w, int first) {
+    for (int k = 0; k < draws; ++k) {
+      const Sample sample(system_, draw_, eq_);
+      const MatrixXd ours = sample.ours(w, eq_);
+      MatrixXd theirs(n_, n_);
+      for (int j = 0; j < n_; ++j) theirs.col(j) = sample.slope(first + j, eq_);
+      const double terms = 1 + largest(theirs) + largest(sample.residual(sample.state, eq_));
+      EXPECT_LT(largest(ours - theirs), terms * difference) << "draw " << k << "\nours\n" << ours << "\ndifferences\n" << theirs;
+    }
+  }
+};
+
+TEST_P(TangentOf, CoordinatesIsDifferencesOfTheResidual) {
+  expect_differences({1, 0, 0}, 0);
+}
+
+TEST_P(TangentOf, SpeedsIsDifferencesOfTheResidual) {
+  expect_differences({0, 1, 0}, n_);
+}
+
+// r is linear in a: a difference over a whole unit is exact but for rounding.
+TEST_P(TangentOf, AccelerationsIsTheMassMatrix) {
+  for (int k = 0; k < draws; ++k) {
+    Sample sample(system_, draw_, eq_);
+    const MatrixXd ours = sample.ours({0, 0, 1}, eq_);
+    const VectorXd a = sample.a, before = sample.residual(sample.state, eq_);
+    const double terms = 1 + largest(before);
+    for (int j = 0; j < n_; ++j) {
+      sample.a = a + VectorXd::Unit(n_, j);
+      EXPECT_LT(largest(ours.col(j) - (sample.residual(sample.state, eq_) - before)), 100 * terms * rounding);
+    }
+    for (const FlexibleInertia& body : eq_.flexible) {
+      const MatrixXd M = mass_matrix(body);
+      EXPECT_LT(largest(ours.block(3 * body.body, 3 * body.body, 3, 3) - M.topLeftCorner(3, 3)), rounding * largest(M));
+      EXPECT_LT(largest(ours.block(body.begin, body.begin, body.n, body.n) - M.bottomRightCorner(body.n, body.n)),
+                100 * rounding * largest(M));
+    }
+  }
+}
+
+TEST_P(TangentOf, AWeightedSumIsTheSumOfItsParts) {
+  const Sample sample(system_, draw_, eq_);
+  const Tangent::Weights w{0.7, -3.1, 11};
+  const MatrixXd sum = w.q * sample.ours({1, 0, 0}, eq_) + w.s * sample.ours({0, 1, 0}, eq_) + w.a * sample.ours({0, 0, 1}, eq_);
+  EXPECT_LT(largest(sample.ours(w, eq_) - sum), (1 + largest(sum)) * rounding);
+}
+
+// At rest, without accelerations, r is the gradient of λ·C and of energies. Friction needs speed; forces that
+// follow a body have no potential and are left out.
+TEST_P(TangentOf, CoordinatesIsSymmetricAtRest) {
+  Kind kind = std::get<0>(GetParam());
+  std::erase_if(kind.forces, [](const Force& f) { return std::holds_alternative<PointForce>(f) && std::get<PointForce>(f).follows; });
+  const System system = make_system(kind, std::get<1>(GetParam()));
+  Equations eq(system);
+  for (int k = 0; k < draws; ++k) {
+    Sample sample(system, draw_, eq);
+    sample.state.y.tail(system.n_y() - n_).setZero();
+    sample.a.setZero();
+    const MatrixXd K = sample.ours({1, 0, 0}, eq);
+    EXPECT_LT(largest(K - K.transpose()), (1 + largest(K)) * rounding) << K;
+  }
+}
+
+std::string case_name(const testing::TestParamInfo<std::tuple<Kind, Carriers>>& info) {
+  return std::get<0>(info.param).name + name_of(std::get<1>(info.param));
+}
+INSTANTIATE_TEST_SUITE_P(Each, TangentOf, testing::Combine(testing::ValuesIn(kinds), testing::ValuesIn(all_carriers())),
+                         case_name);
+
+TEST(TangentContract, EveryKindSitsTheExam) {
+  std::set<std::size_t> joints, forces;
+  for (const Kind& kind : kinds) {
+    for (const Joint& j : kind.joints) joints.insert(j.index());
+    for (const Force& f : kind.forces) forces.insert(f.index());
+  }
+  EXPECT_EQ(joints.size(), std::variant_size_v<Joint>);
+  EXPECT_EQ(forces.size(), std::variant_size_v<Force>);
+}
+
+// ---- the exam itself ----------------------------------------------------------------------------
+
+// Draws meet what the laws distinguish: sinking in, leaving and leaving so fast that nothing is left of the
+// force.
+TEST(TangentContract, ContactsAreMetPressedAndClamped) {
+  const System system = make_system({"LossyContact", {}, {}, {contact(2)}}, {Carrier::rigid, Carrier::rigid});
+  Equations eq(system);
+  Draw draw(29);  // as TangentOf
+  int in = 0, out = 0, clamped = 0;
+  for (int k = 0; k < draws; ++k) {
+    const Sample sample(system, draw, eq);
+    prepare(system, sample.state, eq);
+    ASSERT_NEAR(eq.contact[0].gap.depth, depth, 1e-12);
+    ++(eq.contact[0].normal.force == 0 ? clamped : eq.contact[0].gap.rate > 0 ? in : out);
+  }
+  EXPECT_GT(in, 0);
+  EXPECT_GT(out, 0);
+  EXPECT_GT(clamped, 0);
+}
+
+// ---- one body by itself -------------------------------------------------------------------------
+
+// A spring between two points of one body, and a slot: four blocks in one place.
+TEST(Tangent, OfWhatHoldsABodyToItselfIsDifferencesOfTheResidual) {
+  for (const Carrier carrier : {Carrier::rigid, Carrier::flexible, Carrier::stiffening}) {
+    System system = two_bodies({carrier, Carrier::rigid});
+    Marker other = system.markers[0];
+    other.x_BP = {-0.6, 0.5};
+    if (other.shape.size() > 0) other.shape *= -0.7;
+    system.markers.push_back(other);
+    system.joints = {Slot{0, 2}};
+    system.forces = {Spring{2, 0, 40, 3, 0.5}};
+    system.joint_names = system.force_names = {"own"};
+    number(system);
+    Equations eq(system);
+    Draw draw(31);
+    const Sample sample(system, draw, eq);
+    for (const bool of_speed : {false, true}) {
+      const MatrixXd ours = sample.ours({of_speed ? 0.0 : 1.0, of_speed ? 1.0 : 0.0, 0}, eq);
+      MatrixXd theirs(system.n(), system.n());
+      for (int j = 0; j < system.n(); ++j) theirs.col(j) = sample.slope(j + (of_speed ? system.n() : 0), eq);
+      EXPECT_LT(largest(ours - theirs), (1 + largest(theirs) + largest(sample.residual(sample.state, eq))) * difference);
+    }
+  }
+}
+
+// ---- the pattern --------------------------------------------------------------------------------
+
+System chain(int links, const std::function<void(System&, int a, int b)>& join) {
+  System s;
+  s.markers.push_back({});
+  for (int i = 0; i < links; ++i) {
+    s.bodies.push_back({"link", 0.2, 1e-3});
+    s.markers.push_back({i, {-0.5, 0}, 0});
+    s.markers.push_back({i, {0.5, 0}, 0});
+    join(s, 2 * i, 2 * i + 1);
+  }
+  s.joint_names.assign(s.joints.size(), "joint");
+  s.force_names.assign(s.forces.size(), "force");
+  number(s);
+  return s;
+}
+
+TEST(TangentPattern, PinnedLinksHaveTheirDiagonalOnly) {
+  const System s = chain(50, [](System& system, int a, int b) { system.joints.emplace_back(Revolute{a, b}); });
+  const Tangent tangent(s);
+  EXPECT_EQ(tangent.places().size(), 150u);
+  for (const Tangent::Place& p : tangent.places()) EXPECT_EQ(p.row, p.column);
+}
+
+TEST(TangentPattern, NeighboursCoupleWhereTheirInteractionAnswersToBoth) {
+  constexpr int links = 20;
+  const System s = chain(links, [](System& system, int a, int b) {
+    system.joints.emplace_back(Revolute{a, b});
+    system.forces.emplace_back(TorsionSpring{a, b, 1, 0, 0});
+    system.forces.emplace_back(Spring{a, b, 1, 0.1, 0});  // no block of its own beside the other's
+  });
+  const Tangent tangent(s);
+  EXPECT_EQ(tangent.places().size(), 9u * (links + 2 * (links - 1)));
+  for (const Tangent::Place& p : tangent.places()) EXPECT_LE(std::abs(p.row / 3 - p.column / 3), 1);
+}
+
+TEST(TangentPattern, NamesEachPlaceOnce) {
+  for (const Carriers& carriers : all_carriers()) {
+    const System s = make_system(kinds.back(), carriers);
+    const Tangent tangent(s);
+    std::set<std::pair<int, int>> seen;
+    for (const Tangent::Place& p : tangent.places()) EXPECT_TRUE(seen.insert({p.row, p.column}).second);
+    for (const auto& [row, column] : seen) EXPECT_TRUE(seen.count({column, row}));
+  }
+}
+
+// A guide on the ground pushes across the line that the ground draws: the slider's turning does not matter
+// to it, so nothing but the slider's own diagonal is left.
+TEST(TangentPattern, AGuideOnTheGroundAddsNothing) {
+  System s = chain(1, [](System& system, int a, int b) { system.joints.emplace_back(Prismatic{a, b, 0}); });
+  EXPECT_EQ(Tangent(s).places().size(), 3u);
+  s.joints = {Prismatic{1, 0, 0}};  // the guide's line on the body
+  EXPECT_EQ(Tangent(s).places().size(), 9u);
+}
+
+}  // namespace
+}  // namespace pintle
