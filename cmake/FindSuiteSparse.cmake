@@ -1,8 +1,8 @@
 # Debian's SuiteSparse 5.12 ships no CMake configuration. Gives SuiteSparse::SuiteSparse
-# (CHOLMOD, KLU, SPQR).
+# (CHOLMOD, KLU, LDL, SPQR).
 find_path(SuiteSparse_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
 set(_libs)
-foreach(lib cholmod klu spqr amd colamd suitesparseconfig)
+foreach(lib cholmod klu ldl spqr amd colamd suitesparseconfig)
   find_library(SuiteSparse_${lib} ${lib})
   list(APPEND _libs SuiteSparse_${lib})
 endforeach()

@@ -12,8 +12,8 @@ namespace pintle {
 
 /// The constraint equations after the accelerations are eliminated,  S μ = r  with  S = Cq M⁻¹ Cqᵀ:
 /// symmetric, positive definite while the rows are independent, one block for each pair of joints that
-/// share a body. Dense and free of allocation up to `dense_rows`, CHOLMOD above; its pattern is
-/// analysed once, here.
+/// share a body. Dense up to `dense_rows`, sparse above, its pattern analysed once, here. Where rows are
+/// dependent, at this pose or at all, multipliers are those of least norm. Theory: docs/theory/solvers.md.
 class Schur {
  public:
   static constexpr int dense_rows = 48;
@@ -25,16 +25,26 @@ class Schur {
   /// One side of each joint: B = L J, m × 3 in a 3 × 3 block; index 2·joint + (0 for a, 1 for b).
   using Block = ConstraintRows::Block;
 
-  /// Sums and factors S. Sides on flexible bodies are given in the metric of M⁻¹ (to_metric).
-  /// @returns false if S is singular to working precision
+  /// Sums and factors S. Sides on flexible bodies are given in the metric of M⁻¹ (to_metric). No allocation
+  /// when dense or thin (SparseLdl), but at the first dependent rows of a sparse one.
+  /// @returns false if S is not finite, or a row has no entries; dependent rows are allowed for
   bool factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta);
-  /// μ ← S⁻¹ μ. @pre factor returned true
+  /// μ ← S⁻¹ μ; of dependent rows the least norm, rows in metres counted over the mechanism's length, of
+  /// what misses r by the least sum of squares. @pre factor returned true
   void solve(Eigen::VectorXd& mu);
 
-  bool sparse() const { return sparse_ != nullptr; }
+  bool dependent() const { return lost_ > 0; }  ///< the last factorization met dependent rows
+  int lost() const { return lost_; }            ///< how many pivots they left nothing of
+  bool weak() const { return least_ < 1e-5; }  ///< dependent, not far from it, or of very unlike inertias
+  /// Of the last solve: what S μ misses r by, over r, largest entries, rows in metres over the mechanism's
+  /// length; 0 of independent rows. Well above rounding: the rows contradict each other.
+  double inconsistency() const;
+
+  bool sparse() const;
+  const char* solver() const;  ///< how it is factored, in words
+  double nonzeros() const;     ///< of the factor
 
  private:
-  struct Sparse;
   struct Pair {
     int i, j;        ///< sides, row_begin of i's joint ≥ that of j's
     int mi, mj;      ///< their rows
@@ -42,14 +52,22 @@ class Schur {
     bool flexible;
     bool same;       ///< i == j: lower triangle only
   };
-  bool factor_dense();
+  struct Data;
+  void sum(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta);
+  bool factor_shifted();
+  bool factor_dense(double least);
+  void solve_dense(Eigen::VectorXd& mu) const;
+  void solve_factored(Eigen::VectorXd& mu);
+  void subtract_product(const Eigen::VectorXd& x, Eigen::VectorXd& out) const;
 
   int n_;
+  int lost_ = 0;
+  double least_ = 1;  ///< pivot over the entry it came from, the smallest; 0 if some are lost
   std::vector<Pair> pairs_;
   std::vector<int> where_;      ///< value index of each summand, in the order of summation
-  std::vector<double> values_;  ///< dense: n × n row-major, lower; sparse: CHOLMOD's values
+  std::vector<double> values_;  ///< dense: n × n row-major, lower, then its factor; sparse: SparseLdl's
   std::vector<double> diagonal_;
-  std::unique_ptr<Sparse> sparse_;
+  std::unique_ptr<Data> data_;  ///< what only sparse or dependent rows need
 };
 
 }  // namespace pintle
