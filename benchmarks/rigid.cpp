@@ -1,5 +1,8 @@
 // The rigid slider-crank against a hand-written minimal-coordinate model of the same mechanism
 // (tests/oracles), both in this process, turn about: `ratio` is the median of ours over the median of its.
+//   Acceleration    one evaluation
+//   ClearanceRun    a second at the same scheme and tolerance
+//   EqualError      a second at the tolerances at which both leave the same error in the crank's angle at the end
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -9,6 +12,7 @@
 #include <vector>
 
 #include "framework/run/simulate.h"
+#include "tests/oracles/runge_kutta.h"
 #include "tests/oracles/slider_crank_clearance.h"
 
 namespace {
@@ -144,6 +148,77 @@ void ClearanceRun(benchmark::State& bench, const char* method) {
   bench.counters["our_unexplained_J"] = run.unexplained;
 }
 BENCHMARK_CAPTURE(ClearanceRun, dopri5, "dopri5")->Arg(8)->Arg(10)->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);
+/// Error against the run of tightest tolerance, and time, of runs at tolerances a decade apart.
+struct WorkPrecision {
+  static constexpr int first = 4, last = 10, tightest = 12;
+  template <class Solve>  // angle at the end, from an exponent of the tolerance
+  explicit WorkPrecision(Solve solve) {
+    const double truth = solve(tightest);
+    for (int exponent = first; exponent <= last; ++exponent) {
+      std::vector<double> time;
+      double angle = 0;
+      for (int repeat = 0; repeat < 3; ++repeat) time.push_back(seconds([&] { angle = solve(exponent); }));
+      const double error = std::abs(angle - truth);
+      while (!points.empty() && points.back().error <= error) points.pop_back();  // one that was lucky
+      points.push_back({error, median(time)});
+    }
+  }
+  /// Time for an error, between the two runs that enclose it; logarithms of both are taken as linear. NaN outside.
+  double time(double error) const {
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const auto &a = points[i - 1], &b = points[i];
+      if (error > a.error || error < b.error) continue;
+      return a.time * std::pow(b.time / a.time, std::log(error / a.error) / std::log(b.error / a.error));
+    }
+    return std::nan("");
+  }
+  struct Point {
+    double error, time;
+  };
+  std::vector<Point> points;
+};
+
+pintle_oracle::Vec<2> minimal(const pintle_oracle::Params& p, double tolerance) {
+  const auto f = [&](const pintle_oracle::Vec<2>& y, pintle_oracle::Vec<2>& dy) {
+    dy = {y[1], pintle_oracle::evaluate_ideal(p, y[0], y[1]).acceleration};
+  };
+  return pintle_oracle::integrate_tightly<2>(f, {p.start_angle, p.speed}, 1, tolerance, {1.0, p.speed});
+}
+
+void EqualError(benchmark::State& bench, double clearance, const char* method) {
+  const Model model = build(slider_crank(clearance, 1, 1e-8, method));
+  const Assembly assembly = assemble(slider_crank(clearance, 1, 1e-8, method), model);
+  pintle_oracle::Params params = oracle_case(clearance > 0 ? clearance : 1e-5);
+  for (auto _ : bench) {
+    const WorkPrecision ours([&](int exponent) {
+      const Scheme scheme{.tableau = find_tableau(method), .tolerance = std::pow(10.0, -exponent)};
+      Integrator run(model.system, scheme, assembly.start);
+      while (run.state().t < 1)
+        if (!run.advance(1)) return std::nan("");
+      return run.state().y[2];
+    });
+    const WorkPrecision theirs([&](int exponent) {
+      const double tolerance = std::pow(10.0, -exponent);
+      if (clearance == 0) return minimal(params, tolerance)[0];
+      pintle_oracle::Options options;
+      options.tolerance = tolerance;
+      pintle_oracle::State end = pintle_oracle::start(params);
+      pintle_oracle::simulate(params, options, 1, end);
+      return end.y[0];
+    });
+    for (const int exponent : {5, 6, 7, 8}) {
+      const double error = std::pow(10.0, -exponent);
+      const std::string at = "_1e-" + std::to_string(exponent);
+      bench.counters["ratio" + at] = ours.time(error) / theirs.time(error);
+      bench.counters["our_ms" + at] = 1e3 * ours.time(error);
+    }
+  }
+}
+BENCHMARK_CAPTURE(EqualError, ideal_dopri5, 0, "dopri5")->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(EqualError, ideal_verner87, 0, "verner87")->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(EqualError, clearance_dopri5, 1e-5, "dopri5")->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(EqualError, clearance_verner87, 1e-5, "verner87")->Iterations(1)->Unit(benchmark::kMillisecond);
+
 BENCHMARK_CAPTURE(ClearanceRun, rkf45, "rkf45")->Arg(8)->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -41,10 +41,17 @@ void turn_columns(double c, double s, Eigen::Matrix3Xd& B) {
   for (Index i = 0; i < B.cols(); ++i) B.col(i).head<2>() = turned(c, s, B.col(i).head<2>());
 }
 
+// R = L Lᵀ written out, root = L⁻ᵀ.
 bool invert(const Eigen::Matrix3d& R, FlexibleInertia::Inverse& out) {
-  const Eigen::LLT<Eigen::Matrix3d> factor(R);
-  if (factor.info() != Eigen::Success) return false;
-  out.root = factor.matrixU().solve(Eigen::Matrix3d::Identity());
+  if (!(R(0, 0) > 0)) return false;
+  const double i0 = 1 / std::sqrt(R(0, 0)), l10 = R(1, 0) * i0, l20 = R(2, 0) * i0, d1 = R(1, 1) - l10 * l10;
+  if (!(d1 > 0)) return false;
+  const double i1 = 1 / std::sqrt(d1), l21 = (R(2, 1) - l20 * l10) * i1, d2 = R(2, 2) - l20 * l20 - l21 * l21;
+  if (!(d2 > 0)) return false;
+  const double i2 = 1 / std::sqrt(d2);
+  out.root << i0, -l10 * i0 * i1, (l10 * l21 * i1 - l20) * i0 * i2,
+              0, i1, -l21 * i1 * i2,
+              0, 0, i2;
   out.inverse.noalias() = out.root * out.root.transpose();
   return out.inverse.allFinite();
 }
@@ -85,8 +92,7 @@ void evaluate_inertia(const System& system, const VectorXd& q, double c, double 
   const Part eta(q.data() + e.begin, e.n);
   FlexibleInertia::Part& p = e.whole;
   p.B.topRows<2>() = f.S;  // body axes for now
-  e.work.noalias() = f.G.transpose() * eta;
-  p.B.row(2) = f.h + e.work.transpose();
+  for (Index i = 0; i < e.n; ++i) p.B(2, i) = f.h[i] + f.G.col(i).dot(eta);
   p.j = f.j + eta.transpose();
   double J = body.J + (f.j + p.j).dot(eta);  // J₀ + 2jη + ηᵀη
   if (e.stiffens) {
@@ -113,7 +119,10 @@ bool invert(FlexibleInertia& e) {
   if (e.stiffens && !invert(e.whole.M, e.rigid)) return false;
   const FlexibleInertia::Part& p = e.stiffens ? e.linear : e.whole;
   Eigen::Matrix3d R = p.M;
-  R.noalias() -= p.B * p.B.transpose();
+  for (Index i = 0; i < e.n; ++i) {
+    const Eigen::Vector3d b = p.B.col(i);
+    R.noalias() -= b * b.transpose();
+  }
   return invert(R, e.frame);
 }
 
@@ -125,9 +134,10 @@ void solve(FlexibleInertia& e, double* v) {
   const Eigen::Matrix3Xd& B = e.whole.B;
   Eigen::Vector3d left = r;
   if (!e.stiffens) {
-    left.noalias() -= B * eta;
-    r.noalias() = e.frame.inverse * left;
-    eta.noalias() -= B.transpose() * r;
+    left -= B.lazyProduct(eta);
+    const Eigen::Vector3d a = e.frame.inverse * left;
+    r = a;
+    eta -= B.transpose().lazyProduct(a);
     return;
   }
   r.noalias() = e.rigid.inverse * left;
@@ -142,7 +152,7 @@ void to_metric(const FlexibleInertia& e, const Eigen::Matrix3d& L_r, const Eigen
                Eigen::Matrix3d& B_hat, RowBlock& B_eta_hat) {
   if (!e.stiffens) {
     Eigen::Matrix3d rest = L_r;
-    rest.noalias() -= L_eta * e.whole.B.transpose();
+    for (Index i = 0; i < e.n; ++i) rest.noalias() -= L_eta.col(i) * e.whole.B.col(i).transpose();
     B_hat.noalias() = rest * e.frame.root;
     B_eta_hat = L_eta;
     return;
@@ -200,14 +210,13 @@ void add_forces(const System& system, const VectorXd& y, FlexibleInertia& e, Vec
   r[1] += body.m * g.y();
   r[2] += cross(e.arm, g);
   const FlexibleInertia::Part& p = e.whole;
-  modal.noalias() += p.B.topRows<2>().transpose() * g;
+  modal += p.B.topRows<2>().transpose().lazyProduct(g);
 
-  Vector2d drift;  // A S(η) η̇
-  drift.noalias() = p.B.topRows<2>() * rate;
+  const Vector2d drift = p.B.topRows<2>().lazyProduct(rate);  // A S(η) η̇
   r.head<2>() += spin * spin * e.arm - 2 * spin * perp(drift);
   r[2] -= 2 * spin * p.j.dot(rate);
   modal += spin * spin * p.j.transpose();
-  e.work.noalias() = flex.G * rate;
+  for (Index i = 0; i < e.n; ++i) e.work[i] = -flex.G.col(i).dot(rate);  // Gη̇, G being skew
   modal += 2 * spin * e.work;
   if (e.stiffens) {
     const Foreshortening& F = *flex.second;

@@ -5,7 +5,7 @@
 
 namespace pintle {
 
-void number(System& system) {
+void number(System& system, bool scheme_loses) {
   system.eta_begin.assign(1, system.n_rigid());
   for (const Body& b : system.bodies) system.eta_begin.push_back(system.eta_begin.back() + b.modes());
   system.scale.setConstant(system.n(), system.length);
@@ -49,6 +49,7 @@ void number(System& system) {
     system.joint_z.push_back(is_driver(system.joints[i]) ? account(Account::driver, i) : -1);
   for (std::size_t i = 0; i < system.bodies.size(); ++i)
     if (system.bodies[i].modes() > 0 && !system.bodies[i].flex->zeta.isZero()) account(Account::damping, i);
+  if (scheme_loses) account(Account::scheme, 0);
 }
 
 }  // namespace pintle

@@ -27,10 +27,10 @@ struct Body {
 };
 
 /// What an integral of the ledger accounts for.
-enum class Account { hysteresis, friction, damper, load, driver, damping };
+enum class Account { hysteresis, friction, damper, load, driver, damping, scheme };
 struct Integral {
   Account account;
-  int index;  ///< contact, force, joint; of damping the body
+  int index;  ///< contact, force, joint; of damping the body; of the scheme 0
 };
 
 /// A scene made ready to run: built once, then never changed. Ground is not among the bodies.
@@ -62,7 +62,8 @@ struct System {
 };
 
 /// Fills what follows from the lists: coordinates, rows, integrals. Call once, after the lists are complete.
-void number(System&);
+/// @param scheme_loses  one more integral, for what an implicit scheme takes away
+void number(System&, bool scheme_loses = false);
 
 /// Everything that changes in time. Copy one to branch a run, store one to restart it.
 struct State {

@@ -31,11 +31,12 @@ void Partition::choose(const System& system, const Equations& eq) {
   assemble(system, eq);
   Eigen::MatrixXd wanted = Cq_;  // shapes follow from the frame, not the frame from shapes
   wanted.rightCols(system.n() - system.n_rigid()) *= 1e-3;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(wanted);
-  block_.resize(system.n_rows(), system.n_rows());
-  step_.resize(system.n_rows());
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(wanted.rows(), wanted.cols());
+  qr.setThreshold(1e-7);
+  qr.compute(wanted);
+  step_.resize(qr.rank());
   dependent_.clear();
-  for (Index i = 0; i < system.n_rows(); ++i)
+  for (Index i = 0; i < qr.rank(); ++i)
     dependent_.push_back(static_cast<int>(qr.colsPermutation().indices()[i]));
   factor();
   chosen_quality_ = quality_;
@@ -43,17 +44,29 @@ void Partition::choose(const System& system, const Equations& eq) {
 }
 
 void Partition::factor() {
+  block_.resize(Cq_.rows(), static_cast<Index>(dependent_.size()));
   for (std::size_t i = 0; i < dependent_.size(); ++i)
     block_.col(static_cast<Index>(i)) = Cq_.col(dependent_[i]);
-  lu_.compute(block_);
-  quality_ = block_.size() == 0 ? 1 : lu_.matrixLU().diagonal().cwiseAbs().minCoeff();
+  if (block_.size() == 0) {
+    quality_ = 1;
+  } else if (block_.rows() == block_.cols()) {
+    lu_.compute(block_);
+    quality_ = lu_.matrixLU().diagonal().cwiseAbs().minCoeff();
+  } else {
+    qr_.compute(block_);
+    quality_ = qr_.matrixQR().diagonal().cwiseAbs().minCoeff();
+  }
 }
 
 // q or s, as `y` points to, −= scaled solution of block · x = violation
-void Partition::subtract(const System& system, const Eigen::VectorXd& violation, double* y) {
-  step_ = lu_.solve(violation.cwiseProduct(system.row_scale));
+double Partition::subtract(const System& system, const Eigen::VectorXd& violation, double* y) {
+  if (block_.rows() == block_.cols())
+    step_ = lu_.solve(violation.cwiseProduct(system.row_scale));
+  else
+    step_ = qr_.solve(violation.cwiseProduct(system.row_scale));
   for (std::size_t k = 0; k < dependent_.size(); ++k)
     y[dependent_[k]] -= step_[static_cast<Index>(k)] * system.scale[dependent_[k]];
+  return step_.size() == 0 ? 0 : step_.lpNorm<Eigen::Infinity>();
 }
 
 bool Partition::correct(const System& system, double t, Eigen::VectorXd& y, Equations& eq) {
@@ -62,7 +75,7 @@ bool Partition::correct(const System& system, double t, Eigen::VectorXd& y, Equa
     factor();
     return true;
   };
-  const auto take = [&](const Eigen::VectorXd& violation, double* x) { subtract(system, violation, x); };
+  const auto take = [&](const Eigen::VectorXd& violation, double* x) { return subtract(system, violation, x); };
   if (!onto_constraints(system, t, y, eq, factored, take)) return false;
   pintle::factor(system, y, eq);
   return eq.regular;

@@ -4,13 +4,14 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include "framework/dynamics/equations.h"
 
 namespace pintle {
 
-/// Generalised coordinate partitioning [Wehage1982]: as many coordinates as there are rows follow from
-/// the others. The dependent ones are those that a pivoted QR of Cq finds best determined.
+/// Generalised coordinate partitioning [Wehage1982]: as many coordinates as there are independent rows
+/// follow from the others. The dependent ones are those that a pivoted QR of Cq finds best determined.
 class Partition {
  public:
   /// Chooses the sets at the pose in `eq`.
@@ -23,14 +24,22 @@ class Partition {
 
   int choices() const { return choices_; }
   const std::vector<int>& dependent() const { return dependent_; }
+  /// What the next corrections depend on.
+  template <class A>
+  void archive(A& x) {
+    x(dependent_, quality_, chosen_quality_, choices_);
+    const auto rows = static_cast<Eigen::Index>(dependent_.size());
+    if constexpr (A::loading) block_.resize(rows, rows), step_.resize(rows);
+  }
 
  private:
   void assemble(const System&, const Equations&);
   void factor();
-  void subtract(const System&, const Eigen::VectorXd& violation, double* y);
+  double subtract(const System&, const Eigen::VectorXd& violation, double* y);
 
   Eigen::MatrixXd Cq_, block_;   ///< free of units: rows by row_scale, x and y by the length
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  Eigen::HouseholderQR<Eigen::MatrixXd> qr_;  ///< where rows are redundant: fewer columns than rows
   Eigen::VectorXd step_;
   std::vector<int> dependent_;
   double quality_ = 1, chosen_quality_ = 1;  ///< smallest pivot of the scaled block

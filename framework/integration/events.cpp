@@ -8,6 +8,23 @@ namespace pintle {
 
 namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Greatest f(x), 0 < x < 1, of an f with one summit: golden section.
+template <class F>
+double greatest(F f) {
+  constexpr double golden = 0.6180339887498949, enough = 1e-5;
+  double a = 0, b = 1, x = 1 - golden, y = golden, fx = f(x), fy = f(y);
+  while (b - a > enough) {
+    if (fx > fy) {
+      b = y, y = x, fy = fx;
+      fx = f(x = b - golden * (b - a));
+    } else {
+      a = x, x = y, fx = fy;
+      fy = f(y = a + golden * (b - a));
+    }
+  }
+  return std::max(fx, fy);
+}
 }  // namespace
 
 void Integrator::close(int contact, double rate) {
@@ -25,7 +42,6 @@ void Integrator::close(int contact, double rate) {
                                 (system_.contacts[at(contact)].friction
                                      ? state.y[2 * system_.n() + system_.contact_z[at(contact)] + 1]
                                      : 0);
-  peaks_[at(contact)] = {Peak{state.t, 0}, Peak{state.t, 0}};
   impacts_.push_back(impact);
 }
 
@@ -43,28 +59,20 @@ void Integrator::follow_impacts() {
   for (int c = 0; c < static_cast<int>(system_.contacts.size()); ++c) {
     if (open_impact_[at(c)] < 0) continue;
     Impact& impact = impacts_[at(open_impact_[at(c)])];
+    const ContactPair& pair = system_.contacts[at(c)];
+    const double t0 = step_.from.state.t, latched = step_.from.state.impact_rate[at(c)];
+    const auto force = [&](const Touch& now) {
+      return now.depth > 0 && latched > 0 ? evaluate(pair.normal, Approach{now.depth, now.rate, latched}).force : 0;
+    };
     const Touch from = before_[at(c)], to = touch(c, step_.to.state);
     impact.deepest = std::max(impact.deepest, to.depth);
-    if (from.rate > 0 && to.rate < 0) {  // turns inside the step: vertex of the cubic's rate
-      const double t = step_.from.state.t + step_.h * from.rate / (from.rate - to.rate);
-      impact.deepest = std::max(impact.deepest, touch_at(c, t).depth);
-    }
-    const ContactPair& pair = system_.contacts[at(c)];
-    const double rate = step_.from.state.impact_rate[at(c)];
-    const Peak now{step_.to.state.t,
-                   to.depth > 0 ? evaluate(pair.normal, Approach{to.depth, to.rate, rate}).force : 0};
-    auto& last = peaks_[at(c)];
-    impact.peak_force = std::max(impact.peak_force, now.force);
-    if (last[1].force > last[0].force && last[1].force >= now.force && now.t > last[1].t &&
-        last[1].t > last[0].t) {  // parabola through three step ends
-      const double d1 = (last[1].force - last[0].force) / (last[1].t - last[0].t);
-      const double d2 = (now.force - last[1].force) / (now.t - last[1].t);
-      const double bend = (d2 - d1) / (now.t - last[0].t);
-      const double slope = d1 + bend * (last[1].t - last[0].t);
-      if (bend < 0)
-        impact.peak_force = std::max(impact.peak_force, last[1].force - slope * slope / (4 * bend));
-    }
-    last = {last[1], now};
+    if (from.rate > 0 && to.rate < 0)
+      impact.deepest = std::max(impact.deepest, greatest([&](double x) { return touch_at(c, t0 + x * step_.h).depth; }));
+    impact.peak_force = std::max(impact.peak_force, force(to));
+    const auto inside = [&](double x) { return force(touch_at(c, t0 + x * step_.h)); };
+    constexpr double near = 1e-3;  // the force rises at the step's start and falls at its end
+    if (step_.h > 0 && inside(1 - near) > force(to) && inside(near) > force(from))
+      impact.peak_force = std::max(impact.peak_force, greatest(inside));
     const Eigen::Index z = 2 * system_.n() + system_.contact_z[at(c)];
     impact.lost = step_.to.state.y[z] + (pair.friction ? step_.to.state.y[z + 1] : 0) -
                   loss_at_begin_[at(c)];
@@ -138,7 +146,7 @@ bool Integrator::finish_at(double t, int contact) {
   }
   double depth = 0;
   for (int i = 0; i < 6 && t > t0; ++i) {
-    if (!stages_.attempt(system_, t - t0, step_, eq_)) return stop("singular pose while locating an impact");
+    if (!attempt(t - t0)) return stop("singular pose while locating an impact");
     const Touch at_end = touch(contact, step_.to.state);
     depth = at_end.depth;
     if (std::abs(depth) <= enough || at_end.rate == 0) return true;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 #include "framework/dynamics/energy.h"
+#include "framework/integration/archive.h"
 
 namespace pintle {
 
@@ -12,6 +14,8 @@ using Index = Eigen::Index;
 
 namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+constexpr double slowest_speed = 1e-6;  // over the finest length and the step: slower is rest
 
 std::string number_text(double x) {
   std::ostringstream s;
@@ -25,10 +29,8 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
     : system_(system),
       scheme_(scheme),
       eq_(system),
-      stages_(system, *scheme.tableau, scheme.constraints),
       reach_(system.bodies.size(), 0.0),
       open_impact_(system.contacts.size(), -1),
-      peaks_(system.contacts.size()),
       loss_at_begin_(system.contacts.size(), 0.0),
       before_(system.contacts.size()) {
   for (const Marker& m : system.markers)
@@ -46,7 +48,11 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
   step_.from = step_.to;
   scratch_ = step_.to;
   dense_ = step_.to.state;
-  if (!stages_.settle(system_, step_.to, eq_)) {
+  if (scheme_.tableau)
+    stages_.emplace(system, *scheme_.tableau, scheme_.constraints);
+  else
+    alpha_.emplace(system, eq_, scheme_.rho, scheme_.constraints, scheme_.tolerance);
+  if (!settle(step_.to)) {
     stop("the start is a singular pose or off the constraints");
     return;
   }
@@ -54,8 +60,26 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
     const Touch now = touch(c, step_.to.state);
     if (now.depth > 0) close(c, std::max(now.rate, speed_to_reach(c, now.depth)));
   }
-  stages_.settle(system_, step_.to, eq_);
+  settle(step_.to);
   step_.from = step_.to;
+}
+
+bool Integrator::settle(Instant& node) { return alpha_ ? alpha_->settle(system_, node, eq_) : stages_->settle(system_, node, eq_); }
+
+bool Integrator::attempt(double h) {
+  if (!alpha_) return stages_->attempt(system_, h, step_, eq_);
+  alpha_->judge_by(fine_length_, std::max({fastest_, fastest_speed(step_.from.state.y), slowest_speed * fine_length_ / h}));
+  return alpha_->attempt(system_, h, step_, eq_);
+}
+
+// Of any body's centre or of its farthest marker about it [m/s].
+double Integrator::fastest_speed(const Eigen::VectorXd& y) const {
+  double fastest = 0;
+  for (std::size_t b = 0; b < reach_.size(); ++b) {
+    const auto i = system_.n() + 3 * static_cast<Index>(b);
+    fastest = std::max({fastest, std::hypot(y[i], y[i + 1]), std::abs(y[i + 2]) * reach_[b]});
+  }
+  return fastest;
 }
 
 // A start inside the wall has no approach speed. It gets that of the impact which would have come this
@@ -74,7 +98,7 @@ Counts Integrator::counts() const {
   Counts c = counts_;
   c.evaluations = eq_.evaluations;
   c.factorizations = eq_.factorizations;
-  c.partitions = stages_.partitions();
+  c.partitions = stages_ ? stages_->partitions() : 0;
   return c;
 }
 
@@ -101,12 +125,8 @@ Integrator::Touch Integrator::touch_at(int contact, double t) {
 double Integrator::scaled_error() {
   const Index n = system_.n();
   const auto& y = step_.to.state.y;
-  double fastest = fastest_;
-  for (std::size_t b = 0; b < reach_.size(); ++b) {
-    const auto i = n + 3 * static_cast<Index>(b);
-    fastest = std::max({fastest, std::hypot(y[i], y[i + 1]), std::abs(y[i + 2]) * reach_[b]});
-  }
-  const double length = fine_length_, slowest = 1e-6 * length / step_.h, speed = std::max(fastest, slowest);
+  const double fastest = std::max(fastest_, fastest_speed(y));
+  const double length = fine_length_, slowest = slowest_speed * length / step_.h, speed = std::max(fastest, slowest);
   const double energy = std::max({energy_, kinetic_energy(system_, y), mass_ * slowest * slowest / 2});
   double worst = 0;
   for (Index b = 0; b < static_cast<Index>(reach_.size()); ++b) {
@@ -135,13 +155,13 @@ double Integrator::scaled_error() {
 
 // One accepted error-controlled step of at most h_, never past `h_left`.
 bool Integrator::step_to(double h_left) {
-  const double order = scheme_.tableau->error_order + 1;
+  const double order = alpha_ ? Alpha::order + 1 : stages_->tableau().error_order + 1;
   for (int tries = 0; tries < 60; ++tries) {
     const bool last = h_ >= h_left * (1 - 1e-12);
     const double h = last ? h_left : h_;
     if (h < 4e-16 * std::max(std::abs(step_.from.state.t), h_left))
-      return stop("the step became too small (" + number_text(h) + " s) for the tolerance");
-    if (!stages_.attempt(system_, h, step_, eq_)) {
+      return stop("the step became too small (" + number_text(h) + " s) for the tolerance" + trouble());
+    if (!attempt(h)) {
       ++counts_.rejected;
       h_ = h / 4;
       continue;
@@ -154,14 +174,17 @@ bool Integrator::step_to(double h_left) {
     }
     const double grow = 0.9 * std::pow(error, -0.7 / order) * std::pow(error_before_, 0.4 / order);
     error_before_ = std::max(error, 1e-4);
-    const double next = h * std::clamp(grow, 0.2, 5.0);
+    double next = h * std::clamp(grow, 0.2, 5.0);
+    if (alpha_ && next > 0.9 * h && next < 1.2 * h) next = h;  // a step kept keeps its factor good
     if (!last || next < h_) h_ = next;
     h_ = std::min(h_, scheme_.max_step);
     return true;
   }
-  return stop(eq_.regular ? "no step is small enough for the tolerance"
+  return stop(eq_.regular ? "no step is small enough for the tolerance" + trouble()
                           : "singular pose: the constraint rows have become dependent");
 }
+
+std::string Integrator::trouble() const { return alpha_ && !alpha_->trouble().empty() ? ": " + alpha_->trouble() : ""; }
 
 bool Integrator::advance(double until) {
   if (!failure_.empty()) return false;
@@ -174,7 +197,7 @@ bool Integrator::advance(double until) {
     const double speed = step_.from.state.y.segment(n, n).norm(), accel = step_.from.dy.segment(n, n).norm();
     h_ = std::min(left, accel > 0 ? 0.01 * std::max(speed / accel, 1e-3 * std::sqrt(fine_length_ / accel)) : left);
     for (const Body& b : system_.bodies)  // no shape's first period is stepped over
-      if (b.modes() > 0) h_ = std::min(h_, 0.3 / b.flex->omega.maxCoeff());
+      if (b.modes() > 0 && !alpha_) h_ = std::min(h_, 0.3 / b.flex->omega.maxCoeff());
     h_ = std::min(h_, scheme_.max_step);
   }
   for (int c = 0; c < static_cast<int>(system_.contacts.size()); ++c)
@@ -234,32 +257,110 @@ bool Integrator::advance(double until) {
     const double remembered = onset ? h_closed_ : h_open_;
     h_ = remembered > 0 ? std::min(remembered, scheme_.max_step) : h_wish;
     error_before_ = 1;
-    if (!stages_.settle(system_, step_.to, eq_)) return stop("singular pose at an impact");
+    if (!settle(step_.to)) return stop("singular pose at an impact");
   }
-  stages_.refresh(system_, eq_);
+  if (stages_) stages_->refresh(system_, eq_);
 
-  const Index n = system_.n();
   const auto& y = step_.to.state.y;
-  for (std::size_t b = 0; b < reach_.size(); ++b) {
-    const auto i = n + 3 * static_cast<Index>(b);
-    fastest_ = std::max({fastest_, std::hypot(y[i], y[i + 1]), std::abs(y[i + 2]) * reach_[b]});
-  }
+  fastest_ = std::max(fastest_, fastest_speed(y));
   energy_ = std::max(energy_, kinetic_energy(system_, y));
   worst_position_ = std::max(worst_position_, position_violation(system_, eq_));
   worst_velocity_ = std::max(worst_velocity_, velocity_violation(system_, y, eq_));
+  if (contact < 0 && scheme_.switch_below > 0 && stages_) return watch_stiffness();
   return true;
 }
 
-void Integrator::restore() { stages_.settle(system_, step_.to, eq_); }
+// An explicit pair whose steps lie at the edge of its stability, one after another, is asked for by stability.
+bool Integrator::watch_stiffness() {
+  constexpr double edge = 0.9;
+  constexpr int many = 30;
+  const bool held = step_.h < scheme_.switch_below && stages_->stiffness(system_, step_) > edge * scheme_.tableau->reach;
+  held_by_stability_ = held ? held_by_stability_ + 1 : std::max(0, held_by_stability_ - 2);
+  if (held_by_stability_ < many) return true;
+  switched_ = "generalized-alpha from t = " + number_text(step_.to.state.t) + " s on: stability, not accuracy, held " +
+              std::to_string(many) + " explicit steps near " + number_text(step_.h) + " s";
+  stages_.reset();
+  alpha_.emplace(system_, eq_, scheme_.rho, scheme_.constraints, scheme_.tolerance);
+  h_open_ = h_closed_ = 0;
+  error_before_ = 1;
+  return settle(step_.to) || stop("singular pose");
+}
+
+// Evaluates, without forgetting what an implicit scheme remembers.
+void Integrator::restore() {
+  if (!alpha_)
+    stages_->settle(system_, step_.to, eq_);
+  else
+    alpha_->evaluate_between(system_, step_, step_.to.state, eq_);
+}
+
+template <class A>
+void Integrator::archive(A& x) {
+  x(step_.from, step_.to, step_.h, h_, h_open_, h_closed_, error_before_, fastest_, energy_, open_impact_, loss_at_begin_,
+    impacts_, counts_, failure_, events_here_, worst_position_, worst_velocity_, held_by_stability_, switched_, eq_.evaluations,
+    eq_.factorizations);
+  bool implicit = alpha_.has_value();
+  x(implicit);
+  if constexpr (A::loading)
+    if (implicit && stages_ && x.good()) {  // it had switched
+      stages_.reset();
+      alpha_.emplace(system_, eq_, scheme_.rho, scheme_.constraints, scheme_.tolerance);
+    }
+  if (alpha_.has_value() != implicit)
+    x.stream.setstate(std::ios::failbit);
+  else if (alpha_)
+    x(*alpha_);
+  else
+    x(*stages_);
+}
+
+std::string Integrator::save() const {
+  std::ostringstream out(std::ios::binary);
+  Writer writer(out);
+  writer(*this);
+  return out.str();
+}
+
+void Integrator::load(const std::string& saved) {
+  std::istringstream in(saved, std::ios::binary);
+  Reader reader(in);
+  reader(*this);
+  const auto whole = [&](const Instant& node) {
+    return node.state.y.size() == system_.n_y() && node.dy.size() == system_.n_y() &&
+           node.state.impact_rate.size() == system_.contacts.size();
+  };
+  if (!reader.good() || in.peek() != std::istringstream::traits_type::eof() || !whole(step_.from) || !whole(step_.to) ||
+      open_impact_.size() != system_.contacts.size())
+    throw std::invalid_argument("not the state of an integrator of this system");
+  step_.error.setZero(system_.n_y());
+  scratch_ = step_.to;
+  dense_ = step_.to.state;
+  const long evaluations = eq_.evaluations, factorizations = eq_.factorizations;
+  if (alpha_)
+    restore();
+  else
+    stages_->settle(system_, scratch_, eq_);
+  eq_.evaluations = evaluations, eq_.factorizations = factorizations;
+}
 
 bool Integrator::sample(double t, State& out) {
   if (t >= step_.to.state.t) {
     out = step_.to.state;
+  } else if (alpha_) {
+    alpha_->interpolate_between(system_, step_, t, out, eq_);
+  } else if (scheme_.tableau->order > 5) {  // better than dense output, whose fifth order its long steps show
+    if (!stages_->reach(system_, step_.from, t - step_.from.state.t, scratch_, eq_)) return false;
+    out = scratch_.state;
+    return true;
   } else {
     interpolate(system_, step_, t, out);
   }
+  if (alpha_) {
+    alpha_->evaluate_between(system_, step_, out, eq_);
+    return out.y.allFinite();
+  }
   scratch_.state = out;
-  if (!stages_.settle(system_, scratch_, eq_)) return false;
+  if (!stages_->settle(system_, scratch_, eq_)) return false;
   out = scratch_.state;
   return true;
 }

@@ -2,15 +2,20 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "framework/integration/alpha.h"
 #include "framework/integration/step.h"
 
 namespace pintle {
 
+class Writer;
+class Reader;
+
 struct Scheme {
-  const Tableau* tableau = nullptr;
+  const Tableau* tableau = nullptr;  ///< explicit; nullptr: generalised-α
   double tolerance = 1e-8;   ///< local error of each component relative to its scale, see ErrorScale
   Constraints constraints = Constraints::projection;
   double onset_cut = 0;      ///< 0: locate contact onset and loss as events. Positive: the strategy of
@@ -18,7 +23,14 @@ struct Scheme {
                              ///< is below this [m]; loss is then taken at the end of a step
   double max_step = std::numeric_limits<double>::infinity();  ///< [s]
   long max_steps = 100'000'000;
+  double rho = 0.8;          ///< of generalised-α: spectral radius at infinite frequency, 0 to 1
+  double switch_below = 0;   ///< an explicit step that stability, not accuracy, holds below this gives way to
+                             ///< generalised-α [s]; 0: never
+  std::string reason = {};   ///< why this scheme, in words
 };
+
+/// As scene files call it.
+inline std::string name(const Scheme& s) { return s.tableau ? std::string(s.tableau->name) : "generalized-alpha"; }
 
 /// One stay of a journal at its bearing's wall.
 struct Impact {
@@ -30,14 +42,18 @@ struct Impact {
   double deepest = 0;        ///< [m]
   double peak_force = 0;     ///< normal [N]
   double lost = 0;           ///< to hysteresis and friction [J]
+  template <class A>
+  void archive(A& x) { x(contact, begin, end, approach, separation, deepest, peak_force, lost); }
 };
 
 struct Counts {
   long steps = 0, rejected = 0, events = 0, evaluations = 0, factorizations = 0, partitions = 0;
+  template <class A>
+  void archive(A& x) { x(steps, rejected, events, evaluations, factorizations, partitions); }
 };
 
-/// Marches a system in time: adaptive embedded Runge–Kutta steps, constraints kept, contacts opened
-/// and closed. Each call of `advance` makes one accepted step, which an event may shorten.
+/// Marches a system in time: adaptive steps of an embedded Runge–Kutta pair or of generalised-α, constraints
+/// kept, contacts opened and closed. Each call of `advance` makes one accepted step, which an event may shorten.
 class Integrator {
  public:
   /// @pre start meets the constraints nearly; it is settled here, and contacts begun if it overlaps
@@ -45,8 +61,9 @@ class Integrator {
 
   /// One step towards `until`, ending there at the latest. @returns false when it cannot; see failure()
   bool advance(double until);
-  /// Dense output inside the last step, on the constraints and fully evaluated: `equations()` holds it
-  /// until the next call. @returns false if it cannot be settled
+  /// Dense output inside the last step, fully evaluated: `equations()` holds it until the next call. Of an
+  /// explicit step it is brought onto the constraints, of an implicit one, whose a and λ are the scheme's,
+  /// it is not. @returns false if it cannot be settled
   bool sample(double t, State& out);
 
   const State& state() const { return step_.to.state; }
@@ -59,8 +76,26 @@ class Integrator {
   Counts counts() const;
   double worst_position() const { return worst_position_; }  ///< largest scaled |C| at a step's end
   double worst_velocity() const { return worst_velocity_; }
+  bool implicit() const { return alpha_.has_value(); }  ///< now
+  const std::string& switched() const { return switched_; }  ///< when and why it became so in the run; else empty
+
+  /// Everything the following steps depend on, and the impacts and counts so far, as they are to the bit.
+  /// For this System, scheme and program only.
+  std::string save() const;
+  /// Goes on from there as the integrator saved would have. @throws std::invalid_argument it is not what
+  /// `save` of an integrator of this system made
+  void load(const std::string& saved);
 
  private:
+  friend class Writer;
+  friend class Reader;
+  template <class A>
+  void archive(A&);
+  bool settle(Instant&);
+  bool attempt(double h);
+  bool watch_stiffness();
+  std::string trouble() const;
+  double fastest_speed(const Eigen::VectorXd& y) const;
   struct Touch { double depth, rate; };
   Touch touch(int contact, const State&);
   Touch touch_at(int contact, double t);
@@ -78,16 +113,15 @@ class Integrator {
   const System& system_;
   Scheme scheme_;
   Equations eq_;
-  Stages stages_;
+  std::optional<Stages> stages_;  ///< one of the two
+  std::optional<Alpha> alpha_;
   Step step_;
-  Node scratch_;
+  Instant scratch_;
   State dense_;
   double h_ = 0, h_open_ = 0, h_closed_ = 0, error_before_ = 1;
   double fastest_ = 0, energy_ = 0, fine_length_ = 1, mass_ = 0;  ///< scales of the error norm
   std::vector<double> reach_;      ///< per body, largest |x_BP| of its markers [m]
   std::vector<int> open_impact_;   ///< per contact, index into impacts_, −1 while open
-  struct Peak { double t, force; };
-  std::vector<std::array<Peak, 2>> peaks_;  ///< per contact, normal force at the last two step ends
   std::vector<double> loss_at_begin_;
   std::vector<Impact> impacts_;
   std::vector<Touch> before_;      ///< per contact, at the step's start
@@ -95,6 +129,8 @@ class Integrator {
   std::string failure_;
   int events_here_ = 0;
   double worst_position_ = 0, worst_velocity_ = 0;
+  int held_by_stability_ = 0;
+  std::string switched_;
 };
 
 }  // namespace pintle

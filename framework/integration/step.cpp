@@ -1,10 +1,31 @@
 #include "framework/integration/step.h"
 
+#include <array>
 #include <cmath>
 
 namespace pintle {
 
 using Index = Eigen::Index;
+
+namespace {
+
+// y += h Σ wⱼ kⱼ, four columns in one pass over y.
+void add_combination(double h, const std::vector<double>& w, const std::vector<Eigen::VectorXd>& k, Eigen::VectorXd& y) {
+  std::array<std::size_t, 4> at{};
+  std::size_t count = 0;
+  for (std::size_t j = 0; j < w.size(); ++j) {
+    if (w[j] == 0) continue;
+    at[count++] = j;
+    if (count < 4) continue;
+    y += (h * w[at[0]]) * k[at[0]] + (h * w[at[1]]) * k[at[1]] + (h * w[at[2]]) * k[at[2]] + (h * w[at[3]]) * k[at[3]];
+    count = 0;
+  }
+  if (count == 1) y += (h * w[at[0]]) * k[at[0]];
+  if (count > 1) y += (h * w[at[0]]) * k[at[0]] + (h * w[at[1]]) * k[at[1]];
+  if (count > 2) y += (h * w[at[2]]) * k[at[2]];
+}
+
+}  // namespace
 
 Stages::Stages(const System& system, const Tableau& tableau, Constraints constraints)
     : tableau_(tableau),
@@ -15,15 +36,19 @@ Stages::Stages(const System& system, const Tableau& tableau, Constraints constra
 }
 
 bool Stages::evaluate_stage(const System& system, State& state, Equations& eq, Eigen::VectorXd& dy) {
-  if (constraints_ == Constraints::projection || system.n_rows() == 0)
-    return evaluate(system, state, eq, dy);
-  if (!partition_.correct(system, state.t, state.y, eq)) return false;
+  if (constraints_ == Constraints::projection || system.n_rows() == 0) {
+    const bool found = evaluate(system, state, eq, dy);
+    if (!eq.schur.weak()) return found;
+    if (!project(system, state.t, state.y, eq)) return false;  // dependent rows agree only where C = 0 and Ċ = 0
+  } else if (!partition_.correct(system, state.t, state.y, eq)) {
+    return false;
+  }
   accelerate(system, state, eq);
   fill_derivative(system, state.y, eq, dy);
-  return true;
+  return eq.regular;
 }
 
-bool Stages::settle(const System& system, Node& node, Equations& eq) {
+bool Stages::settle(const System& system, Instant& node, Equations& eq) {
   if (constraints_ == Constraints::partitioning && system.n_rows() > 0) {
     if (partition_.dependent().empty()) {
       pose(system, node.state.t, node.state.y, eq);
@@ -34,46 +59,69 @@ bool Stages::settle(const System& system, Node& node, Equations& eq) {
   if (!project(system, node.state.t, node.state.y, eq)) return false;
   accelerate(system, node.state, eq);
   fill_derivative(system, node.state.y, eq, node.dy);
-  return true;
+  return eq.regular;
 }
 
 void Stages::refresh(const System& system, Equations& eq) {
-  if (constraints_ == Constraints::partitioning && system.n_rows() > 0 && partition_.worn())
-    partition_.choose(system, eq);
+  if (constraints_ != Constraints::partitioning || system.n_rows() == 0) return;
+  const bool rank_changed = static_cast<int>(partition_.dependent().size()) != system.n_rows() - eq.schur.lost();
+  if (partition_.worn() || rank_changed) partition_.choose(system, eq);
 }
 
-bool Stages::attempt(const System& system, double h, Step& step, Equations& eq) {
-  const State& from = step.from.state;
-  const int stages = tableau_.stages(), inner = tableau_.closes ? stages - 1 : stages;
-  step.h = h;
+bool Stages::reach(const System& system, const Instant& from_node, double h, Instant& to_node, Equations& eq) {
+  const State& from = from_node.state;
+  const std::size_t stages = k_.size(), inner = tableau_.closes ? stages - 1 : stages;
   stage_.impact_rate = from.impact_rate;
-  k_[0] = step.from.dy;
-  for (int i = 1; i < inner; ++i) {
-    const auto& a = tableau_.a[static_cast<std::size_t>(i)];
-    stage_.t = from.t + tableau_.c[static_cast<std::size_t>(i)] * h;
+  k_[0] = from_node.dy;
+  for (std::size_t i = 1; i < inner; ++i) {
+    stage_.t = from.t + tableau_.c[i] * h;
     stage_.y = from.y;
-    for (int j = 0; j < i; ++j)
-      if (a[static_cast<std::size_t>(j)] != 0)
-        stage_.y += (h * a[static_cast<std::size_t>(j)]) * k_[static_cast<std::size_t>(j)];
-    if (!evaluate_stage(system, stage_, eq, k_[static_cast<std::size_t>(i)])) return false;
+    add_combination(h, tableau_.a[i], k_, stage_.y);
+    if (!evaluate_stage(system, stage_, eq, k_[i])) return false;
   }
 
-  State& to = step.to.state;
+  State& to = to_node.state;
   to.t = from.t + h;
   to.impact_rate = from.impact_rate;
   to.y = from.y;
-  for (int i = 0; i < inner; ++i)
-    if (tableau_.b[static_cast<std::size_t>(i)] != 0)
-      to.y += (h * tableau_.b[static_cast<std::size_t>(i)]) * k_[static_cast<std::size_t>(i)];
-  if (!to.y.allFinite() || !settle(system, step.to, eq)) return false;
-  if (tableau_.closes) k_.back() = step.to.dy;
-
-  step.error.setZero(system.n_y());
-  for (int i = 0; i < stages; ++i)
-    if (tableau_.e[static_cast<std::size_t>(i)] != 0)
-      step.error += (h * tableau_.e[static_cast<std::size_t>(i)]) * k_[static_cast<std::size_t>(i)];
-  return step.to.dy.allFinite() && step.error.allFinite();
+  add_combination(h, tableau_.b, k_, to.y);  // a closing stage has no weight
+  if (!to.y.allFinite() || !settle(system, to_node, eq)) return false;
+  if (tableau_.closes) k_.back() = to_node.dy;
+  return to_node.dy.allFinite();
 }
+
+bool Stages::attempt(const System& system, double h, Step& step, Equations& eq) {
+  step.h = h;
+  if (!reach(system, step.from, h, step.to, eq)) return false;
+  step.error.setZero(system.n_y());
+  add_combination(h, tableau_.e, k_, step.error);
+  return step.error.allFinite();
+}
+
+double Stages::stiffness(const System& system, const Step& step) const {
+  const std::size_t inner = k_.size() - (tableau_.closes ? 2 : 1);
+  if (tableau_.c[inner] != 1) return 0;
+  const auto apart = [&](const Eigen::VectorXd& u, const Eigen::VectorXd& v) {
+    double sum = 0;
+    for (Index i = 0; i < 2 * system.n(); ++i) sum += std::pow((u[i] - v[i]) / system.scale[i % system.n()], 2);
+    return std::sqrt(sum);
+  };
+  const double moved = apart(step.to.state.y, stage_.y);
+  return moved > 0 ? step.h * apart(step.to.dy, k_[inner]) / moved : 0;
+}
+
+namespace {
+
+// q by the cubic of q and s, s by that of s and a: each as good as the ends of an implicit step are.
+void interpolate_implicit(const System& system, const Step& step, double x, State& out) {
+  const Index n = system.n(), nz = system.n_z();
+  const double rise = x * x * (3 - 2 * x), from = x * (1 - x) * (1 - x) * step.h, to = x * x * (x - 1) * step.h;
+  const auto &y0 = step.from.state.y, &y1 = step.to.state.y;
+  for (Index i = 0; i < 2 * n + nz; ++i)
+    out.y[i] = y0[i] + rise * (y1[i] - y0[i]) + from * step.from.dy[i] + to * step.to.dy[i];
+}
+
+}  // namespace
 
 void interpolate(const System& system, const Step& step, double t, State& out) {
   const Index n = system.n(), nz = system.n_z();
@@ -84,6 +132,7 @@ void interpolate(const System& system, const Step& step, double t, State& out) {
   out.t = t;
   out.impact_rate = step.from.state.impact_rate;
   out.y.resize(system.n_y());
+  if (step.to.memory.a.size() > 0) return interpolate_implicit(system, step, x, out);
 
   // q = Σ of the six quintic Hermite polynomials, s = q′/h
   const double p1 = 10 * x3 - 15 * x4 + 6 * x5, v0 = x - 6 * x3 + 8 * x4 - 3 * x5,

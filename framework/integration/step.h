@@ -10,19 +10,34 @@ namespace pintle {
 
 /// How C = 0 and Ċ = 0 are kept.
 enum class Constraints {
-  projection,   ///< after each step, by the shortest way in the metric of M
-  partitioning  ///< in each stage: dependent coordinates follow from the independent ones
+  projection,    ///< both: after each explicit step, by the shortest way in the metric of M; in each implicit one
+  partitioning,  ///< both, in each stage of an explicit scheme: dependent coordinates follow from the independent ones
+  index3         ///< of an implicit scheme, C = 0 alone
+};
+
+/// What an implicit scheme knows at a node besides the state; empty for an explicit one.
+struct Memory {
+  double h = 0;                    ///< of the step that led here; 0: a start, nothing before it counts [s]
+  Eigen::VectorXd a;               ///< the scheme's own accelerations
+  Eigen::VectorXd lambda, lambda_before;  ///< multipliers here and a step earlier
+  Eigen::VectorXd dy_before;       ///< derivative a step earlier
+  Eigen::VectorXd F;               ///< M v̇
+  template <class A>
+  void archive(A& x) { x(h, a, lambda, lambda_before, dy_before, F); }
 };
 
 /// A state with its derivative.
-struct Node {
+struct Instant {
   State state;
   Eigen::VectorXd dy;
+  Memory memory = {};
+  template <class A>
+  void archive(A& x) { x(state.t, state.y, state.impact_rate, dy, memory); }
 };
 
 /// From one accepted node to a trial one, with what dense output and error control need.
 struct Step {
-  Node from, to;
+  Instant from, to;
   double h = 0;           ///< [s]
   Eigen::VectorXd error;  ///< of the lower-order solution, as y
 };
@@ -33,15 +48,23 @@ class Stages {
   Stages(const System&, const Tableau&, Constraints);
 
   /// Brings y onto the constraints and evaluates everything there. @returns false at a singular pose
-  bool settle(const System&, Node&, Equations&);
+  bool settle(const System&, Instant&, Equations&);
   /// Fills step.to and step.error from step.from and h. @returns false if a stage could not be
   /// evaluated or is not finite; step.from is never changed.
   bool attempt(const System&, double h, Step&, Equations&);
+  /// The state that a step of h from a node leads to, settled and evaluated, without an error estimate.
+  bool reach(const System&, const Instant& from, double h, Instant& to, Equations&);
   /// Chooses a new independent set if the present one has worn out. After an accepted step.
   void refresh(const System&, Equations&);
 
   const Tableau& tableau() const { return tableau_; }
   int partitions() const { return partition_.choices(); }
+  /// h times the fastest rate that the last attempt met, by the change from its last inner stage to its end
+  /// [HairerWanner1996, IV.2]; 0 unless both stand at one instant.
+  double stiffness(const System&, const Step&) const;
+  /// What the next steps depend on besides the nodes.
+  template <class A>
+  void archive(A& x) { x(partition_); }
 
  private:
   bool evaluate_stage(const System&, State&, Equations&, Eigen::VectorXd& dy);
@@ -54,7 +77,8 @@ class Stages {
 };
 
 /// Dense output at from.t ≤ t ≤ to.t: q by the quintic that meets q, s and a at both ends, s by its
-/// derivative, z by the cubic. Not brought onto the constraints.
+/// derivative, z by the cubic. Of an implicit step, whose q, s and a agree to h² only, each by the cubic
+/// of itself and the next. Not brought onto the constraints.
 void interpolate(const System&, const Step&, double t, State& out);
 
 }  // namespace pintle

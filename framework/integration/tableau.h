@@ -13,13 +13,15 @@ struct Tableau {
   int order;                           ///< of y₁
   int error_order;                     ///< of the lower member of the pair
   bool closes;
-  std::vector<std::vector<double>> a;  ///< strictly lower triangle, a row a stage
+  std::vector<std::vector<double>> a;  ///< strictly lower triangle, a row a stage, without zeros at its end
   std::vector<double> b, c, e;
+  double reach;                        ///< stable along the negative axis to hλ = −reach
   int stages() const { return static_cast<int>(b.size()); }
 };
 
 /// All schemes, by the names a scene file uses: rkf45 (Fehlberg, propagating the fifth order),
-/// dopri5 (Dormand and Prince). Sources: [Fehlberg1969], [DormandPrince1980].
+/// dopri5 (Dormand and Prince), verner87 (Verner's most efficient 8(7), to 20 digits). Sources:
+/// [Fehlberg1969], [DormandPrince1980], [Verner2010].
 std::span<const Tableau> tableaus();
 /// @returns nullptr if there is none of that name
 const Tableau* find_tableau(std::string_view name);

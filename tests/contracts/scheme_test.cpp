@@ -5,11 +5,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <initializer_list>
 #include <ostream>
 #include <string>
 #include <tuple>
@@ -19,23 +17,25 @@
 #include "framework/integration/integrator.h"
 #include "framework/integration/step.h"
 #include "framework/integration/tableau.h"
-#include "tests/oracles/runge_kutta.h"
-#include "tests/oracles/slider_crank_clearance.h"
+#include "tests/contracts/scheme_cases.h"
 
 namespace pintle {
 
-inline void PrintTo(const Tableau& tableau, std::ostream* out) {
-  *out << tableau.name;
-}
+inline void PrintTo(const Tableau& tableau, std::ostream* out) { *out << tableau.name; }
 
 namespace {
 
-using Eigen::Vector2d;
-using Eigen::VectorXd;
+using namespace scheme_cases;
 
 // Tolerances.
-// Sums of a dozen fractions below 10.
-constexpr double rounding = 1e-13;
+constexpr double rounding = 1e-13;  // of sums of a dozen numbers near 1
+// Of a tableau's conditions, whose products of a dozen numbers carry its largest.
+double rounding_of(const Tableau& t) {
+  double largest = 1;
+  for (const auto& row : t.a)
+    for (const double a : row) largest = std::max(largest, std::abs(a));
+  return 0.1 * rounding * largest;
+}
 // Of a measured slope: the next order's term is up to 15 % of the leading one at the steps used,
 // except where the pair makes the leading one so small that a greater slope is seen.
 constexpr double order_slack = 0.2;
@@ -50,8 +50,7 @@ struct Coefficients {
 };
 Coefficients coefficients(const Tableau& t) {
   const int s = t.stages();
-  Coefficients k{Eigen::MatrixXd::Zero(s, s), VectorXd::Zero(s), VectorXd::Zero(s),
-                 VectorXd::Zero(s)};
+  Coefficients k{Eigen::MatrixXd::Zero(s, s), VectorXd::Zero(s), VectorXd::Zero(s), VectorXd::Zero(s)};
   for (int i = 0; i < s; ++i) {
     const auto& row = t.a[static_cast<std::size_t>(i)];
     for (std::size_t j = 0; j < row.size(); ++j) k.A(i, static_cast<Eigen::Index>(j)) = row[j];
@@ -62,54 +61,64 @@ Coefficients coefficients(const Tableau& t) {
   return k;
 }
 
-// What weights w leave of the conditions of each order: one a rooted tree, 1, 1, 2, 4 and 9 of
-// orders 1 to 5.
-std::array<double, 6> left_of_order(const Coefficients& k, const VectorXd& w) {
-  const auto& A = k.A;
-  const Eigen::ArrayXd c = k.c.array();
-  const auto apply = [&](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
-    return (A * x.matrix()).array();
+// What weights w leave of the conditions of each order up to `most`, one a rooted tree τ of p nodes:
+// w·Φ(τ) = 1/γ(τ). A tree is a root with a multiset of smaller ones: Φ is the product of their AΦ, γ
+// is p times that of their γ. 1, 1, 2, 4, 9, 20, 48 and 115 trees of orders 1 to 8.
+std::vector<double> left_of_order(const Coefficients& k, const VectorXd& w, int most) {
+  struct Tree {
+    int nodes;
+    double density;
+    Eigen::ArrayXd weight;  // Φ
   };
-  const Eigen::ArrayXd one = Eigen::ArrayXd::Ones(c.size()), Ac = apply(c), Acc = apply(c * c),
-                       AAc = apply(Ac);
-  using Trees = std::initializer_list<Eigen::ArrayXd>;
-  const auto worst = [&](Trees trees, std::initializer_list<int> density) {
-    double left = 0;
-    for (std::size_t i = 0; i < trees.size(); ++i)
-      left = std::max(left, std::abs(w.dot(trees.begin()[i].matrix()) - 1.0 / density.begin()[i]));
-    return left;
-  };
-  const Trees fifth{c * c * c * c,    c * c * Ac,    Ac * Ac,    c * Acc,   c * AAc,
-                    apply(c * c * c), apply(c * Ac), apply(Acc), apply(AAc)};
-  return {0,
-          worst({one}, {1}),
-          worst({c}, {2}),
-          worst({c * c, Ac}, {3, 6}),
-          worst({c * c * c, c * Ac, Acc, AAc}, {4, 8, 12, 24}),
-          worst(fifth, {5, 10, 20, 15, 30, 20, 40, 60, 120})};
+  std::vector<Tree> trees;
+  std::vector<double> left(static_cast<std::size_t>(most) + 1, 0.0);
+  for (int p = 1; p <= most; ++p) {
+    const std::vector<Tree> smaller = trees;
+    const auto grow = [&](auto&& self, std::size_t first, const Tree& root) -> void {
+      if (root.nodes == p) {
+        trees.push_back({p, p * root.density, root.weight});
+        double& worst = left[static_cast<std::size_t>(p)];
+        worst = std::max(worst, std::abs(w.dot(root.weight.matrix()) - 1 / trees.back().density));
+        return;
+      }
+      for (std::size_t i = first; i < smaller.size() && root.nodes + smaller[i].nodes <= p; ++i)
+        self(self, i, Tree{root.nodes + smaller[i].nodes, root.density * smaller[i].density,
+                           root.weight * (k.A * smaller[i].weight.matrix()).array()});
+    };
+    grow(grow, 0, {1, 1.0, Eigen::ArrayXd::Ones(k.c.size())});
+  }
+  return left;
 }
 
 class TableauContract : public testing::TestWithParam<Tableau> {};
 
 TEST_P(TableauContract, StagesAreConsistent) {
   const Coefficients k = coefficients(GetParam());
-  EXPECT_LT((k.A.rowwise().sum() - k.c).lpNorm<Eigen::Infinity>(), rounding);
+  EXPECT_LT((k.A.rowwise().sum() - k.c).lpNorm<Eigen::Infinity>(), rounding_of(GetParam()));
   EXPECT_EQ(k.A.triangularView<Eigen::Upper>().toDenseMatrix().norm(), 0);
 }
 TEST_P(TableauContract, WeightsMeetEveryOrderConditionUpToItsOrder) {
   const Coefficients k = coefficients(GetParam());
-  for (int p = 1; p <= GetParam().order; ++p)  // throws above 5: then add the trees
-    EXPECT_LT(left_of_order(k, k.b).at(static_cast<std::size_t>(p)), rounding) << p;
+  for (const double left : left_of_order(k, k.b, GetParam().order)) EXPECT_LT(left, rounding_of(GetParam()));
 }
 // Of exactly the lower order: an estimate of nothing would accept every step.
 TEST_P(TableauContract, ErrorIsTheDistanceToASolutionOfTheLowerOrder) {
   const Tableau& t = GetParam();
-  const auto left = left_of_order(coefficients(t), coefficients(t).lower);
-  for (int p = 1; p <= t.error_order; ++p)
-    EXPECT_LT(left[static_cast<std::size_t>(p)], rounding) << p;
+  auto left = left_of_order(coefficients(t), coefficients(t).lower, t.error_order + 1);
+  EXPECT_LT(*std::max_element(left.begin(), left.end() - 1), rounding_of(t));
   EXPECT_LT(t.error_order, t.order);
-  EXPECT_GT(left[static_cast<std::size_t>(t.error_order) + 1], 1e-5);
+  EXPECT_GT(left.back(), 1e-5);
 }
+TEST_P(TableauContract, IsStableAlongTheNegativeAxisAsFarAsItSaysAndNoFarther) {
+  const Coefficients k = coefficients(GetParam());
+  const auto growth = [&](double z) {  // |y₁/y₀| of ẏ = λy, z = hλ
+    const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(k.A.rows(), k.A.cols()) - z * k.A;
+    return std::abs(1 + z * k.b.dot(left.triangularView<Eigen::Lower>().solve(VectorXd::Ones(k.A.rows()))));
+  };
+  for (int i = 1; i <= 100; ++i) EXPECT_LE(growth(-GetParam().reach * i / 100), 1) << i;
+  EXPECT_GT(growth(-1.02 * GetParam().reach), 1);
+}
+
 TEST_P(TableauContract, IfItClosesTheLastStageIsTheEnd) {
   if (!GetParam().closes) return;
   const Coefficients k = coefficients(GetParam());
@@ -117,105 +126,8 @@ TEST_P(TableauContract, IfItClosesTheLastStageIsTheEnd) {
   EXPECT_EQ(k.c[k.c.size() - 1], 1);
 }
 
-// ---- mechanisms -------------------------------------------------------------------------------
-
-// What is compared with the truth: an angle, its rate, two components of λ, then integrals.
-struct Case {
-  System system;
-  State start;
-  VectorXd (*seen)(const VectorXd& y, const Equations&);
-  VectorXd (*truth)(double t);
-};
-
-// A link on a hinge with a damper, under gravity and a torque; angle from +x. By an ODE of our own.
-namespace link {
-constexpr double m = 1.3, J = 0.04, arm = 0.3, g = 9.81, c = 0.05, torque = 0.6, theta0 = 0.4,
-                 w0 = 3;
-double acceleration(double theta, double w) {
-  return (torque - c * w - m * g * arm * std::cos(theta)) / (J + m * arm * arm);
-}
-VectorXd seen(const VectorXd& y, const Equations& eq) {
-  return (VectorXd(6) << y[2], y[5], eq.lambda, y[6], y[7]).finished();
-}
-VectorXd truth(double t) {
-  const auto f = [](const pintle_oracle::Vec<4>& y, pintle_oracle::Vec<4>& dy) {
-    dy = {y[1], acceleration(y[0], y[1]), c * y[1] * y[1], torque * y[1]};
-  };
-  const auto y = pintle_oracle::integrate_tightly<4>(f, {theta0, w0, 0, 0}, t, 1e-14, {1, 1, 1, 1});
-  const Vector2d u(std::cos(y[0]), std::sin(y[0]));
-  const Vector2d a = arm * (acceleration(y[0], y[1]) * perp(u) - y[1] * y[1] * u);
-  const Vector2d lambda = m * (Vector2d(0, -g) - a);  // hinge force on the ground
-  return (VectorXd(6) << y[0], y[1], lambda, y[2], y[3]).finished();
-}
-Case make() {
-  Case k{{}, {}, seen, truth};
-  k.system.gravity = {0, -g};
-  k.system.bodies = {{"link", m, J}};
-  k.system.markers = {{ground, {0.2, 0.1}, 0}, {0, {-arm, 0}, 0}};
-  k.system.joints = {Revolute{0, 1}};
-  const auto law = [](double) { return Jet{torque, 0, 0}; };
-  k.system.forces = {TorsionSpring{0, 1, 0, c, 0}, Torque{0, 1, law}};
-  k.system.length = arm;
-  number(k.system);
-  k.start.y.setZero(k.system.n_y());
-  const Vector2d u(std::cos(theta0), std::sin(theta0));
-  k.start.y.head<3>() << Vector2d(0.2, 0.1) + arm * u, theta0;
-  k.start.y.segment<3>(3) << w0 * arm * perp(u), w0;
-  return k;
-}
-}  // namespace link
-
-// The free slider-crank of the oracle, which integrates its one freedom tightly.
-namespace crank {
-pintle_oracle::Params params() {
-  pintle_oracle::Params p;
-  p.speed = 12;
-  p.start_angle = 0.6;
-  return p;
-}
-VectorXd seen(const VectorXd& y, const Equations& eq) {
-  return (VectorXd(4) << y[2], y[11], eq.lambda[4], eq.lambda[5]).finished();
-}
-VectorXd truth(double t) {
-  const auto i = pintle_oracle::ideal_at(params(), t, 1e-14);
-  // λ of the gudgeon pin is the slider's force on the coupler.
-  return (VectorXd(4) << i.angle, i.speed, i.pin_force[0], i.pin_force[1]).finished();
-}
-Case make() {
-  const auto p = params();
-  const auto now = pintle_oracle::evaluate_ideal(p, p.start_angle, p.speed);
-  Case k{{}, {}, seen, truth};
-  k.system.gravity = {0, -p.gravity};
-  k.system.bodies = {{"crank", p.crank_mass, p.crank_inertia},
-                     {"coupler", p.coupler_mass, p.coupler_inertia},
-                     {"slider", p.slider_mass, 1e-4}};
-  const double half1 = p.crank / 2, half2 = p.coupler / 2;
-  k.system.markers = {{ground, {0, 0}, 0}, {0, {-half1, 0}, 0}, {0, {half1, 0}, 0},
-                      {1, {-half2, 0}, 0}, {1, {half2, 0}, 0},  {2, {0, 0}, 0}};
-  k.system.joints = {Revolute{0, 1}, Revolute{2, 3}, Revolute{4, 5}, Prismatic{0, 5, 0}};
-  k.system.length = p.coupler;
-  number(k.system);
-  const Vector2d u(std::cos(p.start_angle), std::sin(p.start_angle)),
-      v(std::cos(now.phi), std::sin(now.phi));
-  k.start.y.setZero(k.system.n_y());
-  k.start.y.head<9>() << half1 * u, p.start_angle, p.crank * u + half2 * v, now.phi, now.x, 0, 0;
-  k.start.y.segment<9>(9) << half1 * p.speed * perp(u), p.speed,
-      p.crank * p.speed * perp(u) + half2 * now.phi_rate * perp(v), now.phi_rate, now.x_rate, 0, 0;
-  return k;
-}
-}  // namespace crank
-
 // ---- schemes ----------------------------------------------------------------------------------
 
-// Slope of log y over log x, by least squares.
-double slope(const std::vector<double>& x, const std::vector<double>& y) {
-  const auto n = static_cast<Eigen::Index>(x.size());
-  using Data = Eigen::Map<const Eigen::ArrayXd>;
-  Eigen::ArrayXd lx = Data(x.data(), n).log();
-  const Eigen::ArrayXd ly = Data(y.data(), n).log();
-  lx -= lx.mean();
-  return (lx * ly).sum() / lx.square().sum();
-}
 void expect_order(double order, const std::vector<double>& h, const std::vector<double>& error) {
   EXPECT_GT(slope(h, error), order - order_slack)
       << "errors from " << error.front() << " to " << error.back();
@@ -247,25 +159,24 @@ class SchemeContract : public testing::TestWithParam<std::tuple<Tableau, Constra
     return step;
   }
   void expect_order_in_all_seen(const Case& k, double span, int steps, Eigen::Index count) const {
+    if (tableau_.order > 5) steps /= 4;  // errors still well above rounding
     std::vector<double> h;
     std::vector<std::vector<double>> error(static_cast<std::size_t>(count));
     for (int n : {steps, 2 * steps, 4 * steps}) {
       VectorXd e = VectorXd::Zero(count);
       march(k, span, n, &e);
       h.push_back(span / n);
-      for (std::size_t i = 0; i < error.size(); ++i)
-        error[i].push_back(e[static_cast<Eigen::Index>(i)]);
+      for (std::size_t i = 0; i < error.size(); ++i) error[i].push_back(e[static_cast<Eigen::Index>(i)]);
     }
     for (const auto& of_one : error) expect_order(tableau_.order, h, of_one);
   }
   Integrator integrator(const Case& k, double tolerance) const {
-    const Scheme scheme{.tableau = &tableau_, .tolerance = tolerance, .constraints = constraints_};
-    return Integrator(k.system, scheme, k.start);
+    return Integrator(k.system, {.tableau = &tableau_, .tolerance = tolerance, .constraints = constraints_}, k.start);
   }
 };
 
 TEST_P(SchemeContract, PendulumConvergesWithItsOrderInPositionSpeedMultipliersAndLedger) {
-  expect_order_in_all_seen(link::make(), 1, 40, 6);
+  expect_order_in_all_seen(link::make(), tableau_.order > 5 ? 2 : 1, 40, 6);
 }
 TEST_P(SchemeContract, SliderCrankConvergesWithItsOrderInPositionSpeedAndMultipliers) {
   expect_order_in_all_seen(crank::make(), 0.6, 160, 4);  // a turn
@@ -320,9 +231,9 @@ TEST_P(SchemeContract, ErrorFallsInProportionToTheTolerance) {
     // A hundred steps or two, each in error by the tolerance at most.
     EXPECT_LT(error.back(), 100 * tolerance);
   }
-  // Steps change by 1.6 a decade, so the mechanism is met at other instants: a factor 2 or 3 of
+  // Steps change by 1.3 to 1.6 a decade, so the mechanism is met at other instants: a factor of up to 4 of
   // scatter at either end of five decades.
-  EXPECT_NEAR(slope(tolerances, error), 1, 0.2) << error.front() << " to " << error.back();
+  EXPECT_NEAR(slope(tolerances, error), 1, 0.25) << error.front() << " to " << error.back();
 }
 
 TEST_P(SchemeContract, ConstraintsHoldAtEveryStepAndSample) {

@@ -1,0 +1,331 @@
+#include "framework/integration/alpha.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pintle {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+constexpr double well_below = 1e-3;  // Newton's error over the step's
+constexpr double on_constraints = 1e-12, nearly = 1e-11;
+constexpr int most_iterations = 12, many_iterations = 3;
+constexpr double slow = 0.2;         // contraction that asks for a new factor
+}  // namespace
+
+AlphaWeights::AlphaWeights(double rho)
+    : m((2 * rho - 1) / (rho + 1)),
+      f(rho / (rho + 1)),
+      beta(0.25 * (1 + f - m) * (1 + f - m)),
+      gamma(0.5 + f - m),
+      shift(m - f),
+      error(beta + shift / 2 - 1.0 / 6) {}
+
+Alpha::Alpha(const System& system, const Equations& eq, double rho, Constraints constraints, double tolerance)
+    : weights_(rho),
+      stabilised_(constraints != Constraints::index3),
+      tolerance_(tolerance),
+      length_(system.length),
+      unit_(VectorXd::Ones(system.n())),
+      tangent_(system),
+      kkt_(system, eq, tangent_),
+      values_(tangent_.places().size()),
+      q_base_(VectorXd::Zero(system.n())),
+      s_base_(q_base_),
+      p_(q_base_),
+      dv_(q_base_),
+      dp_(q_base_),
+      mu_(VectorXd::Zero(system.n_rows())),
+      work_(q_base_) {
+  for (int i = 0; i < system.n_z(); ++i)
+    if (system.integrals[at(i)].account == Account::scheme) loss_ = 2 * system.n() + i;
+  VectorXd reach = VectorXd::Zero(static_cast<Index>(system.bodies.size()));
+  for (const Marker& m : system.markers)
+    if (m.body != ground) reach[m.body] = std::max(reach[m.body], m.x_BP.norm());
+  for (Index b = 0; b < reach.size(); ++b) {
+    unit_[3 * b + 2] = 1 / (reach[b] > 0 ? reach[b] : system.length);
+    unit_.segment(system.eta_begin[at(b)], system.bodies[at(b)].modes()).setConstant(std::sqrt(system.bodies[at(b)].m));
+  }
+}
+
+void Alpha::evaluate_at(const System& system, const State& state, const VectorXd& dy, const VectorXd& lambda, Equations& eq) {
+  pose(system, state.t, state.y, eq);
+  weigh(system, state.y, eq);
+  speed(system, state.t, state.y, eq);
+  load(system, state, eq);
+  eq.a = dy.segment(system.n(), system.n());
+  eq.lambda = lambda;
+  ++eq.evaluations;
+}
+
+void Alpha::evaluate_between(const System& system, const Step& step, const State& state, Equations& eq) {
+  const double x = step.h > 0 ? (state.t - step.from.state.t) / step.h : 1;
+  evaluate_at(system, state, step.to.dy, step.to.memory.lambda, eq);
+  if (x >= 1 || step.from.memory.lambda.size() != eq.lambda.size()) return;
+  eq.a += (1 - x) * (step.from.dy - step.to.dy).segment(system.n(), system.n());
+  eq.lambda += (1 - x) * (step.from.memory.lambda - step.to.memory.lambda);
+}
+
+// The cubic's bend of a stiff coordinate is h s, of which ω² makes a force that never was: it goes through the
+// iteration matrix, as steps do.
+void Alpha::interpolate_between(const System& system, const Step& step, double t, State& out, Equations& eq) {
+  interpolate(system, step, t, out);
+  const Index n = system.n();
+  const double x = (t - step.from.state.t) / step.h;
+  if (!factored_ || !(x > 0 && x < 1)) return;
+  work_ = (1 - x) * step.from.state.y.head(n) + x * step.to.state.y.head(n);
+  dv_ = out.y.head(n) - work_;
+  out.y.head(n) = work_;
+  pose(system, t, out.y, eq);
+  weigh(system, out.y, eq);
+  mu_.setZero();
+  visit_jacobian(eq, [&](int row, int column, double value) { mu_[row] += value * dv_[column]; });
+  dp_.setZero();
+  add_mass_times(system, eq, dv_, dp_);
+  kkt_.solve(dp_, mu_);
+  out.y.head(n) += dp_;
+}
+
+bool Alpha::settle(const System& system, Instant& node, Equations& eq) {
+  if (!project(system, node.state.t, node.state.y, eq)) return false;
+  accelerate(system, node.state, eq);
+  fill_derivative(system, node.state.y, eq, node.dy);
+  Memory& memory = node.memory;
+  memory.h = 0;
+  memory.a = eq.a;
+  memory.lambda = memory.lambda_before = eq.lambda;
+  memory.dy_before = node.dy;
+  memory.F.setZero(system.n());
+  add_mass_times(system, eq, eq.a, memory.F);
+  tired_ = true;
+  return node.dy.allFinite();
+}
+
+// q_base, s_base, and a first guess of v̇₁, λ₁. At a start a₀ is v̇ at `shift` steps after it, by the line
+// through v̇₀ and v̇₁, which makes the step Newmark's with γ = ½ and β + shift/2: second order from the first on.
+Alpha::Weights Alpha::predict(double h, const Instant& from, Instant& to) {
+  const Index n = unit_.size();
+  const auto q0 = from.state.y.head(n), s0 = from.state.y.segment(n, n), v0 = from.dy.segment(n, n);
+  auto guess = to.dy.segment(n, n);
+  const Memory& memory = from.memory;
+  const double m = weights_.m, f = weights_.f, beta = weights_.beta, gamma = weights_.gamma;
+  Weights w;
+  p_.setZero();
+  if (memory.h == 0) {
+    w = {h * h * (beta + weights_.shift / 2), h / 2};
+    q_base_ = q0 + h * s0 + (h * h / 2 - w.q) * v0;
+    s_base_ = s0 + h / 2 * v0;
+    guess = v0;
+    to.memory.lambda = memory.lambda;
+    return w;
+  }
+  w = {h * h * beta * (1 - f) / (1 - m), h * gamma * (1 - f) / (1 - m)};
+  const double ratio = h / memory.h;
+  work_ = v0 + ratio * (memory.a - v0);  // a₀, `shift` times this step after the node
+  q_base_ = q0 + h * s0 + h * h * ((0.5 - beta) * work_ + beta / (1 - m) * (f * v0 - m * work_));
+  s_base_ = s0 + h * ((1 - gamma) * work_ + gamma / (1 - m) * (f * v0 - m * work_));
+  const double reach = std::min(ratio, 2.0);
+  guess = v0 + reach * (v0 - memory.dy_before.segment(n, n));
+  to.memory.lambda = memory.lambda + reach * (memory.lambda - memory.lambda_before);
+  return w;
+}
+
+bool Alpha::refactor(const System& system, const Weights& w, const Instant& node, Equations& eq) {
+  tangent_.evaluate(system, node.state, eq, eq.a, eq.lambda, {.q = w.q, .s = w.s, .a = 1}, values_);
+  factored_ = kkt_.factor(system, eq, values_);
+  ++eq.factorizations;
+  kept_ = w;
+  rate_ = 1;  // not known: the first step with it measures
+  tired_ = false;
+  return factored_;
+}
+
+// Largest part of the last correction over what Newton may leave.
+double Alpha::judge(const System& system, const Weights& w, const State& state) const {
+  constexpr double rounding = 2e-15;
+  const double enough = well_below * tolerance_;
+  const Index n = unit_.size();
+  double worst = 0;
+  for (Index i = 0; i < unit_.size(); ++i) {
+    const double place = rounding * (system.scale[i] + std::abs(state.y[i]));
+    const double of_q = enough * length_ * unit_[i] + place;
+    double of_s = enough * speed_ * unit_[i] + rounding * (std::abs(state.y[n + i]) + speed_ * unit_[i]);
+    if (!stabilised_) of_s += place * w.s / w.q;  // C, known to rounding, moves s by it over the step
+    worst = std::max({worst, std::abs(w.q * dv_[i] + dp_[i]) / of_q, std::abs(w.s * dv_[i]) / of_s});
+  }
+  return worst;
+}
+
+// Newton's iteration for v̇₁, λ₁ and p. Unknown are accelerations, so the matrix is M + w.s D + w.q K, which
+// for what is not stiff does not change with the step.
+bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equations& eq) {
+  const Index n = system.n();
+  auto v = to.dy.segment(n, n);
+  VectorXd& y = to.state.y;
+  double before = 0;
+  bool fresh = false, enough = false;
+  for (int i = 0; i <= most_iterations; ++i) {
+    y.head(n) = q_base_ + w.q * v + p_;
+    y.segment(n, n) = s_base_ + w.s * v;
+    evaluate_at(system, to.state, to.dy, to.memory.lambda, eq);
+    if (enough) {
+      const double left = position_violation(system, eq), drift = stabilised_ ? velocity_violation(system, y, eq) : 0;
+      if (std::max(left, drift) <= (i > most_iterations / 2 ? nearly : on_constraints)) {
+        tired_ = tired_ || i > many_iterations || rate_ > slow;
+        return true;
+      }
+    }
+    if (i == most_iterations) break;
+    if (i == 0 && (tired_ || !factored_)) {
+      if (!refactor(system, w, to, eq)) return blame(system, eq, "the iteration matrix is singular");
+      fresh = true;
+    }
+    dv_ = eq.f;
+    work_.setZero();
+    add_mass_times(system, eq, eq.a, work_);
+    add_reaction(eq, eq.lambda, work_);
+    dv_ -= work_;
+    mu_ = stabilised_ ? eq.Cdot * (-1 / w.s) : eq.C * (-1 / w.q);
+    kkt_.solve(dv_, mu_);
+    v += dv_;
+    to.memory.lambda += mu_;
+    dp_.setZero();
+    if (stabilised_ && system.n_rows() > 0) {
+      mu_ = (w.q / w.s) * eq.Cdot - eq.C;  // what δv̇ does to C taken off
+      kkt_.solve(dp_, mu_);
+      p_ += dp_;
+    }
+    ++iterations_;
+    const double size = judge(system, w, to.state);
+    if (!std::isfinite(size)) return blame(system, eq, "Newton's iteration has left what numbers hold");
+    if (i > 0 && size > 1) {
+      rate_ = size / before;
+      if (i > 1 && rate_ > 0.5 && size * well_below < 0.1) {  // as near as rounding lets it come
+        enough = true, rate_ = slow;
+        continue;
+      }
+      if (rate_ > 0.9 || (i > 2 && size * std::pow(rate_, most_iterations - 1 - i) > 1))
+        return fresh ? blame(system, eq, "Newton's iteration does not converge") : false;
+    } else if (i > 0 && before > 1) {
+      rate_ = std::max(size / before, 1e-3);
+    } else if (i == 0) {
+      rate_ = std::pow(std::max(rate_, 1e-6), 0.8);  // may have grown since it was seen
+    }
+    enough = size * std::min(1.0, rate_ / std::max(1e-3, 1 - rate_)) <= 1;
+    before = size;
+  }
+  return fresh ? blame(system, eq, "Newton's iteration does not come to the constraints") : false;
+}
+
+bool Alpha::attempt(const System& system, double h, Step& step, Equations& eq) {
+  const State& from = step.from.state;
+  Instant& to = step.to;
+  step.h = h;
+  to.state.t = from.t + h;
+  to.state.impact_rate = from.impact_rate;
+  to.state.y.resize(system.n_y());
+  to.state.y.tail(system.n_z()) = from.y.tail(system.n_z());
+  trouble_.clear();
+  Weights w = predict(h, step.from, to);
+  if (w.q > 2 * kept_.q || w.q < 0.5 * kept_.q) rate_ = 1;
+  if (!iterate(system, w, to, eq)) {
+    if (!trouble_.empty() || !factored_) return false;
+    tired_ = true;  // the factor was old: once more with a new one
+    w = predict(h, step.from, to);
+    if (!iterate(system, w, to, eq)) return false;
+  }
+  remember(system, h, step.from, to, eq);
+  estimate(system, step, eq);
+  if (loss_ >= 0) book_loss(system, eq, step);
+  return to.dy.allFinite() && step.error.allFinite();
+}
+
+void Alpha::remember(const System& system, double h, const Instant& from, Instant& to, Equations& eq) {
+  const Index n = system.n();
+  fill_derivative(system, to.state.y, eq, to.dy);
+  const auto v0 = from.dy.segment(n, n);
+  const auto v1 = to.dy.segment(n, n);
+  Memory& memory = to.memory;
+  const double m = weights_.m, f = weights_.f;
+  if (from.memory.h == 0)
+    work_ = v0 + weights_.shift * (v1 - v0);
+  else
+    work_ = v0 + (h / from.memory.h) * (from.memory.a - v0);
+  memory.a = ((1 - f) * v1 + f * v0 - m * work_) / (1 - m);
+  memory.h = h;
+  memory.lambda_before = from.memory.lambda;
+  memory.dy_before = from.dy;
+  memory.F.setZero(n);
+  add_mass_times(system, eq, eq.a, memory.F);
+  for (Index i = 2 * n; i < system.n_y(); ++i) to.state.y[i] = from.state.y[i] + h / 2 * (from.dy[i] + to.dy[i]);
+}
+
+// e ← the solution of (M + w.s D + w.q K) x + Cqᵀμ = M e, Cq x = 0, twice: a ring at hω ≫ 1, which the scheme
+// takes away, would be left its h³ by one, and draw the step down to where it must be followed for good.
+void Alpha::filter(const System& system, Eigen::Ref<VectorXd> e, Equations& eq) {
+  work_ = e;
+  for (int i = 0; i < 2; ++i) {
+    dp_.setZero();
+    add_mass_times(system, eq, work_, dp_);
+    mu_.setZero();
+    kkt_.solve(dp_, mu_);
+    work_ = dp_;
+  }
+  e = work_;
+}
+
+// What the step has against the integrals of the parabola through v̇ at three nodes; at a start the line.
+void Alpha::estimate(const System& system, Step& step, Equations& eq) {
+  const Index n = system.n();
+  const double h = step.h, h0 = step.from.memory.h;
+  const VectorXd &y0 = step.from.state.y, &y1 = step.to.state.y, &d0 = step.from.dy, &d1 = step.to.dy;
+  const VectorXd& before = step.from.memory.dy_before;
+  step.error.resize(system.n_y());
+  for (Index i = n; i < system.n_y(); ++i) {
+    const double bend = h0 > 0 ? ((d1[i] - d0[i]) / h - (d0[i] - before[i]) / h0) / (h + h0) : 0;
+    step.error[i] = y1[i] - y0[i] - h / 2 * (d0[i] + d1[i]) + bend * h * h * h / 6;
+    if (i < 2 * n)
+      step.error[i - n] = y1[i - n] - y0[i - n] - h * y0[i] - h * h * (d0[i] / 3 + d1[i] / 6) + bend * h * h * h * h / 12;
+  }
+  filter(system, step.error.head(n), eq);
+  filter(system, step.error.segment(n, n), eq);
+}
+
+// With F = M v̇ at both ends, u = ½h(s₀ + s₁) − Δq and w = Δs − ½h(v̇₀ + v̇₁), the energy of a linear system
+// changes by ½(F₀ + F₁)·u + ½(s₀ + s₁)·M w more than the trapezoid of its powers says.
+void Alpha::book_loss(const System& system, const Equations& eq, Step& step) {
+  const Index n = system.n();
+  const double h = step.h;
+  const VectorXd &y0 = step.from.state.y, &y1 = step.to.state.y;
+  double gain = 0;
+  for (Index i = 0; i < n; ++i)
+    gain += 0.5 * (step.from.memory.F[i] + step.to.memory.F[i]) * (0.5 * h * (y0[n + i] + y1[n + i]) - (y1[i] - y0[i]));
+  work_ = y1.segment(n, n) - y0.segment(n, n) - h / 2 * (step.from.dy + step.to.dy).segment(n, n);
+  dp_.setZero();
+  add_mass_times(system, eq, work_, dp_);
+  gain += 0.5 * (y0.segment(n, n) + y1.segment(n, n)).dot(dp_);
+  step.to.state.y[loss_] = y0[loss_] - gain;
+}
+
+bool Alpha::blame(const System& system, const Equations& eq, const char* what) {
+  trouble_ = what;
+  Index worst = 0;
+  if (system.n_rows() > 0 && eq.C.cwiseProduct(system.row_scale).cwiseAbs().maxCoeff(&worst) > nearly) {
+    std::size_t joint = 0;
+    while (system.row_begin[joint + 1] <= worst) ++joint;
+    if (joint < system.joint_names.size()) trouble_ += "; worst at the joint \"" + system.joint_names[joint] + "\"";
+    return false;
+  }
+  if (dv_.size() == 0) return false;
+  dv_.cwiseQuotient(unit_).cwiseAbs().maxCoeff(&worst);
+  for (std::size_t b = 0; b < system.bodies.size(); ++b)
+    if (worst / 3 == static_cast<Index>(b) || (worst >= system.eta_begin[b] && worst < system.eta_begin[b + 1]))
+      trouble_ += "; worst at the body \"" + system.bodies[b].name + "\"";
+  return false;
+}
+
+}  // namespace pintle

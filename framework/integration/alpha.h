@@ -1,0 +1,95 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/dynamics/kkt.h"
+#include "framework/dynamics/tangent.h"
+#include "framework/integration/step.h"
+
+namespace pintle {
+
+/// Coefficients of the generalised-α scheme [ChungHulbert1993] with the spectral radius ρ at infinite frequency.
+/// Second order, unconditionally stable for 0 ≤ ρ ≤ 1; ρ = 1 loses nothing, ρ = 0 takes away what is
+/// infinitely fast in one step.
+struct AlphaWeights {
+  explicit AlphaWeights(double rho);
+  double m, f, beta, gamma;
+  double shift;  ///< a ≈ v̇ at shift steps after the node: α_m − α_f ≤ 0
+  double error;  ///< local error of q over h³ times the jerk: β + shift/2 − 1/6
+};
+
+/// Generalised-α for the constrained equations of motion [ArnoldBruls2007], by modified Newton:
+///   M(q₁) v̇₁ + Cqᵀλ₁ = f(q₁, s₁),  C(q₁) = 0,
+///   q₁ = q₀ + h s₀ + h² ((½ − β) a₀ + β a₁) [+ p],   s₁ = s₀ + h ((1 − γ) a₀ + γ a₁),
+///   (1 − α_m) a₁ + α_m a₀ = (1 − α_f) v̇₁ + α_f v̇₀.
+/// Constraints::index3 has no p: λ serves C = 0, and s is off Ċ = 0 by h². Constraints::projection is the
+/// stabilised index 2: λ serves Ċ(q₁, s₁) = 0, and p, small as h³, C = 0, by the shortest way in the metric of
+/// the iteration matrix, which leaves stiff directions alone. Theory: docs/theory/implicit.md.
+class Alpha {
+ public:
+  /// @param tolerance  of the step's error: Newton stops well below it. 0: to rounding
+  Alpha(const System&, const Equations&, double rho, Constraints, double tolerance);
+
+  /// Brings y onto the constraints, evaluates there and forgets: a start. @returns false at a singular pose
+  bool settle(const System&, Instant&, Equations&);
+  /// As Stages::attempt. step.error is the local error, filtered through the iteration matrix so that
+  /// what the scheme damps does not count. @returns false if Newton does not converge; see trouble()
+  bool attempt(const System&, double h, Step&, Equations&);
+  /// The state inside the step, as `interpolate`, with what bends between the nodes kept out of stiff directions.
+  void interpolate_between(const System&, const Step&, double t, State& out, Equations&);
+  /// Evaluates at a state inside the step or at its end, v̇ and λ between those of the ends; changes no state.
+  void evaluate_between(const System&, const Step&, const State&, Equations&);
+  /// Newton judges lengths by this, speeds by that. [m], [m/s]
+  void judge_by(double length, double speed) { length_ = length, speed_ = speed; }
+
+  static constexpr int order = 2;
+  const std::string& trouble() const { return trouble_; }
+  long iterations() const { return iterations_; }
+
+  /// What the next steps depend on besides the nodes, exactly.
+  template <class A>
+  void archive(A& x) {
+    x(rate_, tired_, kept_, factored_, iterations_);
+    if constexpr (A::loading) {
+      if (factored_ && !kkt_.load(x.stream)) x.stream.setstate(std::ios::failbit);
+    } else if (factored_) {
+      kkt_.save(x.stream);
+    }
+  }
+
+ private:
+  struct Weights {
+    double q = 0, s = 0;  ///< of v̇₁ in q₁ and s₁: h² β(1 − α_f)/(1 − α_m), h γ(1 − α_f)/(1 − α_m)
+    template <class A>
+    void archive(A& x) { x(q, s); }
+  };
+  Weights predict(double h, const Instant& from, Instant& to);
+  bool iterate(const System&, const Weights&, Instant& to, Equations&);
+  void evaluate_at(const System&, const State&, const Eigen::VectorXd& dy, const Eigen::VectorXd& lambda, Equations&);
+  bool refactor(const System&, const Weights&, const Instant&, Equations&);
+  double judge(const System&, const Weights&, const State&) const;
+  void remember(const System&, double h, const Instant& from, Instant& to, Equations&);
+  void estimate(const System&, Step&, Equations&);
+  void filter(const System&, Eigen::Ref<Eigen::VectorXd>, Equations&);
+  void book_loss(const System&, const Equations&, Step&);
+  bool blame(const System&, const Equations&, const char* what);
+
+  AlphaWeights weights_;
+  bool stabilised_;
+  double tolerance_, length_, speed_ = 0;
+  int loss_ = -1;         ///< the integral that takes what the scheme loses; −1: none
+  Eigen::VectorXd unit_;  ///< of each coordinate, for a length of 1 m
+  Tangent tangent_;
+  Kkt kkt_;
+  std::vector<double> values_;
+  Eigen::VectorXd q_base_, s_base_, p_;  ///< q₁ = q_base + w.q v̇₁ + p, s₁ = s_base + w.s v̇₁
+  Eigen::VectorXd dv_, dp_, mu_, work_;
+  double rate_ = 1;                      ///< contraction of Newton's iteration, as last seen
+  bool tired_ = true, factored_ = false; ///< the factor should be made anew; there is one
+  Weights kept_;                         ///< of the factor
+  long iterations_ = 0;
+  std::string trouble_;
+};
+
+}  // namespace pintle

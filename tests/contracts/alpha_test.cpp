@@ -1,0 +1,308 @@
+// The exam of the implicit scheme, beside that of the explicit ones in scheme_test.cpp: order, stability,
+// constraints, energy, stiffness, impacts.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "framework/dynamics/energy.h"
+#include "framework/integration/integrator.h"
+#include "tests/contracts/scheme_cases.h"
+
+namespace pintle {
+namespace {
+
+using namespace scheme_cases;
+
+constexpr double order = 2, order_slack = 0.15;  // the next order's term at the steps used
+constexpr double on_constraints = 1e-12;         // scaled, as for the explicit schemes
+
+Step march(const Case& k, double rho, Constraints constraints, double span, int n, VectorXd* errors = nullptr) {
+  Equations eq(k.system);
+  Alpha alpha(k.system, eq, rho, constraints, 0);
+  alpha.judge_by(k.system.length, 1);
+  Step step;
+  step.to.state = k.start;
+  step.to.dy.setZero(k.system.n_y());
+  step.from = step.to;
+  EXPECT_TRUE(alpha.settle(k.system, step.to, eq));
+  for (int i = 1; i <= n; ++i) {
+    std::swap(step.from, step.to);
+    EXPECT_TRUE(alpha.attempt(k.system, span / n, step, eq)) << alpha.trouble();
+    EXPECT_LT(position_violation(k.system, eq), on_constraints);
+    if (constraints == Constraints::projection) {
+      EXPECT_LT(velocity_violation(k.system, step.to.state.y, eq), on_constraints);
+    }
+    if (errors && 10 * i % n == 0) {
+      const VectorXd e = k.seen(step.to.state.y, eq) - k.truth(i * span / n);
+      *errors = (errors->array().square() + e.array().square() / 10).sqrt();
+    }
+  }
+  return step;
+}
+
+void expect_second_order(const Case& k, double rho, Constraints constraints, double span, int steps, Eigen::Index count) {
+  std::vector<double> h;
+  std::vector<std::vector<double>> error(static_cast<std::size_t>(count));
+  for (const int n : {steps, 2 * steps, 4 * steps}) {
+    VectorXd e = VectorXd::Zero(count);
+    march(k, rho, constraints, span, n, &e);
+    h.push_back(span / n);
+    for (std::size_t i = 0; i < error.size(); ++i) error[i].push_back(e[static_cast<Eigen::Index>(i)]);
+  }
+  for (const auto& of_one : error)
+    EXPECT_NEAR(slope(h, of_one), order, order_slack) << "errors from " << of_one.front() << " to " << of_one.back();
+}
+
+TEST(Alpha, PendulumConvergesWithSecondOrderInPositionSpeedMultipliersAndLedger) {
+  for (const double rho : {0.5, 0.8, 0.95}) expect_second_order(link::make(), rho, Constraints::projection, 1, 40, 6);
+}
+TEST(Alpha, SliderCrankConvergesWithSecondOrderInPositionSpeedAndMultipliers) {
+  for (const double rho : {0.5, 0.8}) expect_second_order(crank::make(), rho, Constraints::projection, 0.6, 160, 4);
+}
+// Its multipliers start off by h and come to h² as ρⁿ: seen where that is over before the first tenth.
+TEST(Alpha, IndexThreeConvergesWithSecondOrderWhenItsStartHasDiedAway) {
+  expect_second_order(link::make(), 0.5, Constraints::index3, 1, 160, 6);
+  expect_second_order(crank::make(), 0.5, Constraints::index3, 0.6, 640, 4);
+}
+
+// θ̈ = −ω²θ on a hinge at the mass centre.
+Case oscillator(double omega, double damping = 0) {
+  constexpr double J = 0.02;
+  Case k{};
+  k.system.bodies = {{"wheel", 1.0, J}};
+  k.system.markers = {{ground, {0, 0}, 0}, {0, {0, 0}, 0}};
+  k.system.joints = {Revolute{0, 1}};
+  k.system.forces = {TorsionSpring{0, 1, J * omega * omega, damping, 0}};
+  number(k.system, true);
+  k.start.y.setZero(k.system.n_y());
+  k.start.y[2] = 1;
+  k.start.y[5] = 0.7 * omega;
+  return k;
+}
+
+// One step of the scheme as its authors write it is linear in (θ, hθ̇, h²a); the code's follows it to rounding.
+TEST(Alpha, UndampedOscillatorFollowsTheSchemeOnPaper) {
+  constexpr int n = 50;
+  for (const double rho : {0.0, 0.5, 0.8, 1.0})
+    for (const double z : {0.1, 1.0, 10.0, 1e3}) {  // hω
+      const Case k = oscillator(z / 0.01);
+      const Step first = march(k, rho, Constraints::projection, 0.01, 1), last = march(k, rho, Constraints::projection, 0.01 * n, n);
+      const double am = (2 * rho - 1) / (rho + 1), af = rho / (rho + 1), g = 0.5 - am + af, b = 0.25 * (1 - am + af) * (1 - am + af);
+      // unknown (θ₁, hθ̇₁, h²a₁); of the equation of motion (1 − αm)a₁ + αm a₀ = −ω²((1 − αf)θ₁ + αf θ₀)
+      Eigen::Matrix3d L, R;
+      L << 1, 0, -b, 0, 1, -g, z * z * (1 - af), 0, 1 - am;
+      R << 1, 1, 0.5 - b, 0, 1, 1 - g, -z * z * af, 0, -am;
+      const Eigen::Matrix3d A = L.partialPivLu().solve(R);
+      Eigen::Vector3d x(first.to.state.y[2], 0.01 * first.to.state.y[5], 1e-4 * first.to.memory.a[2]);
+      double largest = 0;
+      for (int i = 1; i < n; ++i) x = A * x, largest = std::max(largest, x.lpNorm<Eigen::Infinity>());
+      // Rounding of each step, as large as the greatest of the three that were.
+      const double rounding = n * 1e-14 * std::max({largest, z * z, 1.0});
+      EXPECT_NEAR(last.to.state.y[2], x[0], rounding) << rho << " " << z;
+      EXPECT_NEAR(0.01 * last.to.state.y[5], x[1], rounding) << rho << " " << z;
+    }
+}
+
+// Of a linear system without dampers, what the scheme loses is all that is lost, at any step.
+TEST(Alpha, LedgerOfALinearSystemClosesToRoundingAtAnyStep) {
+  for (const double rho : {0.0, 0.8, 1.0})
+    for (const double z : {0.01, 0.1, 1.0, 10.0, 1e3}) {
+      const Case k = oscillator(z / 0.01);
+      Equations eq(k.system);
+      Alpha alpha(k.system, eq, rho, Constraints::projection, 0);
+      alpha.judge_by(k.system.length, 0.7 * z / 0.01);
+      Step step;
+      step.to.state = k.start;
+      step.to.dy.setZero(k.system.n_y());
+      step.from = step.to;
+      ASSERT_TRUE(alpha.settle(k.system, step.to, eq));
+      const double start = energies(k.system, step.to.state, eq).balance();
+      double lost = 0;
+      for (int i = 0; i < 40; ++i) {
+        std::swap(step.from, step.to);
+        ASSERT_TRUE(alpha.attempt(k.system, 0.01, step, eq)) << alpha.trouble();
+        const Energies e = energies(k.system, step.to.state, eq);
+        // What is summed, F·u, is hω times the energy.
+        EXPECT_NEAR(e.balance(), start, 1e-12 * std::max(1.0, z) * start) << rho << " " << z << " " << i;
+        lost = e.lost;
+      }
+      if (rho < 1 && z >= 1) {
+        EXPECT_GT(lost, 0.01 * start) << rho << " " << z;
+      } else if (rho == 1) {
+        EXPECT_NEAR(lost, 0, 1e-11 * std::max(1.0, z) * start) << z;  // the trapezoid's rule
+      }
+    }
+}
+
+Integrator integrator(const Case& k, double tolerance, const char* tableau = nullptr, Constraints c = Constraints::projection) {
+  Scheme scheme;
+  scheme.tableau = tableau ? find_tableau(tableau) : nullptr;
+  scheme.tolerance = tolerance, scheme.constraints = c;
+  return Integrator(k.system, scheme, k.start);
+}
+
+// The local error is the tolerance, so the step goes with its third root and the error of a run with h².
+TEST(Alpha, ErrorFallsWithTheToleranceToTwoThirds) {
+  const Case k = crank::make();
+  const std::vector<double> tolerances{1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+  std::vector<double> error;
+  for (const double tolerance : tolerances) {
+    Integrator run = integrator(k, tolerance);
+    double sum = 0;
+    for (int i = 1; i <= 10; ++i) {
+      while (run.state().t < 0.06 * i) ASSERT_TRUE(run.advance(0.06 * i)) << run.failure();
+      sum += std::pow(run.state().y[2] - k.truth(0.06 * i)[0], 2) / 10;
+    }
+    error.push_back(std::sqrt(sum));
+    EXPECT_LT(error.back(), 10 * std::pow(tolerance, 2.0 / 3));
+  }
+  EXPECT_NEAR(slope(tolerances, error), 2.0 / 3, 0.1) << error.front() << " to " << error.back();
+}
+
+// A disc on the coupler's end, held to it by a coil.
+Case with_stiff_disc(double stiffness, double damping) {
+  Case k = crank::make();
+  System& s = k.system;
+  const VectorXd before = k.start.y;
+  s.bodies.push_back({"disc", 0.05, 1e-5});
+  s.markers.push_back({3, {0, 0}, 0});
+  s.joints.emplace_back(Revolute{4, 6});
+  s.forces = {TorsionSpring{4, 6, stiffness, damping, 0}};
+  number(s, true);
+  k.start.y.setZero(s.n_y());
+  k.start.y.head<9>() = before.head<9>();
+  k.start.y.segment<3>(9) << before[6], 0, before[5];
+  k.start.y.segment<9>(12) = before.segment<9>(9);
+  k.start.y.segment<3>(21) << before[15], 0, before[14];
+  return k;
+}
+long steps_of(Integrator run, double until) {
+  while (run.state().t < until && run.advance(until)) continue;
+  EXPECT_EQ(run.state().t, until) << run.failure();
+  return run.counts().steps;
+}
+TEST(Alpha, StiffSpringsAndDampersDoNotHoldTheStep) {
+  constexpr double tolerance = 1e-6, until = 0.3;
+  const long rigid = steps_of(integrator(crank::make(), tolerance), until);
+  // Started without deflection the disc rings by J α/k, 5e-12 rad and less: below the tolerance.
+  for (const double stiffness : {1e9, 1e12, 1e15})
+    EXPECT_LT(steps_of(integrator(with_stiff_disc(stiffness, 0), tolerance), until), 1.5 * static_cast<double>(rigid)) << stiffness;
+  for (const double damping : {1e2, 1e6})
+    EXPECT_LT(steps_of(integrator(with_stiff_disc(0, damping), tolerance), until), 1.5 * static_cast<double>(rigid)) << damping;
+}
+
+TEST(Alpha, AnExplicitRunThatStabilityHoldsGoesOnImplicitly) {
+  const Case k = with_stiff_disc(0, 10);  // 10/1e-5 = a million a second
+  Scheme scheme;
+  scheme.tableau = find_tableau("dopri5"), scheme.tolerance = 1e-6, scheme.switch_below = 1e-4;
+  Integrator run(k.system, scheme, k.start);
+  while (run.state().t < 0.3) ASSERT_TRUE(run.advance(0.3)) << run.failure();
+  EXPECT_TRUE(run.implicit());
+  EXPECT_NE(run.switched().find("stability"), std::string::npos) << run.switched();
+  EXPECT_LT(run.counts().steps, 2000);  // explicit: above 60 000
+  Integrator whole = integrator(k, 1e-8);
+  while (whole.state().t < 0.3) ASSERT_TRUE(whole.advance(0.3)) << whole.failure();
+  EXPECT_NEAR(run.state().y[2], whole.state().y[2], 10 * std::pow(1e-6, 2.0 / 3));  // as in the test of the tolerance
+}
+
+// The gudgeon pin with clearance.
+Case loose_crank() {
+  Case k = crank::make();
+  System& s = k.system;
+  const VectorXd before = k.start.y;
+  s.joints.erase(s.joints.begin() + 2);
+  ContactPair pair;
+  pair.journal = 5, pair.bearing = 4;
+  pair.gap = {0.0099, 0.01};
+  pair.normal = {6.61e10, 1.5, 0.3};
+  s.contacts = {pair};
+  s.contact_names = {"pin"};
+  number(s, true);
+  k.start.y.setZero(s.n_y());
+  k.start.y.head<18>() = before.head<18>();
+  k.start.impact_rate = {0};
+  return k;
+}
+
+TEST(Alpha, FirstImpactsComeToThoseOfTheExplicitSchemeAsTheToleranceFalls) {
+  const Case k = loose_crank();
+  constexpr double until = 0.02;
+  constexpr std::size_t impacts = 4;
+  Integrator exact = integrator(k, 1e-12, "dopri5");
+  while (exact.state().t < until) ASSERT_TRUE(exact.advance(until)) << exact.failure();
+  ASSERT_GE(exact.impacts().size(), impacts);
+  std::vector<double> worst;
+  for (const double tolerance : {1e-6, 1e-8}) {
+    Integrator run = integrator(k, tolerance);
+    while (run.state().t < until) ASSERT_TRUE(run.advance(until)) << run.failure();
+    ASSERT_GE(run.impacts().size(), impacts);
+    worst.push_back(0);
+    for (std::size_t i = 0; i < impacts; ++i) {
+      const Impact &a = run.impacts()[i], &b = exact.impacts()[i];
+      worst.back() = std::max(worst.back(), std::abs(a.begin - b.begin) / until);
+      EXPECT_NEAR(a.peak_force, b.peak_force, 2e-3 * b.peak_force) << tolerance << " " << i;
+    }
+  }
+  // Each impact magnifies what came before by about ten: the fourth has seen three. Errors fall by 100^⅔ = 21.
+  EXPECT_LT(worst[0], 1e3 * std::pow(1e-6, 2.0 / 3) * 1e-1);
+  EXPECT_LT(worst[1], 0.2 * worst[0]);
+}
+
+// ---- saving and going on ------------------------------------------------------------------------
+
+void expect_same(const Integrator& a, const Integrator& b) {
+  ASSERT_EQ(a.state().t, b.state().t);
+  ASSERT_EQ(a.state().y, b.state().y);
+  ASSERT_EQ(a.impacts().size(), b.impacts().size());
+  for (std::size_t i = 0; i < a.impacts().size(); ++i) {
+    ASSERT_EQ(a.impacts()[i].begin, b.impacts()[i].begin);
+    ASSERT_EQ(a.impacts()[i].peak_force, b.impacts()[i].peak_force);
+    ASSERT_EQ(a.impacts()[i].lost, b.impacts()[i].lost);
+  }
+  ASSERT_EQ(a.counts().evaluations, b.counts().evaluations);
+}
+
+TEST(Restart, FromAnyStepGoesOnBitForBitThroughImpacts) {
+  const Case k = loose_crank();
+  for (const char* tableau : {"dopri5", "rkf45", ""})
+    for (const Constraints c : {Constraints::projection, Constraints::partitioning, Constraints::index3}) {
+      const bool implicit = std::string(tableau).empty();
+      if (implicit == (c == Constraints::partitioning) || (!implicit && c == Constraints::index3)) continue;
+      SCOPED_TRACE(std::string(tableau) + " " + std::to_string(static_cast<int>(c)));
+      Integrator run = integrator(k, 1e-6, implicit ? nullptr : tableau, c);
+      std::vector<std::string> saved;
+      for (int i = 0; i < 400; ++i) {
+        if (i % 40 == 7) saved.push_back(run.save());
+        ASSERT_TRUE(run.advance(1)) << run.failure();
+      }
+      ASSERT_GT(run.impacts().size(), 3u) << "no impact, no exam";
+      for (std::size_t s = 0; s < saved.size(); ++s) {
+        Integrator next = integrator(k, 1e-6, implicit ? nullptr : tableau, c);
+        next.load(saved[s]);
+        EXPECT_EQ(next.save(), saved[s]);
+        for (int i = 7 + 40 * static_cast<int>(s); i < 400; ++i) ASSERT_TRUE(next.advance(1)) << next.failure();
+        expect_same(next, run);
+      }
+    }
+}
+
+TEST(Restart, RefusesWhatIsNotWholeOrOfAnotherSystem) {
+  const Case loose = loose_crank(), tight = crank::make();
+  Integrator run = integrator(loose, 1e-6), other = integrator(tight, 1e-6);
+  ASSERT_TRUE(run.advance(1));
+  const std::string saved = run.save();
+  EXPECT_THROW(run.load(saved.substr(0, saved.size() / 2)), std::invalid_argument);
+  EXPECT_THROW(run.load(saved + "x"), std::invalid_argument);
+  EXPECT_THROW(run.load(""), std::invalid_argument);
+  EXPECT_THROW(other.load(saved), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace pintle
