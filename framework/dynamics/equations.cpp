@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/dynamics/branch.h"
+
 namespace pintle {
 
 using Eigen::Vector2d;
@@ -68,6 +70,15 @@ void solve_reactions(const System& system, Equations& eq) {
   }
 }
 
+// Dependent rows ask for the same accelerations: the solved-for λ leave nothing of Cq a − γ.
+bool agree(Equations& eq) {
+  constexpr double little = 1e-2;  // of what they ask: close to singular poses speeds off by 1e-6 weigh that much
+  eq.mu = -eq.gamma;
+  const double size = eq.mu.lpNorm<Eigen::Infinity>();
+  add_product(eq, eq.a.data(), eq.mu);
+  return eq.mu.lpNorm<Eigen::Infinity>() <= little * std::max(size, eq.a.lpNorm<Eigen::Infinity>());
+}
+
 }  // namespace
 
 Equations::Equations(const System& system)
@@ -113,7 +124,7 @@ Equations::Equations(const System& system)
         B_eta[2 * k + s].setZero(3, system.bodies[at(body)].modes());
       }
   }
-  B_hat = B;
+  if (!flexible.empty()) B_hat = B;
   B_eta_hat = B_eta;
   for (const Side& side : sides)
     if (side.flexible >= 0 && flexible[at(side.flexible)].stiffens) B_eta_hat[side.block].setZero(3, flexible[at(side.flexible)].n + 3);
@@ -125,8 +136,9 @@ Equations::Equations(const System& system)
 
 void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
   for (Index b = 0; b < eq.cos_.size(); ++b) {
-    eq.cos_[b] = std::cos(y[3 * b + 2]);
-    eq.sin_[b] = std::sin(y[3 * b + 2]);
+    const double angle = y[3 * b + 2];
+    eq.cos_[b] = std::cos(angle);
+    eq.sin_[b] = std::sin(angle);
   }
   for (std::size_t i = 0; i < system.markers.size(); ++i) {
     const Marker& marker = system.markers[i];
@@ -299,6 +311,7 @@ void accelerate(const System& system, const State& state, Equations& eq) {
   }
   solve_reactions(system, eq);
   ++eq.evaluations;
+  if (eq.schur.lost() > 0) eq.regular = agree(eq) && follow_branch(system, state, eq);
 }
 
 void fill_derivative(const System& system, const VectorXd& y, const Equations& eq, VectorXd& dy) {
@@ -316,6 +329,7 @@ void fill_derivative(const System& system, const VectorXd& y, const Equations& e
       case Account::load: rate = eq.force[k].input; break;
       case Account::driver: rate = eq.lambda[system.row_begin[k]] * eq.rows[k].Ct[0]; break;
       case Account::damping: rate = damping_loss(system, y, z.index); break;
+      case Account::scheme: break;  // no rate: booked step by step
     }
     dy[2 * n + i] = rate;
   }
@@ -328,7 +342,7 @@ bool evaluate(const System& system, const State& state, Equations& eq, VectorXd&
   speed(system, state.t, state.y, eq);
   accelerate(system, state, eq);
   fill_derivative(system, state.y, eq, dy);
-  return true;
+  return eq.regular;
 }
 
 double position_violation(const System& system, const Equations& eq) {
@@ -337,11 +351,14 @@ double position_violation(const System& system, const Equations& eq) {
 
 double velocity_violation(const System& system, const VectorXd& y, const Equations& eq) {
   if (eq.Cdot.size() == 0) return 0;
-  double fastest = 1e-9;  // a rate: speeds over the mechanism's length, spins as they are; less is rest [1/s]
+  return eq.Cdot.cwiseProduct(system.row_scale).lpNorm<Eigen::Infinity>() / fastest_rate(system, y);
+}
+
+double fastest_rate(const System& system, const VectorXd& y) {
+  double fastest = 1e-9;  // less is rest
   const Index n = system.n();
   for (Index i = 0; i < n; ++i) fastest = std::max(fastest, std::abs(y[n + i]) / system.scale[i]);
-  const double worst = eq.Cdot.cwiseProduct(system.row_scale).lpNorm<Eigen::Infinity>();
-  return worst / fastest;
+  return fastest;
 }
 
 bool project(const System& system, double t, VectorXd& y, Equations& eq) {
@@ -353,6 +370,7 @@ bool project(const System& system, double t, VectorXd& y, Equations& eq) {
     eq.mu = violation;
     eq.schur.solve(eq.mu);
     subtract_reaction(system, eq, eq.mu, x);
+    return eq.g.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>();
   };
   return onto_constraints(system, t, y, eq, factored, subtract);
 }

@@ -43,7 +43,8 @@ struct Equations {
   Eigen::VectorXd f, a, lambda;       ///< forces, accelerations, multipliers
   std::vector<ContactEffect> contact;
   std::vector<ForceEffect> force;
-  bool regular = true;                ///< false: the rows are dependent at this pose
+  bool regular = true;                ///< false: no accelerations can be had here
+  int lasting = 0;                    ///< rows that others imply wherever it has moved so far
 
   long evaluations = 0, factorizations = 0;
 
@@ -61,7 +62,8 @@ void weigh(const System&, const Eigen::VectorXd& y, Equations&);
 void factor(const System&, const Eigen::VectorXd& y, Equations&);
 /// f: gravity, what inertia does with speed, force elements, contacts. After speed and weigh.
 void load(const System&, const State&, Equations&);
-/// Loads, λ, a. After speed and factor.
+/// Loads, λ, a. After speed and factor. Clears `regular` where rows contradict each other, and in a
+/// singular pose that speeds do not lead out of.
 void accelerate(const System&, const State&, Equations&);
 /// out += M v, n. After weigh.
 void add_mass_times(const System&, const Equations&, const Eigen::VectorXd& v, Eigen::VectorXd& out);
@@ -70,21 +72,28 @@ void add_reaction(const Equations&, const Eigen::VectorXd& x, Eigen::VectorXd& o
 /// ẏ = [s, a, ż] after accelerate.
 void fill_derivative(const System&, const Eigen::VectorXd& y, const Equations&, Eigen::VectorXd& dy);
 
-/// Everything above in order. @returns false at a singular pose
+/// Everything above in order. @returns false if there are no accelerations
 bool evaluate(const System&, const State&, Equations&, Eigen::VectorXd& dy);
 
 /// Largest |C| over the mechanism's length, and |Ċ| over its length and fastest angular rate.
 double position_violation(const System&, const Equations&);
 double velocity_violation(const System&, const Eigen::VectorXd& y, const Equations&);
+/// Largest speed over its scale, never 0 [1/s].
+double fastest_rate(const System&, const Eigen::VectorXd& y);
 
 /// Newton's iteration for q on C = 0, then s on Ċ = 0, at time t. `factor()` prepares, at a pose, what
-/// `subtract(violation, x)` needs to take a violation out of x, the coordinates or the speeds in y;
-/// it returns false at a pose where that cannot be had. Leaves pose and speed at the corrected state.
+/// `subtract(violation, x)` needs to take a violation out of x, the coordinates or the speeds in y; it
+/// returns the largest change over its scale. `factor` returns false at a pose where that cannot be had.
+/// Leaves pose and speed at the corrected state. Near a singular pose, where motions branch and a small
+/// violation asks for a large correction, it does not jump to another branch: it fails where Newton's
+/// method does not contract fast, and leaves the speeds alone rather than turn them.
 /// @returns false if it does not converge
 template <class Factor, class Subtract>
 bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equations& eq, Factor factor,
                       Subtract subtract) {
   constexpr double enough = 1e-13, good = 1e-11;
+  constexpr double contracts = 0.1;              // a jump between branches leaves a quarter of the violation at the least
+  constexpr double amplified = 1e3, turns = 1e-6;  // times the violation; of the fastest speed
   constexpr int most = 8;
   double worst = 0;
   for (int i = 0; i < most; ++i) {
@@ -93,12 +102,21 @@ bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equati
     const double before = worst;
     worst = position_violation(system, eq);
     if (worst <= enough || (i > 0 && worst <= good && worst > 0.1 * before)) break;
+    if (i > 0 && eq.schur.weak() && worst > contracts * before) return false;
     subtract(eq.C, y.data());
   }
   if (!(worst <= good)) return false;
   speed(system, t, y, eq);
-  for (int i = 0; i < 2 && velocity_violation(system, y, eq) > enough; ++i) {
-    subtract(eq.Cdot, y.data() + system.n());
+  for (int i = 0; i < 2; ++i) {
+    const double violation = velocity_violation(system, y, eq);  // over the fastest speed
+    if (violation <= enough) break;
+    const double fastest = fastest_rate(system, y);
+    const double change = subtract(eq.Cdot, y.data() + system.n());
+    if (eq.schur.weak() && change > turns * fastest && change > amplified * violation * fastest) {
+      eq.Cdot = -eq.Cdot;
+      subtract(eq.Cdot, y.data() + system.n());
+      i = 2;
+    }
     speed(system, t, y, eq);
   }
   return true;

@@ -4,36 +4,29 @@
 #include <vector>
 
 #include "framework/run/build.h"
+#include "framework/run/redundancy.h"
 
 namespace pintle {
-
-/// A constraint row that others already imply at the starting pose.
-struct Redundancy {
-  int joint, row;
-  std::vector<int> implied_by;  ///< joints whose rows combine to it
-};
 
 struct Assembly {
   State start;                ///< on C = 0 and Ċ = 0; journals where the scene puts them
   int rank = 0;               ///< of Cq at the start
-  std::vector<Redundancy> redundant;
+  std::vector<Redundancy> redundant;  ///< rows that others imply there
+  std::vector<bool> shared;   ///< per row: its force is not unique; the least norm shares it out
   double moved = 0;           ///< how far the worst coordinate went from the rough pose [m or rad]
   int iterations = 0;
 };
 
 /// Puts the mechanism together at t = 0: the pose nearest to the rough one that closes every joint and
 /// keeps what `start` pins down, then the speeds of least kinetic energy that do the same. A clearance
-/// joint is closed as if ideal, its journal at the eccentricity that the scene gives.
-/// @throws AssemblyError  naming the joint that stays open, by how much, and what it contradicts
+/// joint is closed as if ideal, its journal at the eccentricity that the scene gives. Redundant joints are
+/// no obstacle. In a singular pose, where motions branch, the speeds are those of a branch: the nearest one
+/// to the least kinetic energy. docs/theory/constraints.md
+/// @throws AssemblyError  naming the joint that stays open, by how much, and what it contradicts; or the
+///                        drivers that contradict each other, now or later in the run
 Assembly assemble(const Scene&, const Model&);
 
-/// @throws AssemblyError  the assembly found a redundant row; names the joint and what implies it
-void refuse_redundancy(const Scene&, const Model&, const Assembly&);
-
-/// The rows of Cq at a state that depend on rows before them.
-std::vector<Redundancy> redundant_rows(const System&, const Equations&);
-
-/// `joint "crank pin", x`
-std::string row_text(const System&, int joint, int row);
+/// What of an assembly makes a run's numbers doubtful, in words: joint forces shared out by convention, a start in a singular pose.
+std::vector<std::string> doubts(const Model&, const Assembly&);
 
 }  // namespace pintle

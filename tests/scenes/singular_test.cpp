@@ -1,0 +1,292 @@
+// Redundant joints and singular poses: whole runs against motions of one coordinate, integrated here.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "tests/scenes/mechanisms.h"
+
+namespace pintle_scenes {
+namespace {
+
+using namespace pintle;
+
+constexpr double g = 9.81, rod_inertia = 1.0 / 12;  // every link: 1 m, 1 kg, uniform
+
+// θ of  inertia θ̈ = −weight cos θ  at time t, by many small classical steps: error below 1e-10.
+double angle_at(double t, double inertia, double weight, double angle, double speed) {
+  constexpr int steps = 40000;
+  const double h = t / steps;
+  const auto accel = [&](double x) { return -weight / inertia * std::cos(x); };
+  for (int i = 0; i < steps; ++i) {
+    const double k1 = accel(angle), k2 = accel(angle + h / 2 * speed), k3 = accel(angle + h / 2 * speed + h * h / 4 * k1),
+                 k4 = accel(angle + h * speed + h * h / 2 * k2);
+    angle += h * speed + h * h / 6 * (k1 + k2 + k3);
+    speed += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  return angle;
+}
+
+SceneBody link(const std::string& name, double x, double y, double angle) {
+  SceneBody b = body(name, 1, rod_inertia, {point("A", -0.5), point("B", 0.5)});
+  b.at = {x + 0.5 * std::cos(angle), y + 0.5 * std::sin(angle)}, b.angle = angle;
+  return b;
+}
+std::string numbered(const char* name, int i) { return name + std::to_string(i); }
+void finish(Scene& s, double until) {
+  s.gravity = {0, -g};
+  s.run.until = until, s.run.method = "dopri5", s.run.tolerance = 1e-9;
+  s.output.every = until / 20;
+}
+
+// n parallelograms in a row on n + 1 cranks, the IFToMM library's N four-bar mechanism: all cranks turn alike. As they
+// lie flat, each parallelogram could fold.
+Scene parallelograms(int n, double angle, double speed, double until) {
+  Scene s;
+  for (int i = 0; i <= n; ++i) {
+    s.ground.push_back(point(numbered("G", i), i));
+    s.bodies.push_back(link(numbered("crank", i), i, 0, angle));
+    s.joints.push_back(joint(numbered("base", i), JointKind::revolute, numbered("ground.G", i), numbered("crank", i) + ".A"));
+    s.start_bodies.push_back(start_angle(numbered("crank", i), angle, speed));
+  }
+  for (int i = 0; i < n; ++i) {
+    s.bodies.push_back(link(numbered("bar", i), i + std::cos(angle), std::sin(angle), 0));
+    s.joints.push_back(joint(numbered("left", i), JointKind::revolute, numbered("crank", i) + ".B", numbered("bar", i) + ".A"));
+    s.joints.push_back(joint(numbered("right", i), JointKind::revolute, numbered("crank", i + 1) + ".B", numbered("bar", i) + ".B"));
+  }
+  finish(s, until);
+  return s;
+}
+double expected_parallelograms(int n, double t, double angle, double speed) {
+  return angle_at(t, (n + 1) / 3.0 + n, g * ((n + 1) / 2.0 + n), angle, speed);
+}
+
+// One bar, of 1 kg, on n ≥ 3 equal cranks 1 m apart: it moves, though all but two cranks are redundant.
+Scene parallel_cranks(int n, double angle, double speed, double until) {
+  Scene s;
+  SceneBody bar = body("bar", 1, rod_inertia * n * n, {});
+  bar.at = {(n - 1) / 2.0 + std::cos(angle), std::sin(angle)};
+  for (int i = 0; i < n; ++i) {
+    s.ground.push_back(point(numbered("G", i), i));
+    bar.points.push_back(point(numbered("P", i), i - (n - 1) / 2.0));
+    s.bodies.push_back(link(numbered("crank", i), i, 0, angle));
+    s.joints.push_back(joint(numbered("base", i), JointKind::revolute, numbered("ground.G", i), numbered("crank", i) + ".A"));
+    s.joints.push_back(joint(numbered("top", i), JointKind::revolute, numbered("crank", i) + ".B", numbered("bar.P", i)));
+    s.start_bodies.push_back(start_angle(numbered("crank", i), angle, speed));
+  }
+  s.bodies.push_back(bar);
+  finish(s, until);
+  return s;
+}
+
+// Crank and rod of equal length: with the crank upright, the slider is at the pivot and could stay there.
+Scene equal_slider_crank(double angle) {
+  Scene s;
+  s.ground = {point("O", 0)};
+  s.bodies = {link("crank", 0, 0, angle), link("rod", std::cos(angle), std::sin(angle), -angle), body("slider", 1, 0.1, {point("P", 0)})};
+  s.bodies[2].at = {2 * std::cos(angle), 0};
+  s.joints = {joint("pivot", JointKind::revolute, "ground.O", "crank.A"), joint("knee", JointKind::revolute, "crank.B", "rod.A"),
+              joint("gudgeon", JointKind::revolute, "rod.B", "slider.P"), joint("guide", JointKind::prismatic, "ground.O", "slider.P")};
+  finish(s, 3);
+  s.gravity = {0, 0};
+  return s;
+}
+
+Scene two_drivers(Law left, Law right) {
+  Scene s = parallelograms(1, 0.5, 0, 2);
+  s.start_bodies.clear();
+  s.drivers = {angle_driver("motor", "ground.G0", "crank0.A", std::move(left)), angle_driver("other motor", "ground.G1", "crank1.A", std::move(right))};
+  return s;
+}
+Law late(double begin) {
+  return {[=](double t) {
+            const double d = t > begin ? t - begin : 0;
+            return Jet{0.5 + t + d * d * d, 1 + 3 * d * d, 6 * d};
+          },
+          "late", false};
+}
+
+std::string complaint(const Scene& s) {
+  try {
+    run(s);
+  } catch (const AssemblyError& error) {
+    return error.what();
+  }
+  return "";
+}
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// Tolerance 1e-9 a step, hundreds of steps, and errors that grow as speeds differ: 1e-5 rad of the tens travelled.
+constexpr double followed = 1e-5;
+
+void expect_angle(const Whole& w, const std::string& name, double expected, double within = followed) {
+  EXPECT_EQ(w.run.status, Status::finished) << w.run.reason;
+  EXPECT_NEAR(w.last(name + ".angle [rad]"), expected, within) << name;
+  EXPECT_LT(std::abs(w.run.worst_unexplained), 1e-6 * w.run.energy_in_play);
+}
+
+TEST(ParallelogramChain, PassesItsFlatPosesAsOneCoordinateDoes) {
+  for (const int n : {1, 2, 5, 40}) {
+    const double until = n == 40 ? 3 : 8;  // 3 and 8 flat poses
+    const Whole w = run(parallelograms(n, M_PI / 2, 1, until));
+    const double expected = expected_parallelograms(n, until, M_PI / 2, 1);
+    for (const int i : {0, n}) expect_angle(w, numbered("crank", i), expected, n == 40 ? 1e-4 : followed);
+    EXPECT_NEAR(w.last("bar0.angle [rad]"), 0, 1e-9) << "a folded branch";
+    EXPECT_GT(std::abs(expected - M_PI / 2), 3 * M_PI) << "too short a run to pass flat poses";
+  }
+}
+
+TEST(ParallelogramChain, GoesOnFromAFlatStartAsItsSpeedsSay) {
+  for (const int n : {1, 3}) {
+    const Whole w = run(parallelograms(n, 0, 3, 2));
+    expect_angle(w, "crank0", expected_parallelograms(n, 2, 0, 3));
+    expect_angle(w, numbered("crank", n), expected_parallelograms(n, 2, 0, 3));
+    EXPECT_EQ(static_cast<int>(w.assembly.redundant.size()), n);
+    for (const Redundancy& r : w.assembly.redundant) EXPECT_FALSE(r.lasting);
+  }
+}
+
+TEST(ParallelogramChain, DrivenThroughFlatPosesStaysAParallelogram) {
+  Scene s = parallelograms(1, 0, 0, 1);  // flat at the start, at 0.5 s and at the end, all of them outputs
+  s.start_bodies = {start_angle("crank1", 0, 2 * M_PI)};
+  s.start_bodies[0].angle.reset();
+  s.drivers = {angle_driver("motor", "ground.G0", "crank0.A", law(0, 2 * M_PI))};
+  const Whole w = run(s);
+  expect_angle(w, "crank1", 2 * M_PI);
+  // The torque by hand: at steady speed it bears the weight, g (½ + ½ + 1) cos θ.
+  const auto torque = w.column("motor.torque on crank0 [N m]");
+  const auto angle = w.column("crank0.angle [rad]");
+  for (std::size_t i = 0; i < angle.size(); ++i) EXPECT_NEAR(torque[i], 2 * g * std::cos(angle[i]), 1e-5) << angle[i];
+}
+
+TEST(SliderCrank, OfEqualLengthsPassesItsBranchingPoseByMomentum) {
+  for (const double angle : {0.4, M_PI / 2}) {
+    Scene s = equal_slider_crank(angle);
+    s.start_bodies = {start_angle("crank", angle, 2)};
+    if (angle == M_PI / 2) s.start_bodies.push_back(start_angle("rod", -angle, -2));
+    const Whole w = run(s);
+    EXPECT_EQ(w.run.status, Status::finished) << w.run.reason;
+    const auto crank = w.column("crank.angle [rad]"), x = w.column("slider.x [m]");
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], 2 * std::cos(crank[i]), 1e-8);
+    EXPECT_GT(crank.back(), 4) << "too short a run to pass the pose";
+    EXPECT_LT(std::abs(w.run.worst_unexplained), 1e-6 * w.run.energy_in_play);
+  }
+}
+
+TEST(SliderCrank, OfEqualLengthsIsDrivenThroughItsBranchingPose) {
+  for (const double angle : {0.5, M_PI / 2}) {
+    Scene s = equal_slider_crank(angle);
+    s.start_bodies = {start_angle("rod", -angle, -2)};
+    s.drivers = {angle_driver("motor", "ground.O", "crank.A", law(angle, 2))};
+    const Whole w = run(s);
+    EXPECT_EQ(w.run.status, Status::finished) << w.run.reason;
+    EXPECT_NEAR(w.last("slider.x [m]"), 2 * std::cos(angle + 6), 1e-8);
+  }
+}
+
+TEST(SliderCrank, PushedBeyondItsReachStopsAtTheDeadCentreAndNamesTheDriver) {
+  Scene s = equal_slider_crank(0.5);
+  SceneDriver ram = angle_driver("ram", "ground.O", "slider.P", law(1.8, 0.2));  // 2 m after 1 s
+  ram.kind = DriverKind::distance;
+  s.drivers = {ram};
+  const Whole w = run(s);
+  EXPECT_EQ(w.run.status, Status::failed);
+  EXPECT_NEAR(w.run.t_end, 1, 1e-3);
+  EXPECT_TRUE(says(w.run.reason, "dead centre") && says(w.run.reason, "\"ram\"")) << w.run.reason;
+}
+
+// Two hinges in one place: each bears half of m (a − g), the least norm.
+TEST(DoublyHingedDoor, SwingsAsAPendulumAndSharesItsWeight) {
+  Scene s;
+  s.ground = {point("L", 0), point("H", 0)};
+  s.bodies = {body("door", 2, 0.3, {point("L", -0.5), point("H", -0.5)})};
+  s.bodies[0].at = {0.5, 0};
+  s.joints = {joint("lower", JointKind::revolute, "ground.L", "door.L"), joint("upper", JointKind::revolute, "ground.H", "door.H")};
+  s.start_bodies = {start_angle("door", 0, 1)};
+  finish(s, 2);
+  for (const char* constraints : {"projection", "partitioning"}) {
+    s.run.constraints = constraints;
+    const Whole w = run(s);
+    expect_angle(w, "door", angle_at(2, 0.3 + 0.5, g, 0, 1));
+    EXPECT_EQ(w.assembly.rank, 2);
+    ASSERT_EQ(w.assembly.redundant.size(), 2u);
+    for (const Redundancy& r : w.assembly.redundant) EXPECT_TRUE(r.lasting && r.joint == 1);
+    for (const bool shared : w.assembly.shared) EXPECT_TRUE(shared);
+    const auto lower = w.column("lower.fy on door [N]"), upper = w.column("upper.fy on door [N]");
+    // At the start: θ̈ = −g/0.8, the centre's acceleration downwards 0.5 θ̈.
+    EXPECT_NEAR(std::abs(lower[0] + upper[0]), 2 * (g - 0.5 * g / 0.8), 1e-8);
+    // Shares are sought with rows shifted by 1e-10: rounding over that, times forces up to 30 N.
+    for (std::size_t i = 0; i < lower.size(); ++i) EXPECT_NEAR(lower[i], upper[i], 3e-4);
+  }
+}
+
+TEST(ParallelCranks, MoveThoughOverconstrainedAndPassTheirFlatPoses) {
+  for (const int n : {3, 5})
+    for (const double angle : {0.4, 0.0}) {
+      const Whole w = run(parallel_cranks(n, angle, 4, 3));
+      const double expected = angle_at(3, n / 3.0 + 1, g * (n / 2.0 + 1), angle, 4);
+      for (int i = 0; i < n; ++i) expect_angle(w, numbered("crank", i), expected);
+      int lasting = 0;
+      for (const Redundancy& r : w.assembly.redundant) lasting += r.lasting ? 1 : 0;
+      EXPECT_EQ(static_cast<int>(w.assembly.redundant.size()), angle == 0 ? n - 1 : n - 2);
+      if (angle != 0) {
+        EXPECT_EQ(lasting, n - 2);
+      }
+    }
+}
+
+// A rod whose ends ride two lines at right angles; its middle rides a circle: the crank there is one row too many.
+TEST(EllipticTrammel, MovesWithAnExtraLink) {
+  Scene s;
+  s.ground = {point("X", 0), point("Y", 0, 0, M_PI / 2)};
+  const double angle = 0.3;
+  SceneBody rod = body("rod", 1, 1.0 / 3, {point("A", -1), point("M", 0), point("B", 1)});
+  rod.at = {std::cos(angle), std::sin(angle)}, rod.angle = -angle;
+  s.bodies = {rod, link("crank", 0, 0, angle)};
+  s.joints = {joint("along x", JointKind::slot, "ground.X", "rod.B"), joint("along y", JointKind::slot, "ground.Y", "rod.A"),
+              joint("pivot", JointKind::revolute, "ground.X", "crank.A"), joint("middle", JointKind::revolute, "crank.B", "rod.M")};
+  s.start_bodies = {start_angle("crank", angle, 1)};
+  finish(s, 3);
+  const Whole w = run(s);
+  expect_angle(w, "crank", angle_at(3, 1.0 / 3 + 1 + 1.0 / 3, 1.5 * g, angle, 1));
+  EXPECT_NEAR(w.last("rod.angle [rad]"), -w.last("crank.angle [rad]"), 1e-9);
+  ASSERT_EQ(w.assembly.redundant.size(), 1u);
+  EXPECT_TRUE(w.assembly.redundant[0].lasting);
+}
+
+TEST(TwoDrivers, ThatAgreeRunAndBearTheWeightTogether) {
+  const Whole w = run(two_drivers(law(0.5, 1), law(0.5, 1)));
+  EXPECT_EQ(w.run.status, Status::finished) << w.run.reason;
+  const auto a = w.column("motor.torque on crank0 [N m]"), b = w.column("other motor.torque on crank1 [N m]"), angle = w.column("crank0.angle [rad]");
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i] + b[i], 2 * g * std::cos(angle[i]), 1e-6);
+}
+
+TEST(TwoDrivers, ThatFightAreRefusedWithBothNames) {
+  for (const Law& other : {law(0.6, 1), law(0.5, 1.2), law(0.5, 1, 0.3), late(0.7)}) {
+    const std::string message = complaint(two_drivers(law(0.5, 1), other));
+    EXPECT_TRUE(says(message, "\"motor\"") && says(message, "\"other motor\"")) << message;
+  }
+}
+
+// Where their ratio changes with the pose nothing can be told beforehand.
+TEST(TwoDrivers, ThatComeToFightStopTheRunWithBothNames) {
+  Scene s = two_drivers(law(0.5), late(10));
+  s.bodies[1] = link("crank1", 1, 0, 0.7);
+  s.bodies[1].points[1].at = {0.3, 0};  // no parallelogram: 0.8 m
+  const auto slow = [](double scale) {
+    return Law{[=](double t) { return Jet{0.5 + scale * t * t * t, 3 * scale * t * t, 6 * scale * t}; }, "slow", false};
+  };
+  Scene one = s;
+  one.drivers.resize(1);
+  const double rocker = run(one).column("crank1.angle [rad]").front();
+  s.drivers[0].law = slow(0.1);
+  s.drivers[1].law = {[=](double t) { return Jet{rocker + 0.05 * t * t * t, 0.15 * t * t, 0.3 * t}; }, "other", false};
+  const Whole w = run(s);
+  EXPECT_EQ(w.run.status, Status::failed);
+  EXPECT_TRUE(says(w.run.reason, "\"motor\"") && says(w.run.reason, "\"other motor\"")) << w.run.reason;
+}
+
+}  // namespace
+}  // namespace pintle_scenes
