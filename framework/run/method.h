@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/integration/integrator.h"
+#include "framework/scene/scene.h"
+
+namespace pintle {
+
+/// How fast a system would move by itself and how fast it is made to, estimated from its parts alone: linear
+/// in their number, before any pose is known.
+struct Spectrum {
+  struct Part {
+    double rate = 0;        ///< as an undamped oscillation [rad/s]
+    double decay = 0;       ///< of its speed by its damper, 2ζω of a mode [1/s]
+    std::string what = {};  ///< for messages
+  };
+  double motion = 0;            ///< start spins, drivers' rates, √(g/length) [rad/s]; if none, the slowest part's own
+  double until = 0;             ///< length of the run [s]
+  Part fastest, most_damped;    ///< of springs and modes
+  std::vector<Part> parts;      ///< springs, modes, contacts
+  bool struck = false;          ///< there are contacts, which set everything ringing again
+};
+/// Each spring is taken as if nothing but it held its two bodies, at the points where it holds them, which no joint
+/// makes slower. A contact is no `fastest`: while it lasts, accuracy asks for short steps of any scheme.
+Spectrum spectrum(const Scene&, const System&);
+
+/// Steps a second that stability and accuracy ask for at a local error of `tolerance`.
+struct Demand {
+  double stability;  ///< of dopri5
+  double accuracy;   ///< of dopri5
+  double implicit;   ///< accuracy, of generalised-α
+};
+Demand demand(const Spectrum&, double tolerance);
+
+/// Fills tableau, constraints, rho, switch_below and reason. `method: auto` takes generalised-α if it gets by with
+/// an eighth of the steps of dopri5, which cost about the same but are more accurate; else verner87 at tolerances of 1e-6 and less, dopri5 above.
+/// @throws SceneError  no such method, or constraints that it cannot keep
+void choose_method(const Scene&, const System&, Scheme&);
+
+}  // namespace pintle

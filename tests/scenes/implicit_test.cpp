@@ -1,0 +1,168 @@
+// Whole runs by generalised-α against explicit ones and models by hand, and what `method: auto` chooses.
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "framework/run/method.h"
+#include "framework/scene/error.h"
+#include "tests/scenes/flexible_scenes.h"
+#include "tests/scenes/mechanisms.h"
+
+namespace pintle_scenes {
+namespace {
+
+namespace po = pintle_oracle;
+
+// What a run may err by: the tolerance to the power ⅔, times what a mechanism magnifies it by, a few tens here.
+double allowed(double tolerance) { return 30 * std::pow(tolerance, 2.0 / 3); }
+
+Whole implicit(pintle::Scene s, double tolerance, const char* constraints = "projection") {
+  s.run.method = "generalized-alpha", s.run.constraints = constraints, s.run.tolerance = tolerance;
+  return run(s);
+}
+
+TEST(Implicit, IdealSliderCrankTurnsAsTheModelByHandAndItsLedgerCloses) {
+  const SliderCrank o{.clearance = 0, .until = 0.05};
+  for (const char* constraints : {"projection", "index 3"})
+    for (const double tolerance : {1e-5, 1e-7}) {
+      const Whole w = implicit(scene(o), tolerance, constraints);
+      ASSERT_EQ(w.run.status, pintle::Status::finished) << w.run.reason;
+      const std::vector<double> times = w.column("t [s]"), angle = w.column("crank.angle [rad]");
+      for (const std::size_t i : {times.size() / 3, times.size() - 1})
+        EXPECT_NEAR(angle[i], po::ideal_at(oracle(o), times[i]).angle, allowed(tolerance)) << constraints << tolerance;
+      EXPECT_LT(std::abs(w.run.worst_unexplained), allowed(tolerance) * w.run.energy_in_play) << constraints << tolerance;
+      EXPECT_NE(w.ledger("scheme.lost to numerical dissipation [J]"), 0);
+    }
+}
+
+TEST(Implicit, DoublePendulumSwingsAsTheModelByHand) {
+  const po::DoublePendulum p{.inertia = {0.1, 0.2}};
+  const po::Vec<4> start{1.2, -0.4, 0.5, 2};
+  pintle::Scene s = double_pendulum(p, start);
+  s.run.until = 1;
+  const Whole w = implicit(s, 1e-8);
+  ASSERT_EQ(w.run.status, pintle::Status::finished) << w.run.reason;
+  const po::Vec<4> end = po::evaluate(p, start, 1);
+  const Whole exact = run(s);
+  EXPECT_NEAR(w.last("upper.angle [rad]"), exact.last("upper.angle [rad]"), allowed(1e-8));
+  EXPECT_NEAR(w.last("upper.speed [rad/s]"), end[2], 10 * allowed(1e-8));
+  EXPECT_NEAR(w.last("lower.speed [rad/s]"), end[3], 10 * allowed(1e-8));
+}
+
+TEST(Implicit, AndrewsMechanismEndsWhereTheExplicitRunDoes) {
+  pintle::Scene s = andrews();
+  s.output.every = 0.01;
+  const Whole w = implicit(s, 1e-8);
+  ASSERT_EQ(w.run.status, pintle::Status::finished) << w.run.reason;
+  s.run.method = "dopri5", s.run.constraints = "projection", s.run.tolerance = 1e-11;
+  const Whole exact = run(s);
+  for (const char* name : {"K1.angle [rad]", "K2.angle [rad]", "K7.angle [rad]"})
+    EXPECT_LT(relative_difference(w.column(name), exact.column(name)), allowed(1e-8)) << name;
+}
+
+TEST(Implicit, FirstImpactsAreThoseOfTheExplicitRun) {
+  SliderCrank o{.clearance = 0.5e-3, .until = 8e-3, .tolerance = 1e-11};
+  const Whole exact = run(scene(o)), w = implicit(scene(o), 1e-8);
+  ASSERT_EQ(w.run.status, pintle::Status::finished) << w.run.reason;
+  ASSERT_GE(exact.run.impacts.size(), 3u);
+  ASSERT_EQ(w.run.impacts.size(), exact.run.impacts.size());
+  // Relative to the finest length; each impact magnifies by about ten.
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(w.run.impacts[i].begin, exact.run.impacts[i].begin, 1e-6) << i;
+    EXPECT_NEAR(w.run.impacts[i].peak_force, exact.run.impacts[i].peak_force, 2e-3 * exact.run.impacts[i].peak_force) << i;
+  }
+}
+
+pintle::Scene flexible_crank(const char* method, double tolerance, double young = 207e9) {
+  FlexibleBeam beam;
+  beam.young = young;
+  beam.modes = "{frame: chord, keep: all}";
+  FlexibleCrank crank{.coupler = text(beam), .until = 0.01, .tolerance = tolerance};
+  pintle::Scene s = scene_of(text(crank));
+  s.run.method = method;
+  return s;
+}
+
+TEST(Implicit, FlexibleSliderCrankMovesAsTheExplicitRunDoes) {
+  const Whole exact = run(flexible_crank("dopri5", 1e-10)), w = run(flexible_crank("generalized-alpha", 1e-8));
+  ASSERT_EQ(w.run.status, pintle::Status::finished) << w.run.reason;
+  EXPECT_LT(relative_difference(w.column("crank.angle [rad]"), exact.column("crank.angle [rad]")), allowed(1e-8));
+  EXPECT_LT(apart(w, exact, "coupler.B"), allowed(1e-8) * 0.17);
+  EXPECT_LT(std::abs(w.run.worst_unexplained), 1e-3 * w.run.energy_in_play);
+}
+
+// A coupler so stiff that what it rings with from its undeformed start is below the tolerance runs at the step of
+// the rigid one, far above what its modes allow an explicit pair.
+TEST(Implicit, AnAllButRigidCouplerRunsAtTheStepOfTheRigidOne) {
+  const Whole rigid = implicit(scene(SliderCrank{.clearance = 0, .until = 0.01}), 1e-6);
+  pintle::Scene s = flexible_crank("generalized-alpha", 1e-6, 207e17);
+  s.run.ledger_bound = 1e-2;  // from the undeformed start the coupler rings at hω ≫ 1; it is the step that is examined here
+  const Whole stiff = run(s);
+  ASSERT_EQ(stiff.run.status, pintle::Status::finished) << stiff.run.reason;
+  EXPECT_LT(stiff.run.counts.steps, 2 * rigid.run.counts.steps);
+}
+
+// ---- method: auto --------------------------------------------------------------------------------
+
+pintle::Scene sprung(double stiffness, double damping) {
+  pintle::Scene s = scene(SliderCrank{.clearance = 0, .until = 0.005, .method = "auto"});
+  s.loads.push_back(spring("buffer", "ground.O", "slider", stiffness, damping, 0.1));
+  return s;
+}
+
+TEST(Auto, TakesAnExplicitPairForWhatIsNotStiffAndSaysSo) {
+  const pintle::Model model = pintle::build(sprung(1e3, 1));
+  ASSERT_NE(model.scheme.tableau, nullptr);
+  EXPECT_EQ(pintle::name(model.scheme), "dopri5");
+  EXPECT_NE(model.scheme.reason.find("steps a second"), std::string::npos) << model.scheme.reason;
+}
+
+TEST(Auto, TakesGeneralizedAlphaForAStiffSpringOrDamperAndNamesIt) {
+  for (const auto& [k, c] : {std::pair{1e14, 1e6}, {0.0, 1e9}}) {
+    const pintle::Model model = pintle::build(sprung(k, c));
+    EXPECT_EQ(model.scheme.tableau, nullptr) << k << " " << c;
+    EXPECT_NE(model.scheme.reason.find("buffer"), std::string::npos) << model.scheme.reason;
+    EXPECT_EQ(model.system.integrals.back().account, pintle::Account::scheme);
+  }
+}
+
+// The rate of a spring on a free body is known: √(k/m).
+TEST(Auto, SpectrumOfOneBodyOnASpringIsItsFrequency) {
+  pintle::Scene s;
+  s.bodies = {body("mass", 2, 0.1, {})};
+  s.loads = {spring("spring", "ground", "mass", 8, 3, 1)};
+  s.run.until = 1;
+  const pintle::Model model = pintle::build(s);
+  const pintle::Spectrum found = pintle::spectrum(s, model.system);
+  EXPECT_DOUBLE_EQ(found.fastest.rate, 2);
+  EXPECT_DOUBLE_EQ(found.most_damped.decay, 1.5);
+  EXPECT_EQ(found.motion, 2);  // nothing else moves it
+}
+
+TEST(Auto, ChoosesTheSameForTheSameSceneAndRunsToItsEnd) {
+  const Whole a = run(sprung(1e14, 1e6)), b = run(sprung(1e14, 1e6));
+  ASSERT_EQ(a.run.status, pintle::Status::finished) << a.run.reason;
+  EXPECT_EQ(a.run.trajectory.data, b.run.trajectory.data);
+}
+
+TEST(Method, RefusesConstraintsThatItCannotKeep) {
+  const auto refused = [](const char* method, const char* constraints) {
+    pintle::Scene s = scene(SliderCrank{.clearance = 0});
+    s.run.method = method, s.run.constraints = constraints;
+    try {
+      pintle::build(s);
+    } catch (const pintle::SceneError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refused("generalized-alpha", "partitioning").find("partitioning"), std::string::npos);
+  EXPECT_NE(refused("dopri5", "index 3").find("index 3"), std::string::npos);
+  EXPECT_NE(refused("dopri6", "projection").find("Did you mean"), std::string::npos) << refused("dopri6", "projection");
+  EXPECT_EQ(refused("auto", "partitioning"), "");
+  EXPECT_EQ(refused("auto", "index 3"), "");
+}
+
+}  // namespace
+}  // namespace pintle_scenes
