@@ -18,6 +18,9 @@ class Clock {
   bool due(double t) const { return k_ <= last_ && next() <= t; }
   double next() const { return k_ >= last_ ? until_ : static_cast<double>(k_) * interval_; }
   void tick() { ++k_; }
+  void pass(double t) {
+    while (due(t)) tick();
+  }
 
  private:
   double interval_, until_;
@@ -92,15 +95,17 @@ const char* status_text(Status s) {
   return "";
 }
 
-Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners) {
+Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners, const SavedState* from) {
   using clock = std::chrono::steady_clock;
   const System& system = model.system;
   const double until = scene.run.until;
   Run run;
   run.warnings = model.warnings;
+  for (std::string& w : doubts(model, assembly)) run.warnings.push_back(std::move(w));
   run.trajectory = trajectory_table(model);
   run.ledger = ledger_table(system);
   Clock outputs(scene.output.every > 0 ? scene.output.every : until / 1000, until);
+  Clock states(listeners.state ? scene.output.states : 0, until);
   Clock frames(scene.output.frames > 1 && listeners.frame ? until / (scene.output.frames - 1) : 0, until);
 
   const auto begin = clock::now();
@@ -109,6 +114,15 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   State sampled;
   Bending bending(model);
   bool started = false;
+  if (from) {
+    integrator.load(from->memory);
+    run.first = from->first, started = true;
+    run.energy_in_play = from->energy_in_play;
+    run.worst_unexplained = from->worst_unexplained;
+    outputs.pass(from->t);
+    frames.pass(from->t);
+  }
+  states.pass(integrator.state().t);
   const auto book = [&](const State& state) {
     const Energies e = energies(system, state, integrator.equations());
     if (!started) run.first = e, started = true;
@@ -140,6 +154,11 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
     if (used) integrator.restore();
     return true;
   };
+  const auto save = [&] {
+    const auto before = clock::now();
+    listeners.state({integrator.state().t, integrator.save(), run.first, run.energy_in_play, run.worst_unexplained});
+    spent_listening += clock::now() - before;
+  };
 
   bool going = integrator.failure().empty() && report();
   while (going && integrator.state().t < until) {
@@ -149,10 +168,16 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
       break;
     }
     going = integrator.advance(until) && report();
+    if (going && states.due(integrator.state().t)) {
+      states.pass(integrator.state().t);
+      save();
+    }
   }
   if (!going) {
     run.status = Status::failed;
     run.reason = integrator.failure();
+    const State& at = integrator.state();
+    if (const std::string why = run.reason.empty() ? "" : explain_pose(system, at.t, at.y); !why.empty()) run.reason += "; " + why;
     if (run.reason.empty()) {
       std::ostringstream s;
       s << "t = " << sampled.t << " s: the output there cannot be evaluated (a singular pose, or numbers beyond what a "
@@ -165,11 +190,14 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
     book(integrator.state());
   }
 
+  if (listeners.state) save();
+
   run.t_end = integrator.state().t;
   run.impacts = integrator.impacts();
   warn_of_depth(system, run);
   bending.warn(run.warnings);
   run.counts = integrator.counts();
+  run.switched = integrator.switched();
   run.worst_position = integrator.worst_position();
   run.worst_velocity = integrator.worst_velocity();
   run.seconds = std::chrono::duration<double>(clock::now() - begin - spent_listening).count();

@@ -5,6 +5,7 @@
 #include "framework/dynamics/energy.h"
 #include "framework/run/assemble.h"
 #include "framework/run/drawing.h"
+#include "framework/run/saved_state.h"
 #include "framework/run/trajectory.h"
 
 namespace pintle {
@@ -16,6 +17,7 @@ const char* status_text(Status);
 struct Run {
   Status status = Status::finished;
   std::string reason;               ///< in words, when not finished
+  std::string switched = {};        ///< when and why the scheme changed from explicit to implicit; else empty
   std::vector<std::string> warnings;  ///< what makes the numbers doubtful, in words
   double t_end = 0;                 ///< reached [s]
   Table trajectory, ledger;
@@ -33,9 +35,12 @@ struct Run {
 struct Listeners {
   std::function<bool(double t)> progress;              ///< false stops the run
   std::function<void(const State&, const Equations&)> frame;  ///< at each animation frame
+  std::function<void(const SavedState&)> state;  ///< at the first step's end past each `output.states`, and at the last
 };
 
-/// Runs a model from its assembled start to `run.until`. Never throws for numerical reasons.
-Run simulate(const Scene&, const Model&, const Assembly&, const Listeners& = {});
+/// Runs a model from its assembled start to `run.until`, or on from a saved state: then the tables hold what comes
+/// after it, the same rows bit for bit as of the whole run, and impacts are those of the whole run.
+/// Never throws for numerical reasons.
+Run simulate(const Scene&, const Model&, const Assembly&, const Listeners& = {}, const SavedState* from = nullptr);
 
 }  // namespace pintle
