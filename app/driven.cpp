@@ -1,0 +1,141 @@
+// Commands on driven mechanisms: kinematics and inverse.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "app/options.h"
+#include "app/progress.h"
+#include "framework/run/inverse.h"
+#include "framework/run/kinematics.h"
+#include "framework/run/pieces.h"
+#include "framework/run/results.h"
+#include "framework/run/stand_in.h"
+
+namespace pintle::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What draws a run's frames, if the scene asks for any.
+class Animation {
+ public:
+  Animation(const Scene& scene, const Model& model, const fs::path& directory)
+      : model_(model), drafting_(scene, model), writer_(directory), wanted_(scene.output.frames > 1) {}
+  void listen(Listeners& listeners) {
+    if (wanted_) listeners.frame = [this](const State& state, const Equations& eq) { writer_.add(draw(model_, drafting_, state, eq)); };
+  }
+  void finish() {
+    if (wanted_) writer_.finish();
+  }
+
+ private:
+  const Model& model_;
+  Drafting drafting_;
+  FrameWriter writer_;
+  bool wanted_;
+};
+
+int exit_code(const Options& options, const Scene& scene, const Run& run) {
+  if (run.status != Status::finished && (options.quiet || options.json))
+    std::cerr << scene.file << ": " << status_text(run.status) << ": " << run.reason << "\n";
+  switch (run.status) {
+    case Status::finished: return ok;
+    case Status::failed: return run_failed;
+    case Status::interrupted: return stopped;
+    case Status::ledger_over_bound: return ledger_over;
+  }
+  return trouble;
+}
+
+Rows run_rows(const Run& run) {
+  return {{"time reached", number(run.t_end) + " s"},
+          {"steps", std::to_string(run.counts.steps) + " (" + std::to_string(run.counts.rejected) + " rejected) in " +
+                        number(run.seconds, 3) + " s"},
+          {"constraints held to", number(run.worst_position, 2) + " in position, " + number(run.worst_velocity, 2) + " in speed (scaled)"}};
+}
+
+void print(const Scene& scene, const Run& run, Rows rows, const fs::path& out) {
+  rows.emplace_back("results", out.string() + (scene.output.frames > 1 ? ", animation " + (out / "mechanism.pvd").string() : ""));
+  std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
+  print_rows(std::cout, rows);
+  for (const std::string& w : run.warnings) std::cout << "  warning: " << w << "\n";
+  std::cout << "  " << status_text(run.status) << (run.reason.empty() ? "" : ": " + run.reason) << "\n";
+}
+
+std::string effort_text(const Inverse& found, std::size_t d, const fs::path& out) {
+  const DriverEffort& e = found.drivers[d];
+  const std::string unit = e.turns ? " N m" : " N";
+  if (e.t.empty()) return "nothing computed";
+  const auto [least, most] = std::minmax_element(e.value.begin(), e.value.end());
+  return number(*least) + " to " + number(*most) + unit + ", " + (out / effort_file(found, d)).string() + " with " +
+         std::to_string(e.t.size()) + " rows" +
+         (std::isnan(e.error) ? "" : " (a spline through every second one is off by " + number(e.error, 2) + unit + " at most)");
+}
+
+}  // namespace
+
+int kinematics(const Options& options) {
+  const Scene scene = ready_for_kinematics(read_scene(options.scene, overrides(options)));
+  require_run(scene);
+  const Model model = build(scene);
+  const Assembly assembly = assemble(scene, model);
+  require_driven(scene, model, assembly);
+
+  const fs::path out = results_directory(options, "-kinematics");
+  ResultsDirectory results(out);
+  Animation animation(scene, model, results.path());
+  Listeners listeners;
+  animation.listen(listeners);
+  Run run;
+  {
+    Progress progress(scene.run.until, options.quiet);
+    listeners.progress = [&](double t) { return progress(t); };
+    run = kinematics(scene, model, assembly, listeners);
+  }
+  animation.finish();
+  write_kinematics(results.path(), scene, model, run);
+  results.commit();
+
+  if (options.json)
+    std::cout << kinematics_json(scene, model, run);
+  else if (!options.quiet)
+    print(scene, run, run_rows(run), out);
+  return exit_code(options, scene, run);
+}
+
+int inverse(const Options& options) {
+  const Scene scene = with_pieces(read_scene(options.scene, overrides(options)));
+  require_run(scene);
+  const Model model = build(scene);
+  const Assembly assembly = assemble(scene, model);
+
+  const fs::path out = results_directory(options, "-inverse");
+  ResultsDirectory results(out);
+  Animation animation(scene, model, results.path());
+  Listeners listeners;
+  animation.listen(listeners);
+  Inverse found;
+  {
+    Progress progress(scene.run.until, options.quiet);
+    listeners.progress = [&](double t) { return progress(t); };
+    found = inverse(scene, model, assembly, listeners);
+  }
+  animation.finish();
+  write_inverse(results.path(), scene, model, assembly, found);
+  results.commit();
+
+  if (options.json) {
+    std::cout << inverse_json(scene, model, found);
+  } else if (!options.quiet) {
+    Rows rows{{"found", found.how}};
+    for (std::size_t d = 0; d < found.drivers.size(); ++d)
+      rows.emplace_back((found.drivers[d].turns ? "torque of " : "thrust of ") + found.drivers[d].name, effort_text(found, d, out));
+    const Rows more = run_rows(found.run);
+    rows.insert(rows.end(), more.begin(), more.end());
+    print(scene, found.run, rows, out);
+  }
+  return exit_code(options, scene, found.run);
+}
+
+}  // namespace pintle::app

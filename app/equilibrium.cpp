@@ -1,0 +1,123 @@
+// The command statics: where a mechanism rests.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+
+#include "app/options.h"
+#include "framework/run/equilibrium.h"
+#include "framework/run/pieces.h"
+#include "framework/run/results.h"
+#include "framework/run/stand_in.h"
+
+namespace pintle::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string plural(int n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
+
+std::string stability_text(const Stability& s) {
+  if (!s.judged) return "not judged: too many coordinates";
+  if (s.freedoms == 0) return "held in every direction by joints and drivers";
+  const auto bodies = [&](int begin, int count) {
+    std::vector<std::string> seen;
+    std::string out;
+    for (int i = begin; i < begin + count; ++i) {
+      const std::string& name = s.moving[static_cast<std::size_t>(i)];
+      if (std::find(seen.begin(), seen.end(), name) != seen.end()) continue;
+      seen.push_back(name);
+      out += (out.empty() ? " (\"" : ", \"") + name + "\"";
+    }
+    return out + ")";
+  };
+  std::string out = s.unstable > 0 ? "UNSTABLE in " + plural(s.unstable, "direction") + bodies(0, s.unstable) : "";
+  if (s.neutral > 0) out += (out.empty() ? "" : ", ") + std::string("neutral in ") + plural(s.neutral, "direction") + bodies(s.unstable, s.neutral);
+  if (out.empty()) out = "stable";
+  out += ", of " + plural(s.freedoms, "freedom");
+  return out + (s.circulatory ? "; loads that follow may make it flutter, which statics cannot tell" : "");
+}
+
+struct Column {
+  std::string name, quantity, unit;  ///< "crank pin on coupler", "fx", "N"
+};
+// "crank pin.fx on coupler [N]"
+Column split(const std::string& header) {
+  const auto bracket = header.rfind(" [");
+  const std::string plain = header.substr(0, bracket);
+  const auto dot = plain.rfind('.');
+  if (dot == std::string::npos) return {"", plain, header.substr(bracket + 2, header.size() - bracket - 3)};
+  const auto on = plain.find(" on ", dot);
+  const std::string subject = on == std::string::npos ? "" : plain.substr(on);
+  return {plain.substr(0, dot) + subject, plain.substr(dot + 1, on == std::string::npos ? on : on - dot - 1),
+          header.substr(bracket + 2, header.size() - bracket - 3)};
+}
+
+/// A row for each body, joint, clearance and load with what the table says of it; rates left out, rounding as 0.
+void add_values(const Table& table, Rows& rows) {
+  std::map<std::string, double> greatest;
+  for (std::size_t c = 0; c < table.data.size(); ++c) {
+    double& most = greatest[split(table.header[c]).unit];
+    most = std::max(most, std::abs(table.data[c]));
+  }
+  std::string last;
+  for (std::size_t c = 1; c < table.data.size(); ++c) {
+    const Column column = split(table.header[c]);
+    if (column.unit.find("/s") != std::string::npos) continue;
+    const double value = std::abs(table.data[c]) <= 1e-12 * greatest[column.unit] ? 0 : table.data[c];
+    const std::string text = column.quantity + " = " + number(value) + " " + column.unit;
+    if (column.name != last || rows.empty())
+      rows.emplace_back(last = column.name, text);
+    else
+      rows.back().second += ", " + text;
+  }
+}
+
+void print(const Scene& scene, const Equilibrium& e, const fs::path& out) {
+  std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
+  Rows rows;
+  if (!e.method.empty())
+    rows.emplace_back(e.found ? "found by" : "tried",
+                      e.method + ", " + plural(e.iterations, "iteration") + "; out of balance " + number(e.residual, 2) + " of the greatest force");
+  if (e.found) {
+    rows.emplace_back("equilibrium", stability_text(e.stability));
+    if (e.state.t != 0) rows.emplace_back("at", number(e.state.t, 9) + " s, drivers held and loads as they are then");
+    add_values(e.table, rows);
+  }
+  rows.emplace_back("results", out.string() + ", drawing " + (out / "mechanism.pvd").string());
+  print_rows(std::cout, rows);
+  for (const std::string& w : e.warnings) std::cout << "  warning: " << w << "\n";
+  std::cout << "  " << (e.found ? "at rest" : "NO EQUILIBRIUM: " + e.reason) << "\n";
+}
+
+}  // namespace
+
+int equilibrium(const Options& options) {
+  Scene scene = with_pieces(ready_for_statics(read_scene(options.scene, overrides(options))));
+  scene.output.frames = 2;  // so that flexible bodies can be drawn
+  const double at = options.at.empty() ? 0 : instant(options);
+  const Model model = build(scene);
+  const Assembly assembly = assemble(scene, model);
+  const Equilibrium found = find_equilibrium(scene, model, assembly, at);
+
+  const fs::path out = results_directory(options, "-statics");
+  ResultsDirectory results(out);
+  FrameWriter writer(results.path());
+  Equations eq(model.system);
+  Eigen::VectorXd dy(model.system.n_y());
+  evaluate(model.system, found.state, eq, dy);
+  writer.add(draw(model, Drafting(scene, model), found.state, eq));
+  writer.finish();
+  write_equilibrium(results.path(), scene, model, found);
+  results.commit();
+
+  if (options.json)
+    std::cout << equilibrium_json(scene, model, found);
+  else if (!options.quiet)
+    print(scene, found, out);
+  if (!found.found && (options.quiet || options.json)) std::cerr << scene.file << ": no equilibrium: " << found.reason << "\n";
+  return found.found ? ok : run_failed;
+}
+
+}  // namespace pintle::app

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+#include "framework/run/row_solver.h"
+#include "framework/run/simulate.h"
+
+namespace pintle {
+
+/// The motion that drivers impose on rigid bodies which they leave no freedom: positions by Newton's method from the
+/// prediction q + hs + ½h²a, speeds by Cq s = −Ct, accelerations by Cq a = γ, rows that repeat others by least
+/// squares. Masses play no part. A step whose correction, or whose change of speed, is more than its prediction
+/// allows is taken in parts, so that no other branch of the linkage is met by accident; through a singular pose the
+/// prediction decides.
+class DrivenMotion {
+ public:
+  /// @pre start meets C = 0 nearly
+  DrivenMotion(const System&, State start);
+  /// On to time t ≥ state().t. @returns false when it cannot; see failure()
+  bool advance(double t);
+
+  const State& state() const { return state_; }
+  const Eigen::VectorXd& acceleration() const { return a_; }
+  const RowSolver& rows() const { return rows_; }  ///< at state()
+  Equations& equations() { return eq_; }           ///< pose and speed are those of state()
+  const std::string& failure() const { return failure_; }
+  long steps() const { return steps_; }
+  long rejected() const { return rejected_; }
+  double worst_position() const { return worst_position_; }  ///< scaled, as Integrator has it
+  double worst_velocity() const { return worst_velocity_; }
+
+ private:
+  bool settle(State&, Eigen::VectorXd& a);
+  bool attempt(double h, State& trial, Eigen::VectorXd& a);
+  double size(const Eigen::VectorXd& d) const { return d.cwiseQuotient(system_.scale).lpNorm<Eigen::Infinity>(); }
+  std::string why();
+
+  const System& system_;
+  Equations eq_;
+  RowSolver rows_;
+  State state_;
+  Eigen::VectorXd a_, gamma_;
+  std::string failure_;
+  double h_ = 0, worst_position_ = 0, worst_velocity_ = 0;
+  long steps_ = 0, rejected_ = 0;
+};
+
+/// @throws AssemblyError  drivers and joints leave freedoms open at the start: how many, and which bodies move
+void require_driven(const Scene&, const Model&, const Assembly&);
+
+/// The driven motion over `run.until`: trajectory of bodies and points, no forces, no ledger. `reason` says why it
+/// ended early, if it did; what came before is kept.
+/// @throws AssemblyError  as require_driven
+Run kinematics(const Scene&, const Model&, const Assembly&, const Listeners& = {});
+
+/// trajectory.csv and kinematics.json in `directory`.
+/// @throws std::runtime_error  naming the path that cannot be written
+void write_kinematics(const std::filesystem::path& directory, const Scene&, const Model&, const Run&);
+std::string kinematics_json(const Scene&, const Model&, const Run&);
+
+/// Has a frame drawn of the motion where it is, and adds the time that took.
+void draw_frame(const Listeners&, DrivenMotion&, std::chrono::steady_clock::duration& spent);
+
+/// Times k·every up to `until`, the last one `until` itself; a thousandth of it if every is 0.
+std::vector<double> output_times(const Scene&);
+std::vector<double> frame_times(const Scene&);  ///< of the animation; empty if there is none
+
+}  // namespace pintle
