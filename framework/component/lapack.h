@@ -18,4 +18,8 @@ void dsytrs_(const char* uplo, const int* n, const int* nrhs, const double* A, c
              const int* pivots, double* B, const int* ldb, int* info);
 void dsyevd_(const char* job, const char* uplo, const int* n, double* A, const int* lda, double* w,
              double* work, const int* lwork, int* iwork, const int* liwork, int* info);
+void dgeevx_(const char* balance, const char* job_left, const char* job_right, const char* sense, const int* n, double* A,
+             const int* lda, double* re, double* im, double* left, const int* ldl, double* right, const int* ldr, int* low,
+             int* high, double* scale, double* norm, double* sense_values, double* sense_vectors, double* work,
+             const int* lwork, int* iwork, int* info);
 }

@@ -1,0 +1,119 @@
+// The command linearize: small motion about a state of a mechanism.
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <numbers>
+#include <optional>
+
+#include "app/options.h"
+#include "framework/run/assemble.h"
+#include "framework/run/drawing.h"
+#include "framework/run/equilibrium.h"
+#include "framework/run/linearize.h"
+#include "framework/run/pieces.h"
+#include "framework/run/results.h"
+
+namespace pintle::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string about_text(const Options& options, const Linearization& lin) {
+  if (options.at_rest) return "where the mechanism rests" + (lin.about.t > 0 ? ", drivers and loads as at t = " + number(lin.about.t, 9) + " s" : std::string());
+  if (!options.at.empty()) return "the run's state at t = " + number(lin.about.t, 9) + " s";
+  return "the assembled start";
+}
+
+void print_modes(const Linearization& lin, int count) {
+  std::printf("\n  %4s %-11s %15s %15s %10s %13s  %s\n", "mode", "", "frequency [Hz]", "natural [Hz]", "damping", "decay [1/s]",
+              "moves most (its body's share of the kinetic energy)");
+  int k = 0, left_out = 0;
+  for (const LinearMode& m : lin.modes) {
+    ++k;
+    if (k > count && m.kind != LinearMode::Kind::growing) {
+      ++left_out;
+      continue;
+    }
+    std::printf("  %4d %-11s ", k, kind_text(m.kind));
+    if (m.kind == LinearMode::Kind::zero)
+      std::printf("%15s %15s %10s %13s", "0", "0", "", "");
+    else  // what rounding leaves is shown as nothing
+      std::printf("%15.9g %15.9g %10.4g %13.6g", m.frequency(), m.natural(), std::abs(m.root.real()) <= m.uncertainty ? 0 : m.damping(),
+                  std::abs(m.root.real()) <= m.uncertainty ? 0 : -m.root.real());
+    std::printf("  %s (%.3g %%)%s\n", m.carrier.c_str(), 100 * m.share,
+                m.kind == LinearMode::Kind::zero ? ": moves freely" : m.kind == LinearMode::Kind::growing && lin.coefficients != Coefficients::frozen ? ": UNSTABLE" : "");
+  }
+  if (left_out > 0) std::printf("  %4s %d more in linearized.csv\n", "", left_out);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+void write_animations(const fs::path& out, const Scene& scene, const Model& model, const Linearization& lin, int count, int frames) {
+  const Drafting drafting(scene, model);
+  Equations eq(model.system);
+  Eigen::VectorXd dy(model.system.n_y());
+  for (int k = 0; k < std::min(count, static_cast<int>(lin.modes.size())); ++k) {
+    char name[32];
+    std::snprintf(name, sizeof name, "mode_%02d", k + 1);
+    FrameWriter writer(out / name);
+    for (int i = 0; i <= frames; ++i) {
+      const State state = displaced(model, lin, lin.modes[static_cast<std::size_t>(k)], 2 * std::numbers::pi * i / frames);
+      evaluate(model.system, state, eq, dy);
+      writer.add(draw(model, drafting, state, eq));
+    }
+    writer.finish();
+  }
+}
+
+}  // namespace
+
+int linearize(const Options& options) {
+  Scene scene = read_scene(options.scene, overrides(options));
+  if (!options.at.empty() && !options.at_rest) require_run(scene);
+  const double t = options.at.empty() ? 0 : instant(options);
+  scene = with_pieces(std::move(scene));
+  if (options.frames > 0) scene.output.frames = std::max(2, scene.output.frames);  // keeps what flexible bodies are drawn by
+  const Model model = build(scene);
+  const Assembly assembly = assemble(scene, model);
+  State state;
+  if (options.at_rest) {
+    const Equilibrium rest = find_equilibrium(scene, model, assembly, t);
+    if (!rest.found) {
+      std::cerr << scene.file << ": no equilibrium to linearize about: " << rest.reason << "\n";
+      return run_failed;
+    }
+    state = rest.state;
+  } else {
+    try {
+      state = state_at(model, assembly.start, t);
+    } catch (const std::runtime_error& e) {
+      std::cerr << scene.file << ": " << e.what() << "\n";
+      return run_failed;
+    }
+  }
+  const Linearization lin = linearize(scene, model, state, options.at_rest ? Laws::hold : Laws::go_on);
+
+  const fs::path out = results_directory(options, "-linearize");
+  ResultsDirectory results(out);
+  write_linearization(results.path(), scene, lin, options.count);
+  if (options.frames > 0) write_animations(results.path(), scene, model, lin, options.count, options.frames);
+  results.commit();
+  if (options.json) {
+    std::cout << linearized_json(scene, lin);
+  } else if (!options.quiet) {
+    std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
+    print_rows(std::cout, {{"about", about_text(options, lin)},
+                           {"free coordinates", std::to_string(lin.independent.size()) + " of " + std::to_string(lin.coordinates.size())},
+                           {"state space", std::to_string(lin.space.states.size()) + " states, " + std::to_string(lin.space.inputs.size()) + " inputs, " +
+                                               std::to_string(lin.space.outputs.size()) + " outputs"}});
+    std::cout << std::flush;
+    if (!lin.modes.empty()) print_modes(lin, options.count);
+    for (const std::string& n : lin.notes) std::cout << "  note: " << n << "\n";
+    for (const std::string& w : model.warnings) std::cout << "  warning: " << w << "\n";
+    print_rows(std::cout, {{"results", out.string() + (options.frames > 0 && !lin.modes.empty() ? ", animations " + (out / "mode_01/mechanism.pvd").string() + " …" : "")}});
+  }
+  return ok;
+}
+
+}  // namespace pintle::app

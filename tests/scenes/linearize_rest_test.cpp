@@ -1,0 +1,84 @@
+// Small motion about where a mechanism rests, of mechanisms with more joints than they need, and what is refused.
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "framework/run/equilibrium.h"
+#include "framework/run/linearize.h"
+#include "tests/scenes/flexible_scenes.h"
+#include "tests/scenes/mechanisms.h"
+
+namespace pintle_scenes {
+namespace {
+
+pintle::Linearization about_rest(const pintle::Scene& scene) {
+  const pintle::Model model = build(scene);
+  const pintle::Equilibrium rest = find_equilibrium(scene, model, assemble(scene, model));
+  EXPECT_TRUE(rest.found) << rest.reason;
+  return linearize(scene, model, rest.state, pintle::Laws::hold);
+}
+
+TEST(LinearizeAtRest, ReleasedPendulumSwingsAboutWhereItHangs) {
+  const pintle::Linearization lin = about_rest(pendulum(Hanging::by_pin, 1.0));
+  ASSERT_EQ(lin.modes.size(), 1U);
+  EXPECT_NEAR(lin.modes[0].root.imag(), std::sqrt(9.81), 1e-8);  // as the square of the angle that is left
+  EXPECT_EQ(lin.coefficients, pintle::Coefficients::constant);
+}
+
+TEST(LinearizeAtRest, StartThatIsNoEquilibriumIsSaidToBeNone) {
+  const pintle::Scene scene = pendulum(Hanging::by_pin, 1.0);
+  const pintle::Model model = build(scene);
+  const pintle::Linearization lin = linearize(scene, model, assemble(scene, model).start);
+  EXPECT_EQ(lin.coefficients, pintle::Coefficients::frozen);
+  ASSERT_FALSE(lin.notes.empty());
+  EXPECT_NE(lin.notes[0].find("--equilibrium"), std::string::npos) << lin.notes[0];
+}
+
+// Under a motor that would turn the guide the bead rests at the end of its spring, as if the guide stood.
+TEST(LinearizeAtRest, DriversAndLoadsAreHeld) {
+  const pintle::Linearization lin = about_rest(scene_of(
+      "bodies:\n"
+      "  arm: {rigid: {mass: 1, inertia: 0.2}}\n"
+      "  bead: {rigid: {mass: 0.5, inertia: 0.01}, pose: {at: [0.64, 0]}}\n"
+      "joints: {axle: {revolute: [ground, arm]}, slide: {prismatic: [arm, bead]}}\n"
+      "drivers: {motor: {angle: [ground, arm], law: 3*t}}\n"
+      "forces: {k: {spring: [arm, bead], stiffness: 12.5, free length: 0.6}}\n"
+      "run: {until: 1}\n"));
+  ASSERT_EQ(lin.modes.size(), 1U);
+  EXPECT_NEAR(lin.modes[0].root.imag(), 5, 1e-8);  // not √(25 − 9)
+  EXPECT_EQ(lin.coefficients, pintle::Coefficients::constant);
+}
+
+TEST(Linearize, DoorOnTwoHingesSwingsAsOnOne) {
+  const auto door = [](const std::string& more) {
+    pintle::Scene scene = scene_of(
+        "bodies: {door: {rigid: {mass: 3, inertia: 0.4}, points: {A: [-0.5, 0]}, pose: {at: [0.5, 0]}}}\n"
+        "joints: {one: {revolute: [ground, door.A]}" + more + "}\n"
+        "forces: {closer: {torsion spring: [ground, door], stiffness: 20, damping: 1}}\n");
+    const pintle::Model model = build(scene);
+    return linearize(scene, model, assemble(scene, model).start);
+  };
+  const pintle::Linearization one = door(""), two = door(", two: {revolute: [ground, door.A]}");
+  ASSERT_EQ(one.modes.size(), 1U);
+  ASSERT_EQ(two.modes.size(), 1U);
+  EXPECT_NEAR(std::abs(two.modes[0].root - one.modes[0].root), 0, 1e-10);
+  EXPECT_NEAR(one.modes[0].natural(), std::sqrt(20 / 1.15) / (2 * M_PI), 1e-10);
+}
+
+TEST(Linearize, RefusesWhatIsTooLargeForDenseMatricesAndSaysWhatToDo) {
+  pintle::Scene s;
+  s.file = "crowd.yaml";
+  for (int i = 0; i <= pintle::most_linearized / 3; ++i) s.bodies.push_back(body("b" + std::to_string(i), 1, 1, {}));
+  const pintle::Model model = build(s);
+  try {
+    linearize(s, model, assemble(s, model).start);
+    FAIL() << "it was not refused";
+  } catch (const pintle::SceneError& e) {
+    EXPECT_NE(std::string(e.what()).find("1500"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("crowd.yaml"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace pintle_scenes
