@@ -87,10 +87,10 @@ std::string draw(const Panel& p, double x_at, double y_at, int id) {
   std::string s =
       text(x_at + left + width / 2, y_at + 18, p.title, "middle", " font-weight='bold'");
   const auto axis = [&](double a, double b, bool horizontal) {
-    const double step = tick_step(b - a);
+    const double step = p.log ? std::max(1.0, std::round(tick_step(b - a))) : tick_step(b - a);
     const int digits = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 9);
     for (double k = std::ceil(a / step - 1e-9); k * step <= b + 1e-9 * step; ++k) {
-      const std::string number = f("%.*f", digits, k * step + 0.0);
+      const std::string number = p.log ? f("1e%.0f", k * step) : f("%.*f", digits, k * step + 0.0);
       if (horizontal) {
         s += f("<path d='M%.1f %.1fv%.1f' stroke='#ddd'/>\n", px(k * step), py(y0), -height);
         s += text(px(k * step), py(y0) + 16, number);
@@ -118,7 +118,7 @@ std::string draw(const Panel& p, double x_at, double y_at, int id) {
     Vector x, y;
     for (std::size_t i = 0; i < c.x.size(); ++i) {
       const bool near =
-          p.equal || (c.x[std::min(i + 1, c.x.size() - 1)] >= x0 && c.x[i > 0 ? i - 1 : 0] <= x1);
+          p.equal || p.log || (c.x[std::min(i + 1, c.x.size() - 1)] >= x0 && c.x[i > 0 ? i - 1 : 0] <= x1);
       if (near) x.push_back(px(c.x[i])), y.push_back(std::clamp(py(c.y[i]), -2000.0, 6000.0));
     }
     if (!x.empty()) {
@@ -130,6 +130,8 @@ std::string draw(const Panel& p, double x_at, double y_at, int id) {
       for (std::size_t i = 0; i < x.size(); ++i)
         if (keep[i]) s += f("%c%.1f %.1f", first ? 'M' : 'L', x[i], y[i]), first = false;
       s += "'/>\n";
+      for (std::size_t i = 0; p.log && i < x.size(); ++i)
+        s += f("<circle cx='%.1f' cy='%.1f' r='2.5' fill='%s'/>\n", x[i], y[i], colours[k % colours.size()]);
     }
     if (c.label.empty()) continue;
     legends +=

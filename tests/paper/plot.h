@@ -27,6 +27,7 @@ struct Panel {
   std::vector<Curve> curves;
   std::array<double, 2> x_range{0, 0}, y_range{0, 0};  ///< 0, 0: from the curves
   bool equal = false;                                  ///< same scale on both axes
+  bool log = false;  ///< both axes; the numbers of curves are then decimal logarithms, a point each is marked
 };
 
 void write(const std::filesystem::path& file, const std::string& content);
