@@ -16,7 +16,7 @@ constexpr const char* exit_codes =
     "  0  done\n"
     "  1  a file or directory cannot be read or written\n"
     "  2  the scene or the command line is wrong\n"
-    "  3  the mechanism cannot be assembled, or a joint in it is redundant\n"
+    "  3  the mechanism cannot be assembled\n"
     "  4  the integration failed; what was computed is kept\n"
     "  5  the ledger leaves more energy unexplained than the scene's bound; the results are kept\n"
     "  6  stopped by the user (Ctrl-C); what was computed is kept\n"
@@ -36,6 +36,37 @@ constexpr const char* what_it_writes =
     "  mechanism.pvd    the animation for ParaView, with frames/*.vtu, if the scene asks for frames\n"
     "Exit codes: see pintle --help\n";
 
+constexpr const char* what_statics_writes =
+    "The whole mechanism at rest, drivers held, loads as they are at that time; for the stresses of one body under\n"
+    "given loads see pintle static. It writes\n"
+    "  statics.csv, .json   pose of each body, force of each joint, torque or force of each driver, contacts, loads\n"
+    "  mechanism.pvd        the mechanism there, for ParaView\n"
+    "Exit code 4: there is no equilibrium, or none was found. Others: see pintle --help\n";
+
+constexpr const char* what_kinematics_writes =
+    "Every freedom must have a driver. Bodies need no masses, those with modes stay rigid. It writes\n"
+    "  trajectory.csv    position, speed and acceleration of each body and of output.points\n"
+    "  kinematics.json   the scene with every value filled in, status, counts\n"
+    "  mechanism.pvd     the animation for ParaView, if the scene asks for frames\n"
+    "Exit codes: see pintle --help\n";
+
+constexpr const char* what_inverse_writes =
+    "Rigid and fully driven mechanisms by algebra; with bodies that bend, clearances or free motions by integration,\n"
+    "the drivers as constraints. It writes\n"
+    "  trajectory.csv   motion of each body, force of each joint, torque or force of each driver\n"
+    "  DRIVER.csv       t and torque (or thrust) of each driver, a table that a force of a scene can follow\n"
+    "  inverse.json     the scene with every value filled in, status, counts, extremes\n"
+    "  mechanism.pvd    the animation for ParaView, if the scene asks for frames\n"
+    "Exit codes: see pintle --help\n";
+
+constexpr const char* what_linearize_writes =
+    "Small motion about a state, contacts that are closed there counted by the slope of their laws. It writes\n"
+    "  linearized.csv, .json   frequency, damping ratio, decay, root of each mode, and what moves most in it\n"
+    "  shapes.csv              the shapes, coordinate by coordinate\n"
+    "  A.csv B.csv C.csv D.csv x' = A x + B u, y = C x + D u, states, inputs and outputs named\n"
+    "  mode_01/mechanism.pvd … with --frames, an animation of each mode for ParaView\n"
+    "docs/linearize.md says what each means. Exit codes: see pintle --help\n";
+
 constexpr const char* what_modes_writes =
     "The body's supports hold it; without any it is free. It writes\n"
     "  modes.csv, modes.json   frequency, effective mass, damping ratio, residual of each mode\n"
@@ -43,6 +74,15 @@ constexpr const char* what_modes_writes =
     "  mode_01.pvd, …          an animation of each mode for ParaView\n"
     "  reduced.*, reduced_01…  the same of the reduced body, if it says `modes`\n"
     "Exit codes: see pintle --help\n";
+
+void add_linearize_options(CLI::App& command, Options& options) {
+  command.add_option("--at", options.at, "about the state that the run has at this time, e.g. 20ms; with --equilibrium, with drivers and loads as they are then")
+      ->type_name("TIME");
+  command.add_flag("--equilibrium", options.at_rest, "about where the mechanism rests, drivers and loads held; without it and --at, about the assembled start");
+  command.add_option("-n,--count", options.count, "how many modes are printed and drawn (default 6; all are written)")->type_name("N")->check(CLI::Range(0, 100'000));
+  command.add_option("--frames", options.frames, "frames of an animation of each of these modes (default: none)")->type_name("N")->check(CLI::Range(0, 100'000));
+  command.footer(what_linearize_writes);
+}
 
 void add_options(CLI::App& command, Options& options) {
   const std::string name = command.get_name();
@@ -55,8 +95,19 @@ void add_options(CLI::App& command, Options& options) {
   const std::string folder = name == "run" ? "runs/SCENE" : "runs/SCENE-" + name;
   command.add_option("-o,--out", options.out, "directory for the results; it must not exist (default: " + folder + ", numbered)")->type_name("DIR");
   command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  if (name == "run") command.add_option("--restart", options.restart, "go on from a saved state of this scene, states/NNNNN.state of a run")->type_name("FILE.state");
   if (name == "run") command.footer(what_it_writes);
   if (name == "run") return;
+  if (name == "linearize") return add_linearize_options(command, options);
+  if (name == "kinematics" || name == "inverse") {
+    command.footer(name == "inverse" ? what_inverse_writes : what_kinematics_writes);
+    return;
+  }
+  if (name == "statics") {
+    command.add_option("--at", options.at, "with drivers and loads as they are at this time, e.g. 20ms (default 0)")->type_name("TIME");
+    command.footer(what_statics_writes);
+    return;
+  }
   command.add_option("-b,--body", options.body, "which body; may be left out when only one is made of elements")->type_name("NAME");
   if (name == "static") command.footer("It writes static.vtu (displacement, stress), points.csv, section_forces.csv (beams) and static.json.\nExit codes: see pintle --help\n");
   if (name == "mesh") command.footer("It writes mesh.vtu (quality of each cell, groups) and mesh.json.\nExit codes: see pintle --help\n");
@@ -78,8 +129,12 @@ int main(int argc, char** argv) {
   const std::map<CLI::App*, int (*)(const Options&)> commands{
       {app.add_subcommand("run", "Run a scene and write its results"), run},
       {app.add_subcommand("check", "Say what a scene holds and requires, and run nothing"), check},
+      {app.add_subcommand("statics", "Find where a whole mechanism rests, and the forces in its joints there"), equilibrium},
+      {app.add_subcommand("kinematics", "Move a mechanism by its drivers alone; no masses needed"), kinematics},
+      {app.add_subcommand("inverse", "Find the driving torques and joint forces of a driven mechanism"), inverse},
+      {app.add_subcommand("linearize", "Find natural frequencies, damping and state-space matrices about a state"), linearize},
       {app.add_subcommand("modes", "Find the natural frequencies and mode shapes of one body of elements"), modes},
-      {app.add_subcommand("static", "Solve the static load case of one body of elements"), statics},
+      {app.add_subcommand("static", "Solve the static load case of one body of elements (of a whole mechanism: statics)"), statics},
       {app.add_subcommand("mesh", "Mesh one body of elements and judge the mesh"), mesh}};
   for (const auto& [command, unused] : commands) add_options(*command, options);
   try {

@@ -1,25 +1,22 @@
 // Commands on a whole mechanism: check and run.
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <csignal>
 #include <iomanip>
 #include <iostream>
+#include <optional>
+#include <sstream>
 
 #include "app/options.h"
+#include "app/progress.h"
 #include "framework/run/results.h"
 #include "framework/run/pieces.h"
+#include "framework/run/text.h"
 
 namespace pintle::app {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-volatile std::sig_atomic_t interrupted = 0;
-extern "C" void interrupt(int) { interrupted = 1; }
 
 std::string bodies_text(const System& s) {
   const auto flexible = std::count_if(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.modes() > 0; });
@@ -81,21 +78,36 @@ void print_estimates(const Model& model) {
                 << " rad; excited up to " << number(r.motion->excited_up_to, 4) << " Hz; its loads change its first frequency by " << percent(r.motion->by_all_loads) << " %\n";
 }
 
+/// Which rows repeat what others hold, and which joint forces follow from the motion all the same.
+void print_redundancy(const System& s, const Assembly& a) {
+  for (const Redundancy& r : a.redundant) {
+    std::string others;
+    for (int k : r.implied_by) others += (others.empty() ? "\"" : ", \"") + s.joint_names[static_cast<std::size_t>(k)] + "\"";
+    std::cout << "  redundant" << (r.lasting ? "" : " in this pose only") << ": " << row_text(s, r.joint, r.row)
+              << (others.empty() ? " holds nothing that moves" : " is implied by " + others) << "\n";
+  }
+  if (a.redundant.empty()) return;
+  const std::string unique = rows_text(s, a.shared, false);
+  std::cout << "  joint forces that are unique: " << (unique.empty() ? "none" : unique) << "\n"
+            << "  joint forces that are not: " << rows_text(s, a.shared, true) << "\n";
+}
+
 void print_check(const Scene& scene, const Model& model, const Assembly& a) {
   const System& s = model.system;
   std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
   print_rows(std::cout,
              {{"bodies", bodies_text(s) + ", " + std::to_string(s.n()) + " coordinates"},
               {"constraint rows", std::to_string(s.n_rows()) + ", rank " + std::to_string(a.rank) +
-                                      (a.redundant.empty() ? "" : ", " + std::to_string(s.n_rows() - a.rank) + " redundant")},
+                                      (a.redundant.empty() ? "" : ", " + std::to_string(a.redundant.size()) + " redundant")},
               {"mobility", std::to_string(s.n() - a.rank)},
               {"clearance joints", s.contacts.empty() ? "none" : std::to_string(s.contacts.size())},
               {"forces", s.forces.empty() ? "none" : std::to_string(s.forces.size())},
               {"gravity", s.gravity.isZero() ? "off" : number(s.gravity.x()) + ", " + number(s.gravity.y()) + " m/s^2"},
               {"ledger integrals", std::to_string(s.n_z())},
-              {"scheme", std::string(model.scheme.tableau->name) + ", tolerance " + number(model.scheme.tolerance) +
+              {"scheme", name(model.scheme) + ", tolerance " + number(model.scheme.tolerance) +
                              ", constraints by " + scene.run.constraints},
-              {"constraint equations", s.n_rows() > Schur::dense_rows ? "sparse (CHOLMOD)" : s.n_rows() > 0 ? "dense" : "none"},
+              {"method", model.scheme.reason},
+              {"constraint equations", Schur(s).solver()},
               {"assembly", "closed in " + std::to_string(a.iterations) + " iterations, worst coordinate moved by " + number(a.moved, 3)}});
   for (std::size_t c = 0; c < s.contacts.size(); ++c) {
     const ContactPair& p = s.contacts[c];
@@ -108,7 +120,9 @@ void print_check(const Scene& scene, const Model& model, const Assembly& a) {
     print_flexible(model);
     print_estimates(model);
   }
+  print_redundancy(s, a);
   for (const std::string& w : model.warnings) std::cout << "  warning: " << w << "\n";
+  for (const std::string& w : doubts(model, a)) std::cout << "  warning: " << w << "\n";
 }
 
 void print_run(const Scene& scene, const Model& model, const Run& run, const fs::path& out) {
@@ -149,30 +163,6 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
             << " of the energy in play\n";
 }
 
-/// A line on the terminal that says how far the run is; nothing if stderr is not one.
-class Progress {
- public:
-  Progress(double until, bool quiet) : until_(until), on_(!quiet && ::isatty(STDERR_FILENO)) {}
-  ~Progress() {
-    if (shown_) std::cerr << "\r\033[K" << std::flush;
-  }
-  bool operator()(double t) {
-    const auto now = std::chrono::steady_clock::now();
-    if (on_ && now - last_ > std::chrono::milliseconds(200)) {
-      last_ = now;
-      shown_ = true;
-      std::cerr << "\r  " << std::fixed << std::setprecision(1) << 100 * t / until_ << " %  t = " << std::defaultfloat
-                << std::setprecision(6) << t << " s\033[K" << std::flush;
-    }
-    return !interrupted;
-  }
-
- private:
-  double until_;
-  bool on_, shown_ = false;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
 Scene runnable(const Options& options) {
   Scene scene = read_scene(options.scene, overrides(options));
   require_run(scene);
@@ -189,7 +179,6 @@ int check(const Options& options) {
     std::cout << check_json(scene, model, assembly);
   else
     print_check(scene, model, assembly);
-  refuse_redundancy(scene, model, assembly);
   return ok;
 }
 
@@ -197,20 +186,29 @@ int run(const Options& options) {
   const Scene scene = with_pieces(runnable(options));
   const Model model = build(scene);
   const Assembly assembly = assemble(scene, model);
-  refuse_redundancy(scene, model, assembly);
 
   const fs::path out = results_directory(options);
   ResultsDirectory results(out);
   FrameWriter writer(results.path());
   const Drafting drafting(scene, model);
   Progress progress(scene.run.until, options.quiet);
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
   Listeners listeners;
   listeners.progress = [&](double t) { return progress(t); };
+  std::optional<SavedState> from;
+  if (!options.restart.empty()) from = read_state(options.restart, scene);
+  if (from && from->t >= scene.run.until)
+    throw SceneError("--restart " + options.restart + ": was saved at " + number(from->t, 9) + " s, where the run of " + scene.file +
+                     " has ended; make run.until longer");
+  int saved = 0;
+  listeners.state = [&](const SavedState& state) {
+    std::ostringstream name;
+    name << std::setw(5) << std::setfill('0') << ++saved << ".state";
+    fs::create_directories(results.path() / "states");
+    write_text(results.path() / "states" / name.str(), state_text(scene, state));
+  };
   if (scene.output.frames > 1)
     listeners.frame = [&](const State& state, const Equations& eq) { writer.add(draw(model, drafting, state, eq)); };
-  const Run result = simulate(scene, model, assembly, listeners);
+  const Run result = simulate(scene, model, assembly, listeners, from ? &*from : nullptr);
   if (scene.output.frames > 1) writer.finish();
   write_results(results.path(), scene, model, assembly, result);
   results.commit();

@@ -4,6 +4,8 @@
 #include <ostream>
 #include <sstream>
 
+#include "framework/scene/expression.h"
+
 namespace pintle::app {
 
 namespace fs = std::filesystem;
@@ -17,6 +19,16 @@ Overrides overrides(const Options& options) {
     out.emplace_back(s.substr(0, equals), s.substr(equals + 1));
   }
   return out;
+}
+
+double instant(const Options& options) {
+  try {
+    const double t = read_quantity(options.at, dimension::time);
+    if (t < 0) throw ExpressionError("a run begins at t = 0");
+    return t;
+  } catch (const ExpressionError& e) {
+    throw SceneError("--at " + options.at + ": " + e.what());
+  }
 }
 
 std::string number(double x, int digits) {

@@ -18,6 +18,8 @@ struct Options {
   std::vector<std::string> set;
   bool quiet = false, json = false;
   int count = 6, frames = -1;
+  std::string restart, at;  ///< a saved state; an instant
+  bool at_rest = false;     ///< about where the mechanism rests
 };
 
 // One a command; each returns its exit code.
@@ -26,8 +28,14 @@ int run(const Options&);
 int modes(const Options&);
 int mesh(const Options&);
 int statics(const Options&);
+int equilibrium(const Options&);
+int kinematics(const Options&);
+int inverse(const Options&);
+int linearize(const Options&);
 
 Overrides overrides(const Options&);
+/// --at, a time ≥ 0 [s]. @throws SceneError  it cannot be read
+double instant(const Options&);
 std::string number(double x, int digits = 6);
 using Rows = std::vector<std::pair<std::string, std::string>>;
 void print_rows(std::ostream&, const Rows&);  ///< the second column aligned

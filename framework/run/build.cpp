@@ -11,6 +11,7 @@
 #include "framework/run/elastic_parts.h"
 #include "framework/run/holding.h"
 #include "framework/run/mechanism_body.h"
+#include "framework/run/method.h"
 #include "framework/scene/nearest.h"
 
 namespace pintle {
@@ -44,7 +45,6 @@ class Builder {
     keep_drawings();
     report();
     model_.system.length = size();
-    number(model_.system);
     scheme();
     return std::move(model_);
   }
@@ -73,12 +73,22 @@ class Builder {
       model_.warnings.insert(model_.warnings.end(), made.warnings.begin(), made.warnings.end());
       for (const Port& p : made.elastic.model.ports) outline.push_back(p.x - made.centre);
     } else {
-      if (!(b.mass > 0)) wrong(b.place, "mass must be above 0 kg");
-      if (!(b.inertia > 0)) wrong(b.place, "inertia must be above 0 kg m^2");
+      judge_mass(b);
       model_.system.bodies.push_back({b.name, b.mass, b.inertia, -vector(b.center)});
       for (const ScenePoint& p : b.points) outline.push_back(vector(p.at) - vector(b.center));
     }
     model_.outlines.push_back(std::move(outline));
+  }
+
+  /// A rigid body moves by its mass and inertia; a scene may leave them out where nothing asks for them.
+  void judge_mass(const SceneBody& b) const {
+    std::string missing;
+    if (b.mass == 0) missing = "mass: 0.3 kg";
+    if (b.inertia == 0) missing += (missing.empty() ? "" : ", and ") + std::string("inertia: 1e-4 kg m^2");
+    if (!missing.empty())
+      wrong(b.place, quoted(b.name) + " lacks what forces act on; add for example " + missing + " (only `pintle kinematics` does without, and `pintle statics` without gravity)");
+    if (!(b.mass > 0)) wrong(b.place, "mass must be above 0 kg");
+    if (!(b.inertia > 0)) wrong(b.place, "inertia must be above 0 kg m^2");
   }
 
   /// Meshes all bodies of elements, and runs them rigid where something is to be judged by that.
@@ -343,14 +353,9 @@ class Builder {
   void scheme() {
     const RunOptions& run = scene_.run;
     Scheme& s = model_.scheme;
-    s.tableau = find_tableau(run.method);
-    if (!s.tableau) {
-      std::vector<std::string> known;
-      for (const Tableau& t : tableaus()) known.emplace_back(t.name);
-      wrong(run.place, "there is no method " + quoted(run.method) + suggestion(run.method, known));
-    }
+    choose_method(scene_, model_.system, s);
+    number(model_.system, !s.tableau || s.switch_below > 0);
     s.tolerance = run.tolerance;
-    s.constraints = run.constraints == "partitioning" ? Constraints::partitioning : Constraints::projection;
     if (s.constraints == Constraints::partitioning && model_.system.n_rows() > 300)
       wrong(run.place, "partitioning is dense and meant for up to 300 rows, this scene has " +
                            std::to_string(model_.system.n_rows()) + "; use constraints: projection");

@@ -15,22 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::string csv(const Table& table) {
-  std::string out;
-  for (std::size_t c = 0; c < table.columns(); ++c) {
-    if (c) out += ',';
-    out += csv_field(table.header[c]);
-  }
-  out += '\n';
-  for (std::size_t r = 0; r < table.rows(); ++r)
-    for (std::size_t c = 0; c < table.columns(); ++c) {
-      if (c) out += ',';
-      append_number(out, table.data[r * table.columns() + c]);
-      if (c + 1 == table.columns()) out += '\n';
-    }
-  return out;
-}
-
 std::string events_csv(const System& system, const std::vector<Impact>& impacts) {
   std::string out =
       "joint,begin [s],end [s],approach speed [m/s],separation speed [m/s],deepest penetration [m],"
@@ -53,7 +37,19 @@ Json energies_json(const Energies& e) {
 
 Json assembly_json(const System& system, const Assembly& a) {
   Json redundant = Json::array();
-  for (const Redundancy& r : a.redundant) redundant.push_back(row_text(system, r.joint, r.row));
+  for (const Redundancy& r : a.redundant) {
+    Json others = Json::array();
+    for (int k : r.implied_by) others.push_back(system.joint_names[static_cast<std::size_t>(k)]);
+    redundant.push_back({{"joint", system.joint_names[static_cast<std::size_t>(r.joint)]},
+                         {"row", row_name(system.joints[static_cast<std::size_t>(r.joint)], r.row)},
+                         {"implied by", others},
+                         {"lasting", r.lasting}});
+  }
+  Json shared = Json::array();
+  for (std::size_t k = 0; k < system.joints.size() && !a.redundant.empty(); ++k)
+    for (int row = system.row_begin[k]; row < system.row_begin[k + 1]; ++row)
+      if (a.shared[static_cast<std::size_t>(row)])
+        shared.push_back({{"joint", system.joint_names[k]}, {"row", row_name(system.joints[k], row - system.row_begin[k])}});
   return {{"bodies", system.bodies.size()},
           {"coordinates", system.n()},
           {"modal coordinates", system.n() - system.n_rigid()},
@@ -63,7 +59,8 @@ Json assembly_json(const System& system, const Assembly& a) {
           {"contacts", system.contacts.size()},
           {"forces", system.forces.size()},
           {"ledger integrals", system.n_z()},
-          {"redundant rows", redundant}};
+          {"redundant rows", redundant},
+          {"joint forces not unique", shared}};
 }
 
 Json choice_json(const ModalChoice& c) {
@@ -101,11 +98,31 @@ Json rehearsal_json(const Model& model) {
   return {{"reached [s]", r.until}, {"steps", r.steps}, {"time [s]", r.seconds}, {"trouble", r.trouble}};
 }
 
+Json method_json(const Scheme& scheme, const std::string& switched) {
+  return {{"name", name(scheme)}, {"reason", scheme.reason}, {"changed in the run", switched.empty() ? Json(nullptr) : Json(switched)}};
+}
+
 Json scene_json(const Scene& scene) {
   return scene.filled_in.empty() ? Json(nullptr) : Json::parse(scene.filled_in, nullptr, false);
 }
 
 }  // namespace
+
+std::string csv(const Table& table) {
+  std::string out;
+  for (std::size_t c = 0; c < table.columns(); ++c) {
+    if (c) out += ',';
+    out += csv_field(table.header[c]);
+  }
+  out += '\n';
+  for (std::size_t r = 0; r < table.rows(); ++r)
+    for (std::size_t c = 0; c < table.columns(); ++c) {
+      if (c) out += ',';
+      append_number(out, table.data[r * table.columns() + c]);
+      if (c + 1 == table.columns()) out += '\n';
+    }
+  return out;
+}
 
 ResultsDirectory::ResultsDirectory(const fs::path& directory) : final_(directory) {
   std::error_code error;
@@ -162,6 +179,7 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
       {"warnings", run.warnings},
       {"reached [s]", run.t_end},
       {"model", assembly_json(system, assembly)},
+      {"method", method_json(model.scheme, run.switched)},
       {"flexible bodies", flexible_json(model)},
       {"rigid run", rehearsal_json(model)},
       {"contacts", contacts},
@@ -186,10 +204,13 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
 }
 
 std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly) {
+  std::vector<std::string> warnings = model.warnings;
+  for (std::string& w : doubts(model, assembly)) warnings.push_back(std::move(w));
   const Json out = {{"title", scene.title}, {"file", scene.file}, {"model", assembly_json(model.system, assembly)},
+                    {"method", method_json(model.scheme, "")},
                     {"flexible bodies", flexible_json(model)},
                     {"rigid run", rehearsal_json(model)},
-                    {"warnings", model.warnings},
+                    {"warnings", warnings},
                     {"scene", scene_json(scene)}};
   return out.dump(2) + "\n";
 }

@@ -182,6 +182,7 @@ std::string integral_name(const System& system, const Integral& i) {
     case Account::load: return system.force_names[at(i.index)] + ".work in";
     case Account::driver: return system.joint_names[at(i.index)] + ".work in";
     case Account::damping: return system.bodies[at(i.index)].name + ".lost to damping";
+    case Account::scheme: return "scheme.lost to numerical dissipation";
   }
   return "";
 }

@@ -51,12 +51,20 @@ Json parameter(const std::string& name, double value, const Parameters& paramete
   return Json(value).dump() + " " + unit;
 }
 
+Json rigid(const SceneBody& body) {
+  Json out = Json::object();
+  if (body.mass > 0) out["mass"] = body.mass;
+  if (body.inertia > 0) out["inertia"] = body.inertia;
+  out["center"] = json(body.center);
+  return out;
+}
+
 Json json(const SceneBody& body) {
   Json out = Json::object();
   if (body.elastic)
     out = json(*body.elastic);
   else
-    out["rigid"] = {{"mass", body.mass}, {"inertia", body.inertia}, {"center", json(body.center)}};
+    out["rigid"] = rigid(body);
   out["points"] = points(body.points);
   out["pose"] = {{"at", json(body.at)}, {"angle", body.angle}};
   return out;
@@ -174,6 +182,7 @@ Json json(const RunOptions& run) {
               {"onset", "locate"},
               {"max steps", run.max_steps},
               {"ledger bound", run.ledger_bound}};
+  if (run.method == "generalized-alpha") out["method"] = {{run.method, {{"rho", run.rho}}}};
   if (run.onset_cut) out["onset"] = {{"cut", *run.onset_cut}};
   if (run.max_step > 0) out["max step"] = run.max_step;
   return out;
@@ -185,6 +194,7 @@ Json json(const OutputOptions& output, const Scene& scene) {
     out["every"] = output.every;
   else if (scene.has_run)
     out["every"] = scene.run.until / 1000;
+  if (output.states > 0) out["states"] = output.states;
   if (output.exaggerate > 0) out["exaggerate"] = output.exaggerate;
   if (output.deformation > 0)
     out["deformation"] = output.deformation;

@@ -11,7 +11,7 @@ namespace pintle {
 
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{10} << 20;
+constexpr std::size_t most_bytes = std::size_t{100} << 20;
 
 // An override is written as a parameter's value is; a bare number takes the parameter's own unit's
 // dimension, SI.

@@ -53,8 +53,8 @@ std::vector<ScenePoint> read_points(const Node& owner, std::string_view keys, bo
 
 void read_rigid(const Node& node, SceneBody& body) {
   check_keys(node, "bodies.*.rigid");
-  body.mass = node.at("mass").quantity(dimension::mass, rule::positive);
-  body.inertia = node.at("inertia").quantity(dimension::inertia, rule::positive);
+  read_optional(node, "mass", dimension::mass, rule::positive, body.mass);
+  read_optional(node, "inertia", dimension::inertia, rule::positive, body.inertia);
   if (node.has("center")) body.center = node.at("center").pair(dimension::length);
 }
 

@@ -93,6 +93,18 @@ void read_onset(const Node& node, RunOptions& run) {
   }
 }
 
+void read_method(const Node& node, RunOptions& run) {
+  if (!node.is_map()) {
+    run.method = node.one_of(choices("run", "method"));
+    return;
+  }
+  check_keys(node, "run.method");
+  run.method = "generalized-alpha";
+  const Node alpha = node.at("generalized-alpha");
+  check_keys(alpha, "run.method.generalized-alpha");
+  run.rho = alpha.at("rho").quantity(dimension::number, rule::zero_to_one);
+}
+
 const std::vector<ScenePoint>* points_of(const std::string& body, const Scene& scene) {
   if (body == "ground") return &scene.ground;
   const auto found = std::ranges::find(scene.bodies, body, &SceneBody::name);
@@ -169,7 +181,7 @@ void read_run(const Node& root, Scene& scene) {
   RunOptions& run = scene.run;
   run.place = node.place();
   run.until = node.at("until").quantity(dimension::time, rule::positive);
-  if (node.has("method")) run.method = node.at("method").one_of(choices("run", "method"));
+  if (node.has("method")) read_method(node.at("method"), run);
   if (node.has("constraints"))
     run.constraints = node.at("constraints").one_of(choices("run", "constraints"));
   if (node.has("onset")) read_onset(node.at("onset"), run);
@@ -188,6 +200,9 @@ void read_output(const Node& root, Scene& scene) {
   read_optional(node, "every", dimension::time, rule::positive, output.every);
   if (scene.has_run && output.every > scene.run.until)
     node.at("every").fail(node.at("every").shown() + " is longer than the run; shorten it");
+  read_optional(node, "states", dimension::time, rule::positive, output.states);
+  if (scene.has_run && output.states > 0 && scene.run.until / output.states > 1e5)
+    node.at("states").fail(node.at("states").shown() + " asks for more than a hundred thousand files; make it longer");
   if (node.has("frames")) {
     const long frames = node.at("frames").count(0);
     if (frames > 1'000'000) node.at("frames").fail("is more than a million; ask for fewer");

@@ -40,8 +40,8 @@ struct PointRef {
 
 struct SceneBody {
   std::string name;
-  double mass = 0;     ///< [kg]
-  double inertia = 0;  ///< about the mass centre [kg m²]
+  double mass = 0;     ///< [kg]; 0: not given, which kinematics alone can do without
+  double inertia = 0;  ///< about the mass centre [kg m²]; likewise
   Pair center{0, 0};   ///< mass centre in body axes [m]
   std::vector<ScenePoint> points;
   std::optional<SceneElastic> elastic =
@@ -156,9 +156,10 @@ struct StartJournal {
 
 struct RunOptions {
   double until = 1;                        ///< [s]
-  std::string method = "dopri5";           ///< rkf45 | dopri5
+  std::string method = "auto";             ///< auto | rkf45 | dopri5 | generalized-alpha
+  double rho = 0.8;                        ///< of generalized-alpha: spectral radius at infinite frequency, 0 to 1
   double tolerance = 1e-8;                 ///< local error, relative
-  std::string constraints = "projection";  ///< projection | partitioning
+  std::string constraints = "projection";  ///< projection | partitioning | index 3
   std::optional<double> onset_cut;  ///< cut the step until first penetration is below this [m];
                                     ///< unset: locate the onset as an event
   double max_step = 0;              ///< [s]; 0: none
@@ -169,6 +170,7 @@ struct RunOptions {
 
 struct OutputOptions {
   double every = 0;       ///< output interval [s]; 0: a thousandth of the run
+  double states = 0;      ///< interval of saved states [s]; 0: the last alone
   int frames = 0;         ///< animation frames; 0: none
   double exaggerate = 0;  ///< drawn clearance times this; 0: chosen so that the gap can be seen
   double deformation = 1;  ///< drawn deformation times this; 0: chosen so that it can be seen

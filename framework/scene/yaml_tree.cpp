@@ -91,7 +91,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
   void attach(Yaml yaml) {
     if (++values_ > most_values)
-      throw SceneError(file_, {yaml.line, {}}, "more than 100 000 values; is it the right file?");
+      throw SceneError(file_, {yaml.line, {}}, "more than five million values; is it the right file?");
     if (open_.empty()) {
       root = std::move(yaml);
       return;
@@ -105,7 +105,7 @@ class TreeBuilder : public YAML::EventHandler {
     parent.has_key = false;
   }
 
-  static constexpr int most_values = 100'000;
+  static constexpr int most_values = 5'000'000;
   std::string file_;
   int values_ = 0;
   std::vector<Open> open_;

@@ -45,7 +45,7 @@ TEST(BadScene, MisspeltKeySuggestsTheNearest) {
        "scene.yaml:13: joints.main.revolut: ",
        {"Did you mean \"revolute\"?"}},
       {"tolerance", "zzz", "scene.yaml:34: run.zzz: ", {"Known here: until, method"}},
-      {"rkf45", "rk45", "scene.yaml:34: run.method: ", {"\"rk45\"", "rkf45 or dopri5", "mean"}},
+      {"rkf45", "rk45", "scene.yaml:34: run.method: ", {"\"rk45\"", "dopri5", "generalized-alpha", "mean"}},
       {"title:", "Title:", "scene.yaml:1: Title: ", {"Did you mean \"title\"?"}},
       {"  crank: {angle",
        "  krank: {angle",
@@ -56,10 +56,6 @@ TEST(BadScene, MisspeltKeySuggestsTheNearest) {
 
 TEST(BadScene, MissingKeyIsNamedWithAnExample) {
   expect_refused({
-      {"mass: 0.30 kg, inertia: 1.0e-4",
-       "center: [0, 0]",
-       "scene.yaml:8: bodies.crank.rigid: ",
-       {"mass: 0.3 kg", "inertia: 1e-4 kg m^2"}},
       {"until: 0.05 s, ", "", "scene.yaml:34: run: ", {"until: 0.1 s"}},
       {", length: 120 mm", "", "scene.yaml:23: joints.rod: ", {"length: 120 mm"}},
       {"restitution: 0.8, ",
@@ -220,10 +216,6 @@ TEST(BadScene, BombsAndDepthDoNotHang) {
     bomb += "]\n";
   }
   expect_says(refusal_of(bomb), {"scene.yaml:1:", "anchor"});
-  std::string list = "a: [";
-  for (int i = 0; i < 150'000; ++i) list += "x, ";
-  list += "]";
-  expect_says(refusal_of(list), {"scene.yaml:1:", "more than 100 000 values"});
   expect_says(refusal_of(std::string(200'000, '[')), {"scene.yaml:1:"});
   expect_says(refusal_of(std::string(200'000, '{')), {"scene.yaml:1:"});
 }
@@ -264,8 +256,8 @@ TEST(BadFile, ThatIsNoSceneIsRefusedAtOnce) {
   expect_says(refusal_of_file(folder.write("latin.yaml", "title: caf\xe9\n")), {":1: is not text"});
   expect_says(refusal_of_file("/dev/zero"), {"not an ordinary file"});
   const fs::path big = folder.write("big.yaml", "title: big\n");
-  fs::resize_file(big, 100u << 20);  // sparse
-  expect_says(refusal_of_file(big), {"has 100 MB", "at most 10 MB"});
+  fs::resize_file(big, 500u << 20);  // sparse
+  expect_says(refusal_of_file(big), {"has 500 MB", "at most 100 MB"});
 }
 
 TEST(BadFile, TableIsJudgedAgainstTheRun) {

@@ -191,41 +191,46 @@ const Setting settings[] = {
      }},
 };
 
+struct Method {
+  const char *name, *constraints;
+};
+const Method schemes[] = {{"rkf45", "projection"},   {"rkf45", "partitioning"},           {"dopri5", "projection"},
+                          {"dopri5", "partitioning"}, {"generalized-alpha", "projection"}, {"generalized-alpha", "index 3"}};
+
 // Only two things may allocate after the first steps: the list of impacts as it doubles, and
 // partitioning at the rare steps that choose a new set of coordinates.
 TEST(Budget, AdvanceDoesNotAllocateAfterTheFirstSteps) {
   for (const Setting& setting : settings)
-    for (const char* method : {"rkf45", "dopri5"})
-      for (const char* constraints : {"projection", "partitioning"}) {
-        SCOPED_TRACE(std::string(setting.name) + " " + method + " " + constraints);
-        Scene scene = slider_crank();
-        setting.add(scene);
-        scene.run.method = method;
-        scene.run.constraints = constraints;
-        const Model model = build(scene);
-        Integrator run(model.system, model.scheme, assemble(scene, model).start);
-        for (int i = 0; i < 5; ++i) ASSERT_TRUE(run.advance(10));
-        long in_steps = 0, at_impacts = 0;
-        std::size_t begun = 0;
-        for (int i = 0; i < 3000; ++i) {
-          const std::size_t impacts = run.impacts().size();
-          const long choices = run.counts().partitions;
-          bool going = false;
-          const long count = allocated([&] { going = run.advance(10); });
-          ASSERT_TRUE(going) << run.failure();
-          if (run.counts().partitions > choices) continue;
-          if (run.impacts().size() > impacts) {
-            ++begun;
-            at_impacts += count;
-          } else {
-            in_steps += count;
-          }
+    for (const auto& [method, constraints] : schemes) {
+      SCOPED_TRACE(std::string(setting.name) + " " + method + " " + constraints);
+      Scene scene = slider_crank();
+      setting.add(scene);
+      scene.run.method = method;
+      scene.run.constraints = constraints;
+      const Model model = build(scene);
+      Integrator run(model.system, model.scheme, assemble(scene, model).start);
+      for (int i = 0; i < 5; ++i) ASSERT_TRUE(run.advance(10));
+      long in_steps = 0, at_impacts = 0;
+      std::size_t begun = 0;
+      for (int i = 0; i < 3000; ++i) {
+        const std::size_t impacts = run.impacts().size();
+        const long choices = run.counts().partitions;
+        bool going = false;
+        const long count = allocated([&] { going = run.advance(10); });
+        ASSERT_TRUE(going) << run.failure();
+        if (run.counts().partitions > choices) continue;
+        if (run.impacts().size() > impacts) {
+          ++begun;
+          at_impacts += count;
+        } else {
+          in_steps += count;
         }
-        EXPECT_EQ(in_steps, 0);
-        if (model.system.contacts.empty()) continue;
-        EXPECT_GT(begun, 3u) << "no impact, no exam";
-        EXPECT_LE(at_impacts, 2 + std::log2(static_cast<double>(run.impacts().size())));
       }
+      EXPECT_EQ(in_steps, 0);
+      if (model.system.contacts.empty()) continue;
+      EXPECT_GT(begun, 3u) << "no impact, no exam";
+      EXPECT_LE(at_impacts, 2 + std::log2(static_cast<double>(run.impacts().size())));
+    }
 }
 
 TEST(Budget, SamplingDoesNotAllocate) {
@@ -342,5 +347,52 @@ TEST(Schur, IsSparseAboveFortyEightRowsAndGivesTheSameAccelerations) {
   }
 }
 
+TEST(Schur, AnAccelerationOfAChainOfAThousandDoesNotAllocate) {
+  Chain c = chain(1000);
+  Equations eq(c.system);
+  VectorXd dy(c.system.n_y());
+  ASSERT_STREQ(eq.schur.solver(), "sparse (LDL)");
+  bool regular = true;
+  EXPECT_EQ(allocated([&] {
+              for (int i = 0; i < 3; ++i) {
+                c.state.y[2] += 1e-6;
+                regular = regular && evaluate(c.system, c.state, eq, dy);
+              }
+            }),
+            0);
+  EXPECT_TRUE(regular);
+}
+
+// Entries of L, and bytes, a body: the same at 100 and at 10 000 links.
+TEST(Schur, AChainsFactorAndMemoryGrowWithTheLinks) {
+  const auto measure = [](int links) {
+    const Chain c = chain(links);
+    const long before = heap_in_use();
+    const Equations eq(c.system);
+    const long bytes = before < 0 ? 0 : heap_in_use() - before;
+    return std::pair(eq.schur.nonzeros() / links, static_cast<double>(bytes) / links);
+  };
+  const auto [few_entries, few_bytes] = measure(100);
+  const auto [many_entries, many_bytes] = measure(10'000);
+  EXPECT_LT(many_entries, 1.05 * few_entries);
+  EXPECT_LT(many_bytes, 1.2 * few_bytes);
+}
+
+TEST(Schur, DenseDependentRowsDoNotAllocate) {
+  Chain c = chain(3);
+  for (int k : {1, 2}) c.system.joints.push_back(c.system.joints[static_cast<std::size_t>(k)]);
+  c.system.joint_names.resize(c.system.joints.size());
+  number(c.system);
+  Equations eq(c.system);
+  pose(c.system, 0, c.state.y, eq);
+  VectorXd mu = VectorXd::Ones(c.system.n_rows());
+  factor(c.system, c.state.y, eq);
+  EXPECT_EQ(allocated([&] {
+              factor(c.system, c.state.y, eq);
+              eq.schur.solve(mu);
+            }),
+            0);
+  EXPECT_TRUE(eq.schur.dependent());
+}
 }  // namespace
 }  // namespace pintle
