@@ -134,9 +134,12 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
   for (const FlexibleReport& r : model.flexible)
     if (r.choice) rows.emplace_back("modes of " + r.body, r.choice->reason);
   const System& s = model.system;
-  for (int i = 0; i < s.n_z() && run.ledger.rows() > 0; ++i)
-    rows.emplace_back("  " + integral_name(s, s.integrals[static_cast<std::size_t>(i)]),
-                      number(run.ledger.data[(run.ledger.rows() - 1) * run.ledger.columns() + first_integral(s) + static_cast<std::size_t>(i)]) + " J");
+  for (int i = 0; i < s.n_z() && run.ledger.rows() > 0; ++i) {
+    const Integral& integral = s.integrals[static_cast<std::size_t>(i)];
+    const double booked = run.ledger.data[(run.ledger.rows() - 1) * run.ledger.columns() + first_integral(s) + static_cast<std::size_t>(i)];
+    if (integral.account == Account::scheme && booked == 0) continue;  // it might have become implicit, and did not
+    rows.emplace_back("  " + integral_name(s, integral), number(booked) + " J");
+  }
   for (std::size_t c = 0; c < s.contacts.size(); ++c) {
     long begun = 0, ended = 0;
     double deepest = 0, force = 0;

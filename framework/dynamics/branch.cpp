@@ -88,10 +88,19 @@ MatrixXd free_part(const System& system, Equations& eq, const MatrixXd& G, Matri
   return out;
 }
 
+/// What a combination of rows would be in the metric of M⁻¹ if they did not vanish together: Σ|N| (Cq M⁻¹ Cqᵀ)^½ of each row.
+double uncancelled(const System& system, const Equations& eq, const VectorXd& N) {
+  VectorXd square = VectorXd::Zero(system.n_rows());
+  visit_jacobian(eq, [&](int row, int column, double value) {
+    square[row] += value * value * (column < system.n_rigid() ? eq.W[column] : 1);
+  });
+  return N.cwiseAbs().dot(square.cwiseSqrt());
+}
+
 }  // namespace
 
 bool follow_branch(const System& system, const State& state, Equations& eq) {
-  constexpr double nothing = 1e-8;
+  constexpr double nothing = 1e-8, rounding = 1e-5;
   const int lost = eq.schur.lost();
   if (lost <= eq.lasting) return true;
   if (lost > most) {
@@ -110,8 +119,10 @@ bool follow_branch(const System& system, const State& state, Equations& eq) {
   MatrixXd X;
   const MatrixXd V = free_part(system, eq, b.G, X);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> K(b.G * V);
-  // What of G is free to bend, against what M⁻¹ alone would make of it.
+  // What of G is free to bend, against what M⁻¹ alone would make of it, or differences of what cancels.
   double whole = 0;
+  for (Index d = 0; d < N.cols(); ++d)
+    whole = std::max(whole, std::pow(rounding * (rests ? 1 : rate) * uncancelled(system, eq, N.col(d)), 2));
   for (Index d = 0; d < b.G.rows(); ++d) {
     VectorXd v = b.G.row(d).transpose();
     divide_by_mass(system, eq, v);

@@ -71,12 +71,16 @@ void solve_reactions(const System& system, Equations& eq) {
 }
 
 // Dependent rows ask for the same accelerations: the solved-for λ leave nothing of Cq a − γ.
-bool agree(Equations& eq) {
+bool agree(const System& system, Equations& eq) {
   constexpr double little = 1e-2;  // of what they ask: close to singular poses speeds off by 1e-6 weigh that much
+  constexpr double rounding = 1e-8;  // of the accelerations that the joints take away
+  eq.g = eq.f;
+  multiply_inverse_mass(system, eq, eq.g);
+  const double free = rounding * eq.g.lpNorm<Eigen::Infinity>();
   eq.mu = -eq.gamma;
   const double size = eq.mu.lpNorm<Eigen::Infinity>();
   add_product(eq, eq.a.data(), eq.mu);
-  return eq.mu.lpNorm<Eigen::Infinity>() <= little * std::max(size, eq.a.lpNorm<Eigen::Infinity>());
+  return eq.mu.lpNorm<Eigen::Infinity>() <= little * std::max({size, eq.a.lpNorm<Eigen::Infinity>(), free});
 }
 
 }  // namespace
@@ -311,7 +315,7 @@ void accelerate(const System& system, const State& state, Equations& eq) {
   }
   solve_reactions(system, eq);
   ++eq.evaluations;
-  if (eq.schur.lost() > 0) eq.regular = agree(eq) && follow_branch(system, state, eq);
+  if (eq.schur.lost() > 0) eq.regular = agree(system, eq) && follow_branch(system, state, eq);
 }
 
 void fill_derivative(const System& system, const VectorXd& y, const Equations& eq, VectorXd& dy) {

@@ -35,6 +35,7 @@ class Schur {
 
   bool dependent() const { return lost_ > 0; }  ///< the last factorization met dependent rows
   int lost() const { return lost_; }            ///< how many pivots they left nothing of
+  double least() const { return least_; }       ///< pivot over the entry it came from, the smallest
   bool weak() const { return least_ < 1e-5; }  ///< dependent, not far from it, or of very unlike inertias
   /// Of the last solve: what S μ misses r by, over r, largest entries, rows in metres over the mechanism's
   /// length; 0 of independent rows. Well above rounding: the rows contradict each other.

@@ -99,10 +99,17 @@ bool Alpha::settle(const System& system, Instant& node, Equations& eq) {
   memory.a = eq.a;
   memory.lambda = memory.lambda_before = eq.lambda;
   memory.dy_before = node.dy;
-  memory.F.setZero(system.n());
-  add_mass_times(system, eq, eq.a, memory.F);
+  forces_of(system, eq, memory);
   tired_ = true;
   return node.dy.allFinite();
+}
+
+void Alpha::forces_of(const System& system, const Equations& eq, Memory& memory) {
+  memory.P.setZero(system.n());
+  add_mass_times(system, eq, eq.a, memory.P);
+  work_.setZero();
+  add_reaction(eq, eq.lambda, work_);
+  memory.F = eq.f - work_;
 }
 
 // q_base, s_base, and a first guess of v̇₁, λ₁. At a start a₀ is v̇ at `shift` steps after it, by the line
@@ -259,8 +266,7 @@ void Alpha::remember(const System& system, double h, const Instant& from, Instan
   memory.h = h;
   memory.lambda_before = from.memory.lambda;
   memory.dy_before = from.dy;
-  memory.F.setZero(n);
-  add_mass_times(system, eq, eq.a, memory.F);
+  forces_of(system, eq, memory);
   for (Index i = 2 * n; i < system.n_y(); ++i) to.state.y[i] = from.state.y[i] + h / 2 * (from.dy[i] + to.dy[i]);
 }
 
@@ -295,15 +301,16 @@ void Alpha::estimate(const System& system, Step& step, Equations& eq) {
   filter(system, step.error.segment(n, n), eq);
 }
 
-// With F = M v̇ at both ends, u = ½h(s₀ + s₁) − Δq and w = Δs − ½h(v̇₀ + v̇₁), the energy of a linear system
-// changes by ½(F₀ + F₁)·u + ½(s₀ + s₁)·M w more than the trapezoid of its powers says.
+// With F the forces and P = M v̇ at both ends and w = Δs − ½h(v̇₀ + v̇₁), the energy of a linear system
+// changes by ½h(s₀ + s₁)·½(P₀ + P₁) − Δq·½(F₀ + F₁) + ½(s₀ + s₁)·M w more than the trapezoid of its powers says.
 void Alpha::book_loss(const System& system, const Equations& eq, Step& step) {
   const Index n = system.n();
   const double h = step.h;
   const VectorXd &y0 = step.from.state.y, &y1 = step.to.state.y;
   double gain = 0;
+  const Memory &m0 = step.from.memory, &m1 = step.to.memory;
   for (Index i = 0; i < n; ++i)
-    gain += 0.5 * (step.from.memory.F[i] + step.to.memory.F[i]) * (0.5 * h * (y0[n + i] + y1[n + i]) - (y1[i] - y0[i]));
+    gain += 0.25 * h * (m0.P[i] + m1.P[i]) * (y0[n + i] + y1[n + i]) - 0.5 * (m0.F[i] + m1.F[i]) * (y1[i] - y0[i]);
   work_ = y1.segment(n, n) - y0.segment(n, n) - h / 2 * (step.from.dy + step.to.dy).segment(n, n);
   dp_.setZero();
   add_mass_times(system, eq, work_, dp_);

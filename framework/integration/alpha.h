@@ -69,6 +69,7 @@ class Alpha {
   void evaluate_at(const System&, const State&, const Eigen::VectorXd& dy, const Eigen::VectorXd& lambda, Equations&);
   bool refactor(const System&, const Weights&, const Instant&, Equations&);
   double judge(const System&, const Weights&, const State&) const;
+  void forces_of(const System&, const Equations&, Memory&);
   void remember(const System&, double h, const Instant& from, Instant& to, Equations&);
   void estimate(const System&, Step&, Equations&);
   void filter(const System&, Eigen::Ref<Eigen::VectorXd>, Equations&);

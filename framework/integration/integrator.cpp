@@ -161,7 +161,12 @@ bool Integrator::step_to(double h_left) {
     const double h = last ? h_left : h_;
     if (h < 4e-16 * std::max(std::abs(step_.from.state.t), h_left))
       return stop("the step became too small (" + number_text(h) + " s) for the tolerance" + trouble());
-    if (!attempt(h)) {
+    const bool done = attempt(h);
+    if (fall_back()) {
+      ++counts_.rejected;
+      continue;
+    }
+    if (!done) {
       ++counts_.rejected;
       h_ = h / 4;
       continue;
@@ -170,6 +175,11 @@ bool Integrator::step_to(double h_left) {
     if (error > 1) {
       ++counts_.rejected;
       h_ = h * std::max(0.2, 0.9 * std::pow(error, -1 / order));
+      continue;
+    }
+    if (!last && !at_fork_ && tries < 3 && at_fork()) {  // momentum carries past what no step should start from
+      ++counts_.rejected;
+      h_ = 0.8 * h;
       continue;
     }
     const double grow = 0.9 * std::pow(error, -0.7 / order) * std::pow(error_before_, 0.4 / order);
@@ -208,6 +218,7 @@ bool Integrator::advance(double until) {
     step_.to = step_.from;
     return false;
   }
+  if (const double rest = until - step_.to.state.t; rest != 0 && std::abs(rest) <= 4e-16 * std::abs(until)) step_.to.state.t = until;
   int contact = -1;
   bool onset = false;
   if (!system_.contacts.empty()) {
@@ -260,6 +271,7 @@ bool Integrator::advance(double until) {
     if (!settle(step_.to)) return stop("singular pose at an impact");
   }
   if (stages_) stages_->refresh(system_, eq_);
+  at_fork_ = at_fork();
 
   const auto& y = step_.to.state.y;
   fastest_ = std::max(fastest_, fastest_speed(y));
@@ -270,11 +282,26 @@ bool Integrator::advance(double until) {
   return true;
 }
 
+// So near a pose where motions branch that accelerations there are known to few digits.
+bool Integrator::at_fork() const {
+  constexpr double few = 1e-9;  // pivots fall with the square of the distance
+  return stages_ && (eq_.schur.lost() > eq_.lasting || (eq_.lasting == 0 && eq_.schur.least() < few));
+}
+
+// Stages of a pair of high order stray far from the motion, too far where branches meet.
+bool Integrator::fall_back() {
+  if (!stages_ || !scheme_.fallback || fallen_back_ || !stages_->near_singular()) return false;
+  fallen_back_ = true;
+  switched_ = std::string(scheme_.fallback->name) + " from t = " + number_text(step_.from.state.t) + " s on: a singular pose is near";
+  stages_.emplace(system_, *scheme_.fallback, scheme_.constraints);
+  return true;
+}
+
 // An explicit pair whose steps lie at the edge of its stability, one after another, is asked for by stability.
 bool Integrator::watch_stiffness() {
   constexpr double edge = 0.9;
   constexpr int many = 30;
-  const bool held = step_.h < scheme_.switch_below && stages_->stiffness(system_, step_) > edge * scheme_.tableau->reach;
+  const bool held = step_.h < scheme_.switch_below && stages_->stiffness(system_, step_) > edge * stages_->tableau().reach;
   held_by_stability_ = held ? held_by_stability_ + 1 : std::max(0, held_by_stability_ - 2);
   if (held_by_stability_ < many) return true;
   switched_ = "generalized-alpha from t = " + number_text(step_.to.state.t) + " s on: stability, not accuracy, held " +
@@ -297,15 +324,17 @@ void Integrator::restore() {
 template <class A>
 void Integrator::archive(A& x) {
   x(step_.from, step_.to, step_.h, h_, h_open_, h_closed_, error_before_, fastest_, energy_, open_impact_, loss_at_begin_,
-    impacts_, counts_, failure_, events_here_, worst_position_, worst_velocity_, held_by_stability_, switched_, eq_.evaluations,
+    impacts_, counts_, failure_, events_here_, worst_position_, worst_velocity_, held_by_stability_, fallen_back_, at_fork_, switched_, eq_.evaluations,
     eq_.factorizations);
   bool implicit = alpha_.has_value();
   x(implicit);
-  if constexpr (A::loading)
+  if constexpr (A::loading) {
+    if (fallen_back_ && stages_ && scheme_.fallback && x.good()) stages_.emplace(system_, *scheme_.fallback, scheme_.constraints);
     if (implicit && stages_ && x.good()) {  // it had switched
       stages_.reset();
       alpha_.emplace(system_, eq_, scheme_.rho, scheme_.constraints, scheme_.tolerance);
     }
+  }
   if (alpha_.has_value() != implicit)
     x.stream.setstate(std::ios::failbit);
   else if (alpha_)
@@ -347,8 +376,13 @@ bool Integrator::sample(double t, State& out) {
   if (t >= step_.to.state.t) {
     out = step_.to.state;
   } else if (alpha_) {
+    Step part = step_;  // a true step: forces of stiff springs are in balance at its end, not between nodes
+    if (t > step_.from.state.t && alpha_->attempt(system_, t - step_.from.state.t, part, eq_)) {
+      out = part.to.state;
+      return true;
+    }
     alpha_->interpolate_between(system_, step_, t, out, eq_);
-  } else if (scheme_.tableau->order > 5) {  // better than dense output, whose fifth order its long steps show
+  } else if (stages_->tableau().order > 5) {  // better than dense output, whose fifth order its long steps show
     if (!stages_->reach(system_, step_.from, t - step_.from.state.t, scratch_, eq_)) return false;
     out = scratch_.state;
     return true;

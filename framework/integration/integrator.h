@@ -21,6 +21,7 @@ struct Scheme {
   double onset_cut = 0;      ///< 0: locate contact onset and loss as events. Positive: the strategy of
                              ///< Flores and Ambrósio (2010), halve the step until the first penetration
                              ///< is below this [m]; loss is then taken at the end of a step
+  const Tableau* fallback = nullptr; ///< takes over for good where a stage of `tableau` comes near a singular pose; or none
   double max_step = std::numeric_limits<double>::infinity();  ///< [s]
   long max_steps = 100'000'000;
   double rho = 0.8;          ///< of generalised-α: spectral radius at infinite frequency, 0 to 1
@@ -94,6 +95,8 @@ class Integrator {
   bool settle(Instant&);
   bool attempt(double h);
   bool watch_stiffness();
+  bool fall_back();
+  bool at_fork() const;
   std::string trouble() const;
   double fastest_speed(const Eigen::VectorXd& y) const;
   struct Touch { double depth, rate; };
@@ -130,6 +133,7 @@ class Integrator {
   int events_here_ = 0;
   double worst_position_ = 0, worst_velocity_ = 0;
   int held_by_stability_ = 0;
+  bool fallen_back_ = false, at_fork_ = false;
   std::string switched_;
 };
 

@@ -39,6 +39,7 @@ bool Stages::evaluate_stage(const System& system, State& state, Equations& eq, E
   if (constraints_ == Constraints::projection || system.n_rows() == 0) {
     const bool found = evaluate(system, state, eq, dy);
     if (!eq.schur.weak()) return found;
+    near_singular_ = true;
     if (!project(system, state.t, state.y, eq)) return false;  // dependent rows agree only where C = 0 and Ċ = 0
   } else if (!partition_.correct(system, state.t, state.y, eq)) {
     return false;
@@ -69,6 +70,7 @@ void Stages::refresh(const System& system, Equations& eq) {
 }
 
 bool Stages::reach(const System& system, const Instant& from_node, double h, Instant& to_node, Equations& eq) {
+  near_singular_ = false;
   const State& from = from_node.state;
   const std::size_t stages = k_.size(), inner = tableau_.closes ? stages - 1 : stages;
   stage_.impact_rate = from.impact_rate;

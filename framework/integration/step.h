@@ -21,9 +21,9 @@ struct Memory {
   Eigen::VectorXd a;               ///< the scheme's own accelerations
   Eigen::VectorXd lambda, lambda_before;  ///< multipliers here and a step earlier
   Eigen::VectorXd dy_before;       ///< derivative a step earlier
-  Eigen::VectorXd F;               ///< M v̇
+  Eigen::VectorXd F, P;            ///< f − Cqᵀλ, and M v̇, which Newton leaves a little apart
   template <class A>
-  void archive(A& x) { x(h, a, lambda, lambda_before, dy_before, F); }
+  void archive(A& x) { x(h, a, lambda, lambda_before, dy_before, F, P); }
 };
 
 /// A state with its derivative.
@@ -59,6 +59,8 @@ class Stages {
 
   const Tableau& tableau() const { return tableau_; }
   int partitions() const { return partition_.choices(); }
+  /// A stage since the last `reach` began stood at or near a pose where rows are dependent.
+  bool near_singular() const { return near_singular_; }
   /// h times the fastest rate that the last attempt met, by the change from its last inner stage to its end
   /// [HairerWanner1996, IV.2]; 0 unless both stand at one instant.
   double stiffness(const System&, const Step&) const;
@@ -74,6 +76,7 @@ class Stages {
   Partition partition_;
   std::vector<Eigen::VectorXd> k_;
   State stage_;
+  bool near_singular_ = false;
 };
 
 /// Dense output at from.t ≤ t ≤ to.t: q by the quintic that meets q, s and a at both ends, s by its

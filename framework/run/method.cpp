@@ -11,7 +11,10 @@ namespace pintle {
 
 namespace {
 
-const Tableau* automatic_explicit(double tolerance) { return find_tableau(tolerance <= 1e-6 ? "verner87" : "dopri5"); }
+// High order pays where springs, modes or contacts make many steps, and strays where branches of motion meet.
+const Tableau* automatic_explicit(const Spectrum& s, double tolerance) {
+  return find_tableau(!s.parts.empty() && tolerance <= 1e-6 ? "verner87" : "dopri5");
+}
 constexpr double rate_reached = 1.0, decay_reached = 3.3;  // of dopri5 along the axes
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -111,9 +114,10 @@ void choose(const Scene& scene, const System& system, Scheme& scheme) {
   const Demand d = demand(s, scene.run.tolerance);
   const double needed = std::max(d.stability, d.accuracy);
   const bool is_implicit = scene.run.constraints == "index 3" || (needed > dearer * d.implicit && scene.run.constraints != "partitioning");
-  if (!is_implicit) scheme.tableau = automatic_explicit(scene.run.tolerance);
+  if (!is_implicit) scheme.tableau = automatic_explicit(s, scene.run.tolerance);
+  if (!is_implicit && scheme.tableau != find_tableau("dopri5")) scheme.fallback = find_tableau("dopri5");
   std::string& why = scheme.reason;
-  why = name(scheme) + ", chosen because an explicit scheme of order 5 needs about " + short_number(needed) + " steps a second";
+  why = name(scheme) + ", chosen because Dormand and Prince's pair needs about " + short_number(needed) + " steps a second";
   if (d.stability > d.accuracy) {
     const bool by_decay = s.most_damped.decay / decay_reached > s.fastest.rate / rate_reached;
     why += ", which stability asks for because of " +

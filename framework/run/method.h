@@ -35,7 +35,8 @@ struct Demand {
 Demand demand(const Spectrum&, double tolerance);
 
 /// Fills tableau, constraints, rho, switch_below and reason. `method: auto` takes generalised-α if it gets by with
-/// an eighth of the steps of dopri5, which cost about the same but are more accurate; else verner87 at tolerances of 1e-6 and less, dopri5 above.
+/// an eighth of the steps of dopri5, which cost about the same but are more accurate; else verner87 where there are springs,
+/// modes or contacts and the tolerance is 1e-6 or less, with dopri5 to fall back on near singular poses; else dopri5.
 /// @throws SceneError  no such method, or constraints that it cannot keep
 void choose_method(const Scene&, const System&, Scheme&);
 

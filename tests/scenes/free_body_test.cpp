@@ -89,7 +89,7 @@ struct Free {
 /// periods of its lowest mode.
 Free freed(const std::string& keys, double length) {
   Free f;
-  f.scene = scene_of("bodies:\n" + body_text("rod", keys) + "run: {until: 1}\n");
+  f.scene = scene_of("bodies:\n" + body_text("rod", keys) + "run: {until: 1, method: dopri5}\n");
   f.model = pintle::build(f.scene);
   f.start = pintle::assemble(f.scene, f.model).start;
   const pintle::Body& body = f.model.system.bodies[0];

@@ -113,7 +113,9 @@ class About {
       return true;
     };
     const auto subtract = [&](const VectorXd& violation, double* x) {
-      Eigen::Map<VectorXd>(x, system_.n()) -= D_.cwiseProduct(J.solve(violation));
+      const VectorXd change = J.solve(violation);
+      Eigen::Map<VectorXd>(x, system_.n()) -= D_.cwiseProduct(change);
+      return change.lpNorm<Eigen::Infinity>();
     };
     if (!onto_constraints(system_, to.t, to.y, eq_, factor, subtract))
       throw std::runtime_error("the constraints cannot be met");

@@ -38,7 +38,7 @@ Scene slider_crank(int cells, const std::string& stiffening) {
           "  gudgeon: {revolute: [coupler.B, slider.P]}\n"
           "  guide: {prismatic: [ground, slider.P]}\n"
           "start: {crank: {angle: 0, speed: 150}}\n"
-          "run: {until: 1}\n"
+          "run: {until: 1, method: dopri5}\n"
           "output: {points: [coupler.B], stress: [coupler.B]}\n",
       "plate.yaml");
 }

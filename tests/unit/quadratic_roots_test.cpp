@@ -43,7 +43,9 @@ TEST(QuadraticRoots, OfDragAloneOneOfEachPairIsZero) {
   int zeros = 0;
   for (const QuadraticRoot& r : roots_of(s, sizes(s))) {
     zeros += r.zero;
-    if (!r.zero) EXPECT_NEAR(std::abs(r.lambda + 3.0), 0, 1e-12);
+    if (!r.zero) {
+      EXPECT_NEAR(std::abs(r.lambda + 3.0), 0, 1e-12);
+    }
   }
   EXPECT_EQ(zeros, 3);
 }

@@ -12,7 +12,6 @@
 #include <ostream>
 #include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -157,9 +156,11 @@ double largest(const MatrixXd& A) {
   return A.size() == 0 ? 0 : A.lpNorm<Eigen::Infinity>();
 }
 
-class TangentOf : public testing::TestWithParam<std::tuple<Kind, Carriers>> {
- protected:
-  System system_ = make_system(std::get<0>(GetParam()), std::get<1>(GetParam()));
+/// A kind between two carriers.
+struct Held {
+  Kind kind_;
+  Carriers carriers_;
+  System system_ = make_system(kind_, carriers_);
   Equations eq_{system_};
   Draw draw_{29};
   const int n_ = system_.n();
@@ -174,64 +175,88 @@ class TangentOf : public testing::TestWithParam<std::tuple<Kind, Carriers>> {
       EXPECT_LT(largest(ours - theirs), terms * difference) << "draw " << k << "\nours\n" << ours << "\ndifferences\n" << theirs;
     }
   }
+
+  void coordinates_is_differences_of_the_residual() {
+    expect_differences({1, 0, 0}, 0);
+  }
+
+  void speeds_is_differences_of_the_residual() {
+    expect_differences({0, 1, 0}, n_);
+  }
+
+  // r is linear in a: a difference over a whole unit is exact but for rounding.
+  void accelerations_is_the_mass_matrix() {
+    for (int k = 0; k < draws; ++k) {
+      Sample sample(system_, draw_, eq_);
+      const MatrixXd ours = sample.ours({0, 0, 1}, eq_);
+      const VectorXd a = sample.a, before = sample.residual(sample.state, eq_);
+      const double terms = 1 + largest(before);
+      for (int j = 0; j < n_; ++j) {
+        sample.a = a + VectorXd::Unit(n_, j);
+        EXPECT_LT(largest(ours.col(j) - (sample.residual(sample.state, eq_) - before)), 100 * terms * rounding);
+      }
+      for (const FlexibleInertia& body : eq_.flexible) {
+        const MatrixXd M = mass_matrix(body);
+        EXPECT_LT(largest(ours.block(3 * body.body, 3 * body.body, 3, 3) - M.topLeftCorner(3, 3)), rounding * largest(M));
+        EXPECT_LT(largest(ours.block(body.begin, body.begin, body.n, body.n) - M.bottomRightCorner(body.n, body.n)),
+                  100 * rounding * largest(M));
+      }
+    }
+  }
+
+  void a_weighted_sum_is_the_sum_of_its_parts() {
+    const Sample sample(system_, draw_, eq_);
+    const Tangent::Weights w{0.7, -3.1, 11};
+    const MatrixXd sum = w.q * sample.ours({1, 0, 0}, eq_) + w.s * sample.ours({0, 1, 0}, eq_) + w.a * sample.ours({0, 0, 1}, eq_);
+    EXPECT_LT(largest(sample.ours(w, eq_) - sum), (1 + largest(sum)) * rounding);
+  }
+
+  // At rest, without accelerations, r is the gradient of λ·C and of energies. Friction needs speed; forces that
+  // follow a body have no potential and are left out.
+  void coordinates_is_symmetric_at_rest() {
+    Kind kind = kind_;
+    std::erase_if(kind.forces, [](const Force& f) { return std::holds_alternative<PointForce>(f) && std::get<PointForce>(f).follows; });
+    const System system = make_system(kind, carriers_);
+    Equations eq(system);
+    for (int k = 0; k < draws; ++k) {
+      Sample sample(system, draw_, eq);
+      sample.state.y.tail(system.n_y() - n_).setZero();
+      sample.a.setZero();
+      const MatrixXd K = sample.ours({1, 0, 0}, eq);
+      EXPECT_LT(largest(K - K.transpose()), (1 + largest(K)) * rounding) << K;
+    }
+  }
+};
+
+class TangentOf : public testing::TestWithParam<Kind> {
+ protected:
+  template <class Exam>
+  void each_carrier(Exam exam) {
+    for (const Carriers& carriers : all_carriers()) {
+      SCOPED_TRACE(name_of(carriers));
+      Held held{GetParam(), carriers};
+      exam(held);
+    }
+  }
 };
 
 TEST_P(TangentOf, CoordinatesIsDifferencesOfTheResidual) {
-  expect_differences({1, 0, 0}, 0);
+  each_carrier([](Held& held) { held.coordinates_is_differences_of_the_residual(); });
 }
-
 TEST_P(TangentOf, SpeedsIsDifferencesOfTheResidual) {
-  expect_differences({0, 1, 0}, n_);
+  each_carrier([](Held& held) { held.speeds_is_differences_of_the_residual(); });
 }
-
-// r is linear in a: a difference over a whole unit is exact but for rounding.
 TEST_P(TangentOf, AccelerationsIsTheMassMatrix) {
-  for (int k = 0; k < draws; ++k) {
-    Sample sample(system_, draw_, eq_);
-    const MatrixXd ours = sample.ours({0, 0, 1}, eq_);
-    const VectorXd a = sample.a, before = sample.residual(sample.state, eq_);
-    const double terms = 1 + largest(before);
-    for (int j = 0; j < n_; ++j) {
-      sample.a = a + VectorXd::Unit(n_, j);
-      EXPECT_LT(largest(ours.col(j) - (sample.residual(sample.state, eq_) - before)), 100 * terms * rounding);
-    }
-    for (const FlexibleInertia& body : eq_.flexible) {
-      const MatrixXd M = mass_matrix(body);
-      EXPECT_LT(largest(ours.block(3 * body.body, 3 * body.body, 3, 3) - M.topLeftCorner(3, 3)), rounding * largest(M));
-      EXPECT_LT(largest(ours.block(body.begin, body.begin, body.n, body.n) - M.bottomRightCorner(body.n, body.n)),
-                100 * rounding * largest(M));
-    }
-  }
+  each_carrier([](Held& held) { held.accelerations_is_the_mass_matrix(); });
 }
-
 TEST_P(TangentOf, AWeightedSumIsTheSumOfItsParts) {
-  const Sample sample(system_, draw_, eq_);
-  const Tangent::Weights w{0.7, -3.1, 11};
-  const MatrixXd sum = w.q * sample.ours({1, 0, 0}, eq_) + w.s * sample.ours({0, 1, 0}, eq_) + w.a * sample.ours({0, 0, 1}, eq_);
-  EXPECT_LT(largest(sample.ours(w, eq_) - sum), (1 + largest(sum)) * rounding);
+  each_carrier([](Held& held) { held.a_weighted_sum_is_the_sum_of_its_parts(); });
 }
-
-// At rest, without accelerations, r is the gradient of λ·C and of energies. Friction needs speed; forces that
-// follow a body have no potential and are left out.
 TEST_P(TangentOf, CoordinatesIsSymmetricAtRest) {
-  Kind kind = std::get<0>(GetParam());
-  std::erase_if(kind.forces, [](const Force& f) { return std::holds_alternative<PointForce>(f) && std::get<PointForce>(f).follows; });
-  const System system = make_system(kind, std::get<1>(GetParam()));
-  Equations eq(system);
-  for (int k = 0; k < draws; ++k) {
-    Sample sample(system, draw_, eq);
-    sample.state.y.tail(system.n_y() - n_).setZero();
-    sample.a.setZero();
-    const MatrixXd K = sample.ours({1, 0, 0}, eq);
-    EXPECT_LT(largest(K - K.transpose()), (1 + largest(K)) * rounding) << K;
-  }
+  each_carrier([](Held& held) { held.coordinates_is_symmetric_at_rest(); });
 }
 
-std::string case_name(const testing::TestParamInfo<std::tuple<Kind, Carriers>>& info) {
-  return std::get<0>(info.param).name + name_of(std::get<1>(info.param));
-}
-INSTANTIATE_TEST_SUITE_P(Each, TangentOf, testing::Combine(testing::ValuesIn(kinds), testing::ValuesIn(all_carriers())),
-                         case_name);
+INSTANTIATE_TEST_SUITE_P(Each, TangentOf, testing::ValuesIn(kinds), [](const auto& one) { return one.param.name; });
 
 TEST(TangentContract, EveryKindSitsTheExam) {
   std::set<std::size_t> joints, forces;
