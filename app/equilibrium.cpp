@@ -88,7 +88,7 @@ void print(const Scene& scene, const Equilibrium& e, const fs::path& out) {
   rows.emplace_back("results", out.string() + ", drawing " + (out / "mechanism.pvd").string());
   print_rows(std::cout, rows);
   for (const std::string& w : e.warnings) std::cout << "  warning: " << w << "\n";
-  std::cout << "  " << (e.found ? "at rest" : "NO EQUILIBRIUM: " + e.reason) << "\n";
+  std::cout << "  " << (e.found ? "at rest" : "NOT AT REST: " + e.reason) << "\n";
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ std::string state_text(const Scene& scene, const SavedState& state) {
 SavedState read_state(const std::filesystem::path& file, const Scene& scene) {
   const auto refuse = [&](const std::string& why) { return SceneError("--restart " + file.string() + ": " + why); };
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw refuse("cannot be read; name a file NAME.state of a run (output.states, end.state)");
+  if (!in) throw refuse("cannot be read; name a file states/NNNNN.state of a run");
   std::string line, word, version;
   std::getline(in, line);
   if (line != first_line) throw refuse("is no saved state; its first line must be \"" + std::string(first_line) + "\"");
