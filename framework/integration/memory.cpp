@@ -1,0 +1,61 @@
+// What an integrator remembers, out to bytes and back: the part of Integrator that a restart needs.
+#include <sstream>
+#include <stdexcept>
+
+#include "framework/integration/archive.h"
+#include "framework/integration/integrator.h"
+
+namespace pintle {
+
+template <class A>
+void Integrator::archive(A& x) {
+  x(step_.from, step_.to, step_.h, h_, h_open_, h_closed_, error_before_, fastest_, energy_, open_impact_, loss_at_begin_,
+    impacts_, counts_, failure_, events_here_, worst_position_, worst_velocity_, held_by_stability_, fallen_back_, at_fork_, switched_, eq_.evaluations,
+    eq_.factorizations);
+  bool implicit = alpha_.has_value();
+  x(implicit);
+  if constexpr (A::loading) {
+    if (fallen_back_ && stages_ && scheme_.fallback && x.good()) stages_.emplace(system_, *scheme_.fallback, scheme_.constraints);
+    if (implicit && stages_ && x.good()) {  // it had switched
+      stages_.reset();
+      alpha_.emplace(system_, eq_, scheme_.rho, scheme_.constraints, scheme_.tolerance);
+    }
+  }
+  if (alpha_.has_value() != implicit)
+    x.stream.setstate(std::ios::failbit);
+  else if (alpha_)
+    x(*alpha_);
+  else
+    x(*stages_);
+}
+
+std::string Integrator::save() const {
+  std::ostringstream out(std::ios::binary);
+  Writer writer(out);
+  writer(*this);
+  return out.str();
+}
+
+void Integrator::load(const std::string& saved) {
+  std::istringstream in(saved, std::ios::binary);
+  Reader reader(in);
+  reader(*this);
+  const auto whole = [&](const Instant& node) {
+    return node.state.y.size() == system_.n_y() && node.dy.size() == system_.n_y() &&
+           node.state.impact_rate.size() == system_.contacts.size();
+  };
+  if (!reader.good() || in.peek() != std::istringstream::traits_type::eof() || !whole(step_.from) || !whole(step_.to) ||
+      open_impact_.size() != system_.contacts.size())
+    throw std::invalid_argument("not the state of an integrator of this system");
+  step_.error.setZero(system_.n_y());
+  scratch_ = step_.to;
+  dense_ = step_.to.state;
+  const long evaluations = eq_.evaluations, factorizations = eq_.factorizations;
+  if (alpha_)
+    restore();
+  else
+    stages_->settle(system_, scratch_, eq_);
+  eq_.evaluations = evaluations, eq_.factorizations = factorizations;
+}
+
+}  // namespace pintle
