@@ -1,4 +1,5 @@
 // Small motion about where a mechanism rests, of mechanisms with more joints than they need, and what is refused.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -17,6 +18,14 @@ pintle::Linearization about_rest(const pintle::Scene& scene) {
   const pintle::Equilibrium rest = find_equilibrium(scene, model, assemble(scene, model));
   EXPECT_TRUE(rest.found) << rest.reason;
   return linearize(scene, model, rest.state, pintle::Laws::hold);
+}
+
+pintle::Linearization about_start(const pintle::Scene& scene) {
+  const pintle::Model model = build(scene);
+  return linearize(scene, model, state_at(model, assemble(scene, model).start, 0));
+}
+bool says(const pintle::Linearization& lin, const std::string& words) {
+  return std::ranges::any_of(lin.notes, [&](const std::string& n) { return n.find(words) != std::string::npos; });
 }
 
 TEST(LinearizeAtRest, ReleasedPendulumSwingsAboutWhereItHangs) {
@@ -78,6 +87,36 @@ TEST(Linearize, RefusesWhatIsTooLargeForDenseMatricesAndSaysWhatToDo) {
     EXPECT_NE(std::string(e.what()).find("1500"), std::string::npos) << e.what();
     EXPECT_NE(std::string(e.what()).find("crowd.yaml"), std::string::npos);
   }
+}
+
+// A pin of mass m pressed by its weight: δ = (m g/k)^(1/n); up and down k n δⁿ⁻¹, sideways m g/|e|, its spin is free.
+TEST(LinearizeAtRest, PinAtRestInItsBearingHasTheContactsInstantaneousFrequencies) {
+  pintle::Scene s;
+  s.gravity = {0, -9.81};
+  s.ground = {point("O", 0)};
+  s.bodies = {body("pin", 0.8, 1e-4, {point("P", 0)})};
+  s.joints = {joint("bearing", pintle::JointKind::revolute, "ground.O", "pin.P")};
+  s.joints[0].clearance = clearance("ground", 1e-4, 1.0);
+  const double k = 2e9, depth = std::pow(0.8 * 9.81 / k, 1 / 1.5), arm = 1e-4 + depth;
+  s.joints[0].clearance->normal.stiffness = k;
+  s.start_journals = {{"bearing", {0, -arm}, {0, 0}, {}}};
+  const pintle::Linearization lin = about_start(s);
+  ASSERT_EQ(lin.contacts.size(), 1U);
+  EXPECT_TRUE(lin.contacts[0].closed);
+  const double stiffness = 1.5 * k * std::sqrt(depth);
+  EXPECT_NEAR(lin.contacts[0].stiffness, stiffness, 1e-9 * stiffness);
+  ASSERT_EQ(lin.modes.size(), 3U);
+  EXPECT_EQ(lin.modes[0].kind, pintle::LinearMode::Kind::zero);
+  EXPECT_EQ(lin.modes[0].carrier, "pin.angle");
+  const double tolerance = 1e-8;  // the depth is a ten-thousandth of the eccentricity it is the difference of
+  EXPECT_NEAR(lin.modes[1].root.imag(), std::sqrt(9.81 / arm), tolerance * lin.modes[1].root.imag());
+  EXPECT_NEAR(lin.modes[2].root.imag(), std::sqrt(stiffness / 0.8), tolerance * lin.modes[2].root.imag());
+  EXPECT_TRUE(says(lin, "\"bearing\" is closed"));
+
+  s.start_journals = {{"bearing", {0, -0.5e-4}, {0, 0}, {}}};
+  const pintle::Linearization open = about_start(s);
+  EXPECT_TRUE(says(open, "\"bearing\" is open and adds nothing"));
+  for (const pintle::LinearMode& m : open.modes) EXPECT_EQ(m.kind, pintle::LinearMode::Kind::zero);
 }
 
 }  // namespace

@@ -345,38 +345,6 @@ TEST(Linearize, StateSpaceForetellsTheAnswerToASmallStep) {
   }
 }
 
-// ---- contacts ----
-
-// A pin of mass m pressed by its weight: δ = (m g/k)^(1/n); up and down k n δⁿ⁻¹, sideways m g/|e|, its spin is free.
-TEST(Linearize, PinAtRestInItsBearingHasTheContactsInstantaneousFrequencies) {
-  pintle::Scene s;
-  s.gravity = {0, -9.81};
-  s.ground = {point("O", 0)};
-  s.bodies = {body("pin", 0.8, 1e-4, {point("P", 0)})};
-  s.joints = {joint("bearing", pintle::JointKind::revolute, "ground.O", "pin.P")};
-  s.joints[0].clearance = clearance("ground", 1e-4, 1.0);
-  const double k = 2e9, depth = std::pow(0.8 * 9.81 / k, 1 / 1.5), arm = 1e-4 + depth;
-  s.joints[0].clearance->normal.stiffness = k;
-  s.start_journals = {{"bearing", {0, -arm}, {0, 0}, {}}};
-  const About a(s);
-  ASSERT_EQ(a.lin.contacts.size(), 1U);
-  EXPECT_TRUE(a.lin.contacts[0].closed);
-  const double stiffness = 1.5 * k * std::sqrt(depth);
-  EXPECT_NEAR(a.lin.contacts[0].stiffness, stiffness, 1e-9 * stiffness);
-  ASSERT_EQ(a.lin.modes.size(), 3U);
-  EXPECT_EQ(a.lin.modes[0].kind, Kind::zero);
-  EXPECT_EQ(a.lin.modes[0].carrier, "pin.angle");
-  const double tolerance = 1e-8;  // the depth is a ten-thousandth of the eccentricity it is the difference of
-  EXPECT_NEAR(a.lin.modes[1].root.imag(), std::sqrt(9.81 / arm), tolerance * a.lin.modes[1].root.imag());
-  EXPECT_NEAR(a.lin.modes[2].root.imag(), std::sqrt(stiffness / 0.8), tolerance * a.lin.modes[2].root.imag());
-  EXPECT_TRUE(a.notes("\"bearing\" is closed"));
-
-  s.start_journals = {{"bearing", {0, -0.5e-4}, {0, 0}, {}}};
-  const About open(s);
-  EXPECT_TRUE(open.notes("\"bearing\" is open and adds nothing"));
-  for (const pintle::LinearMode& m : open.lin.modes) EXPECT_EQ(m.kind, Kind::zero);
-}
-
 // ---- files ----
 
 TEST(Linearize, FilesNameStatesInputsAndOutputsWithUnits) {
