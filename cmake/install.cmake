@@ -15,10 +15,10 @@ write_basic_package_version_file(pintleConfigVersion.cmake COMPATIBILITY SameMin
 install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/pintleConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/pintleConfigVersion.cmake
-  cmake/FindGmsh.cmake
   cmake/FindSuiteSparse.cmake
   DESTINATION ${pintle_config})
 
 if(PROJECT_IS_TOP_LEVEL)
+  set_target_properties(pintle_app PROPERTIES INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR}/pintle)  # the modules
   install(TARGETS pintle_app)
 endif()

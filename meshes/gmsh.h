@@ -6,8 +6,9 @@
 #include "meshes/link.h"
 #include "meshes/mesh.h"
 
-/// Meshes by Gmsh; only the files gmsh*.cpp know it. Same input, same mesh, to the bit. Gmsh keeps
-/// state of its own: one call at a time in a program. Whoever has Gmsh open already keeps models
+/// Meshes by Gmsh, which is loaded when it is first needed (meshes/module.h); only the files gmsh_*.cpp know it. Same
+/// input, same mesh, to the bit. Gmsh keeps
+/// state of its own: calls from several threads wait for each other. Whoever has Gmsh open already keeps models
 /// and options as they were.
 namespace pintle {
 

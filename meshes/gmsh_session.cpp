@@ -30,6 +30,8 @@ constexpr std::pair<const char*, double> defaults[]{
     {"Mesh.MeshSizeFromCurvature", 0},
     {"Mesh.MeshSizeExtendFromBoundary", 1}};
 
+std::mutex one_session;
+
 // Gmsh has no question for whether it is open: before the first time its clock stands at −1, after
 // it has been closed every call throws.
 bool alive() {
@@ -42,7 +44,7 @@ bool alive() {
 
 }  // namespace
 
-GmshSession::GmshSession() : mine_(!alive()) {
+GmshSession::GmshSession() : alone_(one_session), mine_(!alive()) {
   if (mine_) gmsh::initialize(0, nullptr, false);
   if (!mine_) gmsh::model::getCurrent(previous_);
   for (const auto& [name, value] : defaults) {

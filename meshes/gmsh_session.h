@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@ namespace pintle {
 
 /// Gmsh, silent, for one piece of work, with a model of its own and defaults of its own. If
 /// somebody else in the program has Gmsh open, his models stay and his options are put back.
+/// Gmsh is one for the whole program: a second session waits until the first is closed.
 class GmshSession {
  public:
   GmshSession();
@@ -17,6 +19,7 @@ class GmshSession {
   GmshSession& operator=(const GmshSession&) = delete;
 
  private:
+  std::unique_lock<std::mutex> alone_;
   bool mine_;
   std::string previous_, unit_before_;
   std::vector<std::pair<const char*, double>> before_;

@@ -69,8 +69,8 @@ struct Drawing {
 };
 
 /// Writes `frames/NNNNN.vtu` (the lines of a drawing), `frames/BODY_NNNNN.vtu` (a flexible body of
-/// it) and `mechanism.pvd` (their times) under a directory; ParaView opens the last. The one pair
-/// of files of the library that knows VTK.
+/// it) and `mechanism.pvd` (their times) under a directory; ParaView opens the last. VTK is loaded
+/// when the first grid is written (meshes/module.h); only vtk_encoder.cpp knows it.
 ///
 /// The lines are an unstructured grid, z = 0: a polyline for each line, then a vertex for each
 /// force; part 0 of the collection.
