@@ -204,13 +204,14 @@ void add_forces(const System& system, const VectorXd& y, FlexibleInertia& e, Vec
   auto r = f.segment<3>(3 * e.body);
   auto modal = f.segment(e.begin, e.n);
 
-  // Gravity is M times an acceleration of the frame.
-  const Vector2d& g = system.gravity;
-  r[0] += body.m * g.x();
-  r[1] += body.m * g.y();
-  r[2] += cross(e.arm, g);
   const FlexibleInertia::Part& p = e.whole;
-  modal += p.B.topRows<2>().transpose().lazyProduct(g);
+  if (has_gravity(system)) {  // M times an acceleration of the frame
+    const Vector2d& g = system.gravity;
+    r[0] += body.m * g.x();
+    r[1] += body.m * g.y();
+    r[2] += cross(e.arm, g);
+    modal += p.B.topRows<2>().transpose().lazyProduct(g);
+  }
 
   const Vector2d drift = p.B.topRows<2>().lazyProduct(rate);  // A S(η) η̇
   r.head<2>() += spin * spin * e.arm - 2 * spin * perp(drift);

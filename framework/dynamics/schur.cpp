@@ -13,7 +13,58 @@ namespace pintle {
 using Eigen::VectorXd;
 
 namespace {
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// f(n), with n known to the compiler where it is small.
+template <class F>
+auto with_size(int n, F f) {
+  using std::integral_constant;
+  switch (n) {
+    case 1: return f(integral_constant<int, 1>{});
+    case 2: return f(integral_constant<int, 2>{});
+    case 3: return f(integral_constant<int, 3>{});
+    case 4: return f(integral_constant<int, 4>{});
+    case 5: return f(integral_constant<int, 5>{});
+    case 6: return f(integral_constant<int, 6>{});
+    case 7: return f(integral_constant<int, 7>{});
+    case 8: return f(integral_constant<int, 8>{});
+    case 9: return f(integral_constant<int, 9>{});
+    case 10: return f(integral_constant<int, 10>{});
+    default: return f(n);
+  }
+}
+
+// S = L D Lᵀ in place, n × n by rows, lower half; D⁻¹ apart. @returns false if cancellation leaves `least` of a pivot, or
+// less; `smallest` is the least that it left of any
+template <class N>
+bool factor_ldl(N n, double* S, double* inverse, double least, double& smallest) {
+  std::array<double, Schur::dense_rows> before, column;
+  for (int i = 0; i < n; ++i) before[at(i)] = S[i * n + i];
+  for (int j = 0; j < n; ++j) {
+    const double pivot = S[j * n + j];
+    if (pivot < smallest * before[at(j)]) smallest = pivot / before[at(j)];
+    if (!(pivot > least * before[at(j)])) return false;
+    inverse[j] = 1 / pivot;
+    for (int i = j + 1; i < n; ++i) column[at(i)] = S[i * n + j];
+    for (int i = j + 1; i < n; ++i) {
+      double* Si = S + i * n;
+      const double l = Si[j] = column[at(i)] * inverse[j];
+      for (int k = j + 1; k <= i; ++k) Si[k] -= l * column[at(k)];
+    }
+  }
+  return true;
+}
+
+template <class N>
+void solve_ldl(N n, const double* S, const double* inverse, double* x) {
+  for (int j = 0; j < n; ++j)
+    for (int i = j + 1; i < n; ++i) x[i] -= S[i * n + j] * x[j];
+  for (int i = 0; i < n; ++i) x[i] *= inverse[i];
+  for (int i = n - 1; i > 0; --i)
+    for (int k = 0; k < i; ++k) x[k] -= S[i * n + k] * x[i];
+}
+
 }  // namespace
 
 struct Schur::Data {
@@ -45,28 +96,37 @@ Schur::Schur(const System& system) : n_(system.n_rows()), data_(std::make_unique
   std::vector<Pattern::Place> places;
   for (std::size_t b = 0; b < sides.size(); ++b) {
     const Body& body = system.bodies[b];
+    const int w = static_cast<int>(weights_.size());
+    const bool flexible = body.modes() > 0;
+    weights_.insert(weights_.end(), {flexible ? 1 : 1 / body.m, flexible ? 1 : 1 / body.m, flexible ? 1 : 1 / body.J});
     for (std::size_t p = 0; p < sides[b].size(); ++p)
       for (std::size_t q = 0; q <= p; ++q) {
         const int i = sides[b][p], j = sides[b][q];
-        const Eigen::Vector3d w = body.modes() > 0 ? Eigen::Vector3d(1, 1, 1) : Eigen::Vector3d(1 / body.m, 1 / body.m, 1 / body.J);
-        pairs_.push_back({i, j, height(i), height(j), w, body.modes() > 0, i == j});
         for (int r = 0; r < height(i); ++r)
-          for (int c = 0; c < (i == j ? r + 1 : height(j)); ++c) places.push_back({first_row(i) + r, first_row(j) + c});
+          for (int c = 0; c < (i == j ? r + 1 : height(j)); ++c) {
+            terms_.push_back({0, 9 * i + 3 * r, 9 * j + 3 * c, w});
+            modal_terms_.push_back({flexible ? 0 : -1, i, r, j, c});
+            places.push_back({first_row(i) + r, first_row(j) + c});
+          }
       }
   }
 
+  std::vector<int> where;
   if (n_ <= dense_rows) {
-    where_.reserve(places.size());
-    for (const Pattern::Place& p : places) where_.push_back(p.row * n_ + p.column);
+    for (const Pattern::Place& p : places) where.push_back(p.row * n_ + p.column);
     values_.resize(at(n_ * n_));
     data_->whole = values_;
     diagonal_.resize(at(n_));
-    return;
+  } else {
+    for (int i = 0; i < n_; ++i) places.push_back({i, i});
+    data_->sparse.emplace(n_, places, where);
+    values_.resize(at(data_->sparse->entries()));
   }
-  for (int i = 0; i < n_; ++i) places.push_back({i, i});
-  data_->sparse.emplace(n_, places, where_);
-  where_.resize(places.size() - at(n_));
-  values_.resize(at(data_->sparse->entries()));
+  for (std::size_t k = 0; k < terms_.size(); ++k) {
+    terms_[k].to = where[k];
+    if (modal_terms_[k].to == 0) modal_terms_[k].to = where[k];
+  }
+  std::erase_if(modal_terms_, [](const ModalTerm& t) { return t.to < 0; });
 }
 
 double Schur::inconsistency() const { return dependent() ? data_->refine.left_over() : 0; }
@@ -81,20 +141,13 @@ double Schur::nonzeros() const { return sparse() ? data_->sparse->nonzeros() : 0
 
 void Schur::sum(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta) {
   std::fill(values_.begin(), values_.end(), 0.0);
-  const int* to = where_.data();
-  for (const Pair& p : pairs_) {
-    const Block& Bi = B[at(p.i)];
-    const Block& Bj = B[at(p.j)];
-    for (int r = 0; r < p.mi; ++r) {
-      const double x = Bi(r, 0) * p.w[0], y = Bi(r, 1) * p.w[1], z = Bi(r, 2) * p.w[2];
-      const int columns = p.same ? r + 1 : p.mj;
-      for (int c = 0; c < columns; ++c) {
-        double entry = x * Bj(c, 0) + y * Bj(c, 1) + z * Bj(c, 2);
-        if (p.flexible) entry += B_eta[at(p.i)].row(r).dot(B_eta[at(p.j)].row(c));
-        values_[at(*to++)] += entry;
-      }
-    }
+  if (terms_.empty()) return;
+  const double* entries = B.front().data();
+  for (const Term& t : terms_) {
+    const double *a = entries + t.a, *b = entries + t.b, *w = weights_.data() + t.w;
+    values_[at(t.to)] += a[0] * w[0] * b[0] + a[1] * w[1] * b[1] + a[2] * w[2] * b[2];
   }
+  for (const ModalTerm& t : modal_terms_) values_[at(t.to)] += B_eta[at(t.i)].row(t.r).dot(B_eta[at(t.j)].row(t.c));
 }
 
 bool Schur::factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta) {
@@ -125,39 +178,13 @@ bool Schur::factor_shifted() {
   return true;
 }
 
-// S = L D Lᵀ in place, row by row. @returns false if cancellation leaves `least` of a pivot, or less
 bool Schur::factor_dense(double least) {
-  double* S = values_.data();
   least_ = 1;
-  for (int i = 0; i < n_; ++i) {
-    double* Si = S + i * n_;
-    const double before = Si[i];
-    for (int j = 0; j < i; ++j) {
-      const double* Sj = S + j * n_;
-      double sum = Si[j];
-      for (int k = 0; k < j; ++k) sum -= Si[k] * Sj[k];
-      Si[j] = sum;  // L_ij D_j for now
-    }
-    double pivot = before;
-    for (int j = 0; j < i; ++j) {
-      const double l = Si[j] * diagonal_[at(j)];
-      pivot -= l * Si[j];
-      Si[j] = l;
-    }
-    if (pivot < least_ * before) least_ = pivot / before;
-    if (!(pivot > least * before)) return false;
-    diagonal_[at(i)] = 1 / pivot;
-  }
-  return true;
+  return with_size(n_, [&](auto n) { return factor_ldl(n, values_.data(), diagonal_.data(), least, least_); });
 }
 
 void Schur::solve_dense(VectorXd& mu) const {
-  const double* S = values_.data();
-  for (int i = 0; i < n_; ++i)
-    for (int j = 0; j < i; ++j) mu[i] -= S[i * n_ + j] * mu[j];
-  for (int i = 0; i < n_; ++i) mu[i] *= diagonal_[at(i)];
-  for (int i = n_ - 1; i >= 0; --i)
-    for (int j = i + 1; j < n_; ++j) mu[i] -= S[j * n_ + i] * mu[j];
+  with_size(n_, [&](auto n) { return solve_ldl(n, values_.data(), diagonal_.data(), mu.data()); });
 }
 
 void Schur::solve_factored(VectorXd& mu) {

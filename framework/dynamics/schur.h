@@ -46,12 +46,13 @@ class Schur {
   double nonzeros() const;     ///< of the factor
 
  private:
-  struct Pair {
-    int i, j;        ///< sides, row_begin of i's joint ≥ that of j's
-    int mi, mj;      ///< their rows
-    Eigen::Vector3d w;  ///< inverse inertia of the body they share; 1 of a flexible one
-    bool flexible;
-    bool same;       ///< i == j: lower triangle only
+  /// A product of two rows of sides on one body: three entries of B each, counted through all blocks, by the body's
+  /// inverse inertia; and what the modal coordinates of a flexible one add.
+  struct Term {
+    int to, a, b, w;
+  };
+  struct ModalTerm {
+    int to, i, r, j, c;  ///< row r of side i by row c of side j
   };
   struct Data;
   void sum(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta);
@@ -64,8 +65,9 @@ class Schur {
   int n_;
   int lost_ = 0;
   double least_ = 1;  ///< pivot over the entry it came from, the smallest; 0 if some are lost
-  std::vector<Pair> pairs_;
-  std::vector<int> where_;      ///< value index of each summand, in the order of summation
+  std::vector<Term> terms_;
+  std::vector<ModalTerm> modal_terms_;
+  std::vector<double> weights_;  ///< 1/m, 1/m, 1/J of each body; 1 of a flexible one
   std::vector<double> values_;  ///< dense: n × n row-major, lower, then its factor; sparse: SparseLdl's
   std::vector<double> diagonal_;
   std::unique_ptr<Data> data_;  ///< what only sparse or dependent rows need

@@ -2,6 +2,7 @@
 
 #include <klu.h>
 
+#include <cmath>
 #include <cstddef>
 #include <new>
 #include <utility>
@@ -33,7 +34,18 @@ struct SparseLu::Data {
     numeric = klu_factor(pattern.column_begin.data(), pattern.row.data(), seed.data(), symbolic, &common);
     if (!numeric) return false;
     growth = measure(seed);
+    pivots = std::vector<double>(diagonal(), diagonal() + pattern.size());
     return true;
+  }
+
+  const double* diagonal() const { return static_cast<const double*>(numeric->Udiag); }
+
+  // Multipliers, and with them entries, can only have grown where a pivot has shrunk.
+  bool shrunk() const {
+    constexpr double much = 0.1;
+    bool any = false;
+    for (int i = 0; i < pattern.size(); ++i) any = any || !(std::abs(diagonal()[i]) > much * std::abs(pivots[static_cast<std::size_t>(i)]));
+    return any;
   }
 
   // Largest entry of a column of A over that of U, the worst column: small where pivots let entries grow.
@@ -47,7 +59,7 @@ struct SparseLu::Data {
     constexpr double worn = 1e-3;
     double* values = const_cast<double*>(v.data());  // KLU only reads them
     if (klu_refactor(pattern.column_begin.data(), pattern.row.data(), values, symbolic, numeric, &common) &&
-        measure(v) > worn * growth)
+        (!shrunk() || measure(v) > worn * growth))
       return true;
     return choose_pivots(v);
   }
@@ -56,7 +68,8 @@ struct SparseLu::Data {
   klu_common common;
   klu_symbolic* symbolic = nullptr;
   klu_numeric* numeric = nullptr;
-  std::vector<double> seed;  ///< the matrix that gave the pivots
+  std::vector<double> seed;    ///< the matrix that gave the pivots
+  std::vector<double> pivots;  ///< U_ii of it
   double growth = 1;
   long pivotings = 0;
 };
