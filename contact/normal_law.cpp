@@ -5,27 +5,31 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace pintle {
 
 NormalForce evaluate(const ImpactLaw& law, const Approach& at) {
-  if (at.depth <= 0) return {};
+  if (at.depth <= 0) {
+    if (!(law.d > 0 && at.rate > 0)) return {};
+    return {.force = law.d * at.rate, .dissipation = law.d * at.rate * at.rate, .d_depth = law.n == 1 ? law.k : 0, .d_rate = law.d};
+  }
   assert(at.impact_rate > 0);
   const double power = law.n == 1.5 ? at.depth * std::sqrt(at.depth) : std::pow(at.depth, law.n);
   const double elastic = law.k * power;
   const double loss = law.chi / at.impact_rate;  // [s/m]
-  const double factor = 1 + loss * at.rate;
+  const double factor = 1 + loss * at.rate, damper = law.d * at.rate;
 
   NormalForce out;
   out.stored = elastic * at.depth / (law.n + 1);
-  if (factor <= 0) {  // clamped: the stored energy released here is lost
+  if (elastic * factor + damper <= 0) {  // clamped: the stored energy released here is lost
     out.dissipation = -elastic * at.rate;
     return out;
   }
-  out.force = elastic * factor;
-  out.dissipation = elastic * loss * at.rate * at.rate;
+  out.force = elastic * factor + damper;
+  out.dissipation = (elastic * loss + law.d) * at.rate * at.rate;
   out.d_depth = law.n * (elastic / at.depth) * factor;
-  out.d_rate = elastic * loss;
+  out.d_rate = elastic * loss + law.d;
   return out;
 }
 
@@ -104,6 +108,25 @@ double effective_restitution(double chi) {
   assert(chi >= 0);
   if (chi <= 0) return 1;
   return sign_change(0, std::min(1.0, 1 / chi), [chi](double e) { return impact_balance(chi, e); });
+}
+
+// δ̈ = 0 ends the contact: with ζ = sin a at ωt = π − 2a, where −δ̇/δ̇₀ is the decay so far; with
+// ζ = cosh b likewise at Ωt = 2b.
+double linear_restitution(double zeta) {
+  assert(zeta >= 0);
+  if (zeta < 1) {
+    const double a = std::asin(zeta);
+    return std::exp(-std::tan(a) * (std::numbers::pi - 2 * a));
+  }
+  const double b = std::acosh(zeta);
+  return b > 0 ? std::exp(-2 * b / std::tanh(b)) : std::exp(-2.0);
+}
+
+double damping_ratio(double e) {
+  assert(e > 0 && e <= 1);
+  if (e >= 1) return 0;
+  // For e ≪ 1: e → 1/(4ζ²), so that 1/√e lies beyond.
+  return sign_change(0, std::max(1.0, 1 / std::sqrt(e)), [e](double zeta) { return e - linear_restitution(zeta); });
 }
 
 double hertz_stiffness(double journal_radius, double bearing_radius, double young_i, double nu_i,

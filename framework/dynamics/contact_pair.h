@@ -12,7 +12,8 @@ namespace pintle {
 /// Which relative speed friction opposes; see docs/theory/contact.md.
 enum class Sliding { material, geometric };
 
-/// A clearance joint: a journal in a bearing, no constraint rows, one contact.
+/// A clearance joint: a journal in a bearing. By its model a contact without constraint rows, or, with
+/// `link`, a massless link between the two centres, one row that some joint of the system holds.
 struct ContactPair {
   int journal, bearing;  ///< markers at the two centres
   JournalBearing gap;
@@ -20,6 +21,7 @@ struct ContactPair {
   std::optional<Ambrosio> friction;
   Sliding sliding = Sliding::material;
   double slowest_impact = 1e-6;  ///< floor of the latched approach speed [m/s]
+  int link = -1;                 ///< the joint that holds the centres apart; then no law acts. −1: a contact
 };
 
 /// What a clearance joint does at an instant. Friction acts on each body's own surface, Eq. (19).

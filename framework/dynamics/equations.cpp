@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "framework/dynamics/branch.h"
 
@@ -36,24 +37,32 @@ void subtract_reaction(const System& system, Equations& eq, const VectorXd& x, d
   Eigen::Map<VectorXd>(v, eq.g.size()) -= eq.g;
 }
 
+// ∂C/∂p of the marker's pose
+const double* row_of_L(const Equations& eq, const Equations::SideRow& r) {
+  const ConstraintRows& rows = eq.rows[at(r.joint)];
+  return (r.is_b ? rows.Lb : rows.La).data() + 3 * r.i;
+}
+
 // out += Cq v
 void add_product(const Equations& eq, const double* v, VectorXd& out) {
+  for (const Equations::SideRow& r : eq.side_rows) {
+    const double *B = eq.B.front().data() + r.at, *x = v + r.q;
+    out.data()[r.row] += B[0] * x[0] + B[1] * x[1] + B[2] * x[2];
+  }
+  if (eq.flexible.empty()) return;
   for (const Equations::Side& side : eq.sides) {
-    const Schur::Block& B = eq.B[side.block];
-    const double v0 = v[side.q], v1 = v[side.q + 1], v2 = v[side.q + 2];
-    double* o = out.data() + side.row;
-    for (int r = 0; r < side.m; ++r) o[r] += B(r, 0) * v0 + B(r, 1) * v1 + B(r, 2) * v2;
     if (side.flexible < 0) continue;
+    double* o = out.data() + side.row;
     const FlexibleInertia& body = eq.flexible[at(side.flexible)];
     const Eigen::Map<const VectorXd> eta(v + body.begin, body.n);
     for (int r = 0; r < side.m; ++r) o[r] += eq.B_eta[side.block].row(r).dot(eta);
   }
 }
 
-// λ and a from a = M⁻¹ f. A body of little inertia on a long arm leaves Cq a − γ above rounding;
+// λ and a from a = M⁻¹ f. A body of little inertia, or on a long arm, leaves Cq a − γ above rounding;
 // the residual, solved for again, takes that away.
 void solve_reactions(const System& system, Equations& eq) {
-  constexpr double rounding = 1e-14;
+  constexpr double rounding = 1e-13;
   constexpr int refinements = 2;
   eq.lambda.setZero();
   if (eq.lambda.size() == 0) return;
@@ -67,6 +76,7 @@ void solve_reactions(const System& system, Equations& eq) {
     eq.schur.solve(eq.mu);
     eq.lambda += eq.mu;
     subtract_reaction(system, eq, eq.mu, eq.a.data());
+    if (!eq.uneven && !eq.schur.weak()) break;
   }
 }
 
@@ -121,10 +131,14 @@ Equations::Equations(const System& system)
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const std::array<int, 2> markers{marker_a(system.joints[k]), marker_b(system.joints[k])};
     ends.push_back({at(markers[0]), at(markers[1])});
+    for (int i = 0; i < pintle::rows(system.joints[k]); ++i) joint_rows.push_back({static_cast<int>(k), i});
     for (std::size_t s = 0; s < 2; ++s)
       if (const int body = system.markers[at(markers[s])].body; body != ground) {
         sides.push_back({k, 2 * k + s, markers[s], 3 * body, system.row_begin[k],
                          system.row_begin[k + 1] - system.row_begin[k], s == 1, flexible_of[at(body)]});
+        for (int i = 0; i < sides.back().m; ++i)
+          side_rows.push_back({static_cast<int>(k), i, system.row_begin[k] + i, markers[s], 3 * body,
+                               static_cast<int>(9 * (2 * k + s)) + 3 * i, s == 1});
         B_eta[2 * k + s].setZero(3, system.bodies[at(body)].modes());
       }
   }
@@ -133,6 +147,13 @@ Equations::Equations(const System& system)
   for (const Side& side : sides)
     if (side.flexible >= 0 && flexible[at(side.flexible)].stiffens) B_eta_hat[side.block].setZero(3, flexible[at(side.flexible)].n + 3);
   W.resize(system.n_rigid());
+  constexpr double alike = 100;  // inverse inertias that leave no more than two digits of rounding
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  const auto weigh_in = [&](double w) { least = std::min(least, w), most = std::max(most, w); };
+  for (const Body& body : system.bodies) weigh_in(1 / body.m);
+  for (const Marker& m : system.markers)
+    if (m.body != ground) weigh_in(1 / system.bodies[at(m.body)].m + m.x_BP.squaredNorm() / system.bodies[at(m.body)].J);
+  uneven = !flexible.empty() || most > alike * least;
   for (std::size_t b = 0; b < system.bodies.size(); ++b)
     W.segment<3>(static_cast<Index>(3 * b)) << 1 / system.bodies[b].m, 1 / system.bodies[b].m,
         1 / system.bodies[b].J;
@@ -162,22 +183,24 @@ void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
     else
       m.u = {std::cos(m.angle), std::sin(m.angle)};
   }
-  for (std::size_t k = 0; k < system.joints.size(); ++k) {
-    ConstraintRows& r = eq.rows[k];
-    evaluate_pose(system.joints[k], eq.motion[eq.ends[k][0]], eq.motion[eq.ends[k][1]], t, r);
-    for (int row = system.row_begin[k], i = 0; row < system.row_begin[k + 1]; ++row, ++i)
-      eq.C[row] = r.C[i];
+  for (std::size_t k = 0; k < system.joints.size(); ++k)
+    evaluate_pose(system.joints[k], eq.motion[eq.ends[k][0]], eq.motion[eq.ends[k][1]], t, eq.rows[k]);
+  for (Index row = 0; row < eq.C.size(); ++row) {
+    const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
+    eq.C[row] = eq.rows[at(joint)].C[i];
   }
-  for (const Equations::Side& side : eq.sides) {  // B = L J
-    const ConstraintRows::Block& L = side.is_b ? eq.rows[side.joint].Lb : eq.rows[side.joint].La;
-    const Vector2d& d = eq.motion[at(side.marker)].d;
-    Schur::Block& B = eq.B[side.block];
-    for (int i = 0; i < side.m; ++i) {
-      B(i, 0) = L(i, 0);
-      B(i, 1) = L(i, 1);
-      B(i, 2) = L(i, 2) - L(i, 0) * d.y() + L(i, 1) * d.x();
-    }
+  for (const Equations::SideRow& r : eq.side_rows) {  // B = L J
+    const double* L = row_of_L(eq, r);
+    const Vector2d& d = eq.motion[at(r.marker)].d;
+    double* B = eq.B.front().data() + r.at;
+    B[0] = L[0];
+    B[1] = L[1];
+    B[2] = L[2] - L[0] * d.y() + L[1] * d.x();
+  }
+  if (eq.flexible.empty()) return;
+  for (const Equations::Side& side : eq.sides) {
     if (side.flexible < 0) continue;
+    const ConstraintRows::Block& L = side.is_b ? eq.rows[side.joint].Lb : eq.rows[side.joint].La;
     RowBlock& B_eta = eq.B_eta[side.block];
     const Eigen::Matrix2Xd& flex = eq.motion[at(side.marker)].flex;
     for (int i = 0; i < side.m; ++i)
@@ -196,11 +219,11 @@ void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
     m.a0 = -m.w * m.w * m.d;
     if (m.flex.cols() > 0) move_on_flexible(system, system.markers[i], y, eq.cos_[body], eq.sin_[body], m);
   }
-  for (std::size_t k = 0; k < system.joints.size(); ++k) {
-    ConstraintRows& r = eq.rows[k];
-    evaluate_speed(system.joints[k], eq.motion[eq.ends[k][0]], eq.motion[eq.ends[k][1]], t, r);
-    for (int row = system.row_begin[k], i = 0; row < system.row_begin[k + 1]; ++row, ++i)
-      eq.Cdot[row] = r.Ct[i];
+  for (std::size_t k = 0; k < system.joints.size(); ++k)
+    evaluate_speed(system.joints[k], eq.motion[eq.ends[k][0]], eq.motion[eq.ends[k][1]], t, eq.rows[k]);
+  for (Index row = 0; row < eq.Cdot.size(); ++row) {
+    const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
+    eq.Cdot[row] = eq.rows[at(joint)].Ct[i];
   }
   add_product(eq, s, eq.Cdot);
 }
@@ -223,15 +246,15 @@ void add_mass_times(const System& system, const Equations& eq, const VectorXd& v
 }
 
 void add_reaction(const Equations& eq, const VectorXd& x, VectorXd& out) {
+  for (const Equations::SideRow& r : eq.side_rows) {
+    const double *B = eq.B.front().data() + r.at, x_r = x.data()[r.row];
+    double* o = out.data() + r.q;
+    o[0] += B[0] * x_r;
+    o[1] += B[1] * x_r;
+    o[2] += B[2] * x_r;
+  }
+  if (eq.flexible.empty()) return;
   for (const Equations::Side& side : eq.sides) {
-    const Schur::Block& B = eq.B[side.block];
-    double* o = out.data() + side.q;
-    for (int r = 0; r < side.m; ++r) {
-      const double xr = x.data()[side.row + r];
-      o[0] += B(r, 0) * xr;
-      o[1] += B(r, 1) * xr;
-      o[2] += B(r, 2) * xr;
-    }
     if (side.flexible < 0) continue;
     const FlexibleInertia& body = eq.flexible[at(side.flexible)];
     for (int r = 0; r < side.m; ++r)
@@ -273,14 +296,23 @@ void add_wrench(const System& system, const Equations& eq, int marker, const Wre
   }
 }
 
-void load(const System& system, const State& state, Equations& eq) {
-  eq.f.setZero();
+namespace {
+
+// Of rigid bodies; flexible ones have more to do (add_forces).
+void add_weight(const System& system, Equations& eq) {
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     if (eq.flexible_of[b] >= 0) continue;
     const auto i = static_cast<Index>(3 * b);
     eq.f[i] = system.bodies[b].m * system.gravity.x();
     eq.f[i + 1] = system.bodies[b].m * system.gravity.y();
   }
+}
+
+}  // namespace
+
+void load(const System& system, const State& state, Equations& eq) {
+  eq.f.setZero();
+  if (has_gravity(system)) add_weight(system, eq);
   for (FlexibleInertia& body : eq.flexible) add_forces(system, state.y, body, eq.f);
   for (std::size_t i = 0; i < system.forces.size(); ++i) {
     const int ma = marker_a(system.forces[i]), mb = marker_b(system.forces[i]);
@@ -304,14 +336,14 @@ void accelerate(const System& system, const State& state, Equations& eq) {
   // S λ = Cq M⁻¹ f − γ,  a = M⁻¹ (f − Cqᵀ λ)
   eq.a = eq.f;
   multiply_inverse_mass(system, eq, eq.a);
-  for (std::size_t k = 0; k < system.joints.size(); ++k)
-    for (int row = system.row_begin[k], i = 0; row < system.row_begin[k + 1]; ++row, ++i)
-      eq.gamma[row] = -eq.rows[k].kappa[i];
-  for (const Equations::Side& side : eq.sides) {
-    const ConstraintRows::Block& L = side.is_b ? eq.rows[side.joint].Lb : eq.rows[side.joint].La;
-    const MarkerMotion& m = eq.motion[at(side.marker)];
-    for (int i = 0; i < side.m; ++i)
-      eq.gamma[side.row + i] -= L(i, 0) * m.a0.x() + L(i, 1) * m.a0.y() + L(i, 2) * m.alpha0;
+  for (Index row = 0; row < eq.gamma.size(); ++row) {
+    const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
+    eq.gamma[row] = -eq.rows[at(joint)].kappa[i];
+  }
+  for (const Equations::SideRow& r : eq.side_rows) {
+    const double* L = row_of_L(eq, r);
+    const MarkerMotion& m = eq.motion[at(r.marker)];
+    eq.gamma.data()[r.row] -= L[0] * m.a0.x() + L[1] * m.a0.y() + L[2] * m.alpha0;
   }
   solve_reactions(system, eq);
   ++eq.evaluations;
@@ -339,6 +371,16 @@ void fill_derivative(const System& system, const VectorXd& y, const Equations& e
   }
 }
 
+ContactEffect clearance_effect(const System& system, const Equations& eq, std::size_t c) {
+  ContactEffect out = eq.contact[c];
+  if (system.contacts[c].link < 0) return out;
+  const double N = eq.lambda[system.row_begin[at(system.contacts[c].link)]];
+  out.normal.force = N;
+  out.on_journal << -N * out.gap.n, 0;
+  out.on_bearing << N * out.gap.n, 0;
+  return out;
+}
+
 bool evaluate(const System& system, const State& state, Equations& eq, VectorXd& dy) {
   pose(system, state.t, state.y, eq);
   factor(system, state.y, eq);
@@ -356,6 +398,12 @@ double position_violation(const System& system, const Equations& eq) {
 double velocity_violation(const System& system, const VectorXd& y, const Equations& eq) {
   if (eq.Cdot.size() == 0) return 0;
   return eq.Cdot.cwiseProduct(system.row_scale).lpNorm<Eigen::Infinity>() / fastest_rate(system, y);
+}
+
+double angle_rounding(const System& system, const VectorXd& y) {
+  double angle = 0;
+  for (Index b = 2; b < system.n_rigid(); b += 3) angle = std::max(angle, std::abs(y[b]));
+  return 1.1e-16 * angle;
 }
 
 double fastest_rate(const System& system, const VectorXd& y) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -26,6 +27,18 @@ struct Equations {
     int flexible;              ///< index into `flexible`, −1 for a rigid body
   };
   std::vector<Side> sides;
+  /// One row of a side on a body that moves.
+  struct SideRow {
+    int joint, i, row;  ///< row i of the joint, `row` of all
+    int marker, q;
+    int at;             ///< its three entries of B, counted through all blocks
+    bool is_b;
+  };
+  std::vector<SideRow> side_rows;
+  struct JointRow {
+    int joint, i;
+  };
+  std::vector<JointRow> joint_rows;   ///< of each constraint row
   std::vector<std::array<std::size_t, 2>> ends;  ///< markers a and b of each joint
   Eigen::VectorXd W;                  ///< M⁻¹ of rigid bodies, diagonal, n_rigid
   std::vector<FlexibleInertia> flexible;  ///< of each flexible body
@@ -44,6 +57,7 @@ struct Equations {
   std::vector<ContactEffect> contact;
   std::vector<ForceEffect> force;
   bool regular = true;                ///< false: no accelerations can be had here
+  bool uneven = false;                ///< inertias so unlike that λ and a need a second look
   int lasting = 0;                    ///< rows that others imply wherever it has moved so far
 
   long evaluations = 0, factorizations = 0;
@@ -80,6 +94,8 @@ double position_violation(const System&, const Equations&);
 double velocity_violation(const System&, const Eigen::VectorXd& y, const Equations&);
 /// Largest speed over its scale, never 0 [1/s].
 double fastest_rate(const System&, const Eigen::VectorXd& y);
+/// What the last digit of the angles, after many turns, leaves of |C| at the least, over the mechanism's length.
+double angle_rounding(const System&, const Eigen::VectorXd& y);
 
 /// Newton's iteration for q on C = 0, then s on Ċ = 0, at time t. `factor()` prepares, at a pose, what
 /// `subtract(violation, x)` needs to take a violation out of x, the coordinates or the speeds in y; it
@@ -91,7 +107,8 @@ double fastest_rate(const System&, const Eigen::VectorXd& y);
 template <class Factor, class Subtract>
 bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equations& eq, Factor factor,
                       Subtract subtract) {
-  constexpr double enough = 1e-13, good = 1e-11;
+  constexpr double still_good = 1e-8;  // beyond so many turns that digits run short of it, it gives up
+  const double known = angle_rounding(system, y), enough = std::max(1e-13, known), good = std::max(1e-11, std::min(8 * known, still_good));
   constexpr double contracts = 0.1;              // a jump between branches leaves a quarter of the violation at the least
   constexpr double amplified = 1e3, turns = 1e-6;  // times the violation; of the fastest speed
   constexpr int most = 8;
@@ -109,7 +126,7 @@ bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equati
   speed(system, t, y, eq);
   for (int i = 0; i < 2; ++i) {
     const double violation = velocity_violation(system, y, eq);  // over the fastest speed
-    if (violation <= enough) break;
+    if (violation <= 1e-13) break;
     const double fastest = fastest_rate(system, y);
     const double change = subtract(eq.Cdot, y.data() + system.n());
     if (eq.schur.weak() && change > turns * fastest && change > amplified * violation * fastest) {
@@ -151,6 +168,10 @@ void visit_jacobian(const Equations& eq, Put put) {
       for (int c = 0; c < body.n; ++c) put(side.row + r, body.begin + c, eq.B_eta[side.block](r, c));
     }
 }
+
+/// What clearance joint c does in an evaluated state: its contact, or its massless link, whose normal force is
+/// that of the row, acts at the centres, and is below zero where the link pushes as no wall could pull.
+ContactEffect clearance_effect(const System&, const Equations&, std::size_t c);
 
 /// v ← v + Σ of a marker's wrench brought to its body's coordinates.
 void add_wrench(const System&, const Equations&, int marker, const Wrench&, Eigen::VectorXd& v);

@@ -1,5 +1,6 @@
 #include "framework/dynamics/system.h"
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -50,6 +51,10 @@ void number(System& system, bool scheme_loses) {
   for (std::size_t i = 0; i < system.bodies.size(); ++i)
     if (system.bodies[i].modes() > 0 && !system.bodies[i].flex->zeta.isZero()) account(Account::damping, i);
   if (scheme_loses) account(Account::scheme, 0);
+}
+
+bool is_link(const System& system, int joint) {
+  return std::any_of(system.contacts.begin(), system.contacts.end(), [joint](const ContactPair& c) { return c.link == joint; });
 }
 
 }  // namespace pintle

@@ -64,6 +64,10 @@ struct System {
 /// Fills what follows from the lists: coordinates, rows, integrals. Call once, after the lists are complete.
 /// @param scheme_loses  one more integral, for what an implicit scheme takes away
 void number(System&, bool scheme_loses = false);
+/// Joint k is the massless link of a clearance joint.
+bool is_link(const System&, int joint);
+
+inline bool has_gravity(const System& s) { return s.gravity.x() != 0 || s.gravity.y() != 0; }
 
 /// Everything that changes in time. Copy one to branch a run, store one to restart it.
 struct State {

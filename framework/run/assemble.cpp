@@ -9,7 +9,9 @@
 #include <Eigen/SparseCore>
 
 #include "framework/run/closure.h"
+#include "framework/run/ideal_pin.h"
 #include "framework/run/least_step.h"
+#include "framework/run/row_space.h"
 
 namespace pintle {
 
@@ -87,6 +89,29 @@ Rough rough_state(const Scene& scene, const System& system) {
   throw AssemblyError(scene.file, named_place(scene, closure.owner(worst)), message + "; " + remedy);
 }
 
+// Near a pose where motions branch C grows with the square of the distance, so what passes for closed may be a million
+// roundings away, too far to choose a branch: Newton's steps, doubled as a double root asks, while they lessen C.
+void close_in(Closure& closure, const System& system, Rough& r, VectorXd& C, Sparse& J) {
+  constexpr double near = 1e-4, rounding = 4e-16, far = 1e-3;
+  Equations eq(system);
+  for (int i = 0; i < 20 && C.size() > 0 && C.lpNorm<Eigen::Infinity>() > rounding; ++i) {
+    pose(system, 0, r.y, eq);
+    if (i == 0 && row_space(system, eq, near).dependences.empty()) return;
+    const VectorXd step = least_step(J, r.W_pose, -C, 1e-18, 2), from = r.y.head(system.n());
+    if (!step.allFinite() || step.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>() > far) return;
+    bool better = false;
+    for (const double times : {2.0, 1.0}) {
+      r.y.head(system.n()) = from + times * step;
+      const VectorXd C_trial = closure.violation(r.y);
+      better = C_trial.norm() < 0.7 * C.norm();
+      if (better) break;
+    }
+    if (!better) r.y.head(system.n()) = from;
+    C = closure.violation(r.y, &J);
+    if (!better) return;
+  }
+}
+
 // Levenberg–Marquardt on C = 0, from the rough pose.
 int close_joints(const Scene& scene, Closure& closure, const System& system, Rough& r) {
   constexpr double closed = 1e-12, acceptable = 1e-10;
@@ -124,6 +149,7 @@ int close_joints(const Scene& scene, Closure& closure, const System& system, Rou
     cannot(scene, pinned ? "cannot close with what `start` pins down" : "cannot close", closure, C, "",
            "check lengths and points, or give the bodies rough poses (`pose`) nearer to the wanted one");
   }
+  close_in(closure, system, r, C, J);
   return i;
 }
 
@@ -167,7 +193,7 @@ bool choose_branch(Closure& closure, const System& system, const Sparse& J, cons
   VectorXd g;
   for (int i = 0; i < 60; ++i) {
     const double rate = bend(G, g);
-    if (g.size() == 0 || g.lpNorm<Eigen::Infinity>() <= 1e-9 * rate) return true;
+    if (g.size() == 0 || g.lpNorm<Eigen::Infinity>() <= 1e-7 * rate) return true;
     const double before = g.norm();
     const VectorXd step = least_step(G, r.W_speed, -g, i == 0 ? 1e-6 : 1e-12, i == 0 ? 1 : 4), from = r.y.segment(n, n);
     double part = 1;
@@ -186,9 +212,19 @@ int match_speeds(const Scene& scene, Closure& closure, const System& system, Rou
   closure.violation(r.y, &J);
   if (J.rows() == 0) return 0;
   const VectorXd D = closure.drift(r.y);
-  r.y.segment(system.n(), system.n()) += least_step(J, r.W_speed, -D, 1e-13, 8);
-  const VectorXd left = closure.drift(r.y);
+  auto s = r.y.segment(system.n(), system.n());
+  s += least_step(J, r.W_speed, -D, 1e-13, 8);
+  VectorXd left = closure.drift(r.y);
   const double scale = std::max({D.lpNorm<Eigen::Infinity>(), r.y.tail(r.y.size() - system.n()).lpNorm<Eigen::Infinity>(), 1e-12});
+  for (int i = 0; i < 3 && left.lpNorm<Eigen::Infinity>() > 1e-12 * scale; ++i) {  // masses so unlike that the metric hides some rows
+    const VectorXd W = r.W_speed.cwiseMax(1e-6 * r.W_speed.maxCoeff()).cwiseProduct((r.W_speed.array() > 0).cast<double>().matrix());
+    const VectorXd before = s;
+    s += least_step(J, W, -left, 1e-13, 8);
+    const VectorXd now = closure.drift(r.y);
+    if (!(now.lpNorm<Eigen::Infinity>() < left.lpNorm<Eigen::Infinity>())) s = before;
+    if (!(now.lpNorm<Eigen::Infinity>() < left.lpNorm<Eigen::Infinity>())) break;
+    left = now;
+  }
   if (left.lpNorm<Eigen::Infinity>() > 1e-8 * scale)
     cannot(scene, "cannot move as `start` and the drivers ask", closure, left, "/s",
            "leave out a speed in `start`, or a driver");
@@ -248,9 +284,10 @@ std::vector<std::string> doubts(const Model& model, const Assembly& assembly) {
   return out;
 }
 
-Assembly assemble(const Scene& scene, const Model& model) {
-  const System& system = model.system;
-  Closure closure(scene, system);
+Assembly assemble(const Scene& scene, const Model& model) { return assemble(scene, model.system); }
+
+Assembly assemble(const Scene& scene, const System& system) {
+  Closure closure(scene, system, pressed_directions(scene, system));
   Rough r = rough_state(scene, system);
   const VectorXd before = r.y.head(system.n());
   Assembly out;

@@ -19,12 +19,14 @@ struct Assembly {
 
 /// Puts the mechanism together at t = 0: the pose nearest to the rough one that closes every joint and
 /// keeps what `start` pins down, then the speeds of least kinetic energy that do the same. A clearance
-/// joint is closed as if ideal, its journal at the eccentricity that the scene gives. Redundant joints are
+/// joint is closed as if ideal, its journal at the eccentricity that the scene gives; a massless link whose
+/// direction the scene does not give stands as its joint, were it ideal, would press. Redundant joints are
 /// no obstacle. In a singular pose, where motions branch, the speeds are those of a branch: the nearest one
 /// to the least kinetic energy. docs/theory/constraints.md
 /// @throws AssemblyError  naming the joint that stays open, by how much, and what it contradicts; or the
 ///                        drivers that contradict each other, now or later in the run
 Assembly assemble(const Scene&, const Model&);
+Assembly assemble(const Scene&, const System&);
 
 /// What of an assembly makes a run's numbers doubtful, in words: joint forces shared out by convention, a start in a singular pose.
 std::vector<std::string> doubts(const Model&, const Assembly&);

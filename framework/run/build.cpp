@@ -45,6 +45,10 @@ class Builder {
     keep_drawings();
     report();
     model_.system.length = size();
+    for (const SceneJoint& j : scene_.joints)
+      if (const std::string doubt = j.clearance ? rounding_doubt(scene_, j, model_.system.length) : ""; !doubt.empty())
+        model_.warnings.push_back(doubt);
+    model_.clearances = settle_clearances(scene_, model_.system, model_.warnings);
     scheme();
     return std::move(model_);
   }
@@ -243,6 +247,11 @@ class Builder {
     const bool b_bears = j.clearance->bearing == j.b.body;
     pair.journal = marker(b_bears ? j.a : j.b);
     pair.bearing = marker(b_bears ? j.b : j.a);
+    if (j.clearance->model == ClearanceModel::massless_link) {
+      pair.link = static_cast<int>(model_.system.joints.size());
+      model_.system.joints.push_back(Distance{pair.bearing, pair.journal, pair.gap.clearance()});
+      model_.system.joint_names.push_back(j.name);
+    }
     model_.system.contacts.push_back(pair);
     model_.system.contact_names.push_back(j.name);
   }
@@ -297,8 +306,9 @@ class Builder {
       const auto found = std::find(known.begin(), known.end(), s.joint);
       if (found == known.end())
         wrong(s.place, quoted(s.joint) + " is not a joint with clearance" + suggestion(s.joint, known));
-      const JournalBearing& gap = model_.system.contacts[static_cast<std::size_t>(found - known.begin())].gap;
-      if (vector(s.eccentricity).norm() > gap.clearance() + too_deep * gap.journal)
+      const ContactPair& pair = model_.system.contacts[static_cast<std::size_t>(found - known.begin())];
+      const JournalBearing& gap = pair.gap;
+      if (pair.link < 0 && vector(s.eccentricity).norm() > gap.clearance() + too_deep * gap.journal)
         wrong(s.place, "eccentricity puts the journal deeper into the wall than a tenth of its radius, where no contact law holds; "
                        "the clearance is " + std::to_string(1e3 * gap.clearance()) + " mm");
     }

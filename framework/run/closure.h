@@ -20,14 +20,16 @@ struct Pin {
 };
 
 /// The rows to be closed at the start: the joints, two for each clearance joint, and what the scene
-/// pins of the origins of bodies: their places first, then, for the speeds, their rates.
+/// pins of the origins of bodies: their places first, then, for the speeds, their rates. Of a massless link the
+/// scene's eccentricity gives the direction only, and its rate the part across.
 class Closure {
   using VectorXd = Eigen::VectorXd;
   using Index = Eigen::Index;
   using Sparse = Eigen::SparseMatrix<double>;
 
  public:
-  Closure(const Scene& scene, const System& system)
+  /// @param pressed  unit vectors along which massless links stand that the scene gives no eccentricity
+  Closure(const Scene& scene, const System& system, const std::vector<Eigen::Vector2d>& pressed)
       : system_(system), eq_(system), offset_(system.contacts.size()), drift_(system.contacts.size()) {
     for (std::size_t c = 0; c < system.contacts.size(); ++c) {
       offset_[c].setZero();
@@ -37,6 +39,10 @@ class Closure {
           offset_[c] << s.eccentricity[0], s.eccentricity[1];
           drift_[c] << s.speed[0], s.speed[1];
         }
+      if (system.contacts[c].link < 0) continue;
+      const Eigen::Vector2d n = offset_[c].norm() > 0 ? Eigen::Vector2d(offset_[c].normalized()) : pressed[c];
+      offset_[c] = system.contacts[c].gap.clearance() * n;
+      drift_[c] -= n.dot(drift_[c]) * n;
     }
   }
 

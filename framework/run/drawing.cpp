@@ -152,11 +152,12 @@ Drawing draw(const Model& model, const Drafting& drafting, const State& state, c
     const ContactPair& pair = system.contacts[c];
     const int owner = bodies + joints + static_cast<int>(c);
     const Vector2d center = eq.motion[at(pair.bearing)].r;
+    const ContactEffect now = clearance_effect(system, eq, c);
     const double s = drafting.exaggeration;
     out.lines.push_back({Part::bearing, owner, true, circle(center, pair.gap.bearing)});
     out.lines.push_back({Part::journal, owner, true,
-                         circle(center + s * eq.contact[c].gap.e, std::max(pair.gap.bearing - s * pair.gap.clearance(), 0.05 * pair.gap.bearing))});
-    out.forces.push_back({center + pair.gap.bearing * eq.contact[c].gap.n, eq.contact[c].on_bearing.head<2>(), owner});
+                         circle(center + s * now.gap.e, std::max(pair.gap.bearing - s * pair.gap.clearance(), 0.05 * pair.gap.bearing))});
+    out.forces.push_back({center + pair.gap.bearing * now.gap.n, now.on_bearing.head<2>(), owner});
   }
   for (std::size_t f = 0; f < system.forces.size(); ++f)
     if (std::holds_alternative<Spring>(system.forces[f])) {

@@ -278,6 +278,12 @@ double speed_to_reach(const System& system, const ContactPair& pair, double dept
 void warn(const Model& model, const Equations& eq, Equilibrium& out) {
   const System& system = model.system;
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    if (system.contacts[c].link >= 0) {
+      if (const double N = clearance_effect(system, eq, c).normal.force; N < 0)
+        out.warnings.push_back("\"" + system.contact_names[c] + "\": its massless link pushes by " + number_text(-N) +
+                               " N, as no wall could pull; the joint would be open there");
+      continue;
+    }
     const double depth = eq.contact[c].gap.depth;
     if (depth > too_deep * system.contacts[c].gap.journal)
       out.warnings.push_back("\"" + system.contact_names[c] + "\": the journal rests " + number_text(depth) +
@@ -352,7 +358,7 @@ Equilibrium find_equilibrium(const Scene&, const Model& model, const Assembly& a
   out.state = last;
   rest.eq.a.setZero();
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
-    const double depth = rest.eq.contact[c].gap.depth;
+    const double depth = system.contacts[c].link >= 0 ? 0 : rest.eq.contact[c].gap.depth;
     out.state.impact_rate[c] = depth > 0 ? std::max(speed_to_reach(system, system.contacts[c], depth), system.contacts[c].slowest_impact) : 0;
   }
   warn(model, rest.eq, out);

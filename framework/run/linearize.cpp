@@ -242,7 +242,7 @@ std::vector<LinearMode> modes_of(const System& system, const MotionAt& here, con
 std::vector<LinearContact> contacts_of(const System& system, const MotionAt& here) {
   std::vector<LinearContact> out;
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
-    const ContactEffect& e = here.eq.contact[c];
+    const ContactEffect e = clearance_effect(system, here.eq, c);
     out.push_back({system.contact_names[c], e.normal.force > 0, e.gap.depth, e.normal.force, e.normal.d_depth, e.normal.d_rate,
                    here.state.impact_rate[c]});
   }
@@ -268,8 +268,15 @@ void add_notes(const Scene& scene, const System& system, const MotionAt& here, L
     out.notes.push_back(std::string(moves ? "the coefficients change as the motion goes on" : "this is no equilibrium, the mechanism begins to move") +
                         ": roots are those of the coefficients frozen at this instant, which depend on the choice of coordinates and "
                         "decide no stability" + (moves ? "" : "; --equilibrium linearizes where it rests"));
-  for (const LinearContact& c : out.contacts) {
-    if (c.closed)
+  for (std::size_t i = 0; i < out.contacts.size(); ++i) {
+    const LinearContact& c = out.contacts[i];
+    if (system.contacts[i].link >= 0)
+      out.notes.push_back("\"" + c.name + "\" is a massless link that carries " + text(c.force) + " N" +
+                          (c.force < 0 ? ", pushing as no wall could pull" : ""));
+    else if (c.closed && system.contacts[i].normal.d > 0)
+      out.notes.push_back("\"" + c.name + "\" is closed: stiffness " + text(c.stiffness) + " N/m along its normal, damping " +
+                          text(c.damping) + " N s/m");
+    else if (c.closed)
       out.notes.push_back("\"" + c.name + "\" is closed: stiffness " + text(c.stiffness) + " N/m along its normal, damping " +
                           text(c.damping) + " N s/m of an impact at " + text(c.impact_rate) + " m/s");
     else if (c.depth > 0 && c.impact_rate > 0)

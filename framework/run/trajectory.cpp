@@ -90,6 +90,7 @@ Table trajectory_table(const Model& model) {
     for (int i = 1; i <= b.modes(); ++i) add(b.name + ".mode " + std::to_string(i), "m kg^0.5");
   }
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    if (is_link(system, static_cast<int>(k))) continue;  // its force stands with its clearance
     const std::string on = " on " + joint_subject(system, static_cast<int>(k));
     if (has_force(system.joints[k])) {
       add(system.joint_names[k] + ".fx" + on, "N");
@@ -143,12 +144,13 @@ void record(const Model& model, const State& state, const Equations& eq, Table& 
     for (int i = system.eta_begin[b]; i < system.eta_begin[b + 1]; ++i) add({state.y[i]});
   }
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    if (is_link(system, static_cast<int>(k))) continue;
     const Wrench w = joint_wrench(system, eq, static_cast<int>(k));
     if (has_force(system.joints[k])) add({w[0], w[1]});
     if (has_couple(system.joints[k])) add({w[2]});
   }
   for (std::size_t k = 0; k < system.contacts.size(); ++k) {
-    const ContactEffect& c = eq.contact[k];
+    const ContactEffect c = clearance_effect(system, eq, k);
     const double slip = system.contacts[k].sliding == Sliding::geometric ? c.gap.geometric_slip : c.gap.material_slip;
     add({c.gap.e.x(), c.gap.e.y(), c.gap.depth, c.gap.rate, slip, c.normal.force, c.friction});
     add({c.on_journal[0], c.on_journal[1]});

@@ -92,7 +92,10 @@ Json json(const SceneClearance& clearance) {
   Json out = {{"radial", clearance.radial},
               {"bearing radius", clearance.bearing_radius},
               {"bearing", clearance.bearing},
-              {"normal", json(clearance.normal)}};
+              {"model", model_name(clearance.model)}};
+  if (clearance.normal.stiffness || clearance.normal.bearing.young > 0) out["normal"] = json(clearance.normal);
+  if (clearance.stiffness) out["stiffness"] = *clearance.stiffness;
+  if (clearance.damping) out["damping"] = *clearance.damping;
   if (const auto& f = clearance.friction)
     out["friction"]["ambrosio"] = {
         {"coefficient", f->coefficient},

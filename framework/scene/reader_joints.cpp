@@ -81,11 +81,27 @@ SceneFriction read_friction(const Node& node) {
   return friction;
 }
 
+void read_model(const Node& node, SceneClearance& clearance) {
+  if (node.has("model")) {
+    const std::string word = node.at("model").one_of(choices("joints.*.clearance", "model"));
+    for (const ClearanceModel m : {ClearanceModel::massless_link, ClearanceModel::spring_damper})
+      if (word == model_name(m)) clearance.model = m;
+  }
+  if (node.has("stiffness")) clearance.stiffness = node.at("stiffness").quantity({0, 1, -2, 0}, rule::positive);
+  if (node.has("damping")) clearance.damping = node.at("damping").quantity({0, 1, -1, 0}, rule::not_negative);
+  const bool whole = clearance.model == ClearanceModel::massless_link ||
+                     (clearance.model == ClearanceModel::spring_damper && clearance.stiffness && clearance.damping);
+  if (!whole && !node.has("normal"))
+    node.fail(std::string("lacks a required key; add for example normal: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}") +
+              (clearance.model == ClearanceModel::spring_damper ? ", or both stiffness and damping" : ""));
+}
+
 SceneClearance read_clearance(const Node& node, const SceneJoint& joint) {
   check_keys(node, "joints.*.clearance");
   SceneClearance clearance;
   clearance.place = node.place();
-  clearance.normal = read_normal(node.at("normal"));
+  read_model(node, clearance);
+  if (node.has("normal")) clearance.normal = read_normal(node.at("normal"));
   const Node radius = node.at("bearing radius"), radial = node.at("radial");
   clearance.bearing_radius = radius.quantity(dimension::length, rule::positive);
   clearance.radial = radial.quantity(dimension::length, rule::positive);
@@ -119,6 +135,15 @@ SceneJoint read_joint(const Node& node) {
 }
 
 }  // namespace
+
+const char* model_name(ClearanceModel model) {
+  switch (model) {
+    case ClearanceModel::contact: return "contact";
+    case ClearanceModel::massless_link: return "massless link";
+    case ClearanceModel::spring_damper: return "spring-damper";
+  }
+  return "";
+}
 
 void read_joints(const Node& root, Scene& scene) {
   if (!root.has("joints")) return;

@@ -82,14 +82,23 @@ struct SceneFriction {
   Place place;
 };
 
+/// How the journal is kept in its bearing: docs/theory/contact.md. A scene changes it by one word; what belongs to
+/// another model may stay and is left out, which `pintle check` says.
+enum class ClearanceModel { contact, massless_link, spring_damper };
+
 struct SceneClearance {
+  ClearanceModel model = ClearanceModel::contact;
   double radial = 0;          ///< bearing radius − journal radius [m]
   double bearing_radius = 0;  ///< [m]
   std::string bearing;        ///< name of the joint's body that carries the bearing
-  SceneNormal normal;
+  SceneNormal normal;         ///< without stiffness and `young`: not given
+  /// Of the spring and damper [N/m], [N s/m]; unset: as stiff and as lossy as `normal` in a typical impact.
+  std::optional<double> stiffness = {}, damping = {};
   std::optional<SceneFriction> friction;
   Place place;
 };
+/// As a scene file calls it.
+const char* model_name(ClearanceModel);
 
 enum class JointKind { revolute, prismatic, slot, weld, distance };
 

@@ -281,11 +281,11 @@ std::vector<Touching> overlaps(std::optional<Ambrosio> friction) {
   std::vector<Touching> out;
   Draw draw(17);
   for (double depth : {1e-8, 1e-6, 1e-4})
-    for (double chi : {0.0, 0.6})
+    for (const ImpactLaw& law : {ImpactLaw{1e9, 1.5, 0}, ImpactLaw{1e9, 1.5, 0.6}, ImpactLaw{1e6, 1, 0, 30}})
       for (double clearance : {1e-5, 1e-3})
         for (int n = 0; n < 12; ++n) {
           Touching c;
-          c.pair = {0, 1, {0.02 - clearance, 0.02}, {1e9, 1.5, chi}, friction};
+          c.pair = {0, 1, {0.02 - clearance, 0.02}, law, friction};
           c.bearing << 0, 0, draw.within(-12, 12);  // far from the origin, depth loses its digits
           c.journal = draw.pose();
           const double angle = draw.within(-M_PI, M_PI);
@@ -315,8 +315,8 @@ TEST(ContactPair, PowerGoesToStorageHysteresisAndFriction) {
           (effect_after(c, h).normal.stored - effect_after(c, -h).normal.stored) / (2 * h);
       const double terms = std::abs(rate) + e.normal.dissipation + std::abs(e.friction_loss) +
                            e.normal.force * std::abs(e.gap.rate);
-      // Rounding: 1e-16 of a clearance, 1e5 depths, over the change of depth, 1e-5 of it.
-      EXPECT_NEAR(power, -rate - e.normal.dissipation - e.friction_loss, terms * 2e-6);
+      // Rounding: 1e-16 of a clearance, 1e5 depths, over the change of depth, 1e-6 of it for the slowest.
+      EXPECT_NEAR(power, -rate - e.normal.dissipation - e.friction_loss, terms * 2e-5);
     }
 }
 

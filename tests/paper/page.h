@@ -34,5 +34,8 @@ void figure11(Page&);
 void figure12(Page&);
 void table3(Page&);
 void findings(Page&);
+void clearance_models(Page&);
+/// @returns how many of its claims are false; says each
+int check_models();
 
 }  // namespace paper

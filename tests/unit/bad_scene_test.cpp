@@ -54,10 +54,35 @@ TEST(BadScene, MisspeltKeySuggestsTheNearest) {
   });
 }
 
+constexpr const char* normal_law =
+    "      normal: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}\n";
+
+TEST(BadScene, ModelsOfAClearanceAreThree) {
+  expect_refused({
+      {"bearing: slider",
+       "bearing: slider\n      model: masless link",
+       "scene.yaml:20: joints.pin.clearance.model: ",
+       {"\"masless link\"", "massless link", "spring-damper"}},
+      {"bearing: slider",
+       "bearing: slider\n      stiffness: 3 N",
+       "scene.yaml:20: joints.pin.clearance.stiffness: ",
+       {"\"3 N\" is a force [N]"}},
+      {"bearing: slider",
+       "bearing: slider\n      damping: -1",
+       "scene.yaml:20: joints.pin.clearance.damping: ",
+       {"negative"}},
+  });
+}
+
 TEST(BadScene, MissingKeyIsNamedWithAnExample) {
   expect_refused({
       {"until: 0.05 s, ", "", "scene.yaml:34: run: ", {"until: 0.1 s"}},
       {", length: 120 mm", "", "scene.yaml:23: joints.rod: ", {"length: 120 mm"}},
+      {normal_law, "", "scene.yaml:16: joints.pin.clearance: ", {"normal: {lankarani-nikravesh:"}},
+      {normal_law,
+       "      model: spring-damper\n      stiffness: 1 kN/mm\n",
+       "scene.yaml:16: joints.pin.clearance: ",
+       {"normal: {lankarani-nikravesh:", "or both stiffness and damping"}},
       {"restitution: 0.8, ",
        "",
        "scene.yaml:20: joints.pin.clearance.normal.lankarani-nikravesh: ",

@@ -53,6 +53,36 @@ TEST(Reader, FillsJointsWithTheirClearance) {
   EXPECT_EQ(gap.place.key, "joints.pin.clearance");
 }
 
+TEST(Reader, FillsTheModelOfAClearance) {
+  const auto with = [](const std::string& keys) {
+    std::string text = slider_crank;
+    const std::string radial = "      radial: clearance\n";
+    return *read_scene_text(text.replace(text.find(radial), radial.size(), radial + keys), "scene.yaml").joints[1].clearance;
+  };
+  EXPECT_EQ(with("").model, ClearanceModel::contact);
+  EXPECT_EQ(with("      model: contact\n").model, ClearanceModel::contact);
+  EXPECT_EQ(with("      model: massless link\n").model, ClearanceModel::massless_link);
+  const SceneClearance spring = with("      model: spring-damper\n      stiffness: 3 kN/mm\n      damping: 20 N s/m\n");
+  EXPECT_EQ(spring.model, ClearanceModel::spring_damper);
+  EXPECT_EQ(*spring.stiffness, 3e6);
+  EXPECT_EQ(*spring.damping, 20);
+  EXPECT_EQ(spring.normal.restitution, 0.8);  // stays
+}
+
+TEST(Reader, AsksForNoLawThatAClearanceDoesNotUse) {
+  const auto with = [](const std::string& keys) {
+    return read_scene_text("bodies: {bob: {rigid: {mass: 1, inertia: 1}}}\n"
+                           "joints: {pin: {revolute: [ground, bob], clearance: {radial: 1 mm, bearing radius: 1 cm, bearing: bob, " + keys + "}}}\n",
+                           "scene.yaml");
+  };
+  const Scene link = with("model: massless link");
+  EXPECT_EQ(link.joints[0].clearance->normal.bearing.young, 0);
+  EXPECT_EQ(read_scene_text(link.filled_in, "again.yaml").filled_in, link.filled_in);
+  const Scene spring = with("model: spring-damper, stiffness: 1 kN/mm, damping: 0");
+  EXPECT_EQ(*spring.joints[0].clearance->damping, 0);
+  EXPECT_EQ(read_scene_text(spring.filled_in, "again.yaml").filled_in, spring.filled_in);
+}
+
 TEST(Reader, FillsDriversAndLoads) {
   const Scene scene = read_scene_text(slider_crank, "scene.yaml");
   EXPECT_DOUBLE_EQ(scene.drivers[0].law.at(0.1).value, 15);

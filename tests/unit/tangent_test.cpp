@@ -56,6 +56,11 @@ void PrintTo(const Kind& kind, std::ostream* out) {
 ContactPair contact(double chi, std::optional<Ambrosio> friction = {}, Sliding sliding = Sliding::material) {
   return {0, 1, {0.1 - clearance, 0.1}, {1e6, 1.5, chi}, friction, sliding};
 }
+ContactPair spring_damper(std::optional<Ambrosio> friction = {}) {
+  ContactPair pair = contact(0, friction);
+  pair.normal = {1e5, 1, 0, 20};
+  return pair;
+}
 const std::vector<Kind> kinds{
     {"Nothing"},
     {"Revolute", {Revolute{0, 1}}},
@@ -74,6 +79,8 @@ const std::vector<Kind> kinds{
     {"DampedTorsionSpring", {}, {TorsionSpring{0, 1, 25, 2, -0.8}}},
     {"Contact", {}, {}, {contact(0)}},
     {"LossyContact", {}, {}, {contact(2)}},
+    {"SpringDamperContact", {}, {}, {spring_damper()}},
+    {"SpringDamperContactWithFriction", {}, {}, {spring_damper(Ambrosio{0.3, 0, 50})}},
     {"ContactWithFriction", {}, {}, {contact(2, Ambrosio{0.3, 0, 50})}},
     {"ContactInFullSliding", {}, {}, {contact(0.6, Ambrosio{0.3, 1e-6, 2e-6})}},
     {"ContactOfGeometricSliding", {}, {}, {contact(0.6, Ambrosio{0.3, 0, 50}, Sliding::geometric)}},
