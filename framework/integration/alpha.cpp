@@ -12,7 +12,7 @@ namespace {
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr double well_below = 1e-3;  // Newton's error over the step's
-constexpr double on_constraints = 1e-12, nearly = 1e-11;
+constexpr double on_constraints = 1e-12, nearly = 1e-11, still_near = 1e-8;
 constexpr int most_iterations = 12, many_iterations = 3;
 constexpr double slow = 0.2;         // contraction that asks for a new factor
 }  // namespace
@@ -180,7 +180,8 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     y.segment(n, n) = s_base_ + w.s * v;
     evaluate_at(system, to.state, to.dy, to.memory.lambda, eq);
     if (enough) {
-      const double left = position_violation(system, eq), drift = stabilised_ ? velocity_violation(system, y, eq) : 0;
+      const double left = position_violation(system, eq) - std::min(8 * angle_rounding(system, y), still_near);
+      const double drift = stabilised_ ? velocity_violation(system, y, eq) : 0;
       if (std::max(left, drift) <= (i > most_iterations / 2 ? nearly : on_constraints)) {
         tired_ = tired_ || i > many_iterations || rate_ > slow;
         return true;

@@ -30,10 +30,14 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
       reach_(system.bodies.size(), 0.0),
       open_impact_(system.contacts.size(), -1),
       loss_at_begin_(system.contacts.size(), 0.0),
-      before_(system.contacts.size()) {
+      before_(system.contacts.size()),
+      after_(system.contacts.size()) {
   for (const Marker& m : system.markers)
     if (m.body != ground) reach_[at(m.body)] = std::max(reach_[at(m.body)], m.x_BP.norm());
-  for (const Body& b : system.bodies) mass_ += b.m;
+  for (const Body& b : system.bodies) {
+    mass_ += b.m;
+    if (b.modes() > 0) lowest_shape_ = lowest_shape_ > 0 ? std::min(lowest_shape_, b.flex->omega.minCoeff()) : b.flex->omega.minCoeff();
+  }
   for (double& r : reach_)
     if (r == 0) r = system.length;
   fine_length_ = system.length;
@@ -43,6 +47,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
   step_.to.state = std::move(start);
   step_.to.dy.setZero(system.n_y());
   step_.error.setZero(system.n_y());
+  step_.dy_before.setZero(system.n_y());
   step_.from = step_.to;
   scratch_ = step_.to;
   dense_ = step_.to.state;
@@ -55,6 +60,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
     return;
   }
   for (int c = 0; c < static_cast<int>(system.contacts.size()); ++c) {
+    if (system.contacts[at(c)].link >= 0) continue;
     const Touch now = touch(c, step_.to.state);
     if (now.depth > 0) close(c, std::max(now.rate, speed_to_reach(c, now.depth)));
   }
@@ -117,14 +123,17 @@ Integrator::Touch Integrator::touch_at(int contact, double t) {
   return touch(contact, dense_);
 }
 
-// Largest error over its scale. Lengths, modal ones by what their shapes move, are judged against the smallest that matters (a clearance, else
-// the mechanism), angles by what they move, speeds against the fastest so far, integrals against the
-// kinetic energy so far.
+// Largest error over its scale. Lengths, modal ones by what their shapes move, are judged against the smallest that matters (a clearance c,
+// else the mechanism), angles by what they move, speeds against the fastest so far, v; in explicit steps, where there is a clearance,
+// against what is gained across it at the acceleration of the motion, √(c v ω), ω = v/L or of the lowest shape, and those of shapes
+// against what is as fine, ω c; integrals against the kinetic energy so far.
 double Integrator::scaled_error() {
   const Index n = system_.n();
   const auto& y = step_.to.state.y;
   const double fastest = std::max(fastest_, fastest_speed(y));
-  const double length = fine_length_, slowest = slowest_speed * length / step_.h, speed = std::max(fastest, slowest);
+  const double length = fine_length_, slowest = slowest_speed * length / step_.h;
+  const double across = std::sqrt(length * fastest * std::max(fastest / system_.length, lowest_shape_));
+  const double speed = std::max(alpha_ ? fastest : std::min(fastest, across), slowest);
   const double energy = std::max({energy_, kinetic_energy(system_, y), mass_ * slowest * slowest / 2});
   double worst = 0;
   for (Index b = 0; b < static_cast<Index>(reach_.size()); ++b) {
@@ -140,9 +149,11 @@ double Integrator::scaled_error() {
     judge(n + 3 * b + 1, speed);
     judge(n + 3 * b + 2, speed / reach);
     const double per_metre = std::sqrt(system_.bodies[at(static_cast<int>(b))].m);  // shapes of 1/√m
-    for (Index i = system_.eta_begin[at(static_cast<int>(b))]; i < system_.eta_begin[at(static_cast<int>(b)) + 1]; ++i) {
+    const Index begin = system_.eta_begin[at(static_cast<int>(b))], end = system_.eta_begin[at(static_cast<int>(b)) + 1];
+    for (Index i = begin; i < end; ++i) {
+      const double as_fine = system_.bodies[at(static_cast<int>(b))].flex->omega[i - begin] * length;
       judge(i, length * per_metre);
-      judge(n + i, speed * per_metre);
+      judge(n + i, std::max(speed, std::min(as_fine, fastest)) * per_metre);
     }
   }
   for (Index i = 2 * n; i < y.size(); ++i)
@@ -196,8 +207,15 @@ std::string Integrator::trouble() const { return alpha_ && !alpha_->trouble().em
 
 bool Integrator::advance(double until) {
   if (!failure_.empty()) return false;
-  if (counts_.steps >= scheme_.max_steps) return stop("max steps reached");
+  if (counts_.steps >= scheme_.max_steps) {
+    const double left = until - step_.to.state.t, last = step_.h;
+    step_.from = step_.to;
+    return stop("max steps reached (" + std::to_string(scheme_.max_steps) + ")" +
+                (last > 0 ? "; at the last one's length, " + number_text(last) + " s, the rest needs " + number_text(left / last) + " more" : "") +
+                ": raise run.max steps, loosen run.tolerance, or soften what is so fast");
+  }
   std::swap(step_.from, step_.to);
+  step_.struck = false;
   step_.to.state.t = step_.from.state.t;
   const double left = until - step_.from.state.t;
   if (h_ == 0) {  // first guess: a hundredth of the time in which the motion changes by itself
@@ -208,14 +226,17 @@ bool Integrator::advance(double until) {
       if (b.modes() > 0 && !alpha_) h_ = std::min(h_, 0.3 / b.flex->omega.maxCoeff());
     h_ = std::min(h_, scheme_.max_step);
   }
-  for (int c = 0; c < static_cast<int>(system_.contacts.size()); ++c)
-    before_[at(c)] = touch(c, step_.from.state);
+  before_.swap(after_);
+  if (!after_known_)
+    for (int c = 0; c < static_cast<int>(system_.contacts.size()); ++c) before_[at(c)] = touch(c, step_.from.state);
+  after_known_ = false;
 
-  const double h_wish = h_;
-  if (!step_to(left)) {
+  const double h_wish = h_, ahead = release_ahead();
+  if (!step_to(std::min(left, ahead))) {
     step_.to = step_.from;
     return false;
   }
+  if (step_.h == ahead) h_ = std::max(h_, h_wish);  // cut short by the release, not by an error
   if (const double rest = until - step_.to.state.t; rest != 0 && std::abs(rest) <= 4e-16 * std::abs(until)) step_.to.state.t = until;
   int contact = -1;
   bool onset = false;
@@ -225,6 +246,7 @@ bool Integrator::advance(double until) {
         contact = -1;
         double deepest = 0;
         for (int c = 0; c < static_cast<int>(system_.contacts.size()); ++c) {
+          if (system_.contacts[at(c)].link >= 0) continue;
           const double depth = touch(c, step_.to.state).depth;
           const bool closed = open_impact_[at(c)] >= 0;
           if (!closed && depth > deepest) contact = c, onset = true, deepest = depth;
@@ -252,9 +274,10 @@ bool Integrator::advance(double until) {
   }
 
   ++counts_.steps;
+  if (contact >= 0 || scheme_.onset_cut > 0) look_at_end();
   follow_impacts();
   events_here_ = contact < 0 ? 0 : step_.h > 0 ? 1 : events_here_ + 1;
-  if (events_here_ > 100) return stop("contact \"" + system_.contact_names[at(contact)] +
+  if (events_here_ > 100 + 2 * static_cast<int>(system_.contacts.size())) return stop("contact \"" + system_.contact_names[at(contact)] +
                                       "\" opens and closes without time passing");
   if (contact >= 0) {
     ++counts_.events;
@@ -266,8 +289,11 @@ bool Integrator::advance(double until) {
     const double remembered = onset ? h_closed_ : h_open_;
     h_ = remembered > 0 ? std::min(remembered, scheme_.max_step) : h_wish;
     error_before_ = 1;
+    step_.struck = system_.contacts[at(contact)].normal.d > 0;
+    if (step_.struck) step_.dy_before = step_.to.dy;
     if (!settle(step_.to)) return stop("singular pose at an impact");
   }
+  after_known_ = contact < 0;
   if (stages_) stages_->refresh(system_, eq_);
   at_fork_ = at_fork();
 
@@ -308,11 +334,13 @@ bool Integrator::watch_stiffness() {
   alpha_.emplace(system_, eq_, scheme_.rho, scheme_.constraints, scheme_.tolerance);
   h_open_ = h_closed_ = 0;
   error_before_ = 1;
+  after_known_ = false;
   return settle(step_.to) || stop("singular pose");
 }
 
 // Evaluates, without forgetting what an implicit scheme remembers.
 void Integrator::restore() {
+  after_known_ = false;
   if (!alpha_)
     stages_->settle(system_, step_.to, eq_);
   else

@@ -110,6 +110,8 @@ class Integrator {
   void open(int contact);
   void close(int contact, double rate);
   double speed_to_reach(int contact, double depth) const;
+  double release_ahead() const;
+  void look_at_end();
   void follow_impacts();
   bool stop(const std::string& reason);
 
@@ -122,12 +124,13 @@ class Integrator {
   Instant scratch_;
   State dense_;
   double h_ = 0, h_open_ = 0, h_closed_ = 0, error_before_ = 1;
-  double fastest_ = 0, energy_ = 0, fine_length_ = 1, mass_ = 0;  ///< scales of the error norm
+  double fastest_ = 0, energy_ = 0, fine_length_ = 1, mass_ = 0, lowest_shape_ = 0;  ///< scales of the error norm
   std::vector<double> reach_;      ///< per body, largest |x_BP| of its markers [m]
   std::vector<int> open_impact_;   ///< per contact, index into impacts_, −1 while open
   std::vector<double> loss_at_begin_;
   std::vector<Impact> impacts_;
-  std::vector<Touch> before_;      ///< per contact, at the step's start
+  std::vector<Touch> before_, after_;  ///< per contact, at the step's start and end
+  bool after_known_ = false;       ///< of the state that the next step starts from
   Counts counts_;
   std::string failure_;
   int events_here_ = 0;

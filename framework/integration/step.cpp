@@ -118,9 +118,9 @@ namespace {
 void interpolate_implicit(const System& system, const Step& step, double x, State& out) {
   const Index n = system.n(), nz = system.n_z();
   const double rise = x * x * (3 - 2 * x), from = x * (1 - x) * (1 - x) * step.h, to = x * x * (x - 1) * step.h;
-  const auto &y0 = step.from.state.y, &y1 = step.to.state.y;
+  const auto &y0 = step.from.state.y, &y1 = step.to.state.y, &dy1 = step.dy_end();
   for (Index i = 0; i < 2 * n + nz; ++i)
-    out.y[i] = y0[i] + rise * (y1[i] - y0[i]) + from * step.from.dy[i] + to * step.to.dy[i];
+    out.y[i] = y0[i] + rise * (y1[i] - y0[i]) + from * step.from.dy[i] + to * dy1[i];
 }
 
 }  // namespace
@@ -131,6 +131,7 @@ void interpolate(const System& system, const Step& step, double t, State& out) {
   const double x2 = x * x, x3 = x2 * x, x4 = x3 * x, x5 = x4 * x;
   const auto& y0 = step.from.state.y;
   const auto& y1 = step.to.state.y;
+  const auto& dy1 = step.dy_end();
   out.t = t;
   out.impact_rate = step.from.state.impact_rate;
   out.y.resize(system.n_y());
@@ -145,14 +146,14 @@ void interpolate(const System& system, const Step& step, double t, State& out) {
                da1 = 1.5 * x2 - 4 * x3 + 2.5 * x4;
   for (Index i = 0; i < n; ++i) {
     const double rise = y1[i] - y0[i], s0 = h * y0[n + i], s1 = h * y1[n + i];
-    const double b0 = h * h * step.from.dy[n + i], b1 = h * h * step.to.dy[n + i];
+    const double b0 = h * h * step.from.dy[n + i], b1 = h * h * dy1[n + i];
     out.y[i] = y0[i] + p1 * rise + v0 * s0 + v1 * s1 + a0 * b0 + a1 * b1;
     out.y[n + i] = (dp1 * rise + dv0 * s0 + dv1 * s1 + da0 * b0 + da1 * b1) / h;
   }
   for (Index i = 2 * n; i < 2 * n + nz; ++i) {
     const double rise = y1[i] - y0[i];
     out.y[i] = y0[i] + x2 * (3 - 2 * x) * rise + x * (1 - x) * (1 - x) * h * step.from.dy[i] +
-               x2 * (x - 1) * h * step.to.dy[i];
+               x2 * (x - 1) * h * dy1[i];
   }
 }
 

@@ -40,6 +40,9 @@ struct Step {
   Instant from, to;
   double h = 0;           ///< [s]
   Eigen::VectorXd error;  ///< of the lower-order solution, as y
+  bool struck = false;    ///< a force that begins with a jump has changed to.dy …
+  Eigen::VectorXd dy_before = {};  ///< … from this, which ends the step's dense output
+  const Eigen::VectorXd& dy_end() const { return struck ? dy_before : to.dy; }
 };
 
 /// Scratch of a scheme: its stages and the constraint treatment. One per thread.

@@ -278,8 +278,8 @@ TEST(Restart, FromAnyStepGoesOnBitForBitThroughImpacts) {
       SCOPED_TRACE(std::string(tableau) + " " + std::to_string(static_cast<int>(c)));
       Integrator run = integrator(k, 1e-6, implicit ? nullptr : tableau, c);
       std::vector<std::string> saved;
-      for (int i = 0; i < 400; ++i) {
-        if (i % 40 == 7) saved.push_back(run.save());
+      for (int i = 0; i < 800; ++i) {
+        if (i % 80 == 7) saved.push_back(run.save());
         ASSERT_TRUE(run.advance(1)) << run.failure();
       }
       ASSERT_GT(run.impacts().size(), 3u) << "no impact, no exam";
@@ -287,7 +287,7 @@ TEST(Restart, FromAnyStepGoesOnBitForBitThroughImpacts) {
         Integrator next = integrator(k, 1e-6, implicit ? nullptr : tableau, c);
         next.load(saved[s]);
         EXPECT_EQ(next.save(), saved[s]);
-        for (int i = 7 + 40 * static_cast<int>(s); i < 400; ++i) ASSERT_TRUE(next.advance(1)) << next.failure();
+        for (int i = 7 + 80 * static_cast<int>(s); i < 800; ++i) ASSERT_TRUE(next.advance(1)) << next.failure();
         expect_same(next, run);
       }
     }
