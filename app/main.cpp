@@ -75,6 +75,54 @@ constexpr const char* what_modes_writes =
     "  reduced.*, reduced_01…  the same of the reduced body, if it says `modes`\n"
     "Exit codes: see pintle --help\n";
 
+constexpr const char* what_sweep_writes =
+    "A study names a scene, what is measured and what is varied; docs/studies.md has its language. It writes\n"
+    "  sweep.csv               a row per case, the same whatever the number of workers\n"
+    "  sweep.json, timings.csv counts by status, extremes; time of each case\n"
+    "  study.yaml, scene.yaml  what was run\n"
+    "  journal-0.txt, …        cases as they end: started again after any end, it goes on from there\n"
+    "A case that fails is a row with its reason. On many cores or machines: mpirun pintle sweep STUDY.yaml, one process\n"
+    "per core, in a directory that all share.\n"
+    "Exit codes: see pintle --help\n";
+
+void add_sweep_options(CLI::App& command, Options& options) {
+  command.add_option("study", options.scene, "study file (YAML)")->required()->type_name("STUDY.yaml");
+  command.add_option("--set", options.set, "override a parameter or key of the scene in all cases; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME|PATH=VALUE");
+  command.add_option("-t,--threads", options.threads, "cases run at once by this process (default: as many as cores; under MPI 1)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  command.add_flag("--json", options.json, "print JSON instead of text");
+  command.add_option("-o,--out", options.out, "directory for the results, or of the same sweep, to go on with (default: runs/STUDY-sweep)")->type_name("DIR");
+  command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  command.footer(what_sweep_writes);
+}
+
+constexpr const char* what_tradeoff_writes =
+    "A study names the axes of fidelity (docs/studies.md); a scene alone gets those that it suggests: tolerance, scheme,\n"
+    "models of its clearances, modes of its bodies. It writes\n"
+    "  tradeoff.csv            a row per setting: times, values, errors, what dominates\n"
+    "  tradeoff.svg, .md       error against time; the answers and the front as tables\n"
+    "  tradeoff.json           all of it, the reference and how it was proved included\n"
+    "  recommended.yaml        the scene with the recommended setting, ready to run\n"
+    "Exit code 4: no setting could be recommended. Others: see pintle --help\n";
+
+void add_tradeoff_options(CLI::App& command, Options& options) {
+  command.add_option("study", options.scene, "study file, or a scene with --quantity (YAML)")->required()->type_name("FILE.yaml");
+  command.add_option("--quantity", options.quantities, "what matters, e.g. \"peak force at gudgeon pin\"; may be repeated")->allow_extra_args(false)->type_name("WORDS");
+  command.add_option("--error", options.wanted_error, "the error that is wanted, e.g. 1%: the cheapest setting for it is recommended")->type_name("SHARE");
+  command.add_option("--time", options.wanted_time, "the time of a run that is wanted, e.g. 0.5s: the most accurate setting within it is named")->type_name("TIME");
+  command.add_option("--budget", options.budget, "of computing, e.g. 10min: then what is clearly dominated is not run (default: of a scene 1min, of a study as it says)")->type_name("TIME");
+  command.add_option("--repeats", options.repeats, "timed runs of each setting (default 5)")->type_name("N")->check(CLI::Range(1, 1000));
+  command.add_option("--set", options.set, "override a parameter or key of the scene in all settings; may be repeated")->allow_extra_args(false)->type_name("NAME|PATH=VALUE");
+  command.add_option("--markdown", options.markdown, "write the report there as well, its picture beside it")->type_name("FILE.md");
+  command.add_flag("--json", options.json, "print JSON instead of text");
+  command.add_option("-o,--out", options.out, "directory for the results; it must not exist (default: runs/NAME-tradeoff, numbered)")->type_name("DIR");
+  command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  command.footer(what_tradeoff_writes);
+}
+
 void add_linearize_options(CLI::App& command, Options& options) {
   command.add_option("--at", options.at, "about the state that the run has at this time, e.g. 20ms; with --equilibrium, with drivers and loads as they are then")
       ->type_name("TIME");
@@ -86,10 +134,13 @@ void add_linearize_options(CLI::App& command, Options& options) {
 
 void add_options(CLI::App& command, Options& options) {
   const std::string name = command.get_name();
+  if (name == "sweep") return add_sweep_options(command, options);
+  if (name == "tradeoff") return add_tradeoff_options(command, options);
   command.add_option("scene", options.scene, "scene file (YAML)")->required()->type_name("SCENE.yaml");
-  command.add_option("--set", options.set, "override a parameter of the scene, e.g. --set clearance=0.1mm; may be repeated")
+  command.add_option("--set", options.set, "override a parameter of the scene, e.g. --set clearance=0.1mm, or any key by its path, e.g. --set run.tolerance=1e-6, "
+                                               "--set \"joints.pin.clearance=null\" (null takes it away); may be repeated")
       ->allow_extra_args(false)
-      ->type_name("NAME=VALUE");
+      ->type_name("NAME|PATH=VALUE");
   command.add_flag("--json", options.json, "print JSON instead of text");
   if (name == "check") return;
   const std::string folder = name == "run" ? "runs/SCENE" : "runs/SCENE-" + name;
@@ -128,11 +179,13 @@ int main(int argc, char** argv) {
   Options options;
   const std::map<CLI::App*, int (*)(const Options&)> commands{
       {app.add_subcommand("run", "Run a scene and write its results"), run},
-      {app.add_subcommand("check", "Say what a scene holds and requires, and run nothing"), check},
+      {app.add_subcommand("check", "Say what a scene holds and requires, and what its run will cost"), check},
       {app.add_subcommand("statics", "Find where a whole mechanism rests, and the forces in its joints there"), equilibrium},
       {app.add_subcommand("kinematics", "Move a mechanism by its drivers alone; no masses needed"), kinematics},
       {app.add_subcommand("inverse", "Find the driving torques and joint forces of a driven mechanism"), inverse},
       {app.add_subcommand("linearize", "Find natural frequencies, damping and state-space matrices about a state"), linearize},
+      {app.add_subcommand("sweep", "Run many cases of a scene into one table, by threads or MPI"), sweep},
+      {app.add_subcommand("tradeoff", "Measure error against time over settings of fidelity, and recommend one"), tradeoff},
       {app.add_subcommand("modes", "Find the natural frequencies and mode shapes of one body of elements"), modes},
       {app.add_subcommand("static", "Solve the static load case of one body of elements (of a whole mechanism: statics)"), statics},
       {app.add_subcommand("mesh", "Mesh one body of elements and judge the mesh"), mesh}};

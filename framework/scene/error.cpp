@@ -9,7 +9,7 @@ std::string sentence(const std::string& file, const Place& place, const std::str
   std::ostringstream s;
   s << (file.empty() ? "scene" : file);
   if (place.line > 0) s << ':' << place.line;
-  if (!place.key.empty()) s << ": " << place.key;
+  if (!place.key.empty()) s << (place.line == set_by_override ? ": --set " : ": ") << place.key;
   s << ": " << message;
   return s.str();
 }

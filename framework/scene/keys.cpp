@@ -163,8 +163,10 @@ const std::vector<KeyTable>& tables() {
        {{"radial", required, "0.1 mm"},
         {"bearing radius", required, "10 mm"},
         {"bearing", required, "slider"},
-        {"normal", required,
-         "{lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}"},
+        {"model", optional, "", {"contact", "massless link", "spring-damper"}},
+        {"normal"},
+        {"stiffness"},
+        {"damping"},
         {"friction"}}},
       {"joints.*.clearance.normal.*",
        {{"restitution"},
@@ -241,7 +243,8 @@ const std::vector<KeyTable>& tables() {
 }
 
 const KeyTable& table_at(std::string_view path) {
-  return *std::ranges::find(tables(), path, &KeyTable::path);
+  const std::span<const KeyTable> all = path.starts_with("study") ? study_tables() : key_tables();
+  return *std::ranges::find(all, path, &KeyTable::path);
 }
 
 std::vector<std::string> names(const KeyTable& table) {

@@ -26,6 +26,8 @@ struct KeyTable {
 };
 
 std::span<const KeyTable> key_tables();
+/// The vocabulary of study files, paths beginning with "study": study_keys.cpp. Not part of the scene's schema.
+std::span<const KeyTable> study_tables();
 
 /// What words `path` allows for `key`. @pre both are in the table
 std::span<const std::string> choices(std::string_view path, std::string_view key);

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "framework/scene/nearest.h"
+#include "framework/scene/override.h"
 #include "framework/scene/reader_parts.h"
 #include "framework/scene/text_file.h"
 
@@ -67,21 +68,22 @@ void read_parameters(const Node& root, const Overrides& overrides, Source& sourc
   for (const auto& [name, text] : set)
     if (!source.parameters.contains(name))
       throw SceneError(source.file, {0, "--set " + name},
-                       all.empty() ? "the scene has no parameters; name one under parameters"
+                       all.empty() ? "the scene has no parameters; name one under parameters, or any key by its path: run.until"
                                    : "the scene has no such parameter." + did_you_mean(name, all));
 }
 
 Scene read(const std::string& text, const std::string& file, const Overrides& overrides,
            const std::filesystem::path& folder) {
-  const Yaml tree = parse_yaml(text, file);
+  Yaml tree = parse_yaml(text, file);
   Source source{file, {}};
   const Node root(tree, source, {tree.line, {}});
   if (tree.kind == Yaml::Kind::nothing) root.fail("is empty; docs/scene.md shows what to write");
+  const Overrides parameters = tree.kind == Yaml::Kind::map ? apply_paths(tree, file, overrides) : overrides;
   check_keys(root, "");
 
   Scene scene;
   scene.file = file;
-  read_parameters(root, overrides, source, scene);
+  read_parameters(root, parameters, source, scene);
   if (root.has("title")) scene.title = root.at("title").text("a line of text");
   if (root.has("gravity")) scene.gravity = root.at("gravity").pair(dimension::acceleration);
   read_run(root, scene);

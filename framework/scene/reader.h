@@ -10,7 +10,8 @@
 
 namespace pintle {
 
-/// "name" → text, as `--set name=text` gave it; text is parsed like a parameter's value.
+/// "name" → text, as `--set name=text` gave it. A parameter's text is parsed like its value; a name with a dot is the
+/// path of any key, its text YAML: override.h.
 using Overrides = std::vector<std::pair<std::string, std::string>>;
 
 /// Reads a scene file (YAML, or JSON, which is YAML). Units are converted to SI, parameters filled

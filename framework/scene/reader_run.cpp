@@ -185,7 +185,7 @@ void read_run(const Node& root, Scene& scene) {
   if (node.has("constraints"))
     run.constraints = node.at("constraints").one_of(choices("run", "constraints"));
   if (node.has("onset")) read_onset(node.at("onset"), run);
-  read_optional(node, "tolerance", dimension::number, rule::inside_zero_one, run.tolerance);
+  read_optional(node, "tolerance", dimension::number, rule::tolerance, run.tolerance);
   read_optional(node, "max step", dimension::time, rule::positive, run.max_step);
   if (node.has("max steps")) run.max_steps = node.at("max steps").count(1);
   read_optional(node, "ledger bound", dimension::number, rule::positive, run.ledger_bound);

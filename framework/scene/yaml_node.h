@@ -42,6 +42,9 @@ inline constexpr Rule solid_poisson{[](double x) { return x > -1 && x < 0.5; },
                                     "nearly incompressible solid"};
 inline constexpr Rule poisson{[](double x) { return x > -1 && x <= 0.5; },
                               "must lie between -1 and 0.5"};
+/// Below 1e-14 the rounding of one step is more than the error it may make.
+inline constexpr Rule tolerance{[](double x) { return x >= 1e-14 && x < 1; },
+                                "must lie between 0 and 1, and not below 1e-14, which is rounding"};
 inline constexpr Rule inside_zero_one{[](double x) { return x > 0 && x < 1; },
                                       "must lie between 0 and 1, and be neither"};
 }  // namespace rule
@@ -66,6 +69,8 @@ class Node {
   const Place& place() const { return place_; }
   const Source& source() const { return *source_; }
   std::string name() const { return std::string(name_); }  ///< the last key
+
+  const Yaml& yaml() const { return *yaml_; }               ///< what stands here
 
   bool is_map() const { return yaml_->kind == Yaml::Kind::map; }
   bool is_list() const { return yaml_->kind == Yaml::Kind::list; }
