@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -14,33 +15,39 @@ namespace pintle {
 struct CaseSource {
   std::filesystem::path file;  ///< tables and drawings are sought beside it
   std::string text;
-  Overrides common = {};       ///< hold for all cases; a case's own come after
+  Overrides common = {};  ///< hold for all cases; a case's own come after
 };
 /// @throws SceneError  there is no such file
 CaseSource read_case_source(const std::filesystem::path& scene, Overrides common = {});
+/// What all cases begin from, beams cut into pieces. @throws SceneError
+Scene common_scene(const CaseSource&);
 
 /// How a case ended. Every case ends: what would stop a single run is here a reason.
 struct Outcome {
-  std::string status;  ///< "finished", "failed", "interrupted", "ledger over its bound", "refused" (scene), "not assembled", "over its limit"
-  std::string reason;  ///< one line; empty when finished
+  std::string
+      status;  ///< "finished", "failed", "interrupted", "ledger over its bound", "refused" (scene), "not assembled", "over its limit"
+  std::string reason;              ///< one line; empty when finished
   std::vector<double> values;      ///< a measure each; NaN where there is none
   std::vector<std::string> units;  ///< likewise; empty if the scene was refused
   double build_seconds = 0;        ///< reading, building, assembling
   double run_seconds = 0;          ///< simulating
   double t_end = 0;                ///< reached [s]
   Counts counts;
+  long impacts = 0;                ///< of all clearances
   double unexplained_share = 0;    ///< of the energy in play, at worst
   std::shared_ptr<const Run> run;  ///< kept if asked for
 };
 
 struct CaseLimits {
-  double seconds = 0;      ///< of simulating; 0: none
-  bool keep_run = false;   ///< Outcome::run
+  double seconds = 0;       ///< of simulating; 0: none
+  bool keep_run = false;    ///< Outcome::run
+  bool time_alone = false;  ///< no rows but the first and the last: run_seconds is then what the integration takes, and measures are NaN
   std::function<bool()> go_on = {};  ///< asked now and then; false interrupts the run
 };
 
 /// Reads, builds, assembles and runs one case. Never throws but for want of memory. May be called from several threads at
-/// once; the outcome (times aside) does not depend on what the others do.
+/// once; the outcome (times aside) does not depend on what the others do, nor on the number of cores: from the first call
+/// on, OpenBLAS (in the whole program) and OpenMP (in this thread) compute in the thread that asks.
 Outcome run_case(const CaseSource&, const Overrides&, const std::vector<Measure>&, const CaseLimits& = {});
 
 }  // namespace pintle

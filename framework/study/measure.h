@@ -11,21 +11,30 @@ namespace pintle {
 /// A number that a run yields, asked for in words: "peak force at gudgeon pin", "x of slider at 0.05 s",
 /// "energy lost", "rms torque of crank drive after 10 ms". docs/studies.md has the grammar.
 struct Measure {
-  std::string name;   ///< heads its column
-  std::string words;  ///< as the user wrote them
-  Place place;        ///< where
+  std::string name;       ///< heads its column
+  std::string words;      ///< as the user wrote them
+  Place place = {};       ///< where
+  std::string file = {};  ///< of the study, for messages; empty: the scene's
 };
 
-/// What a measure means in one model: found once, evaluated on any run of it.
-/// @throws SceneError  the words cannot be read, or name what the model lacks; with what it has
 struct MeasuredValue {
-  double value = 0;   ///< NaN: the run did not come so far, or the scene lacks it (a clearance that this case has not)
-  std::string unit;   ///< SI: "N", "J", "m"; may be empty
+  double value = 0;  ///< NaN: the run did not come so far, or there is no such thing (the stress of a body that is rigid in this case)
+  std::string unit;  ///< SI: "N", "J", "m"; may be empty
 };
+/// What a measure is in a run. Of the scene, the names count: it is the one that was built.
+/// @throws SceneError  the words cannot be read, or name what the scene has not; with what it has
 MeasuredValue measured(const Measure&, const Scene&, const Model&, const Run&);
 
-/// The outputs that a scene must make beside its own, so that the measure is what it says and not what the output
-/// interval shows of it: points recorded, an interval short enough, an instant hit. Called before build.
+/// Its unit, without a run. @throws SceneError  as above
+std::string measured_unit(const Measure&, const Scene&);
+
+/// Judges the words against a scene before anything runs.
+/// @throws SceneError  as above, or a time lies beyond the run's end
+void judge(const std::vector<Measure>&, const Scene&);
+
+/// Makes a scene put out what the measures need, so that they are what they say and not what the output interval shows of
+/// them: points and stresses recorded, 2000 rows in a window, a row at each instant. No frames. Called after with_pieces,
+/// before build. Words that cannot be read or name what is not there are passed over.
 void prepare(Scene&, const std::vector<Measure>&);
 
 }  // namespace pintle

@@ -12,7 +12,7 @@ namespace pintle {
 /// A study file: a scene, what is common to its cases, what is measured. What is varied and why stands in a section of
 /// its own, `sweep` (sweep.h) or `tradeoff` (tradeoff.h), read by its own reader.
 struct Study {
-  std::string file;   ///< for messages
+  std::string file;  ///< for messages
   std::string title;
   CaseSource scene;
   std::vector<Measure> measures;
