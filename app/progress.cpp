@@ -13,9 +13,17 @@ volatile std::sig_atomic_t interrupted = 0;
 extern "C" void interrupt(int) { interrupted = 1; }
 }  // namespace
 
-Progress::Progress(double until, bool quiet) : until_(until), on_(!quiet && ::isatty(STDERR_FILENO)) {
+void heed_signals() {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
+}
+
+bool asked_to_stop() {
+  return interrupted;
+}
+
+Progress::Progress(double until, bool quiet) : until_(until), on_(!quiet && ::isatty(STDERR_FILENO)) {
+  heed_signals();
 }
 
 Progress::~Progress() {

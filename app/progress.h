@@ -4,6 +4,10 @@
 
 namespace pintle::app {
 
+/// From now on, Ctrl-C and a request to terminate do not end the program but are asked for by asked_to_stop.
+void heed_signals();
+bool asked_to_stop();
+
 /// A line on the terminal that says how far a run is; nothing if stderr is not one. From the first one made on,
 /// Ctrl-C and a request to terminate ask the run to stop instead of ending the program.
 class Progress {

@@ -1,0 +1,125 @@
+// pintle sweep: the cases of a study by threads and processes.
+#include "framework/study/sweep.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+#include <thread>
+
+#include "app/fellows.h"
+#include "app/options.h"
+#include "app/progress.h"
+
+namespace pintle::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string span_text(double seconds) {
+  std::ostringstream s;
+  const long whole = std::lround(seconds);
+  if (seconds < 10) s << std::setprecision(2) << seconds << " s";
+  else if (whole < 120) s << whole << " s";
+  else if (whole < 7200) s << whole / 60 << " min " << whole % 60 << " s";
+  else s << whole / 3600 << " h " << whole % 3600 / 60 << " min";
+  return s.str();
+}
+
+/// "137 of 400 cases, 2 not finished, 8.31 a second, 32 s left".
+std::string line(const SweepCount& c) {
+  std::ostringstream s;
+  s << c.before + c.done << " of " << c.cases << " cases";
+  if (c.trouble > 0) s << ", " << c.trouble << " not finished";
+  if (c.done > 0 && c.seconds > 0) {
+    const double rate = static_cast<double>(c.done) / c.seconds;
+    s << std::setprecision(3) << ", " << rate << " a second, " << span_text(static_cast<double>(c.cases - c.before - c.done) / rate) << " left";
+  }
+  return s.str();
+}
+
+/// On a terminal a line that is written over; else a line every half minute.
+class SweepProgress {
+ public:
+  explicit SweepProgress(bool quiet) : quiet_(quiet), terminal_(::isatty(STDERR_FILENO)) { heed_signals(); }
+  ~SweepProgress() {
+    if (shown_) std::cerr << "\r\033[K" << std::flush;
+  }
+  SweepProgress(const SweepProgress&) = delete;
+  bool operator()(const SweepCount& count) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!quiet_ && terminal_ && now - last_ > std::chrono::milliseconds(200)) {
+      last_ = now, shown_ = true;
+      std::cerr << "\r  " << line(count) << "\033[K" << std::flush;
+    }
+    if (!quiet_ && !terminal_ && now - last_ > std::chrono::seconds(30)) {
+      last_ = now;
+      std::cerr << line(count) << std::endl;
+    }
+    return !asked_to_stop();
+  }
+
+ private:
+  bool quiet_, terminal_, shown_ = false;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+void print(const Sweep& sweep, const SweepEnd& end, const fs::path& out) {
+  std::cout << (sweep.study.title.empty() ? sweep.study.file : sweep.study.title) << "\n";
+  Rows rows;
+  std::string ended = std::to_string(end.rows.size()) + " of " + std::to_string(sweep.cases.size());
+  if (end.count.before > 0) ended += ", " + std::to_string(end.count.before) + " of them in earlier sessions";
+  rows.emplace_back("cases ended", ended);
+  for (const auto& [status, n] : statuses(end.rows)) rows.emplace_back(status, std::to_string(n));
+  for (const MeasureRange& r : measure_ranges(sweep, end.rows))
+    rows.emplace_back(r.header, r.least_in == 0 ? "no case has it"
+                                                : number(r.least) + " (case " + std::to_string(r.least_in) + ") to " + number(r.greatest) +
+                                                      " (case " + std::to_string(r.greatest_in) + ")");
+  if (end.count.done > 0)
+    rows.emplace_back("this session", std::to_string(end.count.done) + " cases in " + span_text(end.count.seconds) + " by " + std::to_string(end.workers) +
+                                          (end.workers > 1 ? " workers, busy " + number(100 * end.efficiency(), 3) + " % of the time" : " worker"));
+  rows.emplace_back("table", (out / (end.whole ? "sweep.csv" : "sweep-so-far.csv")).string());
+  print_rows(std::cout, rows);
+  if (!end.whole) std::cout << "  stopped; the same command goes on from here\n";
+}
+
+int carry_out(const Sweep& sweep, const Options& options, Fellows* together, bool leads) {
+  const fs::path out = options.out.empty() ? fs::path("runs") / (fs::path(options.scene).stem().string() + "-sweep") : fs::path(options.out);
+  SweepSettings settings;
+  settings.threads = options.threads > 0 ? options.threads : together ? 1 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  settings.fellows = together;
+  SweepEnd end;
+  {
+    SweepProgress progress(options.quiet || !leads);
+    settings.progress = [&](const SweepCount& count) { return progress(count); };
+    end = run_sweep(sweep, out, settings);
+  }
+  if (!leads) return ok;
+  if (options.json) std::cout << sweep_json(sweep, end);
+  else if (!options.quiet) print(sweep, end, out);
+  return end.whole ? ok : stopped;
+}
+
+}  // namespace
+
+int sweep(const Options& options) {
+  const std::unique_ptr<Fellows> together = fellows();
+  const bool leads = !together || together->rank() == 0;
+  Sweep what;
+  try {
+    what = read_sweep(options.scene, overrides(options));
+  } catch (...) {
+    // What stops one process mostly stops all: one of them says so.
+    if (together && leads) refuse_all(*together);
+    else if (together && refused(*together)) return ok;
+    else if (together) stay_away(*together);
+    throw;
+  }
+  return carry_out(what, options, together.get(), leads);
+}
+
+}  // namespace pintle::app

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "framework/study/case.h"
+
+/// What a sweep has done so far, kept so that nothing is lost when the process dies at any moment.
+namespace pintle {
+
+/// A case that has ended, as journals keep it.
+struct Row {
+  std::size_t number = 0;  ///< from 1
+  std::string status, reason;
+  std::vector<double> values;
+  std::vector<std::string> units;
+  double t_end = 0, unexplained_share = 0;
+  long steps = 0, impacts = 0;
+  std::string worker;  ///< "process.thread"; not in the table
+  double build_seconds = 0, run_seconds = 0;
+};
+
+/// One line: a checksum and the row; numbers come back to the bit.
+std::string line_of(const Row&);
+/// @returns nothing if the line is torn or changed
+std::optional<Row> row_of(std::string_view line);
+
+/// A file that only grows, a line for each case, written by one process: several threads may append. Each line goes to
+/// the kernel in one piece before `append` returns, so a process that is killed loses none; the disk is asked to keep it
+/// once a second. Held locked while it is open; a line torn by a kill is cut off when it is opened again.
+class Journal {
+ public:
+  /// @param study  fingerprint of what the cases belong to
+  /// @throws SceneError          it holds cases of another study
+  /// @throws std::runtime_error  it cannot be made, or another process has it open
+  Journal(const std::filesystem::path&, std::uint64_t study);
+  ~Journal();
+  Journal(const Journal&) = delete;
+  /// @throws std::runtime_error  it cannot be written; the line is not there then
+  void append(const Row&);
+
+ private:
+  void write(const std::string& line);
+  std::filesystem::path path_;
+  int file_ = -1;
+  std::int64_t size_ = 0;
+  double flushed_ = 0;  ///< when, on a steady clock [s]
+  std::mutex one_at_a_time_;
+};
+
+/// The file of process `rank` in a sweep's folder.
+std::filesystem::path journal_path(const std::filesystem::path& folder, int rank);
+
+/// All journals in the folder, rows in the order of their numbers, each number once.
+/// @throws SceneError          one belongs to another study
+std::vector<Row> read_journals(const std::filesystem::path& folder, std::uint64_t study);
+
+/// Waits until no process has a journal of the folder open but this one. @returns false: some still has after `seconds`
+bool journals_are_free(const std::filesystem::path& folder, const std::filesystem::path& but, double seconds);
+
+}  // namespace pintle

@@ -1,0 +1,168 @@
+// The program itself, killed with SIGKILL ten times while it sweeps: nothing is lost, nothing runs twice, and the table
+// is the one that a sweep in one go makes.
+#include <csignal>
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <random>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Command = std::vector<std::string>;
+constexpr int cases = 400;
+
+std::string contents(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream s;
+  s << in.rdbuf();
+  return s.str();
+}
+
+/// Started as the first of a session, by which its children are found as well.
+pid_t start(const Command& command, const fs::path& log) {
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  ::setsid();
+  ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+  ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
+  ::dup2(out, STDOUT_FILENO);
+  ::dup2(out, STDERR_FILENO);
+  std::vector<char*> words;
+  for (const std::string& w : command) words.push_back(const_cast<char*>(w.c_str()));
+  words.push_back(nullptr);
+  ::execv(words[0], words.data());
+  ::_exit(127);
+}
+
+/// Every process of the session, at once: the launcher does not get to tidy up.
+void kill_session(pid_t session) {
+  for (int round = 0; round < 2; ++round)
+    for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
+      const std::string name = entry.path().filename();
+      if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+      const pid_t pid = std::stoi(name);
+      if (::getsid(pid) == session) ::kill(pid, SIGKILL);
+    }
+}
+
+/// Finished cases in the journals, a number for each line.
+std::vector<int> journalled(const fs::path& folder) {
+  std::vector<int> out;
+  if (!fs::exists(folder)) return out;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (!entry.path().filename().string().starts_with("journal-")) continue;
+    const std::string text = contents(entry.path());
+    for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
+      if (const std::size_t key = text.find("{\"case\":", at); key < end) out.push_back(std::stoi(text.substr(key + 8)));
+  }
+  return out;
+}
+
+class SweepKilled : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("pintle-killed-" + std::to_string(::getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "study.yaml") << "scene: " PINTLE_SOURCE_DIR "/examples/paper/fig05_clearance_001.yaml\n"
+                                             "set: {run.tolerance: 1e-7, length: 4 ms}\n"
+                                             "measure: {lost: energy lost, x: x of slider at 3 ms}\n"
+                                             "sweep: {latin hypercube: {count: " << cases << ", seed: 7, "
+                                             "clearance: {from: 0.01 mm, to: 0.5 mm, scale: log}, speed: {from: 50 rad/s, to: 200 rad/s}}}\n";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// @param enough  when to kill it  @returns exit code; −9: killed
+  int run(const Command& command, const std::function<bool()>& enough = [] { return false; }) {
+    const pid_t child = start(command, folder_ / "log");
+    for (;;) {
+      int status = 0;
+      if (::waitpid(child, &status, WNOHANG) == child) return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+      if (enough()) {
+        kill_session(child);
+        ::waitpid(child, &status, 0);
+        return -SIGKILL;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
+  void kill_ten_times(const Command& launcher, const Command& more) {
+    const auto command = [&](const char* out) {
+      Command all = launcher;
+      all.insert(all.end(), {PINTLE_PROGRAM, "sweep", folder_ / "study.yaml", "-q", "--out", folder_ / out});
+      all.insert(all.end(), more.begin(), more.end());
+      return all;
+    };
+    ASSERT_EQ(run(command("whole")), 0) << contents(folder_ / "log");
+
+    std::random_device seed;
+    std::mt19937_64 random(seed());
+    std::vector<int> ended;
+    for (int kill = 0; kill < 10; ++kill) {
+      // The first at any moment of the start; the others when up to some thirty more cases have ended, and a moment later.
+      const std::size_t target = kill == 0 ? 0 : ended.size() + random() % 30;
+      const auto moment = std::chrono::microseconds(random() % (kill == 0 ? 300'000 : 10'000));
+      const auto begin = std::chrono::steady_clock::now();
+      const auto enough = [&] {
+        if (journalled(folder_ / "killed").size() < target) return false;
+        std::this_thread::sleep_for(moment);
+        return kill > 0 || std::chrono::steady_clock::now() - begin > moment;
+      };
+      ASSERT_EQ(run(command("killed"), enough), -SIGKILL) << contents(folder_ / "log");
+      const std::vector<int> now = journalled(folder_ / "killed");
+      const std::set<int> unique(now.begin(), now.end());
+      EXPECT_EQ(unique.size(), now.size()) << "a case was run twice";
+      for (int k : ended) EXPECT_TRUE(unique.contains(k)) << "case " << k << " was lost";
+      ended = now;
+    }
+    EXPECT_GT(ended.size(), 10u);
+    ASSERT_EQ(run(command("killed")), 0) << contents(folder_ / "log");
+    EXPECT_EQ(journalled(folder_ / "killed").size(), static_cast<std::size_t>(cases));
+    EXPECT_EQ(contents(folder_ / "killed/sweep.csv"), contents(folder_ / "whole/sweep.csv"));
+    const std::string table = contents(folder_ / "whole/sweep.csv");
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), cases + 1);
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(SweepKilled, TenTimesItLosesNothingAndRunsNothingTwice) {
+  kill_ten_times({}, {"--threads", "2"});
+}
+
+TEST_F(SweepKilled, TenTimesUnderMpiItLosesNothingAndRunsNothingTwice) {
+  if (std::string(PINTLE_MPIRUN).empty()) GTEST_SKIP() << "built without MPI";
+  kill_ten_times({PINTLE_MPIRUN, "--oversubscribe", "-n", "2"}, {});
+}
+
+TEST_F(SweepKilled, AskedToStopItLeavesWhatItHasAndExitsWithSix) {
+  const Command command{PINTLE_PROGRAM, "sweep", folder_ / "study.yaml", "-q", "--out", folder_ / "out", "--threads", "1"};
+  const pid_t child = start(command, folder_ / "log");
+  while (journalled(folder_ / "out").size() < 3 && ::kill(child, 0) == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ::kill(child, SIGINT);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 6) << contents(folder_ / "log");
+  EXPECT_FALSE(fs::exists(folder_ / "out/sweep.csv"));
+  const std::string table = contents(folder_ / "out/sweep-so-far.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + static_cast<std::ptrdiff_t>(journalled(folder_ / "out").size()));
+}
+
+}  // namespace

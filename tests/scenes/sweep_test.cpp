@@ -1,0 +1,323 @@
+// Sweeps: what is kept of their cases, and that the table does not depend on who did the work.
+#include "framework/study/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace pintle {
+namespace {
+
+namespace fs = std::filesystem;
+
+Row sample_row() {
+  return {7, "failed", "a \"reason\", µ", {1.0 / 3, std::nan(""), std::numeric_limits<double>::infinity(), 5e-324}, {"N", "", "m", "J"},
+          0.1 + 0.2, 1e-17, 123, 4, "0.1", 0.5, 0.25};
+}
+
+TEST(SweepJournal, NumbersComeBackToTheBit) {
+  const Row r = sample_row(), back = row_of(line_of(r)).value();
+  EXPECT_EQ(back.number, r.number);
+  EXPECT_EQ(back.reason, r.reason);
+  EXPECT_EQ(back.units, r.units);
+  EXPECT_EQ(back.t_end, r.t_end);
+  EXPECT_EQ(back.values[0], r.values[0]);
+  EXPECT_TRUE(std::isnan(back.values[1]));
+  EXPECT_EQ(back.values[2], r.values[2]);
+  EXPECT_EQ(back.values[3], r.values[3]);
+  EXPECT_EQ(back.impacts, 4);
+}
+
+TEST(SweepJournal, ATornOrChangedLineIsNoRow) {
+  const std::string line = line_of(sample_row());
+  for (std::size_t n = 0; n + 1 < line.size(); ++n) EXPECT_FALSE(row_of(line.substr(0, n))) << n;
+  for (std::size_t n = 0; n + 1 < line.size(); ++n) {
+    std::string changed = line;
+    changed[n] = static_cast<char>(changed[n] ^ 1);
+    EXPECT_FALSE(row_of(changed)) << n;
+  }
+}
+
+/// A folder of its own, gone at the end.
+class Folder {
+ public:
+  Folder() : path_(fs::temp_directory_path() / ("pintle-sweep-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" +
+                                                std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "-" +
+                                                std::to_string(std::hash<std::thread::id>()(std::this_thread::get_id())))) {
+    fs::remove_all(path_);
+    fs::create_directories(path_);
+  }
+  ~Folder() { fs::remove_all(path_); }
+  fs::path operator/(const std::string& name) const { return path_ / name; }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
+
+ private:
+  fs::path path_;
+};
+
+std::string contents(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream s;
+  s << in.rdbuf();
+  return s.str();
+}
+
+TEST(SweepJournal, ATornLastLineIsCutOffAndItsCaseIsOpenAgain) {
+  const Folder folder;
+  const fs::path path = journal_path(folder / "", 0);
+  Row r = sample_row();
+  {
+    Journal journal(path, 42);
+    journal.append(r);
+    r.number = 8;
+    journal.append(r);
+  }
+  const std::string whole = contents(path);
+  const std::size_t second = whole.rfind('\n', whole.size() - 2) + 1;
+  for (std::size_t cut : {second, second + 1, second + 30, whole.size() - 1}) {
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << whole.substr(0, cut);
+    EXPECT_EQ(read_journals(folder / "", 42).size(), 1u);
+    { Journal journal(path, 42); journal.append(r); }
+    EXPECT_EQ(contents(path), whole);
+    EXPECT_EQ(read_journals(folder / "", 42).size(), 2u);
+  }
+  EXPECT_THROW(read_journals(folder / "", 43), SceneError);
+  EXPECT_THROW(Journal(path, 43), SceneError);
+}
+
+TEST(SweepJournal, IsHeldByItsProcess) {
+  const Folder folder;
+  {
+    Journal journal(journal_path(folder / "", 1), 42);
+    EXPECT_FALSE(journals_are_free(folder / "", journal_path(folder / "", 0), 0));
+    EXPECT_TRUE(journals_are_free(folder / "", journal_path(folder / "", 1), 0));
+  }
+  EXPECT_TRUE(journals_are_free(folder / "", journal_path(folder / "", 0), 0));
+}
+
+constexpr const char* pendulum = R"(
+gravity: [0, -9.81]
+parameters: {mass: 0.5 kg, angle: 0 deg, length: 0.2 m}
+bodies: {rod: {rigid: {mass: mass, inertia: 0.01 kg m^2}, points: {O: [-length, 0]}}}
+joints: {hinge: {revolute: [ground, rod.O]}}
+start: {rod: {angle: angle}}
+run: {until: 0.2 s, tolerance: 1e-8}
+)";
+constexpr const char* study = R"(
+scene: scene.yaml
+measure: {turn: angle of rod at 0.2 s, load: peak force at hinge}
+sweep: {grid: {angle: {from: -90 deg, to: 80 deg, count: 9}, length: [0.1 m, -0.2 m, 0.3 m], mass: [0.5 kg, -1 kg]}}
+)";
+
+TEST(Sweep, TheTableIsTheSameToTheBitForOneAndFourThreads) {
+  const Folder folder;
+  folder.write("scene.yaml", pendulum);
+  folder.write("study.yaml", study);
+  const Sweep sweep = read_sweep(folder / "study.yaml");
+  const SweepEnd one = run_sweep(sweep, folder / "one", {1, nullptr, {}}), four = run_sweep(sweep, folder / "four", {4, nullptr, {}});
+  EXPECT_TRUE(one.whole && four.whole);
+  EXPECT_EQ(one.rows.size(), 54u);
+  EXPECT_EQ(contents(folder / "one/sweep.csv"), contents(folder / "four/sweep.csv"));
+  EXPECT_EQ(contents(folder / "four/scene.yaml"), pendulum);
+  EXPECT_EQ(contents(folder / "four/study.yaml"), study);
+}
+
+TEST(Sweep, ACaseThatFailsIsARowWithItsReason) {
+  const Folder folder;
+  folder.write("scene.yaml", pendulum);
+  folder.write("study.yaml", study);
+  const Sweep sweep = read_sweep(folder / "study.yaml");
+  const SweepEnd end = run_sweep(sweep, folder / "out", {2, nullptr, {}});
+  for (const Row& r : end.rows) {
+    const bool negative = r.number % 2 == 0;  // every second mass is
+    EXPECT_EQ(r.status, negative ? "refused" : "finished") << r.number << ": " << r.reason;
+    EXPECT_EQ(r.reason.empty(), !negative);
+    EXPECT_EQ(std::isnan(r.values.at(0)), negative);
+  }
+  EXPECT_EQ(statuses(end.rows).at("refused"), 27u);
+}
+
+TEST(Sweep, StepsMayBeLimitedForAllCases) {
+  const Folder folder;
+  folder.write("scene.yaml", pendulum);
+  folder.write("study.yaml", "scene: scene.yaml\nmeasure: {turn: final angle of rod}\nsweep: {list: [{angle: 0 deg}], most steps: 3}\n");
+  const SweepEnd end = run_sweep(read_sweep(folder / "study.yaml"), folder / "out", {1, nullptr, {}});
+  EXPECT_EQ(end.rows.at(0).status, "failed");
+  EXPECT_EQ(end.rows.at(0).steps, 3);
+  EXPECT_LT(end.rows.at(0).t_end, 0.2);
+}
+
+TEST(Sweep, TimeMayBeLimitedForEachCase) {
+  const Folder folder;
+  folder.write("scene.yaml", pendulum);
+  folder.write("study.yaml", "scene: scene.yaml\nmeasure: {turn: final angle of rod}\nsweep: {list: [{angle: 0 deg}], limit: 1 ns}\n");
+  const SweepEnd end = run_sweep(read_sweep(folder / "study.yaml"), folder / "out", {1, nullptr, {}});
+  EXPECT_TRUE(end.whole);
+  EXPECT_EQ(end.rows.at(0).status, "over its limit");
+  EXPECT_FALSE(end.rows.at(0).reason.empty());
+}
+
+TEST(Sweep, StoppedItGoesOnAndNothingRunsTwice) {
+  const Folder folder;
+  folder.write("scene.yaml", pendulum);
+  folder.write("study.yaml", study);
+  const Sweep sweep = read_sweep(folder / "study.yaml");
+  run_sweep(sweep, folder / "whole", {1, nullptr, {}});
+  // Three sessions of at most some cases, as if stopped by hand.
+  SweepEnd end;
+  for (int session = 0; session < 3; ++session) {
+    const SweepCount before = end.count;
+    end = run_sweep(sweep, folder / "out", {1, nullptr, [](const SweepCount&) { return false; }});
+    EXPECT_GE(end.count.before, before.before + before.done);
+    EXPECT_EQ(fs::exists(folder / "out/sweep.csv"), end.whole);
+    EXPECT_EQ(fs::exists(folder / "out/sweep-so-far.csv"), !end.whole);
+  }
+  end = run_sweep(sweep, folder / "out", {2, nullptr, {}});
+  EXPECT_TRUE(end.whole);
+  EXPECT_FALSE(fs::exists(folder / "out/sweep-so-far.csv"));
+  EXPECT_EQ(contents(folder / "out/sweep.csv"), contents(folder / "whole/sweep.csv"));
+  const std::string journal = contents(journal_path(folder / "out", 0));
+  EXPECT_EQ(std::count(journal.begin(), journal.end(), '\n'), 1 + 54);
+  run_sweep(sweep, folder / "out", {2, nullptr, {}});
+  EXPECT_EQ(contents(journal_path(folder / "out", 0)), journal);
+}
+
+TEST(Sweep, AFolderOfAnotherStudyIsRefused) {
+  const Folder folder;
+  folder.write("scene.yaml", pendulum);
+  folder.write("study.yaml", "scene: scene.yaml\nmeasure: {turn: final angle of rod}\nsweep: {list: [{angle: 0 deg}]}\n");
+  run_sweep(read_sweep(folder / "study.yaml"), folder / "out", {1, nullptr, {}});
+  const auto refusal = [&] {
+    try {
+      run_sweep(read_sweep(folder / "study.yaml"), folder / "out", {1, nullptr, {}});
+    } catch (const SceneError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(refusal(), "none");
+  folder.write("scene.yaml", std::string(pendulum) + "# changed\n");
+  EXPECT_NE(refusal().find("belongs to another study"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("--out"), std::string::npos);
+  fs::create_directories(folder / "other");
+  folder.write("other/thesis.txt", "x");
+  EXPECT_THROW(run_sweep(read_sweep(folder / "study.yaml"), folder / "other", {1, nullptr, {}}), SceneError);
+}
+
+TEST(Sweep, ATableThatTheSceneNamesBelongsToTheStudy) {
+  const Folder folder;
+  folder.write("push.csv", "0 0\n1 2\n");
+  folder.write("scene.yaml", std::string(pendulum) + "forces: {push: {torque: {table: push.csv}, on: rod}}\n");
+  folder.write("study.yaml", "scene: scene.yaml\nmeasure: {turn: final angle of rod}\nsweep: {list: [{angle: 0 deg}]}\n");
+  const std::uint64_t before = read_sweep(folder / "study.yaml").print;
+  EXPECT_EQ(read_sweep(folder / "study.yaml").print, before);
+  folder.write("push.csv", "0 0\n1 3\n");
+  EXPECT_NE(read_sweep(folder / "study.yaml").print, before);
+}
+
+TEST(Sweep, AStudyNoneOfWhoseCasesCanBeReadIsRefusedAtOnce) {
+  const Folder folder;
+  folder.write("scene.yaml", pendulum);
+  folder.write("study.yaml", "scene: scene.yaml\nmeasure: {turn: final angle of rod}\nsweep: {grid: {lenght: [0.1 m, 0.2 m]}}\n");
+  try {
+    read_sweep(folder / "study.yaml");
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("Did you mean \"length\"?"), std::string::npos) << error.what();
+  }
+}
+
+/// Processes played by threads: what MPI does, without it.
+class Post {
+ public:
+  explicit Post(int size) : boxes_(static_cast<std::size_t>(size)) {}
+  struct Letter {
+    int from;
+    std::vector<std::int64_t> text;
+  };
+  std::vector<std::vector<Letter>> boxes_;
+  std::mutex mutex_;
+};
+class Played : public Fellows {
+ public:
+  Played(Post& post, int rank) : post_(post), rank_(rank) {}
+  int rank() const override { return rank_; }
+  int size() const override { return static_cast<int>(post_.boxes_.size()); }
+  void send(int to, std::span<const std::int64_t> text) override {
+    const std::lock_guard lock(post_.mutex_);
+    post_.boxes_[static_cast<std::size_t>(to)].push_back({rank_, {text.begin(), text.end()}});
+  }
+  bool receive(int& from, std::vector<std::int64_t>& text) override {
+    const std::lock_guard lock(post_.mutex_);
+    auto& box = post_.boxes_[static_cast<std::size_t>(rank_)];
+    if (box.empty()) return false;
+    from = box.front().from, text = box.front().text;
+    box.erase(box.begin());
+    return true;
+  }
+
+ private:
+  Post& post_;
+  int rank_;
+};
+
+TEST(Sweep, ProcessesShareTheCasesAndEachIsRunOnce) {
+  const Folder folder;
+  folder.write("scene.yaml", pendulum);
+  folder.write("study.yaml", study);
+  const Sweep sweep = read_sweep(folder / "study.yaml");
+  run_sweep(sweep, folder / "alone", {1, nullptr, {}});
+  for (int size : {1, 2, 5}) {
+    const fs::path out = folder / std::to_string(size);
+    Post post(size);
+    std::vector<std::thread> processes;
+    SweepEnd end;
+    for (int rank = size - 1; rank >= 0; --rank)
+      processes.emplace_back([&, rank] {
+        Played fellows(post, rank);
+        const SweepEnd mine = run_sweep(sweep, out, {rank == 1 ? 2 : 1, &fellows, {}});
+        if (rank == 0) end = mine;
+      });
+    for (std::thread& p : processes) p.join();
+    EXPECT_TRUE(end.whole);
+    EXPECT_EQ(end.count.done, 54u);
+    EXPECT_EQ(contents(out / "sweep.csv"), contents(folder / "alone/sweep.csv"));
+    std::ptrdiff_t lines = 0;
+    for (int rank = 0; rank < size; ++rank) {
+      const std::string journal = contents(journal_path(out, rank));
+      lines += std::count(journal.begin(), journal.end(), '\n');
+    }
+    EXPECT_EQ(lines, 54 + size);
+    for (const auto& box : post.boxes_) EXPECT_TRUE(box.empty()) << "a message was left unread";
+  }
+}
+
+TEST(Sweep, OneProcessThatIsStoppedStopsAll) {
+  const Folder folder;
+  folder.write("scene.yaml", pendulum);
+  folder.write("study.yaml", study);
+  const Sweep sweep = read_sweep(folder / "study.yaml");
+  Post post(3);
+  std::vector<std::thread> processes;
+  SweepEnd end;
+  for (int rank = 0; rank < 3; ++rank)
+    processes.emplace_back([&, rank] {
+      Played fellows(post, rank);
+      const SweepEnd mine = run_sweep(sweep, folder / "out", {1, &fellows, [rank](const SweepCount&) { return rank != 2; }});
+      if (rank == 0) end = mine;
+    });
+  for (std::thread& p : processes) p.join();
+  EXPECT_LE(end.rows.size(), 54u);
+  EXPECT_EQ(end.whole, end.rows.size() == 54);
+  end = run_sweep(sweep, folder / "out", {1, nullptr, {}});
+  EXPECT_TRUE(end.whole);
+}
+
+}  // namespace
+}  // namespace pintle
