@@ -1,0 +1,136 @@
+// pintle tradeoff: what accuracy costs, for one scene and the quantities that matter to its user.
+#include "framework/study/tradeoff.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+
+#include "app/options.h"
+#include "app/progress.h"
+#include "framework/run/results.h"
+#include "framework/run/text.h"
+#include "framework/scene/text_file.h"
+#include "framework/scene/yaml_node.h"
+#include "framework/study/wanted.h"
+
+namespace pintle::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Asked {
+  CaseSource scene;
+  std::vector<Measure> measures;
+  TradePlan plan;
+};
+
+/// A study names a scene; a scene has bodies.
+bool is_study(const fs::path& file) {
+  constexpr std::size_t most_bytes = std::size_t{100} << 20;
+  const Yaml tree = parse_yaml(read_text_file(file, most_bytes), file.string());
+  return std::ranges::find(tree.items, "scene", &Yaml::key) != tree.items.end();
+}
+
+std::vector<Measure> asked_quantities(const Options& options) {
+  std::vector<Measure> out;
+  for (const std::string& words : options.quantities) {
+    if (std::ranges::find(out, words, &Measure::words) != out.end()) throw SceneError("--quantity \"" + words + "\": is asked for twice; leave one out");
+    out.emplace_back(Measure{words, words, Place{0, "--quantity"}, options.scene});
+  }
+  return out;
+}
+
+template <class Read>
+void wanted(const std::string& option, const std::string& text, double& value, Read read) {
+  if (text.empty()) return;
+  try {
+    value = read(text);
+  } catch (const ExpressionError& e) {
+    throw SceneError(option + " " + text + ": " + e.what());
+  }
+}
+
+Asked understood(const Options& options) {
+  Asked asked;
+  const Overrides set = overrides(options);
+  if (is_study(options.scene)) {
+    StudyFile file = read_study(options.scene);
+    file.study.scene.common.insert(file.study.scene.common.end(), set.begin(), set.end());
+    asked.scene = file.study.scene;
+    asked.measures = options.quantities.empty() ? file.study.measures : asked_quantities(options);
+    asked.plan = file.root().has("tradeoff") ? read_tradeoff(file) : suggested_plan(asked.scene);
+    if (!file.study.title.empty()) asked.plan.title = file.study.title;
+  } else {
+    asked.scene = read_case_source(options.scene, set);
+    if (options.quantities.empty())
+      throw SceneError(options.scene + ": no quantity is named; say what matters, for example --quantity \"peak force at JOINT\" or --quantity \"energy lost\" (docs/studies.md)");
+    asked.measures = asked_quantities(options);
+    judge(asked.measures, common_scene(asked.scene));
+    asked.plan = suggested_plan(asked.scene);
+  }
+  wanted("--error", options.wanted_error, asked.plan.error, read_share);
+  wanted("--time", options.wanted_time, asked.plan.time, read_duration);
+  wanted("--budget", options.budget, asked.plan.budget, read_duration);
+  if (options.repeats > 0) asked.plan.repeats = options.repeats;
+  if (asked.plan.title.empty()) asked.plan.title = fs::path(options.scene).stem().string();
+  return asked;
+}
+
+/// On a terminal, a line that says what goes on.
+class Telling {
+ public:
+  explicit Telling(bool quiet) : on_(!quiet && ::isatty(STDERR_FILENO)) { heed_signals(); }
+  ~Telling() {
+    if (shown_) std::cerr << "\r\033[K" << std::flush;
+  }
+  Telling(const Telling&) = delete;
+  void operator()(const std::string& what, double share) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!on_ || (shown_ && now - last_ < std::chrono::milliseconds(200))) return;
+    last_ = now, shown_ = true;
+    std::cerr << "\r  " << what << " " << std::lround(100 * std::min(share, 1.0)) << " %\033[K" << std::flush;
+  }
+
+ private:
+  bool on_, shown_ = false;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+int tradeoff(const Options& options) {
+  const Asked asked = understood(options);
+  const fs::path out = results_directory(options, "-tradeoff");
+  ResultsDirectory results(out);
+  TradeReport report;
+  {
+    Telling telling(options.quiet || options.json);
+    TradeListener listener;
+    listener.progress = [&](const std::string& what, double share) { telling(what, share); };
+    listener.go_on = [] { return !asked_to_stop(); };
+    const CaseRunner run = [&](const Overrides& set, const std::vector<Measure>& measures, const CaseLimits& limits) {
+      return run_case(asked.scene, set, measures, limits);
+    };
+    report = run_tradeoff(asked.plan, asked.measures, run, listener);
+  }
+  write_tradeoff(results.path(), out, asked.scene, report);
+  results.commit();
+  if (!options.markdown.empty()) {
+    const fs::path page = options.markdown, picture = fs::path(page).replace_extension(".svg");
+    write_text(picture, tradeoff_svg(report));
+    write_text(page, tradeoff_markdown(report, picture.filename().string()));
+  }
+  if (options.json) std::cout << tradeoff_json(report);
+  else if (!options.quiet) {
+    std::cout << tradeoff_text(report);
+    print_rows(std::cout, {{"spent", number(report.seconds, 3) + " s"}, {"results", out.string() + (report.recommended ? ", ready to run: " + (out / "recommended.yaml").string() : "")}});
+  }
+  if (report.stopped) return stopped;
+  return report.recommended ? ok : run_failed;
+}
+
+}  // namespace pintle::app

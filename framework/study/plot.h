@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+/// Curves and points as the text of an SVG picture.
+namespace pintle {
+
+struct Curve {
+  std::string label;
+  std::vector<double> x, y;
+  bool dashed = false;
+  bool points = false;  ///< points alone, no line through them
+};
+
+/// A point with a ring around it and words beside it.
+struct Mark {
+  double x = 0, y = 0;
+  std::string label;
+};
+
+struct Panel {
+  std::string title, x_label, y_label;
+  std::vector<Curve> curves;
+  std::array<double, 2> x_range{0, 0}, y_range{0, 0};  ///< 0, 0: from the curves
+  bool equal = false;                                  ///< same scale on both axes
+  bool log = false;  ///< both axes; the numbers of curves are then decimal logarithms, a point each is marked
+  std::vector<Mark> marks = {};
+};
+
+/// Panels side by side, `columns` in a row.
+std::string svg(const std::vector<Panel>& panels, std::size_t columns = 2);
+
+}  // namespace pintle

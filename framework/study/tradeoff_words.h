@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/study/tradeoff.h"
+
+namespace pintle {
+
+/// The answers of a report as sentences, made from its points.
+std::vector<std::string> answers_in_words(const TradeReport&);
+/// "0.42 %", or "below 0.01 %" where the reference or the ensemble does not tell more.
+std::string error_text(const TradePoint&);
+std::string percent_text(double share);
+std::string time_text(double seconds);
+
+}  // namespace pintle
