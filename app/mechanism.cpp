@@ -1,5 +1,6 @@
 // Commands on a whole mechanism: check and run.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -7,6 +8,7 @@
 #include <sstream>
 
 #include "app/options.h"
+#include "app/price_text.h"
 #include "app/progress.h"
 #include "framework/run/results.h"
 #include "framework/run/pieces.h"
@@ -110,11 +112,8 @@ void print_check(const Scene& scene, const Model& model, const Assembly& a) {
               {"constraint equations", Schur(s).solver()},
               {"assembly", "closed in " + std::to_string(a.iterations) + " iterations, worst coordinate moved by " + number(a.moved, 3)}});
   for (std::size_t c = 0; c < s.contacts.size(); ++c) {
-    const ContactPair& p = s.contacts[c];
-    std::cout << "  clearance at \"" << s.contact_names[c] << "\": " << number(p.gap.clearance()) << " m, stiffness "
-              << number(p.normal.k) << " N/m^" << number(p.normal.n) << ", restitution delivered "
-              << number(effective_restitution(p.normal.chi), 4)
-              << (p.friction ? ", friction " + number(p.friction->mu) : ", no friction") << "\n";
+    std::cout << "  clearance at \"" << s.contact_names[c] << "\": " << number(s.contacts[c].gap.clearance()) << " m, "
+              << model.clearances[c] << "\n";
   }
   if (!model.flexible.empty()) {
     print_flexible(model);
@@ -141,6 +140,12 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
     rows.emplace_back("  " + integral_name(s, integral), number(booked) + " J");
   }
   for (std::size_t c = 0; c < s.contacts.size(); ++c) {
+    if (s.contacts[c].link >= 0) {
+      double least = 0, most = 0;
+      for (const double N : run.trajectory.column(s.contact_names[c] + ".normal [N]")) least = std::min(least, N), most = std::max(most, N);
+      rows.emplace_back("massless link at " + s.contact_names[c], "force at the outputs from " + number(least, 4) + " to " + number(most, 4) + " N");
+      continue;
+    }
     long begun = 0, ended = 0;
     double deepest = 0, force = 0;
     for (const Impact& i : run.impacts)
@@ -175,13 +180,19 @@ Scene runnable(const Options& options) {
 }  // namespace
 
 int check(const Options& options) {
+  using clock = std::chrono::steady_clock;
   const Scene scene = with_pieces(runnable(options));
+  const auto begin = clock::now();
   const Model model = build_and_rehearse(scene);
+  const double built = std::chrono::duration<double>(clock::now() - begin).count() - (model.rehearsal ? model.rehearsal->seconds : 0);
   const Assembly assembly = assemble(scene, model);
-  if (options.json)
-    std::cout << check_json(scene, model, assembly);
-  else
-    print_check(scene, model, assembly);
+  const Price cost = price(scene, model, assembly);
+  if (options.json) {
+    std::cout << check_json(scene, model, assembly, cost);
+    return ok;
+  }
+  print_check(scene, model, assembly);
+  print_price(cost, built);
   return ok;
 }
 
@@ -192,8 +203,8 @@ int run(const Options& options) {
 
   const fs::path out = results_directory(options);
   ResultsDirectory results(out);
-  FrameWriter writer(results.path());
-  const Drafting drafting(scene, model);
+  std::optional<FrameWriter> writer;
+  std::optional<Drafting> drafting;
   Progress progress(scene.run.until, options.quiet);
   Listeners listeners;
   listeners.progress = [&](double t) { return progress(t); };
@@ -209,10 +220,13 @@ int run(const Options& options) {
     fs::create_directories(results.path() / "states");
     write_text(results.path() / "states" / name.str(), state_text(scene, state));
   };
-  if (scene.output.frames > 1)
-    listeners.frame = [&](const State& state, const Equations& eq) { writer.add(draw(model, drafting, state, eq)); };
+  if (scene.output.frames > 1) {
+    writer.emplace(results.path());
+    drafting.emplace(scene, model);
+    listeners.frame = [&](const State& state, const Equations& eq) { writer->add(draw(model, *drafting, state, eq)); };
+  }
   const Run result = simulate(scene, model, assembly, listeners, from ? &*from : nullptr);
-  if (scene.output.frames > 1) writer.finish();
+  if (writer) writer->finish();
   write_results(results.path(), scene, model, assembly, result);
   results.commit();
 

@@ -162,12 +162,16 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
   Json contacts = Json::object();
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     const ContactPair& p = system.contacts[c];
-    contacts[system.contact_names[c]] = {{"stiffness [N/m^n]", p.normal.k},
-                                         {"exponent", p.normal.n},
-                                         {"hysteresis factor", p.normal.chi},
-                                         {"restitution delivered", effective_restitution(p.normal.chi)},
-                                         {"journal radius [m]", p.gap.journal},
-                                         {"bearing radius [m]", p.gap.bearing}};
+    Json& out = contacts[system.contact_names[c]] = {{"model", model.clearances[c]}};
+    if (p.link < 0) {
+      out["stiffness [N/m^n]"] = p.normal.k;
+      out["exponent"] = p.normal.n;
+      out["hysteresis factor"] = p.normal.chi;
+      out["damping [N s/m]"] = p.normal.d;
+      if (p.normal.d == 0) out["restitution delivered"] = effective_restitution(p.normal.chi);
+    }
+    out["journal radius [m]"] = p.gap.journal;
+    out["bearing radius [m]"] = p.gap.bearing;
   }
   const Json out = {
       {"program", "pintle"},
@@ -203,13 +207,15 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
   return out.dump(2) + "\n";
 }
 
-std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly) {
+std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly, const Price& price) {
   std::vector<std::string> warnings = model.warnings;
   for (std::string& w : doubts(model, assembly)) warnings.push_back(std::move(w));
   const Json out = {{"title", scene.title}, {"file", scene.file}, {"model", assembly_json(model.system, assembly)},
                     {"method", method_json(model.scheme, "")},
+                    {"clearances", model.clearances},
                     {"flexible bodies", flexible_json(model)},
                     {"rigid run", rehearsal_json(model)},
+                    {"price", Json::parse(price_json(price))},
                     {"warnings", warnings},
                     {"scene", scene_json(scene)}};
   return out.dump(2) + "\n";

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/run/price.h"
 #include "framework/run/simulate.h"
 
 namespace pintle {
@@ -33,6 +34,6 @@ std::string csv(const Table&);
 /// What run.json holds, as text.
 std::string run_json(const Scene&, const Model&, const Assembly&, const Run&);
 /// What `pintle check --json` prints.
-std::string check_json(const Scene&, const Model&, const Assembly&);
+std::string check_json(const Scene&, const Model&, const Assembly&, const Price&);
 
 }  // namespace pintle
