@@ -20,6 +20,10 @@ struct Options {
   int count = 6, frames = -1;
   std::string restart, at;  ///< a saved state; an instant
   bool at_rest = false;     ///< about where the mechanism rests
+  int threads = 0;          ///< of this process; 0: as many as cores
+  std::vector<std::string> quantities;  ///< of a trade-off, in words
+  std::string wanted_error, wanted_time, budget, markdown;
+  int repeats = 0;          ///< 0: as the study says
 };
 
 // One a command; each returns its exit code.
@@ -32,6 +36,8 @@ int equilibrium(const Options&);
 int kinematics(const Options&);
 int inverse(const Options&);
 int linearize(const Options&);
+int sweep(const Options&);
+int tradeoff(const Options&);
 
 Overrides overrides(const Options&);
 /// --at, a time ≥ 0 [s]. @throws SceneError  it cannot be read

@@ -1,4 +1,5 @@
 #include <Eigen/SVD>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -9,15 +10,23 @@
 namespace pintle {
 namespace {
 
-/// Interface displacements that are no rigid motions: an orthonormal basis, b × (b − 3).
+/// Interface displacements that are no rigid motions, b × (b − 3).
 Eigen::MatrixXd straining(const Component& c, const std::vector<int>& interface) {
   const auto b = static_cast<Eigen::Index>(interface.size());
   if (b >= 3) {
-    const Eigen::MatrixXd rigid = scaled_rigid_motions(c.model)(interface, Eigen::all);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rigid, Eigen::ComputeFullU);
+    Eigen::MatrixXd rigid = scaled_rigid_motions(c.model)(interface, Eigen::all);
     // Ports that span less than 1e-8 of the body would leave nothing of K⁻¹ but rounding.
-    if (svd.singularValues()[2] > 1e-8 * svd.singularValues()[0])
-      return svd.matrixU().rightCols(b - 3);
+    const auto spans = [](const auto& svd) { return svd.singularValues()[2] > 1e-8 * svd.singularValues()[0]; };
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rigid, Eigen::ComputeFullU);
+    if (spans(svd)) return svd.matrixU().rightCols(b - 3);
+    // A body of nanometres: turns, counted in the body's size, are as much as its places.
+    Eigen::VectorXd size = Eigen::VectorXd::Ones(b);
+    const double place = rigid.leftCols<2>().cwiseAbs().maxCoeff();
+    for (Eigen::Index i = 0; i < b; ++i)
+      if (rigid.row(i).head<2>().isZero(0) && rigid(i, 2) != 0) size[i] = place / std::abs(rigid(i, 2));
+    rigid = size.asDiagonal() * rigid;
+    const Eigen::JacobiSVD<Eigen::MatrixXd> sized(rigid, Eigen::ComputeFullU);
+    if (spans(sized)) return size.cwiseInverse().asDiagonal() * sized.matrixU().rightCols(b - 3);
   }
   throw std::invalid_argument("Craig–Bampton: the interface ports hold the body with " +
                               std::to_string(b) +

@@ -66,7 +66,14 @@ Modes lowest(const Problem& p, int count) {
 
 Modes below(const Problem& p, double frequency) {
   const double omega = 2 * M_PI * frequency;
-  return elastic(eigen_below(p.K, p.M, omega * omega), p);
+  const auto pairs = [&]() -> EigenPairs {
+    try {
+      return eigen_below(p.K, p.M, omega * omega);
+    } catch (const std::runtime_error& e) {
+      refuse("keep: below = ", frequency, " Hz cannot be told from a mode of ", p.whose, " (", e.what(), "); take another, or a count");
+    }
+  };
+  return elastic(pairs(), p);
 }
 
 /// The columns of `carried` are Mr/‖r‖_M for the rigid motions r: shares are their products with

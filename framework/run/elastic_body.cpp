@@ -33,6 +33,19 @@ void judge(const MeshQuality& q, std::vector<std::string>& warnings) {
     warnings.push_back(std::to_string(q.bad.size()) + " badly shaped cell(s), the worst " + described(q.bad.front()) + ": stress there is not to be trusted");
 }
 
+/// Elements of few freedoms whose strain cannot keep its volume at every point and still bend.
+void judge_locking(const ScenePlate& plate, const Mesh& mesh, std::vector<std::string>& warnings) {
+  constexpr double nearly = 0.48;
+  const auto* solid = std::get_if<Isotropic>(&plate.material.material.elastic);
+  if (!solid || plate.state != PlaneState::strain || solid->poisson < nearly) return;
+  const bool triangles = std::any_of(mesh.cells.begin(), mesh.cells.end(), [](const Cells& c) { return c.shape == CellShape::triangle3; });
+  if (!triangles && plate.element != "quadrilateral4-plain") return;
+  std::ostringstream s;
+  s << (triangles ? "triangle3" : plate.element) << " locks in plane strain at a Poisson's ratio of " << solid->poisson
+    << ": it comes out far too stiff; take quadrilateral4, triangle6 or quadrilateral8";
+  warnings.push_back(s.str());
+}
+
 /// The material with the density that gives `mass` to a body whose mass at density 1 is `volume`.
 Material with_mass(Material material, const std::optional<double>& mass, double volume) {
   if (mass) material.density = *mass / volume;
@@ -192,6 +205,7 @@ ElasticBody elastic_body(const Scene& scene, const SceneBody& body) {
     if (e.mesh.plane()) {
       e.quality = quality(e.mesh);
       judge(e.quality, e.warnings);
+      judge_locking(plate_of(body), e.mesh, e.warnings);
       e.thickness = plate_of(body).thickness;
     }
     e.model = fe_model(e.mesh.x, blocks_of(body, e.mesh, e.fibres), lumps_of(scene, body, e.mesh));

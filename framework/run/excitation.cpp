@@ -76,6 +76,7 @@ class Grips {
       const bool gap = j.clearance.has_value();
       const bool a_bears = gap && j.clearance->bearing != j.b.body;
       const std::size_t k = gap ? contacts++ : joints++;
+      if (gap && j.clearance->model == ClearanceModel::massless_link) ++joints;
       add(gap ? Grip::contact : Grip::joint, k, !a_bears, j.a);
       add(gap ? Grip::contact : Grip::joint, k, a_bears, j.b);
     }
@@ -114,7 +115,10 @@ class Grips {
 };
 
 Wrench wrench(const System& system, const Equations& eq, const Grip& g) {
-  if (g.of == Grip::contact) return g.first ? eq.contact[g.k].on_journal : eq.contact[g.k].on_bearing;
+  if (g.of == Grip::contact) {
+    const ContactEffect now = clearance_effect(system, eq, g.k);
+    return g.first ? now.on_journal : now.on_bearing;
+  }
   if (g.of == Grip::force) return g.first ? eq.force[g.k].on_a : eq.force[g.k].on_b;
   const int row = system.row_begin[g.k], m = system.row_begin[g.k + 1] - row;
   const auto& L = g.first ? eq.rows[g.k].La : eq.rows[g.k].Lb;

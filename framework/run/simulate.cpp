@@ -33,11 +33,61 @@ double in_play(const Energies& e, const Energies& first) {
          std::abs(e.input);
 }
 
-/// What rounding may leave in the books of a mechanism that hardly moves.
-double rounding_energy(const System& system, double until) {
-  double mass = 0;
-  for (const Body& b : system.bodies) mass += b.m;
-  return 1e-12 * mass * system.length * (system.gravity.norm() + system.length / (until * until));
+/// What rounding may leave in the books of a mechanism that hardly moves: places known to a part of its length and of their
+// distance from the world's origin, and speeds to the former over the run.
+double rounding_energy(const System& system, const State& state, double until) {
+  constexpr double part = 1e-12, of_distance = 1e-13;
+  const double place = part * system.length, speed = place / until;
+  double sum = 0;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const double distance = state.y.segment<2>(3 * static_cast<Eigen::Index>(b)).norm();
+    sum += system.bodies[b].m * ((place + of_distance * distance) * system.gravity.norm() + speed * speed);
+  }
+  return sum;
+}
+
+bool all_finite(const Energies& e) { return std::isfinite(e.stored()) && std::isfinite(e.lost) && std::isfinite(e.input); }
+
+std::string short_number(double x) {
+  std::ostringstream s;
+  s.precision(3);
+  s << x;
+  return s.str();
+}
+
+/// The largest inertia that a rigid body shows to a force over the smallest, at its centre or turning about it.
+double unlikeness(const System& system) {
+  double least = INFINITY, most = 0;
+  std::vector<double> reach(system.bodies.size(), 0.0);
+  for (const Marker& m : system.markers)
+    if (m.body != ground) reach[static_cast<std::size_t>(m.body)] = std::max(reach[static_cast<std::size_t>(m.body)], m.x_BP.norm());
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const Body& body = system.bodies[b];
+    const double turning = reach[b] > 0 ? body.J / (reach[b] * reach[b]) : body.m;
+    least = std::min({least, body.m, turning});
+    most = std::max({most, body.m, turning});
+  }
+  return most / least;
+}
+
+// What a run that cannot go on suffers from, where its numbers show it; else empty.
+std::string explain_numbers(const System& system, const Integrator& integrator) {
+  constexpr double many = 1e6, few = 1e-9, unlike = 1e6;  // radians, of a pivot, times
+  const Eigen::Index n = system.n();
+  if (!std::isfinite(integrator.last().to.dy.segment(n, n).squaredNorm()))
+    return "numbers beyond what a double holds: check masses, lengths, speeds and units";
+  if (integrator.failure().find("max steps") != std::string::npos) return "";
+  double angle = 0;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) angle = std::max(angle, std::abs(integrator.state().y[3 * static_cast<Eigen::Index>(b) + 2]));
+  if (angle > many)
+    return "an angle has come to " + short_number(angle) + " rad, whose last digit moves points by " +
+           short_number(angle * 2.2e-16 * system.length) + " m; begin again from this state with angles in one turn";
+  const Schur& rows = integrator.equations().schur;
+  if (!integrator.implicit() && system.n() == system.n_rigid() && system.n_rows() > 0 && rows.least() < few && unlikeness(system) > unlike)
+    return "bodies of very unlike mass or inertia leave " +
+           (rows.least() > 0 ? short_number(rows.least()) : std::string("less than 1e-12")) +
+           " of what the joint forces are found from; take method: generalized-alpha, or masses and inertias nearer to each other";
+  return "";
 }
 
 void warn_of_depth(const System& system, Run& run) {
@@ -57,6 +107,23 @@ void warn_of_depth(const System& system, Run& run) {
     }
 }
 
+/// A massless link holds the journal at the wall whether the wall presses or not.
+void warn_of_pushing(const System& system, Run& run) {
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    if (system.contacts[c].link < 0) continue;
+    std::size_t pushing = 0;
+    double most = 0;
+    for (const double N : run.trajectory.column(system.contact_names[c] + ".normal [N]"))
+      if (N < 0) ++pushing, most = std::max(most, -N);
+    if (pushing == 0) continue;
+    std::ostringstream s;
+    s.precision(3);
+    s << "\"" << system.contact_names[c] << "\": the massless link pushed, with up to " << most << " N, in " << pushing << " of "
+      << run.trajectory.rows() << " outputs, as no wall could pull: contact would be lost there";
+    run.warnings.push_back(s.str());
+  }
+}
+
 /// Greatest deflection and slope of each flexible body at the output times.
 class Bending {
  public:
@@ -69,6 +136,11 @@ class Bending {
       for (Eigen::Index i = 0; i + 1 < u.size(); i += 2) greatest_[k][0] = std::max(greatest_[k][0], u.segment<2>(i).norm() / p.size);
       if (p.slope.rows() > 0) greatest_[k][1] = std::max(greatest_[k][1], (p.slope * eta).lpNorm<Eigen::Infinity>());
     }
+  }
+  std::string worst_doubt() const {
+    std::vector<std::string> all;
+    warn(all);
+    return all.empty() ? "" : all.front();
   }
   void warn(std::vector<std::string>& warnings) const {
     for (std::size_t k = 0; k < greatest_.size(); ++k) {
@@ -160,7 +232,9 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
     spent_listening += clock::now() - before;
   };
 
-  bool going = integrator.failure().empty() && report();
+  const Energies at_start = energies(system, integrator.state(), integrator.equations());
+  const bool countable = all_finite(at_start);
+  bool going = integrator.failure().empty() && countable && report();
   while (going && integrator.state().t < until) {
     if (listeners.progress && integrator.counts().steps % 64 == 0 && !listeners.progress(integrator.state().t)) {
       run.status = Status::interrupted;
@@ -176,8 +250,13 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   if (!going) {
     run.status = Status::failed;
     run.reason = integrator.failure();
+    integrator.restore();
     const State& at = integrator.state();
-    if (const std::string why = run.reason.empty() ? "" : explain_pose(system, at.t, at.y); !why.empty()) run.reason += "; " + why;
+    std::string why = run.reason.empty() || !at.y.allFinite() ? "" : explain_pose(system, at.t, at.y);
+    if (why.empty() && !run.reason.empty()) why = explain_numbers(system, integrator);
+    if (why.empty() && !run.reason.empty()) why = bending.worst_doubt();
+    if (!why.empty()) run.reason += "; " + why;
+    if (run.reason.empty() && !countable) run.reason = "the energy at the start is beyond what a double holds; check masses, speeds and units";
     if (run.reason.empty()) {
       std::ostringstream s;
       s << "t = " << sampled.t << " s: the output there cannot be evaluated (a singular pose, or numbers beyond what a "
@@ -195,6 +274,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   run.t_end = integrator.state().t;
   run.impacts = integrator.impacts();
   warn_of_depth(system, run);
+  warn_of_pushing(system, run);
   bending.warn(run.warnings);
   run.counts = integrator.counts();
   run.switched = integrator.switched();
@@ -202,7 +282,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   run.worst_velocity = integrator.worst_velocity();
   run.seconds = std::chrono::duration<double>(clock::now() - begin - spent_listening).count();
   if (run.status == Status::finished &&
-      !(std::abs(run.worst_unexplained) <= scene.run.ledger_bound * run.energy_in_play + rounding_energy(system, until))) {
+      !(std::abs(run.worst_unexplained) <= scene.run.ledger_bound * run.energy_in_play + rounding_energy(system, integrator.state(), until))) {
     std::ostringstream s;
     s.precision(3);
     s << "the ledger leaves " << run.worst_unexplained << " J unexplained, "

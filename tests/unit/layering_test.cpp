@@ -48,7 +48,7 @@ struct Foreign {
   Paths may;
 };
 const std::vector<Foreign> foreign{
-    {"vtk", {"framework/run/vtk.cpp", "app/picture.cpp", "app/png.cpp", "app/canvas.h", "app/canvas.cpp",
+    {"vtk", {"framework/run/vtk_encoder.cpp", "app/picture.cpp", "app/png.cpp", "app/canvas.h", "app/canvas.cpp",
              "app/field_picture.cpp", "app/frames.cpp", "tests/unit/vtk_test.cpp"}},
     {"yaml-cpp/", {"framework/scene/", "tests/"}},
     {"muParser", {"framework/scene/expression.cpp"}},
@@ -58,10 +58,11 @@ const std::vector<Foreign> foreign{
     {"klu", {"framework/dynamics/sparse_lu.cpp"}},
     {"umfpack", {}},
     {"SuiteSparseQR", {"framework/run/row_space.cpp"}},
-    {"gmsh.h", {"meshes/gmsh"}},
+    {"gmsh.h", {"meshes/gmsh_"}},
     {"Spectra/", {"tests/", "benchmarks/"}},
+    {"mpi.h", {"app/fellows.cpp"}},
     {"CLI/", {"app/"}},
-    {"nlohmann/", {"framework/scene/", "framework/run/", "app/", "tests/", "benchmarks/"}},
+    {"nlohmann/", {"framework/scene/", "framework/run/", "framework/study/", "app/", "tests/", "benchmarks/"}},
     {"valijson/", {"tests/"}},
     {"gtest/", {"tests/"}},
     {"benchmark/", {"benchmarks/"}},

@@ -269,7 +269,7 @@ TEST(SceneSchema, AcceptsWhatTheReaderAccepts) {
 TEST(SceneSchema, AcceptsEveryExample) {
   for (const auto& entry :
        fs::recursive_directory_iterator(fs::path(PINTLE_SOURCE_DIR) / "examples")) {
-    if (entry.path().extension() != ".yaml") continue;
+    if (entry.path().extension() != ".yaml" || entry.path().parent_path().filename() == "studies") continue;
     std::ifstream in(entry.path());
     const std::string text((std::istreambuf_iterator<char>(in)), {});
     EXPECT_EQ(verdict(text), "") << entry.path();
