@@ -132,7 +132,8 @@ double Integrator::scaled_error() {
   const auto& y = step_.to.state.y;
   const double fastest = std::max(fastest_, fastest_speed(y));
   const double length = fine_length_, slowest = slowest_speed * length / step_.h;
-  const double across = std::sqrt(length * fastest * std::max(fastest / system_.length, lowest_shape_));
+  constexpr double known = 1e-13;  // of the fastest speed, to which constraints are met: an error below it is noise
+  const double across = std::max(std::sqrt(length * fastest * std::max(fastest / system_.length, lowest_shape_)), known / scheme_.tolerance * fastest);
   const double speed = std::max(alpha_ ? fastest : std::min(fastest, across), slowest);
   const double energy = std::max({energy_, kinetic_energy(system_, y), mass_ * slowest * slowest / 2});
   double worst = 0;
