@@ -208,13 +208,7 @@ std::string Integrator::trouble() const { return alpha_ && !alpha_->trouble().em
 
 bool Integrator::advance(double until) {
   if (!failure_.empty()) return false;
-  if (counts_.steps >= scheme_.max_steps) {
-    const double left = until - step_.to.state.t, last = step_.h;
-    step_.from = step_.to;
-    return stop("max steps reached (" + std::to_string(scheme_.max_steps) + ")" +
-                (last > 0 ? "; at the last one's length, " + number_text(last) + " s, the rest needs " + number_text(left / last) + " more" : "") +
-                ": raise run.max steps, loosen run.tolerance, or soften what is so fast");
-  }
+  if (counts_.steps >= scheme_.max_steps) return stop("max steps reached");
   std::swap(step_.from, step_.to);
   step_.struck = false;
   step_.to.state.t = step_.from.state.t;
