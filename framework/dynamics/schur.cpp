@@ -127,6 +127,15 @@ Schur::Schur(const System& system) : n_(system.n_rows()), data_(std::make_unique
     if (modal_terms_[k].to == 0) modal_terms_[k].to = where[k];
   }
   std::erase_if(modal_terms_, [](const ModalTerm& t) { return t.to < 0; });
+  std::vector<bool> begun(values_.size(), false);
+  const auto later = std::stable_partition(terms_.begin(), terms_.end(), [&](const Term& t) {
+    const bool first = !begun[at(t.to)];
+    begun[at(t.to)] = true;
+    return first;
+  });
+  first_terms_ = static_cast<std::size_t>(later - terms_.begin());
+  for (std::size_t i = 0; i < begun.size(); ++i)
+    if (!begun[i]) zeros_.push_back(static_cast<int>(i));
 }
 
 double Schur::inconsistency() const { return dependent() ? data_->refine.left_over() : 0; }
@@ -140,13 +149,15 @@ const char* Schur::solver() const {
 double Schur::nonzeros() const { return sparse() ? data_->sparse->nonzeros() : 0.5 * n_ * (n_ + 1); }
 
 void Schur::sum(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta) {
-  std::fill(values_.begin(), values_.end(), 0.0);
+  for (const int i : zeros_) values_[at(i)] = 0;
   if (terms_.empty()) return;
   const double* entries = B.front().data();
-  for (const Term& t : terms_) {
+  const auto product = [&](const Term& t) {
     const double *a = entries + t.a, *b = entries + t.b, *w = weights_.data() + t.w;
-    values_[at(t.to)] += a[0] * w[0] * b[0] + a[1] * w[1] * b[1] + a[2] * w[2] * b[2];
-  }
+    return a[0] * w[0] * b[0] + a[1] * w[1] * b[1] + a[2] * w[2] * b[2];
+  };
+  for (std::size_t k = 0; k < first_terms_; ++k) values_[at(terms_[k].to)] = product(terms_[k]);
+  for (std::size_t k = first_terms_; k < terms_.size(); ++k) values_[at(terms_[k].to)] += product(terms_[k]);
   for (const ModalTerm& t : modal_terms_) values_[at(t.to)] += B_eta[at(t.i)].row(t.r).dot(B_eta[at(t.j)].row(t.c));
 }
 

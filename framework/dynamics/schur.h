@@ -65,7 +65,9 @@ class Schur {
   int n_;
   int lost_ = 0;
   double least_ = 1;  ///< pivot over the entry it came from, the smallest; 0 if some are lost
-  std::vector<Term> terms_;
+  std::vector<Term> terms_;      ///< first those that begin an entry
+  std::size_t first_terms_ = 0;  ///< how many these are
+  std::vector<int> zeros_;       ///< entries without any, which the factor fills
   std::vector<ModalTerm> modal_terms_;
   std::vector<double> weights_;  ///< 1/m, 1/m, 1/J of each body; 1 of a flexible one
   std::vector<double> values_;  ///< dense: n × n row-major, lower, then its factor; sparse: SparseLdl's

@@ -11,10 +11,10 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Greatest f(x), 0 < x < 1, of an f with one summit: the summit of the parabola through three points, golden section
-// where that does not close in fast [Brent1973, ch. 5]. f is flat there: x to 1e-4 is f to about 1e-8.
+// where that does not close in fast [Brent1973, ch. 5]. f is flat there: x to 1e-3 is f to about 1e-6 of its change.
 template <class F>
 double greatest(F f) {
-  constexpr double golden = 0.3819660112501051, enough = 1e-4;
+  constexpr double golden = 0.3819660112501051, enough = 1e-3;
   struct Point {
     double x, f;
   };
@@ -117,30 +117,23 @@ void Integrator::follow_impacts() {
   }
 }
 
-// Where depth crosses zero between two times of the last step whose depths differ in sign: the
-// Illinois variant of regula falsi on the dense output.
+// Where depth crosses zero between two times of the last step whose depths differ in sign: Newton's method on the dense
+// output, bisection where it leaves the bracket.
 double Integrator::crossing(int contact, double t0, double t1, bool onset) {
-  const double sign = onset ? 1 : -1;
-  double f0 = sign * touch_at(contact, t0).depth, f1 = sign * touch_at(contact, t1).depth;
+  const double sign = onset ? 1 : -1, fine = 1e-9 * step_.h;  // finer than dense output is good for
+  const double f0 = sign * touch_at(contact, t0).depth, f1 = sign * touch_at(contact, t1).depth;
   if (f0 >= 0) return t0;
-  double last = t1;
-  for (int i = 0; i < 100 && t1 - t0 > 1e-16 * std::abs(t1); ++i) {
-    double t = t1 - f1 * (t1 - t0) / (f1 - f0);
-    if (!(t > t0 && t < t1)) t = 0.5 * (t0 + t1);
-    if (t <= t0 || t >= t1) break;
-    if (std::abs(t - last) <= 1e-9 * step_.h) return t;  // finer than dense output is good for
-    last = t;
-    const double f = sign * touch_at(contact, t).depth;
-    if (f == 0) return t;
-    if (f < 0) {
-      t0 = t, f0 = f;
-      f1 /= 2;
-    } else {
-      t1 = t, f1 = f;
-      f0 /= 2;
-    }
+  double t = t0 - f0 * (t1 - t0) / (f1 - f0);
+  for (int i = 0; i < 100; ++i) {
+    const Touch now = touch_at(contact, t);
+    const double f = sign * now.depth;
+    (f < 0 ? t0 : t1) = t;
+    double next = t - f / (sign * now.rate);
+    if (!(next >= t0 && next <= t1)) next = t0 + (t1 - t0) / 2;
+    if (std::abs(next - t) <= fine) return next;
+    t = next;
   }
-  return t1;
+  return t;
 }
 
 // The earliest onset or loss inside the last step; contact = −1 if there is none.
@@ -189,7 +182,7 @@ double Integrator::first_event(int& contact, bool& onset) {
 }
 
 // Ends the last step at the event near t: true steps of the scheme, not dense output, corrected until the wall is
-// met: until what the contact stores at the depth that is left is, of the impact's energy, a hundredth of the tolerance.
+// met: until what the contact stores at the depth that is left is, of the impact's energy, a ten-thousandth of the tolerance.
 // @returns false if it is not found so; step_.h is then as before
 bool Integrator::finish_at(double t, int contact) {
   const double t0 = step_.from.state.t, t1 = step_.to.state.t, h = step_.h;
@@ -199,7 +192,7 @@ bool Integrator::finish_at(double t, int contact) {
     step_.h = 0;
     return true;
   }
-  const double enough = 1e-15 * system_.length, part = std::sqrt(1e-2 * scheme_.tolerance);
+  const double enough = 1e-15 * system_.length, part = std::sqrt(1e-4 * scheme_.tolerance);
   constexpr double last_digits = 4.5e-16;  // two of the clock's: between them the wall cannot be met more nearly
   double depth = 0;
   for (int i = 0; i < 6 && t > t0; ++i) {

@@ -208,7 +208,13 @@ std::string Integrator::trouble() const { return alpha_ && !alpha_->trouble().em
 
 bool Integrator::advance(double until) {
   if (!failure_.empty()) return false;
-  if (counts_.steps >= scheme_.max_steps) return stop("max steps reached");
+  if (counts_.steps >= scheme_.max_steps) {
+    const double left = until - step_.to.state.t, last = step_.h;
+    step_.from = step_.to;
+    return stop("max steps reached (" + std::to_string(scheme_.max_steps) + ")" +
+                (last > 0 ? "; the last was of " + number_text(last) + " s, at which the rest needs " + number_text(left / last) + " more" : "") +
+                ": raise run.max steps, loosen run.tolerance, or soften or damp what is so fast");
+  }
   std::swap(step_.from, step_.to);
   step_.struck = false;
   step_.to.state.t = step_.from.state.t;
