@@ -13,6 +13,7 @@ using Index = Eigen::Index;
 namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+constexpr double short_part = 1e-3;  // of a step: in less, an implicit one shows the rounding of speeds in accelerations and multipliers
 constexpr double slowest_speed = 1e-6;  // over the finest length and the step: slower is rest
 
 std::string number_text(double x) {
@@ -167,7 +168,7 @@ double Integrator::scaled_error() {
 bool Integrator::step_to(double h_left) {
   const double order = alpha_ ? Alpha::order + 1 : stages_->tableau().error_order + 1;
   for (int tries = 0; tries < 60; ++tries) {
-    const bool last = h_ >= h_left * (1 - 1e-12);
+    const bool last = h_ >= h_left * (1 - short_part);  // nor is a rest left that is too short to tell accelerations by
     const double h = last ? h_left : h_;
     if (h < 4e-16 * std::max(std::abs(step_.from.state.t), h_left))
       return stop("the step became too small (" + number_text(h) + " s) for the tolerance" + trouble());
@@ -352,8 +353,9 @@ bool Integrator::sample(double t, State& out) {
   if (t >= step_.to.state.t) {
     out = step_.to.state;
   } else if (alpha_) {
+    const double h = t - step_.from.state.t;
     Step part = step_;  // a true step: forces of stiff springs are in balance at its end, not between nodes
-    if (t > step_.from.state.t && alpha_->attempt(system_, t - step_.from.state.t, part, eq_)) {
+    if (h > short_part * step_.h && alpha_->attempt(system_, h, part, eq_)) {
       out = part.to.state;
       return true;
     }

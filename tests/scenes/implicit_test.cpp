@@ -6,6 +6,7 @@
 
 #include "framework/run/method.h"
 #include "framework/scene/error.h"
+#include "framework/scene/reader.h"
 #include "tests/scenes/flexible_scenes.h"
 #include "tests/scenes/mechanisms.h"
 
@@ -59,6 +60,33 @@ TEST(Implicit, AndrewsMechanismEndsWhereTheExplicitRunDoes) {
   const Whole exact = run(s);
   for (const char* name : {"K1.angle [rad]", "K2.angle [rad]", "K7.angle [rad]"})
     EXPECT_LT(relative_difference(w.column(name), exact.column(name)), allowed(1e-8)) << name;
+}
+
+// Rows at the very ends of steps and a rest of the run shorter than any: nothing there is told from rounding.
+TEST(Implicit, TorqueOfADriverIsThatOfTheExplicitRunInEveryRow) {
+  pintle::Scene s = pintle::read_scene_text(R"(
+gravity: [0, -9.81]
+ground: {points: {R: [0.25, 0]}}
+bodies:
+  crank: {rigid: {mass: 0.5, inertia: 4e-4, center: [25 mm, 0]}, points: {O: [0, 0], A: [50 mm, 0]}, pose: {angle: 90 deg}}
+  coupler: {rigid: {mass: 0.3, inertia: 1e-3, center: [0.1, 0]}, points: {A: [0, 0], B: [0.2, 0]}, pose: {at: [0, 50 mm], angle: 20 deg}}
+  rocker: {rigid: {mass: 0.4, inertia: 8e-4, center: [75 mm, 0]}, points: {R: [0, 0], B: [0.15, 0]}, pose: {at: [0.25, 0], angle: 110 deg}}
+joints:
+  main: {revolute: [ground, crank.O]}
+  pin A: {revolute: [crank.A, coupler.A]}
+  pin B: {revolute: [coupler.B, rocker.B]}
+  pivot: {revolute: [ground.R, rocker.R]}
+drivers: {motor: {angle: [ground, crank], law: "90 deg + 30*t"}}
+run: {until: 0.02}
+output: {every: 10 us}
+)", "driven.yaml");
+  s.run.method = "dopri5";
+  const std::vector<double> wanted = run(s).column("motor.torque on crank [N m]");
+  for (const double tolerance : {1e-6, 1e-8}) {
+    const std::vector<double> torque = implicit(s, tolerance).column("motor.torque on crank [N m]");
+    ASSERT_EQ(torque.size(), wanted.size());
+    for (std::size_t i = 0; i < torque.size(); ++i) ASSERT_NEAR(torque[i], wanted[i], 1e-4) << i << " " << tolerance;
+  }
 }
 
 TEST(Implicit, FirstImpactsAreThoseOfTheExplicitRun) {
