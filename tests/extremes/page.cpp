@@ -1,6 +1,6 @@
 // The page of the atlas of extremes.
 //   extremes_page            runs every case, minutes of nightly ones included, writes docs/stability.md; returns 1 if a verdict is bad
-//   extremes_page --quick    without the nightly ones, prints rows with their seconds, writes nothing
+//   extremes_page --quick    the same without the nightly ones, which the page then says
 //   extremes_page --only X   axes whose name contains X, likewise
 #include <cctype>
 #include <cstring>
@@ -84,7 +84,7 @@ double worst_share(const Rows& rows) {
   return out;
 }
 
-std::string page_text(const std::vector<Rows>& tables) {
+std::string page_text(const std::vector<Rows>& tables, const std::string& left_out) {
   std::size_t cases = 0;
   for (const Rows& rows : tables) cases += rows.size();
   std::ostringstream md;
@@ -101,7 +101,8 @@ std::string page_text(const std::vector<Rows>& tables) {
         "- **Refused**: before the run, with file, line, value and remedy.\n"
         "- **Figure**: what is asserted, against a limit, a conservation law or a model that shares no code; **bound**: how much is "
         "allowed.\n\n"
-        "No case hangs, leaves a number that is not finite or ends without a reason: every run is judged for that as well.\n\n"
+     << (left_out.empty() ? "" : "Left out of this page, for they take minutes: " + left_out + ".\n\n")
+     << "No case hangs, leaves a number that is not finite or ends without a reason: every run is judged for that as well.\n\n"
         "| axis | holds | of the bound, at worst | past it |\n|---|---|---|---|\n";
   for (const Rows& rows : tables) {
     const std::string& name = rows.front().axis->name;
@@ -131,12 +132,16 @@ int main(int argc, char** argv) try {
     return 2;
   }
   int bad = 0;
+  std::string left_out;
   std::vector<Rows> tables;
   for (const Axis& axis : atlas()) {
     if (axis.name.find(only) == std::string::npos) continue;
     Rows rows;
     for (const Case& c : axis.cases) {
-      if (quick && c.nightly) continue;
+      if (quick && c.nightly) {
+        left_out += (left_out.empty() ? "" : "; ") + axis.name + " " + c.label;
+        continue;
+      }
       rows.push_back(row(axis, c));
       const std::string wrong = rows.back().wrong();
       std::cout << (wrong.empty() ? "ok    " : "FALSE ") << axis.name << " | " << line(rows.back()) << f(" | %.2f s", rows.back().seconds)
@@ -145,7 +150,7 @@ int main(int argc, char** argv) try {
     }
     if (!rows.empty()) tables.push_back(std::move(rows));
   }
-  if (!quick && only.empty()) paper::write(paper::source / "docs/stability.md", page_text(tables));
+  if (only.empty()) paper::write(paper::source / "docs/stability.md", page_text(tables, left_out));
   std::cout << bad << " bad verdicts\n";
   return bad > 0;
 } catch (const std::exception& e) {
