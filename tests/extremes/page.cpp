@@ -13,17 +13,8 @@
 namespace extremes {
 namespace {
 
+using paper::anchor;
 using Rows = std::vector<Row>;
-
-std::string anchor(const std::string& title) {
-  std::string out;
-  for (const char c : title)
-    if (std::isalnum(static_cast<unsigned char>(c)))
-      out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    else if (c == ' ' || c == '-')
-      out += '-';
-  return out;
-}
 
 std::string capital(std::string s) {
   if (!s.empty()) s[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(s[0])));

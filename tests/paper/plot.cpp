@@ -1,5 +1,6 @@
 #include "tests/paper/plot.h"
 
+#include <cctype>
 #include <cstdarg>
 #include <cstdio>
 #include <fstream>
@@ -15,6 +16,16 @@ std::string f(const char* format, ...) {
   std::vsnprintf(text.data(), text.size(), format, arguments);
   va_end(arguments);
   return text.data();
+}
+
+std::string anchor(const std::string& title) {
+  std::string out;
+  for (const char c : title)
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else if (c == ' ' || c == '-')
+      out += '-';
+  return out;
 }
 
 void write(const std::filesystem::path& file, const std::string& content) {

@@ -21,6 +21,8 @@ const double pi = std::acos(-1.0);
 using pintle::Curve;
 using pintle::Panel;
 
+/// Of a heading, as a link names it.
+std::string anchor(const std::string& title);
 void write(const std::filesystem::path& file, const std::string& content);
 void figure(const std::string& name, const std::vector<Panel>& panels, std::size_t columns = 2);
 

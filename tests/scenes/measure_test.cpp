@@ -7,7 +7,6 @@
 
 #include "framework/study/case.h"
 #include "framework/study/measure_words.h"
-#include "framework/study/signal.h"
 #include "tests/oracles/pendulum.h"
 #include "tests/oracles/slider_crank_clearance.h"
 
@@ -345,58 +344,6 @@ TEST(Measure, PreparesRowsForItsWindowAndItsInstants) {
     for (const double t : instants) words.push_back("x of slider at " + std::to_string(1e6 * t) + " us");
     for (const double t : instants) EXPECT_NEAR(t / every(words), std::round(t / every(words)), 1e-7) << t;
   }
-}
-
-Signal sampled(int n, double length, double (*f)(double), double (*rate)(double) = nullptr) {
-  Signal s;
-  for (int k = 0; k <= n; ++k) {
-    s.t.push_back(length * k / n), s.y.push_back(f(s.t.back()));
-    if (rate) s.rate.push_back(rate(s.t.back()));
-  }
-  return s;
-}
-
-TEST(Signal, PeaksBetweenRowsHaveFourthOrder) {
-  const auto f = [](double t) { return std::sin(t + 0.3) + 0.2 * std::sin(2 * t); };
-  const auto rate = [](double t) { return std::cos(t + 0.3) + 0.4 * std::cos(2 * t); };
-  double top = 0;
-  for (int k = 0; k < 4'000'000; ++k) top = std::max(top, f(7e-6 * k / 4));
-  for (const bool with_rates : {false, true}) {
-    // The distance to the nearest row differs from n to n; the worst of several counts.
-    const auto worst = [&](int n) {
-      double error = 0;
-      for (int k = n; k < n + 12; ++k)
-        error = std::max(error, std::abs(greatest(with_rates ? sampled(k, 7, f, rate) : sampled(k, 7, f)).value - top));
-      return error;
-    };
-    EXPECT_GT(std::log2(worst(60) / worst(120)), with_rates ? 3.3 : 2.5) << with_rates;
-    EXPECT_LT(worst(120), 1e-4);
-  }
-}
-
-TEST(Signal, FrequencyOfAToneIsFoundHoweverItIsCut) {
-  for (const double periods : {2.0, 3.3, 7.77, 50.25, 400.1})
-    for (const double phase : {0.0, 0.9, 2.2}) {
-      Signal s;
-      for (int k = 0; k <= 4000; ++k) {
-        s.t.push_back(2.5 * k / 4000);
-        s.y.push_back(5 + s.t.back() + 0.01 * std::sin(2 * pi * periods * k / 4000 + phase));
-      }
-      const double f = periods / 2.5;
-      EXPECT_NEAR(dominant_frequency(s), f, 1e-6 * f) << periods << " periods, phase " << phase;
-    }
-}
-
-TEST(Signal, StrongerOfTwoTonesIsTheFrequency) {
-  Signal s = sampled(3000, 10, [](double t) { return std::sin(2 * pi * 3 * t) + 1.4 * std::cos(2 * pi * 11.5 * t) + 100; });
-  EXPECT_NEAR(dominant_frequency(s), 11.5, 1e-4);
-}
-
-TEST(Signal, WithoutAPeriodHasNoFrequency) {
-  EXPECT_TRUE(std::isnan(dominant_frequency(sampled(1000, 1, [](double) { return 3.0; }))));
-  EXPECT_TRUE(std::isnan(dominant_frequency(sampled(1000, 1, [](double t) { return 2 * t - 1; }))));
-  EXPECT_TRUE(std::isnan(dominant_frequency(sampled(1000, 1, [](double t) { return std::sin(2 * t); }))));
-  EXPECT_TRUE(std::isnan(dominant_frequency(sampled(10, 1, [](double t) { return std::sin(20 * t); }))));
 }
 
 }  // namespace

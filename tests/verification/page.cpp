@@ -45,16 +45,6 @@ std::string percent(double share) {
   return std::abs(share) < 1e-8 ? f("%.0e", share) : f("%+.3g %%", 100 * share);
 }
 
-std::string anchor(const std::string& title) {
-  std::string out;
-  for (const char c : title)
-    if (std::isalnum(static_cast<unsigned char>(c)))
-      out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    else if (c == ' ' || c == '-')
-      out += '-';
-  return out;
-}
-
 std::string line(const Row& r) {
   return r.element + " | " + r.mesh + (r.what.empty() ? "" : ", " + r.what) + " | " +
          listed(r.ours) + " | " + listed(r.target) + " | " + percent(error(r));

@@ -12,6 +12,7 @@
 /// The page on published problems of plane elements and beams: see page.cpp.
 namespace verification {
 
+using paper::anchor;
 using paper::f;
 using Values = std::vector<double>;
 
