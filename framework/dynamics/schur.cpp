@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "framework/dynamics/dependent_rows.h"
@@ -56,13 +57,17 @@ bool factor_ldl(N n, double* S, double* inverse, double least, double& smallest)
   return true;
 }
 
+// Of x[rows[0]], … x[rows[n − 1]]
 template <class N>
-void solve_ldl(N n, const double* S, const double* inverse, double* x) {
+void solve_ldl(N n, const double* S, const double* inverse, const int* rows, double* of) {
+  std::array<double, Schur::dense_rows> x;
+  for (int i = 0; i < n; ++i) x[at(i)] = of[rows[i]];
   for (int j = 0; j < n; ++j)
-    for (int i = j + 1; i < n; ++i) x[i] -= S[i * n + j] * x[j];
-  for (int i = 0; i < n; ++i) x[i] *= inverse[i];
+    for (int i = j + 1; i < n; ++i) x[at(i)] -= S[i * n + j] * x[at(j)];
+  for (int i = 0; i < n; ++i) x[at(i)] *= inverse[i];
   for (int i = n - 1; i > 0; --i)
-    for (int k = 0; k < i; ++k) x[k] -= S[i * n + k] * x[i];
+    for (int k = 0; k < i; ++k) x[at(k)] -= S[i * n + k] * x[at(i)];
+  for (int i = 0; i < n; ++i) of[rows[i]] = x[at(i)];
 }
 
 }  // namespace
@@ -113,14 +118,13 @@ Schur::Schur(const System& system) : n_(system.n_rows()), data_(std::make_unique
 
   std::vector<int> where;
   if (n_ <= dense_rows) {
-    for (const Pattern::Place& p : places) where.push_back(p.row * n_ + p.column);
-    values_.resize(at(n_ * n_));
+    where = divide(places);
     data_->whole = values_;
-    diagonal_.resize(at(n_));
   } else {
     for (int i = 0; i < n_; ++i) places.push_back({i, i});
     data_->sparse.emplace(n_, places, where);
     values_.resize(at(data_->sparse->entries()));
+    diagonal_ = data_->sparse->diagonal();
   }
   for (std::size_t k = 0; k < terms_.size(); ++k) {
     terms_[k].to = where[k];
@@ -138,6 +142,36 @@ Schur::Schur(const System& system) : n_(system.n_rows()), data_(std::make_unique
     if (!begun[i]) zeros_.push_back(static_cast<int>(i));
 }
 
+// The parts that `places` connect. @returns which value each place is
+std::vector<int> Schur::divide(const std::vector<Pattern::Place>& places) {
+  std::vector<int> part(at(n_)), row_in_part(at(n_)), where;
+  std::iota(part.begin(), part.end(), 0);
+  for (const auto& [row, column] : places) {
+    const auto [kept, merged] = std::minmax({part[at(row)], part[at(column)]});
+    std::ranges::replace(part, int{merged}, int{kept});
+  }
+  int values = 0;
+  std::vector<Part> of(at(n_));
+  for (int first = 0; first < n_; ++first) {
+    if (part[at(first)] != first) continue;
+    Part made{0, static_cast<int>(order_.size()), values};
+    for (int row = first; row < n_; ++row)
+      if (part[at(row)] == first) row_in_part[at(row)] = made.n++, order_.push_back(row);
+    values += made.n * made.n;
+    of[at(first)] = made;
+    parts_.push_back(made);
+  }
+  const auto value = [&](int row, int column) {
+    const Part& p = of[at(part[at(row)])];
+    return p.at + row_in_part[at(row)] * p.n + row_in_part[at(column)];
+  };
+  for (const Pattern::Place& p : places) where.push_back(value(p.row, p.column));
+  for (int i = 0; i < n_; ++i) diagonal_.push_back(value(i, i));
+  values_.resize(at(values));
+  inverse_.resize(at(n_));
+  return where;
+}
+
 double Schur::inconsistency() const { return dependent() ? data_->refine.left_over() : 0; }
 bool Schur::sparse() const { return data_->sparse.has_value(); }
 
@@ -146,7 +180,12 @@ const char* Schur::solver() const {
   return !sparse() ? "dense" : data_->sparse->thin() ? "sparse (LDL)" : "sparse (CHOLMOD)";
 }
 
-double Schur::nonzeros() const { return sparse() ? data_->sparse->nonzeros() : 0.5 * n_ * (n_ + 1); }
+double Schur::nonzeros() const {
+  if (sparse()) return data_->sparse->nonzeros();
+  double sum = 0;
+  for (const Part& p : parts_) sum += 0.5 * p.n * (p.n + 1);
+  return sum;
+}
 
 void Schur::sum(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta) {
   for (const int i : zeros_) values_[at(i)] = 0;
@@ -172,7 +211,7 @@ bool Schur::factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_e
 
 bool Schur::factor_shifted() {
   Data& d = *data_;
-  const auto entry = [&](int i) -> double& { return values_[at(d.sparse ? d.sparse->diagonal()[at(i)] : i * n_ + i)]; };
+  const auto entry = [&](int i) -> double& { return values_[at(diagonal_[at(i)])]; };
   d.whole = values_;
   for (int i = 0; i < n_; ++i) d.S_ii[i] = entry(i);
   if (!(d.S_ii.array() > 0).all()) return false;
@@ -182,7 +221,7 @@ bool Schur::factor_shifted() {
   if (d.sparse) {
     lost_ = d.sparse->below(values_, dependent_rows::held_up);
   } else {
-    for (int i = 0; i < n_; ++i) lost_ += diagonal_[at(i)] * d.S_ii[i] > 1 / dependent_rows::held_up ? 1 : 0;
+    for (int k = 0; k < n_; ++k) lost_ += inverse_[at(k)] * d.S_ii[order_[at(k)]] > 1 / dependent_rows::held_up ? 1 : 0;
   }
   lost_ = std::max(lost_, 1);
   least_ = 0;
@@ -191,18 +230,21 @@ bool Schur::factor_shifted() {
 
 bool Schur::factor_dense(double least) {
   least_ = 1;
-  return with_size(n_, [&](auto n) { return factor_ldl(n, values_.data(), diagonal_.data(), least, least_); });
+  for (const Part& p : parts_)
+    if (!with_size(p.n, [&](auto n) { return factor_ldl(n, &values_[at(p.at)], &inverse_[at(p.begin)], least, least_); })) return false;
+  return true;
 }
 
-void Schur::solve_dense(VectorXd& mu) const {
-  with_size(n_, [&](auto n) { return solve_ldl(n, values_.data(), diagonal_.data(), mu.data()); });
+void Schur::solve_dense(double* mu) const {
+  for (const Part& p : parts_)
+    with_size(p.n, [&](auto n) { solve_ldl(n, &values_[at(p.at)], &inverse_[at(p.begin)], &order_[at(p.begin)], mu); });
 }
 
 void Schur::solve_factored(VectorXd& mu) {
   if (sparse())
     data_->sparse->solve(mu.data());
   else
-    solve_dense(mu);
+    solve_dense(mu.data());
 }
 
 // out −= S x, of dependent rows
@@ -211,13 +253,16 @@ void Schur::subtract_product(const VectorXd& x, VectorXd& out) const {
     data_->sparse->subtract_product(data_->whole, x.data(), out.data());
     return;
   }
-  const double* S = data_->whole.data();
-  for (int i = 0; i < n_; ++i) {
-    for (int j = 0; j < i; ++j) {
-      out[i] -= S[i * n_ + j] * x[j];
-      out[j] -= S[i * n_ + j] * x[i];
+  for (const Part& p : parts_) {
+    const double* S = data_->whole.data() + p.at;
+    const int* rows = order_.data() + p.begin;
+    for (int i = 0; i < p.n; ++i) {
+      for (int j = 0; j < i; ++j) {
+        out[rows[i]] -= S[i * p.n + j] * x[rows[j]];
+        out[rows[j]] -= S[i * p.n + j] * x[rows[i]];
+      }
+      out[rows[i]] -= S[i * p.n + i] * x[rows[i]];
     }
-    out[i] -= S[i * n_ + i] * x[i];
   }
 }
 

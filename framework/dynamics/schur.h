@@ -6,14 +6,16 @@
 #include <Eigen/Core>
 
 #include "framework/dynamics/flexible.h"
+#include "framework/dynamics/pattern.h"
 #include "framework/dynamics/system.h"
 
 namespace pintle {
 
 /// The constraint equations after the accelerations are eliminated,  S μ = r  with  S = Cq M⁻¹ Cqᵀ:
 /// symmetric, positive definite while the rows are independent, one block for each pair of joints that
-/// share a body. Dense up to `dense_rows`, sparse above, its pattern analysed once, here. Where rows are
-/// dependent, at this pose or at all, multipliers are those of least norm. Theory: docs/theory/solvers.md.
+/// share a body. Dense up to `dense_rows`, in parts that share no body, sparse above, its pattern analysed once,
+/// here. Where rows are dependent, at this pose or at all, multipliers are those of least norm. Theory:
+/// docs/theory/solvers.md.
 class Schur {
  public:
   static constexpr int dense_rows = 48;
@@ -54,11 +56,16 @@ class Schur {
   struct ModalTerm {
     int to, i, r, j, c;  ///< row r of side i by row c of side j
   };
+  /// Rows of joints that bodies connect, dense: row order_[begin + i] of all is row i of the part.
+  struct Part {
+    int n, begin, at;  ///< n × n by rows from values_[at], lower half, then its factor
+  };
   struct Data;
+  std::vector<int> divide(const std::vector<Pattern::Place>& places);
   void sum(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta);
   bool factor_shifted();
   bool factor_dense(double least);
-  void solve_dense(Eigen::VectorXd& mu) const;
+  void solve_dense(double* mu) const;
   void solve_factored(Eigen::VectorXd& mu);
   void subtract_product(const Eigen::VectorXd& x, Eigen::VectorXd& out) const;
 
@@ -70,8 +77,11 @@ class Schur {
   std::vector<int> zeros_;       ///< entries without any, which the factor fills
   std::vector<ModalTerm> modal_terms_;
   std::vector<double> weights_;  ///< 1/m, 1/m, 1/J of each body; 1 of a flexible one
-  std::vector<double> values_;  ///< dense: n × n row-major, lower, then its factor; sparse: SparseLdl's
-  std::vector<double> diagonal_;
+  std::vector<double> values_;   ///< dense: that of each part; sparse: SparseLdl's
+  std::vector<Part> parts_;
+  std::vector<int> order_;
+  std::vector<int> diagonal_;    ///< where S_ii is among the values
+  std::vector<double> inverse_;  ///< of the pivots of the parts, in their order
   std::unique_ptr<Data> data_;  ///< what only sparse or dependent rows need
 };
 

@@ -87,8 +87,10 @@ double Integrator::release_ahead() const {
   return ahead;
 }
 
+// An explicit step leaves the equations as they are at its end.
 void Integrator::look_at_end() {
-  for (int c = 0; c < static_cast<int>(after_.size()); ++c) after_[at(c)] = touch(c, step_.to.state);
+  for (int c = 0; c < static_cast<int>(after_.size()); ++c)
+    after_[at(c)] = stages_ && step_.h > 0 ? Touch{eq_.contact[at(c)].gap.depth, eq_.contact[at(c)].gap.rate} : touch(c, step_.to.state);
 }
 
 // Deepest penetration, peak force and loss of the contacts that are closed during the last step.

@@ -80,11 +80,12 @@ bool Integrator::attempt(double h) {
 // Of any body's centre or of its farthest marker about it [m/s].
 double Integrator::fastest_speed(const Eigen::VectorXd& y) const {
   double fastest = 0;
-  for (std::size_t b = 0; b < reach_.size(); ++b) {
-    const auto i = system_.n() + 3 * static_cast<Index>(b);
-    fastest = std::max({fastest, std::hypot(y[i], y[i + 1]), std::abs(y[i + 2]) * reach_[b]});
+  const double* v = y.data() + system_.n();
+  for (std::size_t b = 0; b < reach_.size(); ++b, v += 3) {
+    const double around = v[2] * reach_[b];
+    fastest = std::max({fastest, v[0] * v[0] + v[1] * v[1], around * around});
   }
-  return fastest;
+  return std::sqrt(fastest);
 }
 
 // A start inside the wall has no approach speed. It gets that of the impact which would have come this
