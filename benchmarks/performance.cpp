@@ -12,6 +12,7 @@
 #include <optional>
 #include <sstream>
 
+#include "framework/scene/keys.h"
 #include "tests/oracles/slider_crank_clearance.h"
 
 namespace performance {
@@ -74,17 +75,19 @@ std::vector<Work> measure(const Problem& p, const std::vector<std::string>& meth
     Assembly assembly;
   };
   std::vector<Work> all;
-  std::vector<std::optional<Ready>> ready;
+  std::vector<std::vector<Ready>> ready;  // of each start; none by hand
   for (const double tolerance : p.tolerances) {
-    if (p.by_hand) all.push_back({by_hand, tolerance}), ready.emplace_back();
+    if (p.by_hand()) all.push_back({by_hand, tolerance}), ready.emplace_back();
     for (const std::string& method : methods) {
-      Scene scene = p.scene(tolerance);
-      scene.run.method = method;
-      Model model = build(scene);
-      Assembly assembly = assemble(scene, model);
-      all.push_back({method, tolerance});
-      all.back().reason = model.scheme.reason;
-      ready.emplace_back(Ready{std::move(scene), std::move(model), std::move(assembly)});
+      all.push_back({method, tolerance}), ready.emplace_back();
+      for (const Start& start : p.starts) {
+        Scene scene = start.scene(tolerance);
+        scene.run.method = method;
+        Model model = build(scene);
+        Assembly assembly = assemble(scene, model);
+        all.back().reason = model.scheme.reason;
+        ready.back().push_back({std::move(scene), std::move(model), std::move(assembly)});
+      }
     }
   }
   constexpr double seconds_a_pair = 1, too_long = 8;
@@ -99,19 +102,33 @@ std::vector<Work> measure(const Problem& p, const std::vector<std::string>& meth
         continue;
       }
       if (round >= least && w.time() * static_cast<double>(round) > seconds_a_pair) continue;
-      if (!ready[k]) {
+      double time = 0, squares = 0;
+      Counts counts;
+      for (std::size_t i = 0; i < p.starts.size() && w.trouble.empty(); ++i) {
         Judged judged;
-        w.times.push_back(seconds([&] { judged = p.by_hand(w.tolerance); }));
-        w.error = judged.error, w.counts.evaluations = judged.evaluations;
-        continue;
+        Run run;
+        time += seconds([&] {
+          if (ready[k].empty())
+            judged = p.starts[i].by_hand(w.tolerance);
+          else
+            run = simulate(ready[k][i].scene, ready[k][i].model, ready[k][i].assembly);
+        });
+        if (ready[k].empty()) {
+          run.counts.evaluations = judged.evaluations;
+        } else if (run.status == Status::finished || run.status == Status::ledger_over_bound) {
+          judged.error = p.starts[i].error(run);
+        } else {
+          w.trouble = run.reason;
+        }
+        counts.steps += run.counts.steps, counts.rejected += run.counts.rejected;
+        counts.evaluations += run.counts.evaluations, counts.factorizations += run.counts.factorizations;
+        squares += judged.error * judged.error;
       }
-      Run run;
-      w.times.push_back(seconds([&] { run = simulate(ready[k]->scene, ready[k]->model, ready[k]->assembly); }));
-      if (run.status == Status::finished || run.status == Status::ledger_over_bound)
-        w.error = p.error(ready[k]->model, run);
-      else
-        w.trouble = run.reason;
-      w.counts = run.counts;
+      const double n = static_cast<double>(p.starts.size());
+      w.times.push_back(time / n);
+      w.error = std::sqrt(squares / n);
+      w.counts = counts;
+      for (long* c : {&w.counts.steps, &w.counts.rejected, &w.counts.evaluations, &w.counts.factorizations}) *c /= std::ssize(p.starts);
     }
   return all;
 }
@@ -249,7 +266,8 @@ int main(int argc, char** argv) try {
     std::cerr << "performance_page [--quick | FILE.json of bench_chains]\n";
     return 2;
   }
-  const std::vector<std::string> methods = known_methods();
+  const auto known = pintle::choices("run", "method");
+  const std::vector<std::string> methods(known.begin(), known.end());
   const double unit = yardstick();
   std::ostringstream page;
   page << head << f("- One evaluation of the oracle took %.0f ns.\n", 1e9 * unit);

@@ -19,18 +19,21 @@ struct Judged {
   long evaluations = 0;  ///< of its right-hand side, 0: not counted
 };
 
-/// A mechanism whose state at the end of a run is known.
-struct Problem {
-  std::string name, title;                               ///< of its figure; of its section
-  std::string text;                                      ///< what it is, what its error means, where the reference comes from
+/// A start of a mechanism, and its known state at the end of a run.
+struct Start {
   std::function<pintle::Scene(double tolerance)> scene;  ///< `run.method` is set by whom it concerns
-  std::function<double(const pintle::Model&, const pintle::Run&)> error;
+  std::function<double(const pintle::Run&)> error;
   std::function<Judged(double tolerance)> by_hand = {};  ///< the minimal-coordinate oracle; may be empty
+};
+/// A mechanism, from one start or several: times are means and errors root mean squares over them.
+struct Problem {
+  std::string name, title;     ///< of its figure; of its section
+  std::string text;            ///< what it is, what its error means, where the reference comes from
+  std::vector<Start> starts;
   std::vector<double> tolerances = {};
+  bool by_hand() const { return static_cast<bool>(starts.front().by_hand); }
 };
 
-/// Of the scene language.
-std::vector<std::string> known_methods();
 /// All of them; the references are computed here. `quick`: shorter runs where these are long.
 std::vector<Problem> problems(bool quick);
 
