@@ -210,11 +210,13 @@ std::string Integrator::trouble() const { return alpha_ && !alpha_->trouble().em
 
 bool Integrator::advance(double until) {
   if (!failure_.empty()) return false;
+  if (counts_.steps == scheme_.max_steps - scheme_.max_steps / 10) last_tenth_ = step_.to.state.t;
   if (counts_.steps >= scheme_.max_steps) {
-    const double left = until - step_.to.state.t, last = step_.h;
+    const double passed = step_.to.state.t - last_tenth_, more = std::ceil((until - step_.to.state.t) / passed) / 10;
     step_.from = step_.to;
     return stop("max steps reached (" + std::to_string(scheme_.max_steps) + ")" +
-                (last > 0 ? "; the last was of " + number_text(last) + " s, at which the rest needs " + number_text(left / last) + " more" : "") +
+                (counts_.steps >= 10 && passed > 0 ? ", the last tenth in " + number_text(passed) + " s: so the rest takes some " +
+                                                         number_text(more) + " times as many" : "") +
                 ": raise run.max steps, loosen run.tolerance, or soften or damp what is so fast");
   }
   std::swap(step_.from, step_.to);

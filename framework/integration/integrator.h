@@ -136,6 +136,7 @@ class Integrator {
   int events_here_ = 0;
   double worst_position_ = 0, worst_velocity_ = 0;
   int held_by_stability_ = 0;
+  double last_tenth_ = 0;  ///< when the last tenth of the steps allowed began [s]
   bool fallen_back_ = false, at_fork_ = false;
   std::string switched_;
 };
