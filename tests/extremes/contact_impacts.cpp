@@ -27,7 +27,7 @@ Finding bounces(long n, bool linear, double seconds) {
                                       .until = N * period,
                                       .tolerance = linear ? 1e-10 : 1e-12,
                                       .method = "verner87",
-                                      .more = ", ledger bound: 0.01"}),
+                                      .more = ", ledger bound: 0.01, max steps: 1000000000"}),
                             seconds);
   if (!a.whole()) return ended(a);
   const double counted = static_cast<double>(a.run->impacts.size());
