@@ -17,24 +17,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What draws a run's frames, if the scene asks for any.
-class Animation {
- public:
-  Animation(const Scene& scene, const Model& model, const fs::path& directory)
-      : model_(model), drafting_(scene, model), writer_(directory), wanted_(scene.output.frames > 1) {}
-  void listen(Listeners& listeners) {
-    if (wanted_) listeners.frame = [this](const State& state, const Equations& eq) { writer_.add(draw(model_, drafting_, state, eq)); };
-  }
-  void finish() {
-    if (wanted_) writer_.finish();
-  }
-
- private:
-  const Model& model_;
-  Drafting drafting_;
-  FrameWriter writer_;
-  bool wanted_;
-};
+/// compute(listeners) with progress shown, and its frames, if the scene asks for any, written to `directory`.
+template <class Compute>
+auto watched(const Scene& scene, const Model& model, const fs::path& directory, const Options& options, Compute compute) {
+  const Drafting drafting(scene, model);
+  FrameWriter writer(directory);
+  const bool drawn = scene.output.frames > 1;
+  Listeners listeners;
+  if (drawn) listeners.frame = [&](const State& state, const Equations& eq) { writer.add(draw(model, drafting, state, eq)); };
+  auto found = [&] {
+    Progress progress(scene.run.until, options.quiet);
+    listeners.progress = [&](double t) { return progress(t); };
+    return compute(listeners);
+  }();
+  if (drawn) writer.finish();
+  return found;
+}
 
 int exit_code(const Options& options, const Scene& scene, const Run& run) {
   if (run.status != Status::finished && (options.quiet || options.json))
@@ -84,16 +82,8 @@ int kinematics(const Options& options) {
 
   const fs::path out = results_directory(options, "-kinematics");
   ResultsDirectory results(out);
-  Animation animation(scene, model, results.path());
-  Listeners listeners;
-  animation.listen(listeners);
-  Run run;
-  {
-    Progress progress(scene.run.until, options.quiet);
-    listeners.progress = [&](double t) { return progress(t); };
-    run = kinematics(scene, model, assembly, listeners);
-  }
-  animation.finish();
+  const Run run =
+      watched(scene, model, results.path(), options, [&](const Listeners& listeners) { return kinematics(scene, model, assembly, listeners); });
   write_kinematics(results.path(), scene, model, run);
   results.commit();
 
@@ -112,16 +102,8 @@ int inverse(const Options& options) {
 
   const fs::path out = results_directory(options, "-inverse");
   ResultsDirectory results(out);
-  Animation animation(scene, model, results.path());
-  Listeners listeners;
-  animation.listen(listeners);
-  Inverse found;
-  {
-    Progress progress(scene.run.until, options.quiet);
-    listeners.progress = [&](double t) { return progress(t); };
-    found = inverse(scene, model, assembly, listeners);
-  }
-  animation.finish();
+  const Inverse found =
+      watched(scene, model, results.path(), options, [&](const Listeners& listeners) { return inverse(scene, model, assembly, listeners); });
   write_inverse(results.path(), scene, model, assembly, found);
   results.commit();
 

@@ -109,40 +109,14 @@ std::vector<DriverEffort> find_efforts(const Model& model, const Assembly& assem
 
 void solve_by_algebra(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners, Inverse& out) {
   using clock = std::chrono::steady_clock;
-  const auto begin = clock::now();
-  clock::duration drawing{};
   Run& run = out.run;
   run.warnings = model.warnings;
   for (const std::string& doubt : doubts(model, assembly)) run.warnings.push_back(doubt);
-  run.trajectory = trajectory_table(model);
-  const std::vector<double> outputs = output_times(scene), frames = listeners.frame ? frame_times(scene) : std::vector<double>{};
   Forces forces(model.system, assembly.start);
-  DrivenMotion& motion = forces.motion();
-  std::size_t o = 0, f = 0;
-  bool going = motion.failure().empty();
-  while (going && (o < outputs.size() || f < frames.size())) {
-    const double t = o == outputs.size() ? frames[f] : f == frames.size() ? outputs[o] : std::min(outputs[o], frames[f]);
-    if (listeners.progress && o % 64 == 0 && !listeners.progress(t)) {
-      run.status = Status::interrupted;
-      run.reason = "stopped by the user";
-      break;
-    }
-    going = forces.advance(t);
-    if (!going) break;
-    if (o < outputs.size() && outputs[o] == t) record(model, motion.state(), motion.equations(), run.trajectory), ++o;
-    if (f < frames.size() && frames[f] == t) draw_frame(listeners, motion, drawing), ++f;
-  }
-  if (!going) {
-    run.status = Status::failed;
-    run.reason = motion.failure();
-  }
-  run.t_end = motion.state().t;
-  run.counts.steps = motion.steps();
-  run.counts.rejected = motion.rejected();
-  run.worst_position = motion.worst_position();
-  run.worst_velocity = motion.worst_velocity();
-  if (run.t_end > 0) out.drivers = find_efforts(model, assembly, outputs.size() - 1, run.t_end);
-  run.seconds = std::chrono::duration<double>(clock::now() - begin - drawing).count();
+  follow(scene, model, forces.motion(), [&](double t) { return forces.advance(t); }, listeners, run);
+  const auto begin = clock::now();
+  if (run.t_end > 0) out.drivers = find_efforts(model, assembly, run.trajectory.rows() - 1, run.t_end);
+  run.seconds += std::chrono::duration<double>(clock::now() - begin).count();
 }
 
 // The run's animation frames, taken more often, are where the efforts are read.

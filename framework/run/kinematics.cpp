@@ -42,6 +42,16 @@ std::vector<double> even_times(double interval, double until) {
   return out;
 }
 
+/// Times k·every up to `until`, the last one `until` itself; a thousandth of it if every is 0.
+std::vector<double> output_times(const Scene& scene) {
+  return even_times(scene.output.every > 0 ? scene.output.every : scene.run.until / 1000, scene.run.until);
+}
+
+/// Of the animation; empty if there is none.
+std::vector<double> frame_times(const Scene& scene) {
+  return scene.output.frames > 1 ? even_times(scene.run.until / (scene.output.frames - 1), scene.run.until) : std::vector<double>{};
+}
+
 }  // namespace
 
 DrivenMotion::DrivenMotion(const System& system, State start)
@@ -183,32 +193,12 @@ void require_driven(const Scene& scene, const Model& model, const Assembly& asse
                           (singular ? "or start elsewhere, " : "") + "or use `pintle run`");
 }
 
-std::vector<double> output_times(const Scene& scene) {
-  return even_times(scene.output.every > 0 ? scene.output.every : scene.run.until / 1000, scene.run.until);
-}
-
-std::vector<double> frame_times(const Scene& scene) {
-  return scene.output.frames > 1 ? even_times(scene.run.until / (scene.output.frames - 1), scene.run.until) : std::vector<double>{};
-}
-
-void draw_frame(const Listeners& listeners, DrivenMotion& motion, std::chrono::steady_clock::duration& spent) {
-  const auto before = std::chrono::steady_clock::now();
-  listeners.frame(motion.state(), motion.equations());
-  spent += std::chrono::steady_clock::now() - before;
-}
-
-Run kinematics(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners) {
+void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const std::function<bool(double)>& advance, const Listeners& listeners, Run& run) {
   using clock = std::chrono::steady_clock;
   const auto begin = clock::now();
   clock::duration drawing{};
-  require_driven(scene, model, assembly);
-  Model told = model;  // what is written: no forces
-  told.system.joints.clear(), told.system.forces.clear(), told.system.contacts.clear(), told.stresses.clear();
-  Run run;
-  run.warnings = model.warnings;
   run.trajectory = trajectory_table(told);
   const std::vector<double> outputs = output_times(scene), frames = listeners.frame ? frame_times(scene) : std::vector<double>{};
-  DrivenMotion motion(model.system, assembly.start);
   std::size_t o = 0, f = 0;
   bool going = motion.failure().empty();
   while (going && (o < outputs.size() || f < frames.size())) {
@@ -218,11 +208,14 @@ Run kinematics(const Scene& scene, const Model& model, const Assembly& assembly,
       run.reason = "stopped by the user";
       break;
     }
-    going = motion.advance(t);
+    going = advance(t);
     if (!going) break;
-    motion.equations().a = motion.acceleration();
     if (o < outputs.size() && outputs[o] == t) record(told, motion.state(), motion.equations(), run.trajectory), ++o;
-    if (f < frames.size() && frames[f] == t) draw_frame(listeners, motion, drawing), ++f;
+    if (f < frames.size() && frames[f] == t) {
+      const auto before = clock::now();
+      listeners.frame(motion.state(), motion.equations()), ++f;
+      drawing += clock::now() - before;
+    }
   }
   if (!going) {
     run.status = Status::failed;
@@ -234,6 +227,21 @@ Run kinematics(const Scene& scene, const Model& model, const Assembly& assembly,
   run.worst_position = motion.worst_position();
   run.worst_velocity = motion.worst_velocity();
   run.seconds = std::chrono::duration<double>(clock::now() - begin - drawing).count();
+}
+
+Run kinematics(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners) {
+  require_driven(scene, model, assembly);
+  Model told = model;  // what is written: no forces
+  told.system.joints.clear(), told.system.forces.clear(), told.system.contacts.clear(), told.stresses.clear();
+  Run run;
+  run.warnings = model.warnings;
+  DrivenMotion motion(model.system, assembly.start);
+  const auto advance = [&](double t) {
+    if (!motion.advance(t)) return false;
+    motion.equations().a = motion.acceleration();
+    return true;
+  };
+  follow(scene, told, motion, advance, listeners, run);
   return run;
 }
 

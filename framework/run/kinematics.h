@@ -1,7 +1,7 @@
 #pragma once
 
-#include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "framework/run/row_solver.h"
@@ -60,11 +60,9 @@ Run kinematics(const Scene&, const Model&, const Assembly&, const Listeners& = {
 void write_kinematics(const std::filesystem::path& directory, const Scene&, const Model&, const Run&);
 std::string kinematics_json(const Scene&, const Model&, const Run&);
 
-/// Has a frame drawn of the motion where it is, and adds the time that took.
-void draw_frame(const Listeners&, DrivenMotion&, std::chrono::steady_clock::duration& spent);
-
-/// Times k·every up to `until`, the last one `until` itself; a thousandth of it if every is 0.
-std::vector<double> output_times(const Scene&);
-std::vector<double> frame_times(const Scene&);  ///< of the animation; empty if there is none
+/// Follows a driven motion through the scene's outputs, recorded into the run's table as `told` has it, and its frames,
+/// until its end, a failure or the listener's stop. Status, reason, times and counts of the run are filled in.
+/// @param advance  on to a time, what is recorded evaluated there; false: it cannot, see failure()
+void follow(const Scene&, const Model& told, DrivenMotion&, const std::function<bool(double)>& advance, const Listeners&, Run&);
 
 }  // namespace pintle
