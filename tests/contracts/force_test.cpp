@@ -35,13 +35,6 @@ constexpr double difference = 1e-7;
 constexpr double step = 1e-5;
 constexpr int draws = 200;
 
-Jet sine(double t) {
-  return {0.7 + 0.3 * std::sin(2 * t), 0.6 * std::cos(2 * t), -1.2 * std::sin(2 * t)};
-}
-Jet steady(double) {
-  return {-1.3, 0, 0};
-}
-
 struct Kind {
   const char* name;
   Force force;
@@ -350,17 +343,11 @@ TEST(ContactPair, ActsOnlyOnceLatchedAndOverlapping) {
   EXPECT_DOUBLE_EQ(e.gap.depth, -c.pair.gap.clearance());
 }
 
-std::string kind_name(const testing::TestParamInfo<Kind>& info) {
-  return info.param.name;
-}
-std::string case_name(const testing::TestParamInfo<std::tuple<Kind, Carriers>>& info) {
-  return std::get<0>(info.param).name + name_of(std::get<1>(info.param));
-}
-INSTANTIATE_TEST_SUITE_P(Each, ForceContract, testing::ValuesIn(kinds), kind_name);
+INSTANTIATE_TEST_SUITE_P(Each, ForceContract, testing::ValuesIn(kinds), [](const auto& p) { return p.param.name; });
 INSTANTIATE_TEST_SUITE_P(Each, ForceBetween,
                          testing::Combine(testing::ValuesIn(kinds),
                                           testing::ValuesIn(all_carriers())),
-                         case_name);
+                         [](const auto& p) { return std::get<0>(p.param).name + name_of(std::get<1>(p.param)); });
 INSTANTIATE_TEST_SUITE_P(Each, ContactBetween, testing::ValuesIn(all_carriers()),
                          [](const auto& p) { return name_of(p.param); });
 

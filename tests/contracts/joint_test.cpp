@@ -39,10 +39,6 @@ constexpr double step = 1e-5;
 constexpr double independent = 0.02;
 constexpr int draws = 200;
 
-Jet sine(double t) {
-  return {0.7 + 0.3 * std::sin(2 * t), 0.6 * std::cos(2 * t), -1.2 * std::sin(2 * t)};
-}
-
 struct Kind {
   const char* name;
   Joint (*make)(int a, int b, double angle);
@@ -321,17 +317,11 @@ TEST_P(JointBetween, RowsAreIndependent) {
   }
 }
 
-std::string kind_name(const testing::TestParamInfo<Kind>& info) {
-  return info.param.name;
-}
-std::string case_name(const testing::TestParamInfo<std::tuple<Kind, Carriers>>& info) {
-  return std::get<0>(info.param).name + name_of(std::get<1>(info.param));
-}
-INSTANTIATE_TEST_SUITE_P(Each, JointContract, testing::ValuesIn(kinds), kind_name);
+INSTANTIATE_TEST_SUITE_P(Each, JointContract, testing::ValuesIn(kinds), [](const auto& p) { return p.param.name; });
 INSTANTIATE_TEST_SUITE_P(Each, JointBetween,
                          testing::Combine(testing::ValuesIn(kinds),
                                           testing::ValuesIn(all_carriers())),
-                         case_name);
+                         [](const auto& p) { return std::get<0>(p.param).name + name_of(std::get<1>(p.param)); });
 
 TEST(JointContract, EveryKindSitsTheExam) {
   std::vector<std::size_t> seen;

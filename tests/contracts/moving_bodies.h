@@ -38,6 +38,14 @@ class Draw {
   int count_ = 0;
 };
 
+/// Laws of time, written out.
+inline Jet sine(double t) {
+  return {0.7 + 0.3 * std::sin(2 * t), 0.6 * std::cos(2 * t), -1.2 * std::sin(2 * t)};
+}
+inline Jet steady(double) {
+  return {-1.3, 0, 0};
+}
+
 /// What carries a marker. A stiffening body has displacements of second order.
 enum class Carrier { rigid, flexible, stiffening, fixed };
 

@@ -15,6 +15,7 @@
 
 #include "framework/integration/constraints.h"
 #include "tests/oracles/four_bar.h"
+#include "tests/unit/rods.h"
 
 namespace pintle {
 namespace {
@@ -35,26 +36,6 @@ Law steady(double start, double rate) {
   return {[=](double t) { return Jet{start + rate * t, rate, 0}; }, "", false};
 }
 
-// A uniform rod; origin of its axes and point A at one end, B at the other.
-SceneBody rod(const std::string& name, double length, Pair at, double angle) {
-  SceneBody b;
-  b.name = name;
-  b.mass = 2 * length;
-  b.inertia = b.mass * length * length / 12;
-  b.center = {length / 2, 0};
-  b.points = {{"A", {0, 0}, 0, {}}, {"B", {length, 0}, 0, {}}};
-  b.at = at;
-  b.angle = angle;
-  return b;
-}
-SceneJoint joint(const std::string& name, JointKind kind, PointRef a, PointRef b) {
-  SceneJoint j;
-  j.name = name;
-  j.kind = kind;
-  j.a = std::move(a);
-  j.b = std::move(b);
-  return j;
-}
 SceneJoint pin(const std::string& name, PointRef a, PointRef b) {
   return joint(name, JointKind::revolute, std::move(a), std::move(b));
 }

@@ -15,6 +15,7 @@
 #include "framework/run/assemble.h"
 #include "framework/scene/reader.h"
 #include "tests/unit/heap.h"
+#include "tests/unit/rods.h"
 
 namespace pintle {
 namespace {
@@ -45,25 +46,6 @@ TEST(AllocationCounter, SeesNewMallocAndEigen) {
 
 // ---- the slider-crank, as a scene ---------------------------------------------------------------
 
-SceneBody rod(const std::string& name, double length, Pair at, double angle) {
-  SceneBody b;
-  b.name = name;
-  b.mass = 2 * length;
-  b.inertia = b.mass * length * length / 12;
-  b.center = {length / 2, 0};
-  b.points = {{"A", {0, 0}, 0, {}}, {"B", {length, 0}, 0, {}}};
-  b.at = at;
-  b.angle = angle;
-  return b;
-}
-SceneJoint joint(const std::string& name, JointKind kind, const PointRef& a, const PointRef& b) {
-  SceneJoint j;
-  j.name = name;
-  j.kind = kind;
-  j.a = a;
-  j.b = b;
-  return j;
-}
 Scene slider_crank() {
   Scene s;
   s.gravity = {0, -9.81};

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -31,13 +30,6 @@ constexpr double rounding = 1e-12;
 
 const BeamEuler beam{2e8, 1500, 8, 1e-3};
 const Bar bar{1e8, 4};
-
-VectorXd random_vector(Eigen::Index size, unsigned seed) {
-  std::mt19937 random(seed);
-  VectorXd v(size);
-  for (double& value : v) value = static_cast<double>(random()) / 2147483648.0 - 1;
-  return v;
-}
 
 double largest(const MatrixXd& A) {
   return A.cwiseAbs().maxCoeff();

@@ -3,6 +3,7 @@
 #include "elements/material.h"
 #include "framework/component/fe_model.h"
 #include "framework/component/from_mesh.h"
+#include "framework/component/statics.h"
 #include "meshes/mesh.h"
 
 #include <Eigen/Core>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -162,6 +164,31 @@ FeModel chain(const E& e, int count, const Eigen::Vector2d& from, const Eigen::V
     block.cells.push_back(i);
   }
   return fe_model(x, {block}, std::move(lumps));
+}
+
+/// Quarter of a ring, from the y axis to the x axis, held by symmetry.
+struct Quarter {
+  Plate plate;
+  FeModel model;
+  Supports supports;
+  double thickness;
+
+  Quarter(double inner, double outer, int round, int across, CellShape shape, PlaneState state,
+          double grading = 1)
+      : plate(pintle::plate(round, across, shape,
+                            ring(inner, outer, M_PI / 2, M_PI / 2, {0, 0}, grading))),
+        model(model_of(plate, steel(state))),
+        thickness(steel(state).thickness) {
+    for (const int i : plate.nodes["left"]) hold(supports, model, i, true, false, false);
+    for (const int i : plate.nodes["right"]) hold(supports, model, i, false, true, false);
+  }
+};
+
+inline Eigen::VectorXd random_vector(Eigen::Index size, unsigned seed) {
+  std::mt19937 random(seed);
+  Eigen::VectorXd v(size);
+  for (double& value : v) value = static_cast<double>(random()) / 2147483648.0 - 1;
+  return v;
 }
 
 }  // namespace pintle

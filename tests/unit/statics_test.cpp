@@ -138,24 +138,6 @@ TEST(SpinLoad, PullsTheMassCentreAwayFromTheAxis) {
   EXPECT_LT((sum - pull).norm(), rounding * pull.norm());
 }
 
-/// Quarter of a ring, from the y axis to the x axis, held by symmetry.
-struct Quarter {
-  Plate plate;
-  FeModel model;
-  Supports supports;
-  double thickness;
-
-  Quarter(double inner, double outer, int round, int across, CellShape shape, PlaneState state,
-          double grading = 1)
-      : plate(pintle::plate(round, across, shape,
-                            ring(inner, outer, M_PI / 2, M_PI / 2, {0, 0}, grading))),
-        model(model_of(plate, steel(state))),
-        thickness(steel(state).thickness) {
-    for (const int i : plate.nodes["left"]) hold(supports, model, i, true, false, false);
-    for (const int i : plate.nodes["right"]) hold(supports, model, i, false, true, false);
-  }
-};
-
 Vector2d resultant(const FeModel& m, const VectorXd& nodal_load) {
   Vector2d sum(0, 0);
   for (const int at : m.begin)

@@ -31,24 +31,6 @@ StaticSolution solve(const FeModel& m, const Supports& supports, const VectorXd&
   return solve_static(m, Assembler(m).stiffness(), supports, load);
 }
 
-/// Quarter of a ring, from the y axis to the x axis, held by symmetry.
-struct Quarter {
-  Plate plate;
-  FeModel model;
-  Supports supports;
-  double thickness;
-
-  Quarter(double inner, double outer, int round, int across, CellShape shape, PlaneState state,
-          double grading = 1)
-      : plate(pintle::plate(round, across, shape,
-                            ring(inner, outer, M_PI / 2, M_PI / 2, {0, 0}, grading))),
-        model(model_of(plate, steel(state))),
-        thickness(steel(state).thickness) {
-    for (const int i : plate.nodes["left"]) hold(supports, model, i, true, false, false);
-    for (const int i : plate.nodes["right"]) hold(supports, model, i, false, true, false);
-  }
-};
-
 /// Thick cylinder under internal pressure: Lamé's solution.
 struct Lame {
   double a, b, p, E, nu;

@@ -34,13 +34,6 @@ constexpr double difference = 1e-8;
 constexpr double rounding = 1e-13;
 constexpr int draws = 12;
 
-Jet sine(double t) {
-  return {0.7 + 0.3 * std::sin(2 * t), 0.6 * std::cos(2 * t), -1.2 * std::sin(2 * t)};
-}
-Jet steady(double) {
-  return {-1.3, 0, 0};
-}
-
 constexpr double clearance = 0.01, depth = 1e-3;
 
 struct Kind {
