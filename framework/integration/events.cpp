@@ -120,7 +120,7 @@ void Integrator::follow_impacts() {
 }
 
 // Where depth crosses zero between two times of the last step whose depths differ in sign: Newton's method on the dense
-// output, bisection where it leaves the bracket.
+// output, bisection where it leaves the bracket or, going away, would lead back, by as little as rounding hides.
 double Integrator::crossing(int contact, double t0, double t1, bool onset) {
   const double sign = onset ? 1 : -1, fine = 1e-9 * step_.h;  // finer than dense output is good for
   const double f0 = sign * touch_at(contact, t0).depth, f1 = sign * touch_at(contact, t1).depth;
@@ -131,7 +131,7 @@ double Integrator::crossing(int contact, double t0, double t1, bool onset) {
     const double f = sign * now.depth;
     (f < 0 ? t0 : t1) = t;
     double next = t - f / (sign * now.rate);
-    if (!(next >= t0 && next <= t1)) next = t0 + (t1 - t0) / 2;
+    if (!(sign * now.rate > 0 && next >= t0 && next <= t1)) next = t0 + (t1 - t0) / 2;
     if (std::abs(next - t) <= fine) return next;
     t = next;
   }

@@ -171,6 +171,26 @@ TEST_P(HeadOn, BounceIsThatOfTheClosedForm) {
 INSTANTIATE_TEST_SUITE_P(Bearing, HeadOn, testing::Bool(),
                          [](const auto& i) { return i.param ? "OnTheGround" : "OnThePuck"; });
 
+// The last digit of the clock is then longer than the time in which the wall is told from the gap.
+TEST(LateClock, HasTheImpactsOfAnEarlyOne) {
+  pintle::Scene s = puck_in_bearing(1, 1, true);
+  s.run.method = "verner87", s.run.tolerance = 1e-10;
+  const pintle::Model model = build(s);
+  const auto impacts = [&](double begin) {
+    pintle::State start = assemble(s, model).start;
+    start.t = begin;
+    pintle::Integrator motion(model.system, model.scheme, start);
+    while (motion.state().t < begin + 0.5 && motion.advance(begin + 0.5)) {
+    }
+    EXPECT_EQ(motion.failure(), "");
+    for (const pintle::Impact& i : motion.impacts()) EXPECT_NEAR(i.approach, 1, 1e-6);
+    return motion.impacts().size();
+  };
+  const std::size_t early = impacts(0);
+  EXPECT_GT(early, 200u);
+  for (const double begin : {4096.0, 16384.0, 1e5, 1e6}) EXPECT_EQ(impacts(begin), early) << begin;
+}
+
 TEST(Restitution, OfOneKeepsTheEnergyThroughEveryImpact) {
   const Whole w = run(
       scene(SliderCrank{.clearance = 5e-4, .restitution = 1, .until = 0.02, .tolerance = 1e-11}));
