@@ -108,12 +108,13 @@ void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
     const double* q = y.data() + 3 * marker.body;
     if (m.flex.cols() > 0) {
       pose_on_flexible(system, marker, y, c, s, m);
-      continue;
+    } else {
+      m.d = {c * marker.x_BP.x() - s * marker.x_BP.y(), s * marker.x_BP.x() + c * marker.x_BP.y()};
+      m.r = {q[0] + m.d.x(), q[1] + m.d.y()};
+      m.angle = q[2] + marker.angle;
     }
-    m.d = {c * marker.x_BP.x() - s * marker.x_BP.y(), s * marker.x_BP.x() + c * marker.x_BP.y()};
-    m.r = {q[0] + m.d.x(), q[1] + m.d.y()};
-    m.angle = q[2] + marker.angle;
-    if (marker.angle == 0)
+    if (!eq.directed[i]) continue;
+    if (m.angle == q[2])
       m.u = {c, s};
     else
       m.u = {std::cos(m.angle), std::sin(m.angle)};

@@ -45,6 +45,7 @@ struct Equations {
   std::vector<int> flexible_of;       ///< per body, index into `flexible` or −1
 
   std::vector<MarkerMotion> motion;   ///< of each marker
+  std::vector<bool> directed;         ///< per marker: a slot or a following force asks for its direction u
   std::vector<ConstraintRows> rows;   ///< of each joint, in poses of its markers
   std::vector<Schur::Block> B;        ///< rows of Cq, two blocks a joint: L J on [x y θ] …
   std::vector<RowBlock> B_eta;        ///< … and on η; empty for a rigid body

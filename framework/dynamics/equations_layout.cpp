@@ -39,6 +39,11 @@ Equations::Equations(const System& system)
     motion[i].angle = marker.angle;
     motion[i].u = {std::cos(marker.angle), std::sin(marker.angle)};
   }
+  directed.assign(motion.size(), false);
+  for (const Joint& j : system.joints)
+    if (std::holds_alternative<Slot>(j) || std::holds_alternative<Prismatic>(j)) directed[at(marker_a(j))] = true;
+  for (const Force& acting : system.forces)
+    if (const auto* p = std::get_if<PointForce>(&acting); p && p->follows) directed[at(p->b)] = true;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     const int n = system.bodies[b].modes();
     flexible_of.push_back(n > 0 ? static_cast<int>(flexible.size()) : -1);

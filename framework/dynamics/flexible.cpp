@@ -91,8 +91,7 @@ void evaluate_inertia(const System& system, const VectorXd& q, double c, double 
   const FlexInertia& f = *body.flex;
   const Part eta(q.data() + e.begin, e.n);
   FlexibleInertia::Part& p = e.whole;
-  p.B.topRows<2>() = f.S;  // body axes for now
-  for (Index i = 0; i < e.n; ++i) p.B(2, i) = f.h[i] + f.G.col(i).dot(eta);
+  for (Index i = 0; i < e.n; ++i) p.B.col(i) << f.S(0, i), f.S(1, i), f.h[i] + f.G.col(i).dot(eta);  // body axes for now
   p.j = f.j + eta.transpose();
   double J = body.J + (f.j + p.j).dot(eta);  // J₀ + 2jη + ηᵀη
   if (e.stiffens) {

@@ -26,7 +26,7 @@ struct Marker {
 struct MarkerMotion {
   Eigen::Vector2d r;                               ///< position [m]
   Eigen::Vector2d d;                               ///< from the body's coordinates' point to P [m]
-  Eigen::Vector2d u;                               ///< unit vector along the direction
+  Eigen::Vector2d u = Eigen::Vector2d::Zero();     ///< unit vector along the direction, where it is asked for
   double angle = 0;                                ///< direction, unwrapped [rad]
   Eigen::Vector2d v = Eigen::Vector2d::Zero();     ///< velocity [m/s]
   Eigen::Vector2d a0 = Eigen::Vector2d::Zero();    ///< acceleration when ṡ = 0 [m/s²]

@@ -19,24 +19,23 @@ void pose_on_flexible(const System& system, const Marker& marker, const VectorXd
   const double* q = y.data() + 3 * marker.body;
   const Modal eta(y.data() + system.eta_begin[at(marker.body)], m.flex.cols());
   Vector2d x = marker.x_BP;
+  m.flex = marker.shape;
   for (int k = 0; k < 2; ++k) {
-    x[k] += marker.shape.row(k).dot(eta);
-    m.flex.row(k) = marker.shape.row(k);
     const Eigen::MatrixXd& F = marker.second[at(k)];
     for (Index i = 0; i < F.cols(); ++i) {
       const double slope = F.col(i).dot(eta);
       m.flex(k, i) += slope;
-      x[k] += 0.5 * slope * eta[i];
+      x[k] -= 0.5 * slope * eta[i];
     }
   }
   for (Index i = 0; i < m.flex.cols(); ++i) {
     const double along = m.flex(0, i), across = m.flex(1, i);
+    x += m.flex.col(i) * eta[i];
     m.flex.col(i) << c * along - s * across, s * along + c * across;
   }
   m.d = {c * x.x() - s * x.y(), s * x.x() + c * x.y()};
   m.r = {q[0] + m.d.x(), q[1] + m.d.y()};
   m.angle = q[2] + marker.angle + marker.slope.dot(eta);
-  m.u = {std::cos(m.angle), std::sin(m.angle)};
 }
 
 void move_on_flexible(const System& system, const Marker& marker, const VectorXd& y, double c, double s, MarkerMotion& m) {

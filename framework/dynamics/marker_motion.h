@@ -7,7 +7,7 @@
 namespace pintle {
 
 /// Pose of a marker on a flexible body whose frame is turned by (cos, sin): d = A(x + Φη + ½ηᵀΨη), its
-/// derivative by η in `flex`, and the direction turned by the slope.
+/// derivative by η in `flex`, and the angle turned by the slope; u is not touched.
 void pose_on_flexible(const System&, const Marker&, const Eigen::VectorXd& y, double cos, double sin, MarkerMotion&);
 /// Adds what deformation does to v, w and a0. @pre they are those of a point of the frame
 void move_on_flexible(const System&, const Marker&, const Eigen::VectorXd& y, double cos, double sin, MarkerMotion&);

@@ -284,6 +284,7 @@ TEST_P(FlexibleBody, InverseMassUndoesTheMassMatrix) {
 
 // Along q(t) = q₀ + s t + ½ a t².
 TEST_P(FlexibleBody, MarkersMoveAsTheirPlaceChanges) {
+  eq.directed.assign(system.markers.size(), true);
   for (int k = 0; k < draws; ++k) {
     const VectorXd y = random_y();
     const VectorXd a = random_y().segment(n_q, n_q) * 3;
