@@ -1,5 +1,6 @@
 // The command line. Thin: nothing here that a user of the library lacks.
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <iostream>
 #include <map>
 
@@ -17,7 +18,7 @@ constexpr const char* exit_codes =
     "  1  a file or directory cannot be read or written\n"
     "  2  the scene or the command line is wrong\n"
     "  3  the mechanism cannot be assembled\n"
-    "  4  the integration failed; what was computed is kept\n"
+    "  4  the integration failed, or of tradeoff: the accuracy asked for could not be shown; what was computed is kept\n"
     "  5  the ledger leaves more energy unexplained than the scene's bound; the results are kept\n"
     "  6  stopped by the user (Ctrl-C); what was computed is kept\n"
     "\n"
@@ -85,17 +86,35 @@ constexpr const char* what_sweep_writes =
     "per core, in a directory that all share.\n"
     "Exit codes: see pintle --help\n";
 
-void add_sweep_options(CLI::App& command, Options& options) {
-  command.add_option("study", options.scene, "study file (YAML)")->required()->type_name("STUDY.yaml");
-  command.add_option("--set", options.set, "override a parameter or key of the scene in all cases; may be repeated")
+/// A whole number from 1, or another least, to `most`.
+CLI::Validator whole(int least, int most) {
+  return CLI::Validator(
+      [=](const std::string& written) {
+        int n = 0;
+        const char* end = written.data() + written.size();
+        const auto [stop, error] = std::from_chars(written.data(), end, n);
+        if (error == std::errc() && stop == end && n >= least && n <= most) return std::string();
+        return "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most) + ", not \"" + written + "\"";
+      },
+      "");
+}
+
+/// What sweeps and trade-offs share: a study, overrides, the way results go.
+void add_study_options(CLI::App& command, Options& options, const std::string& study, const std::string& all, const std::string& out) {
+  command.add_option("study", options.scene, study)->required()->type_name("FILE.yaml");
+  command.add_option("--set", options.set, "override a parameter or key of the scene in all " + all + "; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME|PATH=VALUE");
+  command.add_flag("--json", options.json, "print JSON instead of text");
+  command.add_option("-o,--out", options.out, out)->type_name("DIR");
+  command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+}
+
+void add_sweep_options(CLI::App& command, Options& options) {
+  add_study_options(command, options, "study file (YAML)", "cases", "directory for the results, or of the same sweep, to go on with (default: runs/STUDY-sweep)");
   command.add_option("-t,--threads", options.threads, "cases run at once by this process (default: as many as cores; under MPI 1)")
       ->type_name("N")
-      ->check(CLI::Range(1, 4096));
-  command.add_flag("--json", options.json, "print JSON instead of text");
-  command.add_option("-o,--out", options.out, "directory for the results, or of the same sweep, to go on with (default: runs/STUDY-sweep)")->type_name("DIR");
-  command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+      ->check(whole(1, 4096));
   command.footer(what_sweep_writes);
 }
 
@@ -106,20 +125,17 @@ constexpr const char* what_tradeoff_writes =
     "  tradeoff.svg, .md       error against time; the answers and the front as tables\n"
     "  tradeoff.json           all of it, the reference and how it was proved included\n"
     "  recommended.yaml        the scene with the recommended setting, ready to run\n"
-    "Exit code 4: no setting could be recommended. Others: see pintle --help\n";
+    "Exit code 4: nothing is recommended, as the error (or time) that is wanted could not be shown of any setting; the\n"
+    "output says what is missing and what would help. There is then no recommended.yaml. Others: see pintle --help\n";
 
 void add_tradeoff_options(CLI::App& command, Options& options) {
-  command.add_option("study", options.scene, "study file, or a scene with --quantity (YAML)")->required()->type_name("FILE.yaml");
+  add_study_options(command, options, "study file, or a scene with --quantity (YAML)", "settings", "directory for the results; it must not exist (default: runs/NAME-tradeoff, numbered)");
   command.add_option("--quantity", options.quantities, "what matters, e.g. \"peak force at gudgeon pin\"; may be repeated")->allow_extra_args(false)->type_name("WORDS");
   command.add_option("--error", options.wanted_error, "the error that is wanted, e.g. 1%: the cheapest setting for it is recommended")->type_name("SHARE");
   command.add_option("--time", options.wanted_time, "the time of a run that is wanted, e.g. 0.5s: the most accurate setting within it is named")->type_name("TIME");
   command.add_option("--budget", options.budget, "of computing, e.g. 10min: then what is clearly dominated is not run (default: of a scene 1min, of a study as it says)")->type_name("TIME");
-  command.add_option("--repeats", options.repeats, "timed runs of each setting (default 5)")->type_name("N")->check(CLI::Range(1, 1000));
-  command.add_option("--set", options.set, "override a parameter or key of the scene in all settings; may be repeated")->allow_extra_args(false)->type_name("NAME|PATH=VALUE");
+  command.add_option("--repeats", options.repeats, "timed runs of each setting (default 5)")->type_name("N")->check(whole(1, 1000));
   command.add_option("--markdown", options.markdown, "write the report there as well, its picture beside it")->type_name("FILE.md");
-  command.add_flag("--json", options.json, "print JSON instead of text");
-  command.add_option("-o,--out", options.out, "directory for the results; it must not exist (default: runs/NAME-tradeoff, numbered)")->type_name("DIR");
-  command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
   command.footer(what_tradeoff_writes);
 }
 
@@ -127,8 +143,8 @@ void add_linearize_options(CLI::App& command, Options& options) {
   command.add_option("--at", options.at, "about the state that the run has at this time, e.g. 20ms; with --equilibrium, with drivers and loads as they are then")
       ->type_name("TIME");
   command.add_flag("--equilibrium", options.at_rest, "about where the mechanism rests, drivers and loads held; without it and --at, about the assembled start");
-  command.add_option("-n,--count", options.count, "how many modes are printed and drawn (default 6; all are written)")->type_name("N")->check(CLI::Range(0, 100'000));
-  command.add_option("--frames", options.frames, "frames of an animation of each of these modes (default: none)")->type_name("N")->check(CLI::Range(0, 100'000));
+  command.add_option("-n,--count", options.count, "how many modes are printed and drawn (default 6; all are written)")->type_name("N")->check(whole(0, 100'000));
+  command.add_option("--frames", options.frames, "frames of an animation of each of these modes (default: none)")->type_name("N")->check(whole(0, 100'000));
   command.footer(what_linearize_writes);
 }
 
@@ -163,8 +179,8 @@ void add_options(CLI::App& command, Options& options) {
   if (name == "static") command.footer("It writes static.vtu (displacement, stress), points.csv, section_forces.csv (beams) and static.json.\nExit codes: see pintle --help\n");
   if (name == "mesh") command.footer("It writes mesh.vtu (quality of each cell, groups) and mesh.json.\nExit codes: see pintle --help\n");
   if (name != "modes") return;
-  command.add_option("-n,--count", options.count, "how many natural modes (default 6)")->type_name("N")->check(CLI::Range(1, 100'000));
-  command.add_option("--frames", options.frames, "frames of each animation, 0 for none (default 24, none above 30000 nodes)")->type_name("N")->check(CLI::Range(0, 100'000));
+  command.add_option("-n,--count", options.count, "how many natural modes (default 6)")->type_name("N")->check(whole(1, 100'000));
+  command.add_option("--frames", options.frames, "frames of each animation, 0 for none (default 24, none above 30000 nodes)")->type_name("N")->check(whole(0, 100'000));
   command.footer(what_modes_writes);
 }
 

@@ -1,6 +1,5 @@
 // Commands on a whole mechanism: check and run.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -10,6 +9,7 @@
 #include "app/options.h"
 #include "app/price_text.h"
 #include "app/progress.h"
+#include "framework/run/computed.h"
 #include "framework/run/results.h"
 #include "framework/run/pieces.h"
 #include "framework/run/text.h"
@@ -180,11 +180,10 @@ Scene runnable(const Options& options) {
 }  // namespace
 
 int check(const Options& options) {
-  using clock = std::chrono::steady_clock;
   const Scene scene = with_pieces(runnable(options));
-  const auto begin = clock::now();
+  const double begin = computed();
   const Model model = build_and_rehearse(scene);
-  const double built = std::chrono::duration<double>(clock::now() - begin).count() - (model.rehearsal ? model.rehearsal->seconds : 0);
+  const double built = computed() - begin - (model.rehearsal ? model.rehearsal->seconds : 0);
   const Assembly assembly = assemble(scene, model);
   const Price cost = price(scene, model, assembly);
   if (options.json) {

@@ -73,7 +73,7 @@ void print_price(const Price& p, double build_seconds) {
   if (p.contact_rate > 0) rows.emplace_back("  of a slow contact", frequency(p.contact_rate));
   rows.emplace_back("  steps", steps_text(p.run) + " of " + duration(p.run.step) + " in the mean");
   const std::string frames = o.frames > 0 ? ", " + std::to_string(o.frames) + " frames " + duration(o.frames * o.frame_seconds) : "";
-  rows.emplace_back("  time", about(p.seconds, duration) + ": computing " + duration(p.run.seconds.likely) + ", " + std::to_string(o.rows) +
+  rows.emplace_back("  processor time", about(p.seconds, duration) + ": computing " + duration(p.run.seconds.likely) + ", " + std::to_string(o.rows) +
                                   " rows " + duration(static_cast<double>(o.rows) * o.row_seconds) + frames + "; and " +
                                   duration(build_seconds) + " to build the model");
   rows.emplace_back("  memory, files", size(p.memory) + ", " + size(o.bytes()));

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iomanip>
@@ -74,7 +75,11 @@ void print(const Sweep& sweep, const SweepEnd& end, const fs::path& out) {
   std::string ended = std::to_string(end.rows.size()) + " of " + std::to_string(sweep.cases.size());
   if (end.count.before > 0) ended += ", " + std::to_string(end.count.before) + " of them in earlier sessions";
   rows.emplace_back("cases ended", ended);
-  for (const auto& [status, n] : statuses(end.rows)) rows.emplace_back(status, std::to_string(n));
+  for (const auto& [status, n] : statuses(end.rows)) {
+    const Row& first = *std::ranges::find(end.rows, status, &Row::status);
+    const std::string why = ", the first is case " + std::to_string(first.number) + ": " + first.reason;
+    rows.emplace_back(status, std::to_string(n) + (first.reason.empty() ? "" : why));
+  }
   for (const MeasureRange& r : measure_ranges(sweep, end.rows))
     rows.emplace_back(r.header, r.least_in == 0 ? "no case has it"
                                                 : number(r.least) + " (case " + std::to_string(r.least_in) + ") to " + number(r.greatest) +

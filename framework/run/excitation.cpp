@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -14,6 +13,7 @@
 #include "framework/component/modal_model.h"
 #include "framework/integration/integrator.h"
 #include "framework/run/assemble.h"
+#include "framework/run/computed.h"
 #include "framework/run/modes.h"
 
 namespace pintle {
@@ -215,7 +215,7 @@ Eigen::MatrixXd loads_on(const ElasticBody& e) {
 
 RigidRun rigid_run(const Scene& scene, const std::vector<const ElasticBody*>& elements) {
   RigidRun run;
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = computed();
   run.bodies.resize(scene.bodies.size());
   for (std::size_t b = 0; b < elements.size(); ++b)
     if (elements[b] && elements[b]->scene->elastic->modes)
@@ -233,7 +233,7 @@ RigidRun rigid_run(const Scene& scene, const std::vector<const ElasticBody*>& el
   } catch (const AssemblyError& error) {
     run.trouble = error.what();
   }
-  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  run.seconds = computed() - begin;
   return run;
 }
 

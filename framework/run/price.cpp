@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 
 #include <unistd.h>
 
+#include "framework/run/computed.h"
 #include "framework/run/drawing.h"
 #include "framework/run/method.h"
 #include "framework/run/results.h"
@@ -21,12 +21,6 @@ namespace pintle {
 namespace {
 
 namespace fs = std::filesystem;
-/// Seconds that this thread has computed: what a run takes where nothing else keeps the machine busy.
-double computed() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 double since(double begin) { return computed() - begin; }
 
 /// Seconds of a step, roughly, from the sizes of things: it sets how many steps a trial has, so that they are the same

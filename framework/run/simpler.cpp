@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numeric>
 #include <sstream>
+#include <utility>
 
+#include "framework/run/assemble.h"
 #include "framework/run/method.h"
 
 namespace pintle {
@@ -43,9 +45,19 @@ void drop_stiffening(System& system, int body) {
     if (m.body == body) m.second = {};
 }
 
+/// Takes away the joint that is a clearance's massless link.
+void drop_link(System& system, ContactPair& pair) {
+  const int link = std::exchange(pair.link, -1);
+  system.joints.erase(system.joints.begin() + link);
+  system.joint_names.erase(system.joint_names.begin() + link);
+  for (ContactPair& c : system.contacts)
+    if (c.link > link) --c.link;
+}
+
 /// The clearance as an ideal pin.
 void close_gap(System& system, int contact) {
-  const ContactPair& pair = system.contacts[at(contact)];
+  ContactPair& pair = system.contacts[at(contact)];
+  if (pair.link >= 0) drop_link(system, pair);
   system.joints.emplace_back(Revolute{pair.journal, pair.bearing});
   system.joint_names.push_back(system.contact_names[at(contact)]);
   system.contacts.erase(system.contacts.begin() + contact);
@@ -92,6 +104,22 @@ class Maker {
  private:
   static constexpr std::size_t few = 3;
 
+  /// The model's start; where links have become pins, that of the model without them, journals in the middle of their
+  /// bearings: shapes that had to make up for the length of a link would ring.
+  State start_for(const System& simpler) const {
+    System open = model_.system;
+    for (std::size_t c = 0; c < open.contacts.size(); ++c)
+      if (open.contacts[c].link >= 0 && std::ranges::find(simpler.contact_names, open.contact_names[c]) == simpler.contact_names.end())
+        drop_link(open, open.contacts[c]);
+    if (open.joints.size() == model_.system.joints.size()) return start_of(model_.system, start_, simpler);
+    number(open);
+    try {
+      return start_of(open, assemble(scene_, open).start, simpler);
+    } catch (const AssemblyError&) {  // the model's own start will do, or its trial says why not
+      return start_of(model_.system, start_, simpler);
+    }
+  }
+
   template <class Change>
   void add(const std::string& what, Change change, double tolerance = 0) {
     Simpler s{what, model_.system, model_.scheme, {}};
@@ -105,7 +133,7 @@ class Maker {
     s.scheme.switch_below = 0;
     choose_method(scene, s.system, s.scheme);
     number(s.system, !s.scheme.tableau || s.scheme.switch_below > 0);
-    s.start = start_of(model_.system, start_, s.system);
+    s.start = start_for(s.system);
     made_.push_back(std::move(s));
   }
 

@@ -13,7 +13,7 @@ struct Simpler {
   std::string what;  ///< "\"coupler\" rigid", in the words of a scene
   System system;
   Scheme scheme;     ///< chosen anew, as `build` would
-  State start;       ///< the model's, near the constraints of the simpler system, not on them
+  State start;       ///< the model's, near the constraints of the simpler system, not on them; links that are pins now are closed
 };
 
 /// Each of what the model has that could be left out: flexible bodies rigid, with half their shapes (the lowest), without

@@ -50,7 +50,7 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
 std::string listed(std::span<const std::string> words, std::string_view last) {
   std::string out;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) out += i + 1 < words.size() ? ", " : std::string(" ").append(last).append(" ");
+    if (i > 0) out += i + 1 < words.size() || last == "," ? ", " : std::string(" ").append(last).append(" ");
     out += words[i];
   }
   return out;

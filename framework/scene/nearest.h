@@ -16,7 +16,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 /// word's letters, at least one. Case does not count.
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
-/// "a, b or c".
+/// "a, b or c"; with "," for the last word "a, b, c".
 std::string listed(std::span<const std::string> words, std::string_view last = "or");
 
 /// " Did you mean "x"?" or, with nothing near, " Known here: a, b or c."

@@ -59,7 +59,8 @@ std::string read_text_file(const fs::path& path, std::size_t most_bytes, const s
   if (const int line = line_not_text(text); line > 0)
     fail("is not text (a zero byte, or bytes that are not UTF-8); is it the right file?", line);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
-    fail("is empty; docs/scene.md shows what to write");
+    fail(key.empty() ? "is empty; docs/scene.md shows what a scene says, docs/studies.md what a study does"
+                     : "is empty; write a row of numbers for each point");
   return text;
 }
 

@@ -66,8 +66,8 @@ bool judge_heading(const fs::path& path, const std::string& text, std::uint64_t 
   const std::optional<Json> first = end == std::string::npos ? std::nullopt : unsealed(std::string_view(text).substr(0, end));
   if (!first || !first->contains("pintle sweep")) return false;
   if (text.substr(0, end + 1) != heading(study))
-    throw SceneError(path.string(), {}, "belongs to another study, or to this one before it, its scene, a file that they name or the program was changed; "
-                                        "name another directory with --out, or remove this one");
+    throw SceneError(path.string(), {}, "belongs to another study, or to this one before it, its scene, a file that they name, --set or "
+                                        "the program was changed; name another directory with --out, or remove " + path.parent_path().string());
   return true;
 }
 
@@ -122,7 +122,7 @@ std::optional<Row> row_of(std::string_view line) {
 
 Journal::Journal(const fs::path& path, std::uint64_t study) : path_(path) {
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file_ < 0) throw std::runtime_error(path.string() + ": cannot be made (" + std::strerror(errno) + "); name another place with --out");
+  if (file_ < 0) throw std::runtime_error(path.string() + ": cannot be written (" + std::strerror(errno) + "); name another place with --out");
   try {
     if (!locked(file_, LOCK_EX, 3))
       throw std::runtime_error(path.string() + ": another process works on this sweep; wait for it, or end it. (If many were started at once as one "
@@ -150,7 +150,8 @@ void Journal::write(const std::string& line) {
     if (n <= 0) {
       const std::string why = n < 0 ? std::strerror(errno) : "the disk may be full";
       [[maybe_unused]] const int ignored = ::ftruncate(file_, size_);
-      throw std::runtime_error(path_.string() + ": cannot be written (" + why + ")");
+      throw std::runtime_error(path_.string() + ": cannot be written (" + why +
+                               "); the cases that ended before are kept: mend that, and start the same command again");
     }
     done += static_cast<std::size_t>(n);
   }

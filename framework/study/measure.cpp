@@ -352,19 +352,6 @@ std::string measured_unit(const Measure& measure, const Scene& scene) {
   return read_measure(measure, scene).unit;
 }
 
-void judge(const std::vector<Measure>& measures, const Scene& scene) {
-  for (const Measure& m : measures) {
-    const Asked asked = read_measure(m, scene);
-    const double last = std::isinf(asked.to) ? asked.from : asked.to;
-    if (last > scene.run.until * (1 + 1e-9)) {
-      Place place = m.place;
-      if (place.key.empty()) place.key = "measure \"" + m.words + "\"";
-      throw SceneError(m.file.empty() ? scene.file : m.file, place,
-                       "\"" + m.words + "\" lies after the end of the run; make run.until longer, or ask for an earlier time");
-    }
-  }
-}
-
 void prepare(Scene& scene, const std::vector<Measure>& measures) {
   scene.output.frames = 0;
   if (!scene.has_run) return;

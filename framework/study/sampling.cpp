@@ -88,6 +88,8 @@ Texts values(const Node& node) {
       out.emplace_back(with_unit(range.span.at(n == 1 ? 0 : static_cast<double>(k) / static_cast<double>(n - 1)), range.dimension));
     return out;
   }
+  if (node.is_list() && node.yaml().items.empty())
+    node.fail(std::string("is an empty list, so there are no cases; write ") + how_values_look);
   for (const Node& item : node.list(1, how_values_look)) out.emplace_back(override_text(item.yaml()));
   return out;
 }
@@ -104,6 +106,7 @@ Cases grid(const Node& section) {
   std::size_t n = 1;
   for (const Node& axis : named(section)) {
     cases.names.push_back(axis.name());
+    cases.places.push_back(axis.place());
     axes.push_back(values(axis));
     if (n > most_cases / axes.back().size()) section.fail("has more than " + std::to_string(most_cases) + " combinations; take fewer values, or random");
     n *= axes.back().size();
@@ -126,6 +129,7 @@ Cases columns(const Node& section) {
       column.fail("has " + std::to_string(texts.size()) + " values, " + cases.names.front() + " has " + std::to_string(cases.size()) +
                   "; columns of a list are walked in step: give as many, or write grid for all combinations");
     cases.names.push_back(column.name());
+    cases.places.push_back(column.place());
     for (std::size_t k = 0; k < texts.size(); ++k) cases.values[k].push_back(texts[k]);
   }
   return cases;
@@ -140,6 +144,7 @@ Cases list(const Node& section) {
       const auto at = static_cast<std::size_t>(std::ranges::find(cases.names, entry.name()) - cases.names.begin());
       if (at == cases.names.size()) {
         cases.names.push_back(entry.name());
+        cases.places.push_back(entry.place());
         for (Texts& earlier : cases.values) earlier.emplace_back();
         one.emplace_back();
       }
@@ -163,6 +168,7 @@ Cases sampled(const Node& section, bool latin) {
   for (const Node& entry : entries) {
     if (entry.name() == "count" || entry.name() == "seed") continue;
     cases.names.push_back(entry.name());
+    cases.places.push_back(entry.place());
     Stream stream(seed, entry.name());
     std::vector<double> u;
     if (latin) u = stream.strata(n);
@@ -189,6 +195,15 @@ Overrides Cases::overrides(std::size_t k) const {
   for (std::size_t i = 0; i < names.size(); ++i)
     if (values[k][i]) out.emplace_back(names[i], *values[k][i]);
   return out;
+}
+
+std::optional<Quantity> Cases::quantity(std::size_t k, std::size_t i) const {
+  if (!values[k][i]) return {};
+  try {
+    return read_quantity(*values[k][i]);
+  } catch (const ExpressionError&) {
+    return {};
+  }
 }
 
 double Span::at(double u) const {

@@ -19,9 +19,12 @@ namespace pintle {
 struct Cases {
   std::vector<std::string> names;  ///< parameters or paths, in the order written
   std::vector<std::vector<std::optional<std::string>>> values;  ///< per case, per name; none: as the scene has it
+  std::vector<Place> places = {};                               ///< per name: where the study has it first
 
   std::size_t size() const { return values.size(); }
   Overrides overrides(std::size_t k) const;  ///< of case k, from 0
+  /// The value of name i in case k, if it has one that is a number, with or without a unit, and no formula of parameters.
+  std::optional<Quantity> quantity(std::size_t k, std::size_t i) const;
 };
 
 inline constexpr std::size_t most_cases = 1'000'000;

@@ -29,10 +29,45 @@ std::vector<Measure> read_measures(const Node& node, const std::string& file) {
   else
     for (const Node& entry : node.entries(remedy)) add(entry, entry.name());
   if (out.empty()) node.fail(std::string("measures nothing; write ") + remedy);
-  for (std::size_t i = 0; i < out.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      if (out[i].name == out[k].name) node.fail("measures \"" + out[i].name + "\" twice; leave one out");
   return out;
+}
+
+/// "peak [N]" becomes "peak": tables put the unit behind the name. @throws SceneError  it is named in another unit
+void without_unit(Measure& m, const std::string& unit) {
+  const auto open = m.name.rfind('[');
+  if (open == std::string::npos || m.name.back() != ']') return;
+  const std::string written = m.name.substr(open + 1, m.name.size() - open - 2);
+  const auto end = m.name.find_last_not_of(' ', open > 0 ? open - 1 : 0);
+  if (written == unit && open > 0 && end != std::string::npos) m.name.resize(end + 1);
+  if (written == unit || written.find_first_not_of(' ') == std::string::npos) return;
+  try {
+    read_quantity("1 " + written);
+  } catch (const ExpressionError&) {
+    return;  // no unit
+  }
+  throw SceneError(m.file, m.place, "is named in " + written + ", and comes " + (unit.empty() ? "without a unit" : "in " + unit) +
+                                        "; leave the unit out, the table puts it behind the name");
+}
+
+void judge_names(std::vector<Measure>& measures, const Scene& scene, const Node& node) {
+  for (Measure& m : measures) without_unit(m, measured_unit(m, scene));
+  for (std::size_t i = 0; i < measures.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (measures[i].name == measures[k].name) node.fail("measures \"" + measures[i].name + "\" twice; leave one out");
+}
+
+/// The first name in a group of a scene, or another.
+std::string first_in(const Node& scene, const char* group, const char* otherwise) {
+  if (!scene.has(group) || !scene.at(group).is_map() || scene.at(group).keys().empty()) return otherwise;
+  return scene.at(group).keys().front();
+}
+
+[[noreturn]] void refuse_scene(const Node& root, const std::filesystem::path& path) {
+  const std::string parameter = first_in(root, "parameters", "run.tolerance");
+  const std::string value = parameter == "run.tolerance" ? "1e-6" : override_text(root.at("parameters").at(parameter).yaml());
+  const std::string example = "{scene: " + path.filename().string() + ", measure: {peak: peak force at " + first_in(root, "joints", "JOINT") +
+                              "}, sweep: {grid: {" + parameter + ": [" + value + ", …]}}}";
+  throw SceneError(path.string(), {}, "is a scene, not a study. Write a study beside it, for example  " + example + "  (docs/studies.md)");
 }
 
 }  // namespace
@@ -43,6 +78,8 @@ StudyFile read_study(const std::filesystem::path& path) {
   file.source.file = file.study.file = path.string();
   file.tree = parse_yaml(read_text_file(path, most_bytes), path.string());
   const Node root = file.root();
+  if (root.is_nothing()) root.fail("is empty; docs/studies.md shows what to write");
+  if (root.is_map() && root.has("bodies") && !root.has("scene")) refuse_scene(root, path);
   check_keys(root, "study");
   if (root.has("title")) file.study.title = root.at("title").text("a line of text");
   const Node scene = root.at("scene");
@@ -53,6 +90,7 @@ StudyFile read_study(const std::filesystem::path& path) {
   const Scene common = common_scene(file.study.scene);
   require_run(common);
   judge(file.study.measures, common);
+  judge_names(file.study.measures, common, root.at("measure"));
   return file;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <thread>
 
@@ -217,6 +219,22 @@ void open_folder(const fs::path& folder) {
   if (error) throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another place with --out");
 }
 
+std::string contents(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Why the folder of another study is refused: what has changed since, as far as that is known.
+std::string what_differs(const Sweep& sweep, const fs::path& folder) {
+  const auto differs = [&](const char* name, const std::string& now) { return fs::exists(folder / name) && contents(folder / name) != now; };
+  const bool study = differs("study.yaml", sweep.text), scene = differs("scene.yaml", sweep.study.scene.text);
+  const std::string was = study && scene ? "The study and its scene are not those" : study ? "The study is not the one" : "The scene is not the one";
+  if (study || scene)
+    return was + " that ran there (kept there as " + (study ? "study.yaml" : "") + (study && scene ? " and " : "") +
+           (scene ? "scene.yaml" : "") + ")";
+  return "Study and scene are those that ran there, but --set, a file that they name or the program's version is another";
+}
+
 void write_tables(const Sweep& sweep, const fs::path& folder, const SweepEnd& end) {
   std::error_code ignored;
   if (!end.whole) {
@@ -256,7 +274,12 @@ SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettin
   try {
     open_folder(folder);
     const fs::path own = journal_path(folder, 0);
-    journal.emplace(own, sweep.print);
+    try {
+      journal.emplace(own, sweep.print);
+    } catch (const SceneError&) {
+      throw SceneError(folder.string(), {}, "belongs to another study. " + what_differs(sweep, folder) +
+                                                ". Name another directory with --out, or remove " + folder.string());
+    }
     if (!journals_are_free(folder, own, 10))
       throw std::runtime_error(folder.string() + ": processes of an earlier session still work there; wait for them, or end them");
     write_text(folder / "study.yaml", sweep.text);

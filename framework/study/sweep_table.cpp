@@ -1,4 +1,5 @@
 #include <cmath>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -13,32 +14,48 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A varied thing as a column: SI numbers if every value is one, else as written.
+/// A varied thing as a column: SI numbers if every value that the scene took is one, else as written.
 struct Varied {
   std::string header;
   std::vector<std::string> fields;  ///< of all cases
 };
 
-Varied varied(const Cases& cases, std::size_t name) {
-  Varied out{cases.names[name], {}};
-  std::string unit;
-  bool numbers = true;
-  for (const auto& values : cases.values) {
-    out.fields.emplace_back();
-    if (!values[name]) continue;
-    try {
-      const Quantity q = read_quantity(*values[name]);
-      append_number(out.fields.back(), q.value);
-      if (const std::string u = si_unit(q.dimension); !u.empty()) unit = u;
-    } catch (const ExpressionError&) {
-      numbers = false;
-      break;
-    }
+/// In each case; nothing where it has none.
+using Quantities = std::vector<std::optional<Quantity>>;
+
+/// The unit in which the scene took the values of a name; if none of them has been taken, the first that is written.
+/// Nothing if it took several.
+std::optional<std::string> unit_of(const Quantities& values, const std::vector<bool>& taken) {
+  std::string first, out;
+  bool any = false;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (!values[k]) continue;
+    any = any || taken[k];
+    if (bare(values[k]->dimension)) continue;
+    const std::string unit = si_unit(values[k]->dimension);
+    if (first.empty()) first = unit;
+    if (!taken[k]) continue;
+    if (!out.empty() && unit != out) return {};
+    out = unit;
   }
-  if (numbers && !unit.empty()) out.header += " [" + unit + "]";
-  if (numbers) return out;
-  out.fields.clear();
-  for (const auto& values : cases.values) out.fields.push_back(values[name] ? *values[name] : "");
+  return any ? out : first;
+}
+
+/// @param taken  the cases that ended, and not because the scene's reader refused them
+Varied varied(const Cases& cases, std::size_t name, const std::vector<bool>& taken) {
+  Quantities values;
+  bool numbers = true;
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    values.push_back(cases.quantity(k, name));
+    numbers = numbers && (values[k] || !cases.values[k][name] || !taken[k]);
+  }
+  const std::optional<std::string> unit = numbers ? unit_of(values, taken) : std::nullopt;
+  Varied out{unit && !unit->empty() ? cases.names[name] + " [" + *unit + "]" : cases.names[name], {}};
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    std::string& field = out.fields.emplace_back();
+    if (unit && values[k] && (bare(values[k]->dimension) || si_unit(values[k]->dimension) == *unit)) append_number(field, values[k]->value);
+    else field = cases.values[k][name].value_or("");
+  }
   return out;
 }
 
@@ -54,7 +71,9 @@ std::string measure_header(const Sweep& sweep, const std::vector<Row>& rows, std
 
 std::string sweep_csv(const Sweep& sweep, const std::vector<Row>& rows) {
   std::vector<Varied> columns;
-  for (std::size_t k = 0; k < sweep.cases.names.size(); ++k) columns.push_back(varied(sweep.cases, k));
+  std::vector<bool> taken(sweep.cases.size(), false);
+  for (const Row& r : rows) taken[r.number - 1] = r.status != "refused";
+  for (std::size_t k = 0; k < sweep.cases.names.size(); ++k) columns.push_back(varied(sweep.cases, k, taken));
   std::string out = "case";
   for (const Varied& v : columns) out += "," + csv_field(v.header);
   for (std::size_t m = 0; m < sweep.study.measures.size(); ++m) out += "," + csv_field(measure_header(sweep, rows, m));

@@ -9,6 +9,7 @@
 #include "framework/study/measure_words.h"
 #include "tests/oracles/pendulum.h"
 #include "tests/oracles/slider_crank_clearance.h"
+#include "tests/unit/worn_slider_crank.h"
 
 namespace pintle {
 namespace {
@@ -89,24 +90,7 @@ TEST(Measure, OfAPendulumAgreesWithItsClosedForm) {
 }
 
 // The paper's slider-crank, driven at 150 rad/s.
-const std::string driven = R"(
-gravity: [0, -9.81]
-bodies:
-  crank:   {rigid: {mass: 0.30 kg, inertia: 1.0e-4 kg m^2}, points: {O: [-25 mm, 0], A: [25 mm, 0]}}
-  coupler: {rigid: {mass: 0.21 kg, inertia: 2.5e-4 kg m^2}, points: {A: [-60 mm, 0], B: [60 mm, 0]}}
-  slider:  {rigid: {mass: 0.14 kg, inertia: 1.0e-4 kg m^2}, points: {P: [0, 0]}}
-joints:
-  main bearing: {revolute: [ground, crank.O]}
-  crank pin:    {revolute: [crank.A, coupler.A]}
-  gudgeon pin:
-    revolute: [coupler.B, slider.P]
-    clearance:
-      radial: 0.1 mm
-      bearing radius: 10 mm
-      bearing: slider
-      normal: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}
-  guide: {prismatic: [ground, slider.P]}
-drivers: {motor: {angle: [ground, crank], law: 150 rad/s*t}}
+const std::string driven = worn_slider_crank + R"(drivers: {motor: {angle: [ground, crank], law: 150 rad/s*t}}
 run: {until: 50 ms, tolerance: 1e-10}
 )";
 const Overrides ideal{{"joints.gudgeon pin.clearance", "null"}};

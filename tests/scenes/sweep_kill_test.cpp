@@ -165,4 +165,14 @@ TEST_F(SweepKilled, AskedToStopItLeavesWhatItHasAndExitsWithSix) {
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + static_cast<std::ptrdiff_t>(journalled(folder_ / "out").size()));
 }
 
+TEST_F(SweepKilled, NeverBeginsWithANumberOfThreadsThatIsNone) {
+  for (const std::string number : {"0", "2.5", "-1", "many", "4097"}) {
+    fs::remove(folder_ / "log");
+    EXPECT_EQ(run({PINTLE_PROGRAM, "sweep", folder_ / "study.yaml", "--out", folder_ / "out", "--threads=" + number}), 2);
+    const std::string said = contents(folder_ / "log");
+    EXPECT_NE(said.find("--threads: must be a whole number from 1 to 4096, not \"" + number + "\""), std::string::npos) << said;
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+  }
+}
+
 }  // namespace

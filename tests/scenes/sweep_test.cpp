@@ -115,11 +115,29 @@ measure: {turn: angle of rod at 0.2 s, load: peak force at hinge}
 sweep: {grid: {angle: {from: -90 deg, to: 80 deg, count: 9}, length: [0.1 m, -0.2 m, 0.3 m], mass: [0.5 kg, -1 kg]}}
 )";
 
+/// The pendulum and a study of it, written and read.
+Sweep sweep_in(const Folder& folder, const std::string& text = study) {
+  folder.write("scene.yaml", pendulum);
+  folder.write("study.yaml", text);
+  return read_sweep(folder / "study.yaml");
+}
+Sweep turned(const Folder& folder, const std::string& sweep) {
+  return sweep_in(folder, "scene: scene.yaml\nmeasure: {turn: final angle of rod}\nsweep: " + sweep + "\n");
+}
+
+/// What is said of a study of the pendulum.
+std::string refusal_of(const Folder& folder, const std::string& sweep) {
+  try {
+    turned(folder, sweep);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
 TEST(Sweep, TheTableIsTheSameToTheBitForOneAndFourThreads) {
   const Folder folder;
-  folder.write("scene.yaml", pendulum);
-  folder.write("study.yaml", study);
-  const Sweep sweep = read_sweep(folder / "study.yaml");
+  const Sweep sweep = sweep_in(folder);
   const SweepEnd one = run_sweep(sweep, folder / "one", {1, nullptr, {}}), four = run_sweep(sweep, folder / "four", {4, nullptr, {}});
   EXPECT_TRUE(one.whole && four.whole);
   EXPECT_EQ(one.rows.size(), 54u);
@@ -130,9 +148,7 @@ TEST(Sweep, TheTableIsTheSameToTheBitForOneAndFourThreads) {
 
 TEST(Sweep, ACaseThatFailsIsARowWithItsReason) {
   const Folder folder;
-  folder.write("scene.yaml", pendulum);
-  folder.write("study.yaml", study);
-  const Sweep sweep = read_sweep(folder / "study.yaml");
+  const Sweep sweep = sweep_in(folder);
   const SweepEnd end = run_sweep(sweep, folder / "out", {2, nullptr, {}});
   for (const Row& r : end.rows) {
     const bool negative = r.number % 2 == 0;  // every second mass is
@@ -145,9 +161,7 @@ TEST(Sweep, ACaseThatFailsIsARowWithItsReason) {
 
 TEST(Sweep, StepsMayBeLimitedForAllCases) {
   const Folder folder;
-  folder.write("scene.yaml", pendulum);
-  folder.write("study.yaml", "scene: scene.yaml\nmeasure: {turn: final angle of rod}\nsweep: {list: [{angle: 0 deg}], most steps: 3}\n");
-  const SweepEnd end = run_sweep(read_sweep(folder / "study.yaml"), folder / "out", {1, nullptr, {}});
+  const SweepEnd end = run_sweep(turned(folder, "{list: [{angle: 0 deg}], most steps: 3}"), folder / "out", {1, nullptr, {}});
   EXPECT_EQ(end.rows.at(0).status, "failed");
   EXPECT_EQ(end.rows.at(0).steps, 3);
   EXPECT_LT(end.rows.at(0).t_end, 0.2);
@@ -155,9 +169,7 @@ TEST(Sweep, StepsMayBeLimitedForAllCases) {
 
 TEST(Sweep, TimeMayBeLimitedForEachCase) {
   const Folder folder;
-  folder.write("scene.yaml", pendulum);
-  folder.write("study.yaml", "scene: scene.yaml\nmeasure: {turn: final angle of rod}\nsweep: {list: [{angle: 0 deg}], limit: 1 ns}\n");
-  const SweepEnd end = run_sweep(read_sweep(folder / "study.yaml"), folder / "out", {1, nullptr, {}});
+  const SweepEnd end = run_sweep(turned(folder, "{list: [{angle: 0 deg}], limit: 1 ns}"), folder / "out", {1, nullptr, {}});
   EXPECT_TRUE(end.whole);
   EXPECT_EQ(end.rows.at(0).status, "over its limit");
   EXPECT_FALSE(end.rows.at(0).reason.empty());
@@ -165,9 +177,7 @@ TEST(Sweep, TimeMayBeLimitedForEachCase) {
 
 TEST(Sweep, StoppedItGoesOnAndNothingRunsTwice) {
   const Folder folder;
-  folder.write("scene.yaml", pendulum);
-  folder.write("study.yaml", study);
-  const Sweep sweep = read_sweep(folder / "study.yaml");
+  const Sweep sweep = sweep_in(folder);
   run_sweep(sweep, folder / "whole", {1, nullptr, {}});
   // Three sessions of at most some cases, as if stopped by hand.
   SweepEnd end;
@@ -177,6 +187,10 @@ TEST(Sweep, StoppedItGoesOnAndNothingRunsTwice) {
     EXPECT_GE(end.count.before, before.before + before.done);
     EXPECT_EQ(fs::exists(folder / "out/sweep.csv"), end.whole);
     EXPECT_EQ(fs::exists(folder / "out/sweep-so-far.csv"), !end.whole);
+    const std::string table = contents(folder / "out" / (end.whole ? "sweep.csv" : "sweep-so-far.csv"));
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + static_cast<std::ptrdiff_t>(end.rows.size()));
+    EXPECT_EQ(table.find("case,"), 0u);
+    EXPECT_EQ(table.find("case,", 1), std::string::npos) << "a second header";
   }
   end = run_sweep(sweep, folder / "out", {2, nullptr, {}});
   EXPECT_TRUE(end.whole);
@@ -190,9 +204,7 @@ TEST(Sweep, StoppedItGoesOnAndNothingRunsTwice) {
 
 TEST(Sweep, AFolderOfAnotherStudyIsRefused) {
   const Folder folder;
-  folder.write("scene.yaml", pendulum);
-  folder.write("study.yaml", "scene: scene.yaml\nmeasure: {turn: final angle of rod}\nsweep: {list: [{angle: 0 deg}]}\n");
-  run_sweep(read_sweep(folder / "study.yaml"), folder / "out", {1, nullptr, {}});
+  run_sweep(turned(folder, "{list: [{angle: 0 deg}]}"), folder / "out", {1, nullptr, {}});
   const auto refusal = [&] {
     try {
       run_sweep(read_sweep(folder / "study.yaml"), folder / "out", {1, nullptr, {}});
@@ -203,7 +215,7 @@ TEST(Sweep, AFolderOfAnotherStudyIsRefused) {
   };
   EXPECT_EQ(refusal(), "none");
   folder.write("scene.yaml", std::string(pendulum) + "# changed\n");
-  EXPECT_NE(refusal().find("belongs to another study"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("belongs to another study. The scene is not the one that ran there"), std::string::npos) << refusal();
   EXPECT_NE(refusal().find("--out"), std::string::npos);
   fs::create_directories(folder / "other");
   folder.write("other/thesis.txt", "x");
@@ -221,15 +233,51 @@ TEST(Sweep, ATableThatTheSceneNamesBelongsToTheStudy) {
   EXPECT_NE(read_sweep(folder / "study.yaml").print, before);
 }
 
-TEST(Sweep, AStudyNoneOfWhoseCasesCanBeReadIsRefusedAtOnce) {
+TEST(Sweep, AStudyThatIsWrongIsRefusedBeforeAnyCaseRuns) {
+  struct Wrong {
+    const char *sweep, *place, *says;
+  };
+  for (const Wrong& w : std::vector<Wrong>{
+           {"{grid: {lenght: [0.1 m, 0.2 m]}}", "sweep.grid.lenght: ", "Did you mean \"length\"?"},
+           {"{grid: {angle: [0, 1], bodies.rod.rigid.mas: [1]}}", "sweep.grid.bodies.rod.rigid.mas: ", "Did you mean \"mass\"?"},
+           {"{list: [{angle: 0}, {angle: 1, run.tolerence: 1e-6}]}", "sweep.list[2].run.tolerence: ", "Did you mean \"tolerance\"?"},
+           {"{random: {count: 3, length: {from: 1 kg, to: 2 kg}}}", "sweep.random.length: ", "kg\" is a mass"},
+           {"{grid: {length: [0.1 mm, 5 kg, 0.3 mm]}}", "sweep.grid.length: ", "\"5 kg\" is a mass"},
+           {"{grid: {length: [0.1, 5 kg, 0.3]}}", "sweep.grid.length: ", "\"5 kg\" is a mass"},
+           {"{grid: {bodies.rod.rigid.mass: [5 m, 1, 2 kg]}}", "sweep.grid.bodies.rod.rigid.mass: ", "\"5 m\" is a length"},
+           {"{list: {length: [0.1 mm, 0.2 mm], mass: [1 kg, 1 s]}}", "sweep.list.mass: ", "\"1 s\" is a time"},
+           {"{grid: {length: []}}", "sweep.grid.length: ", "is an empty list"},
+           {"{random: {count: 3, length: []}}", "sweep.random.length: ", "is an empty list"}}) {
+    SCOPED_TRACE(w.sweep);
+    const Folder folder;
+    const std::string said = refusal_of(folder, w.sweep);
+    EXPECT_NE(said.find(std::string("study.yaml:3: ") + w.place), std::string::npos) << said;
+    EXPECT_NE(said.find(w.says), std::string::npos) << said;
+  }
+}
+
+TEST(Sweep, AValueThatTheSceneRefusesForItselfIsACase) {
+  for (const char* sweep : {"{grid: {mass: [1 kg, -1 kg]}}", "{grid: {length: [0.1 m, 0.2 m], mass: [-1 kg, -2 kg, 1]}}",
+                            "{list: [{angle: 0, mass: -1}, {angle: 1, mass: 2}]}", "{grid: {run.method: [dopri5, euler]}}"}) {
+    const Folder folder;
+    EXPECT_EQ(refusal_of(folder, sweep), "accepted") << sweep;
+  }
+}
+
+TEST(Sweep, AHeaderHasTheUnitThatTheSceneTook) {
   const Folder folder;
-  folder.write("scene.yaml", pendulum);
-  folder.write("study.yaml", "scene: scene.yaml\nmeasure: {turn: final angle of rod}\nsweep: {grid: {lenght: [0.1 m, 0.2 m]}}\n");
-  try {
-    read_sweep(folder / "study.yaml");
-    FAIL();
-  } catch (const SceneError& error) {
-    EXPECT_NE(std::string(error.what()).find("Did you mean \"length\"?"), std::string::npos) << error.what();
+  struct Column {
+    std::string sweep, header;
+  };
+  const std::string mass = "bodies.rod.rigid.mass";  // -3 is wrong in any unit
+  for (const Column& c : std::vector<Column>{{"{grid: {bodies.rod.rigid.mass: [1, -3 m, 2 kg]}}", mass + " [kg]"},
+                                             {"{grid: {bodies.rod.rigid.mass: [-3 m, 2]}}", mass},
+                                             {"{list: [{angle: 1}, {angle: 5 deg}, {angle: wrong}]}", "angle [rad]"},
+                                             {"{list: [{run.method: dopri5}, {run.method: rkf45}]}", "run.method"}}) {
+    const Sweep sweep = turned(folder, c.sweep);
+    fs::remove_all(folder / "out");
+    const std::string table = sweep_csv(sweep, run_sweep(sweep, folder / "out", {1, nullptr, {}}).rows);
+    EXPECT_TRUE(table.starts_with("case," + c.header + ",turn [rad],")) << table;
   }
 }
 
@@ -269,9 +317,7 @@ class Played : public Fellows {
 
 TEST(Sweep, ProcessesShareTheCasesAndEachIsRunOnce) {
   const Folder folder;
-  folder.write("scene.yaml", pendulum);
-  folder.write("study.yaml", study);
-  const Sweep sweep = read_sweep(folder / "study.yaml");
+  const Sweep sweep = sweep_in(folder);
   run_sweep(sweep, folder / "alone", {1, nullptr, {}});
   for (int size : {1, 2, 5}) {
     const fs::path out = folder / std::to_string(size);
@@ -300,9 +346,7 @@ TEST(Sweep, ProcessesShareTheCasesAndEachIsRunOnce) {
 
 TEST(Sweep, OneProcessThatIsStoppedStopsAll) {
   const Folder folder;
-  folder.write("scene.yaml", pendulum);
-  folder.write("study.yaml", study);
-  const Sweep sweep = read_sweep(folder / "study.yaml");
+  const Sweep sweep = sweep_in(folder);
   Post post(3);
   std::vector<std::thread> processes;
   SweepEnd end;

@@ -11,28 +11,12 @@
 #include "framework/scene/override.h"
 #include "framework/study/study.h"
 #include "tests/unit/scene_text.h"
+#include "tests/unit/worn_slider_crank.h"
 
 namespace pintle {
 namespace {
 
-const std::string knocking = R"(gravity: [0, -9.81]
-parameters: {clearance: 0.1 mm, speed: 150 rad/s}
-bodies:
-  crank:   {rigid: {mass: 0.30 kg, inertia: 1.0e-4 kg m^2}, points: {O: [-25 mm, 0], A: [25 mm, 0]}}
-  coupler: {rigid: {mass: 0.21 kg, inertia: 2.5e-4 kg m^2}, points: {A: [-60 mm, 0], B: [60 mm, 0]}}
-  slider:  {rigid: {mass: 0.14 kg, inertia: 1.0e-4 kg m^2}, points: {P: [0, 0]}}
-joints:
-  main bearing: {revolute: [ground, crank.O]}
-  crank pin:    {revolute: [crank.A, coupler.A]}
-  gudgeon pin:
-    revolute: [coupler.B, slider.P]
-    clearance:
-      radial: clearance
-      bearing radius: 10 mm
-      bearing: slider
-      normal: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}
-  guide: {prismatic: [ground, slider.P]}
-start: {crank: {angle: 0 deg, speed: speed}}
+const std::string knocking = worn_slider_crank + R"(start: {crank: {angle: 0 deg, speed: speed}}
 run: {until: 2 ms, tolerance: 1e-8}
 output: {every: 20 us}
 )";
@@ -102,6 +86,11 @@ TEST(Study, ThatIsWrongSaysWhereAndWhatToDo) {
   for (const Bad& b : std::vector<Bad>{
            {"scene: k", "scen: k", "study.yaml:1: scen: ", {"Did you mean \"scene\"?"}},
            {"scene: knocking", "scene: knockin", "study.yaml:1: scene: ", {"there is no file", "beside the study"}},
+           {good, "# nothing\n", "study.yaml: ", {"is empty", "docs/studies.md"}},
+           {good, knocking, "study.yaml: ",
+            {"is a scene, not a study", "scene: study.yaml", "peak force at main bearing", "clearance: [0.1 mm, …]"}},
+           {"{peak:", "{\"peak [kN]\":", "study.yaml:3: measure.peak [kN]: ", {"named in kN", "comes in N", "leave the unit out"}},
+           {"{peak: peak force at gudgeon pin}", "{a: energy lost, \"a [J]\": final kinetic energy}", "study.yaml:3: measure: ", {"\"a\" twice"}},
            {"measure: {peak: peak force at gudgeon pin}\n", "", "study.yaml:1: ", {"lacks a required key", "measure: {"}},
            {"gudgeon pin}", "gudgin pin}", "study.yaml:3: measure.peak: ", {"Did you mean \"gudgeon pin\"?"}},
            {"{peak: peak force at gudgeon pin}", "[energy lost, energy lost]", "study.yaml:3: measure: ", {"twice"}},
@@ -118,6 +107,39 @@ TEST(Study, ThatIsWrongSaysWhereAndWhatToDo) {
     EXPECT_EQ(said.find('\n'), std::string::npos) << said;
     expect_says(said, b.says);
   }
+}
+
+TEST(Study, MeasureNamedWithItsUnitHasItOnce) {
+  const Folder folder;
+  folder.write("knocking.yaml", knocking);
+  const Study study = read_study(folder.write("study.yaml",
+                                              "scene: knocking.yaml\nmeasure: {\"peak [N]\": peak force at gudgeon pin, \"[N]\": "
+                                              "least force x at guide, \"first [run 1]\": energy lost, \"hits [ ]\": impacts}\n"))
+                          .study;
+  std::vector<std::string> names;
+  for (const Measure& m : study.measures) names.push_back(m.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"peak", "[N]", "first [run 1]", "hits [ ]"}));
+}
+
+TEST(Study, MeasureThatOnlyAFlexibleBodyHasIsRefusedWhereNoCaseHasOne) {
+  Scene scene = read_scene_text(knocking, "knocking.yaml");
+  for (const char* words : {"peak stress at coupler.B", "deflection of coupler at 1 ms", "peak displacement of coupler.B", "rms coupler.B.ux",
+                            "mean coupler.mode 1"}) {
+    SCOPED_TRACE(words);
+    const std::vector<Measure> measures{{words, words, {7, "measure.it"}, "study.yaml"}};
+    const auto refused = [&](const std::vector<std::string>& varied) {
+      try {
+        judge_flexible(measures, scene, varied);
+      } catch (const SceneError& error) {
+        return std::string(error.what());
+      }
+      return std::string("accepted");
+    };
+    expect_says(refused({"clearance", "bodies.slider.rigid.mass"}),
+                {"study.yaml:7: measure.it: ", "\"coupler\" is rigid in every case", "every body of the scene is rigid"});
+    for (const char* path : {"bodies", "bodies.coupler", "bodies.coupler.modes"}) EXPECT_EQ(refused({path}), "accepted") << path;
+  }
+  EXPECT_NO_THROW(judge_flexible({{"x", "x of coupler.B at 1 ms"}, {"f", "peak force at gudgeon pin"}}, scene, {}));
 }
 
 TEST(Case, EndsWithAStatusAndAReasonInOneLine) {
