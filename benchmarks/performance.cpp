@@ -98,7 +98,7 @@ std::vector<Work> measure(const Problem& p, const std::vector<std::string>& meth
       if (!w.trouble.empty()) continue;
       if (const Work* looser = round == 0 ? before(all, k) : nullptr; looser && !(looser->time() <= too_long)) {
         w.times = {NAN};
-        w.trouble = f("left out, the tolerance before took more than %.0f s", too_long);
+        w.trouble = printed("left out, the tolerance before took more than %.0f s", too_long);
         continue;
       }
       if (round >= least && w.time() * static_cast<double>(round) > seconds_a_pair) continue;
@@ -185,18 +185,18 @@ std::string said(const std::vector<Work>& all) {
     if (ranked.empty()) continue;
     std::sort(ranked.begin(), ranked.end());
     const double best = ranked.front().first;
-    out += f("- For an error of %.0e the fastest is %s, ", error, ranked.front().second.c_str()) + f("%.3g ms", 1e3 * std::pow(10, best));
-    if (const auto t = time_for(all, by_hand, error)) out += f(", %.1f times the model written by hand", std::pow(10, best - *t));
+    out += printed("- For an error of %.0e the fastest is %s, ", error, ranked.front().second.c_str()) + printed("%.3g ms", 1e3 * std::pow(10, best));
+    if (const auto t = time_for(all, by_hand, error)) out += printed(", %.1f times the model written by hand", std::pow(10, best - *t));
     for (std::size_t i = 1; i < ranked.size(); ++i)
-      out += f("%s %s takes %.1f times as long", i == 1 ? ";" : ",", ranked[i].second.c_str(), std::pow(10, ranked[i].first - best));
+      out += printed("%s %s takes %.1f times as long", i == 1 ? ";" : ",", ranked[i].second.c_str(), std::pow(10, ranked[i].first - best));
     out += ".\n";
   }
   for (const Work& w : all)
-    if (!w.trouble.empty()) out += f("- %s at %.0e: %s.\n", w.method.c_str(), w.tolerance, w.trouble.c_str());
+    if (!w.trouble.empty()) out += printed("- %s at %.0e: %s.\n", w.method.c_str(), w.tolerance, w.trouble.c_str());
   std::string chosen;  // a reason begins with the name of what it chose
   for (const Work& w : all) {
     const std::string name = w.reason.substr(0, w.reason.find(','));
-    if (w.method == "auto" && name != chosen) out += f("- auto at %.0e: ", w.tolerance) + w.reason + ".\n";
+    if (w.method == "auto" && name != chosen) out += printed("- auto at %.0e: ", w.tolerance) + w.reason + ".\n";
     if (w.method == "auto") chosen = name;
   }
   return out;
@@ -213,8 +213,8 @@ std::string section(const Problem& p, const std::vector<Work>& all, double unit)
     for (const Work& w : all) {
       if (w.method != method) continue;
       const auto count = [&](long n) { return method == by_hand && n == 0 ? std::string("–") : std::to_string(n); };
-      md << "| " << method << " | " << f("%.0e | ", w.tolerance) << (w.trouble.empty() ? f("%.1e", w.error) : "–")
-         << (std::isnan(w.time()) ? std::string(" | – | –") : f(" | %.3g ms | %.3g", 1e3 * w.time(), w.time() / unit)) << " | "
+      md << "| " << method << " | " << printed("%.0e | ", w.tolerance) << (w.trouble.empty() ? printed("%.1e", w.error) : "–")
+         << (std::isnan(w.time()) ? std::string(" | – | –") : printed(" | %.3g ms | %.3g", 1e3 * w.time(), w.time() / unit)) << " | "
          << count(w.counts.steps) << " | " << count(w.counts.rejected) << " | " << count(w.counts.evaluations) << " | "
          << count(w.counts.factorizations) << " |\n";
     }
@@ -247,7 +247,7 @@ int judge(const Problem& p, const std::vector<Work>& all) {
     const bool holds = loose->trouble.empty() && tight->trouble.empty() && loose->error < 1 &&
                        (tight->error < loose->error || tight->error < tight->tolerance);
     std::cout << (holds ? "ok    " : "FALSE ") << p.name << " " << method
-              << f(": %.1e at %.0e, %.1e at %.0e ", loose->error, loose->tolerance, tight->error, tight->tolerance) << loose->trouble
+              << printed(": %.1e at %.0e, %.1e at %.0e ", loose->error, loose->tolerance, tight->error, tight->tolerance) << loose->trouble
               << tight->trouble << "\n";
     wrong += !holds;
   }
@@ -270,7 +270,7 @@ int main(int argc, char** argv) try {
   const std::vector<std::string> methods(known.begin(), known.end());
   const double unit = yardstick();
   std::ostringstream page;
-  page << head << f("- One evaluation of the oracle took %.0f ns.\n", 1e9 * unit);
+  page << head << printed("- One evaluation of the oracle took %.0f ns.\n", 1e9 * unit);
   int wrong = 0;
   for (const Problem& p : problems(quick)) {
     const std::vector<Work> all = measure(p, methods, quick);

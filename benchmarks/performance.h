@@ -11,7 +11,7 @@
 /// The page on error against time: see performance.cpp.
 namespace performance {
 
-using paper::f;
+using pintle::printed;
 
 /// A run of a hand-written model.
 struct Judged {

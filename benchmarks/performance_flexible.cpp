@@ -57,11 +57,11 @@ std::string flexible_second() {
         "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const Run& r = runs[k].run;
-    md << "| " << (settings[k].first.empty() ? "the defaults" : settings[k].first + f(", %.0e", settings[k].second)) << " | "
-       << status_text(r.status) << f(" | %.3g s | ", runs[k].seconds) << r.counts.steps << " | " << r.counts.evaluations << " | "
-       << r.counts.factorizations << " | " << r.impacts.size() << f(" | %.4g J | %.1e J", r.last.lost, r.unexplained);
+    md << "| " << (settings[k].first.empty() ? "the defaults" : settings[k].first + printed(", %.0e", settings[k].second)) << " | "
+       << status_text(r.status) << printed(" | %.3g s | ", runs[k].seconds) << r.counts.steps << " | " << r.counts.evaluations << " | "
+       << r.counts.factorizations << " | " << r.impacts.size() << printed(" | %.4g J | %.1e J", r.last.lost, r.unexplained);
     for (const double until : {0.02, 0.05, 0.1, 1.0})
-      md << (k + 1 < runs.size() ? f(" | %.1e", apart(runs[k], tight, until)) : std::string(" | –"));
+      md << (k + 1 < runs.size() ? printed(" | %.1e", apart(runs[k], tight, until)) : std::string(" | –"));
     md << " |\n";
   }
   return md.str();

@@ -24,7 +24,7 @@ std::string counters_of(const nlohmann::json& entry) {
   std::string out;
   for (const auto& [key, value] : entry.items())
     if (value.is_number() && std::find(own.begin(), own.end(), key) == own.end())
-      out += (out.empty() ? "" : ", ") + key + f(" %.4g", value.get<double>());
+      out += (out.empty() ? "" : ", ") + key + printed(" %.4g", value.get<double>());
   return out;
 }
 
@@ -43,7 +43,7 @@ std::string links_section(const std::string& file) {
         "| benchmark | time | counters |\n|---|---|---|\n";
   for (const auto& entry : all.at("benchmarks")) {
     if (entry.contains("error_occurred")) continue;
-    md << "| " << entry.at("name").get<std::string>() << f(" | %.3g ms | ", 1e3 * seconds_of(entry)) << counters_of(entry) << " |\n";
+    md << "| " << entry.at("name").get<std::string>() << printed(" | %.3g ms | ", 1e3 * seconds_of(entry)) << counters_of(entry) << " |\n";
   }
   return md.str();
 }

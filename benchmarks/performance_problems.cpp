@@ -40,7 +40,7 @@ Problem ideal_slider_crank(bool quick) {
   Problem p;
   p.name = "ideal", p.title = "Slider-crank, ideal joints";
   p.text =
-      f("The paper's rigid slider-crank (Ebrahimi, Salahshoor and Moradi 2017, Table 1), crank free at 150 rad/s from its "
+      printed("The paper's rigid slider-crank (Ebrahimi, Salahshoor and Moradi 2017, Table 1), crank free at 150 rad/s from its "
         "dead centre, %g s, gravity. Error: of the crank's angle [rad], or of its speed over 150 rad/s if that is larger, at "
         "the end. Reference: the one-freedom oracle (tests/oracles/slider_crank_ideal.cpp) at a tolerance of 1e-14; at 1e-13 it "
         "differs by %.0e rad.",
@@ -101,7 +101,7 @@ Problem clearance_slider_crank() {
   for (int i = 0; i < starts; ++i) p.starts.push_back(clearance_start(150 + 0.5 * (i - 0.5 * (starts - 1)), impacts, doubt));
   p.name = "clearance", p.title = "Slider-crank, clearance";
   p.text =
-      f("The same with a clearance of 0.5 mm at the gudgeon pin, K = 6.61e10 N/m^1.5, e = 0.9, no friction, journal in the "
+      printed("The same with a clearance of 0.5 mm at the gudgeon pin, K = 6.61e10 N/m^1.5, e = 0.9, no friction, journal in the "
         "middle at the start, 0.02 s with some %d impacts: short of chaos. From %d speeds, 0.5 rad/s apart about 150: after impacts the "
         "error of one run at one tolerance may fall by a factor of ten by luck, so times are means and errors root mean squares over them. "
         "Error as before. References: the oracle with the contact (tests/oracles/slider_crank_clearance.cpp) at 1e-13; at 1e-12 it "
@@ -160,7 +160,7 @@ Problem four_bar(bool quick) {
   Problem p;
   p.name = "four_bar", p.title = "Four-bar under a torque";
   p.text =
-      f("Crank 0.2 m, coupler 0.55 m, rocker 0.4 m on 0.6 m, from rest under a torque of %g N m and gravity, %g s, in which the "
+      printed("Crank 0.2 m, coupler 0.55 m, rocker 0.4 m on 0.6 m, from rest under a torque of %g N m and gravity, %g s, in which the "
         "crank turns %.1f times. Error: of the crank's angle [rad], or of its speed over %.0f rad/s if that is larger, at the end. "
         "Reference: the one-freedom equation from the oracle's kinematics and virtual power (tests/oracles/four_bar.cpp) at 1e-14; "
         "at 1e-13 it differs by %.0e rad. That model is written for clarity: an acceleration takes it two evaluations of the torque.",
@@ -208,7 +208,7 @@ Problem flexible_slider_crank(bool quick) {
   Problem p;
   p.name = "flexible", p.title = "Slider-crank, flexible coupler of 8 modes";
   p.text =
-      f("The ideal slider-crank with its coupler a steel beam of 10 mm, 20 Euler elements, 8 shapes in the frame of its chord, "
+      printed("The ideal slider-crank with its coupler a steel beam of 10 mm, 20 Euler elements, 8 shapes in the frame of its chord, "
         "undamped, starting straight, %g s. Error: the largest of the crank's angle [rad], its speed over 150 rad/s, and the place "
         "of the coupler's end over its length. Reference: Dormand-Prince at 1e-13; Fehlberg at 1e-13 differs from it by %.0e. That both "
         "stand "

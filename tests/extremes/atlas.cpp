@@ -149,7 +149,7 @@ std::string Row::wrong() const {
     return std::string(word(found.end)) + ", not " + word(what->end) + (found.said.empty() ? "" : ": " + found.said);
   if (found.said.find(what->says) == std::string::npos) return "does not say \"" + what->says + "\" but \"" + found.said + "\"";
   const bool asserts_figure = found.bound >= 0;
-  if (asserts_figure && !(found.measured <= found.bound)) return f("%.3g exceeds its bound %.3g", found.measured, found.bound);
+  if (asserts_figure && !(found.measured <= found.bound)) return printed("%.3g exceeds its bound %.3g", found.measured, found.bound);
   if (!asserts_figure && (what->end == End::finished || what->end == End::warned)) return "nothing was measured";
   return "";
 }
@@ -175,7 +175,7 @@ const Atlas& atlas() {
   return all;
 }
 
-std::string number(double x) { return f("%.17g", x); }
+std::string number(double x) { return printed("%.17g", x); }
 
 std::string with(std::string text, const std::vector<std::pair<std::string, std::string>>& values) {
   for (const auto& [name, value] : values) {

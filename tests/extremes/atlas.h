@@ -12,7 +12,7 @@
 /// tests (atlas_test.cpp), which assert every verdict, and by the program that prints docs/stability.md (page.cpp).
 namespace extremes {
 
-using paper::f;
+using pintle::printed;
 
 /// How a case may end. Nothing else is allowed: a number that is not finite, an exception that is no SceneError or AssemblyError,
 /// an end without a reason or no end within the case's time is trouble, whatever the case expects.

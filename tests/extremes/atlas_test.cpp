@@ -52,7 +52,7 @@ class Extreme : public testing::TestWithParam<Place> {};
 TEST_P(Extreme, HoldsOrSaysWhyNot) {
   const Row r = row(*GetParam().axis, *GetParam().what);
   EXPECT_EQ(r.wrong(), "") << r.axis->asserted << "\n" << r.found.said;
-  RecordProperty("measured", f("%.3g of %.3g", r.found.measured, r.found.bound));
+  RecordProperty("measured", printed("%.3g of %.3g", r.found.measured, r.found.bound));
 }
 
 INSTANTIATE_TEST_SUITE_P(Atlas, Extreme, testing::ValuesIn(places()), [](const auto& i) { return name_of(i.param); });

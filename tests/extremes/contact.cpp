@@ -37,7 +37,7 @@ output: {every: {every}}
 
 double off(double ours, double target) { return std::abs(ours / target - 1); }
 Finding count_wrong(const Attempt& a, std::size_t wanted) {
-  return {a.end, a.said, f("%zu impacts, not %zu", a.run->impacts.size(), wanted), 0, -1};
+  return {a.end, a.said, printed("%zu impacts, not %zu", a.run->impacts.size(), wanted), 0, -1};
 }
 double depth_under(double force, double stiffness, double exponent) { return std::pow(force / stiffness, 1 / exponent); }
 

@@ -68,7 +68,7 @@ Axis grazing() {
             "1e-7: what turns the path is the root of the height.",
             {}};
   for (const double above : {-1e-6, -1e-9, -1e-12, -1e-15, 1e-15, 1e-12, 1e-9, 1e-6, 1e-4})
-    axis.cases.push_back({.value = above, .label = f("%g m", above), .run = [=] { return graze(above); }});
+    axis.cases.push_back({.value = above, .label = printed("%g m", above), .run = [=] { return graze(above); }});
   return axis;
 }
 
@@ -128,7 +128,7 @@ Axis clearances_at_once() {
             {}};
   for (const int n : {1, 2, 3, 10, 100, 300})
     for (const bool bar : {true, false})
-      axis.cases.push_back({.value = static_cast<double>(n), .label = f("%d", n), .what = bar ? "one bar" : "pucks", .run = [=] {
+      axis.cases.push_back({.value = static_cast<double>(n), .label = printed("%d", n), .what = bar ? "one bar" : "pucks", .run = [=] {
                               return strike_at_once(n, bar);
                             }});
   return axis;
@@ -169,7 +169,7 @@ Axis coming_to_rest() {
             "the times of contact that the series leaves out, and what is left of it once the impact's depth is that of rest [s].",
             {}};
   for (const double e : {1e-6, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 0.999})
-    axis.cases.push_back({.value = e, .label = f("%g", e), .run = [=] { return comes_to_rest(e); }});
+    axis.cases.push_back({.value = e, .label = printed("%g", e), .run = [=] { return comes_to_rest(e); }});
   return axis;
 }
 
@@ -220,7 +220,7 @@ Axis end_at_an_event() {
   const double ulp = std::numeric_limits<double>::epsilon() * 0x1p-8;
   for (const double offset : {-1e-9, -1e-15, -ulp, 0.0, ulp, 1e-15, 1e-9})
     for (const bool onset : {true, false})
-      axis.cases.push_back({.value = offset, .label = f("%.1g s", offset), .what = onset ? "onset" : "loss", .run = [=] {
+      axis.cases.push_back({.value = offset, .label = printed("%.1g s", offset), .what = onset ? "onset" : "loss", .run = [=] {
                               return ends_near(offset, onset);
                             }});
   axis.cases.push_back({.value = 0, .label = "0 s", .what = "rows", .run = outputs_at_onset});

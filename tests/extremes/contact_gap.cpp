@@ -160,7 +160,7 @@ Axis contact_stiffness_axis() {
     const double k = std::pow(10.0, decade);
     const bool soft = decade <= 5, hard = decade >= 40;
     axis.cases.push_back({.value = k,
-                          .label = f("1e%d", decade),
+                          .label = printed("1e%d", decade),
                           .end = soft   ? End::warned
                                  : hard ? End::stopped
                                         : End::finished,
@@ -169,7 +169,7 @@ Axis contact_stiffness_axis() {
   }
   for (const char* method : {"rkf45", "dopri5", "verner87", "generalized-alpha"})
     for (const int decade : {6, 10, 14})
-      axis.cases.push_back({.value = std::pow(10.0, decade), .label = f("1e%d", decade), .what = method, .run = [=] {
+      axis.cases.push_back({.value = std::pow(10.0, decade), .label = printed("1e%d", decade), .what = method, .run = [=] {
                               return bounce(std::pow(10.0, decade), 0.1, method);
                             }});
   for (const auto& [value, label] : std::vector<std::pair<double, std::string>>{{-1, "-1"}, {0, "0"}, {1e300, "1e300 * 1e300"}})

@@ -48,7 +48,7 @@ Axis impact_count() {
   const auto add = [&](long n, bool linear) {
     const bool nightly = n > 100'000;
     axis.cases.push_back({.value = static_cast<double>(n),
-                          .label = f("%ld", n),
+                          .label = printed("%ld", n),
                           .what = linear ? "exponent 1" : "exponent 1.5",
                           .run = [=] { return bounces(n, linear, nightly ? 3500 : 100); },
                           .nightly = nightly});
@@ -88,7 +88,7 @@ Axis impact_speed() {
             {}};
   for (const double v : {1e-15, 1e-14, 1e-12, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0, 50.0, 1e2, 1e3, 1e4, 1e6})
     axis.cases.push_back({.value = v,
-                          .label = f("%g m/s", v),
+                          .label = printed("%g m/s", v),
                           .end = v < 1e-13 ? End::stopped
                                  : v > 30  ? End::warned
                                            : End::finished,
@@ -126,7 +126,7 @@ Axis impact_time() {
       {}};
   for (const double late : {1.0, 1e2, 1e4, 1e5, 1e6, 1e8, 1e12, 1e16})
     axis.cases.push_back({.value = late,
-                          .label = f("%g s", late),
+                          .label = printed("%g s", late),
                           .end = late < 1e8 ? End::finished : End::stopped,
                           .says = late < 1e8 ? "" : "step became too small",
                           .run = [=] { return strikes_late(late); }});
@@ -172,7 +172,7 @@ Axis deep_start() {
   for (const double d : {1e-16, 1e-14, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 5e-4, 1e-3, 1e-2, 1.0})
     for (const bool loss : {false, true})
       axis.cases.push_back({.value = d,
-                            .label = f("%g m", d),
+                            .label = printed("%g m", d),
                             .what = loss ? "with loss" : "without loss",
                             .end = d > 0.9e-3 ? End::refused : End::finished,
                             .says = d > 0.9e-3 ? "tenth of its radius" : "",
@@ -254,9 +254,9 @@ Axis start_at_the_wall() {
   for (const double offset : {-1e-9, -1e-15, 0.0, 1e-15, 1e-9, 1e-6})
     for (const auto& [going, what] : {std::pair{Going::into, "into"}, std::pair{Going::away, "away"}, std::pair{Going::along, "along"}})
       axis.cases.push_back(
-          {.value = offset, .label = f("%g m", offset), .what = what, .run = [=, going = going] { return from_wall(offset, going); }});
+          {.value = offset, .label = printed("%g m", offset), .what = what, .run = [=, going = going] { return from_wall(offset, going); }});
   for (const double P : {1e-9, 1e-3, 1.0, 1e3})
-    axis.cases.push_back({.value = 0, .label = "0 m", .what = f("laid, %g N", P), .run = [=] { return laid_on_wall(P); }});
+    axis.cases.push_back({.value = 0, .label = "0 m", .what = printed("laid, %g N", P), .run = [=] { return laid_on_wall(P); }});
   return axis;
 }
 

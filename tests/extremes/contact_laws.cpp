@@ -42,7 +42,7 @@ double contact_time(double chi, double kept) {
 Finding bounce(const std::string& law, double kept, double leaving) {
   const Attempt a = attempt(text(Puck{.law = law, .velocity = {approach, 0}, .until = 1e-3 / approach + leaving, .tolerance = 1e-12}));
   if (!a.whole()) return ended(a);
-  if (a.run->impacts.size() != 1) return {a.end, "", f("%zu impacts, not one", a.run->impacts.size()), 0, -1};
+  if (a.run->impacts.size() != 1) return {a.end, "", printed("%zu impacts, not one", a.run->impacts.size()), 0, -1};
   const pintle::Impact& i = a.run->impacts[0];
   const double energy = puck_mass * approach * approach / 2, lost = (1 - kept) * (1 + kept);
   return measured(a,
@@ -178,7 +178,7 @@ Axis friction_coefficient() {
             "1e-7: some hundred steps at a tolerance of 1e-10, and two kinks of the law within steps.",
             {}};
   for (const double mu : {0.0, 1e-9, 1e-3, 0.1, 0.5, 1.0, 2.0, 10.0, 1e3, 1e6})
-    axis.cases.push_back({.value = mu, .label = f("%g", mu), .run = [=] {
+    axis.cases.push_back({.value = mu, .label = printed("%g", mu), .run = [=] {
                             return stopping({.mu = mu, .until = mu > 0 ? std::min(1.0, 1.2 * stopping_time(mu)) : 1});
                           }});
   axis.cases.push_back({.value = -0.1, .label = "-0.1", .end = End::refused, .says = "coefficient", .run = [] {
@@ -198,7 +198,7 @@ Axis friction_onset() {
       const bool too_fine = v1 < 1e-8;
       if (too_fine && share > 0) continue;  // it rests or not as its last step happens to fall into the band without friction
       axis.cases.push_back({.value = v1,
-                            .label = f("%g m/s", v1),
+                            .label = printed("%g m/s", v1),
                             .what = share > 0 ? "v0 = v1/10" : "v0 = 0",
                             .end = too_fine ? End::stopped : End::finished,
                             .says = too_fine ? "max steps reached" : "",
@@ -226,7 +226,7 @@ Axis sticking() {
   const double holds = 0.5 * press * rim;
   for (const double v1 : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-10, 1e-12})
     axis.cases.push_back({.value = v1,
-                          .label = f("%g m/s", v1),
+                          .label = printed("%g m/s", v1),
                           .end = v1 < 1e-8 ? End::stopped : End::finished,
                           .says = v1 < 1e-8 ? "max steps reached" : "",
                           .run = [=] {

@@ -86,17 +86,17 @@ Axis slenderness() {
             "its first frequency against Euler's closed form, and in a run its deflection under a force that rises slowly against F L³/3EI; relative.",
             "1e-6 for Euler's beam, and Timoshenko's what shear and rotary inertia take, 4 (h/L)²; of the run 1e-4, what a slow rise leaves.", {}};
   for (const double s : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
-    axis.cases.push_back({s, f("%g", s), "Euler", End::finished, "", [s] {
+    axis.cases.push_back({s, printed("%g", s), "Euler", End::finished, "", [s] {
                             Cantilever c{.height = 1 / s};
                             c.theory = "euler, rotary inertia: false";
                             return frequency_of(c, 1e-6);
                           }});
-    axis.cases.push_back({s, f("%g", s), "Timoshenko", End::finished, "", [s] {
+    axis.cases.push_back({s, printed("%g", s), "Timoshenko", End::finished, "", [s] {
                             return frequency_of({.height = 1 / s, .theory = "timoshenko"}, 4 / (s * s) + 1e-6);
                           }});
   }
   for (const double s : {1e2, 1e4, 1e6})
-    axis.cases.push_back({s, f("%g", s), "run", End::finished, "", [s] { return deflection_of({.height = 1 / s}, 1e-4); }});
+    axis.cases.push_back({s, printed("%g", s), "run", End::finished, "", [s] { return deflection_of({.height = 1 / s}, 1e-4); }});
   axis.cases.push_back({1e7, "1e+07", "Euler", End::refused, "more than a million times as long as thick", [] { return frequency_of({.height = 1e-7}, 1); }});
   return axis;
 }
@@ -108,7 +108,7 @@ Axis poisson_ratio() {
     for (const double nu : {0.3, 0.49, 0.4999, 0.499999}) {
       const bool locks = std::string(element) == "quadrilateral4-plain" || std::string(element) == "triangle3";
       if (locks && nu < 0.4) continue;  // there it does not, but bends too little all the same
-      axis.cases.push_back({nu, f("%g", nu), element, locks ? End::warned : End::finished, locks ? "locks" : "", [=] {
+      axis.cases.push_back({nu, printed("%g", nu), element, locks ? End::warned : End::finished, locks ? "locks" : "", [=] {
                               const std::string scene = with(R"(bodies:
   link:
     plate: {grid: {corners: [[0, 0], [1, 0], [1, 0.1], [0, 0.1]], cells: [40, 4]}, thickness: 1, plane: strain, element: {element},
@@ -177,12 +177,12 @@ output: {every: 0.5 ms}
   };
   const std::string damped = "damping: {ratios: 0.01}";
   for (const double E : {1e5, 1e7, 1e9})
-    axis.cases.push_back({E, f("%g Pa", E), "", End::warned, "within one frame, where deformation is taken as small", [=] {
+    axis.cases.push_back({E, printed("%g Pa", E), "", End::warned, "within one frame, where deformation is taken as small", [=] {
                             const Attempt a = attempt(scene(E, damped, ""));
                             return a.whole() ? measured(a, a.open_books(), 1e-3) : ended(a);
                           }});
   for (const double E : {1e11, 1e12, 1e14, 1e16, 1e18, 1e20})
-    axis.cases.push_back({E, f("%g Pa", E), "", End::finished, "", [=] {
+    axis.cases.push_back({E, printed("%g Pa", E), "", End::finished, "", [=] {
                             const Attempt a = attempt(scene(E, damped, ""));
                             if (!a.whole()) return ended(a);
                             const auto t = a.column("t"), x = a.column("slider.x");
@@ -202,7 +202,7 @@ Axis modal_damping() {
             "the end's motion against the damped oscillator's closed form, over its static deflection.",
             "1e-4: twenty elements, and a local error of 1e-8 summed over ten periods.", {}};
   for (const double zeta : {0.0, 1e-3, 0.5, 1.0, 2.0, 1e2, 1e4, 1e6})
-    axis.cases.push_back({zeta, f("%g", zeta), "", zeta > 1 ? End::warned : End::finished, zeta > 1 ? "over-critical" : "", [zeta] {
+    axis.cases.push_back({zeta, printed("%g", zeta), "", zeta > 1 ? End::warned : End::finished, zeta > 1 ? "over-critical" : "", [zeta] {
                             Cantilever c{.modes = "{frame: {tangent: A}, count: 1}", .damping = "", .law = "0.1"};
                             const double w = clamped_frequency(c.height), mass = density * 1e-4;
                             c.theory = "euler, rotary inertia: false";

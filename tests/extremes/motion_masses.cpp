@@ -46,11 +46,11 @@ Axis mass_ratio() {
             "both angles after 1 s against minimal coordinates [rad].",
             "a hundred times the tolerance of 1e-8; of generalised-alpha what its own error is, 1e-4.", {}};
   for (const double m : {1e-30, 1e-12, 1e-8, 1e-4, 1.0, 1e4, 1e8})
-    axis.cases.push_back({m, f("%g", m), "", End::finished, "", [m] { return as_minimal_coordinates(m, "auto", 1e-6); }});
+    axis.cases.push_back({m, printed("%g", m), "", End::finished, "", [m] { return as_minimal_coordinates(m, "auto", 1e-6); }});
   for (const double m : {1e12, 1e30})
-    axis.cases.push_back({m, f("%g", m), "generalized-alpha", End::finished, "", [m] { return as_minimal_coordinates(m, "generalized-alpha", 1e-4); }});
+    axis.cases.push_back({m, printed("%g", m), "generalized-alpha", End::finished, "", [m] { return as_minimal_coordinates(m, "generalized-alpha", 1e-4); }});
   for (const double m : {1e12, 1e16, 1e30})
-    axis.cases.push_back(past(m, f("%g", m), "", End::stopped, "take method: generalized-alpha", double_pendulum(m, "auto")));
+    axis.cases.push_back(past(m, printed("%g", m), "", End::stopped, "take method: generalized-alpha", double_pendulum(m, "auto")));
   return axis;
 }
 
@@ -58,19 +58,19 @@ Axis inertia_ratio() {
   Axis axis{"inertia over mass times distance squared", "A pendulum whose mass is nearly a point: its inertia about the mass centre over m l².",
             "angles against Jacobi's elliptic functions [rad].", "a hundred times the tolerance of 1e-8; of generalised-alpha 1e-4.", {}};
   for (const double j : {1e2, 1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12})
-    axis.cases.push_back({j, f("%g", j), "", End::finished, "", [j] {
+    axis.cases.push_back({j, printed("%g", j), "", End::finished, "", [j] {
                             const Rod rod{.inertia = j};
                             const Attempt a = attempt(text(rod));
                             return a.whole() ? measured(a, off_the_pendulum(a, rod), 1e-6) : ended(a);
                           }});
   for (const double j : {1e-12, 1e-16, 1e-30})
-    axis.cases.push_back({j, f("%g", j), "generalized-alpha", End::finished, "", [j] {
+    axis.cases.push_back({j, printed("%g", j), "generalized-alpha", End::finished, "", [j] {
                             const Rod rod{.inertia = j, .method = "generalized-alpha"};
                             const Attempt a = attempt(text(rod));
                             return a.whole() ? measured(a, off_the_pendulum(a, rod), 1e-4) : ended(a);
                           }});
   for (const double j : {1e-16, 1e-30})
-    axis.cases.push_back(past(j, f("%g", j), "", End::stopped, "take method: generalized-alpha", text(Rod{.inertia = j})));
+    axis.cases.push_back(past(j, printed("%g", j), "", End::stopped, "take method: generalized-alpha", text(Rod{.inertia = j})));
   return axis;
 }
 
@@ -94,17 +94,17 @@ output: {every: 0.01}
                 {{"m", number(m)}, {"method", method}});
   };
   for (const double m : {1e-12, 1e-8, 1.0, 1e8})
-    axis.cases.push_back({m, f("%g", m), "", End::finished, "", [=] {
+    axis.cases.push_back({m, printed("%g", m), "", End::finished, "", [=] {
                             const Attempt a = attempt(scene(m, "auto"));
                             return a.whole() ? measured(a, a.open_books(), 1e-4) : ended(a);
                           }});
   for (const double m : {1e-16})
-    axis.cases.push_back({m, f("%g", m), "generalized-alpha", End::finished, "", [=] {
+    axis.cases.push_back({m, printed("%g", m), "generalized-alpha", End::finished, "", [=] {
                             const Attempt a = attempt(scene(m, "generalized-alpha"));
                             return a.whole() ? measured(a, a.open_books(), 1e-3) : ended(a);
                           }});
   for (const double m : {1e-30, 1e-16})
-    axis.cases.push_back(past(m, f("%g", m), "", End::stopped, "take method: generalized-alpha", scene(m, "auto")));
+    axis.cases.push_back(past(m, printed("%g", m), "", End::stopped, "take method: generalized-alpha", scene(m, "auto")));
   axis.cases.push_back(past(1e16, "1e+16", "", End::stopped, "", scene(1e16, "auto")));
   return axis;
 }
@@ -124,7 +124,7 @@ output: {every: {every}}
                 {{"m", number(m)}, {"J", number(1e-4 * m)}, {"until", number(until)}, {"every", number(until / 10)}, {"more", more}});
   };
   for (const double m : {1e3, 1.0, 1e-3, 1e-9, 1e-12, 1e-30})
-    axis.cases.push_back({m, f("%g kg", m), "", End::finished, "", [=] {
+    axis.cases.push_back({m, printed("%g kg", m), "", End::finished, "", [=] {
                             const double w = std::sqrt(1e12 / m);
                             const Attempt a = attempt(scene(m, 10.25 * 2 * pi / w, ""));
                             if (!a.whole()) return ended(a);

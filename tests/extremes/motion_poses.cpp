@@ -79,7 +79,7 @@ Axis flat_starts() {
             "1e-5: how near to flat it comes is known to the root of rounding.", {}};
   for (const double off : {0.0, 1e-12, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5})
     for (const bool driven : {false, true})
-      axis.cases.push_back({off, f("%g rad", off), driven ? "driven" : "free", End::warned, "the start is a singular pose", [=] {
+      axis.cases.push_back({off, printed("%g rad", off), driven ? "driven" : "free", End::warned, "the start is a singular pose", [=] {
                               FourBar m = parallelogram(off);
                               m.driven = driven, m.until = 0.5;
                               const Attempt a = attempt(text(m));
@@ -171,7 +171,7 @@ run: {until: 0.1}
                 {{"l", number(l)}, {"l2", number(l / 2)}, {"h", number(h)}, {"angle", number(1.3 * std::atan2(h, 0.5))}, {"down", number(-1.3 * std::atan2(h, 0.5))}});
   };
   for (const double excess : {1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10})
-    axis.cases.push_back({excess, f("%g", excess), "", End::finished, "", [=] {
+    axis.cases.push_back({excess, printed("%g", excess), "", End::finished, "", [=] {
                             const Attempt a = attempt(scene(excess));
                             const double l = 0.5 * (1 + excess), h = std::sqrt((l - 0.5) * (l + 0.5)), thrust = 9.81 * 0.25 / h;
                             return a.whole() ? measured(a, std::abs(std::abs(a.last("T.fx on right")) / thrust - 1), 1e-9 + 1e-13 / excess) : ended(a);

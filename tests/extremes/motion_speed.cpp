@@ -65,7 +65,7 @@ Axis rigid_speed() {
             "closed forms of the kinematics. The worse, relative.",
             "a hundred times the tolerance of 1e-8.", {}};
   for (const double n : {1e-9, 1e-3, 1.0, 1e3, 1e4, 1e5, 1e7, 1e12, 1e30})
-    axis.cases.push_back({n, f("%g rpm", n), "", End::finished, "", [n] {
+    axis.cases.push_back({n, printed("%g rpm", n), "", End::finished, "", [n] {
                             const Attempt a = attempt(slider_crank(n * rpm, 2, ""));
                             return a.whole() ? measured(a, off_by_energy(a, n * rpm), 1e-6) : ended(a);
                           }});
@@ -82,12 +82,12 @@ Axis clearance_speed() {
       ", clearance: {radial: 10 um, bearing radius: 10 mm, bearing: slider, "
       "normal: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}}";
   for (const double n : {1.0, 1e2, 1e3, 1e4, 1e5})
-    axis.cases.push_back({n, f("%g rpm", n), "", End::finished, "", [n, pin] {
+    axis.cases.push_back({n, printed("%g rpm", n), "", End::finished, "", [n, pin] {
                             const Attempt a = attempt(slider_crank(n * rpm, 0.3, pin));
                             return a.whole() ? measured(a, a.open_books(), 1e-5) : ended(a);
                           }});
   for (const double n : {1e7, 1e12})
-    axis.cases.push_back({n, f("%g rpm", n), "", End::warned, "no contact law holds there", [n, pin] {
+    axis.cases.push_back({n, printed("%g rpm", n), "", End::warned, "no contact law holds there", [n, pin] {
                             const Attempt a = attempt(slider_crank(n * rpm, 0.3, pin));
                             return a.whole() ? measured(a, a.open_books(), 1e-5) : ended(a);
                           }});
@@ -123,7 +123,7 @@ Axis blade_speed() {
             "1e-4, and half of (kL)²: a linear body does not say by which measure of strain it is stiff.", {}};
   const double until = 4e-3;
   for (const double n : {1e2, 1e3, 1e4, 3e4, 1e5})
-    axis.cases.push_back({n, f("%g rpm", n), "", End::finished, "", [=] {
+    axis.cases.push_back({n, printed("%g rpm", n), "", End::finished, "", [=] {
                             const Attempt a = attempt(blade(n * rpm, until));
                             const double k = n * rpm * std::sqrt(blade_density / blade_young);
                             if (!a.whole()) return ended(a);
@@ -138,7 +138,7 @@ Axis start_spin() {
   Axis axis{"spin at the start", "A rod hinged to the ground, in no gravity, spinning steadily for a thousand radians and for 3e5.",
             "its angle, ωt: relative.", "a hundred times the tolerance of 1e-8; of 3e5 rad, run at 1e-6, a thousand times.", {}};
   for (const double w : {1.0, 1e3, 1e6, 1e9})
-    axis.cases.push_back({w, f("%g rad/s", w), "", End::finished, "", [w] {
+    axis.cases.push_back({w, printed("%g rad/s", w), "", End::finished, "", [w] {
                             const Attempt a = attempt(text(Rod{.gravity = 0, .speed = w, .until = 1000 / w}));
                             return a.whole() ? measured(a, apart(a.last("rod.angle"), 1000, 1000), 1e-6) : ended(a);
                           }});
@@ -154,12 +154,12 @@ Axis turns() {
             "how far it turns, of ten radians: relative.",
             "a hundred times the tolerance, and four times the spacing of doubles there.", {}};
   for (const double angle : {0.0, 1e3, 1e5, 1e6, 1e7})
-    axis.cases.push_back({angle, f("%g rad", angle), "", End::finished, "", [angle] {
+    axis.cases.push_back({angle, printed("%g rad", angle), "", End::finished, "", [angle] {
                             const Attempt a = attempt(text(Rod{.gravity = 0, .angle = angle, .speed = 10, .until = 1}));
                             return a.whole() ? measured(a, apart(a.last("rod.angle") - angle, 10, 10), 1e-6 + 4 * 2.2e-16 * angle) : ended(a);
                           }});
   for (const double angle : {1e9, 1e12, 1e15})
-    axis.cases.push_back(past(angle, f("%g rad", angle), "", End::stopped, "begin again from this state with angles in one turn",
+    axis.cases.push_back(past(angle, printed("%g rad", angle), "", End::stopped, "begin again from this state with angles in one turn",
                               text(Rod{.gravity = 0, .angle = angle, .speed = 10, .until = 1})));
   return axis;
 }

@@ -22,7 +22,7 @@ Axis damping() {
   Axis axis{"damping of a spring", "A mass of 1 kg on a spring of 1 N/m and a damper, displaced; so much of the critical damping.",
             "its place against the closed form, over the displacement.", "1e-6; from 1e12 on 1e-4, for the spring is rounding beside the damper.", {}};
   for (const double zeta : {0.0, 1e-12, 1e-3, 0.5, 1.0, 2.0, 1e3, 1e6, 1e9, 1e12, 1e15})
-    axis.cases.push_back({zeta, f("%g", zeta), "", End::finished, "", [zeta] {
+    axis.cases.push_back({zeta, printed("%g", zeta), "", End::finished, "", [zeta] {
                             const Attempt a = attempt(with(R"(ground: {points: {S: [-1, 0]}}
 bodies: {a: {rigid: {mass: 1, inertia: 1}}}
 joints: {guide: {prismatic: [ground, a]}}
@@ -59,7 +59,7 @@ Axis step_asked() {
     return Rod{.angle = sideways, .until = 100, .every = 10, .tolerance = tolerance, .method = method, .more = ", max step: " + number(step)};
   };
   for (const double step : {1e-3, 0.1, 10.0, 1e6})
-    axis.cases.push_back({step, f("%g s", step), "", End::finished, "", [=] { return as_a_pendulum(rod("auto", "1e-8", step), 1e-5); }});
+    axis.cases.push_back({step, printed("%g s", step), "", End::finished, "", [=] { return as_a_pendulum(rod("auto", "1e-8", step), 1e-5); }});
   for (const char* method : {"rkf45", "verner87", "generalized-alpha"})
     axis.cases.push_back({10, "10 s", method, End::finished, "", [=] {
                             return as_a_pendulum(rod(method, "1e-8", 10), method[0] == 'g' ? 1e-3 : 1e-5);
@@ -99,7 +99,7 @@ Axis gravity_axis() {
                           return measured(a, std::abs(a.last("rod.angle")), 0);
                         }});
   for (const double g : {1e-12, 1e-3, 9.81, 1e6, 1e12, 1e100})
-    axis.cases.push_back({g, f("%g m/s²", g), "", End::finished, "", [g] { return as_a_pendulum({.gravity = g, .until = 6 / std::sqrt(g)}, 1e-6); }});
+    axis.cases.push_back({g, printed("%g m/s²", g), "", End::finished, "", [g] { return as_a_pendulum({.gravity = g, .until = 6 / std::sqrt(g)}, 1e-6); }});
   axis.cases.push_back(past(1e160, "1e+160 m/s²", "", End::stopped, "beyond what a double holds", text(Rod{.gravity = 1e160, .until = 6e-80})));
   return axis;
 }
@@ -109,12 +109,12 @@ Axis run_length() {
             "angle against the parabola of free fall, or Jacobi's functions [rad]; place against vt, relative.",
             "1e-6 of what it turned; of a long run the local error of 1e-10 times its periods, growing with their square.", {}};
   for (const double until : {1e-100, 1e-30, 1e-15, 1e-9, 1e-6})
-    axis.cases.push_back({until, f("%g s", until), "falls", End::finished, "", [until] {
+    axis.cases.push_back({until, printed("%g s", until), "falls", End::finished, "", [until] {
                             const Attempt a = attempt(text(Rod{.until = until}));
                             return a.whole() ? measured(a, std::abs(a.last("rod.angle") / (-0.5 * 9.81 / 1.01 * until * until) - 1), 1e-6) : ended(a);
                           }});
   for (const double until : {1.0, 1e2, 1e3, 1e4})
-    axis.cases.push_back({until, f("%g s", until), "swings", End::finished, "", [until] {
+    axis.cases.push_back({until, printed("%g s", until), "swings", End::finished, "", [until] {
                             return as_a_pendulum({.angle = sideways, .until = until, .tolerance = "1e-10", .method = "verner87"}, 1e-8 * std::max(1.0, until));
                           }});
   axis.cases.push_back({1e6, "1e+06 s", "swings", End::finished, "", [] {
@@ -124,7 +124,7 @@ Axis run_length() {
                           return as_a_pendulum({.gravity = 9.81e-8, .angle = sideways, .until = 1e6, .tolerance = "1e-10", .method = "verner87"}, 1e-6);
                         }});
   for (const double until : {1e6, 1e100})
-    axis.cases.push_back({until, f("%g s", until), "flies", End::finished, "", [until] {
+    axis.cases.push_back({until, printed("%g s", until), "flies", End::finished, "", [until] {
                             const Attempt a = attempt("bodies: {b: {rigid: {mass: 1, inertia: 1}}}\nstart: {b: {x: 0, vx: 2, angle: 0, speed: 3}}\nrun: {until: " +
                                                       number(until) + "}\noutput: {every: " + number(until / 4) + "}\n");
                             if (!a.whole()) return ended(a);
@@ -146,11 +146,11 @@ Axis output_interval() {
   Axis axis{"interval of outputs", "A pendulum released level, 2 s.", "all rows against Jacobi's elliptic functions [rad].",
             "a hundred times the tolerance of 1e-8.", {}};
   for (const double every : {1e-5, 1e-3, 0.3, 2.0})
-    axis.cases.push_back({every, f("%g s", every), "", End::finished, "", [every] { return as_a_pendulum({.every = every}, 1e-6); }});
+    axis.cases.push_back({every, printed("%g s", every), "", End::finished, "", [every] { return as_a_pendulum({.every = every}, 1e-6); }});
   for (const double every : {1e-300, 1e-12})
-    axis.cases.push_back(past(every, f("%g s", every), "", End::refused, "ten million rows", text(Rod{.every = every})));
+    axis.cases.push_back(past(every, printed("%g s", every), "", End::refused, "ten million rows", text(Rod{.every = every})));
   for (const double every : {2.5, 1e300})
-    axis.cases.push_back(past(every, f("%g s", every), "", End::refused, "longer than the run", text(Rod{.every = every})));
+    axis.cases.push_back(past(every, printed("%g s", every), "", End::refused, "longer than the run", text(Rod{.every = every})));
   return axis;
 }
 

@@ -28,7 +28,7 @@ std::string in_cell(const std::string& s) {
   return out;
 }
 
-std::string figure(double x) { return x == 0 ? "0" : f("%.2g", x); }
+std::string figure(double x) { return x == 0 ? "0" : printed("%.2g", x); }
 
 std::string label(const Case& c) { return c.label + (c.what.empty() ? "" : ", " + c.what); }
 
@@ -97,7 +97,7 @@ std::string page_text(const std::vector<Rows>& tables, const std::string& left_o
         "| axis | holds | of the bound, at worst | past it |\n|---|---|---|---|\n";
   for (const Rows& rows : tables) {
     const std::string& name = rows.front().axis->name;
-    md << "| [" << name << "](#" << anchor(name) << ") | " << range(rows, true) << " | " << f("%.0f %%", 100 * worst_share(rows)) << " | "
+    md << "| [" << name << "](#" << anchor(name) << ") | " << range(rows, true) << " | " << printed("%.0f %%", 100 * worst_share(rows)) << " | "
        << in_cell(past(rows)) << " |\n";
   }
   for (const Rows& rows : tables) {
@@ -135,7 +135,7 @@ int main(int argc, char** argv) try {
       }
       rows.push_back(row(axis, c));
       const std::string wrong = rows.back().wrong();
-      std::cout << (wrong.empty() ? "ok    " : "FALSE ") << axis.name << " | " << line(rows.back()) << f(" | %.2f s", rows.back().seconds)
+      std::cout << (wrong.empty() ? "ok    " : "FALSE ") << axis.name << " | " << line(rows.back()) << printed(" | %.2f s", rows.back().seconds)
                 << (wrong.empty() ? "" : "  <- " + wrong) << std::endl;
       bad += !wrong.empty();
     }

@@ -103,14 +103,14 @@ Curve orbit(const std::string& label, const Run& r, double by) {
 
 std::string six_headers(const std::string& first) {
   std::string s = "| " + first + " |", line = "\n|---|";
-  for (const Printed& p : printed) s += std::string(" ") + p.what + " |", line += "---|";
+  for (const Printed& p : in_print) s += std::string(" ") + p.what + " |", line += "---|";
   return s + line + "\n";
 }
 std::string printed_row() {
   std::string s = "| *printed* |";
-  for (const Printed& p : printed)
+  for (const Printed& p : in_print)
     s +=
-        p.loss > 0 ? f(" *%d; %.1f mJ* |", p.collisions, 1e3 * p.loss) : f(" *%d* |", p.collisions);
+        p.loss > 0 ? printed(" *%d; %.1f mJ* |", p.collisions, 1e3 * p.loss) : printed(" *%d* |", p.collisions);
   return s + "\n";
 }
 /// One row: contacts that ended and loss, of the six cases under one change.
@@ -120,17 +120,17 @@ std::string six_row(const std::string& first, const Change& change, bool judge) 
   std::string s = "| " + first + " |";
   int inside = 0;
   std::size_t k = 0;
-  for (const Printed& p : printed) {
+  for (const Printed& p : in_print) {
     const Run r = run(p.scene, [&](Scene& scene) {
       scene.output.every = 0.05;
       change(scene);
     });
     s += r.status == Status::failed ? std::string(" fails |")
-                                    : f(" %d; %.3g mJ |", ended(r), 1e3 * loss(r));
+                                    : printed(" %d; %.3g mJ |", ended(r), 1e3 * loss(r));
     if (k < 4) inside += std::abs(r.first.kinetic - loss(r) - after[k]) <= 5e-5;
     ++k;
   }
-  if (judge) s += f(" %d |", inside);
+  if (judge) s += printed(" %d |", inside);
   return s + "\n";
 }
 

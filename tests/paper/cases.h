@@ -20,7 +20,7 @@ struct Printed {
   double energy, loss;  ///< 0: not printed
   int collisions;
 };
-const std::array<Printed, 6> printed{{{"table2_050", "50 rad/s, 0.01 mm", 0.5777, 0.0002, 29},
+const std::array<Printed, 6> in_print{{{"table2_050", "50 rad/s, 0.01 mm", 0.5777, 0.0002, 29},
                                       {"table2_100", "100 rad/s, 0.01 mm", 2.3108, 0.0008, 22},
                                       {"table2_150", "150 rad/s, 0.01 mm", 5.1992, 0.0019, 4},
                                       {"table2_200", "200 rad/s, 0.01 mm", 9.2431, 0.0038, 3},

@@ -69,17 +69,17 @@ void figure3(Page& page) {
            {0, 0.5}}});
   page.summary.push_back({"Fig. 3(a), crank moment, 0.5 mm, μ = 0.1",
                           "curve: peaks of impact over the ideal moment",
-                          f("ideal moment up to %.0f N m; with clearance up to %.0f N m in the "
+                          printed("ideal moment up to %.0f N m; with clearance up to %.0f N m in the "
                             "first revolution, %.0f N m in the second",
                             largest(free), first, second),
                           "a curve without printed numbers: nothing to compare"});
   page.summary.push_back(
       {"Fig. 3(b), journal orbit, 0.01 mm", "curve: the journal follows the wall",
-       f("%d impacts in the first 0.2 ms, then along the wall, at most %.2f µm deep",
+       printed("%d impacts in the first 0.2 ms, then along the wall, at most %.2f µm deep",
          ended(orbiting), deepest),
        "a curve without printed numbers: nothing to compare"});
   const auto driven = [](const Run& r) {
-    return f("%d; %.6f J; %.6f J", ended(r), r.last.input, r.last.lost);
+    return printed("%d; %.6f J; %.6f J", ended(r), r.last.input, r.last.lost);
   };
   page.text << "## Fig. 3: a driven crank\n\n"
                "The crank turns at 5000 rpm for two revolutions (24 ms), restitution 0.9. Scenes "
@@ -89,7 +89,7 @@ void figure3(Page& page) {
                "Contacts that ended, work of the motor, energy lost in the joint:\n\n| |"
             << converging_head << "| Fig. 3(a) |" << converging("fig03a_crank_moment", {}, driven)
             << "| Fig. 3(b) |" << converging("fig03b_journal_orbit", {}, driven)
-            << f("\nThe moment of the ideal joint is at most %.1f N m. With 0.5 mm of clearance "
+            << printed("\nThe moment of the ideal joint is at most %.1f N m. With 0.5 mm of clearance "
                  "the impacts of the first "
                  "revolution raise it to %.0f N m for some tens of microseconds; after them the "
                  "journal stays at the wall, and "
@@ -152,13 +152,13 @@ void figure4(Page& page) {
   const double hardest = closely.impacts.front().peak_force;
   page.summary.push_back({"Fig. 4(a), journal orbit, 150 rad/s, 0.01 mm",
                           "after four impacts continuous contact",
-                          f("%d impacts, continuous contact from %.2f ms", ended(closely),
+                          printed("%d impacts, continuous contact from %.2f ms", ended(closely),
                             1e3 * closely.impacts.back().begin),
                           "none"});
   page.summary.push_back(
       {"Fig. 4(b), joint force",
        "high at the impacts, then near the ideal one; its peaks fall slowly over the first second",
-       f("%.0f N at the first impact; peak of revolutions 2 and %zu: %.1f and %.1f N, ideal %.1f N",
+       printed("%.0f N at the first impact; peak of revolutions 2 and %zu: %.1f and %.1f N, ideal %.1f N",
          hardest, peak.size(), peak[1], peak.back(), ideal_peak[1]),
        "none"});
   page.text << "## Fig. 4: with and without clearance\n\n"
@@ -170,12 +170,12 @@ void figure4(Page& page) {
                "| impact |"
             << converging_head;
   for (std::size_t k = 0; k < 5; ++k)
-    page.text << f("| %zu: begin [µs], approach [mm/s] |", k + 1)
+    page.text << printed("| %zu: begin [µs], approach [mm/s] |", k + 1)
               << converging("table2_150", {}, [k](const Run& r) {
-                   return f("%.6f, %.6f", 1e6 * r.impacts.at(k).begin,
+                   return printed("%.6f, %.6f", 1e6 * r.impacts.at(k).begin,
                             1e3 * r.impacts.at(k).approach);
                  });
-  page.text << f(
+  page.text << printed(
       "\nAfter the impacts the journal still vibrates at the wall, and this vibration is damped: "
       "the largest force of a "
       "revolution comes down from %.1f N in revolution 2 to %.1f N in revolution %zu. The ideal "
@@ -210,17 +210,17 @@ void figures5_and_6(Page& page) {
       if (std::isfinite(i.end)) in_impacts += i.lost;
       deepest = std::max(deepest, i.deepest);
     }
-    table += f("| %s | %d, %d | %.4f | %.2f | %.3f | %.3f | %.0f %% |\n", names[k], collisions[k],
+    table += printed("| %s | %d, %d | %.4f | %.2f | %.3f | %.3f | %.0f %% |\n", names[k], collisions[k],
                ended(r), r.impacts.front().approach, 1e6 * deepest, 1e3 * loss(r),
                1e3 * loss(whole), 100 * in_impacts / whole.last.lost);
     converge += std::string("| ") + names[k] + " |" + converging(scenes[k], {}, [](const Run& x) {
-                  return f("%d; %.6f", ended(x), 1e3 * x.last.lost);
+                  return printed("%d; %.6f", ended(x), 1e3 * x.last.lost);
                 });
     page.summary.push_back(
         {std::string("Figs. 5, 6, clearance ") + names[k],
-         f("%d collisions; energy falls suddenly at the beginning, more for a larger clearance",
+         printed("%d collisions; energy falls suddenly at the beginning, more for a larger clearance",
            collisions[k]),
-         f("%d contacts end, one goes on; %.2f mJ lost in 50 ms", ended(r), 1e3 * loss(r)),
+         printed("%d contacts end, one goes on; %.2f mJ lost in 50 ms", ended(r), 1e3 * loss(r)),
          collisions[k] == ended(r)                ? "none"
          : std::abs(collisions[k] - ended(r)) < 2 ? "19 with the contact that goes on"
                                                   : "count: see [collisions](#collisions)"});
@@ -262,35 +262,35 @@ void table2(Page& page) {
   const std::array<double, 4> after{0.5775, 2.3100, 5.1973, 9.2393};
   std::string rate_table, at_once;
   for (std::size_t k = 0; k < 4; ++k) {
-    const Run r = run(printed[k].scene, output(1e-6));
+    const Run r = run(in_print[k].scene, output(1e-6));
     const int omega = 50 * (static_cast<int>(k) + 1);
     const double e0 = energy(r.first), e1 = energy(r.last), l = loss(r);
-    panels.push_back({f("Fig. 7: energy from %d rad/s", omega),
+    panels.push_back({printed("Fig. 7: energy from %d rad/s", omega),
                       "time [ms]",
                       "kinetic and gravity [J]",
                       {{"", ms(r), energies(r)}},
                       {0, 50}});
-    rates.push_back({f("%d rad/s", omega), ms(r), while_touching(r, pin + "rate [m/s]", 1)});
-    table += f("| %d | %.4f, %.6f | %.4f, %.6f | %.1f, %.4f | %.3f … %.3f | %+.1f %% | %d, %d |\n",
-               omega, printed[k].energy, e0, after[k], e1, 1e3 * printed[k].loss, 1e3 * l,
+    rates.push_back({printed("%d rad/s", omega), ms(r), while_touching(r, pin + "rate [m/s]", 1)});
+    table += printed("| %d | %.4f, %.6f | %.4f, %.6f | %.1f, %.4f | %.3f … %.3f | %+.1f %% | %d, %d |\n",
+               omega, in_print[k].energy, e0, after[k], e1, 1e3 * in_print[k].loss, 1e3 * l,
                1e3 * (e0 - after[k] - 5e-5), 1e3 * (e0 - after[k] + 5e-5),
-               100 * (l / printed[k].loss - 1), printed[k].collisions, ended(r));
-    converge += f("| %d rad/s |", omega) + converging(printed[k].scene, {}, [](const Run& x) {
-                  return f("%d; %.7f", ended(x), 1e3 * x.last.lost);
+               100 * (l / in_print[k].loss - 1), in_print[k].collisions, ended(r));
+    converge += printed("| %d rad/s |", omega) + converging(in_print[k].scene, {}, [](const Run& x) {
+                  return printed("%d; %.7f", ended(x), 1e3 * x.last.lost);
                 });
     int turns = 0;  // of the rate while touching, from approach to departure
     for (std::size_t i = 1; i < rates.back().y.size(); ++i)
       turns += rates.back().y[i - 1] > 0 && rates.back().y[i] <= 0;
-    rate_table += f("%s%.3f m/s, %d times, at %d rad/s", k ? "; " : "", largest(rates.back().y),
+    rate_table += printed("%s%.3f m/s, %d times, at %d rad/s", k ? "; " : "", largest(rates.back().y),
                     turns, omega);
-    at_once += f("%s%.3f", k ? ", " : "", 1e3 * ledger_at(r, lost_h, 2e-3));
+    at_once += printed("%s%.3f", k ? ", " : "", 1e3 * ledger_at(r, lost_h, 2e-3));
     page.summary.push_back(
-        {f("Table 2, %d rad/s", omega),
-         f("%.4f J; loss %.1f mJ; %d collisions", printed[k].energy, 1e3 * printed[k].loss,
-           printed[k].collisions),
-         f("%.4f J; loss %.3f mJ; %d contacts end", e0, 1e3 * l, ended(r)),
-         f("energy none; loss %+.0f %%%s", 100 * (l / printed[k].loss - 1),
-           printed[k].collisions == ended(r) ? "; count none"
+        {printed("Table 2, %d rad/s", omega),
+         printed("%.4f J; loss %.1f mJ; %d collisions", in_print[k].energy, 1e3 * in_print[k].loss,
+           in_print[k].collisions),
+         printed("%.4f J; loss %.3f mJ; %d contacts end", e0, 1e3 * l, ended(r)),
+         printed("energy none; loss %+.0f %%%s", 100 * (l / in_print[k].loss - 1),
+           in_print[k].collisions == ended(r) ? "; count none"
                                              : "; count: see [collisions](#collisions)")});
   }
   figure("fig07", panels);

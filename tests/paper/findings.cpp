@@ -26,7 +26,7 @@ void findings(Page& page) {
         clearance(*std::make_unique<Scene>(read_scene(source / "examples/paper/table2_150.yaml")));
     SceneClearance x = c;
     x.normal.radii = RadiusConvention::external;
-    md << f(
+    md << printed(
         "\nAt 0.01 mm K is %.3g N/m^1.5 with the internal radius and %.3g with the external one. "
         "With the latter the journal leaves the wall "
         "twice at most, and losses are 27 to 73 %% above the printed ones. So the printed results "
@@ -42,9 +42,9 @@ void findings(Page& page) {
         "results therefore depend on v₀ and v₁. Loss in 100 ms [J], μ = 0.1, restitution 0.9:\n\n"
         "| | speed of the surfaces | speed of the place of contact |\n|---|---|---|\n";
   for (const auto& [v0, v1] : {std::pair{1e-3, 1e-2}, {1e-3, 2e-3}, {5e-3, 1e-2}, {1e-4, 1e-3}}) {
-    md << f("| v₀ = %g, v₁ = %g mm/s |", 1e3 * v0, 1e3 * v1);
+    md << printed("| v₀ = %g, v₁ = %g mm/s |", 1e3 * v0, 1e3 * v1);
     for (const char* name : {"fig09_friction", "fig09_friction_geometric"})
-      md << f(" %.3f |", gone(run(name,
+      md << printed(" %.3f |", gone(run(name,
                                   [v0 = v0, v1 = v1](Scene& c) {
                                     clearance(c).friction->v0 = v0, clearance(c).friction->v1 = v1;
                                   }),
@@ -56,7 +56,7 @@ void findings(Page& page) {
   md << "### The restitution that is delivered\n\nThe factor 3(1 − e²)/4 of Eq. (15) does not "
         "deliver e, even in a free impact: ";
   const double chi = find_impact_factor("lankarani-nikravesh")->chi(0.8);
-  md << f(
+  md << printed(
       "%.4f for e = 0.8, %.4f for 0.9. In the mechanism other forces act while the journal "
       "touches. First impacts of Table 2, separation over approach speed:\n\n",
       effective_restitution(chi),
@@ -65,18 +65,18 @@ void findings(Page& page) {
   const auto ratio_row = [&](const std::string& name, const Change& change) {
     md << "| " << name << " |";
     for (std::size_t k = 0; k < 4; ++k) {
-      const Run r = run(printed[k].scene, [&](Scene& s) {
+      const Run r = run(in_print[k].scene, [&](Scene& s) {
         s.run.until = 1e-3;
         s.output.every = 1e-3;
         change(s);
       });
-      md << f(" %.4f |", r.impacts.front().separation / r.impacts.front().approach);
+      md << printed(" %.4f |", r.impacts.front().separation / r.impacts.front().approach);
     }
     md << "\n";
   };
   ratio_row("K as computed", [](Scene&) {});
   for (const double by : {10.0, 100.0, 1000.0})
-    ratio_row(f("K × %.0f", by), [by](Scene& s) {
+    ratio_row(printed("K × %.0f", by), [by](Scene& s) {
       clearance(s).normal.stiffness = by * contact_stiffness(clearance(s));
     });
   md << "\nThe stiffer the contact, the shorter the impact and the nearer the ratio to that of a "
@@ -110,7 +110,7 @@ void findings(Page& page) {
   };
   for (const char* method : {"rkf45", "dopri5"})
     for (const double tol : {1e-3, 3e-4, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10})
-      md << six_row(f("%s, %g", method, tol), set(method, tol, 0));
+      md << six_row(printed("%s, %g", method, tol), set(method, tol, 0));
   md << "\nThe strategy of the paper (§3.1, `onset: {cut: …}`) halves the step until the first "
         "penetration is below a set value and takes that instant for the impact. "
         "The value is not printed. A contact that begins at depth d starts with K d^2.5/2.5 of "
@@ -121,7 +121,7 @@ void findings(Page& page) {
     md << six_headers("first penetration below (energy given, 0.01 mm)") << printed_row()
        << six_row("located (none)", set("rkf45", 1e-8, 0));
     for (const double cut : {1e-9, 1e-8, 1e-7, 2e-7, 3e-7, 5e-7, 1e-6, 2e-6})
-      md << six_row(f("%g µm (≤ %.2g mJ)", 1e6 * cut, 1e3 * K * std::pow(cut, 2.5) / 2.5),
+      md << six_row(printed("%g µm (≤ %.2g mJ)", 1e6 * cut, 1e3 * K * std::pow(cut, 2.5) / 2.5),
                     set("rkf45", 1e-8, cut));
   }
   md << "\nAt 0.5 µm a contact may be given 0.034 mJ and at 1 µm 0.19 mJ, as much as the whole "
@@ -145,7 +145,7 @@ void findings(Page& page) {
     double fastest = 0;
     for (const Impact& i : r.impacts)
       if (i.begin > 5e-3) fastest = std::max(fastest, i.approach);
-    md << f(
+    md << printed(
         "Why the count at 50 rad/s depends on so much: %d of its %zu contacts begin in the first 5 "
         "ms; the others begin later, where the force in the joint passes through zero and the "
         "journal leaves the wall again, "
@@ -162,32 +162,32 @@ void findings(Page& page) {
       for (const double cut : {0.0, 1e-8, 1e-7, 2e-7, 3e-7, 5e-7, 7e-7, 1e-6})
         for (const double tol : {7e-4, 5e-4, 3e-4, 2e-4, 1e-4, 3e-5, 1e-5, 1e-6}) {
           int table = 0;
-          for (std::size_t k = 0; k < printed.size(); ++k) {
-            const Run r = run(printed[k].scene, [&](Scene& s) {
+          for (std::size_t k = 0; k < in_print.size(); ++k) {
+            const Run r = run(in_print[k].scene, [&](Scene& s) {
               s.output.every = 0.05;
               set(method, tol, cut, constraints)(s);
             });
             if (r.status == Status::failed) continue;
             const int n = ended(r);
             low[k] = std::min(low[k], n), high[k] = std::max(high[k], n);
-            const bool same = n == printed[k].collisions ||
-                              static_cast<int>(r.impacts.size()) == printed[k].collisions;
+            const bool same = n == in_print[k].collisions ||
+                              static_cast<int>(r.impacts.size()) == in_print[k].collisions;
             hit[k] += same;
             if (k < 4) table += same;
           }
           ++settings, all += table == 4, three += table == 3;
         }
-  md << f("Searched: %d settings (two methods, two ways of keeping constraints, eight first "
+  md << printed("Searched: %d settings (two methods, two ways of keeping constraints, eight first "
           "penetrations, eight tolerances from 7e-4 to 1e-6), a count being accepted "
           "with or without the contact that goes on.\n\n",
           settings)
      << six_headers("") << "| printed |";
-  for (const Printed& p : printed) md << f(" %d |", p.collisions);
+  for (const Printed& p : in_print) md << printed(" %d |", p.collisions);
   md << "\n| fewest … most |";
-  for (std::size_t k = 0; k < 6; ++k) md << f(" %d … %d |", low[k], high[k]);
+  for (std::size_t k = 0; k < 6; ++k) md << printed(" %d … %d |", low[k], high[k]);
   md << "\n| settings that give the printed count |";
-  for (std::size_t k = 0; k < 6; ++k) md << f(" %d |", hit[k]);
-  md << f(
+  for (std::size_t k = 0; k < 6; ++k) md << printed(" %d |", hit[k]);
+  md << printed(
       "\n\nEvery printed count occurs, %s; %d of the settings give all four of Table 2 at once and "
       "%d give three. So: 29 and 22 are within what "
       "an unconverged calculation produces, and no converged one gives them. Which setting the "
@@ -225,10 +225,10 @@ void findings(Page& page) {
                                 {"gravity −x", Pair{-9.81, 0}}})
     choice(name, [g = g](Scene& s) { s.gravity = g; });
   for (const double e : {0.78, 0.82, 0.85, 0.9})
-    choice(f("restitution %.2f", e), [e](Scene& s) { clearance(s).normal.restitution = e; });
+    choice(printed("restitution %.2f", e), [e](Scene& s) { clearance(s).normal.restitution = e; });
   choice("bearing on the coupler", [](Scene& s) { clearance(s).bearing = "coupler"; });
   for (const double by : {0.5, 0.8, 1.25, 1.4, 1.5, 1.6, 2.0})
-    choice(f("K × %g", by), [by](Scene& s) {
+    choice(printed("K × %g", by), [by](Scene& s) {
       clearance(s).normal.stiffness = by * contact_stiffness(clearance(s));
     });
   md << "\nA few per cent of restitution or stiffness, or another direction of gravity, move the "

@@ -83,7 +83,7 @@ std::string first_impact(const Run& r) {
       static_cast<std::size_t>(std::ranges::max_element(contact) - contact.begin());
   const Vector t = r.ledger.column("t [s]");
   const auto strain = [&](std::size_t i) { return 1e3 * ledger_at(r, "strain [J]", t[i]); };
-  return f("%.2f | %.2f | %.2f", 1e3 * contact[deepest], strain(deepest),
+  return printed("%.2f | %.2f | %.2f", 1e3 * contact[deepest], strain(deepest),
            strain(contact.size() - 1));
 }
 
@@ -95,7 +95,7 @@ std::string impacts_table(const std::array<const Run*, 3>& runs) {
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t i = 0; i < 4; ++i) {
       const Impact& x = runs[k]->impacts[i];
-      s += f("| %s | %zu | %.1f, %.1f | %.4f | %.3f | %.0f | %.3f |\n", who[k], i + 1,
+      s += printed("| %s | %zu | %.1f, %.1f | %.4f | %.3f | %.0f | %.3f |\n", who[k], i + 1,
              1e6 * x.begin, 1e6 * x.end, x.approach, 1e6 * x.deepest, x.peak_force, 1e3 * x.lost);
     }
   return s;
@@ -114,7 +114,7 @@ std::string losses_table(const std::array<Run, 3>& start, const std::array<Run, 
     const std::array<Run, 3>& r = t < 3e-3 ? start : t < 0.06 ? revolution : second;
     const Run& u = t < 3e-3 ? undamped[0] : undamped[1];
     s +=
-        f("| %g ms | %.3f | %.3f + %.3f = %.3f | %.3f | %.3f |\n", 1e3 * t, 1e3 * lost(r[rigid], t),
+        printed("| %g ms | %.3f | %.3f + %.3f = %.3f | %.3f | %.3f |\n", 1e3 * t, 1e3 * lost(r[rigid], t),
           1e3 * ledger_at(r[flexible], lost_h, t), 1e3 * ledger_at(r[flexible], lost_r, t),
           1e3 * lost(r[flexible], t), 1e3 * lost(u, t), 1e3 * lost(r[ideal], t));
   }
@@ -137,7 +137,7 @@ void elements(Page& page) {
     };
     const Run r = refined(scenes[flexible]), u = refined("table3_case1");
     const Impact& x = r.impacts.front();
-    page.text << f("| %d | %.3f, %.0f, %.3f | %d | %.3f + %.3f = %.3f | %d, %.3f |\n", n,
+    page.text << printed("| %d | %.3f, %.0f, %.3f | %d | %.3f + %.3f = %.3f | %d, %.3f |\n", n,
                    1e6 * x.deepest, x.peak_force, 1e3 * x.lost, ended(r),
                    1e3 * ledger_at(r, lost_h, 0.05), 1e3 * ledger_at(r, lost_r, 0.05),
                    1e3 * lost(r, 0.05), ended(u), 1e3 * lost(u, 0.05));
@@ -154,14 +154,14 @@ void converge(Page& page) {
                "ms:\n\n| |"
             << converging_head;
   for (std::size_t k = 0; k < 6; ++k)
-    page.text << f("| impact %zu: begin [µs], approach [mm/s] |", k + 1)
+    page.text << printed("| impact %zu: begin [µs], approach [mm/s] |", k + 1)
               << converging(scenes[flexible], {}, [k](const Run& r) {
-                   return f("%.6f, %.6f", 1e6 * r.impacts.at(k).begin,
+                   return printed("%.6f, %.6f", 1e6 * r.impacts.at(k).begin,
                             1e3 * r.impacts.at(k).approach);
                  });
   for (const std::size_t k : {rigid, flexible, ideal})
     page.text << "| " << names[k] << " |" << converging(scenes[k], {}, [](const Run& r) {
-      return f("%d; %.6f; %.6f", ended(r), 1e3 * ledger_at(r, lost_h, 0.05),
+      return printed("%d; %.6f; %.6f", ended(r), 1e3 * ledger_at(r, lost_h, 0.05),
                1e3 * ledger_at(r, lost_r, 0.05));
     });
 }
@@ -174,7 +174,7 @@ void summarise(Page& page, const std::array<Run, 3>& start, const std::array<Run
   const Run& bent = revolution[flexible];
   page.summary.push_back(
       {"Fig. 12(a), elastic coordinates", "curves",
-       f("with clearance elongation up to %.1f µm, end rotations up to %.2f and %.2f mrad",
+       printed("with clearance elongation up to %.1f µm, end rotations up to %.2f and %.2f mrad",
          1e6 * largest(column(bent, "coupler.B.ux [m]")),
          1e3 * largest(column(bent, "coupler.A.turn [rad]")),
          1e3 * largest(column(bent, "coupler.B.turn [rad]"))),
@@ -183,19 +183,19 @@ void summarise(Page& page, const std::array<Run, 3>& start, const std::array<Run
       {"Fig. 12(b), energy with rigid and flexible coupler",
        "flexible loses more; after the impacts its rate is nearly the same with and without "
        "clearance",
-       f("lost in 1 s: flexible %.2f, rigid %.2f mJ; from 50 ms on: flexible %.3f with clearance, "
+       printed("lost in 1 s: flexible %.2f, rigid %.2f mJ; from 50 ms on: flexible %.3f with clearance, "
          "%.3f without, rigid %.3f mJ",
          1e3 * lost(second[flexible], 1), 1e3 * lost(second[rigid], 1), late(flexible), late(ideal),
          late(rigid)),
        "none"});
   page.summary.push_back(
       {"Fig. 12(c), the same at the start", "larger falls of energy with the rigid coupler",
-       f("first impact: dip %.2f, flexible %.2f mJ; step %.3f, flexible %.3f mJ. Hysteresis in 1 "
+       printed("first impact: dip %.2f, flexible %.2f mJ; step %.3f, flexible %.3f mJ. Hysteresis in 1 "
          "ms: %.3f, flexible %.3f mJ",
          1e3 * largest(first_contact(start[rigid])), 1e3 * largest(first_contact(start[flexible])),
          1e3 * start[rigid].impacts[0].lost, 1e3 * start[flexible].impacts[0].lost,
          1e3 * lost(start[rigid], 1e-3), 1e3 * ledger_at(start[flexible], lost_h, 1e-3)),
-       f("none in dips and steps; in all the flexible one has lost more after 1 ms, %.3f mJ, most "
+       printed("none in dips and steps; in all the flexible one has lost more after 1 ms, %.3f mJ, most "
          "of it in the coupler",
          1e3 * lost(start[flexible], 1e-3))});
   const auto deepest = [](const Run& r) {
@@ -205,7 +205,7 @@ void summarise(Page& page, const std::array<Run, 3>& start, const std::array<Run
   };
   page.summary.push_back(
       {"Figs. 12(d), (e), penetration", "less with the flexible coupler",
-       f("first impact %.2f, flexible %.2f µm; deepest %.2f, flexible %.2f µm",
+       printed("first impact %.2f, flexible %.2f µm; deepest %.2f, flexible %.2f µm",
          1e6 * start[rigid].impacts[0].deepest, 1e6 * start[flexible].impacts[0].deepest,
          deepest(start[rigid]), deepest(start[flexible])),
        "none"});
@@ -225,19 +225,19 @@ std::string why(const std::array<Run, 3>& start) {
   const double w1 = std::sqrt(120) * unit, w2 = std::sqrt(2520) * unit,
                w3 = std::sqrt(3 * axial / coupler);
   const double beta = 2 * 0.04 / (w1 + w2), alpha = beta * w1 * w2;
-  return f("\nThe journal of the flexible coupler comes faster (%.3f against %.3f m/s), because "
+  return printed("\nThe journal of the flexible coupler comes faster (%.3f against %.3f m/s), because "
            "the coupler, straight at the start, is stretched by its inertia and its end runs "
            "ahead. It still goes less deep, %.2f against %.2f µm, at %.0f %% of the peak force. ",
            soft.approach, stiff.approach, 1e6 * soft.deepest, 1e6 * stiff.deepest,
            100 * soft.peak_force / stiff.peak_force) +
-         f("The crank is at its dead centre, where a rigid coupler cannot give along its length: "
+         printed("The crank is at its dead centre, where a rigid coupler cannot give along its length: "
            "the joint has to stop the whole slider, ½ · %.2f kg · (%.3f m/s)² = %.2f mJ, and what "
            "the acceleration of the mechanism adds on the way. The end of the flexible coupler "
            "gives: a third of its mass and the slider's meet as %.4f kg, ½ · %.4f kg · (%.3f "
            "m/s)² = %.2f mJ. ",
            slider, stiff.approach, 500 * slider * stiff.approach * stiff.approach, both, both,
            soft.approach, 500 * both * soft.approach * soft.approach) +
-         f("It is inertia that parts the blow, not yet the spring: at that depth the contact has "
+         printed("It is inertia that parts the blow, not yet the spring: at that depth the contact has "
            "%.2g N/m and the coupler along its axis EA/L = %.3g N/m, and the impact lasts %.0f "
            "µs, the coupler's vibration along its axis %.0f µs. The strain comes afterwards, and "
            "is damped (%.1f %% of critical, from α = %.0f 1/s and β = %.3g s) or returned.\n\n",
@@ -266,7 +266,7 @@ void figure12(Page& page) {
          "[without](../examples/paper/fig12_flexible_ideal.yaml), [rigid "
          "coupler](../examples/paper/fig12_rigid.yaml). The frame follows the chord, so the "
          "elastic coordinates are the elongation and the rotations of the two ends.\n\n"
-      << f("A uniform rod of 0.21 kg has 2.52e-4 kg m², Table 1 has 2.5e-4. The rigid coupler here "
+      << printed("A uniform rod of 0.21 kg has 2.52e-4 kg m², Table 1 has 2.5e-4. The rigid coupler here "
            "is the same beam without its modes, so that both start from %.6f J. With the inertia "
            "of Table 1 the rigid mechanism would start 3.9 mJ lower, which is more than any of the "
            "losses compared.\n\n",
@@ -292,7 +292,7 @@ void figure12(Page& page) {
          "more than half of the energy out of the first blow. It does not make the joint lose "
          "less in all: an undamped coupler brings the journal back to the wall with what it has "
          "taken up, in "
-      << f("%d contacts against %d.\n\n", ended(undamped[1]), ended(second[rigid]));
+      << printed("%d contacts against %d.\n\n", ended(undamped[1]), ended(second[rigid]));
   elements(page);
   converge(page);
   page.text << "\n";

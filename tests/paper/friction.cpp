@@ -54,21 +54,21 @@ void figure9(Page& page) {
                             s.run.tolerance = 1e-11;
                           },
                           {{"mu", mu}});
-        losses[d] += f("| %s | %s |", e, mu);
+        losses[d] += printed("| %s | %s |", e, mu);
         for (const double t : {5e-3, 10e-3, 15e-3, 20e-3, 30e-3, 50e-3, 100e-3})
-          losses[d] += f(" %.3f |", gone(r, t));
-        losses[d] += f(" %zu |\n", r.impacts.size());
+          losses[d] += printed(" %.3f |", gone(r, t));
+        losses[d] += printed(" %zu |\n", r.impacts.size());
         if (m > 0) {
-          parts += f("| %s | %s | %s |", names[d], e, mu);
-          grips += f("| %s | %s | %s |", names[d], e, mu);
+          parts += printed("| %s | %s | %s |", names[d], e, mu);
+          grips += printed("| %s | %s | %s |", names[d], e, mu);
           for (const double t : {10e-3, 20e-3, 100e-3}) {
             const double h = ledger_at(r, lost_h, t);
-            parts += f(" %.3f + %.3f = %.3f |", h, gone(r, t) - h, gone(r, t));
+            parts += printed(" %.3f + %.3f = %.3f |", h, gone(r, t) - h, gone(r, t));
             const Grip g = grip(r, m, t);
-            grips += f(" %.2f, %.3f, %.3f |", g.correction, m * g.correction, g.speed);
+            grips += printed(" %.2f, %.3f, %.3f |", g.correction, m * g.correction, g.speed);
           }
           const Grip g = grip(r, m, 0.1);
-          parts += "\n", grips += f(" %.1f %%, %.1f %% |\n", 100 * g.rest, 100 * g.middle);
+          parts += "\n", grips += printed(" %.1f %%, %.1f %% |\n", 100 * g.rest, 100 * g.middle);
         }
         if (d == 0 && e[2] == '9' && m > 0) {
           const Vector t = column(r, "t [s]"), slide = column(r, pin + "sliding [m/s]"),
@@ -79,7 +79,7 @@ void figure9(Page& page) {
                            std::ranges::lower_bound(t, r.impacts[k].begin) - t.begin()),
                        a = static_cast<std::size_t>(std::ranges::upper_bound(t, r.impacts[k].end) -
                                                     t.begin());
-            hits += f(" %.3f → %.3f; %.4f |", slide[b], slide[a - 1], work[a] - work[b - 1]);
+            hits += printed(" %.3f → %.3f; %.4f |", slide[b], slide[a - 1], work[a] - work[b - 1]);
           }
           hits += "\n";
         }
@@ -90,7 +90,7 @@ void figure9(Page& page) {
           sliding[d].push_back(
               {mu, ms(r), while_touching(r, pin + "sliding [m/s]", d == 0 ? 1 : 1e3)});
         if (d == 1 && m > 0)
-          books += f("| %s | %.3f | %.5f | %.3f | %.0f |\n", mu, own - r.unexplained, own,
+          books += printed("| %s | %.3f | %.5f | %.3f | %.0f |\n", mu, own - r.unexplained, own,
                      -r.unexplained, (own - r.unexplained) / own);
       }
   std::vector<Panel> panels;
@@ -221,7 +221,7 @@ void figure11(Page& page) {
   page.summary.push_back(
       {"Figs. 10, 11, start concentric or 10 nm from the wall",
        "the concentric start loses more at the beginning",
-       f("after 20 ms %.3f against %.3f J, after 100 ms %.3f against %.3f J", loss_at(far, 0.02),
+       printed("after 20 ms %.3f against %.3f J, after 100 ms %.3f against %.3f J", loss_at(far, 0.02),
          loss_at(near, 0.02), loss_at(far, 0.1), loss_at(near, 0.1)),
        "none"});
   page.text << "## Figs. 10 and 11: where the journal starts\n\nFree crank from 300 rad/s, "
@@ -229,7 +229,7 @@ void figure11(Page& page) {
                "[concentric](../examples/paper/fig11_concentric.yaml), [near the "
                "wall](../examples/paper/fig11_near_wall.yaml).\n\n"
                "![Two starts](paper/fig11.svg)\n\n";
-  page.text << f(
+  page.text << printed(
       "The journal beside the wall (towards the crank, where the slider's inertia presses it) "
       "makes contact after %.2f µs at %.1f mm/s and never "
       "leaves: in 20 ms hysteresis takes %.4f J and friction %.4f J. The concentric one falls "
@@ -239,7 +239,7 @@ void figure11(Page& page) {
       static_cast<int>(
           std::ranges::count_if(far.impacts, [](const Impact& i) { return i.begin < 0.02; })),
       ledger_at(far, lost_h, 0.02), ledger_at(far, lost_f, 0.02));
-  const auto both = [](double t) { return [t](const Run& r) { return f("%.6f", loss_at(r, t)); }; };
+  const auto both = [](double t) { return [t](const Run& r) { return printed("%.6f", loss_at(r, t)); }; };
   page.text << "Loss in 100 ms [J]:\n\n| start |" << converging_head << "| concentric |"
             << converging("fig11_concentric", {}, both(0.1)) << "| near the wall |"
             << converging("fig11_near_wall", {}, both(0.1))

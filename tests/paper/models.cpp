@@ -76,9 +76,9 @@ void clearance_models(Page& page) {
       const double cost = static_cast<double>(m.run.counts.evaluations) / static_cast<double>(contact.run.counts.evaluations);
       const double away = farthest(m.x, contact.x);
       const bool is_link = model == ClearanceModel::massless_link;
-      page.text << f("| %.2f mm, %s | %ld | %ld | %.2f | %zu | %.0f N | %.1f N | %.3f mJ | %.1f µm | %.3g rad/s | %s |\n", 1e3 * radial, model_name(model),
+      page.text << printed("| %.2f mm, %s | %ld | %ld | %.2f | %zu | %.0f N | %.1f N | %.3f mJ | %.1f µm | %.3g rad/s | %s |\n", 1e3 * radial, model_name(model),
                      m.run.counts.evaluations, m.run.counts.steps, m.seconds / contact.seconds, m.run.impacts.size(), m.peak, m.carried,
-                     1e3 * m.lost, 1e6 * away, farthest(m.speed, contact.speed), is_link ? f("%.1f %%", 100 * m.pushed).c_str() : "");
+                     1e3 * m.lost, 1e6 * away, farthest(m.speed, contact.speed), is_link ? printed("%.1f %%", 100 * m.pushed).c_str() : "");
       if (is_link) {
         link_cost.see(cost), link_peak.see(100 * m.peak / contact.peak), link_pushed.see(100 * m.pushed), link_away.see(away / radial);
       } else if (model == ClearanceModel::spring_damper) {
@@ -88,14 +88,14 @@ void clearance_models(Page& page) {
       }
     }
   }
-  page.text << f("\nThe massless link takes %.2f to %.2f of the contact's evaluations. It leaves out impacts: it shows %.0f to %.0f %% of the peak force, loses "
+  page.text << printed("\nThe massless link takes %.2f to %.2f of the contact's evaluations. It leaves out impacts: it shows %.0f to %.0f %% of the peak force, loses "
                  "nothing, and as the crank keeps what impacts would take, the slider comes to be %.1f to %.1f clearances away. ",
                  link_cost.least, link_cost.most, link_peak.least, link_peak.most, link_away.least, link_away.most)
             << (link_pushed.most > 0
-                    ? f("It pushed in up to %.1f %% of the outputs, where a journal would have left the wall.\n\n", link_pushed.most)
-                    : f("It never pushed: by its own force no contact would be lost, while the contact model, which starts in the middle of the "
+                    ? printed("It pushed in up to %.1f %% of the outputs, where a journal would have left the wall.\n\n", link_pushed.most)
+                    : printed("It never pushed: by its own force no contact would be lost, while the contact model, which starts in the middle of the "
                         "clearance, began %.0f to %.0f contacts.\n\n", begun.least, begun.most))
-            << f("The spring–damper takes %.2f to %.2f of the evaluations%s. It shows %.0f to %.0f %% of the peak force and %.0f to %.0f %% of the loss; the "
+            << printed("The spring–damper takes %.2f to %.2f of the evaluations%s. It shows %.0f to %.0f %% of the peak force and %.0f to %.0f %% of the loss; the "
                  "slider comes to be %.1f to %.1f clearances away. Its force begins and ends with a corner, and its stiffness does not grow with the depth: the hardest impacts, which "
                  "make the peak, meet a spring matched to typical ones.\n\n",
                  spring_cost.least, spring_cost.most, spring_cost.least > 1 ? ", so it saves nothing" : "", spring_peak.least, spring_peak.most,

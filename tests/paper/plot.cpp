@@ -1,22 +1,11 @@
 #include "tests/paper/plot.h"
 
 #include <cctype>
-#include <cstdarg>
-#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
 
 namespace paper {
-
-std::string f(const char* format, ...) {
-  std::array<char, 2000> text;
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text.data(), text.size(), format, arguments);
-  va_end(arguments);
-  return text.data();
-}
 
 std::string anchor(const std::string& title) {
   std::string out;

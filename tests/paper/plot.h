@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "framework/study/plot.h"
+#include "framework/study/printed.h"
 
 /// The page on Ebrahimi, Salahshoor and Moradi (2017): see page.cpp.
 namespace paper {
@@ -15,11 +16,9 @@ using Vector = std::vector<double>;
 const std::filesystem::path source = PINTLE_SOURCE_DIR;
 const double pi = std::acos(-1.0);
 
-/// printf into a string.
-[[gnu::format(printf, 1, 2)]] std::string f(const char* format, ...);
-
 using pintle::Curve;
 using pintle::Panel;
+using pintle::printed;
 
 /// Of a heading, as a link names it.
 std::string anchor(const std::string& title);

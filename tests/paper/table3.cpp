@@ -52,7 +52,7 @@ void draw(const Runs& start, const Runs& revolution, const Runs& second) {
         "Fig. 14: the start" + against, "time [ms]", "rate while touching [m/s]", {}, {0, 2}};
     Panel later{"Fig. 14: 50 ms" + against, "time [ms]", "rate while touching [m/s]", {}, {0, 50}};
     for (const std::size_t k : sets[s]) {
-      const std::string label = f("case %d", cases[k].number);
+      const std::string label = printed("case %d", cases[k].number);
       whole.curves.push_back({label, ms(second[k]), energies(second[k])});
       early.curves.push_back({label, ms(start[k]), energies(start[k])});
       if (k == 0) continue;
@@ -76,16 +76,16 @@ void side_by_side(Page& page, const Runs& second) {
     const Case& c = cases[k];
     const Run& r = second[k];
     const double e0 = energy(r.first), l = loss_at(r, 0.05), m = loss_at(r, 1);
-    page.text << f("| %d | %s | %.6f, %.6f | %.6f, %.6f | %.4f, %.4f | %.3f, %.3f |\n", c.number,
+    page.text << printed("| %d | %s | %.6f, %.6f | %.6f, %.6f | %.4f, %.4f | %.3f, %.3f |\n", c.number,
                    c.speed, c.early, e0 - l, c.late, e0 - m, 1e3 * (c.early - c.late),
                    1e3 * (m - l), 1e3 * (e0 - c.early), 1e3 * l);
     page.summary.push_back(
-        {f("Table 3, case %d, %s", c.number,
+        {printed("Table 3, case %d, %s", c.number,
            k == 0 ? "no friction" : (std::string("speed of the ") + c.speed).c_str()),
-         f("%.3f mJ gone after 50 ms, %.4f mJ from there to 1 s", 1e3 * (e0 - c.early),
+         printed("%.3f mJ gone after 50 ms, %.4f mJ from there to 1 s", 1e3 * (e0 - c.early),
            1e3 * (c.early - c.late)),
-         f(m - l > 1e-3 ? "%.1f and %.0f mJ" : "%.3f and %.4f mJ", 1e3 * l, 1e3 * (m - l)),
-         k == 0 ? f("%+.1f %% and %+.0f %%", 100 * (l / (e0 - c.early) - 1),
+         printed(m - l > 1e-3 ? "%.1f and %.0f mJ" : "%.3f and %.4f mJ", 1e3 * l, 1e3 * (m - l)),
+         k == 0 ? printed("%+.1f %% and %+.0f %%", 100 * (l / (e0 - c.early) - 1),
                     100 * ((m - l) / (c.early - c.late) - 1))
                 : std::string("see [Table 3](#table3)")});
   }
@@ -102,9 +102,9 @@ void by_channel(Page& page, const Runs& second) {
       const auto d = [&](auto loss) {  // + 0.0: no −0.0000
         return std::round(1e7 * (loss(r, to) - loss(r, from))) * 1e-4 + 0.0;
       };
-      return f("%.4f + %.4f + %.4f = %.4f", d(hysteresis), d(friction), d(damping), d(gone));
+      return printed("%.4f + %.4f + %.4f = %.4f", d(hysteresis), d(friction), d(damping), d(gone));
     };
-    page.text << f("| %d | %s | %s | %s | %.4f |\n", cases[k].number, cases[k].speed,
+    page.text << printed("| %d | %s | %s | %s | %.4f |\n", cases[k].number, cases[k].speed,
                    sum(0, 0.05).c_str(), sum(0.05, 1).c_str(), 1e3 * ledger_at(r, lost_f, 1));
   }
 }
@@ -118,7 +118,7 @@ void order(Page& page, const Runs& start, const Runs& second) {
     for (const double t : {0.2e-3, 0.3e-3, 0.5e-3, 0.7e-3, 1e-3, 2e-3, 0.05, 1.0}) {
       const Runs& r = t < 3e-3 ? start : second;
       for (const std::size_t k : sets[s])
-        page.text << f("%s%.3f", k == 0 ? " " : ", ", 1e3 * gone(r[k], t));
+        page.text << printed("%s%.3f", k == 0 ? " " : ", ", 1e3 * gone(r[k], t));
       page.text << " |";
     }
     page.text << "\n";
@@ -143,10 +143,10 @@ void penetration_rate(Page& page, const Runs& start, const Runs& revolution) {
   std::string said;
   for (const std::size_t k : {1, 2, 3, 4}) {
     const auto a = rate(start[k], 0, 2e-3), b = rate(revolution[k], 2e-3, 0.05);
-    page.text << f("| %d | %s | %.0f; %.1f | %.1f; %.2f | %d |\n", cases[k].number, cases[k].speed,
+    page.text << printed("| %d | %s | %.0f; %.1f | %.1f; %.2f | %d |\n", cases[k].number, cases[k].speed,
                    1e3 * a[0], 1e3 * a[1], 1e3 * b[0], 1e3 * b[1], ended(revolution[k]));
     if (k < 3)
-      said += f("%sat most %.0f mm/s in the first 2 ms and %.1f later in case %d",
+      said += printed("%sat most %.0f mm/s in the first 2 ms and %.1f later in case %d",
                 k > 1 ? "; " : "", 1e3 * a[0], 1e3 * b[0], cases[k].number);
   }
   page.summary.push_back(
@@ -168,22 +168,22 @@ void judge(Page& page, const Runs& second) {
     return 1e3 * (loss(second[k], 1) - loss(second[k], 0.05));
   };
   page.text
-      << f("\n**Case 1 follows from the paper's equations**: %.3f mJ against the printed 2.651 "
+      << printed("\n**Case 1 follows from the paper's equations**: %.3f mJ against the printed 2.651 "
            "after 50 ms, %.0f %% apart.\n\n",
            1e3 * loss_at(second[0], 0.05), 100 * (1e3 * loss_at(second[0], 0.05) / 2.651 - 1))
-      << f("**Cases 2 and 3 do not follow from friction of the turning surfaces.** After the "
+      << printed("**Cases 2 and 3 do not follow from friction of the turning surfaces.** After the "
            "impacts the journal turns in the bearing under load, and friction takes %.2f W (mean "
            "of force times sliding speed): %.2f J from 50 ms to 1 s. Between cases 1 and 2 the "
            "printed losses differ by 0.0168 mJ, which is 0.018 mW. Friction with μ = 0.1 between "
            "turning surfaces is larger by a factor of 1e5.\n\n",
            friction_power(second[1]), 1e-3 * late(1, friction))
-      << f("**With the sliding speed of Eq. (22) the late losses have the printed size**: once the "
+      << printed("**With the sliding speed of Eq. (22) the late losses have the printed size**: once the "
            "journal stays at the wall that speed is below v₀ and friction is off (%.4f mJ of work "
            "from 50 ms to 1 s in case 2). What is left is hysteresis, %.3f mJ in case 2 (printed "
            "0.0665), and in case 3 the coupler's damping, %.3f mJ (printed 0.536): Rayleigh "
            "damping with ideal joints alone loses the same (Fig. 12).\n\n",
            std::abs(late(3, friction)), late(3, hysteresis), late(4, damping))
-      << f("**But then the losses of the first 50 ms do not.** With that speed friction takes "
+      << printed("**But then the losses of the first 50 ms do not.** With that speed friction takes "
            "%.2f mJ in case 2 and *gives* %.2f mJ in case 3, by its own account it takes %.2f mJ: "
            "force "
            "and speed are not those of the same points, and the work may have either sign. Cases "
@@ -192,7 +192,7 @@ void judge(Page& page, const Runs& second) {
            "most, then 2, then 1; from 1 ms on case 3 is above case 2.\n\n",
            1e3 * friction(second[3], 0.05), -1e3 * friction(second[4], 0.05),
            1e3 * ledger_at(second[4], lost_f, 0.05))
-      << f("**Why case 3 ends above case 2.** The paper's reason is the flexible coupler as a "
+      << printed("**Why case 3 ends above case 2.** The paper's reason is the flexible coupler as a "
            "suspension; but the coupler is flexible in both cases. What differs is its damping. It "
            "takes %.2f mJ in 50 ms, ends the chatter after 5 contacts instead of 26, and so spares "
            "%.2f mJ of hysteresis and %.2f mJ of friction (speed of the surfaces).\n\n",
@@ -213,7 +213,7 @@ void friction_choices(Page& page) {
                                {5e-5, 5e-4},
                                {4e-5, 4e-4},
                                {2e-5, 2e-4}}) {
-    page.text << f("| v₀ = %g, v₁ = %g mm/s |", 1e3 * v0, 1e3 * v1);
+    page.text << printed("| v₀ = %g, v₁ = %g mm/s |", 1e3 * v0, 1e3 * v1);
     for (const std::size_t k : {3, 4}) {
       const Run r = run(cases[k].scene, [v0 = v0, v1 = v1](Scene& s) {
         clearance(s).friction->v0 = v0, clearance(s).friction->v1 = v1;
@@ -221,7 +221,7 @@ void friction_choices(Page& page) {
         s.output.every = 0.05;
       });
       const double early = loss_at(r, 0.05);
-      page.text << f(" %.3f; %.4f |", 1e3 * early, 1e3 * (loss_at(r, 1) - early));
+      page.text << printed(" %.3f; %.4f |", 1e3 * early, 1e3 * (loss_at(r, 1) - early));
     }
     page.text << "\n";
   }
@@ -251,16 +251,16 @@ void case1_choices(Page& page) {
     if (r.status == Status::failed)
       page.text << "fails | | | |\n";
     else
-      page.text << f("%d | %.3f | %s | %.3f |\n", ended(r), 1e3 * loss_at(r, 0.05),
-                     whole ? f("%.4f", 1e3 * (hysteresis(r, 1) - hysteresis(r, 0.05))).c_str() : "",
+      page.text << printed("%d | %.3f | %s | %.3f |\n", ended(r), 1e3 * loss_at(r, 0.05),
+                     whole ? printed("%.4f", 1e3 * (hysteresis(r, 1) - hysteresis(r, 0.05))).c_str() : "",
                      1e3 * r.impacts.back().approach);
   };
   for (const double t : {1e-9, 1e-10, 1e-11})
-    row(f("as in the scene, tolerance %g", t), true, tolerance(t));
+    row(printed("as in the scene, tolerance %g", t), true, tolerance(t));
   for (const double e : {0.85, 0.95})
-    row(f("restitution %.2f", e), true, [e](Scene& s) { clearance(s).normal.restitution = e; });
+    row(printed("restitution %.2f", e), true, [e](Scene& s) { clearance(s).normal.restitution = e; });
   for (const double by : {0.8, 1.25})
-    row(f("K × %g", by), true,
+    row(printed("K × %g", by), true,
         [by](Scene& s) { clearance(s).normal.stiffness = by * contact_stiffness(clearance(s)); });
   row("no gravity", true, [](Scene& s) { s.gravity = {0, 0}; });
   row("K by the external radius, as Eq. (15) is printed", false,
@@ -269,10 +269,10 @@ void case1_choices(Page& page) {
       [](Scene& s) { clearance(s).normal.law = "exact"; });
   for (const char* method : {"rkf45", "dopri5"})
     for (const double t : {1e-3, 1e-4, 1e-5, 1e-6})
-      row(f("%s, tolerance %g", method, t), false,
+      row(printed("%s, tolerance %g", method, t), false,
           [=](Scene& s) { s.run.method = method, s.run.tolerance = t; });
   for (const double cut : {1e-8, 1e-7})
-    row(f("first penetration below %g µm", 1e6 * cut), false,
+    row(printed("first penetration below %g µm", 1e6 * cut), false,
         [cut](Scene& s) { s.run.onset_cut = cut; });
   page.text
       << "\nThe loss in 50 ms moves by a few per cent, as much as it differs from the printed "
@@ -306,7 +306,7 @@ void frames(Page& page) {
           body.elastic->modes->a = a, body.elastic->modes->b = b;
         }
     });
-    page.text << f("| %s | %.3f | %.3f |\n", name, 1e3 * damping(r, 0.05),
+    page.text << printed("| %s | %.3f | %.3f |\n", name, 1e3 * damping(r, 0.05),
                    1e3 * (damping(r, 1) - damping(r, 0.05)));
   }
   page.text << "\nPrinted for case 3 are 0.536 mJ, of which the damping can have at most that and, "
@@ -320,15 +320,15 @@ void converge(Page& page) {
                "the coupler's damping [mJ] in 50 ms:\n\n| case |"
             << converging_head;
   for (const Case& c : cases)
-    page.text << f("| %d, %s |", c.number, c.speed) << converging(c.scene, {}, [](const Run& r) {
-      return f("%d; %.5f; %.4f; %.5f", ended(r), 1e3 * hysteresis(r, 0.05),
+    page.text << printed("| %d, %s |", c.number, c.speed) << converging(c.scene, {}, [](const Run& r) {
+      return printed("%d; %.5f; %.4f; %.5f", ended(r), 1e3 * hysteresis(r, 0.05),
                1e3 * ledger_at(r, lost_f, 0.05), 1e3 * damping(r, 0.05));
     });
   page.text << "\nSingle contacts of case 1, begin [µs] and approach [mm/s]:\n\n| contact |"
             << converging_head;
   for (const std::size_t k : {0, 5, 11, 17, 23, 24})  // first, and how digits are lost to the last
-    page.text << f("| %zu |", k + 1) << converging(cases[0].scene, {}, [k](const Run& r) {
-      return f("%.5f, %.5f", 1e6 * r.impacts.at(k).begin, 1e3 * r.impacts.at(k).approach);
+    page.text << printed("| %zu |", k + 1) << converging(cases[0].scene, {}, [k](const Run& r) {
+      return printed("%.5f, %.5f", 1e6 * r.impacts.at(k).begin, 1e3 * r.impacts.at(k).approach);
     });
 }
 

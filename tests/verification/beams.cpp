@@ -71,7 +71,7 @@ Problem spectra() {
       const bool timoshenko = &c == &cases.back();
       const double allowed = timoshenko ? shear_bound(c.target.back(), 1.0 / n)
                                         : cubic_bound(c.target, slender.EI, slender.rhoA, 1.0 / n);
-      p.rows.push_back({timoshenko ? "BeamTimoshenko" : "BeamEuler", f("%d", n), c.body,
+      p.rows.push_back({timoshenko ? "BeamTimoshenko" : "BeamEuler", printed("%d", n), c.body,
                         frequencies(with_elements(n), 3, c.body), c.target, allowed, n == 16});
     }
   return p;
@@ -132,7 +132,7 @@ Problem fv5() {
     Scene s = scene("verification/fv5_deep_beam");
     SceneBeam& b = std::get<SceneBeam>(s.bodies.front().elastic->shape);
     b.elements = n;
-    const std::string mesh = f("%d", n);
+    const std::string mesh = printed("%d", n);
     const double allowed = shear_bound(published.back(), 10.0 / n);
     const Values ours = frequencies(s, 4);
     p.rows.push_back(
@@ -223,7 +223,7 @@ Problem frames() {
                    45.345, 57.390, 57.390, 57.390, 57.390, 57.390, 57.390, 57.390};
   const Values fv3{3.261, 5.668, 11.136, 11.136, 12.849, 24.570, 28.695, 28.695};
   for (const int n : {4, 8}) {
-    const std::string mesh = f("%d a member", n);
+    const std::string mesh = printed("%d a member", n);
     const Values a = elastic_frequencies(cross, n, 16), b = elastic_frequencies(square, n, 8);
     const Values a_exact = closed::frame(cross, 16), b_exact = closed::frame(square, 8);
     const double a_bound = cubic_bound(a_exact, cross.EI, cross.rhoA, 5.0 / n),

@@ -21,7 +21,7 @@ struct Try {
   Scene scene;
   Values ours, seconds = {};
   int freedoms = 0;
-  Row row() const { return {element, f("%d × %d", along, along / 2), "", ours, converged}; }
+  Row row() const { return {element, printed("%d × %d", along, along / 2), "", ours, converged}; }
   double worst() const { return std::abs(error(row())); }
   double median() const {
     Values s = seconds;
@@ -117,7 +117,7 @@ const Try* least(const std::vector<Try>& all, double within, const Measure& meas
 
 std::string shown(const Try* t) {
   if (!t) return "none";
-  return f("%s %s: %d, %.1f ms", t->element.c_str(), t->row().mesh.c_str(), t->freedoms,
+  return printed("%s %s: %d, %.1f ms", t->element.c_str(), t->row().mesh.c_str(), t->freedoms,
            1e3 * t->median());
 }
 
@@ -129,8 +129,8 @@ std::string table(const std::vector<Try>& all) {
     const Try& t = all[k];
     md << "| " << t.element << " (" << short_names[k / 3] << ") | " << t.row().mesh << " | "
        << t.freedoms;
-    for (std::size_t i = 0; i < 6; ++i) md << f(" | %+.3f", 100 * (t.ours[i] / converged[i] - 1));
-    md << f(" | %.3f | %.1f |\n", 100 * t.worst(), 1e3 * t.median());
+    for (std::size_t i = 0; i < 6; ++i) md << printed(" | %+.3f", 100 * (t.ours[i] / converged[i] - 1));
+    md << printed(" | %.3f | %.1f |\n", 100 * t.worst(), 1e3 * t.median());
   }
   return md.str();
 }
@@ -142,7 +142,7 @@ std::string spread(const std::vector<Try>& all) {
       linear = std::min(linear, all[i].worst());
     else
       best = std::min(best, all[i].worst()), worst = std::max(worst, all[i].worst());
-  return f(
+  return printed(
       "On the finest meshes, of like freedoms, the quadratic elements differ by a factor of %.1f, "
       "and "
       "the best linear one errs %.0f times as much as the worst of them.",
@@ -162,7 +162,7 @@ std::string advice(const std::vector<Try>& all) {
   const auto size = [](const Try& t) { return std::pair(t.freedoms, t.worst()); };
   for (const double within : {0.03, 0.01, 0.003, 0.001, 0.0003, 0.0001}) {
     const Try *quick = least(all, within, time), *small = least(all, within, size);
-    md << f("| %g %% | ", 100 * within) << shown(quick) << " | " << shown(small) << " | "
+    md << printed("| %g %% | ", 100 * within) << shown(quick) << " | " << shown(small) << " | "
        << shown(least(triangles, within, time)) << " |\n";
     if (small && names.find(small->element + ",") == std::string::npos)
       names += small->element + ", ";

@@ -37,12 +37,12 @@ namespace {
 
 std::string listed(const Values& values) {
   std::string out;
-  for (const double v : values) out += (out.empty() ? "" : ", ") + f("%.6g", v);
+  for (const double v : values) out += (out.empty() ? "" : ", ") + printed("%.6g", v);
   return out;
 }
 
 std::string percent(double share) {
-  return std::abs(share) < 1e-8 ? f("%.0e", share) : f("%+.3g %%", 100 * share);
+  return std::abs(share) < 1e-8 ? printed("%.0e", share) : printed("%+.3g %%", 100 * share);
 }
 
 std::string line(const Row& r) {

@@ -13,7 +13,7 @@
 namespace verification {
 
 using paper::anchor;
-using paper::f;
+using pintle::printed;
 using Values = std::vector<double>;
 
 /// One comparison. Values stand in the unit of their problem.

@@ -114,7 +114,7 @@ Problem straight_cantilever() {
         return tip(rest(s), direction);
       };
       const bool regular = mesh[0] == 'r', plain = element == "quadrilateral4-plain";
-      const std::string cells = f("6 × 1 %s", mesh);
+      const std::string cells = printed("6 × 1 %s", mesh);
       p.rows.push_back({element,
                         cells,
                         "extension",
@@ -193,7 +193,7 @@ Problem cook() {
     for (const char* n : {"4", "8", "32"}) {
       Scene s = scene("verification/cook", {{"cells", n}});
       take(s, element);
-      Row row{element, f("%s × %s", n, n), "deflection of C", {rest(s).moved("C")[1]}, {23.96}};
+      Row row{element, printed("%s × %s", n, n), "deflection of C", {rest(s).moved("C")[1]}, {23.96}};
       if (n[0] == '3')
         row.allowed = element == "quadrilateral4" ? 1.2e-3 : is_linear(element) ? 8e-3 : 5e-4;
       row.headline = n[0] == '8' && (element == "quadrilateral4" || element == "quadrilateral8");
@@ -224,7 +224,7 @@ Problem thick_cylinder() {
       const bool judged = element == "quadrilateral4" || element == "quadrilateral8-reduced";
       p.rows.push_back({element,
                         "9 × 5",
-                        f("ν = %s", nu),
+                        printed("ν = %s", nu),
                         {1e3 * rest(s).moved("bore")[0]},
                         {1e3 * target},
                         !judged              ? 0
@@ -342,7 +342,7 @@ void drawing(Problem& p, const std::string& name, const Eigen::Vector2d& at, int
       const Rest r = rest(s);
       Row row{element,
               shown_mesh(r.body),
-              f("size %g m", size),
+              printed("size %g m", size),
               {1e-6 * r.stress_at(at)[component]},
               {target}};
       const bool last = size == sizes.back();
