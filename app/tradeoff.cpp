@@ -62,7 +62,8 @@ Asked understood(const Options& options) {
     file.study.scene.common.insert(file.study.scene.common.end(), set.begin(), set.end());
     asked.scene = file.study.scene;
     asked.measures = options.quantities.empty() ? file.study.measures : asked_quantities(options);
-    asked.plan = file.root().has("tradeoff") ? read_tradeoff(file) : suggested_plan(asked.scene);
+    const bool own = file.root().has("tradeoff") || file.root().has("sweep");
+    asked.plan = own ? read_tradeoff(file) : suggested_plan(asked.scene);
     if (!file.study.title.empty()) asked.plan.title = file.study.title;
   } else {
     asked.scene = read_case_source(options.scene, set);
@@ -72,6 +73,7 @@ Asked understood(const Options& options) {
     judge(asked.measures, common_scene(asked.scene));
     asked.plan = suggested_plan(asked.scene);
   }
+  judge_measures(asked.scene, asked.plan, asked.measures);
   wanted("--error", options.wanted_error, asked.plan.error, read_share);
   wanted("--time", options.wanted_time, asked.plan.time, read_duration);
   wanted("--budget", options.budget, asked.plan.budget, read_duration);
@@ -127,7 +129,7 @@ int tradeoff(const Options& options) {
   if (options.json) std::cout << tradeoff_json(report);
   else if (!options.quiet) {
     std::cout << tradeoff_text(report);
-    print_rows(std::cout, {{"spent", number(report.seconds, 3) + " s"}, {"results", out.string() + (report.recommended ? ", ready to run: " + (out / "recommended.yaml").string() : "")}});
+    print_rows(std::cout, {{"spent", number(report.seconds, 3) + " s"}, {"results", out.string() + (report.recommended ? ", ready to run: " + (out / "recommended.yaml").string() : "; no recommended.yaml, as nothing is recommended")}});
   }
   if (report.stopped) return stopped;
   return report.recommended ? ok : run_failed;

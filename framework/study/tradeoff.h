@@ -14,6 +14,7 @@ namespace pintle {
 struct AxisValue {
   std::string label;
   Overrides set;
+  std::vector<int> lines = {};  ///< of the study file, where each of `set` stands; empty: nobody wrote it
 };
 
 /// One thing that can be made coarser or finer.
@@ -35,10 +36,16 @@ struct TradePlan {
   double tolerance = 1e-8;  ///< of the scene as it stands
   std::vector<FidelityAxis> axes;
   Overrides reference = {};  ///< over those of the finest values
+  bool suggested = false;    ///< axes that nobody named: suggested_plan
 };
 
-/// Section `tradeoff` of a study file. @throws SceneError  naming file, line, key, value and remedy
+/// Section `tradeoff` of a study file. Nothing is run, but every setting is read: a value that the scene's reader takes in no
+/// combination with the others is an error, one that it takes in some is a row with its reason where it does not.
+/// @throws SceneError  naming file, line, key, value and remedy; also of a measure that no setting can have
 TradePlan read_tradeoff(const StudyFile&);
+/// Judges measures against the scene and what the axes vary, before anything runs.
+/// @throws SceneError  a measure that no setting can have: what the scene has not, a stress where nothing bends
+void judge_measures(const CaseSource&, const TradePlan&, const std::vector<Measure>&);
 /// Axes that the scene itself suggests: tolerances, schemes, models of its clearances, shapes of its flexible bodies.
 /// Builds the scene once. @throws SceneError  it cannot be read or built
 TradePlan suggested_plan(const CaseSource&);
@@ -52,11 +59,13 @@ struct QuantityReference {
   double scale = 1;        ///< what relative errors are relative to [unit of the quantity]
   bool converged = false;  ///< the refinements' differences fall, or are rounding
   bool chaotic = false;    ///< value: mean of an ensemble, error: its standard error
+  bool constant = false;   ///< the same in every run, whatever the setting: nothing can be told from it
   double ratio = 0;        ///< by which differences fall from one tolerance to a tenth of it; 0: they do not fall
   double order = 0;        ///< of the model's refinements, log2 of their ratio; 0: none, or not falling
   double spread = 0;       ///< chaotic: standard deviation of single runs [unit of the quantity]
   double rate = 0;         ///< chaotic: growth of a disturbance [1/s]
-  std::string words;       ///< all of this, in a sentence or two
+  std::string words = {};  ///< all of this, in a sentence or two
+  double doubt() const { return error / scale; }  ///< relative
 };
 
 struct ReferenceLevel {
@@ -71,6 +80,8 @@ struct Reference {
   std::vector<ReferenceLevel> levels; ///< in the order run
   std::vector<QuantityReference> of;  ///< each quantity
   std::string trouble;                ///< why there is none; else empty
+  double seconds = 0;                 ///< of the longest run at a tolerance
+  bool short_of_time = false;         ///< what it lacks is for want of time
 };
 
 struct TradePoint {
@@ -90,7 +101,13 @@ struct TradePoint {
   bool usable = false;                      ///< finished, with a value of every quantity
   bool dominated = false, front = false;
   double claimed() const { return error > doubt ? error : doubt; }
+  double at_most() const;   ///< error and doubt together, of the worst quantity
+  double at_least() const;  ///< error less doubt, likewise; not below 0
 };
+
+/// What can be said of a setting when an error is wanted: a smaller one is shown, a larger one is shown, or neither.
+enum class Verdict { meets, misses, unknown };
+Verdict verdict(const TradePoint&, double wanted);
 
 /// What refining or coarsening one axis alone does to a point.
 struct AxisEffect {
@@ -105,11 +122,19 @@ struct TradeReport {
   Reference reference;
   std::vector<TradePoint> points;  ///< the scene as it stands first
   std::vector<std::size_t> front;  ///< by time
-  std::optional<std::size_t> cheapest, best_in_time, recommended;
+  std::optional<std::size_t> cheapest, best_in_time, recommended;  ///< only what the reference supports
   std::vector<std::string> said;   ///< the answers in words
   double seconds = 0;              ///< spent
   bool stopped = false;            ///< by the user
+  bool cut = false;                ///< by the budget: settings remain that nobody ran
+  std::size_t ran() const;         ///< settings with a time and an error
+  std::size_t listed() const;      ///< all settings
+  /// The worst of the quantities from which something can be told, relative. @pre there is a reference
+  double doubt() const;
+  bool tells() const;              ///< some quantity is not the same in every run
 };
+/// Where no error is asked for, a reference in more doubt than this supports no recommendation.
+inline constexpr double useful_doubt = 0.1;
 
 /// Runs one case: run_case of a source, or something known in a test.
 using CaseRunner = std::function<Outcome(const Overrides&, const std::vector<Measure>&, const CaseLimits&)>;
@@ -121,15 +146,21 @@ struct TradeListener {
 
 TradeReport run_tradeoff(const TradePlan&, const std::vector<Measure>&, const CaseRunner&, const TradeListener& = {});
 
-/// The reference of a plan. `seconds`: most to spend, 0: no bound. docs/studies.md says how it is proved.
-Reference find_reference(const TradePlan&, const std::vector<Measure>&, const CaseRunner&, double seconds = 0);
+/// The reference of a plan. docs/studies.md says how it is proved.
+/// @param seconds  to spend; 0: no bound
+/// @param most  to spend as long as the reference is not known to a third of the error that is wanted
+Reference find_reference(const TradePlan&, const std::vector<Measure>&, const CaseRunner&, double seconds = 0, double most = 0);
 
 /// What follows from points with times and errors: dominance, the front, the answers. Words included.
 void answer(TradeReport&);
 /// Of usable points, by time: none other is both faster and no less accurate, or as fast and more accurate. Marks them.
 std::vector<std::size_t> pareto_front(std::vector<TradePoint>&);
+/// Usable points that differ from this one in one axis alone.
+std::vector<AxisEffect> neighbours(const TradeReport&, std::size_t point);
 /// The change of one axis alone that lowers a point's error most per time; none if none lowers it.
 std::optional<AxisEffect> bottleneck(const TradeReport&, std::size_t point);
+/// The first step on that axis that lowers it.
+std::optional<AxisEffect> first_step(const TradeReport&, std::size_t point);
 /// Changes of one axis alone that cost no accuracy to speak of and save time, the most saving one of each axis.
 std::vector<AxisEffect> free_coarsenings(const TradeReport&, std::size_t point);
 

@@ -24,7 +24,51 @@ std::size_t knee(const std::vector<TradePoint>& points, const std::vector<std::s
   return best;
 }
 
-/// Settings that differ from a point in one axis alone, with that axis.
+/// Lower by what can be told.
+bool lowers(const TradeReport& r, std::size_t point, const AxisEffect& e) {
+  const TradePoint &p = r.points[point], &to = r.points[e.point];
+  if (r.plan.axes[e.axis].ordered && e.to < p.at[e.axis]) return false;
+  return e.error_factor <= less_error && to.claimed() + 0.5 * p.doubt <= p.claimed();
+}
+
+}  // namespace
+
+double TradePoint::at_most() const {
+  double bound = errors.empty() ? error + doubt : 0;
+  for (std::size_t q = 0; q < errors.size(); ++q)
+    if (!std::isnan(errors[q])) bound = std::max(bound, errors[q] + doubts[q]);
+  return bound;
+}
+
+double TradePoint::at_least() const {
+  double bound = errors.empty() ? error - doubt : 0;
+  for (std::size_t q = 0; q < errors.size(); ++q)
+    if (!std::isnan(errors[q])) bound = std::max(bound, errors[q] - doubts[q]);
+  return std::max(bound, 0.0);
+}
+
+Verdict verdict(const TradePoint& p, double wanted) {
+  if (p.at_most() <= wanted) return Verdict::meets;
+  return p.at_least() > wanted ? Verdict::misses : Verdict::unknown;
+}
+
+std::size_t TradeReport::ran() const {
+  return static_cast<std::size_t>(std::ranges::count_if(points, &TradePoint::usable));
+}
+
+std::size_t TradeReport::listed() const { return points.size(); }
+
+double TradeReport::doubt() const {
+  double worst = 0;
+  for (const QuantityReference& q : reference.of)
+    if (!q.constant) worst = std::max(worst, q.doubt());
+  return worst;
+}
+
+bool TradeReport::tells() const {
+  return reference.of.empty() || !std::ranges::all_of(reference.of, &QuantityReference::constant);
+}
+
 std::vector<AxisEffect> neighbours(const TradeReport& r, std::size_t point) {
   const TradePoint& p = r.points[point];
   std::vector<AxisEffect> out;
@@ -39,8 +83,6 @@ std::vector<AxisEffect> neighbours(const TradeReport& r, std::size_t point) {
   }
   return out;
 }
-
-}  // namespace
 
 std::vector<std::size_t> pareto_front(std::vector<TradePoint>& points) {
   std::vector<std::size_t> order;
@@ -72,13 +114,20 @@ std::optional<AxisEffect> bottleneck(const TradeReport& r, std::size_t point) {
   std::optional<AxisEffect> best;
   double most = 0;
   for (const AxisEffect& e : neighbours(r, point)) {
-    const FidelityAxis& axis = r.plan.axes[e.axis];
-    if (axis.ordered && e.to < r.points[point].at[e.axis]) continue;
-    if (e.error_factor > less_error || r.points[e.point].claimed() + 0.5 * r.points[point].doubt > r.points[point].claimed()) continue;
+    if (!lowers(r, point, e)) continue;
     const double gain = -std::log(e.error_factor) / std::max(std::log(e.time_factor), std::log(1 / less_time));
     if (gain > most) most = gain, best = e;
   }
   return best;
+}
+
+std::optional<AxisEffect> first_step(const TradeReport& r, std::size_t point) {
+  const std::optional<AxisEffect> most = bottleneck(r, point);
+  if (!most || !r.plan.axes[most->axis].ordered) return most;
+  std::optional<AxisEffect> first;
+  for (const AxisEffect& e : neighbours(r, point))
+    if (e.axis == most->axis && lowers(r, point, e) && (!first || e.to < first->to)) first = e;
+  return first;
 }
 
 std::vector<AxisEffect> free_coarsenings(const TradeReport& r, std::size_t point) {
@@ -107,27 +156,33 @@ void level_doubts(std::vector<TradePoint>& points) {
     if (p.usable) p.doubt = std::max(p.doubt, doubts[doubts.size() / 2]);
 }
 
+/// What the reference supports, and nothing else.
+void choose(TradeReport& r) {
+  const TradePlan& plan = r.plan;
+  for (std::size_t i = 0; i < r.points.size(); ++i)
+    if (r.points[i].usable && plan.error > 0 && verdict(r.points[i], plan.error) == Verdict::meets && (!r.cheapest || r.points[i].time < r.points[*r.cheapest].time))
+      r.cheapest = i;
+  const bool known = r.doubt() <= useful_doubt;
+  for (const std::size_t i : r.front)
+    if (plan.time > 0 && r.points[i].time <= plan.time && known) r.best_in_time = i;
+  if (plan.error > 0) r.recommended = r.cheapest;
+  else if (plan.time > 0) r.recommended = r.best_in_time;
+  else if (!r.front.empty() && known) r.recommended = knee(r.points, r.front);
+}
+
 }  // namespace
 
 void answer(TradeReport& r) {
   level_doubts(r.points);
   // The scene as it stands may be one of the combinations too: that one then stands for both.
   const bool twice = !r.points.empty() && r.points.front().usable && std::ranges::any_of(r.points.begin() + 1, r.points.end(), [&](const TradePoint& p) {
-    return p.usable && p.steps == r.points.front().steps && p.evaluations == r.points.front().evaluations && p.values == r.points.front().values;
+    return p.usable && p.steps > 0 && p.steps == r.points.front().steps && p.evaluations == r.points.front().evaluations && p.values == r.points.front().values;
   });
   if (twice) r.points.front().usable = false;
   r.front = pareto_front(r.points);
-  if (twice) r.points.front().usable = r.points.front().dominated = true;
   r.cheapest = r.best_in_time = r.recommended = {};
-  for (const std::size_t i : r.front) {
-    if (r.plan.error > 0 && !r.cheapest && r.points[i].claimed() <= r.plan.error) r.cheapest = i;
-    if (r.plan.time > 0 && r.points[i].time <= r.plan.time) r.best_in_time = i;
-  }
-  if (r.cheapest) r.recommended = r.cheapest;
-  else if (r.plan.error > 0 && !r.front.empty()) r.recommended = r.front.back();
-  else if (r.best_in_time) r.recommended = r.best_in_time;
-  else if (r.plan.time > 0 && !r.front.empty()) r.recommended = r.front.front();
-  else if (!r.front.empty()) r.recommended = knee(r.points, r.front);
+  if (r.reference.trouble.empty() && r.tells()) choose(r);
+  if (twice) r.points.front().usable = r.points.front().dominated = true;
   r.said = answers_in_words(r);
 }
 

@@ -19,6 +19,16 @@ std::string label(const TradeReport& r, const TradePoint& p, std::size_t axis) {
   return p.at.empty() ? "as it stands" : r.plan.axes[axis].values[p.at[axis]].label;
 }
 
+const char* status(const TradeReport& r) {
+  return r.stopped ? "stopped by the user" : !r.reference.trouble.empty() ? "no reference" : r.cut ? "the budget was spent" : "finished";
+}
+
+const char* shown(const TradeReport& r, const TradePoint& p) {
+  if (!(r.plan.error > 0) || !p.usable) return "";
+  const Verdict v = verdict(p, r.plan.error);
+  return v == Verdict::meets ? "yes" : v == Verdict::misses ? "no" : "not known";
+}
+
 const char* role(const TradeReport& r, std::size_t i) {
   return r.recommended == i ? "recommended" : r.points[i].front ? "front" : r.points[i].dominated ? "dominated" : "";
 }
@@ -46,7 +56,7 @@ Json point_json(const TradeReport& r, std::size_t i) {
                                    {"error of the model", json_number(p.model[q])}};
   return {{"setting", i}, {"axes", axes}, {"set", overrides_json(p.set)}, {"status", p.status}, {"reason", p.reason}, {"role", role(r, i)},
           {"time", p.time}, {"times", p.times}, {"build", p.build}, {"steps", p.steps}, {"evaluations", p.evaluations},
-          {"quantities", quantities}, {"error", json_number(p.error)}, {"doubt", json_number(p.doubt)}};
+          {"quantities", quantities}, {"has the wanted error", *shown(r, p) ? Json(shown(r, p)) : Json()}, {"error", json_number(p.error)}, {"doubt", json_number(p.doubt)}};
 }
 
 Json reference_json(const TradeReport& r) {
@@ -54,10 +64,10 @@ Json reference_json(const TradeReport& r) {
   for (const ReferenceLevel& l : r.reference.levels) levels.push_back({{"what", l.what}, {"values", l.values}, {"seconds", l.seconds}});
   for (std::size_t q = 0; q < r.reference.of.size(); ++q) {
     const QuantityReference& x = r.reference.of[q];
-    of[r.quantities[q]] = {{"value", json_number(x.value)}, {"unit", r.units[q]}, {"error", json_number(x.error)}, {"scale", x.scale}, {"converged", x.converged}, {"chaotic", x.chaotic},
+    of[r.quantities[q]] = {{"value", json_number(x.value)}, {"unit", r.units[q]}, {"error", json_number(x.error)}, {"scale", x.scale}, {"converged", x.converged}, {"chaotic", x.chaotic}, {"constant", x.constant},
                            {"fall a decade of tolerance", x.ratio}, {"order of the model", x.order}, {"spread", x.spread}, {"growth", x.rate}, {"words", x.words}};
   }
-  return {{"set", overrides_json(r.reference.set)}, {"levels", levels}, {"quantities", of}, {"trouble", r.reference.trouble}};
+  return {{"set", overrides_json(r.reference.set)}, {"levels", levels}, {"quantities", of}, {"trouble", r.reference.trouble}, {"short of time", r.reference.short_of_time}};
 }
 
 /// 1 is nothing, 0.001 a thousandth, in a decimal logarithm that a picture can show.
@@ -101,6 +111,7 @@ std::string tradeoff_json(const TradeReport& r) {
   for (const std::size_t i : r.front) front.push_back(i);
   const auto chosen = [](const std::optional<std::size_t>& i) { return i ? Json(*i) : Json(); };
   return Json{{"title", r.plan.title},
+              {"status", status(r)}, {"settings that ran", r.ran()}, {"settings in all", r.listed()}, {"axes chosen from the scene", r.plan.suggested},
               {"wanted", {{"error", r.plan.error > 0 ? Json(r.plan.error) : Json()}, {"time", r.plan.time > 0 ? Json(r.plan.time) : Json()},
                           {"budget", r.plan.budget > 0 ? Json(r.plan.budget) : Json()}, {"repeats", r.plan.repeats}}},
               {"said", r.said}, {"recommended", chosen(r.recommended)}, {"cheapest for the error", chosen(r.cheapest)}, {"most accurate in the time", chosen(r.best_in_time)},

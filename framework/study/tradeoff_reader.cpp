@@ -7,6 +7,7 @@
 #include "framework/scene/override.h"
 #include "framework/study/refinement.h"
 #include "framework/study/tradeoff.h"
+#include "framework/study/tradeoff_check.h"
 #include "framework/study/wanted.h"
 
 namespace pintle {
@@ -32,6 +33,7 @@ std::vector<AxisValue> listed_values(const Node& node, const Yaml& axis) {
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i].label += (out[i].label.empty() ? "" : ", ") + label_of(name.items[i]);
       out[i].set.emplace_back(name.key, override_text(name.items[i]));
+      out[i].lines.push_back(name.items[i].line > 0 ? name.items[i].line : name.line);
     }
   }
   return out;
@@ -44,7 +46,7 @@ std::vector<AxisValue> named_values(const Node& node, const Yaml& axis) {
     if (value.kind != Yaml::Kind::map && value.kind != Yaml::Kind::nothing)
       node.at(value.key).fail("must be what this setting sets, {run.tolerance: 1e-6}; or give every name of the axis a list: {run.tolerance: [1e-4, 1e-6]}");
     AxisValue v{value.key, {}};
-    for (const Yaml& set : value.items) v.set.emplace_back(set.key, override_text(set));
+    for (const Yaml& set : value.items) v.set.emplace_back(set.key, override_text(set)), v.lines.push_back(set.line);
     out.push_back(std::move(v));
   }
   return out;
@@ -54,6 +56,8 @@ FidelityAxis read_axis(const Node& node, const Yaml& axis) {
   const char* remedy = "{run.tolerance: [1e-4, 1e-6]} or named settings {rigid: {bodies.coupler.modes: null}, …}";
   node.entries(remedy);
   if (axis.items.empty()) node.fail(std::string("says nothing; write ") + remedy);
+  for (const Yaml& name : axis.items)
+    if (name.kind == Yaml::Kind::list && name.items.empty()) node.at(name.key).fail("is an empty list; give it values, [1e-4, 1e-6]");
   const bool lists = std::ranges::all_of(axis.items, [](const Yaml& y) { return y.kind == Yaml::Kind::list && !y.items.empty(); });
   FidelityAxis out{.name = node.name(), .values = lists ? listed_values(node, axis) : named_values(node, axis)};
   for (std::size_t i = 0; i < out.values.size(); ++i)
@@ -76,6 +80,8 @@ double wanted(const Node& node, const char* remedy, Read read) {
 
 TradePlan read_tradeoff(const StudyFile& study) {
   const Node root = study.root();
+  if (!root.has("tradeoff") && root.has("sweep"))
+    root.fail("has a sweep and no tradeoff; run it by pintle sweep, or add what tradeoff is to vary: tradeoff: {error: 1%, axes: {tolerance: {run.tolerance: [1e-4, 1e-6, 1e-8]}}}");
   if (!root.has("tradeoff"))
     root.fail("has no section tradeoff; add for example tradeoff: {error: 1%, axes: {tolerance: {run.tolerance: [1e-4, 1e-6, 1e-8]}}}");
   const Node node = root.at("tradeoff");
@@ -98,9 +104,9 @@ TradePlan read_tradeoff(const StudyFile& study) {
   if (node.has("reference"))
     for (const Node& set : node.at("reference").entries("what the reference sets: {run.tolerance: 1e-12}"))
       plan.reference.emplace_back(set.name(), override_text(entry(entry(tree, "reference"), set.name())));
-  // A setting that the scene itself refuses is a row; a scene that cannot be read at all is an error.
-  plan.tolerance = read_scene_text(study.study.scene.text, study.study.scene.file.string(), study.study.scene.common,
-                                   study.study.scene.file.parent_path()).run.tolerance;
+  plan.tolerance = common_scene(study.study.scene).run.tolerance;
+  judge_settings(study, plan);
+  judge_measures(study.study.scene, plan, study.study.measures);
   return plan;
 }
 

@@ -12,7 +12,10 @@ namespace pintle {
 namespace {
 
 constexpr double tightest = 1e-13;   ///< where rounding takes over
-constexpr int most_tolerances = 6;
+constexpr double loosest = 1e-4;     ///< where a search begins whose time is bounded
+constexpr int most_tolerances = 6, most_refinements = 5;
+constexpr const char* chaotic_model = "a finer model moves a single chaotic run at random, so that the ensemble of the finest model of the study is the reference";
+constexpr std::size_t judged = 5;    ///< the last so many tolerances
 
 using Clock = std::chrono::steady_clock;
 
@@ -23,8 +26,8 @@ bool whole(const Outcome& o, std::size_t n) {
 /// Refines until every quantity stands still, or is known not to.
 class Search {
  public:
-  Search(const TradePlan& plan, const std::vector<Measure>& measures, const CaseRunner& run, double seconds)
-      : plan_(plan), measures_(measures), run_(run), seconds_(seconds), n_(measures.size()) {
+  Search(const TradePlan& plan, const std::vector<Measure>& measures, const CaseRunner& run, double seconds, double most)
+      : plan_(plan), measures_(measures), run_(run), seconds_(seconds), most_(std::max(seconds, most)), n_(measures.size()) {
     scale_.assign(n_, 0);
   }
 
@@ -39,6 +42,7 @@ class Search {
     out_.of.resize(n_);
     climb_tolerances();
     if (!out_.trouble.empty()) return std::move(out_);
+    for (std::size_t k = 0; k < tolerances_; ++k) out_.seconds = std::max(out_.seconds, out_.levels[k].seconds);
     for (std::size_t q = 0; q < n_; ++q) judge_tolerances(q);
     find_chaos();
     refine_model();
@@ -48,12 +52,19 @@ class Search {
 
  private:
   double spent() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
-  bool may_spend(double more) const { return seconds_ <= 0 || spent() + more <= seconds_; }
+  /// Nothing can be recommended by a reference that is not known well enough: then it may take more.
+  bool may_spend(double more) {
+    if (seconds_ <= 0 || spent() + more <= seconds_) return true;
+    if (stands()) return false;
+    const bool may = spent() + more <= most_;
+    out_.short_of_time = out_.short_of_time || !may;
+    return may;
+  }
 
   Outcome run(const Overrides& set, bool keep) {
     CaseLimits limits;
     limits.keep_run = keep;
-    if (seconds_ > 0) limits.seconds = std::max(0.05 * seconds_, 1.25 * seconds_ - spent());
+    if (seconds_ > 0) limits.seconds = std::max(0.05 * seconds_, 1.05 * most_ - spent());
     return run_(set, measures_, limits);
   }
 
@@ -61,11 +72,13 @@ class Search {
     Outcome o = run(set, true);
     if (!whole(o, n_)) {
       why_ = what + ": " + o.status + (o.reason.empty() ? "" : ": " + o.reason);
+      out_.short_of_time = out_.short_of_time || o.status == "over its limit";
       if (o.status == "finished") why_ = what + ": a quantity has no value there; does the reference's model lack it?";
       return false;
     }
     for (std::size_t q = 0; q < n_; ++q) scale_[q] = std::max(scale_[q], std::abs(o.values[q]));
     out_.levels.push_back({what, set, o.values, o.build_seconds + o.run_seconds});
+    if (runs_.size() > 1) runs_[runs_.size() - 2].reset();
     runs_.push_back(o.run);
     return true;
   }
@@ -82,39 +95,69 @@ class Search {
     return std::max({now, 1e-6 * scale_[q], 1e-300});
   }
 
-  double target() const { return plan_.error > 0 ? plan_.error / 100 : 1e-6; }
+  double wanted() const { return plan_.error > 0 ? plan_.error : 1e-4; }
+  double target() const { return wanted() / 100; }
 
-  void climb_tolerances() {
-    double t = tolerance_of(plan_, plan_.reference);
-    const bool given = std::ranges::any_of(plan_.reference, [](const auto& s) { return s.first == "run.tolerance"; });
-    for (const FidelityAxis& axis : plan_.axes)
-      for (const AxisValue& v : axis.values)
-        if (!given) t = std::min(t, tolerance_of(plan_, v.set));
-    t = std::clamp(t, 1e2 * tightest, 1e-6);
-    for (int k = 0; k < most_tolerances && t >= 0.9 * tightest; ++k, t /= 10) {
-      if (k > 0 && !may_spend(1.6 * out_.levels.back().seconds) && k > 1) break;
-      if (!level(printed("tolerance %.0e", t), with_tolerance(base_, t))) {
-        if (out_.levels.empty()) out_.trouble = why_;
-        break;
-      }
-      if (k >= 2 && settled()) break;
-    }
-    tolerances_ = out_.levels.size();
-    if (tolerances_ == 1) out_.trouble = "the reference could be run at one tolerance only; what it lacks is unknown: " + why_;
-    if (!out_.levels.empty()) out_.set = out_.levels.back().set;
+  /// Is every quantity known to a third of what is asked, by what has run so far?
+  bool stands() const { return out_.levels.size() > 2 && (tolerances_ == 0 ? settled(1.0 / 3) : stands_); }
+
+  Ladder ladder(std::size_t q, std::size_t levels) const {
+    return judge_ladder(values(q, levels > judged ? levels - judged : 0, levels), 10, scale(q));
   }
 
-  bool settled() const {
+  bool settled(double share) const {
     for (std::size_t q = 0; q < n_; ++q) {
-      const Ladder l = judge_ladder(values(q, 0, out_.levels.size()), 10, scale(q));
-      if (!(l.rounding || (l.falling && l.error <= target() * scale(q)))) return false;
+      const Ladder l = ladder(q, out_.levels.size());
+      if (!(l.rounding || (l.falling && l.error <= share * wanted() * scale(q)))) return false;
     }
     return true;
   }
 
+  bool given_tolerance() const {
+    return std::ranges::any_of(plan_.reference, [](const auto& s) { return s.first == "run.tolerance"; });
+  }
+
+  /// The tightest of the study, or what the reference is told to have.
+  double study_tolerance() const {
+    double t = tolerance_of(plan_, plan_.reference);
+    for (const FidelityAxis& axis : plan_.axes)
+      for (const AxisValue& v : axis.values)
+        if (!given_tolerance()) t = std::min(t, tolerance_of(plan_, v.set));
+    return std::clamp(t, 1e2 * tightest, 1e-6);
+  }
+
+  /// Two decades below the study's finest. Where time is bounded, from loose ones on, that what is dear is run last; and no
+  /// further than what is asked needs before the model, which may owe more, was refined.
+  void climb_tolerances() {
+    const double finest = study_tolerance();
+    const bool bounded = seconds_ > 0, model = refined(base_).has_value();
+    double t = bounded && !given_tolerance() ? loosest : finest;
+    for (int k = 0; t >= 0.9 * tightest && (bounded || k < most_tolerances); ++k, t /= 10) {
+      const std::size_t had = out_.levels.size();
+      if (had > 0 && !may_spend(1.6 * out_.levels.back().seconds) && had > 1) break;
+      if (!level(printed("tolerance %.0e", t), with_tolerance(base_, t))) {
+        if (t < 1e-6 || out_.short_of_time || why_.find("refused") != std::string::npos) break;
+        continue;  // too loose for this scene
+      }
+      if (had < 2 || t > 1.1e-6) continue;
+      if (settled(0.01) && (t < 1.1e-2 * finest || (bounded && model))) break;
+      if (bounded && model && settled(0.1) && spent() > 0.25 * seconds_) break;
+      if (bounded && !settled(1) && parts()) break;
+    }
+    tolerances_ = out_.levels.size();
+    if (tolerances_ == 0) out_.trouble = why_;
+    if (tolerances_ == 1) out_.trouble = "the reference could be run at one tolerance only; what it lacks is unknown: " + (why_.empty() ? "there was no time for more" : why_);
+    if (!out_.levels.empty()) out_.set = out_.levels.back().set;
+  }
+
+  bool parts() const {
+    const auto &a = runs_[runs_.size() - 2], &b = runs_.back();
+    return a && b && parting(*a, *b).chaotic();
+  }
+
   void judge_tolerances(std::size_t q) {
     QuantityReference& r = out_.of[q];
-    ladder_.push_back(judge_ladder(values(q, 0, tolerances_), 10, scale(q)));
+    ladder_.push_back(ladder(q, tolerances_));
     const Ladder& l = ladder_.back();
     r.value = out_.levels.back().values[q];
     r.scale = scale(q);
@@ -142,8 +185,9 @@ class Search {
     for (std::size_t q = 0; q < n_; ++q)
       if (!steady(ladder_[q], out_.of[q].scale) && out_.of[q].error > 1e-9 * out_.of[q].scale) suspects.push_back(q);
     if (suspects.empty()) return;
-    const double fine = tolerance_of(plan_, out_.levels.front().set);
     const int runs = 2 * plan_.ensemble;
+    double fine = study_tolerance();
+    while (seconds_ > 0 && fine < 0.9e-6 && spent() + 2.6 * runs * seconds_at(fine) > most_) fine *= 10;
     std::vector<Sample> first = ensemble(with_tolerance(base_, fine), runs), second = ensemble(with_tolerance(base_, fine / 10), runs);
     for (const std::size_t q : suspects) {
       const Sample &s = first[q], &t = second[q];
@@ -165,9 +209,18 @@ class Search {
     if (std::ranges::any_of(out_.of, &QuantityReference::chaotic)) out_.set = with_tolerance(base_, fine);
   }
 
+  /// Of a run at the level whose tolerance is nearest.
+  double seconds_at(double tolerance) const {
+    double seconds = 0, nearest = INFINITY;
+    for (std::size_t k = 0; k < tolerances_; ++k)
+      if (const double off = std::abs(std::log(tolerance / tolerance_of(plan_, out_.levels[k].set))); off < nearest)
+        nearest = off, seconds = out_.levels[k].seconds;
+    return seconds;
+  }
+
   std::vector<Sample> ensemble(const Overrides& set, int runs) {
     std::vector<std::vector<double>> v(n_);
-    const double each = out_.levels.front().seconds;
+    const double each = seconds_at(tolerance_of(plan_, set));
     for (int k = 0; k < runs; ++k) {
       if (k >= 4 && !may_spend(each)) break;
       const Outcome o = run(member(plan_, set, k), false);
@@ -179,31 +232,42 @@ class Search {
     return out;
   }
 
-  /// Elements, modes and the like of the finest model, doubled twice.
+  /// Elements, modes and the like of the finest model, doubled twice, and more often as long as what is asked is not known.
   void refine_model() {
     const double tolerance = tolerance_of(plan_, out_.set);
+    if (std::ranges::all_of(out_.of, &QuantityReference::chaotic)) {
+      model_words_ = chaotic_model;
+      return;
+    }
+    const int most = seconds_ > 0 ? most_refinements : 3;
     std::optional<Overrides> finer = out_.set;
-    const std::size_t before = out_.levels.size();
-    for (int k = 1; k <= 2; ++k) {
+    const std::vector<QuantityReference> before = out_.of;
+    double dearer = 3;
+    for (int k = 1; k <= most; ++k) {
       finer = refined(*finer);
       if (!finer) {
         if (std::ranges::any_of(plan_.axes, [](const FidelityAxis& axis) { return !axis.numerical && axis.values.size() > 1; }))
           model_words_ = "its model is the finest of the study, in which nothing can be refined";
         return;
       }
-      if (!may_spend((k == 1 ? 3 : 4) * out_.levels.back().seconds)) {
-        model_words_ = "the model was not refined" + std::string(k == 2 ? " a second time" : "") + ": no time left in the budget";
+      if (k > 2 && stands_) break;
+      const double last = out_.levels.back().seconds;
+      if (!may_spend(dearer * last)) {
+        model_words_ = "the model was not refined" + std::string(k == 1 ? "" : k == 2 ? " a second time" : " further") + ": no time left in the budget";
         if (k == 1) compare_coarser();
         break;
       }
       if (!level(printed("finer model, %d times", 1 << k), with_tolerance(*finer, tolerance))) {
         model_words_ = "the model cannot be refined further (" + why_ + ")";
+        if (k == 1) compare_coarser();
         break;
       }
+      dearer = std::clamp(1.5 * out_.levels.back().seconds / std::max(last, 1e-9), 1.5, 5.0);
+      out_.set = out_.levels.back().set;
+      out_.of = before;
+      for (std::size_t q = 0; q < n_; ++q) add_model(q);
+      stands_ = k > 1 && std::ranges::all_of(out_.of, [&](const QuantityReference& r) { return r.chaotic || r.error <= wanted() / 3 * r.scale; });
     }
-    if (out_.levels.size() == before) return;
-    out_.set = out_.levels.back().set;
-    for (std::size_t q = 0; q < n_; ++q) add_model(q, before);
   }
 
   /// Without a finer model, what the next coarser one changes is taken for the error of the finest.
@@ -226,14 +290,14 @@ class Search {
     }
   }
 
-  void add_model(std::size_t q, std::size_t first) {
+  void add_model(std::size_t q) {
     QuantityReference& r = out_.of[q];
     if (r.chaotic) {
-      model_words_ = "a finer model moves a single chaotic run at random, so that the ensemble of the finest model of the study is the reference";
+      model_words_ = chaotic_model;
       return;
     }
     std::vector<double> v{out_.levels[tolerances_ - 1].values[q]};
-    for (std::size_t k = first; k < out_.levels.size(); ++k) v.push_back(out_.levels[k].values[q]);
+    for (std::size_t k = tolerances_; k < out_.levels.size(); ++k) v.push_back(out_.levels[k].values[q]);
     const Ladder l = judge_ladder(v, 4, r.scale);
     r.value = v.back();
     r.scale = scale(q);
@@ -259,8 +323,8 @@ class Search {
     }
     std::string fell;
     for (const double d : ladder_[q].differences) fell += (fell.empty() ? "" : ", ") + printed("%.1e", d / r.scale);
-    s = printed("%zu tolerances from %.0e to %.0e change it by %s of its value", tolerances_, tolerance_of(plan_, out_.levels.front().set),
-                tolerance_of(plan_, out_.levels[tolerances_ - 1].set), fell.c_str());
+    s = printed("%zu tolerances from %.0e to %.0e change it %sby %s of its value", tolerances_, tolerance_of(plan_, out_.levels.front().set),
+                tolerance_of(plan_, out_.levels[tolerances_ - 1].set), tolerances_ > judged ? "in the end " : "", fell.c_str());
     if (r.ratio > 0) s += printed(", falling %.1f times a decade", r.ratio);
     if (refinements_ > 0)
       s += r.order > 0 ? printed("; %zu refinements of the model show order %.1f", refinements_, r.order)
@@ -273,7 +337,7 @@ class Search {
   const TradePlan& plan_;
   const std::vector<Measure>& measures_;
   const CaseRunner& run_;
-  double seconds_;
+  double seconds_, most_;
   std::size_t n_;
   Clock::time_point begin_ = Clock::now();
   Overrides base_;
@@ -282,14 +346,15 @@ class Search {
   std::vector<double> scale_;
   std::vector<Ladder> ladder_;
   std::size_t tolerances_ = 0, refinements_ = 0;
+  bool stands_ = false;
   Parting parting_;
   std::string why_, chaos_words_, model_words_;
 };
 
 }  // namespace
 
-Reference find_reference(const TradePlan& plan, const std::vector<Measure>& measures, const CaseRunner& run, double seconds) {
-  return Search(plan, measures, run, seconds).find();
+Reference find_reference(const TradePlan& plan, const std::vector<Measure>& measures, const CaseRunner& run, double seconds, double most) {
+  return Search(plan, measures, run, seconds, most).find();
 }
 
 }  // namespace pintle

@@ -15,8 +15,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using At = std::vector<std::size_t>;
 
-// Shares of a budget: what the reference may take, and what is spent when no further setting is begun, nor a run of an ensemble.
-constexpr double for_reference = 0.4, for_settings = 0.75, in_ensembles = 0.85;
+// Shares of a budget: what the reference may take, and as long as it does not stand; of the rest, what is spent when no further
+// setting is begun, nor a run of an ensemble.
+constexpr double for_reference = 0.4, for_want_of_it = 0.7, for_settings = 0.58, in_ensembles = 0.75;
+/// Relative differences that are rounding.
+constexpr double constant = 1e-12;
 /// How far behind another setting one must be, in time and in error, to be clearly dominated.
 constexpr double clearly = 2;
 
@@ -37,17 +40,22 @@ class Trade {
   TradeReport trade() {
     tell("reference", 0);
     const CaseRunner stoppable = [this](const Overrides& set, const std::vector<Measure>& m, const CaseLimits& l) { return run(set, m, l); };
-    out_.reference = find_reference(out_.plan, measures_, stoppable, for_reference * out_.plan.budget);
+    out_.reference = find_reference(out_.plan, measures_, stoppable, for_reference * out_.plan.budget, for_want_of_it * out_.plan.budget);
+    list_points();
     if (!out_.stopped && out_.reference.trouble.empty()) {
       for (const QuantityReference& r : out_.reference.of) chaos_ = chaos_ || r.chaotic;
-      list_points();
+      begun_ = std::max(spent(), for_reference * out_.plan.budget);
       if (out_.plan.budget > 0)
         explore();
       else
         for (std::size_t i = 0; i < points().size() && !out_.stopped; ++i) tell("settings", share(i, points().size())), visit(i, 0);
-      time_all();
-      tell_model_apart();
+      find_constants();
+      if (out_.tells()) time_all(), tell_model_apart();
     }
+    const char* const why = out_.stopped ? "stopped by the user" : !out_.reference.trouble.empty() ? "there is no reference" : "the budget was spent";
+    for (TradePoint& p : points()) if (p.status == "not run") p.reason = why;
+    if (out_.plan.budget > 0)
+      out_.cut = std::ranges::any_of(points(), [](const TradePoint& p) { return p.status == "not run"; });
     out_.seconds = spent();
     answer(out_);
     return std::move(out_);
@@ -56,7 +64,8 @@ class Trade {
  private:
   std::vector<TradePoint>& points() { return out_.points; }
   double spent() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
-  double left(double share = 1) const { return out_.plan.budget > 0 ? share * out_.plan.budget - spent() : INFINITY; }
+  /// Of what the reference left, a share.
+  double left(double share = 1) const { return out_.plan.budget > 0 ? begun_ + share * (out_.plan.budget - begun_) - spent() : INFINITY; }
   static double share(std::size_t i, std::size_t n) { return static_cast<double>(i) / static_cast<double>(n); }
   void tell(const std::string& what, double done) const { if (listener_.progress) listener_.progress(what, done); }
 
@@ -131,10 +140,34 @@ class Trade {
       if (out_.reference.of[q].chaotic) p.values[q] = s[q].mean, p.spread[q] = std::max(s[q].error, s[q].count < 4 ? out_.reference.of[q].spread : 0);
   }
 
+  /// Quantities that are the same in every run; and of those whose reference is 0 alone, what errors are relative to.
+  void find_constants() {
+    if (out_.ran() == 0) return;
+    for (std::size_t q = 0; q < measures_.size(); ++q) {
+      QuantityReference& r = out_.reference.of[q];
+      double least = INFINITY, most = -INFINITY;
+      const auto see = [&](double v) { least = std::min(least, v), most = std::max(most, v); };
+      for (const ReferenceLevel& level : out_.reference.levels) see(level.values[q]);
+      for (const TradePoint& p : points())
+        if (p.usable) see(p.values[q]);
+      const double largest = std::max(std::abs(least), std::abs(most));
+      r.constant = most - least <= constant * largest;
+      if (r.constant || std::abs(r.value) > constant * largest) continue;
+      if (r.scale < largest) r.words += "; it is 0, so that errors are shares of the largest value of any setting";
+      r.scale = largest;
+    }
+    for (TradePoint& p : points())
+      if (p.usable) judge(p);
+  }
+
   void judge(TradePoint& p) {
     p.error = p.doubt = 0;
     for (std::size_t q = 0; q < measures_.size(); ++q) {
       const QuantityReference& r = out_.reference.of[q];
+      if (r.constant) {
+        p.errors[q] = p.doubts[q] = 0;
+        continue;
+      }
       p.errors[q] = std::abs(p.values[q] - r.value) / r.scale;
       p.doubts[q] = std::hypot(r.error, p.spread[q]) / r.scale;
       if (std::isnan(p.errors[q])) continue;
@@ -215,10 +248,15 @@ class Trade {
       tell("what each axis does alone", spent() / out_.plan.budget);
       visit(i, each);
     }
+    find_constants();
     // ... then the rest, the most promising first.
     std::vector<std::size_t> rest;
     for (std::size_t i = 1; i < points().size(); ++i)
       if (points()[i].status == "not run") rest.push_back(i);
+    if (!out_.tells()) {
+      for (const std::size_t i : rest) points()[i].status = "left out", points()[i].reason = "what is asked is the same in every setting that ran";
+      return;
+    }
     while (!rest.empty() && left(for_settings) > 0 && !out_.stopped) {
       tell("settings", spent() / out_.plan.budget);
       const auto next = most_promising(rest);
@@ -228,10 +266,8 @@ class Trade {
       if (clearly_dominated(g.time, g.error))
         points()[i].status = "dropped", points()[i].reason = printed("foreseen at %.2g s with an error of %.2g %%, clearly dominated", g.time, 100 * g.error);
       else
-        visit(i, std::min(each, std::max(0.01, left(0.9))));
+        visit(i, std::min(each, std::max(0.01, left(0.85))));
     }
-    for (const std::size_t i : rest) points()[i].reason = "the budget was spent";
-    for (TradePoint& p : points()) if (p.status == "not run" && p.reason.empty()) p.reason = "the budget was spent";
   }
 
   std::vector<std::size_t>::iterator most_promising(std::vector<std::size_t>& rest) {
@@ -270,7 +306,7 @@ class Trade {
   }
 
   void time_once(TradePoint& p) {
-    if (out_.stopped || p.time > left(0.97)) return;
+    if (out_.stopped || p.time > left(0.95)) return;
     const Outcome o = run(p.set, {}, {});
     if (o.status != "finished") return;
     p.times.push_back(o.build_seconds + o.run_seconds);
@@ -293,7 +329,7 @@ class Trade {
     std::size_t done = 0;
     for (const auto& [key, members] : models) {
       tell("error of the models", share(done++, models.size()));
-      if (out_.stopped || left() < 2 * out_.reference.levels.front().seconds * (chaos_ ? plan.ensemble : 1)) return;
+      if (out_.stopped || left() < 2 * out_.reference.seconds * (chaos_ ? plan.ensemble : 1)) return;
       Overrides set;
       for (std::size_t a = 0; a < plan.axes.size(); ++a)
         if (!plan.axes[a].numerical) set.insert(set.end(), plan.axes[a].values[key[a]].set.begin(), plan.axes[a].values[key[a]].set.end());
@@ -318,6 +354,7 @@ class Trade {
   const TradeListener& listener_;
   TradeReport out_;
   Clock::time_point begin_ = Clock::now();
+  double begun_ = 0;  ///< the settings, at this time [s]
   bool chaos_ = false;
 };
 

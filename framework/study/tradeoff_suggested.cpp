@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 
 #include "framework/run/build.h"
 #include "framework/scene/keys.h"
@@ -55,11 +56,22 @@ Overrides rigid(const Yaml& scene, const std::string& body) {
   return set;
 }
 
+/// How many natural modes it keeps: static shapes, which come on top, are no step of the axis.
+int modes_kept(const Yaml& modes, int shapes) {
+  const Yaml* group = &modes;
+  for (const Yaml& item : modes.items)
+    if (item.key == "craig-bampton" || item.key == "free") group = &item;
+  const Yaml* const count = entry(group, "count");
+  int n = shapes;
+  if (count) std::from_chars(count->text.data(), count->text.data() + count->text.size(), n);
+  return std::min(n, shapes);
+}
+
 FidelityAxis modes_axis(const Yaml& scene, const std::string& body, int shapes) {
   const Yaml& modes = *entry(entry(entry(&scene, "bodies"), body), "modes");
   const std::string path = "bodies." + body + ".modes";
   FidelityAxis axis{.name = body, .values = {{"rigid", rigid(scene, body)}}};
-  for (int n = 1; n < shapes && n <= 64; n *= 2) axis.values.push_back({n == 1 ? "1 mode" : std::to_string(n) + " modes", {{path, override_text(with_count(modes, n))}}});
+  for (int n = 1; n < modes_kept(modes, shapes) && n <= 64; n *= 2) axis.values.push_back({n == 1 ? "1 mode" : std::to_string(n) + " modes", {{path, override_text(with_count(modes, n))}}});
   axis.values.push_back({"as written, " + std::to_string(shapes) + (shapes == 1 ? " shape" : " shapes"), {{path, override_text(modes)}}});
   judge_axis(axis);
   return axis;
@@ -78,6 +90,7 @@ TradePlan suggested_plan(const CaseSource& source) {
   plan.title = scene.title.empty() ? source.file.stem().string() : scene.title;
   plan.tolerance = scene.run.tolerance;
   plan.budget = 60;
+  plan.suggested = true;
   plan.axes.push_back(listed_axis("tolerance", "run.tolerance", {"1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9"}));
   plan.axes.push_back(listed_axis("scheme", "run.method", {"dopri5", "verner87", "generalized-alpha"}));
   const std::vector<std::string> models = clearance_models();

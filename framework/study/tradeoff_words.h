@@ -13,5 +13,7 @@ std::vector<std::string> answers_in_words(const TradeReport&);
 std::string error_text(const TradePoint&);
 std::string percent_text(double share);
 std::string time_text(double seconds);
+/// As an option takes it: "4min".
+std::string duration_text(double seconds);
 
 }  // namespace pintle
