@@ -9,7 +9,8 @@
 /// Meshes by Gmsh, which is loaded when it is first needed (meshes/module.h); only the files gmsh_*.cpp know it. Same
 /// input, same mesh, to the bit. Gmsh keeps
 /// state of its own: calls from several threads wait for each other. Whoever has Gmsh open already keeps models
-/// and options as they were.
+/// and options as they were. Whenever Gmsh is opened, it sets the program's C locale to C.UTF-8 with the numbers of C,
+/// and seeds rand(); neither is put back.
 namespace pintle {
 
 struct MeshOptions {

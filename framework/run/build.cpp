@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "framework/run/body_store.h"
 #include "framework/run/elastic_parts.h"
 #include "framework/run/holding.h"
 #include "framework/run/mechanism_body.h"
@@ -21,7 +22,6 @@ namespace {
 using Eigen::Vector2d;
 
 std::string quoted(const std::string& s) { return "\"" + s + "\""; }
-
 std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
   return "." + did_you_mean(word, known);
 }
@@ -29,7 +29,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 /// What is needed to turn names into markers.
 class Builder {
  public:
-  Builder(const Scene& scene, bool rehearse) : scene_(scene), rehearse_(rehearse) {}
+  Builder(const Scene& scene, bool rehearse, BodyStore* store) : scene_(scene), rehearse_(rehearse), store_(store) {}
 
   Model build() {
     model_.system.gravity = vector(scene_.gravity);
@@ -72,7 +72,8 @@ class Builder {
     std::vector<Vector2d> outline;
     if (b.elastic) {
       const std::optional<int> chosen = choices_[i] ? std::optional<int>(choices_[i]->count) : std::nullopt;
-      const MechanismBody& made = elements_[i].emplace(mechanism_body(scene_, std::move(*meshed_[i]), chosen));
+      Reduction reduction = store_ ? store_->reduction(scene_, *meshed_[i], chosen) : reduction_of(scene_, *meshed_[i], chosen);
+      const MechanismBody& made = elements_[i].emplace(mechanism_body(scene_, std::move(*meshed_[i]), std::move(reduction)));
       model_.system.bodies.push_back(made.body);
       model_.warnings.insert(model_.warnings.end(), made.warnings.begin(), made.warnings.end());
       for (const Port& p : made.elastic.model.ports) outline.push_back(p.x - made.centre);
@@ -106,16 +107,14 @@ class Builder {
       if (!b.elastic) continue;
       if (const auto* beam = std::get_if<SceneBeam>(&b.elastic->shape); beam && beam->pieces > 1)
         wrong(b.place, "it is to be cut into pieces; build what with_pieces makes of the scene");
-      all[i] = &meshed_[i].emplace(elastic_body(scene_, b));
+      all[i] = &meshed_[i].emplace(store_ ? store_->elastic(scene_, b) : elastic_body(scene_, b));
       judge_inertia(scene_, *all[i]);
       flexible = flexible || b.elastic->modes;
       automatic = automatic || (b.elastic->modes && b.elastic->modes->keep.automatic);
     }
     if (!automatic && !(rehearse_ && flexible)) return;
-    if (scene_.has_run)
-      run_ = rigid_run(scene_, all);
-    else
-      run_.trouble = "the scene has no `run`";
+    if (scene_.has_run) run_ = rigid_run(scene_, all);
+    else run_.trouble = "the scene has no `run`";
     model_.rehearsal = {run_.until, run_.seconds, run_.steps, run_.trouble};
     for (std::size_t i = 0; i < n; ++i)
       if (all[i] && scene_.bodies[i].elastic->modes && scene_.bodies[i].elastic->modes->keep.automatic)
@@ -133,7 +132,7 @@ class Builder {
         model_.warnings.push_back(quoted(scene_.bodies[i].name) + " stays rigid: its `modes` keep no shape; raise below, or ask for a count");
         continue;
       }
-      FlexibleReport& r = model_.flexible.emplace_back(flexible_report(scene_, *elements_[i]));
+      FlexibleReport& r = model_.flexible.emplace_back(flexible_report(*elements_[i]));
       r.choice = choices_[i];
       model_.bending.push_back(bending_probe(*elements_[i], static_cast<int>(i)));
       if (run_.usable()) r.motion = motion_estimate(scene_, *elements_[i], run_.bodies[i]);
@@ -381,6 +380,7 @@ class Builder {
 
   const Scene& scene_;
   bool rehearse_;
+  BodyStore* store_;
   Model model_;
   std::map<std::string, int> index_;
   std::vector<std::optional<ElasticBody>> meshed_;      ///< until they are added
@@ -393,8 +393,8 @@ class Builder {
 
 }  // namespace
 
-Model build(const Scene& scene) { return Builder(scene, false).build(); }
-
-Model build_and_rehearse(const Scene& scene) { return Builder(scene, true).build(); }
+Model build(const Scene& scene) { return Builder(scene, false, nullptr).build(); }
+Model build(const Scene& scene, BodyStore& store) { return Builder(scene, false, &store).build(); }
+Model build_and_rehearse(const Scene& scene) { return Builder(scene, true, nullptr).build(); }
 
 }  // namespace pintle

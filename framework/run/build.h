@@ -14,6 +14,8 @@
 
 namespace pintle {
 
+class BodyStore;
+
 /// Overlap, over the journal's radius, beyond which no contact law of ours means anything.
 inline constexpr double too_deep = 0.1;
 
@@ -57,6 +59,8 @@ struct Model {
 /// Bodies that say `keep: auto` have their modes chosen by a rigid run.
 /// @throws SceneError  naming file, line, key, value and remedy
 Model build(const Scene&);
+/// The same to the bit, with bodies of elements from a store that many scenes share, in any number of threads.
+Model build(const Scene&, BodyStore&);
 /// The same, with a rigid run for every scene with flexible bodies, which estimates how they bend and
 /// stiffen and adds to the warnings: for `pintle check`.
 Model build_and_rehearse(const Scene&);

@@ -22,6 +22,7 @@ struct ElasticBody {
   double thickness = 0;        ///< of plates [m]
   std::vector<std::string> warnings;
   double mesh_seconds = 0, assembly_seconds = 0;
+  long number = 0;             ///< in the BodyStore that has made it; 0: made for itself
   bool plate() const { return mesh.plane(); }
 };
 

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <Eigen/Eigenvalues>
 
 #include "framework/component/foreshortening.h"
-#include "framework/component/static_response.h"
 #include "framework/run/elastic_parts.h"
 #include "framework/run/in_body.h"
 #include "framework/run/modes.h"
@@ -24,29 +22,7 @@ using Eigen::VectorXd;
 constexpr double two_pi = 2 * std::numbers::pi;
 constexpr Index responding = 40;  ///< of the lowest shapes, in estimates
 constexpr Index stiffened = 12;   ///< of the lowest shapes that loads may mix
-/// Compliance beside the body's greatest of its kind below which a port counts as held by the tie.
-constexpr double held = 1e-9;
 constexpr double rounding = 1e-9;  ///< of a modal force beside its terms
-
-/// Reduced over full compliance uᵀf of unit loads at the ports in use, the least.
-void cover_compliance(const Scene& scene, const MechanismBody& b, FlexibleReport& report) {
-  const ElasticBody& e = b.elastic;
-  const MatrixXd loads = loads_on(e).rightCols(3 * static_cast<Index>(e.model.ports.size()));
-  const VectorXd full = loads.cwiseProduct(static_response(component_of(e), b.tie, loads)).colwise().sum();
-  const VectorXd kept = (b.modes.ports * b.modes.omega.cwiseInverse().asDiagonal()).rowwise().squaredNorm();
-  double greatest[2] = {0, 0};  // of forces, of couples
-  for (Index i = 0; i < full.size(); ++i) greatest[i % 3 == 2] = std::max(greatest[i % 3 == 2], full[i]);
-  report.compliance = std::numeric_limits<double>::infinity();
-  for (const int port : interface_of(scene, e))
-    for (Index k = 0; k < 3; ++k) {
-      const Index i = 3 * Index{port} + k;
-      if (!(full[i] > held * greatest[k == 2]) || kept[i] / full[i] >= report.compliance) continue;
-      report.compliance = kept[i] / full[i];
-      const char* names[3] = {", x", ", y", ", turning"};
-      report.compliance_at = e.model.ports[static_cast<std::size_t>(port)].name + names[k];
-    }
-  if (report.compliance_at.empty()) report.compliance = 1;
-}
 
 /// Greatest turn in a nodal field of displacements, of sections and ports.
 double greatest_turn(const ElasticBody& e, const VectorXd& nodal, const VectorXd& ports) {
@@ -138,7 +114,7 @@ void doubt_linearity(const Scene& scene, const FlexibleReport& r, std::vector<st
 
 }  // namespace
 
-FlexibleReport flexible_report(const Scene& scene, const MechanismBody& b) {
+FlexibleReport flexible_report(const MechanismBody& b) {
   FlexibleReport r;
   const FlexInertia& flex = *b.body.flex;
   r.body = b.body.name;
@@ -152,7 +128,8 @@ FlexibleReport flexible_report(const Scene& scene, const MechanismBody& b) {
     const Eigen::Vector3d sum = effective_mass(b.elastic.model, b.elastic.M, b.modes).rowwise().sum();
     r.mass = Eigen::Vector3d(sum[0] / b.body.m, sum[1] / b.body.m, sum[2] / b.body.J);
   }
-  in_body(scene, *b.elastic.scene, [&] { cover_compliance(scene, b, r); });
+  r.compliance = b.compliance.share;
+  r.compliance_at = b.compliance.at;
   return r;
 }
 

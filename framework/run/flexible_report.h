@@ -53,7 +53,7 @@ struct BendingProbe {
 BendingProbe bending_probe(const MechanismBody&, int index);
 
 /// @pre the body has shapes
-FlexibleReport flexible_report(const Scene&, const MechanismBody&);
+FlexibleReport flexible_report(const MechanismBody&);
 MotionEstimate motion_estimate(const Scene&, const MechanismBody&, const LoadHistory&);
 /// Relative change of the first frequency by steady turning at `spin`, about the first of its points that
 /// a joint pins to the ground, else about the mass centre.

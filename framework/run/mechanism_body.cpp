@@ -5,8 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "framework/component/assembly.h"
-#include "framework/component/foreshortening.h"
 #include "framework/run/elastic_parts.h"
 #include "framework/run/in_body.h"
 #include "framework/run/modes.h"
@@ -17,18 +15,6 @@ namespace pintle {
 namespace {
 
 using Eigen::Vector2d;
-
-// Inertia about the mass centre x_c instead of the origin: x − x_c, R about it.
-FlexInertia about(const Vector2d& centre, FlexInertia f) {
-  f.j -= centre.transpose() * f.S;
-  f.h += centre.y() * f.S.row(0) - centre.x() * f.S.row(1);
-  if (f.second) {
-    Foreshortening& F = *f.second;
-    F.j -= centre.x() * F.S[0] + centre.y() * F.S[1];
-    F.h += centre.y() * F.S[0] - centre.x() * F.S[1];
-  }
-  return f;
-}
 
 // The shapes must leave the frame some inertia: M − BBᵀ > 0, against the rigid body's.
 void judge_frame(const MechanismBody& b) {
@@ -53,16 +39,6 @@ void warn_of_damping(MechanismBody& b) {
     }
 }
 
-FlexInertia invariants(const Scene& scene, MechanismBody& b) {
-  const ElasticBody& e = b.elastic;
-  const SceneBody& body = *e.scene;
-  FlexInertia flex = flex_inertia(e.model, e.M, skew_mass_of(e), b.modes);
-  flex.zeta = damping_of(scene, body, b.modes.omega, b.modes.omega);
-  if (body.elastic->stiffening != Stiffening::none)
-    flex.second = inertia_foreshortening(component_of(e), e.M, b.tie, b.modes);
-  return about(b.centre, std::move(flex));
-}
-
 }  // namespace
 
 void judge_inertia(const Scene& scene, const ElasticBody& e) {
@@ -71,25 +47,26 @@ void judge_inertia(const Scene& scene, const ElasticBody& e) {
     throw SceneError(scene.file, e.scene->place, "it has no moment of inertia about its mass centre; give it more elements or rotary inertia");
 }
 
-MechanismBody mechanism_body(const Scene& scene, ElasticBody elastic, std::optional<int> chosen) {
-  MechanismBody b{std::move(elastic), {}, {}, {}, Vector2d::Zero(), {}, {}};
+MechanismBody mechanism_body(const Scene& scene, ElasticBody elastic, Reduction r) {
+  MechanismBody b{std::move(elastic), r.tie, std::move(r.modes), {}, Vector2d::Zero(), std::move(r.second), std::move(r.compliance), {}};
   const SceneBody& body = *b.elastic.scene;
   for (const std::string& w : b.elastic.warnings) b.warnings.push_back("\"" + body.name + "\": " + w);
   const RigidInertia inertia = rigid_inertia(b.elastic.model, b.elastic.M);
   b.centre = inertia.c / inertia.m;
   b.body = {body.name, inertia.m, inertia.J - inertia.c.squaredNorm() / inertia.m, -b.centre};
   judge_inertia(scene, b.elastic);
-  if (!body.elastic->modes) return b;
-  b.tie = tie_of(scene, b.elastic);
-  b.modes = reduce(scene, b.elastic, chosen);
   if (b.modes.omega.size() == 0) return b;
-  in_body(scene, body, [&] {
-    b.body.flex = invariants(scene, b);
-    if (body.elastic->stiffening == Stiffening::axial) b.second = port_foreshortening(component_of(b.elastic), b.tie, b.modes);
-    judge_frame(b);
-  });
+  b.body.flex = std::move(r.inertia);
+  b.body.flex->zeta = damping_of(scene, body, b.modes.omega, b.modes.omega);
+  in_body(scene, body, [&] { judge_frame(b); });
   warn_of_damping(b);
   return b;
+}
+
+MechanismBody mechanism_body(const Scene& scene, ElasticBody elastic, std::optional<int> chosen) {
+  judge_inertia(scene, elastic);
+  Reduction r = reduction_of(scene, elastic, chosen);
+  return mechanism_body(scene, std::move(elastic), std::move(r));
 }
 
 Marker marker_of(const Scene& scene, const MechanismBody& b, int body, const PointRef& ref, bool turns) {

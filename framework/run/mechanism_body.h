@@ -7,7 +7,7 @@
 
 #include "framework/component/modal_model.h"
 #include "framework/dynamics/system.h"
-#include "framework/run/elastic_body.h"
+#include "framework/run/body_reduction.h"
 
 namespace pintle {
 
@@ -20,14 +20,16 @@ struct MechanismBody {
   Body body;                   ///< mass, inertia, invariants about the mass centre
   Eigen::Vector2d centre;      ///< of mass, undeformed, body axes [m]
   std::vector<std::array<Eigen::MatrixXd, 2>> second;  ///< of each port, if `stiffening: axial`
+  CoveredCompliance compliance;
   std::vector<std::string> warnings;
 };
 
 /// @throws SceneError  the body has no moment of inertia about its mass centre
 void judge_inertia(const Scene&, const ElasticBody&);
 
-/// @param chosen  how many modes where the scene says `keep: auto`; all without
-/// @throws SceneError  as reduce and damping_of; no moment of inertia; shapes that leave the frame none
+/// @throws SceneError  as damping_of; no moment of inertia; shapes that leave the frame none
+MechanismBody mechanism_body(const Scene&, ElasticBody, Reduction);
+/// The same with its reduction made here. @throws SceneError  also as reduction_of
 MechanismBody mechanism_body(const Scene&, ElasticBody, std::optional<int> chosen = {});
 
 /// The marker of a named point; without a name, of the point at the origin.

@@ -31,9 +31,10 @@ void one_thread_in_libraries() {
     if (threads != nullptr) threads(1);
     return true;
   }();
-  thread_local const bool openmp = [&] {  // a setting of each thread
-    const Set threads = set("omp_set_num_threads");
+  thread_local const bool openmp = [&] {  // settings of each thread
+    const Set threads = set("omp_set_num_threads"), levels = set("omp_set_max_active_levels");
     if (threads != nullptr) threads(1);
+    if (levels != nullptr) levels(0);  // CHOLMOD asks for four threads whatever their number was set to
     return true;
   }();
   static_cast<void>(blas), static_cast<void>(openmp);
@@ -86,7 +87,7 @@ void run_in(Outcome& out, const CaseSource& source, const Overrides& overrides, 
   judge_words(source, measures, scene);
   prepare(scene, measures);
   if (limits.time_alone) scene.output.every = scene.run.until;
-  const Model model = build(scene);
+  const Model model = limits.bodies ? build(scene, *limits.bodies) : build(scene);
   const Assembly assembly = assemble(scene, model);
   out.build_seconds = since(begin);
 

@@ -22,6 +22,8 @@ CaseSource read_case_source(const std::filesystem::path& scene, Overrides common
 /// What all cases begin from, beams cut into pieces. @throws SceneError
 Scene common_scene(const CaseSource&);
 
+class BodyStore;
+
 /// How a case ended. Every case ends: what would stop a single run is here a reason.
 struct Outcome {
   std::string
@@ -42,6 +44,7 @@ struct CaseLimits {
   double seconds = 0;       ///< of simulating; 0: none
   bool keep_run = false;    ///< Outcome::run
   bool time_alone = false;  ///< no rows but the first and the last: run_seconds is then what the integration takes, and measures are NaN
+  BodyStore* bodies = nullptr;  ///< shared by the cases of a study; none: each makes its own
   std::function<bool()> go_on = {};  ///< asked now and then; false interrupts the run
 };
 

@@ -63,6 +63,7 @@ void Crew::work(int thread) {
 void Crew::run(std::size_t number, int thread) {
   const auto begin = std::chrono::steady_clock::now();
   CaseLimits limits = sweep_.limits;
+  limits.bodies = &bodies_;
   limits.go_on = [this] { return !stopped_; };
   Outcome outcome;
   try {

@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "framework/run/body_store.h"
 #include "framework/study/deck.h"
 #include "framework/study/sweep.h"
 
@@ -45,6 +46,7 @@ class Crew {
   Journal& journal_;
   int rank_;
   Deck deck_;
+  BodyStore bodies_;  ///< of all its cases
   std::atomic<bool> stopped_ = false;
   std::atomic<int> out_ = 0;
   std::mutex mutex_;  ///< of what follows

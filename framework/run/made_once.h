@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstddef>
+#include <future>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+namespace pintle {
+
+/// Results that are dear to make, kept for those who ask for the same again, in any thread. What was asked for least
+/// recently goes when there is too much; who holds a result holds it on.
+template <class T>
+class MadeOnce {
+ public:
+  MadeOnce(std::size_t most_bytes, std::size_t (*bytes_of)(const T&)) : most_bytes_(most_bytes), bytes_of_(bytes_of) {}
+  MadeOnce(const MadeOnce&) = delete;
+
+  /// What is kept under `key`, or else what `make()` returns. Who asks while another makes it waits for that. What
+  /// throws is not kept; whoever waited for it makes his own, and gets an error of his own.
+  template <class Make>
+  std::shared_ptr<const T> get(const std::string& key, Make make) {
+    std::promise<Result> promise;
+    if (const std::shared_future<Result> known = find_or_begin(key, promise); known.valid()) {
+      if (Result result = known.get()) return result;
+      return std::make_shared<const T>(make());
+    }
+    Result result;
+    try {
+      result = std::make_shared<const T>(make());
+    } catch (...) {
+      forget(key);
+      promise.set_value(nullptr);
+      throw;
+    }
+    settle(key, bytes_of_(*result) + key.size());
+    promise.set_value(result);
+    return result;
+  }
+
+  std::size_t bytes() const {  ///< of all that is kept
+    const std::lock_guard lock(mutex_);
+    return bytes_;
+  }
+
+ private:
+  using Result = std::shared_ptr<const T>;
+  struct Entry {
+    std::shared_future<Result> result;
+    std::size_t bytes = 0;  ///< 0: being made
+    std::list<const std::string*>::iterator turn;
+  };
+
+  /// The result to wait for; none if there is no such entry: then there is one, which `promise` must fill.
+  std::shared_future<Result> find_or_begin(const std::string& key, std::promise<Result>& promise) {
+    const std::lock_guard lock(mutex_);
+    const auto [found, is_new] = entries_.try_emplace(key);
+    Entry& entry = found->second;
+    if (!is_new) {
+      turns_.splice(turns_.begin(), turns_, entry.turn);
+      return entry.result;
+    }
+    entry.result = promise.get_future().share();
+    turns_.push_front(&found->first);
+    entry.turn = turns_.begin();
+    return {};
+  }
+
+  void settle(const std::string& key, std::size_t bytes) {
+    const std::lock_guard lock(mutex_);
+    entries_.at(key).bytes = bytes;
+    bytes_ += bytes;
+    for (auto turn = turns_.end(); bytes_ > most_bytes_ && turn != turns_.begin();) {
+      const auto oldest = entries_.find(**--turn);
+      if (oldest->second.bytes == 0) continue;
+      bytes_ -= oldest->second.bytes;
+      turn = turns_.erase(turn);
+      entries_.erase(oldest);
+    }
+  }
+
+  void forget(const std::string& key) {
+    const std::lock_guard lock(mutex_);
+    const auto found = entries_.find(key);
+    turns_.erase(found->second.turn);
+    entries_.erase(found);
+  }
+
+  const std::size_t most_bytes_;
+  std::size_t (*const bytes_of_)(const T&);
+  mutable std::mutex mutex_;  ///< of what follows
+  std::map<std::string, Entry> entries_;
+  std::list<const std::string*> turns_;  ///< keys, the one asked for last in front
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace pintle
