@@ -265,7 +265,8 @@ TEST(BodyStore, AWrongBodyIsReportedEachTime) {
 
 TEST(BodyStore, CasesThatShareBodiesInFourThreadsEndAsCasesAlone) {
   const CaseSource source{"scene.yaml", plate};
-  const std::vector<Measure> measures{{"x", "greatest x of rod.B", {}, ""}};
+  std::vector<Measure> measures(1);
+  measures[0].name = "x", measures[0].words = "greatest x of rod.B";
   std::vector<Outcome> alone(6), shared(6);
   const auto set = [](std::size_t k) { return Overrides{{"gravity", "[0, -" + std::to_string(k + 5) + "]"}, {"run.until", k == 3 ? "-1" : "1 ms"}}; };
   for (std::size_t k = 0; k < alone.size(); ++k) alone[k] = run_case(source, set(k), measures);
