@@ -126,7 +126,9 @@ TEST(Study, MeasureThatOnlyAFlexibleBodyHasIsRefusedWhereNoCaseHasOne) {
   for (const char* words : {"peak stress at coupler.B", "deflection of coupler at 1 ms", "peak displacement of coupler.B", "rms coupler.B.ux",
                             "mean coupler.mode 1"}) {
     SCOPED_TRACE(words);
-    const std::vector<Measure> measures{{words, words, {7, "measure.it"}, "study.yaml"}};
+    std::vector<Measure> measures(1);
+    measures[0].name = measures[0].words = words;
+    measures[0].place = {7, "measure.it"}, measures[0].file = "study.yaml";
     const auto refused = [&](const std::vector<std::string>& varied) {
       try {
         judge_flexible(measures, scene, varied);
