@@ -37,14 +37,14 @@ void subtract_reaction(const System& system, Equations& eq, const VectorXd& x, d
 }
 
 // ∂C/∂p of the marker's pose
-const double* row_of_L(const Equations& eq, const Equations::SideRow& r) {
+const double* row_of_L(const Equations& eq, const Equations::Source& r) {
   const ConstraintRows& rows = eq.rows[at(r.joint)];
   return (r.is_b ? rows.Lb : rows.La).data() + 3 * r.i;
 }
 
 // out += Cq v
 void add_product(const Equations& eq, const double* v, VectorXd& out) {
-  for (const Equations::SideRow& r : eq.side_rows) {
+  for (const Equations::Row& r : eq.side_rows) {
     const double *B = eq.B.front().data() + r.at, *x = v + r.q;
     out.data()[r.row] += B[0] * x[0] + B[1] * x[1] + B[2] * x[2];
   }
@@ -100,18 +100,18 @@ void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
     eq.cos_[b] = std::cos(angle);
     eq.sin_[b] = std::sin(angle);
   }
-  for (std::size_t i = 0; i < system.markers.size(); ++i) {
-    const Marker& marker = system.markers[i];
-    if (marker.body == ground) continue;
+  for (std::size_t i = 0; i < eq.points.size(); ++i) {
+    const Equations::Point& point = eq.points[i];
+    if (point.body == ground) continue;
     MarkerMotion& m = eq.motion[i];
-    const double c = eq.cos_[marker.body], s = eq.sin_[marker.body];
-    const double* q = y.data() + 3 * marker.body;
+    const double c = eq.cos_[point.body], s = eq.sin_[point.body];
+    const double* q = y.data() + 3 * point.body;
     if (m.flex.cols() > 0) {
-      pose_on_flexible(system, marker, y, c, s, m);
+      pose_on_flexible(system, system.markers[i], y, c, s, m);
     } else {
-      m.d = {c * marker.x_BP.x() - s * marker.x_BP.y(), s * marker.x_BP.x() + c * marker.x_BP.y()};
+      m.d = {c * point.x - s * point.y, s * point.x + c * point.y};
       m.r = {q[0] + m.d.x(), q[1] + m.d.y()};
-      m.angle = q[2] + marker.angle;
+      m.angle = q[2] + point.angle;
     }
     if (!eq.directed[i]) continue;
     if (m.angle == q[2])
@@ -125,10 +125,10 @@ void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
     const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
     eq.C[row] = eq.rows[at(joint)].C[i];
   }
-  for (const Equations::SideRow& r : eq.side_rows) {  // B = L J
-    const double* L = row_of_L(eq, r);
-    const Vector2d& d = eq.motion[at(r.marker)].d;
-    double* B = eq.B.front().data() + r.at;
+  for (std::size_t k = 0; k < eq.sources.size(); ++k) {  // B = L J
+    const double* L = row_of_L(eq, eq.sources[k]);
+    const Vector2d& d = eq.motion[at(eq.sources[k].marker)].d;
+    double* B = eq.B.front().data() + eq.side_rows[k].at;
     B[0] = L[0];
     B[1] = L[1];
     B[2] = L[2] - L[0] * d.y() + L[1] * d.x();
@@ -146,8 +146,8 @@ void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
 
 void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
   const double* s = y.data() + system.n();
-  for (std::size_t i = 0; i < system.markers.size(); ++i) {
-    const int body = system.markers[i].body;
+  for (std::size_t i = 0; i < eq.points.size(); ++i) {
+    const int body = eq.points[i].body;
     if (body == ground) continue;
     MarkerMotion& m = eq.motion[i];
     m.w = s[3 * body + 2];
@@ -182,7 +182,7 @@ void add_mass_times(const System& system, const Equations& eq, const VectorXd& v
 }
 
 void add_reaction(const Equations& eq, const VectorXd& x, VectorXd& out) {
-  for (const Equations::SideRow& r : eq.side_rows) {
+  for (const Equations::Row& r : eq.side_rows) {
     const double *B = eq.B.front().data() + r.at, x_r = x.data()[r.row];
     double* o = out.data() + r.q;
     o[0] += B[0] * x_r;
@@ -276,10 +276,10 @@ void accelerate(const System& system, const State& state, Equations& eq) {
     const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
     eq.gamma[row] = -eq.rows[at(joint)].kappa[i];
   }
-  for (const Equations::SideRow& r : eq.side_rows) {
-    const double* L = row_of_L(eq, r);
-    const MarkerMotion& m = eq.motion[at(r.marker)];
-    eq.gamma.data()[r.row] -= L[0] * m.a0.x() + L[1] * m.a0.y() + L[2] * m.alpha0;
+  for (std::size_t k = 0; k < eq.sources.size(); ++k) {
+    const double* L = row_of_L(eq, eq.sources[k]);
+    const MarkerMotion& m = eq.motion[at(eq.sources[k].marker)];
+    eq.gamma.data()[eq.side_rows[k].row] -= L[0] * m.a0.x() + L[1] * m.a0.y() + L[2] * m.alpha0;
   }
   solve_reactions(system, eq);
   ++eq.evaluations;

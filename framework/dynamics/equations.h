@@ -27,14 +27,24 @@ struct Equations {
     int flexible;              ///< index into `flexible`, −1 for a rigid body
   };
   std::vector<Side> sides;
-  /// One row of a side on a body that moves.
-  struct SideRow {
-    int joint, i, row;  ///< row i of the joint, `row` of all
-    int marker, q;
-    int at;             ///< its three entries of B, counted through all blocks
+  /// One row of a side on a body that moves, for products: B's three entries, counted through all blocks, at q.
+  struct Row {
+    int row, q, at;
+  };
+  std::vector<Row> side_rows;
+  /// … and where it comes from: row i of a joint's L at a marker.
+  struct Source {
+    int joint, marker;
+    short i;
     bool is_b;
   };
-  std::vector<SideRow> side_rows;
+  std::vector<Source> sources;
+  /// What a pose needs of a marker on a rigid body or the ground; tables as narrow as they can be: large systems wait for memory.
+  struct Point {
+    int body;
+    double x, y, angle;
+  };
+  std::vector<Point> points;          ///< of each marker
   struct JointRow {
     int joint, i;
   };

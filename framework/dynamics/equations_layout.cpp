@@ -34,6 +34,7 @@ Equations::Equations(const System& system)
       sin_(cos_) {
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const Marker& marker = system.markers[i];
+    points.push_back({marker.body, marker.x_BP.x(), marker.x_BP.y(), marker.angle});
     if (marker.body != ground) continue;
     motion[i].r = motion[i].d = marker.x_BP;
     motion[i].angle = marker.angle;
@@ -60,9 +61,10 @@ Equations::Equations(const System& system)
       if (const int body = system.markers[at(markers[s])].body; body != ground) {
         sides.push_back({k, 2 * k + s, markers[s], 3 * body, system.row_begin[k],
                          system.row_begin[k + 1] - system.row_begin[k], s == 1, flexible_of[at(body)]});
-        for (int i = 0; i < sides.back().m; ++i)
-          side_rows.push_back({static_cast<int>(k), i, system.row_begin[k] + i, markers[s], 3 * body,
-                               static_cast<int>(9 * (2 * k + s)) + 3 * i, s == 1});
+        for (int i = 0; i < sides.back().m; ++i) {
+          side_rows.push_back({system.row_begin[k] + i, 3 * body, static_cast<int>(9 * (2 * k + s)) + 3 * i});
+          sources.push_back({static_cast<int>(k), markers[s], static_cast<short>(i), s == 1});
+        }
         B_eta[2 * k + s].setZero(3, system.bodies[at(body)].modes());
       }
   }
