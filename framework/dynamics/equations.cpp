@@ -50,7 +50,7 @@ void add_product(const Equations& eq, const double* v, VectorXd& out) {
   }
   if (eq.flexible.empty()) return;
   for (const Equations::Side& side : eq.sides) {
-    if (side.flexible < 0) continue;
+    if (!side.bends) continue;
     double* o = out.data() + side.row;
     const FlexibleInertia& body = eq.flexible[at(side.flexible)];
     const Eigen::Map<const VectorXd> eta(v + body.begin, body.n);
@@ -135,7 +135,7 @@ void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
   }
   if (eq.flexible.empty()) return;
   for (const Equations::Side& side : eq.sides) {
-    if (side.flexible < 0) continue;
+    if (!side.bends) continue;
     const ConstraintRows::Block& L = side.is_b ? eq.rows[side.joint].Lb : eq.rows[side.joint].La;
     RowBlock& B_eta = eq.B_eta[side.block];
     const Eigen::Matrix2Xd& flex = eq.motion[at(side.marker)].flex;
@@ -191,7 +191,7 @@ void add_reaction(const Equations& eq, const VectorXd& x, VectorXd& out) {
   }
   if (eq.flexible.empty()) return;
   for (const Equations::Side& side : eq.sides) {
-    if (side.flexible < 0) continue;
+    if (!side.bends) continue;
     const FlexibleInertia& body = eq.flexible[at(side.flexible)];
     for (int r = 0; r < side.m; ++r)
       out.segment(body.begin, body.n) += x[side.row + r] * eq.B_eta[side.block].row(r).transpose();
@@ -209,11 +209,15 @@ void factor(const System& system, const VectorXd& y, Equations& eq) {
     return;
   }
   for (const Equations::Side& side : eq.sides) {  // Cq M⁻¹ Cqᵀ = B̂ B̂ᵀ + B̂_η B̂_ηᵀ
-    eq.B_hat[side.block] = eq.B[side.block];
-    if (side.flexible < 0) continue;
-    Eigen::Matrix3d B_hat;
-    to_metric(eq.flexible[at(side.flexible)], eq.B[side.block], eq.B_eta[side.block], B_hat, eq.B_eta_hat[side.block]);
-    eq.B_hat[side.block] = B_hat;
+    if (side.flexible < 0) {
+      eq.B_hat[side.block] = eq.B[side.block];
+    } else if (!side.bends) {
+      eq.B_hat[side.block].noalias() = eq.B[side.block] * eq.flexible[at(side.flexible)].frame.root;
+    } else {
+      Eigen::Matrix3d B_hat;
+      to_metric(eq.flexible[at(side.flexible)], eq.B[side.block], eq.B_eta[side.block], B_hat, eq.B_eta_hat[side.block]);
+      eq.B_hat[side.block] = B_hat;
+    }
   }
   eq.regular = eq.schur.factor(eq.B_hat, eq.B_eta_hat);
 }

@@ -25,6 +25,7 @@ struct Equations {
     int marker, q, row, m;     ///< marker; first coordinate; first row; rows
     bool is_b;
     int flexible;              ///< index into `flexible`, −1 for a rigid body
+    bool bends;                ///< B_eta may be other than 0
   };
   std::vector<Side> sides;
   /// One row of a side on a body that moves, for products: B's three entries, counted through all blocks, at q.

@@ -60,7 +60,8 @@ Equations::Equations(const System& system)
     for (std::size_t s = 0; s < 2; ++s)
       if (const int body = system.markers[at(markers[s])].body; body != ground) {
         sides.push_back({k, 2 * k + s, markers[s], 3 * body, system.row_begin[k],
-                         system.row_begin[k + 1] - system.row_begin[k], s == 1, flexible_of[at(body)]});
+                         system.row_begin[k + 1] - system.row_begin[k], s == 1, flexible_of[at(body)],
+                         feels_shapes(system, system.joints[k], markers[s])});
         for (int i = 0; i < sides.back().m; ++i) {
           side_rows.push_back({system.row_begin[k] + i, 3 * body, static_cast<int>(9 * (2 * k + s)) + 3 * i});
           sources.push_back({static_cast<int>(k), markers[s], static_cast<short>(i), s == 1});

@@ -129,6 +129,10 @@ bool is_angle_row(const Joint& j, int row) {
   return std::string_view(row_name(j, row)) == "angle";
 }
 
+bool feels_angle(const Joint& j) {
+  return !(std::holds_alternative<Revolute>(j) || std::holds_alternative<Distance>(j) || std::holds_alternative<DistanceDriver>(j));
+}
+
 void evaluate_pose(const Joint& j, const MarkerMotion& a, const MarkerMotion& b, double t,
                    ConstraintRows& out) {
   std::visit([&](const auto& k) { pose(k, a, b, t, out); }, j);

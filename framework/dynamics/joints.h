@@ -81,6 +81,8 @@ bool is_driver(const Joint&);
 const char* row_name(const Joint&, int row);
 
 bool is_angle_row(const Joint&, int row);
+/// Can turning a marker change its rows?
+bool feels_angle(const Joint&);
 
 /// Position level: C, La, Lb. Cannot fail; a distance of zero has no direction and gives x.
 void evaluate_pose(const Joint&, const MarkerMotion& a, const MarkerMotion& b, double t,

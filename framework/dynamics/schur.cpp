@@ -103,14 +103,19 @@ Schur::Schur(const System& system) : n_(system.n_rows()), data_(std::make_unique
     const Body& body = system.bodies[b];
     const int w = static_cast<int>(weights_.size());
     const bool flexible = body.modes() > 0;
+    const auto bends = [&](int side) {
+      const Joint& joint = system.joints[at(side / 2)];
+      return flexible && feels_shapes(system, joint, side % 2 == 0 ? marker_a(joint) : marker_b(joint));
+    };
     weights_.insert(weights_.end(), {flexible ? 1 : 1 / body.m, flexible ? 1 : 1 / body.m, flexible ? 1 : 1 / body.J});
     for (std::size_t p = 0; p < sides[b].size(); ++p)
       for (std::size_t q = 0; q <= p; ++q) {
         const int i = sides[b][p], j = sides[b][q];
+        const bool both_bend = bends(i) && bends(j);
         for (int r = 0; r < height(i); ++r)
           for (int c = 0; c < (i == j ? r + 1 : height(j)); ++c) {
             terms_.push_back({0, 9 * i + 3 * r, 9 * j + 3 * c, w});
-            modal_terms_.push_back({flexible ? 0 : -1, i, r, j, c});
+            modal_terms_.push_back({both_bend ? 0 : -1, i, r, j, c});
             places.push_back({first_row(i) + r, first_row(j) + c});
           }
       }

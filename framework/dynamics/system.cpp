@@ -53,6 +53,14 @@ void number(System& system, bool scheme_loses) {
   if (scheme_loses) account(Account::scheme, 0);
 }
 
+bool feels_shapes(const System& system, const Joint& joint, int marker) {
+  const Marker& m = system.markers[static_cast<std::size_t>(marker)];
+  if (m.body == ground) return false;
+  const Body& body = system.bodies[static_cast<std::size_t>(m.body)];
+  if (body.modes() == 0) return false;
+  return body.flex->second || !m.shape.isZero(0) || (feels_angle(joint) && !m.slope.isZero(0));
+}
+
 bool is_link(const System& system, int joint) {
   return std::any_of(system.contacts.begin(), system.contacts.end(), [joint](const ContactPair& c) { return c.link == joint; });
 }

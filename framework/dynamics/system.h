@@ -67,6 +67,10 @@ void number(System&, bool scheme_loses = false);
 /// Joint k is the massless link of a clearance joint.
 bool is_link(const System&, int joint);
 
+/// Does bending of its body change a joint's rows at this marker, or what they weigh? Not where shapes stand still, as at a
+/// pin in which the body's frame is fixed.
+bool feels_shapes(const System&, const Joint&, int marker);
+
 inline bool has_gravity(const System& s) { return s.gravity.x() != 0 || s.gravity.y() != 0; }
 
 /// Everything that changes in time. Copy one to branch a run, store one to restart it.
