@@ -184,6 +184,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   clock::duration spent_listening{};
   Integrator integrator(system, model.scheme, assembly.start);
   State sampled;
+  double last_row = from ? from->t : 0;
   Bending bending(model);
   bool started = false;
   if (from) {
@@ -213,6 +214,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
       bending.see(sampled);
       record(model, sampled, integrator.equations(), run.trajectory);
       record_ledger(system, sampled, run.last, run.unexplained, run.ledger);
+      last_row = sampled.t;
       outputs.tick();
     }
     while (frames.due(integrator.state().t)) {
@@ -267,6 +269,12 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   if (started) {
     integrator.restore();
     book(integrator.state());
+    // Where a run ends early it has a last row too, so that its figures and its books are of one moment.
+    const Equations& eq = integrator.equations();
+    if (run.status != Status::finished && integrator.state().t > last_row && eq.a.allFinite() && eq.lambda.allFinite()) {
+      record(model, integrator.state(), eq, run.trajectory);
+      record_ledger(system, integrator.state(), run.last, run.unexplained, run.ledger);
+    }
   }
 
   if (listeners.state) save();

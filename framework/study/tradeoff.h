@@ -65,7 +65,7 @@ struct QuantityReference {
   double spread = 0;       ///< chaotic: standard deviation of single runs [unit of the quantity]
   double rate = 0;         ///< chaotic: growth of a disturbance [1/s]
   std::string words = {};  ///< all of this, in a sentence or two
-  double doubt() const { return error / scale; }  ///< relative
+  double doubt() const { return error / scale > 1e-14 ? error / scale : 1e-14; }  ///< relative; rounding at the least
 };
 
 struct ReferenceLevel {
@@ -98,9 +98,11 @@ struct TradePoint {
   std::vector<double> doubts = {};          ///< relative: the reference's error, with the ensemble's
   std::vector<double> model = {};           ///< relative error of the model at tight tolerance; NaN: not told apart
   double error = 0, doubt = 0;              ///< of the worst quantity; no error below the doubt is claimed
+  double surer = 0;                         ///< what the same setting errs at a finer tolerance, if that is more: less is luck, and does not count
   bool usable = false;                      ///< finished, with a value of every quantity
   bool dominated = false, front = false;
-  double claimed() const { return error > doubt ? error : doubt; }
+  double counted() const { return error > surer ? error : surer; }
+  double claimed() const { return counted() > doubt ? counted() : doubt; }
   double at_most() const;   ///< error and doubt together, of the worst quantity
   double at_least() const;  ///< error less doubt, likewise; not below 0
 };
@@ -153,6 +155,8 @@ Reference find_reference(const TradePlan&, const std::vector<Measure>&, const Ca
 
 /// What follows from points with times and errors: dominance, the front, the answers. Words included.
 void answer(TradeReport&);
+/// Sets what each point's `surer` is: errors of computing and of the model that cancel at one tolerance do not at the next.
+void discount_luck(TradeReport&);
 /// Of usable points, by time: none other is both faster and no less accurate, or as fast and more accurate. Marks them.
 std::vector<std::size_t> pareto_front(std::vector<TradePoint>&);
 /// Usable points that differ from this one in one axis alone.

@@ -34,14 +34,14 @@ bool lowers(const TradeReport& r, std::size_t point, const AxisEffect& e) {
 }  // namespace
 
 double TradePoint::at_most() const {
-  double bound = errors.empty() ? error + doubt : 0;
+  double bound = errors.empty() ? counted() + doubt : surer > 0 ? surer + doubt : 0;
   for (std::size_t q = 0; q < errors.size(); ++q)
     if (!std::isnan(errors[q])) bound = std::max(bound, errors[q] + doubts[q]);
   return bound;
 }
 
 double TradePoint::at_least() const {
-  double bound = errors.empty() ? error - doubt : 0;
+  double bound = (errors.empty() ? counted() : surer) - doubt;
   for (std::size_t q = 0; q < errors.size(); ++q)
     if (!std::isnan(errors[q])) bound = std::max(bound, errors[q] - doubts[q]);
   return std::max(bound, 0.0);
@@ -82,6 +82,21 @@ std::vector<AxisEffect> neighbours(const TradeReport& r, std::size_t point) {
     if (differ == 1) out.push_back({axis, other.at[axis], k, other.claimed() / p.claimed(), other.time / p.time});
   }
   return out;
+}
+
+void discount_luck(TradeReport& r) {
+  for (TradePoint& p : r.points) {
+    p.surer = 0;
+    for (const TradePoint& finer : r.points) {
+      if (!p.usable || p.at.empty() || !finer.usable || finer.at.size() != p.at.size()) continue;
+      std::size_t refined = 0, other = 0;
+      for (std::size_t a = 0; a < p.at.size(); ++a) {
+        const FidelityAxis& axis = r.plan.axes[a];
+        if (finer.at[a] != p.at[a]) ++(axis.numerical && axis.ordered && finer.at[a] > p.at[a] ? refined : other);
+      }
+      if (refined > 0 && other == 0 && finer.error > p.error + std::max(p.doubt, finer.doubt)) p.surer = std::max(p.surer, finer.error);
+    }
+  }
 }
 
 std::vector<std::size_t> pareto_front(std::vector<TradePoint>& points) {
@@ -174,6 +189,7 @@ void choose(TradeReport& r) {
 
 void answer(TradeReport& r) {
   level_doubts(r.points);
+  discount_luck(r);
   // The scene as it stands may be one of the combinations too: that one then stands for both.
   const bool twice = !r.points.empty() && r.points.front().usable && std::ranges::any_of(r.points.begin() + 1, r.points.end(), [&](const TradePoint& p) {
     return p.usable && p.steps > 0 && p.steps == r.points.front().steps && p.evaluations == r.points.front().evaluations && p.values == r.points.front().values;

@@ -16,7 +16,7 @@ std::string value_text(const TradeReport& r, std::size_t axis, std::size_t value
 
 std::string priced(const TradeReport& r, std::size_t point) {
   const TradePoint& p = r.points[point];
-  return time_text(p.time) + " with an error " + (p.error > p.doubt ? "of " : "") + error_text(p);
+  return time_text(p.time) + " with an error " + (p.counted() > p.doubt ? "of " : "") + error_text(p);
 }
 
 std::string times_text(double factor) {
@@ -217,7 +217,7 @@ void say_bottleneck(const TradeReport& r, std::vector<std::string>& said) {
     for (std::size_t v = 0; v < axis.values.size(); ++v) finer += v != p.at[a] && (!axis.ordered || v > p.at[a]);
     for (const AxisEffect& e : all)
       if (e.axis == a && (!axis.ordered || e.to > p.at[a]))
-        ++ran, change = std::max(change, std::abs(r.points[e.point].error - p.error) - std::max(r.points[e.point].doubt, p.doubt));
+        ++ran, change = std::max(change, std::abs(r.points[e.point].counted() - p.counted()) - std::max(r.points[e.point].doubt, p.doubt));
     if (finer == 0 || (first && first->axis == a)) continue;
     if (ran == 0 && waits(r, at, a))
       untried += (untried.empty() ? "" : ", ") + axis.name;
@@ -228,11 +228,11 @@ void say_bottleneck(const TradeReport& r, std::vector<std::string>& said) {
   if (first)
     s = "To err less, refine " + r.plan.axes[first->axis].name + " first: " + step_text(r, at, *first) + " takes the error from " + error_text(p) +
         " to " + error_text(r.points[first->point]) + " for " + times_text(first->time_factor);
-  else if (p.error <= p.doubt)
+  else if (p.counted() <= p.doubt)
     s = "It errs by less than the reference can tell, " + percent_text(p.doubt) + ": no refinement could be seen to help";
   else if (!all.empty())
     s = "No axis refined alone lowers its error by more than a fifth";
-  if (!idle.empty() && p.error > p.doubt) s += (s.empty() ? "Finer " : "; ") + idle + " changes nothing";
+  if (!idle.empty() && p.counted() > p.doubt) s += (s.empty() ? "Finer " : "; ") + idle + " changes nothing";
   if (!untried.empty()) s += (s.empty() ? "Whether finer values help did not run: " : "; not tried beside it: ") + untried;
   if (!s.empty()) said.push_back(s + ".");
 }
@@ -247,6 +247,17 @@ void say_coarser(const TradeReport& r, std::vector<std::string>& said) {
       s += (s.empty() ? "" : "; ") + value_text(r, e.axis, e.to) + " would err by " + error_text(r.points[e.point]) + " in " +
            times_text(e.time_factor);
   if (!s.empty()) said.push_back("One step coarser alone: " + s + ".");
+}
+
+void say_luck(const TradeReport& r, std::vector<std::string>& said) {
+  std::size_t lucky = 0;
+  const TradePoint* most = nullptr;
+  for (const TradePoint& p : r.points)
+    if (p.usable && p.surer > p.error && ++lucky && (!most || p.surer / std::max(p.error, p.doubt) > most->surer / std::max(most->error, most->doubt))) most = &p;
+  if (!most) return;
+  said.push_back(settings_text(lucky) + (lucky == 1 ? " errs" : " err") +
+                 " less than the same at a finer tolerance, errors of computing and of the model cancelling by luck, and count as that: " +
+                 setting_text(r.plan, *most) + " gives " + percent_text(std::max(most->error, most->doubt)) + " and counts as " + percent_text(most->surer) + ".");
 }
 
 /// What the finest setting spends for nothing.
@@ -354,7 +365,7 @@ std::string time_text(double s) {
 
 std::string error_text(const TradePoint& p) {
   if (std::isnan(p.error)) return "unknown";
-  return p.error > p.doubt ? percent_text(p.error) : "below " + percent_text(p.doubt);
+  return p.counted() > p.doubt ? percent_text(p.counted()) : "below " + percent_text(p.doubt);
 }
 
 std::string setting_text(const TradePlan& plan, const TradePoint& p) {
@@ -389,7 +400,7 @@ std::vector<std::string> answers_in_words(const TradeReport& r) {
     say_unknown(r, said);
   say_as_it_stands(r, said);
   if (r.recommended) say_bottleneck(r, said), say_coarser(r, said);
-  if (known(r)) say_models(r, said), say_free(r, said), say_front(r, said);
+  if (known(r)) say_models(r, said), say_luck(r, said), say_free(r, said), say_front(r, said);
   say_unusable(r, said);
   say_axes(r, said);
   for (std::size_t q = 0; q < r.quantities.size(); ++q)

@@ -42,6 +42,24 @@ TEST(TradeAdvice, AnErrorIsShownOrExcludedOnlyBeyondTheDoubt) {
   EXPECT_EQ(verdict(two, 0.01), Verdict::meets);
 }
 
+TEST(TradeAdvice, ASettingIsNotMoreAccurateThanTheSameAtAFinerTolerance) {
+  TradePlan plan;
+  plan.error = 0.01;
+  plan.axes = {axis("tolerance", "run.tolerance", {"1e-3", "1e-4", "1e-6"}), axis("elements", "bodies.rod.beam.elements", {"1", "2"})};
+  ASSERT_TRUE(plan.axes[0].numerical && plan.axes[0].ordered);
+  TradeReport r;
+  r.plan = plan, r.quantities = {"value"}, r.units = {"N"};
+  r.reference.of = {QuantityReference{.value = 1, .error = 1e-5, .converged = true}};
+  // With one element the model errs by 2.6 %, which errors of computing happen to cancel at 1e-4.
+  r.points = {point(20, 0.026, 1e-5), point(1, 0.54, 1e-5), point(2, 0.006, 1e-5), point(4, 0.026, 1e-5), point(3, 0.2, 1e-5), point(5, 0.009, 1e-5), point(8, 0.004, 1e-5)};
+  for (std::size_t i = 1; i < 7; ++i) r.points[i].at = {(i - 1) % 3, (i - 1) / 3};
+  answer(r);
+  ASSERT_TRUE(r.recommended);
+  EXPECT_EQ(setting_text(plan, r.points[*r.recommended]), "tolerance 1e-4, elements 2") << all_said(r);
+  EXPECT_TRUE(says(r, "1 setting errs less than the same at a finer tolerance")) << all_said(r);
+  EXPECT_TRUE(says(r, "tolerance 1e-4, elements 1 gives 0.6 % and counts as 2.6 %")) << all_said(r);
+}
+
 TEST(TradeAdvice, OfAReferenceThatIsKnownBadlyNothingIsRecommendedAndNoSettingIsCalledTheMostAccurate) {
   TradePlan plan = known_plan();
   plan.error = 0.01;
