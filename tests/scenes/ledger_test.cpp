@@ -246,11 +246,16 @@ TEST(FailedRun, KeepsWhatItComputed) {
   EXPECT_LT(half.run.t_end, 0.02);
   // Every output up to the time reached, and the same as in the whole run, bit for bit.
   const auto rows = static_cast<std::size_t>(half.run.t_end / s.output.every) + 1;
-  EXPECT_EQ(half.run.trajectory.rows(), rows);
-  EXPECT_EQ(half.run.ledger.rows(), rows);
-  ASSERT_LE(half.run.trajectory.data.size(), all.run.trajectory.data.size());
-  EXPECT_TRUE(std::equal(half.run.trajectory.data.begin(), half.run.trajectory.data.end(),
-                         all.run.trajectory.data.begin()));
+  EXPECT_EQ(half.run.trajectory.rows(), rows + 1);
+  EXPECT_EQ(half.run.ledger.rows(), rows + 1);
+  const auto regular = static_cast<std::ptrdiff_t>(rows * half.run.trajectory.columns());
+  ASSERT_LE(static_cast<std::size_t>(regular), all.run.trajectory.data.size());
+  EXPECT_TRUE(std::equal(half.run.trajectory.data.begin(), half.run.trajectory.data.begin() + regular, all.run.trajectory.data.begin()));
+  // And one where it ended, in which the books are those that the run reports.
+  EXPECT_EQ(half.column("t [s]").back(), half.run.t_end);
+  EXPECT_EQ(half.run.ledger.column("t [s]").back(), half.run.t_end);
+  EXPECT_EQ(half.run.ledger.column("stored [J]").back(), half.run.last.stored());
+  EXPECT_EQ(half.run.ledger.column("unexplained [J]").back(), half.run.unexplained);
   EXPECT_FALSE(half.run.impacts.empty());
 }
 
