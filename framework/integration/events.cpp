@@ -43,15 +43,19 @@ double greatest(F f) {
   return best.f;
 }
 
+// When depth was zero, to first order, if that was in the step of length h, or would be as soon after its end at t.
+double moment(double t, double h, double depth, double rate) { return std::abs(depth) < std::abs(rate) * h ? t - depth / rate : t; }
+
 }  // namespace
 
 void Integrator::close(int contact, double rate) {
   State& state = step_.to.state;
+  const Touch now = touch(contact, state);
   const double latched = std::max(rate, system_.contacts[at(contact)].slowest_impact);
   state.impact_rate[at(contact)] = latched;
   open_impact_[at(contact)] = static_cast<int>(impacts_.size());
-  Impact impact{.contact = contact, .begin = state.t, .approach = latched};
-  if (const Touch now = touch(contact, state); now.depth > 0 || system_.contacts[at(contact)].normal.d > 0) {
+  Impact impact{.contact = contact, .begin = scheme_.onset_cut > 0 ? state.t : moment(state.t, step_.h, now.depth, now.rate), .approach = latched};
+  if (now.depth > 0 || system_.contacts[at(contact)].normal.d > 0) {
     impact.deepest = std::max(now.depth, 0.0);  // a start inside the wall, or a force that begins with a jump
     impact.peak_force =
         evaluate(system_.contacts[at(contact)].normal, Approach{now.depth, now.rate, latched}).force;
@@ -66,8 +70,9 @@ void Integrator::close(int contact, double rate) {
 void Integrator::open(int contact) {
   State& state = step_.to.state;
   Impact& impact = impacts_[at(open_impact_[at(contact)])];
-  impact.end = state.t;
-  impact.separation = -touch(contact, state).rate;
+  const Touch now = touch(contact, state);
+  impact.end = scheme_.onset_cut > 0 ? state.t : moment(state.t, step_.h, now.depth, now.rate);
+  impact.separation = -now.rate;
   state.impact_rate[at(contact)] = 0;
   open_impact_[at(contact)] = -1;
 }
