@@ -347,7 +347,13 @@ Equilibrium find_equilibrium(const Scene&, const Model& model, const Assembly& a
   out.method = !has_potential(rest.held) ? "overdamped flow into Newton's method, for loads that follow have no potential"
                : way.damped()            ? "Newton's method, damped towards the overdamped flow"
                                          : "Newton's method";
-  if (!out.found && way.runs_away())
+  constexpr double told = 1e-6;  // looked at anew: next to a singular pose the smallest change of pose upsets the joints' forces
+  const bool was_found = out.found;
+  out.found = out.found && out.residual <= told;
+  if (was_found && !out.found)
+    out.reason = "a rest was found next to a singular pose, where the forces of joints have no bound: they cannot be told, " + number_text(out.residual) +
+                 " of the greatest is out of balance; start elsewhere, or leave out a driver or a joint";
+  else if (!out.found && way.runs_away())
     out.reason = "nothing stops " + names(restless(rest.held, rest.eq.a)) +
                  " from moving on without end under gravity and loads; join or support what falls, or balance a torque that keeps turning it";
   else if (!out.found)
