@@ -358,7 +358,8 @@ bool Integrator::sample(double t, State& out) {
   } else if (alpha_) {
     const double h = t - step_.from.state.t;
     Step part = step_;  // a true step: forces of stiff springs are in balance at its end, not between nodes
-    if (h > short_part * step_.h && alpha_->attempt(system_, h, part, eq_)) {
+    const bool implicit = step_.from.memory.a.size() > 0;  // not the step after which the scheme was changed
+    if (implicit && h > short_part * step_.h && alpha_->attempt(system_, h, part, eq_)) {
       out = part.to.state;
       return true;
     }
