@@ -112,30 +112,43 @@ class SweepKilled : public testing::Test {
     };
     ASSERT_EQ(run(command("whole")), 0) << contents(folder_ / "log");
 
+    // A machine may finish a sweep before its next kill: it is then judged and begun anew.
+    const auto judge = [&] {
+      EXPECT_EQ(journalled(folder_ / "killed").size(), static_cast<std::size_t>(cases));
+      EXPECT_EQ(contents(folder_ / "killed/sweep.csv"), contents(folder_ / "whole/sweep.csv"));
+    };
     std::random_device seed;
     std::mt19937_64 random(seed());
     std::vector<int> ended;
-    for (int kill = 0; kill < 10; ++kill) {
+    std::size_t most = 0;
+    for (int kills = 0; kills < 10;) {
       // The first at any moment of the start; the others when up to some thirty more cases have ended, and a moment later.
-      const std::size_t target = kill == 0 ? 0 : ended.size() + random() % 30;
-      const auto moment = std::chrono::microseconds(random() % (kill == 0 ? 300'000 : 10'000));
-      const auto begin = std::chrono::steady_clock::now();
+      const std::size_t target = kills == 0 ? 0 : ended.size() + random() % 30;
+      const auto moment = std::chrono::microseconds(random() % (kills == 0 ? 300'000 : 10'000));
       const auto enough = [&] {
         if (journalled(folder_ / "killed").size() < target) return false;
         std::this_thread::sleep_for(moment);
-        return kill > 0 || std::chrono::steady_clock::now() - begin > moment;
+        return true;
       };
-      ASSERT_EQ(run(command("killed"), enough), -SIGKILL) << contents(folder_ / "log");
+      const int code = run(command("killed"), enough);
+      ASSERT_TRUE(code == -SIGKILL || code == 0) << code << '\n' << contents(folder_ / "log");
       const std::vector<int> now = journalled(folder_ / "killed");
       const std::set<int> unique(now.begin(), now.end());
       EXPECT_EQ(unique.size(), now.size()) << "a case was run twice";
       for (int k : ended) EXPECT_TRUE(unique.contains(k)) << "case " << k << " was lost";
       ended = now;
+      most = std::max(most, ended.size());
+      if (code == -SIGKILL) {
+        ++kills;
+      } else {
+        judge();
+        fs::remove_all(folder_ / "killed");
+        ended.clear();
+      }
     }
-    EXPECT_GT(ended.size(), 10u);
+    EXPECT_GT(most, 10u);
     ASSERT_EQ(run(command("killed")), 0) << contents(folder_ / "log");
-    EXPECT_EQ(journalled(folder_ / "killed").size(), static_cast<std::size_t>(cases));
-    EXPECT_EQ(contents(folder_ / "killed/sweep.csv"), contents(folder_ / "whole/sweep.csv"));
+    judge();
     const std::string table = contents(folder_ / "whole/sweep.csv");
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), cases + 1);
   }
