@@ -50,8 +50,9 @@ pid_t start(const Command& command, const fs::path& log) {
   ::_exit(127);
 }
 
-/// Every process of the session, at once: the launcher does not get to tidy up.
+/// Every process of the session, at once: the launcher does not get to tidy up. The first is named, it may not have begun the session yet.
 void kill_session(pid_t session) {
+  ::kill(session, SIGKILL);
   for (int round = 0; round < 2; ++round)
     for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
       const std::string name = entry.path().filename();
@@ -88,17 +89,17 @@ class SweepKilled : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// @param enough  when to kill it  @returns exit code; −9: killed
+  /// @param enough  when to kill it  @returns exit code; −9: killed before it ended
   int run(const Command& command, const std::function<bool()>& enough = [] { return false; }) {
     const pid_t child = start(command, folder_ / "log");
     for (;;) {
       int status = 0;
-      if (::waitpid(child, &status, WNOHANG) == child) return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-      if (enough()) {
+      pid_t over = ::waitpid(child, &status, WNOHANG);
+      if (over == 0 && enough()) {
         kill_session(child);
-        ::waitpid(child, &status, 0);
-        return -SIGKILL;
+        over = ::waitpid(child, &status, 0);
       }
+      if (over == child) return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   }
