@@ -89,15 +89,19 @@ double Integrator::fastest_speed(const Eigen::VectorXd& y) const {
 }
 
 // A start inside the wall has no approach speed. It gets that of the impact which would have come this
-// deep: ½ m v² = k δⁿ⁺¹/(n + 1), m the two bodies' reduced mass.
+// deep: ½ v² = w k δⁿ⁺¹/(n + 1), 1/w the two bodies' reduced mass.
 double Integrator::speed_to_reach(int contact, double depth) const {
+  const ImpactLaw& law = system_.contacts[at(contact)].normal;
+  return std::sqrt(2 * lightness(contact) * law.k * std::pow(depth, law.n + 1) / (law.n + 1));
+}
+
+// Sum of the bodies' 1/m [1/kg].
+double Integrator::lightness(int contact) const {
   const ContactPair& pair = system_.contacts[at(contact)];
-  double inverse_mass = 0;
+  double out = 0;
   for (int marker : {pair.journal, pair.bearing})
-    if (const int body = system_.markers[at(marker)].body; body != ground)
-      inverse_mass += 1 / system_.bodies[at(body)].m;
-  const double stored = pair.normal.k * std::pow(depth, pair.normal.n + 1) / (pair.normal.n + 1);
-  return std::sqrt(2 * stored * inverse_mass);
+    if (const int body = system_.markers[at(marker)].body; body != ground) out += 1 / system_.bodies[at(body)].m;
+  return out;
 }
 
 Counts Integrator::counts() const {
@@ -293,6 +297,7 @@ bool Integrator::advance(double until) {
       open(contact);
     const double remembered = onset ? h_closed_ : h_open_;
     h_ = remembered > 0 ? std::min(remembered, scheme_.max_step) : h_wish;
+    if (onset && stages_) h_ = std::min(h_, onset_step(contact));
     error_before_ = 1;
     step_.struck = system_.contacts[at(contact)].normal.d > 0;
     if (step_.struck) step_.dy_before = step_.to.dy;

@@ -110,6 +110,8 @@ class Integrator {
   void open(int contact);
   void close(int contact, double rate);
   double speed_to_reach(int contact, double depth) const;
+  double lightness(int contact) const;
+  double onset_step(int contact) const;
   double release_ahead() const;
   void look_at_end();
   void follow_impacts();
