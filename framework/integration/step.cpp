@@ -1,5 +1,6 @@
 #include "framework/integration/step.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -38,8 +39,9 @@ Stages::Stages(const System& system, const Tableau& tableau, Constraints constra
 bool Stages::evaluate_stage(const System& system, State& state, Equations& eq, Eigen::VectorXd& dy) {
   if (constraints_ == Constraints::projection || system.n_rows() == 0) {
     const bool found = evaluate(system, state, eq, dy);
+    watch(eq);
     if (!eq.schur.weak()) return found;
-    near_singular_ = true;
+    weak_ = true;
     if (!project(system, state.t, state.y, eq)) return false;  // dependent rows agree only where C = 0 and Ċ = 0
   } else if (!partition_.correct(system, state.t, state.y, eq)) {
     return false;
@@ -47,6 +49,11 @@ bool Stages::evaluate_stage(const System& system, State& state, Equations& eq, E
   accelerate(system, state, eq);
   fill_derivative(system, state.y, eq, dy);
   return eq.regular;
+}
+
+void Stages::watch(const Equations& eq) {
+  least_ = std::min(least_, eq.schur.least());
+  most_ = std::max(most_, eq.schur.least());
 }
 
 bool Stages::settle(const System& system, Instant& node, Equations& eq) {
@@ -70,7 +77,8 @@ void Stages::refresh(const System& system, Equations& eq) {
 }
 
 bool Stages::reach(const System& system, const Instant& from_node, double h, Instant& to_node, Equations& eq) {
-  near_singular_ = false;
+  weak_ = false;
+  least_ = 1, most_ = 0;
   const State& from = from_node.state;
   const std::size_t stages = k_.size(), inner = tableau_.closes ? stages - 1 : stages;
   stage_.impact_rate = from.impact_rate;
@@ -88,6 +96,7 @@ bool Stages::reach(const System& system, const Instant& from_node, double h, Ins
   to.y = from.y;
   add_combination(h, tableau_.b, k_, to.y);  // a closing stage has no weight
   if (!to.y.allFinite() || !settle(system, to_node, eq)) return false;
+  watch(eq);
   if (tableau_.closes) k_.back() = to_node.dy;
   return to_node.dy.allFinite();
 }

@@ -62,8 +62,9 @@ class Stages {
 
   const Tableau& tableau() const { return tableau_; }
   int partitions() const { return partition_.choices(); }
-  /// A stage since the last `reach` began stood at or near a pose where rows are dependent.
-  bool near_singular() const { return near_singular_; }
+  /// A stage since the last `reach` began stood at or near a pose where rows are dependent, or there is one among the long steps
+  /// of a pair of high order: a pivot falls with the square of the distance.
+  bool near_singular() const { return weak_ || (tableau_.order > 5 && least_ < 0.1 * most_); }
   /// h times the fastest rate that the last attempt met, by the change from its last inner stage to its end
   /// [HairerWanner1996, IV.2]; 0 unless both stand at one instant.
   double stiffness(const System&, const Step&) const;
@@ -73,13 +74,15 @@ class Stages {
 
  private:
   bool evaluate_stage(const System&, State&, Equations&, Eigen::VectorXd& dy);
+  void watch(const Equations&);
 
   const Tableau& tableau_;
   Constraints constraints_;
   Partition partition_;
   std::vector<Eigen::VectorXd> k_;
   State stage_;
-  bool near_singular_ = false;
+  bool weak_ = false;
+  double least_ = 1, most_ = 0;  ///< of the smallest pivots of the stages
 };
 
 /// Dense output at from.t ≤ t ≤ to.t: q by the quintic that meets q, s and a at both ends, s by its
