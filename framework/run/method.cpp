@@ -11,9 +11,17 @@ namespace pintle {
 
 namespace {
 
-// High order pays where springs, modes or contacts make many steps, and strays where branches of motion meet.
-const Tableau* automatic_explicit(const Spectrum& s, double tolerance) {
-  return find_tableau(!s.parts.empty() && tolerance <= 1e-6 ? "verner87" : "dopri5");
+// Rows and frames are read between the steps: of dopri5 by dense output, brought onto the joints by one evaluation; of verner87,
+// whose steps are too long for that, by a step of its own.
+const Tableau* automatic_explicit(const Scene& scene, const Spectrum& s, const Demand& d) {
+  constexpr double fine = 1e-6, brief = 0.05, taken = 0.4;  // of the demand, by a smooth motion
+  const Tableau *low = find_tableau("dopri5"), *high = find_tableau("verner87");
+  const OutputOptions& out = scene.output;
+  const double read = (out.every > 0 ? scene.run.until / out.every : 0) + out.frames;
+  const double steps = taken * scene.run.until * std::max(d.stability, d.accuracy), long_steps = taken * scene.run.until * d.high;
+  const bool by_contacts = s.fastest.rate < brief * s.strike;  // impacts are brief, and what is smooth goes on
+  const bool dearer = high->stages() * (long_steps + read) > (low->stages() - 1) * steps + read;
+  return scene.run.tolerance > fine || by_contacts || dearer ? low : high;
 }
 constexpr double rate_reached = 1.0, decay_reached = 3.3;  // of dopri5 along the axes
 
@@ -65,6 +73,7 @@ class Parts {
     if (depth > 0) found.parts.push_back({speed / depth, pair.normal.d * w, "contact at \"" + name + "\""});
     if (depth > 0 && found.parts.back().decay > found.most_damped.decay) found.most_damped = found.parts.back();
     found.struck = true;
+    if (depth > 0) found.strike = std::max(found.strike, speed / depth);
   }
   Spectrum found;
 
@@ -116,7 +125,7 @@ void choose(const Scene& scene, const System& system, Scheme& scheme) {
   const Demand d = demand(s, scene.run.tolerance);
   const double needed = std::max(d.stability, d.accuracy);
   const bool is_implicit = scene.run.constraints == "index 3" || (needed > dearer * d.implicit && scene.run.constraints != "partitioning");
-  if (!is_implicit) scheme.tableau = automatic_explicit(s, scene.run.tolerance);
+  if (!is_implicit) scheme.tableau = automatic_explicit(scene, s, d);
   if (!is_implicit && scheme.tableau != find_tableau("dopri5")) scheme.fallback = find_tableau("dopri5");
   std::string& why = scheme.reason;
   why = name(scheme) + ", chosen because Dormand and Prince's pair needs about " + short_number(needed) + " steps a second";
@@ -153,10 +162,10 @@ Spectrum spectrum(const Scene& scene, const System& system) {
 }
 
 // A step h of order p in an oscillation of rate r whose speed is A times the motion's errs by (hr)ᵖ A about; the
-// constants are those that both schemes show on a slider-crank. Inertia bends what is elastic by a fifth of
+// constants are those that the schemes show on a slider-crank. Inertia bends what is elastic by a fifth of
 // (motion/r)², and lets it ring so from the start, or from an impact, until damping has brought that to the tolerance.
 Demand demand(const Spectrum& s, double tolerance) {
-  constexpr double explicit_order = 5, implicit_order = 3, explicit_constant = 0.7, implicit_constant = 1, bent = 0.2;
+  constexpr double explicit_order = 5, high_order = 8, implicit_order = 3, explicit_constant = 0.7, high_constant = 0.4, implicit_constant = 1, bent = 0.2;
   const auto most = [&](double order) {
     double steps = s.motion * std::pow(1 / tolerance, 1 / order);
     for (const Spectrum::Part& p : s.parts) {
@@ -168,7 +177,7 @@ Demand demand(const Spectrum& s, double tolerance) {
     return steps;
   };
   return {std::max(s.fastest.rate / rate_reached, s.most_damped.decay / decay_reached), explicit_constant * most(explicit_order),
-          implicit_constant * most(implicit_order)};
+          implicit_constant * most(implicit_order), high_constant * most(high_order)};
 }
 
 void choose_method(const Scene& scene, const System& system, Scheme& scheme) {

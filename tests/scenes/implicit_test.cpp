@@ -142,8 +142,21 @@ pintle::Scene sprung(double stiffness, double damping) {
 TEST(Auto, TakesAnExplicitPairForWhatIsNotStiffAndSaysSo) {
   const pintle::Model model = pintle::build(sprung(1e3, 1));
   ASSERT_NE(model.scheme.tableau, nullptr);
-  EXPECT_EQ(pintle::name(model.scheme), "verner87");
   EXPECT_NE(model.scheme.reason.find("steps a second"), std::string::npos) << model.scheme.reason;
+}
+
+TEST(Auto, TakesHighOrderWhereTheMotionIsSmoothTheToleranceFineAndRowsAreFew) {
+  const auto taken = [](pintle::Scene s, double tolerance, double every) {
+    s.run.tolerance = tolerance, s.output.every = every;
+    return pintle::name(pintle::build(s).scheme);
+  };
+  const pintle::Scene smooth = scene(SliderCrank{.clearance = 0, .until = 0.1, .method = "auto"}),
+                      worn = scene(SliderCrank{.clearance = 5e-4, .until = 0.1, .method = "auto"});
+  EXPECT_EQ(taken(smooth, 1e-8, 0.1), "verner87");
+  EXPECT_EQ(taken(smooth, 1e-8, 1e-4), "dopri5");
+  EXPECT_EQ(taken(smooth, 1e-5, 0.1), "dopri5");
+  EXPECT_EQ(taken(worn, 1e-8, 0.1), "dopri5");
+  EXPECT_EQ(taken(flexible_crank("auto", 1e-8, 207e9), 1e-8, 0.1), "verner87");
 }
 
 TEST(Auto, TakesGeneralizedAlphaForAStiffSpringOrDamperAndNamesIt) {
