@@ -13,9 +13,15 @@ void Integrator::archive(A& x) {
     impacts_, counts_, failure_, events_here_, worst_position_, worst_velocity_, held_by_stability_, fallen_back_, at_fork_, switched_, eq_.evaluations,
     eq_.factorizations);
   bool implicit = alpha_.has_value();
-  x(implicit);
+  const auto name = [](const Tableau* t) { return t ? std::string(t->name) : std::string(); };
+  std::string pair = name(stages_ ? &stages_->tableau() : nullptr), fallback = name(scheme_.fallback);
+  x(implicit, pair, fallback, scheme_.switch_below);
   if constexpr (A::loading) {
-    if (fallen_back_ && stages_ && scheme_.fallback && x.good()) stages_.emplace(system_, *scheme_.fallback, scheme_.constraints);
+    if (const Tableau* saved = find_tableau(pair); saved && stages_ && x.good()) {  // what `auto` takes now may be another
+      if (saved != scheme_.tableau && switched_.empty()) switched_ = pair + " throughout, as in the run that was saved";
+      stages_.emplace(system_, *saved, scheme_.constraints);
+      scheme_.fallback = find_tableau(fallback);
+    }
     if (implicit && stages_ && x.good()) {  // it had switched
       stages_.reset();
       alpha_.emplace(system_, eq_, scheme_.rho, scheme_.constraints, scheme_.tolerance);
