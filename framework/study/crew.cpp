@@ -1,17 +1,48 @@
 #include "framework/study/crew.h"
 
+#include <algorithm>
 #include <new>
 
 namespace pintle {
 
-Crew::Crew(const Sweep& sweep, Journal& journal, int rank, int threads) : sweep_(sweep), journal_(journal), rank_(rank), out_(threads) {
-  for (int k = 0; k < threads; ++k) threads_.emplace_back([this, k] { work(k); });
+Crew::Crew(const Sweep& sweep, Journal& journal, int rank, int threads) : sweep_(sweep), journal_(journal), rank_(rank) {
+  try {
+    start(threads);
+  } catch (const std::exception& error) {
+    shortage_ = std::to_string(threads_.size()) + " of " + std::to_string(threads) + " threads could be started (" + error.what() +
+                "), " + (threads_.empty() ? "the cases are run one by one" : "these run the cases") +
+                "; allow more processes (ulimit -u) or memory, or ask for fewer with --threads";
+  }
+}
+
+void Crew::start(int threads) {
+  for (int k = 0; k < threads; ++k) {
+    ++out_;
+    try {
+      threads_.emplace_back([this, k] { work(k); });
+    } catch (...) {
+      --out_;
+      throw;
+    }
+  }
 }
 
 Crew::~Crew() {
   stop();
   for (std::thread& t : threads_)
     if (t.joinable()) t.join();
+}
+
+bool Crew::home() const {
+  return threads_.empty() ? deck_.closed() && deck_.left() == 0 : out_ == 0;
+}
+
+int Crew::workers() const {
+  return std::max(1, static_cast<int>(threads_.size()));
+}
+
+int Crew::idle() const {
+  return threads_.empty() ? deck_.left() == 0 : deck_.waiting();
 }
 
 bool Crew::troubled() {
@@ -30,6 +61,7 @@ Crew::Tally Crew::tally() {
 }
 
 void Crew::wait(std::chrono::milliseconds most) {
+  if (threads_.empty()) return;  // nobody else brings news
   std::unique_lock lock(mutex_);
   news_.wait_for(lock, most, [&] { return changes_ != seen_; });
   seen_ = changes_;
@@ -60,11 +92,24 @@ void Crew::work(int thread) {
   news();
 }
 
+void Crew::work_here(const std::function<void()>& poll) {
+  if (!threads_.empty() || deck_.left() == 0) return;
+  poll_ = poll;
+  try {
+    run(*deck_.draw(), 0);
+  } catch (...) {
+    trouble_ = std::current_exception();
+  }
+}
+
 void Crew::run(std::size_t number, int thread) {
   const auto begin = std::chrono::steady_clock::now();
   CaseLimits limits = sweep_.limits;
   limits.bodies = &bodies_;
-  limits.go_on = [this] { return !stopped_; };
+  limits.go_on = [this] {
+    poll_();
+    return !stopped_;
+  };
   Outcome outcome;
   try {
     outcome = run_case(sweep_.study.scene, sweep_.cases.overrides(number - 1), sweep_.study.measures, limits);

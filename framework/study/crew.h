@@ -4,7 +4,9 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <functional>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -14,7 +16,8 @@
 
 namespace pintle {
 
-/// Threads of one process that draw cases from a deck, run them and write them into a journal.
+/// Threads of one process that draw cases from a deck, run them and write them into a journal. If the system refuses some of
+/// them, the others do the work; if it refuses all, the caller does (`work_here`).
 class Crew {
  public:
   struct Tally {
@@ -27,7 +30,13 @@ class Crew {
   Crew(const Crew&) = delete;
 
   Deck& deck() { return deck_; }
-  bool home() const { return out_ == 0; }  ///< all threads have ended
+  bool home() const;         ///< all threads have ended, or without threads: all cases
+  int workers() const;       ///< threads, or the caller
+  int idle() const;          ///< of them, without a case
+  /// Why there are fewer threads than asked for; empty: there are not.
+  const std::string& shortage() const { return shortage_; }
+  /// Without threads: runs a case of the deck, if there is one, and calls `poll` often meanwhile.
+  void work_here(const std::function<void()>& poll);
   bool troubled();                         ///< a thread could not go on; finish() says why
   /// Ends the cases that are running; they are not recorded.
   void stop();
@@ -38,6 +47,7 @@ class Crew {
   void finish();
 
  private:
+  void start(int threads);
   void work(int thread);
   void run(std::size_t number, int thread);
   void news();
@@ -54,6 +64,8 @@ class Crew {
   long changes_ = 0, seen_ = 0;
   Tally tally_;
   std::exception_ptr trouble_;
+  std::string shortage_;
+  std::function<void()> poll_ = [] {};
   std::vector<std::thread> threads_;
 };
 

@@ -72,14 +72,13 @@ class Leader {
   }
 
   void lead() {
-    auto told = clock::time_point{};
+    end_.workers += crew_.workers() - settings_.threads;
+    end_.shortage = crew_.shortage();
     while (!crew_.home() || present_ > 0) {
       while (present_ > 0 && listen()) {}
       look();
-      if (clock::now() - told > std::chrono::milliseconds(100)) {
-        told = clock::now();
-        if (settings_.progress && !settings_.progress(end_.count)) stop();
-      }
+      tell();
+      crew_.work_here([this] { tell(); });
       if (crew_.troubled()) stop();
       if (crew_.deck().left() == 0) crew_.deck().close();
       if (present_ > 0) std::this_thread::sleep_for(nap);
@@ -90,6 +89,12 @@ class Leader {
   }
 
  private:
+  void tell() {
+    if (clock::now() - told_ <= std::chrono::milliseconds(100)) return;
+    told_ = clock::now();
+    if (settings_.progress && !settings_.progress(end_.count)) stop();
+  }
+
   void look() {
     count(crew_.tally());
     end_.count.seconds = std::chrono::duration<double>(clock::now() - begin_).count();
@@ -128,7 +133,7 @@ class Leader {
   SweepEnd& end_;
   int present_;  ///< fellows that have not left
   bool halted_ = false;
-  clock::time_point begin_ = clock::now();
+  clock::time_point begin_ = clock::now(), told_{};
   Crew crew_;
 };
 
@@ -143,9 +148,11 @@ class Follower {
     while (!crew_.home() || asked_) {
       Message said;
       if (int from = 0; fellows_.receive(from, said)) hear(said);
-      if ((settings_.progress && !settings_.progress({})) || crew_.troubled()) stop();
+      look_up();
+      crew_.work_here([this] { look_up(); });
+      if (crew_.troubled()) stop();
       if (wants()) {
-        Message question{ask, crew_.deck().waiting()};
+        Message question{ask, crew_.idle()};
         report(question, crew_.tally());
         fellows_.send(0, question);
         asked_ = true;
@@ -158,15 +165,20 @@ class Follower {
     report(last, crew_.tally());
     return last;
   }
+  const std::string& shortage() const { return crew_.shortage(); }
 
  private:
+  void look_up() {
+    if (settings_.progress && !settings_.progress({})) stop();
+  }
+
   void stop() {
     stopped_ = true;
     crew_.stop();
   }
 
   bool wants() {
-    return !asked_ && !stopped_ && !crew_.deck().closed() && crew_.deck().left() == 0 && (!told_to_wait_ || crew_.deck().waiting() > 0);
+    return !asked_ && !stopped_ && !crew_.deck().closed() && crew_.deck().left() == 0 && (!told_to_wait_ || crew_.idle() > 0);
   }
 
   void hear(const Message& said) {
@@ -188,19 +200,22 @@ SweepEnd run_as_follower(const Sweep& sweep, const fs::path& folder, const Sweep
   Fellows& fellows = *settings.fellows;
   if (refused(fellows)) return {};
   Message last{leave, 1, 0, 0, 0};
+  SweepEnd end;
   std::exception_ptr trouble;
   try {
     if (!fs::exists(journal_path(folder, 0)))
       throw std::runtime_error(folder.string() + ": process " + std::to_string(fellows.rank()) +
                                " does not see it; name a directory with --out that all machines share");
     Journal journal(journal_path(folder, fellows.rank()), sweep.print);
-    last = Follower(sweep, journal, settings).follow();
+    Follower follower(sweep, journal, settings);
+    last = follower.follow();
+    end.shortage = follower.shortage();
   } catch (...) {
     trouble = std::current_exception();
   }
   take_leave(fellows, last);  // after the journal is closed: process 0 reads it then
   if (trouble) std::rethrow_exception(trouble);
-  return {};
+  return end;
 }
 
 /// Makes the folder, or judges whether it is one to go on with.

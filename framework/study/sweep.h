@@ -50,6 +50,7 @@ struct SweepEnd {
   bool whole = false;        ///< all cases have ended
   SweepCount count;
   int workers = 1;           ///< threads of all processes
+  std::string shortage;      ///< why this process had fewer threads than asked for; empty: it had them
   std::vector<Row> rows;     ///< of all sessions, in the order of cases; in process 0
   double efficiency() const { return count.seconds > 0 ? count.busy / (workers * count.seconds) : 1; }
 };

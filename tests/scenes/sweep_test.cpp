@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/scarce_threads.h"
+
 namespace pintle {
 namespace {
 
@@ -281,6 +283,33 @@ TEST(Sweep, AHeaderHasTheUnitThatTheSceneTook) {
   }
 }
 
+TEST(Sweep, RunsItsCasesInTheThreadsThatCanBeStartedAndSaysSo) {
+  const Folder folder;
+  const Sweep sweep = sweep_in(folder);
+  run_sweep(sweep, folder / "plenty", {1, nullptr, {}});
+  for (int allowed : {0, 1, 3}) {
+    const fs::path out = folder / std::to_string(allowed);
+    SweepEnd end;
+    {
+      const ScarceThreads scarce(allowed);
+      end = run_sweep(sweep, out, {4, nullptr, {}});
+    }
+    EXPECT_TRUE(end.whole) << allowed;
+    EXPECT_EQ(end.workers, std::max(allowed, 1));
+    EXPECT_EQ(contents(out / "sweep.csv"), contents(folder / "plenty/sweep.csv")) << allowed;
+    EXPECT_TRUE(end.shortage.starts_with(std::to_string(allowed) + " of 4 threads could be started")) << end.shortage;
+    EXPECT_NE(end.shortage.find("--threads"), std::string::npos) << end.shortage;
+  }
+}
+
+TEST(Sweep, WithoutAThreadItCanStillBeStopped) {
+  const Folder folder;
+  const Sweep sweep = sweep_in(folder);
+  const ScarceThreads scarce(0);
+  EXPECT_FALSE(run_sweep(sweep, folder / "out", {2, nullptr, [](const SweepCount&) { return false; }}).whole);
+  EXPECT_TRUE(run_sweep(sweep, folder / "out", {2, nullptr, {}}).whole);
+}
+
 /// Processes played by threads: what MPI does, without it.
 class Post {
  public:
@@ -342,6 +371,24 @@ TEST(Sweep, ProcessesShareTheCasesAndEachIsRunOnce) {
     EXPECT_EQ(lines, 54 + size);
     for (const auto& box : post.boxes_) EXPECT_TRUE(box.empty()) << "a message was left unread";
   }
+}
+
+TEST(Sweep, ProcessesWithoutThreadsShareTheCasesToo) {
+  const Folder folder;
+  const Sweep sweep = sweep_in(folder);
+  Post post(2);
+  SweepEnd ends[2];
+  const auto play = [&](int rank) {
+    Played fellows(post, rank);
+    ends[rank] = run_sweep(sweep, folder / "out", {1, &fellows, {}});
+  };
+  const ScarceThreads scarce(1);  // for the second process; neither has one for its cases
+  std::thread second(play, 1);
+  play(0);
+  second.join();
+  EXPECT_TRUE(ends[0].whole);
+  EXPECT_EQ(ends[0].count.done, 54u);
+  for (const SweepEnd& end : ends) EXPECT_TRUE(end.shortage.starts_with("0 of 1 threads")) << end.shortage;
 }
 
 TEST(Sweep, OneProcessThatIsStoppedStopsAll) {
