@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace pintle {
 
@@ -46,19 +47,24 @@ cholmod_dense view(double* x, Eigen::Index rows, Eigen::Index columns) {
   return v;
 }
 
-// FNV-1a over the places of the entries.
-std::uint64_t pattern_of(const Sparse& A) {
-  std::uint64_t h = 1469598103934665603ull;
-  const auto mix = [&](int value) {
-    h = (h ^ static_cast<std::uint64_t>(static_cast<unsigned>(value))) * 1099511628211ull;
-  };
-  mix(static_cast<int>(A.rows()));
-  for (int j = 0; j < A.outerSize(); ++j) {
-    mix(-1);
-    for (Sparse::InnerIterator a(A, j); a; ++a) mix(static_cast<int>(a.row()));
+// The places of a matrix's entries, column by column.
+class Places {
+ public:
+  Places() = default;
+  explicit Places(const Sparse& A) {
+    row_.reserve(static_cast<std::size_t>(A.nonZeros()));
+    begin_.reserve(static_cast<std::size_t>(A.outerSize()));
+    for (int j = 0; j < A.outerSize(); ++j) {
+      begin_.push_back(row_.size());
+      for (Sparse::InnerIterator a(A, j); a; ++a) row_.push_back(static_cast<int>(a.row()));
+    }
   }
-  return h;
-}
+  bool operator==(const Places&) const = default;
+
+ private:
+  std::vector<std::size_t> begin_;
+  std::vector<int> row_;
+};
 
 }  // namespace
 
@@ -66,7 +72,7 @@ struct Factor::Data {
   cholmod_common common;
   cholmod_factor* L = nullptr;
   cholmod_dense *Y = nullptr, *E = nullptr;  // workspace of solves
-  std::uint64_t pattern = 0;
+  Places places;  // of the matrix that L was analysed for
   int pivot = -1;
 
   Data() {
@@ -122,12 +128,12 @@ void Factor::analyse(const Sparse& A) {
     throw std::invalid_argument("a matrix to factor is " + std::to_string(A.rows()) + " by " +
                                 std::to_string(A.cols()) + ", must be square");
   Data& d = *data_;
-  const std::uint64_t pattern = pattern_of(A);
-  if (d.L && pattern == d.pattern) return;
+  Places places(A);
+  if (d.L && places == d.places) return;
   cholmod_sparse a = view(A);
   cholmod_free_factor(&d.L, &d.common);
   d.L = cholmod_analyze(&a, &d.common);
-  d.pattern = pattern;
+  d.places = std::move(places);
   d.judge(A);
 }
 

@@ -83,6 +83,23 @@ TEST(Factor, TakesNewValuesAndNewPatterns) {
   }
 }
 
+// Ones on the diagonal, and below the first of them four entries. Their rows are such that FNV-1a, taken over sizes and rows
+// as 32-bit words from the basis 1469598103934665603, is the same for both.
+TEST(Factor, TellsPatternsOfOneHashApart) {
+  const int n = 1 << 17;
+  Factor factor;
+  for (const std::vector<int>& rows : {std::vector{2132, 23829, 63832, 65536}, {15581, 29664, 56486, 100028}}) {
+    std::vector<Eigen::Triplet<double>> t;
+    for (int i = 0; i < n; ++i) t.emplace_back(i, i, 1.0);
+    for (const int i : rows) t.emplace_back(i, 0, 0.25);
+    Sparse lower(n, n);
+    lower.setFromTriplets(t.begin(), t.end());
+    ASSERT_TRUE(factor.compute(lower));
+    const VectorXd b = VectorXd::LinSpaced(n, 1, 2);
+    EXPECT_LT((lower.selfadjointView<Eigen::Lower>() * factor.solve(b) - b).norm(), rounding * 1e2 * b.norm());
+  }
+}
+
 TEST(Factor, SurvivesBeingMoved) {
   const Sparse A = grid(6, 6);
   Factor factor;
