@@ -6,6 +6,7 @@
 
 #include "app/options.h"
 #include "framework/scene/error.h"
+#include "meshes/limits.h"
 
 namespace {
 
@@ -148,8 +149,17 @@ void add_linearize_options(CLI::App& command, Options& options) {
   command.footer(what_linearize_writes);
 }
 
+/// What a scene may reach and cost, which no scene can say: SECURITY.md.
+void add_bounds(CLI::App& command, Options& options) {
+  command.add_option("--allow-path", options.allowed, "let the scene read files in this folder and below it, beside its own; may be repeated")->allow_extra_args(false)->type_name("DIR");
+  command.add_flag("--trust-geo", options.trust_geo, "let drawings (.geo) do all that they ask for, shell commands included");
+  command.add_option("--mesh-time", options.mesh_time, "time that the mesh of one body may take (default 600 s)")->type_name("TIME");
+  command.add_option("--mesh-memory", options.mesh_memory, "memory that it may take, in GB (default 8)")->type_name("GB")->check(CLI::Range(0.1, 1e6));
+}
+
 void add_options(CLI::App& command, Options& options) {
   const std::string name = command.get_name();
+  add_bounds(command, options);
   if (name == "sweep") return add_sweep_options(command, options);
   if (name == "tradeoff") return add_tradeoff_options(command, options);
   command.add_option("scene", options.scene, "scene file (YAML)")->required()->type_name("SCENE.yaml");
@@ -208,6 +218,7 @@ int main(int argc, char** argv) {
   for (const auto& [command, unused] : commands) add_options(*command, options);
   try {
     app.parse(argc, argv);
+    set_bounds(options);
     const int exit = commands.at(app.get_subcommands().front())(options);
     if (!std::cout.flush()) throw std::runtime_error("what there was to print could not be written to standard output");
     return exit;
@@ -219,6 +230,9 @@ int main(int argc, char** argv) {
   } catch (const AssemblyError& e) {
     std::cerr << "pintle: " << e.what() << "\n";
     return no_assembly;
+  } catch (const MeshingStopped&) {
+    std::cerr << "pintle: stopped while a body was meshed\n";
+    return stopped;
   } catch (const std::exception& e) {
     std::cerr << "pintle: " << e.what() << "\n";
     return trouble;

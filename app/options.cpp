@@ -4,7 +4,9 @@
 #include <ostream>
 #include <sstream>
 
+#include "files/trust.h"
 #include "framework/scene/expression.h"
+#include "meshes/limits.h"
 
 namespace pintle::app {
 
@@ -19,6 +21,25 @@ Overrides overrides(const Options& options) {
     out.emplace_back(s.substr(0, equals), s.substr(equals + 1));
   }
   return out;
+}
+
+void set_bounds(const Options& options) {
+  Trust trust;
+  trust.geo = options.trust_geo;
+  for (const std::string& folder : options.allowed) {
+    if (!fs::is_directory(folder)) throw SceneError("--allow-path " + folder + ": there is no such folder");
+    trust.folders.emplace_back(folder);
+  }
+  set_trust(std::move(trust));
+  MesherLimits limits;
+  if (options.mesh_memory > 0) limits.bytes = static_cast<std::size_t>(options.mesh_memory * (1 << 30));
+  try {
+    if (!options.mesh_time.empty()) limits.seconds = read_quantity(options.mesh_time, dimension::time);
+    if (!(limits.seconds > 0)) throw ExpressionError("write a time above 0");
+  } catch (const ExpressionError& e) {
+    throw SceneError("--mesh-time " + options.mesh_time + ": " + e.what());
+  }
+  set_mesher_limits(limits);
 }
 
 double instant(const Options& options) {

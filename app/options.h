@@ -24,6 +24,10 @@ struct Options {
   std::vector<std::string> quantities;  ///< of a trade-off, in words
   std::string wanted_error, wanted_time, budget, markdown;
   int repeats = 0;          ///< 0: as the study says
+  bool trust_geo = false;
+  std::vector<std::string> allowed;     ///< folders that scenes may read from
+  std::string mesh_time;                ///< of one body; empty: as the library says
+  double mesh_memory = 0;               ///< [GB]; 0: likewise
 };
 
 // One a command; each returns its exit code.
@@ -39,6 +43,8 @@ int linearize(const Options&);
 int sweep(const Options&);
 int tradeoff(const Options&);
 
+/// What a scene's files may do and cost, from here on.  @throws SceneError  an option cannot be read
+void set_bounds(const Options&);
 Overrides overrides(const Options&);
 /// --at, a time ≥ 0 [s]. @throws SceneError  it cannot be read
 double instant(const Options&);

@@ -6,6 +6,8 @@
 #include <iomanip>
 #include <iostream>
 
+#include "meshes/limits.h"
+
 namespace pintle::app {
 
 namespace {
@@ -16,6 +18,9 @@ extern "C" void interrupt(int) { interrupted = 1; }
 void heed_signals() {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
+  MesherLimits limits = mesher_limits();
+  limits.stop = asked_to_stop;
+  set_mesher_limits(limits);
 }
 
 bool asked_to_stop() {

@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set(pintle_config ${CMAKE_INSTALL_LIBDIR}/cmake/pintle)
 
 install(TARGETS pintle EXPORT pintleTargets)
-install(DIRECTORY contact elements framework meshes DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pintle
+install(DIRECTORY contact elements files framework meshes DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pintle
   FILES_MATCHING PATTERN "*.h")
 install(EXPORT pintleTargets NAMESPACE pintle:: DESTINATION ${pintle_config})
 

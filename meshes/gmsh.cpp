@@ -1,15 +1,18 @@
 #include "meshes/gmsh.h"
 
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "files/files.h"
+#include "files/trust.h"
+#include "meshes/limits.h"
 #include "meshes/link_lattice.h"
 #include "meshes/mesher.h"
-#include "meshes/module.h"
 #include "meshes/refuse.h"
 
 namespace pintle {
@@ -18,11 +21,7 @@ namespace {
 
 using Eigen::Vector2d;
 namespace fs = std::filesystem;
-
-const Mesher& mesher() {
-  static const Mesher& loaded = module_table<Mesher>("mesher");
-  return loaded;
-}
+constexpr std::size_t most_bytes = std::size_t{100} << 20;  // of a script
 
 void judge(const std::string& name, const MeshOptions& o, double scale) {
   if (corners_of(o.shape) == 2)
@@ -40,14 +39,40 @@ void judge(const std::string& name, const MeshOptions& o, double scale) {
     if (!p.allFinite()) refuse(name, ": the point (", p.x(), ", ", p.y(), ") is not finite");
 }
 
-// Gmsh passes over the last line of a script without a word if it does not end.
-void judge_last_line(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary | std::ios::ate);
-  if (!in || in.tellg() <= 0) return;
-  in.seekg(-1, std::ios::end);
-  if (in.get() != '\n')
-    refuse(path.string(),
-           ": the last line has no end, and Gmsh would leave it out; end the file with a new line");
+// What a file of each kind begins with. Gmsh goes by the words it finds: what has the name of a mesh and none of its
+// words would be run as a script.
+void judge_head(const std::string& name, const std::string& kind, const std::string& text) {
+  const auto fail = [&](const char* what) { refuse(name, ": is no ", kind, " file: ", what, "; write it again, or correct its ending"); };
+  const std::string_view head = text;
+  if (kind == ".msh" && !head.starts_with("$MeshFormat")) fail("it does not begin with $MeshFormat");
+  if (kind == ".brep" && head.find("CASCADE Topology") == head.npos) fail("it does not begin with CASCADE Topology");
+  if ((kind == ".step" || kind == ".stp") && head.find("ISO-10303-21") == head.npos) fail("it does not begin with ISO-10303-21");
+  // Gmsh passes over the last line of a script without a word if it does not end.
+  if (kind == ".geo" && !text.empty() && text.back() != '\n')
+    refuse(name, ": the last line has no end, and Gmsh would leave it out; end the file with a new line");
+}
+
+// Gmsh runs what stands in FILE.opt whenever it reads FILE.
+void judge_options(const std::string& name) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(name + ".opt", error)))
+    refuse(name, ": beside it stands ", fs::path(name + ".opt").filename().string(),
+           ", a script that Gmsh would run; write what is needed of it into a .geo, and remove it");
+}
+
+std::vector<std::string> strings(const std::vector<fs::path>& paths) {
+  std::vector<std::string> out;
+  for (const fs::path& p : paths) out.push_back(p.string());
+  return out;
+}
+
+MesherTask task_for(const MeshOptions& o) {
+  MesherTask task;
+  task.options = o;
+  std::error_code error;
+  task.at = fs::current_path(error).string();
+  task.most_bytes = static_cast<double>(mesher_limits().bytes);
+  return task;
 }
 
 }  // namespace
@@ -56,18 +81,28 @@ Mesh mesh_link(const Link& link, const MeshOptions& o) {
   judge(link);
   judge("link", o, 1);
   if (std::optional<Mesh> mesh = lattice_link(link, o)) return *std::move(mesh);
-  return mesher().link(link, o);
+  MesherTask task = task_for(o);
+  task.link = link;
+  return mesh_elsewhere(task);
 }
 
-Mesh read_geometry(const fs::path& path, const MeshOptions& o, double scale) {
+Mesh read_geometry(const fs::path& path, const MeshOptions& o, double scale, const fs::path& folder) {
   const std::string name = path.string(), kind = path.extension().string();
   judge(name, o, scale);
   if (kind != ".geo" && kind != ".step" && kind != ".stp" && kind != ".brep" && kind != ".msh")
     refuse(name, ": \"", kind,
            "\" is no kind of drawing known here; .geo, .step, .stp, .brep and .msh are");
-  if (!fs::is_regular_file(path)) throw std::runtime_error(name + ": there is no such file");
-  if (kind == ".geo") judge_last_line(path);
-  return mesher().geometry(path, o, scale);
+  try {
+    judge_head(name, kind, kind == ".geo" ? read_file(path, most_bytes) : read_head(path, 4096));
+  } catch (const FileRefused& e) {
+    throw std::runtime_error(name + ": " + e.what());
+  }
+  judge_options(name);
+  MesherTask task = task_for(o);
+  task.file = name, task.scale = scale;
+  task.folders = strings(readable_folders(folder.empty() ? path.parent_path() : folder));
+  task.unconfined = trust().geo;
+  return mesh_elsewhere(task);
 }
 
 }  // namespace pintle

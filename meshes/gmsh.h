@@ -6,11 +6,9 @@
 #include "meshes/link.h"
 #include "meshes/mesh.h"
 
-/// Meshes by Gmsh, which is loaded when it is first needed (meshes/module.h); only the files gmsh_*.cpp know it. Same
-/// input, same mesh, to the bit. Gmsh keeps
-/// state of its own: calls from several threads wait for each other. Whoever has Gmsh open already keeps models
-/// and options as they were. Whenever Gmsh is opened, it sets the program's C locale to C.UTF-8 with the numbers of C,
-/// and seeds rand(); neither is put back.
+/// Meshes by Gmsh, which runs in a process of its own (meshes/mesher.h) and is loaded when it is first needed. Same
+/// input, same mesh, to the bit. Threads that mesh at the same time have a process each. What meshing may take:
+/// meshes/limits.h.
 namespace pintle {
 
 struct MeshOptions {
@@ -25,7 +23,7 @@ struct MeshOptions {
 /// by radial and concentric lines; all else is meshed freely. Middle nodes of sides lie on the
 /// arcs.
 /// @throws std::invalid_argument  the link or the options are wrong, a point lies off the material
-/// @throws std::runtime_error     Gmsh fails (its words)
+/// @throws std::runtime_error     Gmsh fails (its words), or would need more time or memory than it may
 Mesh mesh_link(const Link&, const MeshOptions&);
 
 /// A drawing (.geo, .step, .stp, .brep), meshed as asked, or a finished mesh (.msh), taken as it
@@ -38,9 +36,13 @@ Mesh mesh_link(const Link&, const MeshOptions&);
 /// their left. A physical surface says what is the body (all surfaces if there is none), and its
 /// name becomes a group. Closed loops of the outline that no physical curve touches become
 /// "outline" or "hole 1", "hole 2", … by their centres from left to right, then from below.
-/// @throws std::runtime_error     the file is not there, or Gmsh cannot read or mesh it (its words)
-/// @throws std::invalid_argument  the geometry is not plane (z = 0), there is no surface in it, a
+/// A .geo file is a program. It may read files in `folder` (the drawing's own if empty), below it and where the user
+/// trusts (files/trust.h), and do nothing else; what it tries beyond is refused.
+/// @throws std::runtime_error     the file is not there, or Gmsh cannot read or mesh it (its words), or would need more
+///     time or memory than it may
+/// @throws std::invalid_argument  the file is not of the kind it is named; the geometry is not plane (z = 0), there is no surface in it, a
 ///     point lies off the material, or an option is wrong
-Mesh read_geometry(const std::filesystem::path&, const MeshOptions&, double scale = 1);
+Mesh read_geometry(const std::filesystem::path&, const MeshOptions&, double scale = 1,
+                   const std::filesystem::path& folder = {});
 
 }  // namespace pintle

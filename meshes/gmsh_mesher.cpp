@@ -1,8 +1,9 @@
-#include "meshes/mesher.h"
+#include "meshes/gmsh_mesher.h"
 
 #include <gmsh.h>
 
 #include <map>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -38,6 +39,8 @@ Mesh with_gmsh(const std::string& what, Work work) {
     words = gmsh_errors();
     if (words.empty()) return mesh;
   } catch (const std::logic_error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
     words = e.what();
@@ -131,7 +134,9 @@ Mesh mesh_drawing(const std::string& name, const MeshOptions& o, double scale) {
   return mesh_figure(f, field, o, scale);
 }
 
-Mesh mesh_by_lines(const Link& link, const MeshOptions& o) {
+}  // namespace
+
+Mesh gmsh_link(const Link& link, const MeshOptions& o) {
   return with_gmsh("link", [&] {
     draw(drawing(link));
     set("Mesh.MeshSizeFromPoints", 0);
@@ -140,7 +145,7 @@ Mesh mesh_by_lines(const Link& link, const MeshOptions& o) {
   });
 }
 
-Mesh mesh_of_file(const fs::path& path, const MeshOptions& o, double scale) {
+Mesh gmsh_geometry(const fs::path& path, const MeshOptions& o, double scale) {
   const std::string name = path.string(), kind = path.extension().string();
   return with_gmsh(name, [&] {
     gmsh::merge(name);
@@ -165,13 +170,6 @@ Mesh mesh_of_file(const fs::path& path, const MeshOptions& o, double scale) {
     set("Mesh.MeshSizeExtendFromBoundary", own_sizes ? 1 : 0);
     return mesh_drawing(name, o, scale);
   });
-}
-
-}  // namespace
-
-extern "C" [[gnu::visibility("default")]] const Mesher* pintle_mesher() {
-  static constexpr Mesher table{PINTLE_VERSION, mesh_by_lines, mesh_of_file};
-  return &table;
 }
 
 }  // namespace pintle

@@ -3,6 +3,7 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace pintle {
 
@@ -30,30 +31,11 @@ constexpr std::pair<const char*, double> defaults[]{
     {"Mesh.MeshSizeFromCurvature", 0},
     {"Mesh.MeshSizeExtendFromBoundary", 1}};
 
-std::mutex one_session;
-
-// Gmsh has no question for whether it is open: before the first time its clock stands at −1, after
-// it has been closed every call throws.
-bool alive() {
-  try {
-    return gmsh::logger::getWallTime() >= 0;
-  } catch (...) {
-    return false;
-  }
-}
-
 }  // namespace
 
-GmshSession::GmshSession() : alone_(one_session), mine_(!alive()) {
-  if (mine_) gmsh::initialize(0, nullptr, false);
-  if (!mine_) gmsh::model::getCurrent(previous_);
-  for (const auto& [name, value] : defaults) {
-    double old = 0;
-    gmsh::option::getNumber(name, old);
-    before_.emplace_back(name, old);
-    gmsh::option::setNumber(name, value);
-  }
-  gmsh::option::getString("Geometry.OCCTargetUnit", unit_before_);
+GmshSession::GmshSession() {
+  gmsh::initialize(0, nullptr, false);
+  for (const auto& [name, value] : defaults) gmsh::option::setNumber(name, value);
   gmsh::option::setString("Geometry.OCCTargetUnit", "M");
   gmsh::logger::start();
   gmsh::model::add("pintle");
@@ -63,16 +45,7 @@ GmshSession::~GmshSession() {
   try {
     gmsh::logger::stop();
     gmsh::model::mesh::removeSizeCallback();
-    gmsh::model::remove();
-    if (mine_) {
-      // Else Gmsh answers the next question of alive() aloud.
-      gmsh::option::setNumber("General.Verbosity", 0);
-      gmsh::finalize();
-      return;
-    }
-    for (const auto& [name, value] : before_) gmsh::option::setNumber(name, value);
-    gmsh::option::setString("Geometry.OCCTargetUnit", unit_before_);
-    gmsh::model::setCurrent(previous_);
+    gmsh::finalize();
   } catch (...) {  // nothing is left that could be saved
   }
 }

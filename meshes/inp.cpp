@@ -37,6 +37,12 @@ class NumberIndex {
     const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), number);
     return *at == number ? order_[static_cast<std::size_t>(at - sorted_.begin())] : -1;
   }
+  /// Adds the places of those numbers first, first + step, … up to last that there are.
+  void find_all(long first, long last, long step, std::vector<int>& out) const {
+    auto at = std::lower_bound(sorted_.begin(), sorted_.end(), first);
+    for (; at != sorted_.end() && *at <= last; ++at)
+      if ((*at - first) % step == 0) out.push_back(order_[static_cast<std::size_t>(at - sorted_.begin())]);
+  }
   std::pair<int, int> twice() const {  // the places of a number that comes twice, or −1
     const auto at = std::adjacent_find(sorted_.begin(), sorted_.end());
     if (at == sorted_.end()) return {-1, -1};
@@ -51,10 +57,21 @@ class NumberIndex {
 
 using SetKind = InpDeck::SetKind;
 
+constexpr std::size_t most_members = 200'000'000, most_depth = 1000;  // of all sets; of sets within sets
+
 struct Builder {
   const InpDeck& deck;
   NumberIndex node_index{deck.node_numbers}, element_index{deck.element_numbers};
   std::map<std::pair<std::string, SetKind>, std::size_t> set_index{};
+  struct Members {
+    std::vector<int> places{};
+    bool whole = false;
+  };
+  std::map<std::size_t, Members> of_set{};  // by its number
+  std::size_t total = 0, depth = 0;        // members of them all; sets that are being gathered
+  std::vector<std::size_t> seen = std::vector<std::size_t>(std::max(deck.elements.size(), deck.x.size()));
+  std::size_t round = 0;  // seen[p] == round: p is among the members gathered now
+  std::map<std::string, std::size_t> group_index{};
   std::vector<int> nodes{};  // of all elements, looked up
 
   InpPlace place_of_element(int e) const {
@@ -141,30 +158,52 @@ struct Builder {
     return found->second;
   }
 
-  // The places of a set's members, in the order of naming, those of the sets it names among them.
-  std::vector<int> members(std::size_t s, std::size_t depth = 0) const {
+  // The places of a set's members, in the order of naming, those of the sets it names among them; each once.
+  const std::vector<int>& members(std::size_t s) {
+    const auto [known, is_new] = of_set.try_emplace(s);
     const InpDeck::Set& set = deck.sets[s];
-    if (depth > deck.sets.size())
-      deck.text.refuse(set.place, "the set \"", set.name, "\" contains itself; leave that out");
-    std::vector<int> out;
-    for (const InpDeck::Item& item : set.items) {
-      if (item.label == "ELSET") {
-        for (const int e : members(set_of(item, SetKind::element, item.name), depth + 1))
-          for (int k = 0; k < nodes_of(element(e).kind.shape); ++k)
-            out.push_back(corner(element(e), k));
-      } else if (!item.name.empty()) {
-        const std::vector<int> more = members(set_of(item, set.kind, item.name), depth + 1);
-        out.insert(out.end(), more.begin(), more.end());
-      } else {
-        const bool node = set.kind == SetKind::node;
-        const int at = (node ? node_index : element_index).find(item.number);
-        if (at < 0 && !item.may_miss)
-          deck.text.refuse(item.place, "the set \"", set.name, "\" names ",
-                           node ? "node " : "element ", item.number, ", which is not defined");
-        if (at >= 0) out.push_back(at);
-      }
+    Members& m = known->second;
+    if (is_new) {
+      if (++depth > most_depth)
+        deck.text.refuse(set.place, "the set \"", set.name, "\" is named by sets that are named by sets, more than ", most_depth,
+                         " times over; name it directly");
+      for (const InpDeck::Item& item : set.items) add_members(item, set, m.places);
+      drop_repeated(m.places);
+      m.whole = true;
+      --depth;
+      if ((total += m.places.size()) > most_members)
+        deck.text.refuse(set.place, "the sets up to \"", set.name, "\" have more than ", most_members,
+                         " members; leave sets out that are not needed");
     }
-    return out;
+    if (!m.whole)
+      deck.text.refuse(set.place, "the set \"", set.name, "\" contains itself; leave that out");
+    return m.places;
+  }
+
+  void add_members(const InpDeck::Item& item, const InpDeck::Set& set, std::vector<int>& out) {
+    const bool node = set.kind == SetKind::node;
+    const NumberIndex& index = node ? node_index : element_index;
+    if (item.label == "ELSET") {
+      for (const int e : members(set_of(item, SetKind::element, item.name)))
+        for (int k = 0; k < nodes_of(element(e).kind.shape); ++k)
+          out.push_back(corner(element(e), k));
+    } else if (!item.name.empty()) {
+      const std::vector<int>& more = members(set_of(item, set.kind, item.name));
+      out.insert(out.end(), more.begin(), more.end());
+    } else if (item.step > 0) {
+      index.find_all(item.number, item.last, item.step, out);
+    } else {
+      const int at = index.find(item.number);
+      if (at < 0)
+        deck.text.refuse(item.place, "the set \"", set.name, "\" names ",
+                         node ? "node " : "element ", item.number, ", which is not defined");
+      out.push_back(at);
+    }
+  }
+
+  void drop_repeated(std::vector<int>& places) {
+    ++round;
+    std::erase_if(places, [&](int p) { return std::exchange(seen[static_cast<std::size_t>(p)], round) == round; });
   }
 
   // Which side of the element a surface's label means: 0 to 3, −1 for all free ones.
@@ -189,7 +228,7 @@ struct Builder {
     if (at >= 0) sides.push_back(at);
   }
 
-  std::vector<int> surface_sides(const InpDeck::Set& set, const Rim& rim) const {
+  std::vector<int> surface_sides(const InpDeck::Set& set, const Rim& rim) {
     std::vector<int> sides;
     for (const InpDeck::Item& item : set.items) {
       const std::vector<int> elements = [&] {
@@ -211,10 +250,10 @@ struct Builder {
     return sides;
   }
 
-  Group& group_named(Mesh& mesh, const std::string& name) const {
-    for (Group& g : mesh.groups)
-      if (upper(g.name) == upper(name)) return g;
-    return mesh.groups.emplace_back(Group{name, {}, {}});
+  Group& group_named(Mesh& mesh, const std::string& name) {
+    const auto [known, is_new] = group_index.try_emplace(upper(name), mesh.groups.size());
+    if (is_new) mesh.groups.push_back({name, {}, {}});
+    return mesh.groups[known->second];
   }
 
   void groups(Mesh& mesh, const Rim& rim) {
@@ -244,11 +283,11 @@ struct Builder {
 
 }  // namespace
 
-Mesh read_inp(const std::filesystem::path& path, double scale) {
+Mesh read_inp(const std::filesystem::path& path, double scale, const std::filesystem::path& folder) {
   if (!(scale > 0) || !std::isfinite(scale))
     throw std::invalid_argument(path.string() + ": scale = " + std::to_string(scale) +
                                 ", must be positive: m per unit of the file");
-  const InpDeck deck = read_inp_deck(path);
+  const InpDeck deck = read_inp_deck(path, folder.empty() ? path.parent_path() : folder);
   if (deck.elements.empty())
     throw std::invalid_argument(
         path.string() + ": no *ELEMENT in it; it needs plane elements or beams between its nodes");

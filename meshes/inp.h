@@ -22,9 +22,10 @@ namespace pintle {
 /// without label the free sides of the set. A group that no cell touches is left out; closed loops
 /// of the outline that no group's side touches become "outline", "hole 1", … as in read_geometry.
 ///
-/// Lengths in m times `scale`: 0.001 for a file in millimetres.
+/// Lengths in m times `scale`: 0.001 for a file in millimetres. *INCLUDE reads from `folder` (the file's own if
+/// empty), from below it and where the user trusts (files/trust.h).
 /// @throws std::runtime_error     the file (or one it includes) cannot be read
 /// @throws std::invalid_argument  file:line: what is wrong there and what would be right
-Mesh read_inp(const std::filesystem::path&, double scale = 1);
+Mesh read_inp(const std::filesystem::path&, double scale = 1, const std::filesystem::path& folder = {});
 
 }  // namespace pintle

@@ -69,7 +69,7 @@ struct Parser {
       deck.x.push_back(x[0]), deck.y.push_back(x[1]);
       if (name)
         set(*name, InpDeck::SetKind::node, card.place)
-            .items.push_back({number, {}, place, false, {}});
+            .items.push_back({number, {}, place, 0, 0, {}});
     }
   }
 
@@ -105,7 +105,7 @@ struct Parser {
       deck.elements.push_back({*kind, first, place});
       if (name)
         set(*name, InpDeck::SetKind::element, card.place)
-            .items.push_back({number, {}, place, false, {}});
+            .items.push_back({number, {}, place, 0, 0, {}});
     }
   }
 
@@ -117,18 +117,14 @@ struct Parser {
     for (; k < 3 && next_field(rest, field); ++k) range[k] = whole(field, place, "number");
     if (k < 2 || range[1] < range[0])
       deck.text.refuse(place, "GENERATE needs first, last and step, last not before first");
-    if ((range[1] - range[0]) / range[2] > 100'000'000)
-      deck.text.refuse(place, "GENERATE from ", range[0], " to ", range[1], " by ", range[2],
-                       " makes more than a hundred million numbers; is the range right?");
-    for (long i = range[0]; i <= range[1]; i += range[2])
-      s.items.push_back({i, {}, place, true, {}});
+    s.items.push_back({range[0], {}, place, range[1], range[2], {}});
   }
 
   void set_card(const InpCard& card, InpDeck::SetKind kind) {
     const bool node = kind == InpDeck::SetKind::node;
     InpDeck::Set& s = set(required(card, node ? "NSET" : "ELSET"), kind, card.place);
     if (const std::string* of = node ? card.find("ELSET") : nullptr)
-      s.items.push_back({0, *of, card.place, false, "ELSET"});
+      s.items.push_back({0, *of, card.place, 0, 0, "ELSET"});
     for (; data(); ++at) {
       if (card.find("GENERATE")) {
         generate(s);
@@ -137,7 +133,7 @@ struct Parser {
       std::string_view rest = lines[at].text, field;
       while (next_field(rest, field)) {
         if (field.empty()) continue;
-        InpDeck::Item item{0, {}, lines[at].place, false, {}};
+        InpDeck::Item item{0, {}, lines[at].place, 0, 0, {}};
         if (!to_number(field, item.number)) item.name = field;
         s.items.push_back(std::move(item));
       }
@@ -158,7 +154,7 @@ struct Parser {
     for (; data(); ++at) {
       std::string_view rest = lines[at].text, field;
       next_field(rest, field);
-      InpDeck::Item item{0, {}, lines[at].place, false, {}};
+      InpDeck::Item item{0, {}, lines[at].place, 0, 0, {}};
       if (!to_number(field, item.number)) item.name = field;
       if (kind == "ELEMENT" && next_field(rest, field)) item.label = upper(field);
       s.items.push_back(std::move(item));
@@ -259,9 +255,9 @@ std::optional<InpKind> inp_kind(const std::string& type, std::string& reason) {
   return std::nullopt;
 }
 
-InpDeck read_inp_deck(const std::filesystem::path& path) {
+InpDeck read_inp_deck(const std::filesystem::path& path, const std::filesystem::path& folder) {
   InpDeck deck;
-  deck.text = read_inp_text(path);
+  deck.text = read_inp_text(path, folder);
   Parser{deck, deck.text.lines, 0, {}, {}}.run();
   return deck;
 }

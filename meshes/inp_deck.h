@@ -25,12 +25,12 @@ struct InpDeck {
     std::size_t first;  ///< into element_nodes
     InpPlace place;
   };
-  struct Item {  ///< of a set: a number, or the name of another set
+  struct Item {  ///< of a set: a number, a range of them, or the name of another set
     long number = 0;
     std::string name;
     InpPlace place;
-    bool may_miss = false;  ///< from GENERATE, whose range may have gaps
-    std::string label;      ///< of a surface: the side
+    long last = 0, step = 0;  ///< of GENERATE, whose range may have gaps; step 0: no range
+    std::string label;        ///< of a surface: the side
   };
   enum class SetKind { node, element, surface };
   struct Set {
@@ -47,6 +47,6 @@ struct InpDeck {
   std::vector<Set> sets;
 };
 /// @throws as read_inp
-InpDeck read_inp_deck(const std::filesystem::path&);
+InpDeck read_inp_deck(const std::filesystem::path&, const std::filesystem::path& folder);
 
 }  // namespace pintle

@@ -4,9 +4,11 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <fstream>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
+
+#include "files/files.h"
 
 namespace pintle {
 
@@ -14,20 +16,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string content_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::error_code error;
-  const auto size = fs::file_size(path, error);
-  if (!in || error) throw std::runtime_error(path.string() + ": this file cannot be read");
-  std::string text(size, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(size));
-  if (!in) throw std::runtime_error(path.string() + ": this file cannot be read to its end");
-  return text;
-}
+constexpr std::size_t most_bytes = std::size_t{1} << 30;  // of all files together
+constexpr std::size_t most_files = 1000;
+
+/// A card or data, as far as the first letter tells.
+bool may_begin(std::string_view line) { return line.find_first_of("*0123456789+-.") == 0; }
 
 struct Reader {
   InpText& out;
-  std::vector<fs::path> open;
+  const fs::path& folder;
+  std::vector<fs::path> open{};
+  std::size_t bytes = 0;
+
+  std::string content_of(const fs::path& path) {
+    try {
+      std::string text = read_file(path, most_bytes - bytes);
+      bytes += text.size();
+      return text;
+    } catch (const FileRefused& e) {
+      throw std::runtime_error(path.string() + ": " + e.what());
+    }
+  }
 
   void read(const fs::path& path) {
     const int file = static_cast<int>(out.files.size());
@@ -36,11 +45,15 @@ struct Reader {
     open.push_back(fs::weakly_canonical(path));
     const std::string_view all = out.contents.back();
     int number = 0;
+    bool begun = false;
     for (std::size_t at = 0; at < all.size();) {
       const std::size_t end = std::min(all.find('\n', at), all.size());
       const std::string_view text = trimmed(all.substr(at, end - at));
       at = end + 1, ++number;
       if (text.empty() || text.starts_with("**")) continue;
+      // What is no input file is not shown.
+      if (!std::exchange(begun, true) && !may_begin(text))
+        out.refuse({file, number}, "is no input file of CalculiX or Abaqus: it begins with neither a card (*NODE) nor numbers");
       if (text[0] == '*' && upper(text.substr(0, 8)) == "*INCLUDE")
         include(text, {file, number});
       else
@@ -54,13 +67,19 @@ struct Reader {
     const std::string* input = card.find("INPUT");
     if (!input || input->empty())
       out.refuse(place, "*INCLUDE names no file; write *INCLUDE, INPUT=file");
-    fs::path path = *input;
-    if (path.is_relative())
-      path = out.files[static_cast<std::size_t>(place.file)].parent_path() / path;
+    const fs::path beside = out.files[static_cast<std::size_t>(place.file)].parent_path();
+    fs::path path;
+    try {
+      path = contained_file(*input, beside, folder);
+    } catch (const FileRefused& e) {
+      out.refuse(place, "*INCLUDE of ", e.what());
+    }
     if (std::find(open.begin(), open.end(), fs::weakly_canonical(path)) != open.end())
       out.refuse(place, "*INCLUDE of ", *input, ", which is just being read; leave it out");
     if (!fs::exists(path))
       out.refuse(place, "*INCLUDE of ", *input, ": there is no file ", path.string());
+    if (out.files.size() >= most_files)
+      out.refuse(place, "*INCLUDE of ", *input, ": more than ", most_files, " files are included; put them together");
     read(path);
   }
 };
@@ -72,9 +91,9 @@ void InpText::fail(InpPlace at, const std::string& what) const {
                               std::to_string(at.line) + ": " + what);
 }
 
-InpText read_inp_text(const fs::path& path) {
+InpText read_inp_text(const fs::path& path, const fs::path& folder) {
   InpText text;
-  Reader{text, {}}.read(path);
+  Reader{text, folder}.read(path);
   return text;
 }
 

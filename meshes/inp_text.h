@@ -36,9 +36,10 @@ struct InpText {
   [[noreturn]] void fail(InpPlace at, const std::string& what) const;
 };
 
+/// @param folder  included files are in it, below it, or where the user trusts
 /// @throws std::runtime_error     a file cannot be read
-/// @throws std::invalid_argument  files that include each other
-InpText read_inp_text(const std::filesystem::path&);
+/// @throws std::invalid_argument  a file is no input file, or one that it includes; files that include each other
+InpText read_inp_text(const std::filesystem::path&, const std::filesystem::path& folder);
 
 /// `*KEYWORD, NAME=value, FLAG`: upper case but for the values.
 struct InpCard {

@@ -13,18 +13,23 @@ namespace pintle {
 
 namespace {
 
-/// Where the program seeks its libraries, in this order.
+void add_path_of(void* object, std::vector<std::string>& out) {
+  Dl_serinfo size;
+  if (object == nullptr || dlinfo(object, RTLD_DI_SERINFOSIZE, &size) != 0) return;
+  std::vector<std::max_align_t> room(size.dls_size / sizeof(std::max_align_t) + 1);
+  auto* info = reinterpret_cast<Dl_serinfo*>(room.data());
+  info->dls_size = size.dls_size, info->dls_cnt = size.dls_cnt;
+  if (dlinfo(object, RTLD_DI_SERINFO, info) != 0) return;
+  for (unsigned i = 0; i < info->dls_cnt; ++i) out.emplace_back(info->dls_serpath[i].dls_name);
+}
+
+/// Where the program, and this library if it is shared, seek their libraries, in this order.
 std::vector<std::string> search_path() {
   std::vector<std::string> out;
-  void* program = dlopen(nullptr, RTLD_LAZY);
-  Dl_serinfo size;
-  if (program != nullptr && dlinfo(program, RTLD_DI_SERINFOSIZE, &size) == 0) {
-    std::vector<std::max_align_t> room(size.dls_size / sizeof(std::max_align_t) + 1);
-    auto* info = reinterpret_cast<Dl_serinfo*>(room.data());
-    info->dls_size = size.dls_size, info->dls_cnt = size.dls_cnt;
-    if (dlinfo(program, RTLD_DI_SERINFO, info) == 0)
-      for (unsigned i = 0; i < info->dls_cnt; ++i) out.emplace_back(info->dls_serpath[i].dls_name);
-  }
+  add_path_of(dlopen(nullptr, RTLD_LAZY), out);
+  Dl_info self;
+  if (dladdr(reinterpret_cast<const void*>(&load_module), &self) != 0)
+    if (void* library = dlopen(self.dli_fname, RTLD_LAZY | RTLD_NOLOAD)) add_path_of(library, out), dlclose(library);
   return out;
 }
 
@@ -43,6 +48,14 @@ void* open(const std::string& file, std::string& why) {
 }
 
 }  // namespace
+
+std::string program_beside_modules(const std::string& name) {
+  static const std::vector<std::string> folders = search_path();
+  for (const std::string& folder : folders)
+    if (const std::string path = folder + "/" + name; access(path.c_str(), X_OK) == 0) return path;
+  throw std::runtime_error(name + ": is not there; it is built and installed with pintle: keep it in lib/pintle beside the library, or "
+                                  "name its folder in LD_LIBRARY_PATH");
+}
 
 const void* load_module(const char* name) {
   const std::string file = "libpintle_" + std::string(name) + ".so", symbol = "pintle_" + std::string(name);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace pintle {
 
 /// A part of the library that stands in a shared object of its own, libpintle_NAME.so, because what it links takes
@@ -11,6 +13,9 @@ namespace pintle {
 ///     it was built as, a `const char*`
 /// @throws std::runtime_error  it cannot be found or loaded, or belongs to another version
 const void* load_module(const char* name);
+
+/// Path of a program that stands beside the modules.  @throws std::runtime_error  it is not there
+std::string program_beside_modules(const std::string& name);
 
 /// The table of a module; Table begins with `const char* version`.
 template <class Table>

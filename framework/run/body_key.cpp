@@ -4,11 +4,11 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <string_view>
 #include <type_traits>
 
+#include "files/files.h"
 #include "framework/run/elastic_parts.h"
 
 namespace pintle {
@@ -182,12 +182,15 @@ bool looks_beyond(const std::string& kind, const std::string& text) {
 }
 
 std::optional<std::string> contents(const Scene& scene, const SceneFile& file) {
-  const fs::path path = fs::path(scene.file).parent_path() / file.path;
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return {};
-  std::ifstream in(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in || text.empty() || looks_beyond(kind_of(path), text)) return {};
+  constexpr std::size_t most_bytes = std::size_t{1} << 30;
+  std::string text;
+  try {
+    const fs::path path = contained_file(file.path, fs::path(scene.file).parent_path());
+    text = read_file(path, most_bytes);
+  } catch (const FileRefused&) {
+    return {};  // meshing it says why
+  }
+  if (text.empty() || looks_beyond(kind_of(file.path), text)) return {};
   return text;
 }
 

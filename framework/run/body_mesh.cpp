@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "files/files.h"
 #include "framework/run/elastic_parts.h"
 #include "framework/run/in_body.h"
 #include "meshes/generate.h"
@@ -74,8 +75,8 @@ Mesh plate_mesh(const Scene& scene, const SceneBody& body, const ScenePlate& pla
     if (p.hole.empty()) options.points.push_back(vector(p.at));
   if (const auto* link = std::get_if<Link>(&plate.shape)) return mesh_link(*link, options);
   const SceneFile& file = std::get<SceneFile>(plate.shape);
-  const fs::path path = fs::path(scene.file).parent_path() / file.path;
-  return kind_of(path) == ".inp" ? read_inp(path, file.scale) : read_geometry(path, options, file.scale);
+  const fs::path folder = fs::path(scene.file).parent_path(), path = contained_file(file.path, folder);
+  return kind_of(path) == ".inp" ? read_inp(path, file.scale, folder) : read_geometry(path, options, file.scale, folder);
 }
 
 void judge(const Mesh& mesh) {

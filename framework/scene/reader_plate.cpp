@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "files/files.h"
 #include "framework/scene/nearest.h"
 #include "framework/scene/reader_parts.h"
 
@@ -137,7 +138,12 @@ SceneFile read_file(const Node& plate) {
   if (!drawing && std::ranges::find(meshes, kind) == meshes.end())
     node.fail(node.shown() + " must be a drawing (" + listed(drawings) + ") or a mesh (" +
               listed(meshes) + ")");
-  const fs::path path = fs::path(node.source().file).parent_path() / file.path;
+  fs::path path;
+  try {
+    path = contained_file(file.path, fs::path(node.source().file).parent_path());
+  } catch (const FileRefused& refused) {
+    node.fail(refused.what());
+  }
   if (!fs::exists(path)) node.fail("there is no file " + path.string() + "; check the path");
   if (!drawing)
     for (const char* key : {"size", "hole size"})

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "files/files.h"
 #include "framework/scene/nearest.h"
 #include "framework/scene/reader_parts.h"
 #include "framework/scene/table.h"
@@ -75,7 +76,13 @@ Law read_table_law(const Node& node, const Dimension& expected, Smoothness smoot
   }
   const double time_unit = unit_factor(node, "time unit", dimension::time);
   const double value_unit = unit_factor(node, "value unit", expected);
-  Samples samples = read_samples(folder / file, time_unit, value_unit, node.place().key);
+  std::filesystem::path path;
+  try {
+    path = contained_file(file, folder);
+  } catch (const FileRefused& refused) {
+    node.at("table").fail(refused.what());
+  }
+  Samples samples = read_samples(path, time_unit, value_unit, node.place().key);
   must_cover(node, file, samples, until);
   const std::string text = table_text(file, linear, time_unit, value_unit, expected);
   if (linear) return {Polyline(std::move(samples)), text, false};

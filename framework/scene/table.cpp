@@ -62,7 +62,7 @@ class SampleReader {
     if (header) return;
     if (words.size() != 2)
       fail("holds " + std::to_string(words.size()) + " columns; write two: time and value");
-    const double t = finite(words[0]) * time_unit, value = finite(words[1]) * value_unit;
+    const double t = finite(words[0], 1) * time_unit, value = finite(words[1], 2) * value_unit;
     if (!samples_.t.empty() && !(t > samples_.t.back()))
       fail("time " + std::string(words[0]) +
            " does not come after the one before; times must increase");
@@ -81,10 +81,12 @@ class SampleReader {
   [[noreturn]] void fail(const std::string& message) const {
     throw SceneError(file_, {line_, key_}, message);
   }
-  double finite(std::string_view word) const {
+  double finite(std::string_view word, int column) const {
     const std::optional<double> value = number(word);
+    // Before a first row of numbers the file may be anything, and is not shown.
     if (!value)
-      fail("\"" + std::string(word) + "\" is not a number; write one, like 0.25 or 2.5e-1");
+      fail((samples_.t.empty() ? "column " + std::to_string(column) : "\"" + std::string(word) + "\"") +
+           " is not a number; write one, like 0.25 or 2.5e-1");
     if (!std::isfinite(*value))
       fail("the value " + std::string(word) + " is not finite; correct or remove the line");
     return *value;

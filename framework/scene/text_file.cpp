@@ -1,7 +1,6 @@
 #include "framework/scene/text_file.h"
 
-#include <fstream>
-
+#include "files/files.h"
 #include "framework/scene/error.h"
 
 namespace pintle {
@@ -41,21 +40,12 @@ std::string read_text_file(const fs::path& path, std::size_t most_bytes, const s
   const auto fail = [&](const std::string& message, int line = 0) {
     throw SceneError(path.string(), {line, key}, message);
   };
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) fail("there is no such file; check the path");
-  if (fs::is_directory(status)) fail("is a directory; name a file in it");
-  if (!fs::is_regular_file(status)) fail("is not an ordinary file; write the text to one");
-  const std::uintmax_t size = fs::file_size(path, error);
-  if (error) fail("cannot be read: " + error.message());
-  if (size > most_bytes)
-    fail("has " + std::to_string(size >> 20) + " MB; at most " + std::to_string(most_bytes >> 20) +
-         " MB are read. Is it the right file?");
-
-  std::ifstream in(path, std::ios::binary);
-  std::string text(static_cast<std::size_t>(size), '\0');
-  in.read(text.data(), static_cast<std::streamsize>(size));
-  if (!in) fail("cannot be read; check its permissions");
+  std::string text;
+  try {
+    text = read_file(path, most_bytes);
+  } catch (const FileRefused& refused) {
+    fail(refused.what());
+  }
   if (const int line = line_not_text(text); line > 0)
     fail("is not text (a zero byte, or bytes that are not UTF-8); is it the right file?", line);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)

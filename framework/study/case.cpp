@@ -10,6 +10,7 @@
 
 #include "framework/run/pieces.h"
 #include "framework/scene/text_file.h"
+#include "meshes/limits.h"
 
 namespace pintle {
 
@@ -133,6 +134,8 @@ Outcome run_case(const CaseSource& source, const Overrides& overrides, const std
     out.status = "not assembled", out.reason = one_line(error.what());
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const MeshingStopped&) {
+    out.status = status_text(Status::interrupted), out.reason = "stopped while a body was meshed";
   } catch (const std::exception& error) {
     out.status = "refused", out.reason = one_line(error.what());
   }

@@ -116,7 +116,7 @@ void Crew::run(std::size_t number, int thread) {
   } catch (const std::bad_alloc&) {
     outcome.status = "failed", outcome.reason = "there was not enough memory; run fewer cases at once (--threads)";
   }
-  if (stopped_) return;
+  if (stopped_ || outcome.status == status_text(Status::interrupted)) return;
   Row row{number, outcome.status, outcome.reason, outcome.values, outcome.units, outcome.t_end, outcome.unexplained_share, outcome.counts.steps,
           outcome.impacts, std::to_string(rank_) + "." + std::to_string(thread), outcome.build_seconds, outcome.run_seconds};
   journal_.append(row);

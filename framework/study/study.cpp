@@ -84,6 +84,9 @@ StudyFile read_study(const std::filesystem::path& path) {
   if (root.has("title")) file.study.title = root.at("title").text("a line of text");
   const Node scene = root.at("scene");
   const std::filesystem::path scene_path = path.parent_path() / scene.text("the scene's file, beside the study");
+  // The user's own study may name a scene anywhere, but nothing else: what is wrong with it is shown.
+  const std::string kind = scene_path.extension().string();
+  if (kind != ".yaml" && kind != ".yml" && kind != ".json") scene.fail(scene.shown() + " is no scene; name a .yaml, .yml or .json file");
   if (!std::filesystem::exists(scene_path)) scene.fail("there is no file " + scene_path.string() + "; it is sought beside the study");
   file.study.scene = read_case_source(scene_path, root.has("set") ? read_set(root.at("set")) : Overrides{});
   file.study.measures = read_measures(root.at("measure"), path.string());

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <set>
 
+#include "files/files.h"
 #include "framework/run/text.h"
 #include "framework/scene/text_file.h"
 #include "framework/study/fingerprint.h"
@@ -15,20 +15,23 @@ namespace pintle {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t most_bytes = std::size_t{100} << 20;
+constexpr std::size_t most_bytes = std::size_t{100} << 20, most_file_bytes = std::size_t{1} << 30;
 
-/// Chains the contents of every file beside the scene that a value names: tables, drawings, meshes.
-std::uint64_t print_of_files(const Yaml& tree, const fs::path& folder, std::uint64_t print) {
-  std::error_code error;
-  if (tree.kind == Yaml::Kind::scalar && !tree.text.empty() && tree.text.size() < 256 && tree.text.find('\n') == std::string::npos &&
-      fs::is_regular_file(folder / tree.text, error)) {
-    std::ifstream in(folder / tree.text, std::ios::binary);
-    print = fingerprint(tree.text, print);
-    for (std::string part(1 << 16, '\0'); in.good();) {
-      in.read(part.data(), static_cast<std::streamsize>(part.size()));
-      print = fingerprint(std::string_view(part.data(), static_cast<std::size_t>(in.gcount())), print);
-    }
+/// The contents of a file beside the scene that a value names, if it does: a table, drawing or mesh.
+std::optional<std::string> file_named(const std::string& text, const fs::path& folder) {
+  if (text.empty() || text.size() >= 256 || text.find('\n') != std::string::npos) return {};
+  try {
+    const fs::path path = contained_file(text, folder);
+    std::error_code error;
+    if (fs::is_regular_file(path, error)) return read_file(path, most_file_bytes);
+  } catch (const FileRefused&) {  // whoever reads it says why
   }
+  return {};
+}
+
+std::uint64_t print_of_files(const Yaml& tree, const fs::path& folder, std::uint64_t print) {
+  if (tree.kind == Yaml::Kind::scalar)
+    if (const std::optional<std::string> file = file_named(tree.text, folder)) print = fingerprint(*file, fingerprint(tree.text, print));
   for (const Yaml& item : tree.items) print = print_of_files(item, folder, print);
   return print;
 }

@@ -230,5 +230,48 @@ TEST(InpNumbers, MayHaveGapsAndComeInAnyOrder) {
   for (const int node : mesh.group("right")->nodes) EXPECT_EQ(mesh.x(0, node), 1);
 }
 
+
+const std::string one_triangle = "*NODE\n1,0,0\n2,1,0\n3,0,1\n*ELEMENT,TYPE=CPS3\n7,1,2,3\n";
+constexpr const char* greatest = "9223372036854775807";
+
+TEST(InpNumbers, ARangeUpToTheGreatestNumberEnds) {
+  for (const std::string& range : {std::string("1,") + greatest + ",9223372036854775806", std::string("2,") + greatest,
+                                  std::string(greatest) + "," + greatest + "," + greatest}) {
+    const Mesh mesh = read_inp(Deck(one_triangle + "*NSET,NSET=a,GENERATE\n" + range + "\n*ELSET,ELSET=e,GENERATE\n1," + greatest + "\n").path());
+    EXPECT_EQ(numbers_of(mesh, "e"), (Numbers{1, 2, 3})) << range;
+  }
+  EXPECT_EQ(numbers_of(read_inp(Deck(one_triangle + "*NSET,NSET=a,GENERATE\n1," + greatest + ",2\n").path()), "a"), (Numbers{1, 3}));
+}
+
+TEST(InpNumbers, NodesMayHaveTheGreatestNumber) {
+  const std::string n = greatest;
+  const Mesh mesh = read_inp(Deck("*NODE,NSET=all\n1,0,0\n2,1,0\n" + n + ",0,1\n*ELEMENT,TYPE=CPS3\n" + n + ",1,2," + n + "\n").path());
+  EXPECT_EQ(numbers_of(mesh, "all").back(), std::stol(n));
+}
+
+TEST(InpNumbers, OnesTooGreatAreRefusedByLine) {
+  for (const char* number : {"9223372036854775808", "-1", "0", "1e3", "99999999999999999999999"})
+    for (const std::string& text : {"*NODE\n" + std::string(number) + ",0,0\n", one_triangle + "*ELEMENT,TYPE=CPS3\n" + number + ",1,2,3\n",
+                                   one_triangle + "*ELEMENT,TYPE=CPS3\n8,1,2," + number + "\n",
+                                   one_triangle + "*NSET,NSET=a,GENERATE\n1," + number + "\n",
+                                   one_triangle + "*NSET,NSET=a\n" + number + "\n"})
+      EXPECT_THROW(read_inp(Deck(text).path()), std::invalid_argument) << text;
+}
+
+TEST(InpSets, ThatNameOthersTwiceEachAreGatheredOnce) {
+  std::string text = one_triangle + "*NSET,NSET=s0\n1,2\n";
+  for (int k = 1; k < 60; ++k) {
+    const std::string before = "s" + std::to_string(k - 1);
+    text += "*NSET,NSET=s" + std::to_string(k) + "\n" + before + "," + before + "\n";
+  }
+  EXPECT_EQ(numbers_of(read_inp(Deck(text).path()), "s59"), (Numbers{1, 2}));
+}
+
+TEST(InpSets, NestedWithoutEndAreRefused) {
+  std::string text = one_triangle;
+  for (int k = 0; k < 200'000; ++k) text += "*NSET,NSET=s" + std::to_string(k) + "\ns" + std::to_string(k + 1) + "\n";
+  EXPECT_THROW(read_inp(Deck(text).path()), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace pintle

@@ -1,0 +1,146 @@
+// pintle-mesher: makes meshes for the library that started it, which is at the other end of its standard input.
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <clocale>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+#include "meshes/confine.h"
+#include "meshes/gmsh_mesher.h"
+#include "meshes/refuse.h"
+#include "meshes/wire.h"
+
+namespace pintle {
+
+namespace {
+
+constexpr int line = 0, done = 42;
+
+bool receive(void* data, std::size_t size) {
+  for (char* at = static_cast<char*>(data); size > 0;) {
+    const ssize_t n = recv(line, at, size, 0);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    at += n, size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+bool send(const void* data, std::size_t size) {
+  for (const char* at = static_cast<const char*>(data); size > 0;) {
+    const ssize_t n = ::send(line, at, size, MSG_NOSIGNAL);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    at += n, size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+bool say(const std::string& words) {
+  const std::uint64_t length = words.size();
+  return send(&length, sizeof length) && send(words.data(), words.size());
+}
+std::string answer(Answer kind, const std::string& words) { return static_cast<char>(kind) + words; }
+
+void limit_memory(double bytes) {
+#if !defined(__SANITIZE_ADDRESS__)  // which reserves terabytes
+  const rlimit space{static_cast<rlim_t>(bytes), static_cast<rlim_t>(bytes)};
+  setrlimit(RLIMIT_AS, &space);
+#else
+  static_cast<void>(bytes);
+#endif
+  const rlimit none{0, 0};
+  setrlimit(RLIMIT_CORE, &none);
+}
+
+/// What this system offers; to be told that it offers nothing shows what happens then.
+bool shut_in(const std::vector<std::string>& folders) {
+  const bool offered = std::getenv("PINTLE_NO_CONFINEMENT") == nullptr;
+  clearenv();  // a script could read it
+  return offered && confine(folders);
+}
+
+Mesh made(const MesherTask& task) {
+  if (!task.at.empty() && chdir(task.at.c_str()) != 0) throw std::runtime_error(task.at + ": is no folder any more");
+  const bool script = task.file.ends_with(".geo");
+  if (!(script && task.unconfined) && !shut_in(task.folders) && script)
+    refuse(task.file,
+           ": a .geo file is a program, and this system has no means to shut it in (Landlock and seccomp of Linux); if you know where "
+           "the drawing comes from, allow it by --trust-geo, else take a .step, .brep or .msh file");
+  return task.link ? gmsh_link(*task.link, task.options) : gmsh_geometry(task.file, task.options, task.scale);
+}
+
+std::string worked_on(const std::string& words) {
+  try {
+    const MesherTask task = unpacked_task(words);
+    limit_memory(task.most_bytes);
+    return answer(Answer::mesh, packed(made(task)));
+  } catch (const std::bad_alloc&) {
+    return answer(Answer::out_of_memory, {});
+  } catch (const std::length_error&) {  // a list that is too long for any memory
+    return answer(Answer::out_of_memory, {});
+  } catch (const std::invalid_argument& e) {
+    return answer(Answer::invalid_argument, e.what());
+  } catch (const std::exception& e) {
+    return answer(Answer::runtime_error, e.what());
+  }
+}
+
+extern "C" void wake(int) {}
+
+/// The child's exit code, 128 + signal if one ended it; −1 if the library hung up before.
+int outcome(pid_t child, const sigset_t& awake) {
+  for (;;) {
+    int status = 0;
+    if (waitpid(child, &status, WNOHANG) == child) return WIFSIGNALED(status) ? killed_by + WTERMSIG(status) : WEXITSTATUS(status);
+    pollfd other{line, POLLRDHUP, 0};
+    if (ppoll(&other, 1, nullptr, &awake) > 0) {
+      kill(child, SIGKILL);
+      waitpid(child, &status, 0);
+      return -1;
+    }
+  }
+}
+
+int serve() {
+  struct sigaction on_child {};
+  on_child.sa_handler = wake;
+  sigaction(SIGCHLD, &on_child, nullptr);
+  sigset_t child, awake;
+  sigemptyset(&child), sigaddset(&child, SIGCHLD);
+  sigprocmask(SIG_BLOCK, &child, &awake);  // but while waiting for one
+  const pid_t self = getpid();
+  if (!say(PINTLE_VERSION)) return 1;
+  for (std::uint64_t length = 0; receive(&length, sizeof length);) {
+    std::string words(static_cast<std::size_t>(length), '\0');
+    if (!receive(words.data(), words.size())) return 1;
+    const pid_t worker = fork();
+    if (worker < 0) return 1;
+    if (worker == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      if (getppid() != self) _exit(1);
+      _exit(say(worked_on(words)) ? done : 1);
+    }
+    if (const int code = outcome(worker, awake); code != done) return code;
+  }
+  return 0;
+}
+
+}  // namespace
+
+}  // namespace pintle
+
+int main() {
+  std::setlocale(LC_ALL, "C.UTF-8");  // Gmsh asks for it too, when no file can be opened any more
+  std::setlocale(LC_NUMERIC, "C");
+  return pintle::serve();
+}

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "meshes/mesher.h"
+
+/// Tasks and meshes as bytes, exact to the bit, between the library and the mesher's process; both are of one build.
+namespace pintle {
+
+std::string packed(const MesherTask&);
+std::string packed(const Mesh&);
+/// @throws std::runtime_error  the bytes end too early
+MesherTask unpacked_task(std::string_view);
+/// @throws std::runtime_error  the bytes end too early, or cells and groups name nodes that there are not
+Mesh unpacked_mesh(std::string_view);
+
+}  // namespace pintle
