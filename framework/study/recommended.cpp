@@ -11,15 +11,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Paths of tables and drawings, found from another folder.
-void mend_paths(Yaml& yaml, const std::string& parent, const fs::path& from, const fs::path& to) {
-  for (Yaml& item : yaml.items) mend_paths(item, yaml.kind == Yaml::Kind::map ? yaml.key : parent, from, to);
-  if (yaml.kind != Yaml::Kind::scalar || !(yaml.key == "table" || (yaml.key == "file" && parent == "plate"))) return;
+/// Paths of tables and drawings, found from another folder.  @returns whether there are any
+bool mend_paths(Yaml& yaml, const std::string& parent, const fs::path& from, const fs::path& to) {
+  bool any = false;
+  for (Yaml& item : yaml.items) any = mend_paths(item, yaml.kind == Yaml::Kind::map ? yaml.key : parent, from, to) || any;
+  if (yaml.kind != Yaml::Kind::scalar || !(yaml.key == "table" || (yaml.key == "file" && parent == "plate"))) return any;
   const fs::path path(yaml.text);
-  if (path.is_absolute()) return;
+  if (path.is_absolute()) return true;
   const fs::path whole = fs::absolute(from / path).lexically_normal();
   const fs::path relative = whole.lexically_relative(fs::absolute(to).lexically_normal());
   yaml.text = (relative.empty() ? whole : relative).generic_string();
+  return true;
 }
 
 /// A bare number given for a parameter has the parameter's unit.
@@ -65,8 +67,9 @@ std::string recommended_scene(const CaseSource& source, const Overrides& set, co
   set_parameters(scene, apply_paths(scene, source.file.string(), all));
   fs::path folder = source.file.parent_path();
   if (folder.empty()) folder = ".";
-  mend_paths(scene, "", folder, directory);
   std::string out;
+  if (mend_paths(scene, "", folder, directory))
+    out += "# It reads files beside " + source.file.filename().string() + ": run it with --allow-path " + fs::absolute(folder).lexically_normal().string() + "\n";
   for (std::size_t begin = 0; begin < comment.size();) {
     const std::size_t end = std::min(comment.find('\n', begin), comment.size());
     out += "# " + comment.substr(begin, end - begin) + "\n";

@@ -1,4 +1,5 @@
 // The trade of error against time: fronts, references, chaos, what is recommended.
+#include "files/trust.h"
 #include "framework/study/tradeoff.h"
 
 #include <gtest/gtest.h>
@@ -258,10 +259,13 @@ tradeoff:
   fs::create_directories(out);
   write_tradeoff(out, out, study.study.scene, r);
   const CaseSource recommended = read_case_source(out / "recommended.yaml");
+  EXPECT_NE(recommended.text.find("--allow-path"), std::string::npos) << "its table stays where it is";
+  set_trust({{folder.path / "scenes"}, false});
   const Outcome again = run_case(recommended, {}, study.study.measures);
   EXPECT_EQ(again.status, "finished") << again.reason;
   EXPECT_EQ(again.values, best.values);
   EXPECT_EQ(common_scene(recommended).run.tolerance, tolerance_of(plan, best.set));
+  set_trust({});
   for (const char* file : {"tradeoff.csv", "tradeoff.json", "tradeoff.svg", "tradeoff.md"}) EXPECT_GT(fs::file_size(out / file), 100U) << file;
 }
 

@@ -45,7 +45,7 @@ struct Bounds : testing::Test {
   }
   /// What the program prints, and its exit code behind it.
   string pintle(const string& arguments) const {
-    const string command = "cd " + (folder / "s").string() + " && " PINTLE_PROGRAM " " + arguments + " 2>&1";
+    const string command = "cd " + (folder / "s").string() + " || exit 9\n" PINTLE_PROGRAM " " + arguments + " 2>&1";
     string out;
     FILE* pipe = popen(command.c_str(), "r");
     for (char part[4096]; pipe && fgets(part, sizeof part, pipe);) out += part;
@@ -137,7 +137,7 @@ TEST_F(Bounds, CtrlCEndsAMeshAtOnce) {
   write("s/study.yaml", "scene: plate.yaml\nmeasure: {a: final angle of arm}\nset: {gravity: [0, 0]}\n"
                         "sweep: {list: [{bodies.arm.plate.file: b.geo}, {bodies.arm.plate.file: endless.geo}]}\n");
   const auto begin = std::chrono::steady_clock::now();
-  const string said = pintle("sweep study.yaml -q -o out --threads 1 & p=$!; sleep 4; kill -INT $p; wait $p; echo ended $?");
+  const string said = pintle("sweep study.yaml -q -o out --threads 1 & p=$!; until grep -q finished out/journal-0.txt 2>/dev/null; do sleep 0.1; done; sleep 0.5; kill -INT $p; wait $p; echo ended $? #");
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
   says(said, "ended 6");
   std::ifstream in(folder / "s/out/journal-0.txt");
