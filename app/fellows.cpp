@@ -1,6 +1,8 @@
 // The one file that includes mpi.h.
 #include "app/fellows.h"
 
+#include <stdlib.h>
+
 #include <cstdlib>
 #include <string>
 
@@ -24,9 +26,29 @@ int launched() {
 }
 
 #ifdef PINTLE_WITH_MPI
+int number_in(const char* name) {
+  const char* text = std::getenv(name);
+  return text ? std::atoi(text) : 0;
+}
+
+/// Whether the launcher put all processes on this machine, as far as it says.
+bool on_one_machine() {
+  if (const int all = number_in("OMPI_COMM_WORLD_SIZE"); all > 0) return number_in("OMPI_COMM_WORLD_LOCAL_SIZE") == all;
+  return number_in("SLURM_STEP_NUM_NODES") == 1;
+}
+
+/// Processes of one machine talk through memory; Open MPI would have each of them listen on every network too. What the
+/// user has set stays.
+void keep_to_memory() {
+  if (!on_one_machine()) return;
+  ::setenv("OMPI_MCA_pml", "ob1", 0);
+  ::setenv("OMPI_MCA_btl", "self,vader", 0);
+}
+
 class MpiFellows : public Fellows {
  public:
   MpiFellows() {
+    keep_to_memory();
     int level = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);

@@ -166,6 +166,42 @@ TEST_F(SweepKilled, TenTimesUnderMpiItLosesNothingAndRunsNothingTwice) {
   kill_ten_times({PINTLE_MPIRUN, "--oversubscribe", "-n", "2"}, {});
 }
 
+/// Sockets that the program's processes listen at, from all networks: the inodes that they hold, looked up in /proc/net.
+int open_to_networks(const std::string& program) {
+  std::set<std::string> listening;
+  for (const char* table : {"/proc/net/tcp", "/proc/net/tcp6"}) {
+    std::ifstream in(table);
+    std::string line;
+    for (std::getline(in, line); std::getline(in, line);) {
+      std::istringstream fields(line);
+      std::string number, local, remote, state, queues, timer, retransmissions, user, timeout, inode;
+      fields >> number >> local >> remote >> state >> queues >> timer >> retransmissions >> user >> timeout >> inode;
+      const bool anywhere = local.substr(0, local.find(':')).find_first_not_of('0') == std::string::npos;
+      if (state == "0A" && anywhere) listening.insert("socket:[" + inode + "]");
+    }
+  }
+  int count = 0;
+  std::error_code gone;
+  for (const auto& process : fs::directory_iterator("/proc", gone)) {
+    if (fs::read_symlink(process.path() / "exe", gone) != fs::canonical(program)) continue;
+    for (const auto& file : fs::directory_iterator(process.path() / "fd", gone)) count += listening.contains(fs::read_symlink(file.path(), gone).string());
+  }
+  return count;
+}
+
+TEST_F(SweepKilled, OnOneMachineNoProcessListensToTheNetwork) {
+  if (std::string(PINTLE_MPIRUN).empty()) GTEST_SKIP() << "built without MPI";
+  const Command command{PINTLE_MPIRUN, "--allow-run-as-root", "--oversubscribe", "-n", "2", PINTLE_PROGRAM, "sweep", folder_ / "study.yaml", "-q", "--out", folder_ / "out"};
+  const pid_t child = start(command, folder_ / "log");
+  while (journalled(folder_ / "out").size() < 2) {
+    ASSERT_EQ(::waitpid(child, nullptr, WNOHANG), 0) << contents(folder_ / "log");
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(open_to_networks(PINTLE_PROGRAM), 0);
+  ::kill(child, SIGINT);
+  ::waitpid(child, nullptr, 0);
+}
+
 TEST_F(SweepKilled, AskedToStopItLeavesWhatItHasAndExitsWithSix) {
   const Command command{PINTLE_PROGRAM, "sweep", folder_ / "study.yaml", "-q", "--out", folder_ / "out", "--threads", "1"};
   const pid_t child = start(command, folder_ / "log");
