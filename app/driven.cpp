@@ -2,14 +2,17 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 
 #include "app/options.h"
 #include "app/progress.h"
+#include "app/run_end.h"
 #include "framework/run/inverse.h"
 #include "framework/run/kinematics.h"
 #include "framework/run/pieces.h"
 #include "framework/run/results.h"
 #include "framework/run/stand_in.h"
+#include "framework/run/text.h"
 
 namespace pintle::app {
 
@@ -17,33 +20,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// compute(listeners) with progress shown, and its frames, if the scene asks for any, written to `directory`.
+/// compute(listeners) with progress shown, and its frames, if the scene asks for any, given to `writer`.
 template <class Compute>
-auto watched(const Scene& scene, const Model& model, const fs::path& directory, const Options& options, Compute compute) {
+auto watched(const Scene& scene, const Model& model, std::optional<FrameWriter>& writer, const Options& options, Compute compute) {
+  now_doing("computing the motion");
   const Drafting drafting(scene, model);
-  FrameWriter writer(directory);
-  const bool drawn = scene.output.frames > 1;
   Listeners listeners;
-  if (drawn) listeners.frame = [&](const State& state, const Equations& eq) { writer.add(draw(model, drafting, state, eq)); };
-  auto found = [&] {
-    Progress progress(scene.run.until, options.quiet);
-    listeners.progress = [&](double t) { return progress(t); };
-    return compute(listeners);
-  }();
-  if (drawn) writer.finish();
-  return found;
+  if (writer) listeners.frame = [&](const State& state, const Equations& eq) { writer->add(draw(model, drafting, state, eq)); };
+  Progress progress(scene.run.until, options.quiet);
+  listeners.progress = [&](double t) { return progress(t); };
+  return compute(listeners);
 }
 
-int exit_code(const Options& options, const Scene& scene, const Run& run) {
-  if (run.status != Status::finished && (options.quiet || options.json))
-    std::cerr << scene.file << ": " << status_text(run.status) << ": " << run.reason << "\n";
-  switch (run.status) {
-    case Status::finished: return ok;
-    case Status::failed: return run_failed;
-    case Status::interrupted: return stopped;
-    case Status::ledger_over_bound: return ledger_over;
-  }
-  return trouble;
+std::optional<FrameWriter> frame_writer(const Scene& scene, const ResultsDirectory& results) {
+  return scene.output.frames > 1 ? std::make_optional<FrameWriter>(results.path()) : std::nullopt;
 }
 
 Rows run_rows(const Run& run) {
@@ -54,7 +44,7 @@ Rows run_rows(const Run& run) {
 }
 
 void print(const Scene& scene, const Run& run, Rows rows, const fs::path& out) {
-  rows.emplace_back("results", out.string() + (scene.output.frames > 1 ? ", animation " + (out / "mechanism.pvd").string() : ""));
+  if (run.status != Status::not_written) rows.emplace_back("results", out.string() + (scene.output.frames > 1 ? ", animation " + (out / "mechanism.pvd").string() : ""));
   std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
   print_rows(std::cout, rows);
   for (const std::string& w : run.warnings) std::cout << "  warning: " << w << "\n";
@@ -76,16 +66,24 @@ std::string effort_text(const Inverse& found, std::size_t d, const fs::path& out
 int kinematics(const Options& options) {
   const Scene scene = ready_for_kinematics(read_scene(options.scene, overrides(options)));
   require_run(scene);
+  const fs::path out = results_directory(options, "-kinematics");
+  require_place(out);
   const Model model = build(scene);
   const Assembly assembly = assemble(scene, model);
   require_driven(scene, model, assembly);
 
-  const fs::path out = results_directory(options, "-kinematics");
+  heed_signals();
+  tell_leftovers(options, out);
   ResultsDirectory results(out);
-  const Run run =
-      watched(scene, model, results.path(), options, [&](const Listeners& listeners) { return kinematics(scene, model, assembly, listeners); });
-  write_kinematics(results.path(), scene, model, run);
-  results.commit();
+  results_are_in(results.path().string());
+  std::optional<FrameWriter> writer = frame_writer(scene, results);
+  Run run = watched(scene, model, writer, options, [&](const Listeners& listeners) { return kinematics(scene, model, assembly, listeners); });
+  if (run.status == Status::interrupted) run.reason = stopped_by();
+  const auto write = [&] {
+    if (writer) writer->finish();
+    write_kinematics(results.path(), scene, model, run);
+  };
+  settle(results, run, write, [&] { write_text(results.path() / "kinematics.json", kinematics_json(scene, model, run)); });
 
   if (options.json)
     std::cout << kinematics_json(scene, model, run);
@@ -97,15 +95,23 @@ int kinematics(const Options& options) {
 int inverse(const Options& options) {
   const Scene scene = with_pieces(read_scene(options.scene, overrides(options)));
   require_run(scene);
+  const fs::path out = results_directory(options, "-inverse");
+  require_place(out);
   const Model model = build(scene);
   const Assembly assembly = assemble(scene, model);
 
-  const fs::path out = results_directory(options, "-inverse");
+  heed_signals();
+  tell_leftovers(options, out);
   ResultsDirectory results(out);
-  const Inverse found =
-      watched(scene, model, results.path(), options, [&](const Listeners& listeners) { return inverse(scene, model, assembly, listeners); });
-  write_inverse(results.path(), scene, model, assembly, found);
-  results.commit();
+  results_are_in(results.path().string());
+  std::optional<FrameWriter> writer = frame_writer(scene, results);
+  Inverse found = watched(scene, model, writer, options, [&](const Listeners& listeners) { return inverse(scene, model, assembly, listeners); });
+  if (found.run.status == Status::interrupted) found.run.reason = stopped_by();
+  const auto write = [&] {
+    if (writer) writer->finish();
+    write_inverse(results.path(), scene, model, assembly, found);
+  };
+  settle(results, found.run, write, [&] { write_text(results.path() / "inverse.json", inverse_json(scene, model, found)); });
 
   if (options.json) {
     std::cout << inverse_json(scene, model, found);

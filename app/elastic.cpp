@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "app/options.h"
+#include "app/run_end.h"
 #include "framework/run/body_drawing.h"
 #include "framework/run/modes.h"
 #include "framework/run/results.h"
@@ -105,20 +106,20 @@ void write_shapes(const fs::path& directory, const ElasticBody& e, const ModeTab
 
 int modes(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
+  const fs::path out = results_directory(options, "-modes");
+  require_place(out);
   const ElasticBody e = made(options, scene, options.body);
   const ModesReport report = modes_of(scene, e, options.count);
   const bool large = e.mesh.x.cols() > frames_up_to;
   const int frames = options.frames >= 0 ? options.frames : large ? 0 : default_frames;
-  const fs::path out = results_directory(options, "-modes");
-  ResultsDirectory results(out);
-  write_shapes(results.path(), e, report.natural, "mode", frames);
-  write_text(results.path() / "modes.csv", modes_csv(report.natural, report));
-  if (report.reduced) {
-    write_shapes(results.path(), e, *report.reduced, "reduced", frames);
-    write_text(results.path() / "reduced.csv", modes_csv(*report.reduced, report));
-  }
-  write_text(results.path() / "modes.json", modes_json(scene, e, report));
-  results.commit();
+  write_whole(options, out, [&](const fs::path& folder) {
+    write_text(folder / "modes.csv", modes_csv(report.natural, report));
+    write_text(folder / "modes.json", modes_json(scene, e, report));
+    write_shapes(folder, e, report.natural, "mode", frames);
+    if (!report.reduced) return;
+    write_text(folder / "reduced.csv", modes_csv(*report.reduced, report));
+    write_shapes(folder, e, *report.reduced, "reduced", frames);
+  });
   if (options.json) {
     std::cout << modes_json(scene, e, report);
   } else if (!options.quiet) {
@@ -143,11 +144,10 @@ int modes(const Options& options) {
 
 int mesh(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
-  const ElasticBody e = made(options, scene, options.body);
   const fs::path out = results_directory(options, "-mesh");
-  ResultsDirectory results(out);
-  write_mesh_report(results.path(), scene, e);
-  results.commit();
+  require_place(out);
+  const ElasticBody e = made(options, scene, options.body);
+  write_whole(options, out, [&](const fs::path& folder) { write_mesh_report(folder, scene, e); });
   if (options.json) {
     std::cout << mesh_json(scene, e);
   } else if (!options.quiet) {
@@ -171,13 +171,12 @@ int mesh(const Options& options) {
 
 int statics(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
+  const fs::path out = results_directory(options, "-static");
+  require_place(out);
   const std::string name = !options.body.empty() || !scene.statics ? options.body : scene.statics->body;
   const ElasticBody e = made(options, scene, name);
   const StaticReport r = solve_case(scene, e);
-  const fs::path out = results_directory(options, "-static");
-  ResultsDirectory results(out);
-  write_case(results.path(), scene, e, r);
-  results.commit();
+  write_whole(options, out, [&](const fs::path& folder) { write_case(folder, scene, e, r); });
   if (options.json) {
     std::cout << static_json(scene, e, r);
   } else if (!options.quiet) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "app/options.h"
+#include "app/run_end.h"
 #include "framework/run/equilibrium.h"
 #include "framework/run/pieces.h"
 #include "framework/run/results.h"
@@ -97,20 +98,21 @@ int equilibrium(const Options& options) {
   Scene scene = with_pieces(ready_for_statics(read_scene(options.scene, overrides(options))));
   scene.output.frames = 2;  // so that flexible bodies can be drawn
   const double at = options.at.empty() ? 0 : instant(options);
+  const fs::path out = results_directory(options, "-statics");
+  require_place(out);
   const Model model = build(scene);
   const Assembly assembly = assemble(scene, model);
   const Equilibrium found = find_equilibrium(scene, model, assembly, at);
 
-  const fs::path out = results_directory(options, "-statics");
-  ResultsDirectory results(out);
-  FrameWriter writer(results.path());
-  Equations eq(model.system);
-  Eigen::VectorXd dy(model.system.n_y());
-  evaluate(model.system, found.state, eq, dy);
-  writer.add(draw(model, Drafting(scene, model), found.state, eq));
-  writer.finish();
-  write_equilibrium(results.path(), scene, model, found);
-  results.commit();
+  write_whole(options, out, [&](const fs::path& folder) {
+    write_equilibrium(folder, scene, model, found);
+    FrameWriter writer(folder);
+    Equations eq(model.system);
+    Eigen::VectorXd dy(model.system.n_y());
+    evaluate(model.system, found.state, eq, dy);
+    writer.add(draw(model, Drafting(scene, model), found.state, eq));
+    writer.finish();
+  });
 
   if (options.json)
     std::cout << equilibrium_json(scene, model, found);

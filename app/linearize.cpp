@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/options.h"
+#include "app/run_end.h"
 #include "framework/run/assemble.h"
 #include "framework/run/drawing.h"
 #include "framework/run/equilibrium.h"
@@ -73,6 +74,8 @@ int linearize(const Options& options) {
   if (!options.at.empty() && !options.at_rest) require_run(scene);
   const double t = options.at.empty() ? 0 : instant(options);
   scene = with_pieces(std::move(scene));
+  const fs::path out = results_directory(options, "-linearize");
+  require_place(out);
   if (options.frames > 0) scene.output.frames = std::max(2, scene.output.frames);  // keeps what flexible bodies are drawn by
   const Model model = build(scene);
   const Assembly assembly = assemble(scene, model);
@@ -94,11 +97,10 @@ int linearize(const Options& options) {
   }
   const Linearization lin = linearize(scene, model, state, options.at_rest ? Laws::hold : Laws::go_on);
 
-  const fs::path out = results_directory(options, "-linearize");
-  ResultsDirectory results(out);
-  write_linearization(results.path(), scene, lin, options.count);
-  if (options.frames > 0) write_animations(results.path(), scene, model, lin, options.count, options.frames);
-  results.commit();
+  write_whole(options, out, [&](const fs::path& folder) {
+    write_linearization(folder, scene, lin, options.count);
+    if (options.frames > 0) write_animations(folder, scene, model, lin, options.count, options.frames);
+  });
   if (options.json) {
     std::cout << linearized_json(scene, lin);
   } else if (!options.quiet) {

@@ -1,10 +1,18 @@
 // The command line. Thin: nothing here that a user of the library lacks.
 #include <CLI/CLI.hpp>
+#include <sys/resource.h>
+
 #include <charconv>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
 #include <iostream>
 #include <map>
+#include <new>
 
 #include "app/options.h"
+#include "app/progress.h"
 #include "framework/scene/error.h"
 #include "meshes/limits.h"
 
@@ -16,12 +24,12 @@ using namespace pintle::app;
 constexpr const char* exit_codes =
     "Exit codes\n"
     "  0  done\n"
-    "  1  a file or directory cannot be read or written\n"
+    "  1  a file or directory cannot be read or written, or memory does not suffice; what was computed is kept and named\n"
     "  2  the scene or the command line is wrong\n"
     "  3  the mechanism cannot be assembled\n"
     "  4  the integration failed, or of tradeoff: the accuracy asked for could not be shown; what was computed is kept\n"
     "  5  the ledger leaves more energy unexplained than the scene's bound; the results are kept\n"
-    "  6  stopped by the user (Ctrl-C); what was computed is kept\n"
+    "  6  stopped by the user (Ctrl-C), SIGTERM or SIGHUP; what was computed is kept. A second signal ends at once\n"
     "\n"
     "A scene is a YAML file; docs/scene.md has its language, examples/ has scenes to start from:\n"
     "  pintle check examples/slider_crank_clearance.yaml\n"
@@ -86,6 +94,13 @@ constexpr const char* what_sweep_writes =
     "A case that fails is a row with its reason. On many cores or machines: mpirun pintle sweep STUDY.yaml, one process\n"
     "per core, in a directory that all share.\n"
     "Exit codes: see pintle --help\n";
+
+/// Of memory that the program has held at once.
+long most_megabytes() {
+  struct rusage used {};
+  ::getrusage(RUSAGE_SELF, &used);
+  return used.ru_maxrss >> 10;
+}
 
 /// A whole number from 1, or another least, to `most`.
 CLI::Validator whole(int least, int most) {
@@ -194,9 +209,7 @@ void add_options(CLI::App& command, Options& options) {
   command.footer(what_modes_writes);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int carry_out(int argc, char** argv) {
   CLI::App app("Planar mechanisms with real joints: from a scene file to an energy ledger, time series and a ParaView "
                "animation; modes and statics of their bodies.", "pintle");
   app.set_version_flag("--version", std::string("pintle ") + PINTLE_VERSION);
@@ -218,12 +231,41 @@ int main(int argc, char** argv) {
   for (const auto& [command, unused] : commands) add_options(*command, options);
   try {
     app.parse(argc, argv);
-    set_bounds(options);
-    const int exit = commands.at(app.get_subcommands().front())(options);
-    if (!std::cout.flush()) throw std::runtime_error("what there was to print could not be written to standard output");
-    return exit;
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? ok : bad_scene;
+  }
+  set_bounds(options);
+  const int exit = commands.at(app.get_subcommands().front())(options);
+  if (std::cout.flush()) return exit;
+  std::cerr << "pintle: what there was to print could not be written to standard output\n";
+  return exit == ok ? trouble : exit;
+}
+
+void say_there_was_no_memory() {
+  std::fprintf(stderr, "pintle: there was not enough memory while %s (the program held %ld MB); end other programs, raise the limit (ulimit -v), "
+               "or make the model or its outputs smaller%s\n", what_is_done(), most_megabytes(), where_results_are());
+}
+
+/// Where memory ends so wholly that not even an error can be handed on.
+[[noreturn]] void end_without_memory() {
+  try {
+    if (const std::exception_ptr e = std::current_exception()) std::rethrow_exception(e);
+  } catch (const std::bad_alloc&) {
+    say_there_was_no_memory();
+    std::_Exit(trouble);
+  } catch (...) {
+  }
+  std::fprintf(stderr, "pintle: ended by an error in the program while %s%s\n", what_is_done(), where_results_are());
+  std::abort();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  leave_failed_writes_to_us();
+  std::set_terminate(end_without_memory);
+  try {
+    return carry_out(argc, argv);
   } catch (const SceneError& e) {
     std::cerr << "pintle: " << e.what() << "\n";
     return bad_scene;
@@ -233,8 +275,12 @@ int main(int argc, char** argv) {
   } catch (const MeshingStopped&) {
     std::cerr << "pintle: stopped while a body was meshed\n";
     return stopped;
+  } catch (const std::bad_alloc&) {
+    say_there_was_no_memory();
+    return trouble;
   } catch (const std::exception& e) {
-    std::cerr << "pintle: " << e.what() << "\n";
+    const bool says_where = std::strstr(e.what(), "the results are in") != nullptr;
+    std::cerr << "pintle: " << e.what() << (says_where ? "" : where_results_are()) << "\n";
     return trouble;
   }
 }

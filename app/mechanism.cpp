@@ -9,9 +9,12 @@
 #include "app/options.h"
 #include "app/price_text.h"
 #include "app/progress.h"
+#include "app/run_end.h"
 #include "framework/run/computed.h"
 #include "framework/run/results.h"
 #include "framework/run/pieces.h"
+#include "framework/run/room.h"
+#include "framework/run/run_files.h"
 #include "framework/run/text.h"
 
 namespace pintle::app {
@@ -133,17 +136,15 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
   for (const FlexibleReport& r : model.flexible)
     if (r.choice) rows.emplace_back("modes of " + r.body, r.choice->reason);
   const System& s = model.system;
-  for (int i = 0; i < s.n_z() && run.ledger.rows() > 0; ++i) {
-    const Integral& integral = s.integrals[static_cast<std::size_t>(i)];
-    const double booked = run.ledger.data[(run.ledger.rows() - 1) * run.ledger.columns() + first_integral(s) + static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < run.integrals.size(); ++i) {
+    const Integral& integral = s.integrals[i];
+    const double booked = run.integrals[i];
     if (integral.account == Account::scheme && booked == 0) continue;  // it might have become implicit, and did not
     rows.emplace_back("  " + integral_name(s, integral), number(booked) + " J");
   }
   for (std::size_t c = 0; c < s.contacts.size(); ++c) {
     if (s.contacts[c].link >= 0) {
-      double least = 0, most = 0;
-      for (const double N : run.trajectory.column(s.contact_names[c] + ".normal [N]")) least = std::min(least, N), most = std::max(most, N);
-      rows.emplace_back("massless link at " + s.contact_names[c], "force at the outputs from " + number(least, 4) + " to " + number(most, 4) + " N");
+      rows.emplace_back("massless link at " + s.contact_names[c], "force at the outputs from " + number(run.links[c].least, 4) + " to " + number(run.links[c].greatest, 4) + " N");
       continue;
     }
     long begun = 0, ended = 0;
@@ -162,7 +163,7 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
   rows.emplace_back("steps", std::to_string(run.counts.steps) + " (" + std::to_string(run.counts.rejected) + " rejected), " +
                                  std::to_string(run.counts.evaluations) + " evaluations in " + number(run.seconds, 3) + " s");
   rows.emplace_back("constraints held to", number(run.worst_position, 2) + " in position, " + number(run.worst_velocity, 2) + " in speed (scaled)");
-  rows.emplace_back("results", out.string() + (scene.output.frames > 1 ? ", animation " + (out / "mechanism.pvd").string() : ""));
+  if (run.status != Status::not_written) rows.emplace_back("results", out.string() + (scene.output.frames > 1 ? ", animation " + (out / "mechanism.pvd").string() : ""));
   print_rows(std::cout, rows);
   for (const std::string& w : run.warnings) std::cout << "  warning: " << w << "\n";
   std::cout << "  " << status_text(run.status) << (run.reason.empty() ? "" : ": " + run.reason) << "\n";
@@ -177,14 +178,25 @@ Scene runnable(const Options& options) {
   return scene;
 }
 
+/// What `run` would say of the room for its results.
+void foresee_room(const Options& options, const Scene& scene, Model& model) {
+  const fs::path out = results_directory(options);
+  try {
+    for (std::string& doubt : judge_room(out, room_needed(scene, model), room_at(out))) model.warnings.push_back(std::move(doubt));
+  } catch (const std::runtime_error& impossible) {
+    model.warnings.push_back(impossible.what());
+  }
+}
+
 }  // namespace
 
 int check(const Options& options) {
   const Scene scene = with_pieces(runnable(options));
   const double begin = computed();
-  const Model model = build_and_rehearse(scene);
+  Model model = build_and_rehearse(scene);
   const double built = computed() - begin - (model.rehearsal ? model.rehearsal->seconds : 0);
   const Assembly assembly = assemble(scene, model);
+  foresee_room(options, scene, model);
   const Price cost = price(scene, model, assembly);
   if (options.json) {
     std::cout << check_json(scene, model, assembly, cost);
@@ -195,53 +207,100 @@ int check(const Options& options) {
   return ok;
 }
 
-int run(const Options& options) {
-  const Scene scene = with_pieces(runnable(options));
-  const Model model = build(scene);
-  const Assembly assembly = assemble(scene, model);
+namespace {
 
-  const fs::path out = results_directory(options);
-  ResultsDirectory results(out);
-  std::optional<FrameWriter> writer;
-  std::optional<Drafting> drafting;
-  Progress progress(scene.run.until, options.quiet);
-  Listeners listeners;
-  listeners.progress = [&](double t) { return progress(t); };
-  std::optional<SavedState> from;
-  if (!options.restart.empty()) from = read_state(options.restart, scene);
-  if (from && from->t >= scene.run.until)
-    throw SceneError("--restart " + options.restart + ": was saved at " + number(from->t, 9) + " s, where the run of " + scene.file +
-                     " has ended; make run.until longer");
-  int saved = 0;
-  listeners.state = [&](const SavedState& state) {
-    std::ostringstream name;
-    name << std::setw(5) << std::setfill('0') << ++saved << ".state";
-    fs::create_directories(results.path() / "states");
-    write_text(results.path() / "states" / name.str(), state_text(scene, state));
-  };
-  if (scene.output.frames > 1) {
-    writer.emplace(results.path());
-    drafting.emplace(scene, model);
-    listeners.frame = [&](const State& state, const Equations& eq) { writer->add(draw(model, *drafting, state, eq)); };
+/// What `run` writes while it goes on, and at its end.
+class Recording {
+ public:
+  Recording(const fs::path& directory, const Scene& scene, const Model& model, const Assembly& assembly)
+      : directory_(directory), scene_(scene), model_(model), assembly_(assembly), files_(directory, model),
+        kept_for_report_(directory / "room for run.json", least_room + 4 * scene.filled_in.size()) {
+    if (scene.output.frames < 2) return;
+    writer_.emplace(directory);
+    drafting_.emplace(scene, model);
   }
-  const Run result = simulate(scene, model, assembly, listeners, from ? &*from : nullptr);
-  if (writer) writer->finish();
-  write_results(results.path(), scene, model, assembly, result);
-  results.commit();
+
+  Listeners listeners() {
+    Listeners out;
+    out.rows = [this](const Table& trajectory, const Table& ledger, const std::vector<Impact>& impacts) { files_.add(trajectory, ledger, impacts); };
+    out.state = [this](const SavedState& state) { add(state); };
+    if (writer_) out.frame = [this](const State& state, const Equations& eq) { writer_->add(draw(model_, *drafting_, state, eq)); };
+    return out;
+  }
+  void finish(const Run& run) {
+    if (writer_) writer_->finish();
+    files_.finish(run.impacts);
+  }
+  void report(const Run& run) {
+    kept_for_report_.release();
+    write_text(directory_ / "run.json", run_json(scene_, model_, assembly_, run));
+  }
+
+ private:
+  static constexpr std::size_t least_room = std::size_t{1} << 16;
+
+  void add(const SavedState& state) {
+    std::ostringstream name;
+    name << std::setw(5) << std::setfill('0') << ++saved_ << ".state";
+    std::error_code error;
+    fs::create_directories(directory_ / "states", error);
+    if (error) throw FileError(directory_ / "states", error.value(), "cannot be made");
+    write_text(directory_ / "states" / name.str(), state_text(scene_, state));
+  }
+
+  const fs::path directory_;
+  const Scene& scene_;
+  const Model& model_;
+  const Assembly& assembly_;
+  RunFiles files_;
+  ReservedRoom kept_for_report_;
+  std::optional<FrameWriter> writer_;
+  std::optional<Drafting> drafting_;
+  int saved_ = 0;
+};
+
+std::optional<SavedState> saved_state(const Options& options, const Scene& scene) {
+  if (options.restart.empty()) return {};
+  SavedState from = read_state(options.restart, scene);
+  if (from.t >= scene.run.until)
+    throw SceneError("--restart " + options.restart + ": was saved at " + number(from.t, 9) + " s, where the run of " + scene.file +
+                     " has ended; make run.until longer");
+  return from;
+}
+
+}  // namespace
+
+int run(const Options& options) {
+  now_doing("reading the scene");
+  const Scene scene = with_pieces(runnable(options));
+  const fs::path out = results_directory(options);
+  require_place(out);
+  now_doing("building the model");
+  Model model = build(scene);
+  const Assembly assembly = assemble(scene, model);
+  const std::optional<SavedState> from = saved_state(options, scene);
+  for (std::string& doubt : judge_room(out, room_needed(scene, model, from ? from->t : 0), room_at(out))) model.warnings.push_back(std::move(doubt));
+
+  now_doing("running the scene");
+  Progress progress(scene.run.until, options.quiet);
+  tell_leftovers(options, out);
+  ResultsDirectory results(out);
+  results_are_in(results.path().string());
+  Recording recording(results.path(), scene, model, assembly);
+  Listeners listeners = recording.listeners();
+  listeners.progress = [&](double t) { return progress(t); };
+  Run result = simulate(scene, model, assembly, listeners, from ? &*from : nullptr);
+  if (result.status == Status::interrupted) result.reason = stopped_by();
+  now_doing("writing the results");
+  const auto report = [&] { recording.report(result); };
+  const auto write = [&] { recording.finish(result), report(); };
+  settle(results, result, write, report);
 
   if (options.json)
     std::cout << run_json(scene, model, assembly, result);
   else if (!options.quiet)
     print_run(scene, model, result, out);
-  if (result.status != Status::finished && (options.quiet || options.json))
-    std::cerr << scene.file << ": " << status_text(result.status) << ": " << result.reason << "\n";
-  switch (result.status) {
-    case Status::finished: return ok;
-    case Status::failed: return run_failed;
-    case Status::interrupted: return stopped;
-    case Status::ledger_over_bound: return ledger_over;
-  }
-  return trouble;
+  return exit_code(options, scene, result);
 }
 
 }  // namespace pintle::app

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "files/trust.h"
+#include "framework/run/results_directory.h"
 #include "framework/scene/expression.h"
 #include "meshes/limits.h"
 
@@ -66,7 +67,7 @@ void print_rows(std::ostream& out, const Rows& rows) {
 }
 
 fs::path results_directory(const Options& options, const std::string& suffix) {
-  if (!options.out.empty()) return options.out;
+  if (!options.out.empty()) return without_slash(options.out);
   const fs::path base = fs::path("runs") / (fs::path(options.scene).stem().string() + suffix);
   fs::path path = base;
   for (int k = 2; fs::exists(path); ++k) path = base.string() + "-" + std::to_string(k);

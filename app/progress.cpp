@@ -11,21 +11,65 @@
 namespace pintle::app {
 
 namespace {
-volatile std::sig_atomic_t interrupted = 0;
-extern "C" void interrupt(int) { interrupted = 1; }
+
+volatile std::sig_atomic_t asked_by = 0;
+const char* activity = "starting";
+std::string kept, kept_note;  // made beforehand: there may be no memory when they are wanted
+
+extern "C" void ask_to_stop(int signal) {
+  if (asked_by == 0) {
+    asked_by = signal;
+    return;
+  }
+  struct sigaction otherwise {};
+  otherwise.sa_handler = SIG_DFL;
+  ::sigaction(signal, &otherwise, nullptr);
+  ::raise(signal);
+}
+
+void heed(int signal) {
+  struct sigaction before {};
+  ::sigaction(signal, nullptr, &before);
+  if (before.sa_handler == SIG_IGN) return;
+  struct sigaction asks {};
+  asks.sa_handler = ask_to_stop;
+  asks.sa_flags = SA_RESTART;
+  ::sigaction(signal, &asks, nullptr);
+}
+
 }  // namespace
 
+void leave_failed_writes_to_us() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
 void heed_signals() {
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) heed(signal);
   MesherLimits limits = mesher_limits();
   limits.stop = asked_to_stop;
   set_mesher_limits(limits);
 }
 
-bool asked_to_stop() {
-  return interrupted;
+bool asked_to_stop() { return asked_by != 0; }
+
+std::string stopped_by() {
+  switch (asked_by) {
+    case SIGTERM: return "stopped by SIGTERM, a request to end the program";
+    case SIGHUP: return "stopped by SIGHUP: its terminal or session ended";
+    default: return "stopped by the user (Ctrl-C)";
+  }
 }
+
+void now_doing(const char* what) { activity = what; }
+const char* what_is_done() { return activity; }
+
+void results_are_in(const std::string& folder) {
+  kept_note = folder.empty() ? "" : "; what was computed is in " + folder;
+  kept = folder;
+}
+
+const char* where_results_are() { return !kept.empty() && ::access(kept.c_str(), F_OK) == 0 ? kept_note.c_str() : ""; }
 
 Progress::Progress(double until, bool quiet) : until_(until), on_(!quiet && ::isatty(STDERR_FILENO)) {
   heed_signals();
@@ -43,7 +87,7 @@ bool Progress::operator()(double t) {
     std::cerr << "\r  " << std::fixed << std::setprecision(1) << 100 * t / until_ << " %  t = " << std::defaultfloat
               << std::setprecision(6) << t << " s\033[K" << std::flush;
   }
-  return !interrupted;
+  return !asked_to_stop();
 }
 
 }  // namespace pintle::app

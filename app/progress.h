@@ -1,12 +1,27 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 namespace pintle::app {
 
-/// From now on, Ctrl-C and a request to terminate do not end the program but are asked for by asked_to_stop.
+/// At the start of the program: a write that fails by a broken pipe or the limit of a file's size is an error of that write.
+void leave_failed_writes_to_us();
+
+/// From now on, Ctrl-C, a request to terminate and the end of the terminal do not end the program but are asked for by
+/// asked_to_stop; the second of them ends it. What the caller had ignored (nohup) stays ignored.
 void heed_signals();
 bool asked_to_stop();
+/// "stopped by the user (Ctrl-C)", or which signal it was.
+std::string stopped_by();
+
+/// What the program does now, for whom memory ends: "building the model". Text that stays.
+void now_doing(const char* what);
+const char* what_is_done();
+/// Where results are being written, for whatever ends the program. Empty: nowhere.
+void results_are_in(const std::string& folder);
+/// "; what was computed is in …", if it is there.
+const char* where_results_are();
 
 /// A line on the terminal that says how far a run is; nothing if stderr is not one. From the first one made on,
 /// Ctrl-C and a request to terminate ask the run to stop instead of ending the program.

@@ -89,7 +89,7 @@ void print(const Sweep& sweep, const SweepEnd& end, const fs::path& out) {
                                           (end.workers > 1 ? " workers, busy " + number(100 * end.efficiency(), 3) + " % of the time" : " worker"));
   rows.emplace_back("table", (out / (end.whole ? "sweep.csv" : "sweep-so-far.csv")).string());
   print_rows(std::cout, rows);
-  if (!end.whole) std::cout << "  stopped; the same command goes on from here\n";
+  if (!end.whole) std::cout << "  " << (asked_to_stop() ? stopped_by() : "stopped") << "; the same command goes on from here\n";
 }
 
 int carry_out(const Sweep& sweep, const Options& options, Fellows* together, bool leads) {
@@ -98,6 +98,7 @@ int carry_out(const Sweep& sweep, const Options& options, Fellows* together, boo
   settings.threads = options.threads > 0 ? options.threads : together ? 1 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   settings.fellows = together;
   SweepEnd end;
+  now_doing("running the cases");
   {
     SweepProgress progress(options.quiet || !leads);
     settings.progress = [&](const SweepCount& count) { return progress(count); };

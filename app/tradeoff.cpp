@@ -7,9 +7,12 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <limits>
+#include <new>
 
 #include "app/options.h"
 #include "app/progress.h"
+#include "app/run_end.h"
 #include "framework/run/results.h"
 #include "framework/run/text.h"
 #include "framework/scene/text_file.h"
@@ -105,9 +108,11 @@ class Telling {
 }  // namespace
 
 int tradeoff(const Options& options) {
+  now_doing("reading the study");
   const Asked asked = understood(options);
   const fs::path out = results_directory(options, "-tradeoff");
-  ResultsDirectory results(out);
+  require_place(out);
+  now_doing("running the settings");
   TradeReport report;
   {
     Telling telling(options.quiet || options.json);
@@ -115,16 +120,22 @@ int tradeoff(const Options& options) {
     listener.progress = [&](const std::string& what, double share) { telling(what, share); };
     listener.go_on = [] { return !asked_to_stop(); };
     const CaseRunner run = [&](const Overrides& set, const std::vector<Measure>& measures, const CaseLimits& limits) {
-      return run_case(asked.scene, set, measures, limits);
+      try {
+        return run_case(asked.scene, set, measures, limits);
+      } catch (const std::bad_alloc&) {
+        Outcome none;
+        none.status = "failed", none.reason = "there was not enough memory";
+        none.values.assign(measures.size(), std::numeric_limits<double>::quiet_NaN()), none.units.resize(measures.size());
+        return none;
+      }
     };
     report = run_tradeoff(asked.plan, asked.measures, run, listener);
   }
-  write_tradeoff(results.path(), out, asked.scene, report);
-  results.commit();
+  write_whole(options, out, [&](const fs::path& folder) { write_tradeoff(folder, out, asked.scene, report); });
   if (!options.markdown.empty()) {
     const fs::path page = options.markdown, picture = fs::path(page).replace_extension(".svg");
-    write_text(picture, tradeoff_svg(report));
-    write_text(page, tradeoff_markdown(report, picture.filename().string()));
+    write_synced(picture, tradeoff_svg(report));
+    write_synced(page, tradeoff_markdown(report, picture.filename().string()));
   }
   if (options.json) std::cout << tradeoff_json(report);
   else if (!options.quiet) {

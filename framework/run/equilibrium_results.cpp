@@ -2,6 +2,7 @@
 
 #include "framework/run/equilibrium.h"
 #include "framework/run/text.h"
+#include "framework/scene/json_text.h"
 
 namespace pintle {
 
@@ -42,7 +43,7 @@ std::string equilibrium_json(const Scene& scene, const Model&, const Equilibrium
                     {"stability", stability_json(e.stability)},
                     {"values", values},
                     {"scene", scene.filled_in.empty() ? Json(nullptr) : Json::parse(scene.filled_in, nullptr, false)}};
-  return out.dump(2) + "\n";
+  return json_text(out) + "\n";
 }
 
 void write_equilibrium(const std::filesystem::path& directory, const Scene& scene, const Model& model, const Equilibrium& e) {

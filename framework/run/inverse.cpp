@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "framework/dynamics/kkt.h"
+#include "framework/run/guarded.h"
 #include "framework/run/kinematics.h"
 #include "framework/scene/table.h"
 
@@ -115,7 +116,7 @@ void solve_by_algebra(const Scene& scene, const Model& model, const Assembly& as
   Forces forces(model.system, assembly.start);
   follow(scene, model, forces.motion(), [&](double t) { return forces.advance(t); }, listeners, run);
   const auto begin = clock::now();
-  if (run.t_end > 0) out.drivers = find_efforts(model, assembly, run.trajectory.rows() - 1, run.t_end);
+  if (run.t_end > 0 && !ended_short(run)) out.drivers = find_efforts(model, assembly, run.trajectory.rows() - 1, run.t_end);
   run.seconds += std::chrono::duration<double>(clock::now() - begin).count();
 }
 

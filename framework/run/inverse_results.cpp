@@ -3,10 +3,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "framework/run/file_names.h"
 #include "framework/run/inverse.h"
 #include "framework/run/kinematics.h"
 #include "framework/run/results.h"
 #include "framework/run/text.h"
+#include "framework/scene/json_text.h"
 
 namespace pintle {
 
@@ -45,33 +47,23 @@ std::string effort_csv(const DriverEffort& e) {
   return out;
 }
 
-std::string file_stem(const std::string& name) {
-  std::string out = name;
-  for (char& c : out)
-    if (c == ' ' || c == '/') c = '_';
-  return out;
-}
-
 }  // namespace
 
 std::string kinematics_json(const Scene& scene, const Model& model, const Run& run) {
   Json out = head(scene, model, run);
   out["scene"] = scene_json(scene);
-  return out.dump(2) + "\n";
+  return json_text(out) + "\n";
 }
 
 void write_kinematics(const fs::path& directory, const Scene& scene, const Model& model, const Run& run) {
-  write_text(directory / "trajectory.csv", csv(run.trajectory));
+  write_csv(directory / "trajectory.csv", run.trajectory);
   write_text(directory / "kinematics.json", kinematics_json(scene, model, run));
 }
 
 std::string effort_file(const Inverse& inverse, std::size_t driver) {
-  std::string stem = file_stem(inverse.drivers[driver].name);
-  int same = 1;
-  for (std::size_t d = 0; d < driver; ++d)
-    if (file_stem(inverse.drivers[d].name) == stem) ++same;
-  if (stem == "trajectory" || stem == "ledger" || stem == "events") stem += " effort";
-  return stem + (same > 1 ? "-" + std::to_string(same) : "") + ".csv";
+  FileNames names({"trajectory", "ledger", "events"});
+  for (std::size_t d = 0; d < driver; ++d) names.add(inverse.drivers[d].name, "driver");
+  return names.add(inverse.drivers[driver].name, "driver") + ".csv";
 }
 
 std::string inverse_json(const Scene& scene, const Model& model, const Inverse& inverse) {
@@ -94,12 +86,12 @@ std::string inverse_json(const Scene& scene, const Model& model, const Inverse& 
   }
   out["drivers"] = drivers;
   out["scene"] = scene_json(scene);
-  return out.dump(2) + "\n";
+  return json_text(out) + "\n";
 }
 
 void write_inverse(const fs::path& directory, const Scene& scene, const Model& model, const Assembly& assembly, const Inverse& inverse) {
   if (inverse.by_algebra)
-    write_text(directory / "trajectory.csv", csv(inverse.run.trajectory));
+    write_csv(directory / "trajectory.csv", inverse.run.trajectory);
   else
     write_results(directory, scene, model, assembly, inverse.run);
   for (std::size_t d = 0; d < inverse.drivers.size(); ++d) write_text(directory / effort_file(inverse, d), effort_csv(inverse.drivers[d]));

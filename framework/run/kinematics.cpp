@@ -7,6 +7,8 @@
 
 #include <Eigen/SVD>
 
+#include "framework/run/guarded.h"
+
 namespace pintle {
 
 namespace {
@@ -201,27 +203,32 @@ void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const s
   const std::vector<double> outputs = output_times(scene), frames = listeners.frame ? frame_times(scene) : std::vector<double>{};
   std::size_t o = 0, f = 0;
   bool going = motion.failure().empty();
-  while (going && (o < outputs.size() || f < frames.size())) {
-    const double t = o == outputs.size() ? frames[f] : f == frames.size() ? outputs[o] : std::min(outputs[o], frames[f]);
-    if (listeners.progress && o % 64 == 0 && !listeners.progress(t)) {
-      run.status = Status::interrupted;
-      run.reason = "stopped by the user";
-      break;
+  double reached = motion.state().t;
+  const auto steps = [&] {
+    while (going && (o < outputs.size() || f < frames.size())) {
+      const double t = o == outputs.size() ? frames[f] : f == frames.size() ? outputs[o] : std::min(outputs[o], frames[f]);
+      if (listeners.progress && o % 64 == 0 && !listeners.progress(t)) {
+        run.status = Status::interrupted;
+        run.reason = "stopped by the user";
+        break;
+      }
+      going = advance(t);
+      if (!going) break;
+      reached = t;
+      if (o < outputs.size() && outputs[o] == t) record(told, motion.state(), motion.equations(), run.trajectory), ++o;
+      if (f < frames.size() && frames[f] == t) {
+        const auto before = clock::now();
+        listeners.frame(motion.state(), motion.equations()), ++f;
+        drawing += clock::now() - before;
+      }
     }
-    going = advance(t);
-    if (!going) break;
-    if (o < outputs.size() && outputs[o] == t) record(told, motion.state(), motion.equations(), run.trajectory), ++o;
-    if (f < frames.size() && frames[f] == t) {
-      const auto before = clock::now();
-      listeners.frame(motion.state(), motion.equations()), ++f;
-      drawing += clock::now() - before;
-    }
-  }
-  if (!going) {
+  };
+  guarded(run, reached, steps);
+  if (!going && !ended_short(run)) {
     run.status = Status::failed;
     run.reason = motion.failure();
   }
-  run.t_end = motion.state().t;
+  run.t_end = ended_short(run) ? reached : motion.state().t;
   run.counts.steps = motion.steps();
   run.counts.rejected = motion.rejected();
   run.worst_position = motion.worst_position();

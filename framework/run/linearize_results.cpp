@@ -4,6 +4,7 @@
 
 #include "framework/run/linearize.h"
 #include "framework/run/text.h"
+#include "framework/scene/json_text.h"
 
 namespace pintle {
 
@@ -101,7 +102,7 @@ std::string linearized_json(const Scene& scene, const Linearization& lin) {
                     {"outputs", lin.space.outputs},
                     {"notes", lin.notes},
                     {"scene", scene.filled_in.empty() ? Json(nullptr) : Json::parse(scene.filled_in, nullptr, false)}};
-  return out.dump(2) + "\n";
+  return json_text(out) + "\n";
 }
 
 void write_linearization(const fs::path& directory, const Scene& scene, const Linearization& lin, int shapes) {

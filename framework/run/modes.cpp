@@ -15,6 +15,7 @@
 #include "framework/run/in_body.h"
 #include "framework/run/modal_choice.h"
 #include "framework/run/text.h"
+#include "framework/scene/json_text.h"
 #include "framework/scene/nearest.h"
 
 namespace pintle {
@@ -291,7 +292,7 @@ std::string modes_json(const Scene& scene, const ElasticBody& e, const ModesRepo
   if (r.reduced) out["reduced"] = table_json(*r.reduced, r);
   out["timings [s]"] = {{"mesh", e.mesh_seconds}, {"assembly", e.assembly_seconds}, {"modes", r.seconds}};
   out["scene"] = scene.filled_in.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json::parse(scene.filled_in, nullptr, false);
-  return out.dump(2) + "\n";
+  return json_text(out) + "\n";
 }
 
 }  // namespace pintle

@@ -238,8 +238,7 @@ Price price(const Scene& scene, const Model& model, const Assembly& assembly, do
   const double outputs = p.output.seconds();
   p.seconds = {p.run.seconds.low + outputs, p.run.seconds.likely + outputs, p.run.seconds.high + outputs};
   const double impacts = p.run.trial.reached > 0 ? static_cast<double>(p.run.trial.impacts) * p.until / p.run.trial.reached : 0;
-  p.memory = resident() + static_cast<double>(p.output.rows) * (8 * static_cast<double>(p.output.columns) + p.output.row_bytes) +
-             impacts * sizeof(Impact);
+  p.memory = resident() + impacts * sizeof(Impact);
 
   const std::vector<Simpler> models = simpler_models(scene, model, assembly.start);
   for (const Simpler& s : models) {

@@ -65,7 +65,7 @@ struct Price {
   RunCost run;
   OutputCost output;
   Estimate seconds;                ///< the whole: computing and outputs
-  double memory = 0;               ///< at the end: what the program holds now, tables and impacts, as likely [bytes]
+  double memory = 0;               ///< at the end: what the program holds now, and impacts, as likely; rows are written as they come [bytes]
   std::vector<Saving> simpler;     ///< the largest first
   std::vector<std::string> untried;  ///< simplifications for which there was no time
 };

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/run/price.h"
+#include "framework/scene/json_text.h"
 
 namespace pintle {
 
@@ -65,7 +66,7 @@ std::string price_json(const Price& p) {
                     {"certainty", certainty(p)},
                     {"what would be saved", simpler},
                     {"not tried for want of time", p.untried}};
-  return out.dump(2) + "\n";
+  return json_text(out) + "\n";
 }
 
 }  // namespace pintle

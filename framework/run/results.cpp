@@ -1,12 +1,11 @@
 #include "framework/run/results.h"
 
-#include <unistd.h>
-
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
-#include "framework/run/text.h"
+#include "framework/run/run_files.h"
+#include "framework/scene/json_text.h"
 
 namespace pintle {
 
@@ -14,21 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-std::string events_csv(const System& system, const std::vector<Impact>& impacts) {
-  std::string out =
-      "joint,begin [s],end [s],approach speed [m/s],separation speed [m/s],deepest penetration [m],"
-      "peak force [N],energy lost [J]\n";
-  for (const Impact& i : impacts) {
-    out += csv_field(system.contact_names[static_cast<std::size_t>(i.contact)]);
-    for (double x : {i.begin, i.end, i.approach, i.separation, i.deepest, i.peak_force, i.lost}) {
-      out += ',';
-      append_number(out, x);
-    }
-    out += '\n';
-  }
-  return out;
-}
 
 Json energies_json(const Energies& e) {
   return {{"kinetic", e.kinetic}, {"gravity", e.gravity}, {"springs", e.springs}, {"contacts", e.contacts}, {"strain", e.strain},
@@ -108,57 +92,10 @@ Json scene_json(const Scene& scene) {
 
 }  // namespace
 
-std::string csv(const Table& table) {
-  std::string out;
-  for (std::size_t c = 0; c < table.columns(); ++c) {
-    if (c) out += ',';
-    out += csv_field(table.header[c]);
-  }
-  out += '\n';
-  for (std::size_t r = 0; r < table.rows(); ++r)
-    for (std::size_t c = 0; c < table.columns(); ++c) {
-      if (c) out += ',';
-      append_number(out, table.data[r * table.columns() + c]);
-      if (c + 1 == table.columns()) out += '\n';
-    }
-  return out;
-}
-
-ResultsDirectory::ResultsDirectory(const fs::path& directory) : final_(directory) {
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(final_, error)))
-    throw std::runtime_error(final_.string() + ": exists already; name another directory with --out, or remove it");
-  staging_ = final_;
-  staging_ += ".part-" + std::to_string(::getpid());
-  fs::create_directories(staging_ / "frames", error);
-  if (error) throw std::runtime_error(staging_.string() + ": cannot be made (" + error.message() + "); name another place with --out");
-}
-
-ResultsDirectory::~ResultsDirectory() {
-  std::error_code error;
-  if (!committed_) fs::remove_all(staging_, error);
-}
-
-void ResultsDirectory::commit() {
-  std::error_code error;
-  if (fs::is_empty(staging_ / "frames", error)) fs::remove(staging_ / "frames", error);
-  fs::rename(staging_, final_, error);
-  if (error) {
-    committed_ = true;  // keep what there is
-    throw std::runtime_error(final_.string() + ": cannot be made (" + error.message() + "); the results are in " + staging_.string());
-  }
-  committed_ = true;
-}
-
 std::string run_json(const Scene& scene, const Model& model, const Assembly& assembly, const Run& run) {
   const System& system = model.system;
   Json losses = Json::object();
-  for (int i = 0; i < system.n_z(); ++i) {
-    const std::size_t last = run.ledger.rows();
-    if (last > 0)
-      losses[integral_name(system, system.integrals[static_cast<std::size_t>(i)])] =
-          run.ledger.data[(last - 1) * run.ledger.columns() + first_integral(system) + static_cast<std::size_t>(i)];
-  }
+  for (std::size_t i = 0; i < run.integrals.size(); ++i) losses[integral_name(system, system.integrals[i])] = run.integrals[i];
   Json contacts = Json::object();
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     const ContactPair& p = system.contacts[c];
@@ -204,7 +141,7 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
         {"partitions chosen", run.counts.partitions}}},
       {"timings [s]", {{"integration", run.seconds}}},
       {"scene", scene_json(scene)}};
-  return out.dump(2) + "\n";
+  return json_text(out) + "\n";
 }
 
 std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly, const Price& price) {
@@ -218,14 +155,14 @@ std::string check_json(const Scene& scene, const Model& model, const Assembly& a
                     {"price", Json::parse(price_json(price))},
                     {"warnings", warnings},
                     {"scene", scene_json(scene)}};
-  return out.dump(2) + "\n";
+  return json_text(out) + "\n";
 }
 
 void write_results(const fs::path& directory, const Scene& scene, const Model& model, const Assembly& assembly,
                    const Run& run) {
-  write_text(directory / "trajectory.csv", csv(run.trajectory));
-  write_text(directory / "ledger.csv", csv(run.ledger));
-  write_text(directory / "events.csv", events_csv(model.system, run.impacts));
+  RunFiles files(directory, model);
+  files.add(run.trajectory, run.ledger, run.impacts);
+  files.finish(run.impacts);
   write_text(directory / "run.json", run_json(scene, model, assembly, run));
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <locale>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -64,6 +65,7 @@ bool each_number(Books& s, F f) {  // the same order for writing and reading
 
 std::string state_text(const Scene& scene, const SavedState& state) {
   std::ostringstream out;
+  out.imbue(std::locale::classic());
   out.precision(17);
   out << first_line << "\nversion " << PINTLE_VERSION << "\nscene " << hex(fingerprint(scene)) << "\nt " << state.t << " s\nbooks";
   each_number(state, [&](double x) {
@@ -77,6 +79,7 @@ std::string state_text(const Scene& scene, const SavedState& state) {
 SavedState read_state(const std::filesystem::path& file, const Scene& scene) {
   const auto refuse = [&](const std::string& why) { return SceneError("--restart " + file.string() + ": " + why); };
   std::ifstream in(file, std::ios::binary);
+  in.imbue(std::locale::classic());
   if (!in) throw refuse("cannot be read; name a file states/NNNNN.state of a run");
   std::string line, word, version;
   std::getline(in, line);

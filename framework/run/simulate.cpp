@@ -5,6 +5,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "framework/run/guarded.h"
+
 namespace pintle {
 
 namespace {
@@ -111,18 +113,43 @@ void warn_of_depth(const System& system, Run& run) {
 void warn_of_pushing(const System& system, Run& run) {
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     if (system.contacts[c].link < 0) continue;
-    std::size_t pushing = 0;
-    double most = 0;
-    for (const double N : run.trajectory.column(system.contact_names[c] + ".normal [N]"))
-      if (N < 0) ++pushing, most = std::max(most, -N);
-    if (pushing == 0) continue;
+    const Run::LinkForce& force = run.links[c];
+    if (force.pushing == 0) continue;
     std::ostringstream s;
     s.precision(3);
-    s << "\"" << system.contact_names[c] << "\": the massless link pushed, with up to " << most << " N, in " << pushing << " of "
-      << run.trajectory.rows() << " outputs, as no wall could pull: contact would be lost there";
+    s << "\"" << system.contact_names[c] << "\": the massless link pushed, with up to " << -force.least << " N, in " << force.pushing << " of "
+      << force.rows << " outputs, as no wall could pull: contact would be lost there";
     run.warnings.push_back(s.str());
   }
 }
+
+/// What is kept of the last row of each table, whoever takes the rows.
+class RowFigures {
+ public:
+  RowFigures(const System& system, Run& run) : run_(run), first_integral_(first_integral(system)), n_z_(static_cast<std::size_t>(system.n_z())) {
+    run.links.resize(system.contacts.size());
+    for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+      if (system.contacts[c].link < 0) continue;
+      const auto& header = run.trajectory.header;
+      normal_.emplace_back(c, std::ranges::find(header, system.contact_names[c] + ".normal [N]") - header.begin());
+    }
+  }
+  void see() {
+    const auto books = run_.ledger.data.end() - static_cast<std::ptrdiff_t>(run_.ledger.columns() - first_integral_);
+    run_.integrals.assign(books, books + static_cast<std::ptrdiff_t>(n_z_));
+    for (const auto& [c, column] : normal_) {
+      const double N = *(run_.trajectory.data.end() - static_cast<std::ptrdiff_t>(run_.trajectory.columns()) + column);
+      Run::LinkForce& force = run_.links[c];
+      force.least = std::min(force.least, N), force.greatest = std::max(force.greatest, N);
+      force.pushing += N < 0, ++force.rows;
+    }
+  }
+
+ private:
+  Run& run_;
+  std::size_t first_integral_, n_z_;
+  std::vector<std::pair<std::size_t, std::ptrdiff_t>> normal_;  ///< contact, column
+};
 
 /// Greatest deflection and slope of each flexible body at the output times.
 class Bending {
@@ -163,6 +190,8 @@ const char* status_text(Status s) {
     case Status::failed: return "failed";
     case Status::interrupted: return "interrupted";
     case Status::ledger_over_bound: return "ledger over its bound";
+    case Status::not_written: return "results not written";
+    case Status::out_of_memory: return "out of memory";
   }
   return "";
 }
@@ -186,6 +215,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   State sampled;
   double last_row = from ? from->t : 0;
   Bending bending(model);
+  RowFigures figures(system, run);
   bool started = false;
   if (from) {
     integrator.load(from->memory);
@@ -204,6 +234,17 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
     run.unexplained = e.balance() - run.first.balance();
     if (std::abs(run.unexplained) > std::abs(run.worst_unexplained)) run.worst_unexplained = run.unexplained;
   };
+  const auto add_row = [&](const State& state) {
+    record(model, state, integrator.equations(), run.trajectory);
+    record_ledger(system, state, run.last, run.unexplained, run.ledger);
+    figures.see();
+    last_row = state.t;
+    if (!listeners.rows) return;
+    const auto before = clock::now();
+    listeners.rows(run.trajectory, run.ledger, integrator.impacts());
+    run.trajectory.data.clear(), run.ledger.data.clear();
+    spent_listening += clock::now() - before;
+  };
   // Everything due up to the present step's end. @returns false if an output cannot be evaluated
   const auto report = [&] {
     bool used = false;
@@ -212,9 +253,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
       used = true;
       book(sampled);
       bending.see(sampled);
-      record(model, sampled, integrator.equations(), run.trajectory);
-      record_ledger(system, sampled, run.last, run.unexplained, run.ledger);
-      last_row = sampled.t;
+      add_row(sampled);
       outputs.tick();
     }
     while (frames.due(integrator.state().t)) {
@@ -236,20 +275,23 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
 
   const Energies at_start = energies(system, integrator.state(), integrator.equations());
   const bool countable = all_finite(at_start);
-  bool going = integrator.failure().empty() && countable && report();
-  while (going && integrator.state().t < until) {
-    if (listeners.progress && integrator.counts().steps % 64 == 0 && !listeners.progress(integrator.state().t)) {
-      run.status = Status::interrupted;
-      run.reason = "stopped by the user";
-      break;
+  bool going = true;
+  guarded(run, last_row, [&] {
+    going = integrator.failure().empty() && countable && report();
+    while (going && integrator.state().t < until) {
+      if (listeners.progress && integrator.counts().steps % 64 == 0 && !listeners.progress(integrator.state().t)) {
+        run.status = Status::interrupted;
+        run.reason = "stopped by the user";
+        break;
+      }
+      going = integrator.advance(until) && report();
+      if (going && states.due(integrator.state().t)) {
+        states.pass(integrator.state().t);
+        save();
+      }
     }
-    going = integrator.advance(until) && report();
-    if (going && states.due(integrator.state().t)) {
-      states.pass(integrator.state().t);
-      save();
-    }
-  }
-  if (!going) {
+  });
+  if (!going && !ended_short(run)) {
     run.status = Status::failed;
     run.reason = integrator.failure();
     integrator.restore();
@@ -266,20 +308,18 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
       run.reason = s.str();
     }
   }
-  if (started) {
-    integrator.restore();
-    book(integrator.state());
-    // Where a run ends early it has a last row too, so that its figures and its books are of one moment.
-    const Equations& eq = integrator.equations();
-    if (run.status != Status::finished && integrator.state().t > last_row && eq.a.allFinite() && eq.lambda.allFinite()) {
-      record(model, integrator.state(), eq, run.trajectory);
-      record_ledger(system, integrator.state(), run.last, run.unexplained, run.ledger);
+  guarded(run, last_row, [&] {
+    if (started && !ended_short(run)) {
+      integrator.restore();
+      book(integrator.state());
+      // Where a run ends early it has a last row too, so that its figures and its books are of one moment.
+      const Equations& eq = integrator.equations();
+      if (run.status != Status::finished && integrator.state().t > last_row && eq.a.allFinite() && eq.lambda.allFinite()) add_row(integrator.state());
     }
-  }
+    if (listeners.state && !ended_short(run)) save();
+  });
 
-  if (listeners.state) save();
-
-  run.t_end = integrator.state().t;
+  run.t_end = ended_short(run) ? last_row : integrator.state().t;  // a step may have been cut short
   run.impacts = integrator.impacts();
   warn_of_depth(system, run);
   warn_of_pushing(system, run);

@@ -12,6 +12,7 @@
 #include "framework/run/in_body.h"
 #include "framework/run/text.h"
 #include "framework/run/vtk.h"
+#include "framework/scene/json_text.h"
 
 namespace pintle {
 
@@ -157,7 +158,7 @@ std::string static_json(const Scene& scene, const ElasticBody& e, const StaticRe
   out["points"] = ports;
   out["timings [s]"] = {{"mesh", e.mesh_seconds}, {"assembly", e.assembly_seconds}, {"solution", r.seconds}};
   out["scene"] = scene_json(scene);
-  return out.dump(2) + "\n";
+  return json_text(out) + "\n";
 }
 
 void write_case(const std::filesystem::path& directory, const Scene& scene, const ElasticBody& e, const StaticReport& r) {
@@ -185,7 +186,7 @@ std::string mesh_json(const Scene& scene, const ElasticBody& e) {
                       {"greatest corner angle [deg]", e.quality.greatest_angle * 180 / std::numbers::pi}};
   out["timings [s]"] = {{"mesh", e.mesh_seconds}, {"assembly", e.assembly_seconds}};
   out["scene"] = scene_json(scene);
-  return out.dump(2) + "\n";
+  return json_text(out) + "\n";
 }
 
 void write_mesh_report(const std::filesystem::path& directory, const Scene& scene, const ElasticBody& e) {

@@ -1,13 +1,11 @@
 #include "framework/run/vtk.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
-#include <cctype>
 #include <cstdio>
-#include <stdexcept>
 #include <system_error>
 
+#include "framework/run/file_names.h"
 #include "framework/run/text.h"
 #include "framework/run/vtk_encoder.h"
 #include "meshes/module.h"
@@ -18,35 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& path, const std::string& why) {
-  throw std::runtime_error(path.string() + ": cannot be written (" + why + ")");
-}
-
 const VtkEncoder& encoder() {
   static const VtkEncoder& loaded = module_table<VtkEncoder>("vtk");
   return loaded;
 }
 
 void write_vtu(const fs::path& path, const std::string& text) {
-  if (text.empty()) fail(path, "VTK could not encode it");
+  if (text.empty()) throw FileError(path, "VTK could not encode it, for which it needs memory");
   write_text(path, text);
-}
-
-/// What is left of a name in that of a file: other signs mean something to shells, XML or file
-/// systems.
-std::string file_stem(const std::string& name) {
-  std::string stem;
-  for (const char c : name) {
-    const bool kept = c == '-' || c == '_' || (c == '.' && !stem.empty()) ||
-                      (static_cast<unsigned char>(c) < 128 && std::isalnum(c));
-    stem += kept ? c : '_';
-  }
-  return stem.empty() ? "body" : stem;
-}
-
-bool same_but_for_case(const std::string& a, const std::string& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return std::tolower(x) == std::tolower(y); });
 }
 
 }  // namespace
@@ -74,16 +51,9 @@ struct FrameWriter::Bodies {
     std::shared_ptr<void> cells;  ///< as VTK keeps them, the same in each frame
   };
   std::vector<Kept> kept;
+  FileNames names;
 
-  void keep(const DrawnBody& body) {
-    Kept k{body.name, file_stem(body.name), {}};
-    const auto taken = [&] {
-      return std::any_of(kept.begin(), kept.end(),
-                         [&](const Kept& other) { return same_but_for_case(k.stem, other.stem); });
-    };
-    for (int i = 2; taken(); ++i) k.stem = file_stem(body.name) + "_" + std::to_string(i);
-    kept.push_back(std::move(k));
-  }
+  void keep(const DrawnBody& body) { kept.push_back({body.name, names.add(body.name, "body"), {}}); }
 };
 
 FrameWriter::FrameWriter(fs::path directory)
@@ -91,7 +61,7 @@ FrameWriter::FrameWriter(fs::path directory)
   std::error_code error;
   const fs::path frames = directory_ / "frames";
   fs::create_directories(frames, error);
-  if (error) fail(frames, error.message());
+  if (error) throw FileError(frames, error.value(), "cannot be made");
 }
 
 FrameWriter::~FrameWriter() = default;

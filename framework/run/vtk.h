@@ -94,8 +94,7 @@ struct Drawing {
 /// | `TimeValue`                | frame  | t [s]                                 |
 /// | `deformation exaggeration` | frame  | drawn deformation over the true one   |
 ///
-/// BODY is the name with all but ASCII letters, digits, `.`, `-` and `_` replaced by `_`, and a
-/// number after it where two would be the same. Every file appears whole or not at all.
+/// BODY is the name made one of a file (file_names.h). Every file appears whole or not at all.
 /// @throws std::runtime_error  naming the path that cannot be written
 class FrameWriter {
  public:

@@ -1,5 +1,6 @@
 #include "framework/scene/error.h"
 
+#include <locale>
 #include <sstream>
 
 namespace pintle {
@@ -7,6 +8,7 @@ namespace pintle {
 namespace {
 std::string sentence(const std::string& file, const Place& place, const std::string& message) {
   std::ostringstream s;
+  s.imbue(std::locale::classic());
   s << (file.empty() ? "scene" : file);
   if (place.line > 0) s << ':' << place.line;
   if (!place.key.empty()) s << (place.line == set_by_override ? ": --set " : ": ") << place.key;

@@ -1,4 +1,5 @@
 #include "framework/scene/filled_in_parts.h"
+#include "framework/scene/json_text.h"
 #include "framework/scene/reader_parts.h"
 
 namespace pintle {
@@ -233,7 +234,7 @@ std::string filled_in(const Scene& scene, const Parameters& parameters) {
   if (scene.statics) out["static"] = json(*scene.statics);
   if (scene.has_run) out["run"] = json(scene.run);
   out["output"] = json(scene.output, scene);
-  return out.dump(2);
+  return json_text(out);
 }
 
 }  // namespace pintle

@@ -72,8 +72,16 @@ void read_parameters(const Node& root, const Overrides& overrides, Source& sourc
                                    : "the scene has no such parameter." + did_you_mean(name, all));
 }
 
+void require_text(const std::string& file, const Overrides& overrides) {
+  for (const auto& [name, text] : overrides)
+    if (line_not_text(name + text) > 0)
+      throw SceneError(file, {0, "--set"}, "the override of \"" + (line_not_text(name) > 0 ? "?" : name) + "\" is not text (a zero byte, or bytes that are not UTF-8); "
+                                           "set the terminal to UTF-8, or put the value into the scene");
+}
+
 Scene read(const std::string& text, const std::string& file, const Overrides& overrides,
            const std::filesystem::path& folder) {
+  require_text(file, overrides);
   Yaml tree = parse_yaml(text, file);
   Source source{file, {}};
   const Node root(tree, source, {tree.line, {}});

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <locale>
 #include <sstream>
 
 #include "files/files.h"
@@ -13,6 +14,7 @@ namespace {
 
 std::string decimal(double value) {
   std::ostringstream out;
+  out.imbue(std::locale::classic());
   out << value;
   return out.str();
 }
@@ -44,6 +46,7 @@ std::string table_text(const std::string& file, bool linear, double time_unit, d
     return out;
   };
   std::ostringstream out;
+  out.imbue(std::locale::classic());
   out.precision(17);
   out << "{\"table\": \"" << escaped(file) << "\", \"interpolation\": \""
       << (linear ? "linear" : "spline") << "\"";

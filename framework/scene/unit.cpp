@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <locale>
 #include <numbers>
 #include <sstream>
 #include <vector>
@@ -94,6 +95,7 @@ const Named* name_of(const Dimension& q) {
 
 std::string base_units(const Dimension& q) {
   std::ostringstream out;
+  out.imbue(std::locale::classic());
   const std::array<std::pair<const char*, double>, 3> parts{
       {{"kg", q.mass}, {"m", q.length}, {"s", q.time}}};
   for (const auto& [name, exponent] : parts) {

@@ -101,6 +101,7 @@ void run_in(Outcome& out, const CaseSource& source, const Overrides& overrides, 
     };
   auto run = std::make_shared<Run>(simulate(scene, model, assembly, listeners));
   out.run_seconds = since(timed.begin);
+  if (run->status == Status::out_of_memory) throw std::bad_alloc();
   out.status = timed.over ? "over its limit" : status_text(run->status);
   out.reason = one_line(run->reason);
   if (timed.over) out.reason = "stopped after " + std::to_string(out.run_seconds) + " s of computing";

@@ -224,7 +224,7 @@ void open_folder(const fs::path& folder) {
   if (fs::exists(fs::symlink_status(folder, error))) {
     const auto is_ours = [&](const fs::path& p) {
       const std::string name = p.filename().string();
-      return name.starts_with("journal-") || name.starts_with("study.yaml") || name.starts_with("scene.yaml") || p.extension() == ".part";
+      return name.starts_with("journal-") || name.starts_with("study.yaml") || name.starts_with("scene.yaml") || name.find(".part") != std::string::npos;
     };
     if (!fs::is_directory(folder)) throw SceneError(folder.string(), {}, "exists already and is not a directory; name another with --out");
     const fs::directory_iterator entries(folder);
@@ -253,14 +253,14 @@ std::string what_differs(const Sweep& sweep, const fs::path& folder) {
 void write_tables(const Sweep& sweep, const fs::path& folder, const SweepEnd& end) {
   std::error_code ignored;
   if (!end.whole) {
-    write_text(folder / "sweep-so-far.csv", sweep_csv(sweep, end.rows));
+    write_synced(folder / "sweep-so-far.csv", sweep_csv(sweep, end.rows));
     return;
   }
   fs::remove(folder / "sweep-so-far.csv", ignored);
   if (end.count.done == 0 && fs::exists(folder / "sweep.csv")) return;
-  write_text(folder / "timings.csv", timings_csv(end.rows));
-  write_text(folder / "sweep.json", sweep_json(sweep, end));
-  write_text(folder / "sweep.csv", sweep_csv(sweep, end.rows));
+  write_synced(folder / "timings.csv", timings_csv(end.rows));
+  write_synced(folder / "sweep.json", sweep_json(sweep, end));
+  write_synced(folder / "sweep.csv", sweep_csv(sweep, end.rows));
 }
 
 }  // namespace
@@ -297,8 +297,8 @@ SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettin
     }
     if (!journals_are_free(folder, own, 10))
       throw std::runtime_error(folder.string() + ": processes of an earlier session still work there; wait for them, or end them");
-    write_text(folder / "study.yaml", sweep.text);
-    write_text(folder / "scene.yaml", sweep.study.scene.text);
+    write_synced(folder / "study.yaml", sweep.text);
+    write_synced(folder / "scene.yaml", sweep.study.scene.text);
     std::vector<bool> ended(sweep.cases.size() + 1, false);
     for (const Row& row : read_journals(folder, sweep.print)) ended[row.number] = true;
     for (std::size_t k = 1; k < ended.size(); ++k)

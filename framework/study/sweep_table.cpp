@@ -5,6 +5,7 @@
 
 #include "framework/run/text.h"
 #include "framework/scene/expression.h"
+#include "framework/scene/json_text.h"
 #include "framework/study/fingerprint.h"
 #include "framework/study/sweep.h"
 
@@ -145,7 +146,7 @@ std::string sweep_json(const Sweep& sweep, const SweepEnd& end) {
                     {"computing time of all cases [s]", busy},
                     {"this session", {{"cases", end.count.done}, {"workers", end.workers}, {"elapsed [s]", end.count.seconds},
                                       {"busy [s]", end.count.busy}, {"efficiency", end.efficiency()}}}};
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(out) + "\n";
 }
 
 }  // namespace pintle

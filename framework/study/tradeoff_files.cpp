@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/run/text.h"
+#include "framework/scene/json_text.h"
 #include "framework/study/plot.h"
 #include "framework/study/printed.h"
 #include "framework/study/tradeoff.h"
@@ -110,14 +111,13 @@ std::string tradeoff_json(const TradeReport& r) {
   for (std::size_t i = 0; i < r.points.size(); ++i) points.push_back(point_json(r, i));
   for (const std::size_t i : r.front) front.push_back(i);
   const auto chosen = [](const std::optional<std::size_t>& i) { return i ? Json(*i) : Json(); };
-  return Json{{"title", r.plan.title},
+  const Json out{{"title", r.plan.title},
               {"status", status(r)}, {"settings that ran", r.ran()}, {"settings in all", r.listed()}, {"axes chosen from the scene", r.plan.suggested},
               {"wanted", {{"error", r.plan.error > 0 ? Json(r.plan.error) : Json()}, {"time", r.plan.time > 0 ? Json(r.plan.time) : Json()},
                           {"budget", r.plan.budget > 0 ? Json(r.plan.budget) : Json()}, {"repeats", r.plan.repeats}}},
               {"said", r.said}, {"recommended", chosen(r.recommended)}, {"cheapest for the error", chosen(r.cheapest)}, {"most accurate in the time", chosen(r.best_in_time)},
-              {"front", front}, {"reference", reference_json(r)}, {"axes", axes}, {"settings", points}, {"seconds", r.seconds}, {"stopped", r.stopped}}
-             .dump(2) +
-         "\n";
+              {"front", front}, {"reference", reference_json(r)}, {"axes", axes}, {"settings", points}, {"seconds", r.seconds}, {"stopped", r.stopped}};
+  return json_text(out) + "\n";
 }
 
 std::string tradeoff_svg(const TradeReport& r) {

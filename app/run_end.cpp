@@ -1,0 +1,86 @@
+#include "app/run_end.h"
+
+#include <algorithm>
+#include <iostream>
+#include <new>
+
+#include "app/progress.h"
+#include "framework/run/file.h"
+
+namespace pintle::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of the exception being handled. @throws std::bad_alloc  there is no memory to say it
+std::string reason() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return "there was not enough memory to write the results; end other programs, or raise the limit (ulimit -v)";
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+}
+
+}  // namespace
+
+void require_place(const fs::path& out) {
+  now_doing("looking at the place for the results");
+  require_writable(out);
+}
+
+void tell_leftovers(const Options& options, const fs::path& out) {
+  const std::vector<fs::path> all = leftovers(out);
+  if (options.quiet || all.empty()) return;
+  constexpr std::size_t most = 3;
+  std::cerr << "  note: " << all.size() << (all.size() == 1 ? " folder" : " folders") << " of runs that were ended, or still go, with the same --out:";
+  for (std::size_t k = 0; k < std::min(most, all.size()); ++k) std::cerr << " " << all[k].string();
+  std::cerr << (all.size() > most ? " …" : "") << "; look at what they hold and remove them\n";
+}
+
+void write_whole(const Options& options, const fs::path& out, const std::function<void(const fs::path&)>& write) {
+  heed_signals();  // what has been computed is written first
+  now_doing("writing the results");
+  tell_leftovers(options, out);
+  ResultsDirectory results(out);
+  results_are_in(results.path().string());
+  write(results.path());
+  results.commit();
+}
+
+void settle(ResultsDirectory& results, Run& run, const std::function<void()>& write, const std::function<void()>& report) {
+  bool whole = run.status != Status::not_written;
+  const auto attempt = [&](const std::function<void()>& act) {
+    try {
+      act();
+    } catch (...) {
+      if (whole) run.reason = reason();
+      run.status = Status::not_written;
+      whole = false;
+    }
+  };
+  attempt(write);
+  if (whole) attempt([&] { results.commit(); });
+  else attempt(report);
+  if (whole || run.reason.find("the results are in") != std::string::npos) return;
+  run.reason += "; what was computed" + (run.t_end > 0 ? " up to t = " + number(run.t_end) + " s" : std::string()) + " is in " + results.path().string();
+}
+
+int exit_code(const Options& options, const Scene& scene, const Run& run) {
+  const bool unsaid = options.quiet || options.json || run.status == Status::not_written || run.status == Status::out_of_memory;
+  if (run.status != Status::finished && unsaid)
+    std::cerr << scene.file << ": " << status_text(run.status) << ": " << run.reason << "\n";
+  switch (run.status) {
+    case Status::finished: return ok;
+    case Status::failed: return run_failed;
+    case Status::interrupted: return stopped;
+    case Status::ledger_over_bound: return ledger_over;
+    case Status::not_written:
+    case Status::out_of_memory: return trouble;
+  }
+  return trouble;
+}
+
+}  // namespace pintle::app

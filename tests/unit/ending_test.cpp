@@ -1,0 +1,224 @@
+// How the program ends: by signals, with names of all kinds, with a limit on files. Nothing that was computed is lost.
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/unit/program.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace pintle_test;
+
+const std::string example = PINTLE_SOURCE_DIR "/examples/slider_crank_clearance.yaml";
+
+Words run_command(const fs::path& scene, const fs::path& out, Words more = {}) {
+  Words command{PINTLE_PROGRAM, "run", scene.string(), "-o", out.string()};
+  command.insert(command.end(), more.begin(), more.end());
+  return command;
+}
+/// 1 ms of the example.
+const Words shortly{"--set", "run.until=1 ms", "--set", "output.frames=null"};
+/// Much longer than any test waits.
+const Words for_long{"--set", "run.until=4000 s", "--set", "output.frames=null", "--set", "output.every=1 ms", "--set", "run.max steps=2000000000"};
+
+bool whole_rows(const std::string& text) { return !text.empty() && text.back() == '\n'; }
+
+nlohmann::json report_in(const fs::path& folder) { return nlohmann::json::parse(contents(folder / "run.json"), nullptr, false); }
+
+/// Waits until a run has written rows, in whichever folder it does.
+bool has_rows(const fs::path& folder) {
+  for (int k = 0; k < 1000; ++k, std::this_thread::sleep_for(std::chrono::milliseconds(10)))
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (std::error_code error; entry.is_directory() && fs::file_size(entry.path() / "trajectory.csv", error) > 100'000 && !error) return true;
+  return false;
+}
+
+struct Stop {
+  int signal;
+  const char* word;
+};
+class Stopped : public testing::TestWithParam<Stop> {};
+
+TEST_P(Stopped, ARunStoppedBySignalKeepsItsResultsAndSaysWhich) {
+  const Folder folder;
+  const fs::path log = folder.path() / "log", out = folder.path() / "out";
+  const pid_t child = start(log, run_command(example, out, for_long));
+  ASSERT_TRUE(has_rows(folder.path()));
+  ::kill(child, GetParam().signal);
+  const Ended end = wait_for(child, log);
+  EXPECT_EQ(end.code, 6) << end.signal << end.complained;
+  EXPECT_NE(end.said.find(GetParam().word), std::string::npos) << end.said;
+  EXPECT_TRUE(whole_rows(contents(out / "trajectory.csv")));
+  const auto report = report_in(out);
+  EXPECT_EQ(report["status"], "interrupted");
+  EXPECT_NE(report["reason"].get<std::string>().find(GetParam().word), std::string::npos);
+}
+INSTANTIATE_TEST_SUITE_P(Signals, Stopped, testing::Values(Stop{SIGINT, "Ctrl-C"}, Stop{SIGTERM, "SIGTERM"}, Stop{SIGHUP, "SIGHUP"}));
+
+TEST(Ending, ARunUnderNohupOutlivesItsTerminal) {
+  const Folder folder;
+  const fs::path log = folder.path() / "log", out = folder.path() / "out";
+  std::signal(SIGHUP, SIG_IGN);  // what nohup hands on
+  const pid_t child = start(log, run_command(example, out, for_long));
+  std::signal(SIGHUP, SIG_DFL);
+  ASSERT_TRUE(has_rows(folder.path()));
+  ::kill(child, SIGHUP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(::waitpid(child, nullptr, WNOHANG), 0) << "it goes on";
+  ::kill(child, SIGINT);
+  EXPECT_EQ(wait_for(child, log).code, 6);
+}
+
+TEST(Ending, ARunThatIsKilledLeavesWholeRowsAndTheNextIsToldOfThem) {
+  const Folder folder;
+  const fs::path log = folder.path() / "log", out = folder.path() / "out";
+  const pid_t child = start(log, run_command(example, out, for_long));
+  ASSERT_TRUE(has_rows(folder.path()));
+  ::kill(child, SIGKILL);
+  EXPECT_EQ(wait_for(child, log).signal, SIGKILL);
+  EXPECT_FALSE(fs::exists(out));
+  const Ended next = run(log, run_command(example, out, shortly));
+  EXPECT_EQ(next.code, 0) << next.complained;
+  EXPECT_NE(next.complained.find("out.part-"), std::string::npos) << next.complained;
+  EXPECT_TRUE(fs::exists(out / "run.json"));
+}
+
+// In a container every run may have the same process number: a folder named by it would be taken for one's own.
+TEST(Ending, TheFolderOfAKilledRunIsNeverWrittenTo) {
+  const Folder folder;
+  const fs::path out = folder.path() / "out";
+  for (int pid = 1; pid < 70'000; pid += pid < 400 ? 1 : 977) fs::create_directory(out.string() + ".part-" + std::to_string(pid));
+  const fs::path own = out.string() + ".part-" + std::to_string(::getpid() + 1);  // about the number that the program gets
+  fs::create_directories(own);
+  EXPECT_EQ(run(folder.path() / "log", run_command(example, out, shortly)).code, 0);
+  for (const auto& entry : fs::directory_iterator(folder.path()))
+    if (entry.path().filename().string().starts_with("out.part-")) {
+      EXPECT_TRUE(fs::is_empty(entry.path())) << entry.path();
+    }
+}
+
+TEST(Ending, ALimitOnTheSizeOfFilesEndsTheRunInOrder) {
+  const Folder folder;
+  const fs::path log = folder.path() / "log", out = folder.path() / "out";
+  const Ended end = run(log, {"/bin/bash", "-c", "ulimit -f 400; exec \"$@\"", "bash", PINTLE_PROGRAM, "run", example, "-o", out.string(), "--set", "run.until=9 ms",
+                              "--set", "output.every=3 us", "--set", "output.frames=null"});
+  EXPECT_EQ(end.signal, 0) << "SIGXFSZ";
+  EXPECT_EQ(end.code, 1) << end.complained;
+  EXPECT_NE(end.complained.find("ulimit -f"), std::string::npos) << end.complained;
+  const std::size_t named = end.complained.find(out.string() + ".part-");
+  ASSERT_NE(named, std::string::npos) << end.complained;
+  const fs::path staging = end.complained.substr(named, out.string().size() + 12);
+  EXPECT_TRUE(whole_rows(contents(staging / "trajectory.csv")));
+  EXPECT_GT(contents(staging / "trajectory.csv").size(), 300'000U);
+  EXPECT_EQ(report_in(staging)["status"], "results not written");
+}
+
+TEST(Ending, AReaderThatGoesAwayIsAnErrorAndNoSignal) {
+  const Folder folder;
+  const fs::path log = folder.path() / "log", out = folder.path() / "out";
+  const Ended end = run(log, {"/bin/bash", "-c", "(sleep 0.1; \"$@\"; echo $? > " + (folder.path() / "code").string() + ") | true", "bash", PINTLE_PROGRAM, "run",
+                              example, "-o", out.string(), "--set", "run.until=1 ms", "--set", "output.frames=null"});
+  EXPECT_EQ(contents(folder.path() / "code"), "1\n");
+  EXPECT_NE(end.complained.find("standard output"), std::string::npos) << end.complained;
+  EXPECT_TRUE(fs::exists(out / "run.json"));
+}
+
+TEST(Ending, MemoryThatRowsWouldFillDoesNotGrowWithThem) {
+  const Folder folder;
+  // 3·10⁵ rows of 57 numbers: 140 MB as numbers, as much again as text.
+  const Ended end = run(folder.path() / "log", {"/bin/bash", "-c", "ulimit -v 400000; exec \"$@\"", "bash", PINTLE_PROGRAM, "run", example, "-o", (folder.path() / "out").string(),
+                                                "--set", "run.until=3 ms", "--set", "output.every=10 ns", "--set", "output.frames=null"});
+  EXPECT_EQ(end.code, 0) << end.complained;
+}
+
+TEST(Names, ASlashAtTheEndOfTheFolderIsNoPartOfItsName) {
+  const Folder folder;
+  for (const char* name : {"new/", "new2//", "deep/er/", "./dot/."}) {
+    const Ended end = run(folder.path() / "log", run_command(example, folder.path().string() + "/" + name, shortly));
+    EXPECT_EQ(end.code, 0) << name << end.complained;
+    EXPECT_TRUE(fs::exists(folder.path() / name / "run.json")) << name;
+  }
+}
+
+// Latin-1, a line's end, quotes, an emoji, as long as names can be.
+TEST(Names, FilesAndFoldersOfAnyNameAreWritten) {
+  const Folder folder;
+  for (const std::string& name : {std::string("K\xfcrbel"), std::string("two\nlines"), std::string("\"quoted\" 'twice'"), std::string("\xf0\x9f\x98\x80"),
+                                  std::string(255, 'x'), std::string("-q"), std::string("a,b;c")}) {
+    const fs::path scene = folder.write(name.substr(0, 200) + ".yaml", contents(example)), out = folder.path() / "results" / name;
+    const Ended end = run(folder.path() / "log", run_command(scene, out, shortly));
+    EXPECT_EQ(end.code, 0) << name << ": " << end.complained;
+    const auto report = report_in(out);
+    ASSERT_TRUE(report.is_object()) << name;
+    EXPECT_EQ(report["status"], "finished");
+    EXPECT_EQ(run(folder.path() / "log", {PINTLE_PROGRAM, "check", scene.string(), "--json", "--set", "run.until=1 ms"}).code, 0) << name;
+  }
+}
+
+TEST(Names, ANameThatIsTooLongOrAFolderThatCannotBeWrittenIsRefusedAtOnce) {
+  const Folder folder;
+  const auto begin = std::chrono::steady_clock::now();
+  const Ended longer = run(folder.path() / "log", run_command(example, folder.path() / std::string(256, 'x'), for_long));
+  EXPECT_EQ(longer.code, 1);
+  EXPECT_NE(longer.complained.find("shorter name"), std::string::npos) << longer.complained;
+  const fs::path file = folder.write("file", "text");
+  EXPECT_EQ(run(folder.path() / "log", run_command(example, file / "out", for_long)).code, 1);
+  EXPECT_EQ(run(folder.path() / "log", run_command(example, "/proc/out", for_long)).code, 1);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+}
+
+TEST(Names, TitlesThatAreNotUtf8AreRefusedWithTheirLine) {
+  const Folder folder;
+  std::string text = contents(example);
+  for (const std::string& wrong : {std::string("K\xfcrbel"), std::string("\xed\xa0\x80"), std::string("\xe0\x80\x80"), std::string("\xf4\x90\x80\x80")}) {
+    const fs::path scene = folder.write("scene.yaml", "\ntitle: " + wrong + "\n" + text.substr(text.find("gravity:")));
+    const Ended end = run(folder.path() / "log", run_command(scene, folder.path() / "out", shortly));
+    EXPECT_EQ(end.code, 2) << end.complained;
+    EXPECT_NE(end.complained.find("scene.yaml:2"), std::string::npos) << end.complained;
+    const Ended set = run(folder.path() / "log", run_command(example, folder.path() / "out", {"--set", "title=" + wrong}));
+    EXPECT_EQ(set.code, 2) << set.complained;
+    EXPECT_NE(set.complained.find("UTF-8"), std::string::npos) << set.complained;
+  }
+}
+
+TEST(Names, DriversWhoseNamesMeetAsFilesHaveAFileEach) {
+  const Folder folder;
+  const fs::path scene = folder.write("scene.yaml", R"(
+bodies:
+  a: {rigid: {mass: 1, inertia: 1}}
+  b: {rigid: {mass: 2, inertia: 2}}
+  c: {rigid: {mass: 3, inertia: 3}}
+  d: {rigid: {mass: 4, inertia: 4}}
+joints:
+  ja: {revolute: [ground, a]}
+  jb: {revolute: [ground, b]}
+  jc: {revolute: [ground, c]}
+  jd: {revolute: [ground, d]}
+drivers:
+  "d d": {angle: [ground, a], law: t^2}
+  "d_d": {angle: [ground, b], law: t^2}
+  "D_d_2": {angle: [ground, c], law: t^2}
+  "trajectory": {angle: [ground, d], law: t^2}
+run: {until: 1}
+)");
+  const Ended end = run(folder.path() / "log", {PINTLE_PROGRAM, "inverse", scene.string(), "-o", (folder.path() / "out").string(), "--json"});
+  ASSERT_EQ(end.code, 0) << end.complained;
+  const auto drivers = nlohmann::json::parse(end.said)["drivers"];
+  ASSERT_EQ(drivers.size(), 4U);
+  double inertia = 0;
+  for (const char* name : {"d d", "d_d", "D_d_2", "trajectory"}) {
+    const std::string text = contents(folder.path() / "out" / drivers[name]["file"].get<std::string>());
+    ASSERT_NE(text.find('\n'), std::string::npos) << name;
+    const std::size_t row = text.find('\n') + 1, comma = text.find(',', row);
+    EXPECT_NEAR(std::stod(text.substr(comma + 1)), 2 * ++inertia, 1e-9) << name;
+  }
+}
+
+}  // namespace
