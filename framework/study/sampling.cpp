@@ -100,16 +100,26 @@ std::vector<Node> named(const Node& section) {
   return entries;
 }
 
+/// How many values(node) has, without making them; 1 where it refuses the node.
+std::size_t value_count(const Node& node) {
+  if (node.is_list()) return std::max<std::size_t>(1, node.yaml().items.size());
+  return node.is_map() && node.has("count") ? static_cast<std::size_t>(node.at("count").count(1)) : 1;
+}
+
 Cases grid(const Node& section) {
   Cases cases;
-  std::vector<Texts> axes;
   std::size_t n = 1;
+  for (const Node& axis : named(section)) {
+    const std::size_t here = value_count(axis);
+    if (here > most_cases) values(axis);  // says so
+    if (n > most_cases / here) section.fail("has more than " + std::to_string(most_cases) + " combinations; take fewer values, or random");
+    n *= here;
+  }
+  std::vector<Texts> axes;
   for (const Node& axis : named(section)) {
     cases.names.push_back(axis.name());
     cases.places.push_back(axis.place());
     axes.push_back(values(axis));
-    if (n > most_cases / axes.back().size()) section.fail("has more than " + std::to_string(most_cases) + " combinations; take fewer values, or random");
-    n *= axes.back().size();
   }
   for (std::size_t k = 0; k < n; ++k) {
     Texts one(axes.size());
@@ -120,9 +130,17 @@ Cases grid(const Node& section) {
   return cases;
 }
 
+/// Before the values are made: a few lines could ask for more than any memory.
+void judge_size(const Node& section, std::size_t cases, std::size_t names) {
+  constexpr std::size_t most_values = 20'000'000;
+  if (cases > most_values / std::max<std::size_t>(1, names))
+    section.fail("has more than " + std::to_string(most_values) + " values, of " + std::to_string(names) + " names together; take fewer cases");
+}
+
 Cases columns(const Node& section) {
   Cases cases;
   for (const Node& column : named(section)) {
+    judge_size(section, value_count(column), named(section).size());
     const Texts texts = values(column);
     if (cases.names.empty()) cases.values.resize(texts.size());
     if (texts.size() != cases.size())
@@ -163,6 +181,7 @@ Cases sampled(const Node& section, bool latin) {
   if (n > most_cases) section.at("count").fail("is more than " + std::to_string(most_cases) + " cases; take fewer");
   const auto seed = static_cast<std::uint64_t>(section.has("seed") ? section.at("seed").count(0) : 1);
 
+  judge_size(section, n, entries.size());
   Cases cases;
   cases.values.resize(n);
   for (const Node& entry : entries) {

@@ -57,6 +57,17 @@ TEST(SweepCases, ColumnsAreWalkedInStep) {
   EXPECT_NE(complaint("list: {a: [1, 2], b: [3]}").find("b: has 1 values, a has 2"), std::string::npos) << complaint("list: {a: [1, 2], b: [3]}");
 }
 
+TEST(SweepCases, TooManyValuesAreRefusedBeforeTheyAreMade) {
+  std::string names = "{count: 1000000, ", columns = "{";
+  for (int k = 0; k < 100; ++k) {
+    const std::string name = (k > 0 ? ", a" : "a") + std::to_string(k);
+    names += name + ": {from: 0, to: 1}";
+    columns += name + ": {from: 0, to: 1, count: 1000000}";
+  }
+  for (const std::string& text : {"random: " + names + "}", "latin hypercube: " + names + "}", "list: " + columns + "}", "grid: " + columns + "}"})
+    EXPECT_NE(complaint("{" + text + "}").find("has more than"), std::string::npos) << text.substr(0, 20);
+}
+
 TEST(SweepCases, GroupsAndListsAreValuesToo) {
   const Cases c = cases("grid: {bodies.rod.modes: [null, {craig-bampton: {count: 2}}]}");
   EXPECT_EQ(c.overrides(0)[0].second, "null");
