@@ -47,9 +47,15 @@ std::optional<CellShape> shape_of(int gmsh_type) {
 struct Extract {
   const std::string& name;
   Mesh mesh{};
-  std::vector<int> at{};  // column by Gmsh's number, −1: none
+  std::vector<size_t> sorted{};  // Gmsh's numbers, by column
 
-  int column(size_t number) const { return number < at.size() ? at[number] : -1; }
+  int column(size_t number) const {  // −1: none
+    if (sorted.empty() || number < sorted.front() || number > sorted.back()) return -1;
+    const size_t guess = number - sorted.front();  // mostly without gaps
+    if (guess < sorted.size() && sorted[guess] == number) return static_cast<int>(guess);
+    const auto at = std::lower_bound(sorted.begin(), sorted.end(), number);
+    return *at == number ? static_cast<int>(at - sorted.begin()) : -1;
+  }
 
   void nodes(double scale) {
     std::vector<size_t> numbers;
@@ -60,7 +66,6 @@ struct Extract {
     std::iota(order.begin(), order.end(), size_t{0});
     std::sort(order.begin(), order.end(),
               [&](size_t a, size_t b) { return numbers[a] < numbers[b]; });
-    at.assign(numbers[order.back()] + 1, -1);
     mesh.x.resize(2, static_cast<Eigen::Index>(numbers.size()));
     for (size_t i = 0; i < order.size(); ++i) {
       const double* p = &x[3 * order[i]];
@@ -68,7 +73,7 @@ struct Extract {
         refuse(name, ": node ", numbers[order[i]], " is at z = ", p[2],
                "; a body's mesh lies in the plane z = 0");
       mesh.x.col(static_cast<Eigen::Index>(i)) << scale * p[0], scale * p[1];
-      at[numbers[order[i]]] = static_cast<int>(i);
+      sorted.push_back(numbers[order[i]]);
       mesh.node_numbers.push_back(static_cast<long>(numbers[order[i]]));
     }
   }
@@ -87,7 +92,10 @@ struct Extract {
                "with order 1 or 2");
       Cells block{*shape, {}, {}};
       for (const size_t n : numbers[k]) block.numbers.push_back(static_cast<long>(n));
-      for (const size_t n : nodes[k]) block.nodes.push_back(column(n));
+      for (const size_t n : nodes[k]) {
+        if (column(n) < 0) refuse(name, ": a cell names node ", n, ", which is not there");
+        block.nodes.push_back(column(n));
+      }
       out.push_back(std::move(block));
     }
     return out;

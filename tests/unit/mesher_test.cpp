@@ -283,6 +283,18 @@ TEST_F(Mesher, ThreadsGetTheSameMeshes) {
   for (const std::string& g : got) EXPECT_EQ(g, alone);
 }
 
+TEST_F(Mesher, AMshFileMayNumberItsNodesFarApart) {
+  const fs::path file = write("far.msh",
+                              "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2000000000 1 0 0\n2100000000 0 1 0\n$EndNodes\n"
+                              "$Elements\n1\n7 2 2 1 1 1 2000000000 2100000000\n$EndElements\n");
+  MesherLimits limits;
+  limits.bytes = std::size_t{2} << 30;
+  set_mesher_limits(limits);
+  const Mesh mesh = read_geometry(file, {});
+  EXPECT_EQ(mesh.node_numbers, (std::vector<long>{1, 2'000'000'000, 2'100'000'000}));
+  EXPECT_EQ(mesh.cell_count(), 1u);
+}
+
 TEST(Wire, ADamagedAnswerIsRefused) {
   Mesh mesh;
   mesh.x.resize(2, 3);
