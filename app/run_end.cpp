@@ -65,6 +65,7 @@ void settle(ResultsDirectory& results, Run& run, const std::function<void()>& wr
   if (whole) attempt([&] { results.commit(); });
   else attempt(report);
   if (whole || run.reason.find("the results are in") != std::string::npos) return;
+  if (!results.holds_files()) return void(run.reason += "; nothing of the results could be written");
   run.reason += "; what was computed" + (run.t_end > 0 ? " up to t = " + number(run.t_end) + " s" : std::string()) + " is in " + results.path().string();
 }
 

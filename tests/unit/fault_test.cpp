@@ -42,7 +42,7 @@ class Faults : public testing::Test {
 
   fs::path out() const { return folder_.path() / "results" / "out"; }
 
-  Ended run_program(const std::string& fault) {
+  Ended run_program(const std::string& fault, const Words& more = {}) {
     fs::remove_all(folder_.path() / "results");
     fs::create_directory(folder_.path() / "results");
     const Words command{PINTLE_PROGRAM, "run", PINTLE_SOURCE_DIR "/examples/slider_crank_clearance.yaml", "--set", "run.until=3 ms", "--set", "output.every=3 us",
@@ -50,6 +50,7 @@ class Faults : public testing::Test {
     Words environment{"LD_PRELOAD=" PINTLE_FAULTS, "PINTLE_FAULT_UNDER=" + (folder_.path() / "results").string(),
                       "PINTLE_FAULT_LOG=" + (folder_.path() / "counts").string()};
     if (!fault.empty()) environment.push_back("PINTLE_FAULT=" + fault);
+    environment.insert(environment.end(), more.begin(), more.end());
     return run(folder_.path() / "log", command, environment);
   }
 
@@ -177,5 +178,71 @@ TEST_F(Faults, WantOfMemoryAnywhereIsSaidInWords) {
       EXPECT_EQ(end.complained.find("bad_alloc"), std::string::npos) << fault << ": " << end.complained;
     }
 }
+
+TEST_F(Faults, AClockThatJumpsBackAndALocaleWithACommaChangeNothing) {
+  for (const Words& more : {Words{"PINTLE_FAULT_CLOCK=1"}, Words{"LC_ALL=de_DE.UTF-8"}, Words{"LC_ALL=C"}}) {
+    const Ended end = run_program("", more);
+    EXPECT_EQ(end.code, 0) << end.complained;
+    EXPECT_TRUE(is_whole(out())) << more[0];
+  }
+}
+
+/// A driven four-bar, for the commands that `run` does not stand for.
+class OtherCommands : public testing::TestWithParam<const char*> {
+ protected:
+  Ended run_program(const std::string& fault) {
+    fs::remove_all(folder_.path() / "results");
+    fs::create_directory(folder_.path() / "results");
+    Words environment{"LD_PRELOAD=" PINTLE_FAULTS, "PINTLE_FAULT_UNDER=" + (folder_.path() / "results").string(), "PINTLE_FAULT_LOG=" + (folder_.path() / "counts").string()};
+    if (!fault.empty()) environment.push_back("PINTLE_FAULT=" + fault);
+    return run(folder_.path() / "log", {PINTLE_PROGRAM, GetParam(), folder_.path() / "scene.yaml", "-o", (folder_.path() / "results" / "out").string()}, environment);
+  }
+  Folder folder_;
+  const fs::path scene_ = folder_.write("scene.yaml", R"(
+gravity: [0, -9.81]
+ground: {points: {O: [0, 0], C: [0.3, 0]}}
+bodies:
+  crank: {rigid: {mass: 0.3, inertia: 1e-4}, points: {O: [-50 mm, 0], A: [50 mm, 0]}, pose: {at: [0.05, 0]}}
+  coupler: {rigid: {mass: 0.5, inertia: 1e-2}, points: {A: [-150 mm, 0], B: [150 mm, 0]}, pose: {at: [0.25, 0.05], angle: 40 deg}}
+  rocker: {rigid: {mass: 0.4, inertia: 5e-3}, points: {B: [0, 0.1], C: [0, -0.1]}, pose: {at: [0.3, 0.1]}}
+joints:
+  main bearing: {revolute: [ground.O, crank.O]}
+  crank pin: {revolute: [crank.A, coupler.A]}
+  rocker pin: {revolute: [coupler.B, rocker.B]}
+  rocker bearing: {revolute: [ground.C, rocker.C]}
+drivers: {motor: {angle: [ground, crank], law: 10 deg + 10 rad/s*t}}
+run: {until: 0.01}
+output: {frames: 3}
+)");
+};
+
+TEST_P(OtherCommands, SayWhatCouldNotBeWrittenAndWhereTheRestIs) {
+#if defined(PINTLE_SANITIZED)
+  GTEST_SKIP() << "the sanitizers have malloc to themselves";
+#endif
+  const fs::path results = folder_.path() / "results", out = results / "out";
+  ASSERT_EQ(run_program("").code, 0) << contents(folder_.path() / "log.err");
+  const auto all = std::distance(fs::recursive_directory_iterator(out), fs::recursive_directory_iterator());
+  std::map<std::string, long> counted;
+  std::istringstream log(contents(folder_.path() / "counts"));
+  std::string name;
+  for (long n = 0; log >> name >> n;) counted[name] = n;
+  ASSERT_GT(counted["write"], 2);
+  for (const char* call : {"write", "sync", "rename", "open"})
+    for (long k = 1; k <= counted[call]; ++k) {
+      const Ended end = run_program(call + (":" + std::to_string(k) + ":" + std::to_string(ENOSPC) + ":on"));
+      SCOPED_TRACE(std::string(call) + " " + std::to_string(k) + ": " + end.complained);
+      EXPECT_EQ(end.code, 1);
+      EXPECT_FALSE(end.complained.empty());
+      if (fs::exists(out)) {
+        EXPECT_EQ(std::distance(fs::recursive_directory_iterator(out), fs::recursive_directory_iterator()), all) << "not whole";
+      }
+      for (const auto& entry : fs::directory_iterator(results))
+        if (entry.path() != out) {
+          EXPECT_NE(end.complained.find(entry.path().string()), std::string::npos) << "kept without a word";
+        }
+    }
+}
+INSTANTIATE_TEST_SUITE_P(All, OtherCommands, testing::Values("kinematics", "inverse", "statics", "linearize"));
 
 }  // namespace
