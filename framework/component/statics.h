@@ -45,8 +45,8 @@ struct Fibre {
 /// Stress of a nodal displacement field. Elements count block by block.
 struct StressField {
   /// Plane: [σx σy τxy σz] at nodes, 4 × nodes [Pa]; empty without plane elements. The mean over
-  /// the elements of one block that meet there; where blocks meet, the one of larger von Mises
-  /// stress.
+  /// all elements of one material and thickness that meet there; where such sheets meet, the one of
+  /// larger von Mises stress.
   Eigen::Matrix4Xd nodal;
   /// Per node [Pa]. Plane: of `nodal`. Lines: |N|/A + |M| distance/I, the largest that meets there;
   /// empty without fibres.

@@ -63,11 +63,33 @@ struct Filling {
     }
   }
 
+  /// Plane elements of one material and thickness: their stress is continuous but for the error of the mesh.
+  struct Sheet {
+    PlaneProperties of;
+    bool even;                      // all its elements have these properties
+    Eigen::Matrix4Xd sum;           // over the elements that meet at a node
+    std::vector<int> meet;          // how many those are
+    std::vector<int> nodes{};       // of every element in turn
+    std::vector<double> own{};      // von Mises stress of the element there
+  };
+  std::vector<Sheet> sheets{};
+
+  template <class E>
+  Sheet& sheet_of(const Block<E>& block) {
+    const PlaneProperties& p = block.element(0).p;
+    const bool even = block.properties.size() == 1;
+    const auto same = [&](const Sheet& s) {
+      return s.even && s.of.material.D == p.material.D && s.of.material.Dz == p.material.Dz && s.of.thickness == p.thickness;
+    };
+    if (even)
+      if (const auto at = std::find_if(sheets.begin(), sheets.end(), same); at != sheets.end()) return *at;
+    return sheets.emplace_back(Sheet{p, even, Eigen::Matrix4Xd::Zero(4, model.x.cols()), std::vector<int>(static_cast<std::size_t>(model.x.cols()), 0)});
+  }
+
   template <class E>
   void plane(const Block<E>& block) {
-    Eigen::Matrix4Xd mean = Eigen::Matrix4Xd::Zero(4, model.x.cols());
-    std::vector<int> meet(static_cast<std::size_t>(model.x.cols()), 0);
-    std::vector<double> own(block.nodes.size());  // von Mises at the element's nodes
+    if (block.size() == 0) return;
+    Sheet& sheet = sheet_of(block);
     for (int i = 0; i < block.size(); ++i, point += E::points) {
       const int* node = &block.nodes[static_cast<std::size_t>(i * E::nodes)];
       const E& e = block.element(i);
@@ -77,24 +99,27 @@ struct Filling {
       field.points.middleCols<E::points>(point) = stress_points(e, x);
       const Eigen::Matrix<double, 4, E::nodes> at_nodes = nodal_stress(e, at_points);
       for (int k = 0; k < E::nodes; ++k) {
-        mean.col(node[k]) += at_nodes.col(k);
-        ++meet[static_cast<std::size_t>(node[k])];
-        own[static_cast<std::size_t>(i * E::nodes + k)] =
-            pintle::von_mises(Eigen::Vector4d(at_nodes.col(k)));
+        sheet.sum.col(node[k]) += at_nodes.col(k);
+        ++sheet.meet[static_cast<std::size_t>(node[k])];
+        sheet.nodes.push_back(node[k]);
+        sheet.own.push_back(pintle::von_mises(Eigen::Vector4d(at_nodes.col(k))));
       }
     }
-    std::vector<double> of_mean(meet.size(), 0);
-    for (Index i = 0; i < mean.cols(); ++i) {
+  }
+
+  void average(const Sheet& sheet) {
+    std::vector<double> of_mean(sheet.meet.size(), 0);
+    for (Index i = 0; i < sheet.sum.cols(); ++i) {
       const auto at = static_cast<std::size_t>(i);
-      if (meet[at] == 0) continue;
-      mean.col(i) /= meet[at];
-      of_mean[at] = pintle::von_mises(Eigen::Vector4d(mean.col(i)));
+      if (sheet.meet[at] == 0) continue;
+      const Eigen::Vector4d mean = sheet.sum.col(i) / sheet.meet[at];
+      of_mean[at] = pintle::von_mises(mean);
       if (of_mean[at] < field.von_mises[i]) continue;
       field.von_mises[i] = of_mean[at];
-      field.nodal.col(i) = mean.col(i);
+      field.nodal.col(i) = mean;
     }
-    for (std::size_t k = 0; k < own.size(); ++k)
-      jump = std::max(jump, std::abs(own[k] - of_mean[static_cast<std::size_t>(block.nodes[k])]));
+    for (std::size_t k = 0; k < sheet.own.size(); ++k)
+      jump = std::max(jump, std::abs(sheet.own[k] - of_mean[static_cast<std::size_t>(sheet.nodes[k])]));
   }
 };
 
@@ -117,6 +142,7 @@ StressField stress_field(const FeModel& model, const Eigen::VectorXd& u,
   field.points.resize(2, n.points);
   Filling filling{model, u, fibres, field};
   for (const AnyBlock& any : model.blocks) std::visit([&](const auto& b) { filling(b); }, any);
+  for (const Filling::Sheet& sheet : filling.sheets) filling.average(sheet);
   const double largest = field.von_mises.size() > 0 ? field.von_mises.maxCoeff() : 0;
   field.jump = largest > 0 ? filling.jump / largest : 0;
   return field;

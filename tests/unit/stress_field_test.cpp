@@ -153,8 +153,28 @@ TEST(StressField, OfALinearDisplacementIsEvenAndWithoutJump) {
   }
 }
 
+// A square and, to its right, two triangles, stretched by a and by b: without Poisson's ratio σx = E a on the left, E b on the
+// right, and where they meet the mean over the elements there, whatever their shape.
+TEST(StressField, IsTheMeanOfAllElementsThatMeetWhateverTheirShape) {
+  Eigen::Matrix2Xd x(2, 6);
+  x << 0, 1, 2, 0, 1, 2,  //
+      0, 0, 0, 1, 1, 1;
+  const double E = 2e11, a = 1e-3, b = 4e-3;
+  const PlaneProperties p{plane_material({Isotropic{E, 0}, 1}, PlaneState::stress), 1, 1};
+  const FeModel m = fe_model(x, {Block<Quadrilateral4>{{{p}}, {0, 1, 4, 3}, {0}}, Block<Triangle3>{{{p}}, {1, 2, 5, 1, 5, 4}, {1, 2}}});
+  VectorXd u = VectorXd::Zero(m.N());
+  for (int i = 0; i < 6; ++i) u[2 * i] = x(0, i) <= 1 ? a * x(0, i) : a + b * (x(0, i) - 1);
+  const StressField field = stress_field(m, u);
+  const double mean[6]{a, (a + 2 * b) / 3, b, a, (a + b) / 2, b};
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_NEAR(field.nodal(0, i), E * mean[i], rounding * E * b) << i;
+    EXPECT_NEAR(field.von_mises[i], E * mean[i], rounding * E * b) << i;
+  }
+  EXPECT_NEAR(field.jump, (b - a) * 2 / 3 / b, rounding) << "the square's own stress where three elements meet";
+}
+
 // Two materials pulled alike: at their seam stress jumps, and that is no error of the mesh.
-TEST(StressField, IsNotAveragedAcrossBlocks) {
+TEST(StressField, IsNotAveragedAcrossMaterials) {
   const Plate lower = plate(2, 2, CellShape::quadrilateral4, rectangle(1, 1));
   const auto per_row = lower.mesh.cells[0].nodes.size() / 2;
   const auto half = [&](std::size_t from, double E) {
