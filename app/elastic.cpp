@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "app/run_end.h"
 #include "framework/run/body_drawing.h"
+#include "framework/run/file_doubts.h"
 #include "framework/run/modes.h"
 #include "framework/run/results.h"
 #include "framework/run/static_case.h"
@@ -62,6 +63,7 @@ ElasticBody made(const Options& options, const Scene& scene, const std::string& 
   const SceneBody& body = elastic_of(scene, name);
   say(options, "meshing and assembling " + body.name);
   ElasticBody e = elastic_body(scene, body);
+  if (const std::string doubt = size_doubt(scene, e); !doubt.empty()) e.warnings.push_back(doubt);
   say(options, std::to_string(e.mesh.x.cols()) + " nodes, " + std::to_string(e.model.n()) + " freedoms: computing");
   return e;
 }

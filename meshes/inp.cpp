@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "meshes/inp_claims.h"
 #include "meshes/inp_deck.h"
 #include "meshes/quality.h"
 #include "meshes/rim.h"
@@ -250,6 +251,27 @@ struct Builder {
     return sides;
   }
 
+  // Sides of all plane elements, the lower corner first, sorted.
+  std::vector<std::pair<int, int>> plane_sides() const {
+    std::vector<std::pair<int, int>> sides;
+    for (const InpDeck::Element& e : deck.elements)
+      for (int k = 0, n = corners_of(e.kind.shape); is_plane(e) && k < n; ++k) sides.emplace_back(std::minmax(corner(e, k), corner(e, (k + 1) % n)));
+    std::sort(sides.begin(), sides.end());
+    return sides;
+  }
+
+  /// @pre groups() has run
+  InpElements of_elements() {
+    const bool lines = !std::all_of(deck.elements.begin(), deck.elements.end(), is_plane);
+    return {[this](const std::string& name) {
+              const auto found = set_index.find({upper(name), SetKind::element});
+              return found == set_index.end() ? std::vector<int>{} : members(found->second);
+            },
+            [this, sides = lines ? plane_sides() : std::vector<std::pair<int, int>>{}](int e) {
+              return std::binary_search(sides.begin(), sides.end(), std::pair<int, int>(std::minmax(corner(element(e), 0), corner(element(e), 1))));
+            }};
+  }
+
   Group& group_named(Mesh& mesh, const std::string& name) {
     const auto [known, is_new] = group_index.try_emplace(upper(name), mesh.groups.size());
     if (is_new) mesh.groups.push_back({name, {}, {}});
@@ -283,7 +305,7 @@ struct Builder {
 
 }  // namespace
 
-Mesh read_inp(const std::filesystem::path& path, double scale, const std::filesystem::path& folder) {
+Mesh read_inp(const std::filesystem::path& path, double scale, const std::filesystem::path& folder, InpClaims* claims) {
   if (!(scale > 0) || !std::isfinite(scale))
     throw std::invalid_argument(path.string() + ": scale = " + std::to_string(scale) +
                                 ", must be positive: m per unit of the file");
@@ -298,6 +320,8 @@ Mesh read_inp(const std::filesystem::path& path, double scale, const std::filesy
   if (mesh.plane()) orient(mesh);  // a cell that runs the other way would look like a hole
   const Rim rim(mesh);
   builder.groups(mesh, rim);
+  InpClaims said = inp_claims(deck, builder.of_elements());
+  if (claims) *claims = std::move(said);
   name_loops(mesh, rim);
   drop_unused_nodes(mesh);
   std::erase_if(mesh.groups, [](const Group& g) { return g.nodes.empty(); });

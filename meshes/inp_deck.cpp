@@ -161,6 +161,12 @@ struct Parser {
     }
   }
 
+  void other(const InpCard& card) {
+    const std::size_t first = at;
+    while (data()) ++at;
+    deck.others.push_back({card, first, at});
+  }
+
   // One part, standing where it was drawn.
   void part_card(const InpCard& card, bool& seen) {
     if (seen)
@@ -200,6 +206,8 @@ struct Parser {
         part_card(card, has_part);
       else if (key == "INSTANCE")
         part_card(card, has_instance);
+      else
+        other(card);
     }
   }
 };
@@ -234,7 +242,7 @@ std::optional<InpKind> inp_kind(const std::string& type, std::string& reason) {
     return InpKind{type == "STRI65" ? CellShape::triangle6 : CellShape::triangle3, true};
   for (const char* head : {"CPS", "CPE", "C2D", "M3D"})
     if (starts(head))
-      if (const auto shape = plane_shape(digit(type, 3))) return InpKind{*shape, false};
+      if (const auto shape = plane_shape(digit(type, 3))) return InpKind{*shape, false, starts("CPE")};
   if (starts("S"))
     if (const auto shape = plane_shape(digit(type, 1))) return InpKind{*shape, true};
   if ((starts("T2D") || starts("T3D")) && (digit(type, 3) == 2 || digit(type, 3) == 3))

@@ -13,7 +13,8 @@ namespace pintle {
 /// What an element's name says of its shape.
 struct InpKind {
   CellShape shape;
-  bool shell = false;  ///< S1 and S2 are its faces; its sides have other labels
+  bool shell = false;   ///< S1 and S2 are its faces; its sides have other labels
+  bool strain = false;  ///< plane strain
 };
 /// @param reason  why there is none: what the name stands for, and what to do
 std::optional<InpKind> inp_kind(const std::string& type, std::string& reason);
@@ -39,7 +40,13 @@ struct InpDeck {
     std::vector<Item> items;
     InpPlace place;
   };
+  /// A card that is no node, element or set, and its data.
+  struct Other {
+    InpCard card;
+    std::size_t first, last;  ///< lines of `text`
+  };
   InpText text;
+  std::vector<Other> others;
   std::vector<long> node_numbers, element_numbers, element_nodes;
   std::vector<double> x, y;
   std::vector<InpPlace> node_places;

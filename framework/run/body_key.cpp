@@ -139,16 +139,16 @@ class Writer {
     add_all(diameter, bore);
   }
   void add(const SceneFile& f) {
-    const auto& [path, scale] = f;
-    add_all(path, scale);
+    const auto& [path, scale, unit_given] = f;
+    add_all(path, scale, unit_given);
   }
   void add(const SceneGrid& g) {
     const auto& [corners, nx, ny] = g;
     add_all(corners, nx, ny);
   }
   void add(const ScenePlate& p) {
-    const auto& [shape, thickness, state, material, mass, element, size, hole_size] = p;
-    add_all(shape, thickness, state, material, mass, element, size, hole_size);
+    const auto& [shape, thickness, state, state_given, material, mass, element, size, hole_size] = p;
+    add_all(shape, thickness, state, state_given, material, mass, element, size, hole_size);
   }
 
   void add(const SceneKeep& k) {

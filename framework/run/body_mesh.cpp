@@ -3,11 +3,14 @@
 #include <filesystem>
 
 #include "files/files.h"
+#include "framework/run/beam_mesh.h"
 #include "framework/run/elastic_parts.h"
+#include "framework/run/file_doubts.h"
 #include "framework/run/in_body.h"
 #include "meshes/generate.h"
 #include "meshes/gmsh.h"
 #include "meshes/inp.h"
+#include "meshes/soundness.h"
 
 namespace pintle {
 
@@ -16,44 +19,6 @@ namespace {
 using Eigen::Vector2d;
 namespace fs = std::filesystem;
 
-// How far along a piece from a to b the place p lies on it, 0 to 1; negative if it does not.
-double along(const Vector2d& a, const Vector2d& b, const Vector2d& p) {
-  const Vector2d d = b - a;
-  const double t = d.dot(p - a) / d.squaredNorm();
-  return t >= 0 && t <= 1 && (a + t * d - p).norm() <= 1e-9 * d.norm() ? t : -1;
-}
-
-/// The corners of a beam's axis: the points it runs through, and between them those that lie on it.
-std::vector<Vector2d> axis(const Scene& scene, const SceneBody& body, const SceneBeam& beam) {
-  std::vector<Vector2d> through;
-  for (const std::string& name : beam.through)
-    through.push_back(vector(point_of(scene, body, name, body.place).at));
-  std::vector<Vector2d> corners{through.front()};
-  for (std::size_t i = 0; i + 1 < through.size(); ++i) {
-    const Vector2d &a = through[i], &b = through[i + 1];
-    if ((b - a).norm() == 0) continue;  // line_mesh says what is wrong with it
-    std::vector<double> on;
-    for (const ScenePoint& p : body.points)
-      if (const double t = along(a, b, vector(p.at)); t > 1e-9 && t < 1 - 1e-9) on.push_back(t);
-    std::sort(on.begin(), on.end());
-    on.erase(std::unique(on.begin(), on.end(), [](double s, double t) { return t - s < 1e-9; }), on.end());
-    for (const double t : on) corners.push_back(a + t * (b - a));
-    corners.push_back(b);
-  }
-  return corners;
-}
-
-Mesh beam_mesh(const Scene& scene, const SceneBody& body, const SceneBeam& beam) {
-  const std::vector<Vector2d> corners = axis(scene, body, beam);
-  double length = 0;
-  for (std::size_t i = 0; i + 1 < corners.size(); ++i) length += (corners[i + 1] - corners[i]).norm();
-  const int wanted = beam.elements > 0 ? beam.elements : default_beam_elements;
-  std::vector<int> cells;
-  for (std::size_t i = 0; i + 1 < corners.size(); ++i)
-    cells.push_back(std::max(1, static_cast<int>(std::lround(wanted * (corners[i + 1] - corners[i]).norm() / length))));
-  return line_mesh(corners, cells);
-}
-
 CellShape shape_of(const std::string& element) {
   if (element.empty() || element == "triangle6") return CellShape::triangle6;
   if (element == "triangle3") return CellShape::triangle3;
@@ -61,7 +26,7 @@ CellShape shape_of(const std::string& element) {
   return element == "quadrilateral9" ? CellShape::quadrilateral9 : CellShape::quadrilateral8;
 }
 
-Mesh plate_mesh(const Scene& scene, const SceneBody& body, const ScenePlate& plate) {
+Mesh plate_mesh(const Scene& scene, const SceneBody& body, const ScenePlate& plate, std::vector<std::string>& warnings) {
   if (const auto* grid = std::get_if<SceneGrid>(&plate.shape)) {
     std::array<Vector2d, 4> corners;
     for (std::size_t i = 0; i < 4; ++i) corners[i] = vector(grid->corners[i]);
@@ -76,7 +41,12 @@ Mesh plate_mesh(const Scene& scene, const SceneBody& body, const ScenePlate& pla
   if (const auto* link = std::get_if<Link>(&plate.shape)) return mesh_link(*link, options);
   const SceneFile& file = std::get<SceneFile>(plate.shape);
   const fs::path folder = fs::path(scene.file).parent_path(), path = contained_file(file.path, folder);
-  return kind_of(path) == ".inp" ? read_inp(path, file.scale, folder) : read_geometry(path, options, file.scale, folder);
+  if (kind_of(path) != ".inp") return read_geometry(path, options, file.scale, folder);
+  InpClaims claims;
+  Mesh mesh = read_inp(path, file.scale, folder, &claims);
+  judge_claims(claims, plate, warnings);
+  warnings.insert(warnings.end(), claims.warnings.begin(), claims.warnings.end());
+  return mesh;
 }
 
 void judge(const Mesh& mesh) {
@@ -84,17 +54,28 @@ void judge(const Mesh& mesh) {
   std::vector<int> piece;
   if (const int n = pieces(mesh, piece); n > 1) {
     const auto other = std::find_if(piece.begin(), piece.end(), [](int p) { return p != 0; }) - piece.begin();
+    const auto number = [&](Eigen::Index node) { return std::to_string(mesh.node_numbers[static_cast<std::size_t>(node)]); };
+    std::string remedy = "; join them, or make them bodies of their own";
+    if (const auto pair = unjoined(mesh, piece))
+      remedy = "; nodes " + number(pair->first) + " and " + number(pair->second) + " both lie at " + shown(mesh.x.col(pair->first)) +
+               ": merge nodes that lie at one place, or make the pieces bodies of their own";
     throw std::invalid_argument("its mesh falls into " + std::to_string(n) + " pieces that share no node; one holds node " +
-                                std::to_string(mesh.node_numbers[static_cast<std::size_t>(other)]) + " at " + shown(mesh.x.col(other)) +
-                                "; join them, or make them bodies of their own");
+                                number(other) + " at " + shown(mesh.x.col(other)) + remedy);
   }
 }
 
 }  // namespace
 
-Mesh mesh_of(const Scene& scene, const SceneBody& body) {
+Mesh mesh_of(const Scene& scene, const SceneBody& body, std::vector<std::string>& warnings) {
   return in_body(scene, body, [&] {
-    Mesh mesh = beam_of(body) ? beam_mesh(scene, body, *beam_of(body)) : plate_mesh(scene, body, plate_of(body));
+    Mesh mesh;
+    if (const SceneBeam* beam = beam_of(body)) {
+      const BeamAxis axis = beam_axis(scene, body, *beam);
+      for (std::string& doubt : crossings(axis)) warnings.push_back(std::move(doubt));
+      mesh = beam_mesh(axis, *beam);
+    } else {
+      mesh = plate_mesh(scene, body, plate_of(body), warnings);
+    }
     if (mesh.cell_count() > 0 && mesh.plane() == (beam_of(body) != nullptr))
       throw std::invalid_argument("its mesh is made of lines, not of plane cells; a beam is described by points, not by a file");
     if (mesh.plane()) orient(mesh);

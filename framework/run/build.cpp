@@ -10,6 +10,7 @@
 
 #include "framework/run/body_store.h"
 #include "framework/run/elastic_parts.h"
+#include "framework/run/file_doubts.h"
 #include "framework/run/holding.h"
 #include "framework/run/mechanism_body.h"
 #include "framework/run/method.h"
@@ -108,6 +109,7 @@ class Builder {
       if (const auto* beam = std::get_if<SceneBeam>(&b.elastic->shape); beam && beam->pieces > 1)
         wrong(b.place, "it is to be cut into pieces; build what with_pieces makes of the scene");
       all[i] = &meshed_[i].emplace(store_ ? store_->elastic(scene_, b) : elastic_body(scene_, b));
+      if (const std::string doubt = size_doubt(scene_, *all[i]); !doubt.empty()) meshed_[i]->warnings.push_back(doubt);
       judge_inertia(scene_, *all[i]);
       flexible = flexible || b.elastic->modes;
       automatic = automatic || (b.elastic->modes && b.elastic->modes->keep.automatic);

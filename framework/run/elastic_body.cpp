@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <iomanip>
+#include <numbers>
 #include <numeric>
 #include <sstream>
 
@@ -11,6 +12,8 @@
 #include "framework/component/from_mesh.h"
 #include "framework/run/elastic_parts.h"
 #include "framework/run/in_body.h"
+#include "meshes/rim_shape.h"
+#include "meshes/soundness.h"
 
 namespace pintle {
 
@@ -31,6 +34,13 @@ void judge(const MeshQuality& q, std::vector<std::string>& warnings) {
                                 described(q.inverted.front()) + "; refine there, take another element, or mend the mesh");
   if (!q.bad.empty())
     warnings.push_back(std::to_string(q.bad.size()) + " badly shaped cell(s), the worst " + described(q.bad.front()) + ": stress there is not to be trusted");
+}
+
+/// Cells that overlap or do not hold together are another body than the one meant.
+void judge_soundness(const Mesh& mesh, std::vector<std::string>& warnings) {
+  const Soundness s = soundness(mesh);
+  if (!s.faults.empty()) throw std::invalid_argument("its mesh is no single sheet: " + s.faults.front());
+  warnings.insert(warnings.end(), s.doubts.begin(), s.doubts.end());
 }
 
 /// Elements of few freedoms whose strain cannot keep its volume at every point and still bend.
@@ -137,7 +147,30 @@ bool is_outline(const Mesh& mesh, const std::vector<Cells>& sides) {
   return begins == ends && twice_area > 0;
 }
 
-RimPort rim_port(const Scene& scene, const Mesh& mesh, const ScenePoint& p) {
+/// A point coupled to a part of a rim stands in the middle of that part, not of the hole.
+void judge_rim(const Scene& scene, const Mesh& mesh, const ScenePoint& p, const RimPort& port, const std::vector<Cells>& sides,
+               std::vector<std::string>& warnings) {
+  constexpr double bent = 10 * std::numbers::pi / 180, round = 45 * std::numbers::pi / 180, on_circle = 0.02;
+  const RimShape rim = rim_shape(mesh, sides);
+  const std::string name = "\"" + p.hole + "\"", stands = "point \"" + p.name + "\" stands at " + shown(port.x);
+  if (rim.loops + rim.open > 1)
+    warnings.push_back(name + " is " + std::to_string(rim.loops + rim.open) + " separate rims or edges, coupled to each other: " + stands +
+                       ", in the middle of them all; give each a name and a point of its own if that is not meant");
+  if (rim.open == 0 || rim.angle < bent) return;
+  if (rim.misfit > on_circle) {
+    warnings.push_back(name + " is no closed rim: its sides do not come round, and " + stands + ", their middle; name the whole rim if a hole is meant");
+    return;
+  }
+  const double grain = 1e-9 * rim.radius;
+  const Vector2d center = (rim.center / grain).array().round() * grain;
+  const std::string part = name + " covers " + shown_number(rim.angle * 180 / std::numbers::pi) + " of 360 deg of a circle of radius " + shown_number(rim.radius) +
+                           " m about " + shown(center) + ", but its ";
+  if (rim.open == 1 && rim.angle >= round)
+    throw SceneError(scene.file, p.place, part + "point would stand at " + shown(port.x) + ", the middle of that arc; give the whole rim the name");
+  warnings.push_back(part + stands + ", the middle of that arc; give the whole rim the name if a hole is meant");
+}
+
+RimPort rim_port(const Scene& scene, const Mesh& mesh, const ScenePoint& p, std::vector<std::string>& warnings) {
   Group rim = group_of(scene, mesh, p.hole, p.place, "give the curve of the hole a physical name in the drawing");
   rim.sides = sides_of(mesh, rim);
   if (rim.sides.empty())
@@ -151,6 +184,7 @@ RimPort rim_port(const Scene& scene, const Mesh& mesh, const ScenePoint& p) {
     length += port.weights[i];
   }
   port.x /= length;
+  judge_rim(scene, mesh, p, port, rim.sides, warnings);
   return port;
 }
 
@@ -159,21 +193,27 @@ NodePort node_port(const Scene& scene, const SceneBody& body, const Mesh& mesh, 
   const int node = nearest_node(mesh, vector(p.at), size);
   const double gap = (mesh.x.col(node) - vector(p.at)).norm();
   const bool given = !beam_of(body) && is_finished_mesh(plate_of(body));
-  if (gap > (given ? 1e-4 : 1e-7) * size)
+  if (gap > (given ? 1e-4 : 1e-7) * size) {
+    const auto* file = beam_of(body) ? nullptr : std::get_if<SceneFile>(&plate_of(body).shape);
+    const int far = file && !file->unit_given ? nearest_node(mesh, 1000 * vector(p.at), 1e-4 * size) : -1;
+    if (far >= 0 && vector(p.at).norm() > 0)
+      throw SceneError(scene.file, p.place, "no node lies at " + shown(vector(p.at)) + ", but one at " + shown(mesh.x.col(far)) + ", a thousand times as far: " + file->path +
+                       " is read in m because the scene gives no unit; if it is in mm, add unit: mm");
     throw SceneError(scene.file, p.place, "no node lies at " + shown(vector(p.at)) + "; the nearest, " +
                      std::to_string(mesh.node_numbers[static_cast<std::size_t>(node)]) + ", is at " + shown(mesh.x.col(node)) +
                      (beam_of(body) ? "; put the point on the beam's axis" : "; put the point there, or mesh a drawing, where points become nodes"));
+  }
   return {p.name, node};
 }
 
-void add_ports(const Scene& scene, const SceneBody& body, const Mesh& mesh, FeModel& model) {
+void add_ports(const Scene& scene, const SceneBody& body, const Mesh& mesh, FeModel& model, std::vector<std::string>& warnings) {
   std::vector<NodePort> nodes;
   std::vector<RimPort> rims;
   for (const ScenePoint& p : body.points)
     if (p.hole.empty())
       nodes.push_back(node_port(scene, body, mesh, p));
     else
-      rims.push_back(rim_port(scene, mesh, p));
+      rims.push_back(rim_port(scene, mesh, p, warnings));
   pintle::add_ports(model, nodes, rims);
 }
 
@@ -198,18 +238,19 @@ ElasticBody elastic_body(const Scene& scene, const SceneBody& body) {
   ElasticBody e;
   e.scene = &body;
   const auto start = std::chrono::steady_clock::now();
-  e.mesh = mesh_of(scene, body);
+  e.mesh = mesh_of(scene, body, e.warnings);
   e.mesh_seconds = seconds(start);
   const auto meshed = std::chrono::steady_clock::now();
   in_body(scene, body, [&] {
     if (e.mesh.plane()) {
       e.quality = quality(e.mesh);
       judge(e.quality, e.warnings);
+      judge_soundness(e.mesh, e.warnings);
       judge_locking(plate_of(body), e.mesh, e.warnings);
       e.thickness = plate_of(body).thickness;
     }
     e.model = fe_model(e.mesh.x, blocks_of(body, e.mesh, e.fibres), lumps_of(scene, body, e.mesh));
-    add_ports(scene, body, e.mesh, e.model);
+    add_ports(scene, body, e.mesh, e.model, e.warnings);
     const Assembler assembler(e.model);
     e.K = assembler.stiffness();
     e.M = assembler.mass(body.elastic->lumped ? MassKind::lumped : MassKind::consistent);

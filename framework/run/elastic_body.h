@@ -30,9 +30,9 @@ struct ElasticBody {
 /// @throws SceneError  there is none, or several and no name; the remedy lists them
 const SceneBody& elastic_of(const Scene&, const std::string& name);
 
-/// Its mesh alone: generated, or read from its file beside the scene.
-/// @throws SceneError  whatever is wrong with shape, file or mesh: an inverted cell, a body in pieces, …
-Mesh mesh_of(const Scene&, const SceneBody&);
+/// Its mesh alone: generated, or read from its file beside the scene. Adds to the warnings.
+/// @throws SceneError  whatever is wrong with shape, file or mesh: no cell, a body in pieces, …
+Mesh mesh_of(const Scene&, const SceneBody&, std::vector<std::string>& warnings);
 
 /// @throws SceneError  as mesh_of, and whatever is wrong with points, holes, material or lumps
 ElasticBody elastic_body(const Scene&, const SceneBody&);

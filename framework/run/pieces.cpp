@@ -57,6 +57,20 @@ std::optional<double> arc_of(const Axis& axis, const Vector2d& p, double toleran
   return {};
 }
 
+/// How often the axis passes p where it does not run through a point of another name.
+int passages(const Axis& axis, const SceneBeam& beam, const ScenePoint& p, double tolerance) {
+  std::vector<double> at;
+  for (std::size_t i = 0; i + 1 < axis.corners.size(); ++i) {
+    const Vector2d &a = axis.corners[i], &b = axis.corners[i + 1];
+    const double t = std::clamp((b - a).dot(vector(p.at) - a) / (b - a).squaredNorm(), 0.0, 1.0), s = axis.at[i] + t * (axis.at[i + 1] - axis.at[i]);
+    if ((a + t * (b - a) - vector(p.at)).norm() > tolerance) continue;
+    bool other = !at.empty() && std::abs(at.back() - s) <= tolerance;
+    for (std::size_t k = 0; k < axis.at.size(); ++k) other = other || (beam.through[k] != p.name && std::abs(axis.at[k] - s) <= tolerance);
+    if (!other) at.push_back(s);
+  }
+  return static_cast<int>(at.size());
+}
+
 /// One beam while it is cut.
 struct Whole {
   const Scene& scene;
@@ -110,6 +124,10 @@ Whole whole_of(const Scene& scene, const SceneBody& body, const SceneBeam& beam)
                            shown(vector(p.at)) + "; put it on the axis or leave it out");
     }
   }
+  for (const ScenePoint& p : body.points)
+    if (passages(whole.axis, beam, p, whole.tolerance) > 1)
+      throw SceneError(scene.file, body.place, "its beam is cut into pieces and passes " + p.name +
+                           " twice, where the pieces would not hold together; make the second passage a body of its own and weld it there");
   whole.cuts.push_back(0);
   for (int k = 1; k < beam.pieces; ++k) {
     double cut = k * step;

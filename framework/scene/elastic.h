@@ -43,6 +43,7 @@ struct SceneBeam {
 struct SceneFile {
   std::string path;  ///< beside the scene file
   double scale = 1;  ///< m per unit of the file
+  bool unit_given = false;  ///< by `unit` or `scale`
 };
 struct SceneGrid {
   std::array<Pair, 4> corners;  ///< counter-clockwise [m]
@@ -54,6 +55,7 @@ struct ScenePlate {
   std::variant<Link, SceneFile, SceneGrid> shape;
   double thickness = 0;  ///< [m]
   PlaneState state = PlaneState::stress;
+  bool state_given = false;  ///< by `plane`
   SceneMaterial material;
   std::optional<double> mass;  ///< scales the density so that the body has this mass [kg]
   std::string element;         ///< "triangle6" …; empty: triangle6, or as the mesh file has it

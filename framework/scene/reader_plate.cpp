@@ -132,7 +132,7 @@ SceneFile read_file(const Node& plate) {
   static const std::vector<std::string> drawings{".geo", ".step", ".stp", ".brep"},
       meshes{".msh", ".inp"};
   const Node node = plate.at("file");
-  SceneFile file{node.text("the name of a drawing or mesh beside the scene"), 1};
+  SceneFile file{node.text("the name of a drawing or mesh beside the scene"), 1, false};
   const std::string kind = ending(file.path);
   const bool drawing = std::ranges::find(drawings, kind) != drawings.end();
   if (!drawing && std::ranges::find(meshes, kind) == meshes.end())
@@ -158,6 +158,7 @@ SceneFile read_file(const Node& plate) {
     file.scale = find_unit(unit.one_of(choices(keys, "unit")))->factor;
   }
   read_optional(plate, "scale", dimension::number, rule::positive, file.scale);
+  file.unit_given = plate.has("unit") || plate.has("scale");
   return file;
 }
 
@@ -192,6 +193,7 @@ ScenePlate read_plate(const Node& node, const std::vector<SceneMaterial>& materi
   if (node.has("plane"))
     plate.state = node.at("plane").one_of(choices(keys, "plane")) == "strain" ? PlaneState::strain
                                                                               : PlaneState::stress;
+  plate.state_given = node.has("plane");
   if (node.has("element")) plate.element = node.at("element").one_of(choices(keys, "element"));
   read_optional(node, "size", dimension::length, rule::positive, plate.size);
   read_optional(node, "hole size", dimension::length, rule::positive, plate.hole_size);
