@@ -101,6 +101,7 @@ double uncancelled(const System& system, const Equations& eq, const VectorXd& N)
 
 bool follow_branch(const System& system, const State& state, Equations& eq) {
   constexpr double nothing = 1e-8, rounding = 1e-5;
+  constexpr double balanced = 1e-9;  // of what forces would do without joints: rounding has no direction to go
   const int lost = eq.schur.lost();
   if (lost <= eq.lasting) return true;
   if (lost > most) {
@@ -111,8 +112,13 @@ bool follow_branch(const System& system, const State& state, Equations& eq) {
   const VectorXd s = state.y.segment(n, n);
   const auto size = [&](const VectorXd& v) { return v.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>(); };
   const double rate = size(s), pull = size(eq.a);
+  const auto free_pull = [&] {
+    VectorXd free = eq.f;
+    divide_by_mass(system, eq, free);
+    return size(free);
+  };
   const bool rests = !(rate > 1e-6 * std::sqrt(pull));
-  if (rests && pull == 0) return true;
+  if (rests && pull <= balanced * free_pull()) return true;
   const MatrixXd N = null_vectors(system, eq);
   const VectorXd way = rests ? VectorXd(eq.a / pull) : s;  // where it moves, else where it would
   const Bend b = bend(system, state, way, rests ? 1 : rate, N);

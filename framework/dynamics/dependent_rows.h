@@ -35,9 +35,10 @@ class Refinement {
   Refinement(const Eigen::VectorXd& unit, Eigen::Index rows)
       : unit_(unit), b_(unit), left_(unit), before_(unit), last_(unit), rows_(rows) {}
 
-  /// z: b on entry. solve(v): v ← shifted⁻¹ v; subtract_product(z, out): out −= K z. No allocation.
+  /// z: b on entry. solve(v): v ← shifted⁻¹ v; subtract_product(z, out): out −= K z; shifts_made: on the rows of multipliers, with
+  /// its sign. No allocation.
   template <class Solve, class SubtractProduct>
-  void operator()(Eigen::VectorXd& z, Solve solve, SubtractProduct subtract_product) {
+  void operator()(Eigen::VectorXd& z, Solve solve, SubtractProduct subtract_product, const Eigen::VectorXd& shifts_made) {
     constexpr int most = 8;
     constexpr double rounding = 1e-15;
     b_ = left_ = z;
@@ -60,6 +61,7 @@ class Refinement {
     // What cannot be met adds the same to the multipliers at each sweep: the last one's, taken back.
     const Eigen::Index m = z.size() - rows_;
     z.tail(m) -= sweeps * last_.tail(m);
+    take_null_part(z, solve, shifts_made);
     left_over_ = size > 0 ? left_.tail(m).cwiseProduct(unit_.tail(m)).lpNorm<Eigen::Infinity>() / size : 0;
   }
 
@@ -67,6 +69,20 @@ class Refinement {
   double left_over() const { return left_over_; }
 
  private:
+  // Rounding of residuals, over the shift, stays in the multipliers as a part that does no work: P z, P = (shifted⁻¹ shift)³ up to the
+  // cube of the shift over what resists. The shift is as the inverse squares of the units, so what is left is of least norm.
+  template <class Solve>
+  void take_null_part(Eigen::VectorXd& z, Solve solve, const Eigen::VectorXd& shifts_made) {
+    const Eigen::Index m = z.size() - rows_;
+    last_ = z;
+    for (int i = 0; i < 3; ++i) {
+      last_.head(rows_).setZero();
+      last_.tail(m).array() *= shifts_made.array();
+      solve(last_);
+    }
+    z.tail(m) -= last_.tail(m);
+  }
+
   double norm(const Eigen::VectorXd& v) const { return v.cwiseProduct(unit_).lpNorm<Eigen::Infinity>(); }
 
   Eigen::VectorXd unit_, b_, left_, before_, last_;

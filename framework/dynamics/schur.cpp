@@ -209,7 +209,10 @@ bool Schur::factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_e
   sum(B, B_eta);
   lost_ = 0;
   if (sparse()) least_ = data_->sparse->factor(values_);
-  if (sparse() ? least_ > dependent_rows::lost : factor_dense(dependent_rows::lost)) return true;
+  if (sparse() ? least_ > dependent_rows::lost : factor_dense(dependent_rows::lost)) {
+    kept_ = least_;
+    return true;
+  }
   if (!sparse()) sum(B, B_eta);  // the factor took its place
   return factor_shifted();
 }
@@ -223,10 +226,15 @@ bool Schur::factor_shifted() {
   dependent_rows::shifts(d.S_ii, d.unit, d.shift);
   for (int i = 0; i < n_; ++i) entry(i) += d.shift[i];
   if (!(d.sparse ? d.sparse->factor(values_) > 0 : factor_dense(0))) return false;
+  kept_ = 1;
   if (d.sparse) {
-    lost_ = d.sparse->below(values_, dependent_rows::held_up);
+    lost_ = d.sparse->below(values_, dependent_rows::held_up, kept_);
   } else {
-    for (int k = 0; k < n_; ++k) lost_ += inverse_[at(k)] * d.S_ii[order_[at(k)]] > 1 / dependent_rows::held_up ? 1 : 0;
+    for (int k = 0; k < n_; ++k) {
+      const double ratio = 1 / (inverse_[at(k)] * d.S_ii[order_[at(k)]]);
+      if (ratio < dependent_rows::held_up) ++lost_;
+      else kept_ = std::min(kept_, ratio);
+    }
   }
   lost_ = std::max(lost_, 1);
   least_ = 0;
@@ -275,7 +283,7 @@ void Schur::solve(VectorXd& mu) {
   if (!dependent())
     solve_factored(mu);
   else
-    data_->refine(mu, [&](VectorXd& v) { solve_factored(v); }, [&](const VectorXd& x, VectorXd& out) { subtract_product(x, out); });
+    data_->refine(mu, [&](VectorXd& v) { solve_factored(v); }, [&](const VectorXd& x, VectorXd& out) { subtract_product(x, out); }, data_->shift);
 }
 
 }  // namespace pintle

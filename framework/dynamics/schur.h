@@ -38,6 +38,7 @@ class Schur {
   bool dependent() const { return lost_ > 0; }  ///< the last factorization met dependent rows
   int lost() const { return lost_; }            ///< how many pivots they left nothing of
   double least() const { return least_; }       ///< pivot over the entry it came from, the smallest
+  double kept() const { return kept_; }         ///< the same of those that are not lost: small near a singular pose
   bool weak() const { return least_ < 1e-5; }  ///< dependent, not far from it, or of very unlike inertias
   /// Of the last solve: what S μ misses r by, over r, largest entries, rows in metres over the mechanism's
   /// length; 0 of independent rows. Well above rounding: the rows contradict each other.
@@ -72,6 +73,7 @@ class Schur {
   int n_;
   int lost_ = 0;
   double least_ = 1;  ///< pivot over the entry it came from, the smallest; 0 if some are lost
+  double kept_ = 1;   ///< the smallest of those that are not lost
   std::vector<Term> terms_;      ///< first those that begin an entry
   std::size_t first_terms_ = 0;  ///< how many these are
   std::vector<int> zeros_;       ///< entries without any, which the factor fills

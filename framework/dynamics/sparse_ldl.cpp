@@ -218,9 +218,13 @@ double SparseLdl::factor(const std::vector<double>& values) {
   return positive ? least : 0;
 }
 
-int SparseLdl::below(const std::vector<double>& values, double ratio) const {
+int SparseLdl::below(const std::vector<double>& values, double ratio, double& least) const {
   int count = 0;
-  data_->each_pivot([&](int k, double pivot) { count += pivot < ratio * data_->diagonal_entry(values.data(), k) ? 1 : 0; });
+  data_->each_pivot([&](int k, double pivot) {
+    const double left = pivot / data_->diagonal_entry(values.data(), k);
+    if (left < ratio) ++count;
+    else least = std::min(least, left);
+  });
   return count;
 }
 

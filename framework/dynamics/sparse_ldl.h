@@ -28,8 +28,9 @@ class SparseLdl {
   const std::vector<int>& diagonal() const;  ///< entry of S_ii
   /// @returns the smallest pivot over the diagonal entry it came from; 0: not factored, a pivot was not positive
   double factor(const std::vector<double>& values);
-  /// Pivots below `ratio` of the diagonal entry they came from. @pre as solve; values as factored
-  int below(const std::vector<double>& values, double ratio) const;
+  /// Pivots below `ratio` of the diagonal entry they came from; `least` ← the smallest ratio of the others, if less.
+  /// @pre as solve; values as factored
+  int below(const std::vector<double>& values, double ratio, double& least) const;
   void solve(double* x);            ///< x ← S⁻¹ x. @pre factor returned a positive number
   /// out −= S x
   void subtract_product(const std::vector<double>& values, const double* x, double* out) const;

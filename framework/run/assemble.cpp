@@ -112,9 +112,15 @@ void close_in(Closure& closure, const System& system, Rough& r, VectorXd& C, Spa
   }
 }
 
+// What of C a run takes for met (onto_constraints); here no more may be left.
+double constraints_met(const System& system, const VectorXd& y) {
+  constexpr double met = 1e-11, still_good = 1e-8;
+  return std::max(met, std::min(8 * angle_rounding(system, y), still_good));
+}
+
 // Levenberg–Marquardt on C = 0, from the rough pose.
 int close_joints(const Scene& scene, Closure& closure, const System& system, Rough& r) {
-  constexpr double closed = 1e-12, acceptable = 1e-10;
+  constexpr double closed = 1e-12;
   closure.pin(r.places);
   Sparse J;
   double mu = 1e-9;
@@ -143,11 +149,14 @@ int close_joints(const Scene& scene, Closure& closure, const System& system, Rou
       break;
     }
   }
-  if (C.size() > 0 && !(C.lpNorm<Eigen::Infinity>() <= acceptable)) {
+  const double left = C.size() > 0 ? C.lpNorm<Eigen::Infinity>() : 0;
+  if (!(left <= constraints_met(system, r.y))) {
+    constexpr double misfit = 1e-6;  // no pose is nearly right by chance
     closure.violation(r.y);
     const bool pinned = !scene.start_bodies.empty();
     cannot(scene, pinned ? "cannot close with what `start` pins down" : "cannot close", closure, C, "",
-           "check lengths and points, or give the bodies rough poses (`pose`) nearer to the wanted one");
+           left < misfit ? "redundant joints must fit each other to 1e-11 of the mechanism's size: write lengths, points and angles with more digits, or leave a joint out"
+                         : "check lengths and points, or give the bodies rough poses (`pose`) nearer to the wanted one");
   }
   close_in(closure, system, r, C, J);
   return i;

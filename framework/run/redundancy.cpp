@@ -5,12 +5,16 @@
 #include <optional>
 #include <sstream>
 
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
 #include "framework/run/least_step.h"
 
 namespace pintle {
 
 namespace {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Index = Eigen::Index;
 using Sparse = Eigen::SparseMatrix<double>;
@@ -21,6 +25,8 @@ int joint_of(const System& system, int row) {
   const auto next = std::upper_bound(system.row_begin.begin(), system.row_begin.end(), row);
   return static_cast<int>(next - system.row_begin.begin()) - 1;
 }
+
+constexpr int along_speeds = 2;  ///< the last of the attempts
 
 /// A pose near y that the joints allow, drivers let go; none where nothing can move.
 std::optional<VectorXd> moved(const System& system, double t, const VectorXd& y, int attempt) {
@@ -45,8 +51,8 @@ std::optional<VectorXd> moved(const System& system, double t, const VectorXd& y,
   };
   Sparse J;
   held(y, &J);
-  VectorXd way(system.n());
-  for (Index i = 0; i < way.size(); ++i)  // any direction that no symmetry shares
+  VectorXd way = y.segment(system.n(), system.n());  // along a branch, where the pose is singular
+  for (Index i = 0; i < way.size() && attempt < along_speeds; ++i)  // any direction that no symmetry shares
     way[i] = system.scale[i] * std::sin(1.7 + 12.9898 * static_cast<double>(i + 1) + 4.1414 * attempt);
   way += least_step(J, W, -(J * way), 1e-13, 4);
   const double reach = way.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>();
@@ -55,7 +61,7 @@ std::optional<VectorXd> moved(const System& system, double t, const VectorXd& y,
     VectorXd to = y;
     to.head(system.n()) += step * way;
     VectorXd C = held(to, &J);
-    for (int i = 0; i < 12 && C.lpNorm<Eigen::Infinity>() > 1e-12; ++i) {
+    for (int i = 0; i < 40 && C.lpNorm<Eigen::Infinity>() > 1e-12; ++i) {  // next to a branch a quarter is left each time
       to.head(system.n()) += least_step(J, W, -C, 1e-13, 2);
       C = held(to, &J);
     }
@@ -76,19 +82,50 @@ bool ends_among(const std::vector<Dependence>& all, const Dependence& d) {
   return std::any_of(all.begin(), all.end(), [&](const Dependence& e) { return e.N.back().first == d.N.back().first; });
 }
 
-/// The dependences that hold at a pose and near it.
-std::vector<Dependence> lasting_ones(const System& system, double t, const VectorXd& y, std::vector<Dependence> here,
-                                     std::vector<std::vector<Dependence>>* near = nullptr) {
-  for (int attempt = 0; attempt < 2 && !here.empty(); ++attempt) {
-    const auto there = moved(system, t, y, attempt);
-    if (!there) continue;
-    const RowSpace space = row_space_at(system, t, *there);
-    std::erase_if(here, [&](const Dependence& d) {
-      return !ends_among(space.dependences, d);
-    });
-    if (near) near->push_back(space.dependences);
+/// Orthonormal vectors of the weights' span.
+MatrixXd basis(const std::vector<Dependence>& all, Index rows) {
+  MatrixXd N = MatrixXd::Zero(rows, static_cast<Index>(all.size()));
+  for (Index k = 0; k < N.cols(); ++k) {
+    for (const auto& [row, weight] : all[static_cast<std::size_t>(k)].N) N(row, k) = weight;
+    N.col(k).normalize();
   }
-  return here;
+  return Eigen::HouseholderQR<MatrixXd>(N).householderQ() * MatrixXd::Identity(N.rows(), N.cols());
+}
+
+/// Which of the dependences to leave out, as many as there are more of them than of `lasting` ones, so that the others
+/// span what is nearest to those: null spaces are compared, whose rows and weights change with the pose.
+std::vector<bool> left_out(const std::vector<Dependence>& all, const std::vector<Dependence>& lasting, Index rows) {
+  std::vector<bool> out(all.size(), lasting.empty());
+  if (lasting.empty() || lasting.size() >= all.size()) return out;
+  const MatrixXd Q = basis(all, rows);
+  const Eigen::JacobiSVD<MatrixXd> svd(Q.transpose() * basis(lasting, rows), Eigen::ComputeFullU);
+  const auto more = static_cast<Index>(all.size() - lasting.size());
+  MatrixXd apart(more, Q.cols());
+  for (Index k = 0; k < Q.cols(); ++k) {
+    VectorXd N = VectorXd::Zero(rows);
+    for (const auto& [row, weight] : all[static_cast<std::size_t>(k)].N) N[row] = weight;
+    apart.col(k) = svd.matrixU().rightCols(more).transpose() * (Q.transpose() * N.normalized());
+  }
+  const Eigen::ColPivHouseholderQR<MatrixXd> chosen(apart);
+  for (Index i = 0; i < more; ++i) out[static_cast<std::size_t>(chosen.colsPermutation().indices()[i])] = true;
+  return out;
+}
+
+/// The dependences of a pose: those that hold near it too, and those that hold at it alone.
+struct Judged {
+  std::vector<Dependence> lasting, singular;
+  std::vector<std::vector<Dependence>> near;  ///< all at poses nearby
+};
+
+Judged judged(const System& system, double t, const VectorXd& y, const std::vector<Dependence>& here) {
+  Judged out;
+  for (int attempt = 0; attempt <= along_speeds && out.near.size() < 2 && !here.empty(); ++attempt)
+    if (const auto there = moved(system, t, y, attempt)) out.near.push_back(row_space_at(system, t, *there).dependences);
+  const auto fewest = std::min_element(out.near.begin(), out.near.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  std::vector<bool> alone(here.size(), false);
+  if (fewest != out.near.end()) alone = left_out(here, *fewest, system.n_rows());
+  for (std::size_t k = 0; k < here.size(); ++k) (alone[k] ? out.singular : out.lasting).push_back(here[k]);
+  return out;
 }
 
 std::string quoted(const std::string& name) { return "\"" + name + "\""; }
@@ -189,6 +226,27 @@ double quarrel_of_accelerations(const System& system, double t, const VectorXd& 
   return std::abs(sum) / (size * rate * rate);
 }
 
+/// Joints that repeat each other and do not quite fit: C = 0 is missed by more than rounding.
+std::string misfit(const System& system, double t, const VectorXd& y, const std::vector<Dependence>& lasting) {
+  constexpr double rounding = 2e-12;
+  Equations eq(system);
+  pose(system, t, y, eq);
+  for (const Dependence& d : lasting) {
+    int worst = d.N.front().first;
+    for (const auto& [row, weight] : d.N)
+      if (std::abs(eq.C[row]) * system.row_scale[row] > std::abs(eq.C[worst]) * system.row_scale[worst]) worst = row;
+    if (!(std::abs(eq.C[worst]) * system.row_scale[worst] > std::max(rounding, 2 * angle_rounding(system, y)))) continue;
+    const int k = joint_of(system, worst);
+    std::ostringstream s;
+    s.precision(3);
+    s << "the redundant joints " << listed(names_in(system, d, false)) << " do not fit each other: " << quoted(system.joint_names[at(k)])
+      << " stays open by " << std::abs(eq.C[worst]) << (is_angle_row(system.joints[at(k)], worst - system.row_begin[at(k)]) ? " rad" : " m")
+      << ", and 1e-11 of the mechanism's size is all that is allowed; write lengths, points and angles with more digits, or leave a joint out";
+    return s.str();
+  }
+  return "";
+}
+
 }  // namespace
 
 RowReport judge_rows(const System& system, double t, const VectorXd& y) {
@@ -196,13 +254,17 @@ RowReport judge_rows(const System& system, double t, const VectorXd& y) {
   const RowSpace space = row_space_at(system, t, y);
   out.rank = space.rank;
   out.shared.assign(at(system.n_rows()), false);
-  const std::vector<Dependence> lasting = lasting_ones(system, t, y, space.dependences);
+  const Judged all = judged(system, t, y, space.dependences);
+  const auto share = [&](const Dependence& d) {
+    for (const auto& [row, weight] : d.N) out.shared[at(row)] = true;
+  };
+  for (const auto& there : all.near) std::for_each(there.begin(), there.end(), share);
   for (const Dependence& d : space.dependences) {
     const int last = d.N.back().first, joint = joint_of(system, last);
     Redundancy r{joint, last - system.row_begin[at(joint)], {}};
-    r.lasting = ends_among(lasting, d);
+    r.lasting = ends_among(all.lasting, d);
+    share(d);
     for (const auto& [row, weight] : d.N) {
-      out.shared[at(row)] = true;
       const int k = joint_of(system, row);
       if (row != last && (r.implied_by.empty() || r.implied_by.back() != k)) r.implied_by.push_back(k);
     }
@@ -212,10 +274,7 @@ RowReport judge_rows(const System& system, double t, const VectorXd& y) {
 }
 
 std::vector<Dependence> singular_dependences(const System& system, double t, const VectorXd& y) {
-  std::vector<Dependence> here = row_space_at(system, t, y).dependences;
-  const std::vector<Dependence> lasting = lasting_ones(system, t, y, here);
-  std::erase_if(here, [&](const Dependence& d) { return ends_among(lasting, d); });
-  return here;
+  return judged(system, t, y, row_space_at(system, t, y).dependences).singular;
 }
 
 std::string row_text(const System& system, int joint, int row) {
@@ -234,17 +293,17 @@ std::string rows_text(const System& system, const std::vector<bool>& marked, boo
 }
 
 std::string contradiction(const System& system, double t, const VectorXd& y, double until) {
-  std::vector<Dependence> here = row_space_at(system, t, y).dependences;
-  std::erase_if(here, [&](const Dependence& d) { return names_in(system, d, true).empty(); });
-  std::vector<std::vector<Dependence>> near;
-  here = lasting_ones(system, t, y, std::move(here), &near);
-  for (const Dependence& d : here) {
+  const std::vector<Dependence> here = row_space_at(system, t, y).dependences;
+  if (std::none_of(here.begin(), here.end(), [&](const Dependence& d) { return !names_in(system, d, true).empty(); })) return "";
+  const Judged all = judged(system, t, y, here);
+  for (const Dependence& d : all.lasting) {
     const std::vector<std::string> names = names_in(system, d, true);
+    if (names.empty()) continue;
     const std::string who = names.size() > 1 ? "the drivers " + listed(names) + " contradict each other"
                                              : "the driver " + listed(names) + " moves what " + listed(names_in(system, d, false)) + " hold";
     if (quarrel_of_accelerations(system, t, y, d) > 1e-5) return who + ": at t = " + number(t) + " s they ask different accelerations of one freedom";
     const std::vector<Driven> drivers = driven_by(system, d);
-    const bool constant = std::all_of(near.begin(), near.end(), [&](const std::vector<Dependence>& there) {
+    const bool constant = std::all_of(all.near.begin(), all.near.end(), [&](const std::vector<Dependence>& there) {
       return std::any_of(there.begin(), there.end(), [&](const Dependence& e) {
         return e.N.back().first == d.N.back().first && alike(drivers, driven_by(system, e));
       });
@@ -261,9 +320,13 @@ std::string explain_pose(const System& system, double t, const VectorXd& y) {
   const RowSpace space = row_space_at(system, t, y);
   const std::string quarrel = contradiction(system, t, y, t + 1e-2 * std::max(t, 1.0));
   if (!quarrel.empty()) return quarrel;
-  const std::vector<Dependence> lasting = lasting_ones(system, t, y, space.dependences);
-  for (const Dependence& d : row_space_at(system, t, y, close).dependences) {
-    if (ends_among(lasting, d)) continue;
+  const std::vector<Dependence> lasting = judged(system, t, y, space.dependences).lasting;
+  if (const std::string open = misfit(system, t, y, lasting); !open.empty()) return open;
+  const std::vector<Dependence> nearly = row_space_at(system, t, y, close).dependences;
+  const std::vector<bool> alone = left_out(nearly, lasting, system.n_rows());
+  for (std::size_t k = 0; k < nearly.size(); ++k) {
+    if (!alone[k]) continue;
+    const Dependence& d = nearly[k];
     const std::vector<std::string> drivers = names_in(system, d, true);
     const std::string others = listed(names_in(system, d, false));
     if (drivers.empty()) return "a singular pose: the rows of " + others + " have become dependent on each other there";
