@@ -1,4 +1,4 @@
-// Contact onset and loss as events in time: the part of Integrator that finds them and ends a step there.
+// Contact onset and loss as events in time, and changes of laws: the part of Integrator that finds them and ends a step there.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,6 +47,28 @@ double greatest(F f) {
 double moment(double t, double h, double depth, double rate) { return std::abs(depth) < std::abs(rate) * h ? t - depth / rate : t; }
 
 }  // namespace
+
+// Where a step from t must end for the sake of the laws of time: at a change of one, or at the end of the next piece.
+double Integrator::law_ahead(double t) const {
+  double ahead = std::numeric_limits<double>::infinity();
+  const auto change = std::upper_bound(scheme_.changes.begin(), scheme_.changes.end(), t, [](double x, const LawChange& c) { return x < c.before; });
+  if (change != scheme_.changes.end()) ahead = change->before;
+  for (const std::vector<double>& ends : scheme_.pieces)
+    if (const auto end = std::upper_bound(ends.begin(), ends.end(), t); end != ends.end() && end + 1 != ends.end()) ahead = std::min(ahead, *(end + 1));
+  return ahead;
+}
+
+// A step that begins where a law changes begins after the change.
+bool Integrator::pass_change() {
+  State& from = step_.from.state;
+  const auto next = std::upper_bound(scheme_.changes.begin(), scheme_.changes.end(), from.t, [](double x, const LawChange& c) { return x < c.before; });
+  if (next == scheme_.changes.begin() || from.t >= (next - 1)->after) return true;
+  from.t = (next - 1)->after;
+  if (!(next - 1)->jumps) return true;
+  h_ = 0;
+  error_before_ = 1;
+  return settle(step_.from) || stop("singular pose where a law of time jumps");
+}
 
 void Integrator::close(int contact, double rate) {
   State& state = step_.to.state;

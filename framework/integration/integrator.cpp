@@ -225,6 +225,7 @@ bool Integrator::advance(double until) {
   }
   std::swap(step_.from, step_.to);
   step_.struck = false;
+  if (!pass_change()) return false;
   step_.to.state.t = step_.from.state.t;
   const double left = until - step_.from.state.t;
   if (h_ == 0) {  // first guess: a hundredth of the time in which the motion changes by itself
@@ -240,13 +241,14 @@ bool Integrator::advance(double until) {
     for (int c = 0; c < static_cast<int>(system_.contacts.size()); ++c) before_[at(c)] = touch(c, step_.from.state);
   after_known_ = false;
 
-  const double h_wish = h_, ahead = release_ahead();
+  const double h_wish = h_, law_end = law_ahead(step_.from.state.t), ahead = std::min(release_ahead(), law_end - step_.from.state.t);
   if (!step_to(std::min(left, ahead))) {
     step_.to = step_.from;
     return false;
   }
-  if (step_.h == ahead) h_ = std::max(h_, h_wish);  // cut short by the release, not by an error
-  if (const double rest = until - step_.to.state.t; rest != 0 && std::abs(rest) <= 4e-16 * std::abs(until)) step_.to.state.t = until;
+  if (step_.h == ahead) h_ = std::max(h_, h_wish);  // cut short by the release or a law, not by an error
+  for (const double end : {law_end, until})
+    if (std::isfinite(end) && std::abs(end - step_.to.state.t) <= 4e-16 * std::abs(end)) step_.to.state.t = end;
   int contact = -1;
   bool onset = false;
   if (!system_.contacts.empty()) {

@@ -14,6 +14,12 @@ namespace pintle {
 class Writer;
 class Reader;
 
+/// An instant at which a law of time changes its course: steps end at `before` and go on from `after`, a few roundings later.
+struct LawChange {
+  double before, after;  ///< [s]
+  bool jumps;            ///< forces or accelerations do; else only what is finer
+};
+
 struct Scheme {
   const Tableau* tableau = nullptr;  ///< explicit; nullptr: generalised-α
   double tolerance = 1e-8;   ///< local error of each component relative to its scale, see ErrorScale
@@ -23,6 +29,8 @@ struct Scheme {
                              ///< is below this [m]; loss is then taken at the end of a step
   const Tableau* fallback = nullptr; ///< takes over for good where a stage of `tableau` comes near a singular pose; or none
   double max_step = std::numeric_limits<double>::infinity();  ///< [s]
+  std::vector<LawChange> changes = {};          ///< of the laws of time, in order, apart from each other
+  std::vector<std::vector<double>> pieces = {};  ///< of each law, ends of its smooth pieces, of which a step passes one whole at most
   long max_steps = 100'000'000;
   double rho = 0.8;          ///< of generalised-α: spectral radius at infinite frequency, 0 to 1
   double switch_below = 0;   ///< an explicit step that stability, not accuracy, holds below this gives way to
@@ -113,6 +121,8 @@ class Integrator {
   double lightness(int contact) const;
   double onset_step(int contact) const;
   double release_ahead() const;
+  double law_ahead(double t) const;
+  bool pass_change();
   void look_at_end();
   void follow_impacts();
   bool stop(const std::string& reason);

@@ -12,6 +12,7 @@
 #include "framework/run/elastic_parts.h"
 #include "framework/run/file_doubts.h"
 #include "framework/run/holding.h"
+#include "framework/run/laws.h"
 #include "framework/run/mechanism_body.h"
 #include "framework/run/method.h"
 #include "framework/scene/nearest.h"
@@ -352,15 +353,6 @@ class Builder {
     return length > 0 ? length : 1;
   }
 
-  bool has_laws() const {
-    const auto varies = [](const SceneLoad& l) {
-      const auto* f = std::get_if<SceneForce>(&l.what);
-      const auto* q = std::get_if<SceneTorque>(&l.what);
-      return (f && !(f->x.constant && f->y.constant)) || (q && !q->law.constant);
-    };
-    return !scene_.drivers.empty() || std::any_of(scene_.loads.begin(), scene_.loads.end(), varies);
-  }
-
   void scheme() {
     const RunOptions& run = scene_.run;
     Scheme& s = model_.scheme;
@@ -371,12 +363,7 @@ class Builder {
       wrong(run.place, "partitioning is dense and meant for up to 300 rows, this scene has " +
                            std::to_string(model_.system.n_rows()) + "; use constraints: projection");
     s.onset_cut = run.onset_cut.value_or(0);
-    // A law may do nothing for long and then act: no step of what rests until then may pass over it.
-    constexpr double steps_through_laws = 1000;
-    if (run.max_step > 0)
-      s.max_step = run.max_step;
-    else if (has_laws())
-      s.max_step = run.until / steps_through_laws;
+    follow_laws(scene_, s);
     s.max_steps = run.max_steps;
   }
 

@@ -27,6 +27,7 @@ class Spline {
  public:
   explicit Spline(Samples);  ///< @pre samples as above
   Jet operator()(double t) const;
+  const Samples& samples() const { return samples_; }
 
  private:
   Samples samples_;
@@ -38,6 +39,7 @@ class Polyline {
  public:
   explicit Polyline(Samples samples) : samples_(std::move(samples)) {}
   Jet operator()(double t) const;
+  const Samples& samples() const { return samples_; }
 
  private:
   Samples samples_;
