@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "framework/run/guarded.h"
+#include "framework/run/slow_contact.h"
 
 namespace pintle {
 
@@ -57,19 +58,25 @@ std::string short_number(double x) {
   return s.str();
 }
 
-/// The largest inertia that a rigid body shows to a force over the smallest, at its centre or turning about it.
-double unlikeness(const System& system) {
+/// Bodies that show a force the least and the most inertia, at their centres or turning about them.
+struct Unlike {
+  std::size_t light = 0, heavy = 0;
+  double ratio = 1;
+};
+Unlike most_unlike(const System& system) {
   double least = INFINITY, most = 0;
+  Unlike out;
   std::vector<double> reach(system.bodies.size(), 0.0);
   for (const Marker& m : system.markers)
     if (m.body != ground) reach[static_cast<std::size_t>(m.body)] = std::max(reach[static_cast<std::size_t>(m.body)], m.x_BP.norm());
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     const Body& body = system.bodies[b];
     const double turning = reach[b] > 0 ? body.J / (reach[b] * reach[b]) : body.m;
-    least = std::min({least, body.m, turning});
-    most = std::max({most, body.m, turning});
+    if (const double low = std::min(body.m, turning); low < least) least = low, out.light = b;
+    if (const double high = std::max(body.m, turning); high > most) most = high, out.heavy = b;
   }
-  return most / least;
+  out.ratio = most / least;
+  return out;
 }
 
 // What a run that cannot go on suffers from, where its numbers show it; else empty.
@@ -85,11 +92,14 @@ std::string explain_numbers(const System& system, const Integrator& integrator) 
     return "an angle has come to " + short_number(angle) + " rad, whose last digit moves points by " +
            short_number(angle * 2.2e-16 * system.length) + " m; begin again from this state with angles in one turn";
   const Schur& rows = integrator.equations().schur;
-  if (!integrator.implicit() && system.n() == system.n_rigid() && system.n_rows() > 0 && rows.least() < few && unlikeness(system) > unlike)
-    return "bodies of very unlike mass or inertia leave " +
-           (rows.least() > 0 ? short_number(rows.least()) : std::string("less than 1e-12")) +
-           " of what the joint forces are found from; take method: generalized-alpha, or masses and inertias nearer to each other";
-  return "";
+  if (integrator.implicit() || system.n() != system.n_rigid() || system.n_rows() == 0 || !(rows.kept() < few)) return "";
+  const Unlike bodies = most_unlike(system);
+  if (!(bodies.ratio > unlike)) return "";
+  return "the inertia of \"" + system.bodies[bodies.light].name + "\" is " + short_number(1 / bodies.ratio) + " of that of \"" +
+         system.bodies[bodies.heavy].name + "\", at its centre or turning about it, which leaves " +
+         short_number(rows.kept()) + " of what the joint forces are found from; give \"" +
+         system.bodies[bodies.light].name + "\" a mass and an inertia nearer to the others', which changes nothing that counts where they are small beside " +
+         "what it carries, or take method: generalized-alpha";
 }
 
 void warn_of_depth(const System& system, Run& run) {
@@ -216,6 +226,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   double last_row = from ? from->t : 0;
   Bending bending(model);
   RowFigures figures(system, run);
+  SlowContacts slow(system);
   bool started = false;
   if (from) {
     integrator.load(from->memory);
@@ -284,7 +295,9 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
         run.reason = "stopped by the user";
         break;
       }
-      going = integrator.advance(until) && report();
+      going = integrator.advance(until);
+      if (going && !system.contacts.empty()) slow.see(system, integrator.last(), integrator.equations());
+      going = going && report();
       if (going && states.due(integrator.state().t)) {
         states.pass(integrator.state().t);
         save();
@@ -323,6 +336,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   run.impacts = integrator.impacts();
   warn_of_depth(system, run);
   warn_of_pushing(system, run);
+  slow.warn(system, run.energy_in_play, run.warnings);
   bending.warn(run.warnings);
   run.counts = integrator.counts();
   run.switched = integrator.switched();

@@ -258,5 +258,38 @@ TEST(ThreeClearances, TendToIdealPinsAsTheyShrink) {
   }
 }
 
+// --- a contact that begins slowly and is then loaded ---
+
+// A journal in a guide meets the wall at once, at `speed`; within 0.02 s a force along the guide rises to `load`.
+pintle::Scene loaded_contact(double speed, double restitution, double load) {
+  pintle::Scene s;
+  s.ground = {point("O", 0)};
+  s.bodies = {body("journal", 1, 0.01, {point("P", 0)})};
+  const double radial = 1e-4;
+  s.joints = {joint("bearing", JointKind::revolute, "ground.O", "journal.P"), joint("guide", JointKind::prismatic, "ground.O", "journal.P")};
+  s.joints[0].clearance = clearance("ground", radial, restitution);
+  s.start_journals = {{"bearing", {radial - 1e-7 * speed, 0}, {speed, 0}, {}}};
+  const auto rise = [load](double t) {
+    const double x = std::clamp(t / 0.02, 0.0, 1.0);
+    return pintle::Jet{load * x * x * (3 - 2 * x), 0, 0};
+  };
+  s.loads = {force("load", "journal.P", {rise, "rise", false}, law(0))};
+  s.run.until = 0.05, s.run.method = "dopri5", s.run.tolerance = 1e-7;
+  return s;
+}
+std::size_t doubts_of_slow_contact(const Whole& w) {
+  return static_cast<std::size_t>(std::ranges::count_if(w.run.warnings, [](const std::string& text) {
+    return text.find("\"bearing\"") != std::string::npos && text.find("pressed in") != std::string::npos && text.find("slowest impact") != std::string::npos;
+  }));
+}
+
+TEST(SlowContact, PressedInFasterThanItBeganIsDoubted) { EXPECT_EQ(doubts_of_slow_contact(run(loaded_contact(4e-6, 0.8, 1000))), 1u); }
+
+TEST(SlowContact, IsNotDoubtedWithoutHysteresisOrLoadOrAfterAnImpact) {
+  EXPECT_EQ(doubts_of_slow_contact(run(loaded_contact(4e-6, 1, 1000))), 0u);
+  EXPECT_EQ(doubts_of_slow_contact(run(loaded_contact(4e-6, 0.8, 0))), 0u);
+  EXPECT_EQ(doubts_of_slow_contact(run(loaded_contact(0.005, 0.8, 0))), 0u);
+}
+
 }  // namespace
 }  // namespace pintle_scenes
