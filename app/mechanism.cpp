@@ -160,6 +160,7 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
                       std::to_string(begun) + (begun > ended ? " (the last goes on)" : "") + ", peak force " +
                           number(force, 4) + " N, deepest " + number(deepest, 4) + " m");
   }
+  if (!run.switched.empty()) rows.emplace_back("method", name(model.scheme) + ", then " + run.switched);
   rows.emplace_back("steps", std::to_string(run.counts.steps) + " (" + std::to_string(run.counts.rejected) + " rejected), " +
                                  std::to_string(run.counts.evaluations) + " evaluations in " + number(run.seconds, 3) + " s");
   rows.emplace_back("constraints held to", number(run.worst_position, 2) + " in position, " + number(run.worst_velocity, 2) + " in speed (scaled)");
@@ -200,11 +201,13 @@ int check(const Options& options) {
   const Price cost = price(scene, model, assembly);
   if (options.json) {
     std::cout << check_json(scene, model, assembly, cost);
-    return ok;
+  } else {
+    print_check(scene, model, assembly);
+    print_price(cost, built);
   }
-  print_check(scene, model, assembly);
-  print_price(cost, built);
-  return ok;
+  const std::string& trouble = cost.run.trial.trouble;
+  if (!trouble.empty()) std::cerr << scene.file << ": the run fails: " << trouble << "\n";
+  return trouble.empty() ? ok : run_failed;
 }
 
 namespace {

@@ -14,6 +14,7 @@
 #include "app/fellows.h"
 #include "app/options.h"
 #include "app/progress.h"
+#include "framework/run/simulate.h"
 
 namespace pintle::app {
 
@@ -92,6 +93,12 @@ void print(const Sweep& sweep, const SweepEnd& end, const fs::path& out) {
   if (!end.whole) std::cout << "  " << (asked_to_stop() ? stopped_by() : "stopped") << "; the same command goes on from here\n";
 }
 
+/// There are cases, and each was refused or failed.
+bool none_ran(const SweepEnd& end) {
+  const auto ran = [](const Row& row) { return row.status == "finished" || row.status == status_text(Status::ledger_over_bound); };
+  return !end.rows.empty() && std::ranges::none_of(end.rows, ran);
+}
+
 int carry_out(const Sweep& sweep, const Options& options, Fellows* together, bool leads) {
   const fs::path out = options.out.empty() ? fs::path("runs") / (fs::path(options.scene).stem().string() + "-sweep") : fs::path(options.out);
   SweepSettings settings;
@@ -108,7 +115,13 @@ int carry_out(const Sweep& sweep, const Options& options, Fellows* together, boo
   if (!leads) return ok;
   if (options.json) std::cout << sweep_json(sweep, end);
   else if (!options.quiet) print(sweep, end, out);
-  return end.whole ? ok : stopped;
+  if (!end.whole) return stopped;
+  if (none_ran(end)) {
+    std::cerr << sweep.study.file << ": none of " << end.rows.size() << " cases ran to its end; case " << end.rows.front().number << ": "
+              << end.rows.front().status << ": " << end.rows.front().reason << "\n";
+    return run_failed;
+  }
+  return ok;
 }
 
 }  // namespace

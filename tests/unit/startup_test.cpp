@@ -140,4 +140,52 @@ TEST(StartUp, ARigidFourBarIsReadSteppedAndWrittenWithinFiftyMilliseconds) {
   EXPECT_LT(least, bound) << "ms";
 }
 
+// --- exit codes: nothing done is not 0 ---
+
+/// The program's exit code for `verb` on files written to a folder; `said` ← what it printed to standard error.
+int exit_code(const std::string& verb, const std::vector<std::pair<std::string, std::string>>& files, std::string& said) {
+  std::string folder = (fs::temp_directory_path() / "pintle_exit_XXXXXX").string();
+  mkdtemp(folder.data());
+  for (const auto& [name, text] : files) std::ofstream(fs::path(folder) / name) << text;
+  const std::string command = "cd " + folder + " && " + PINTLE_PROGRAM + " " + verb + " " + files.front().first + " > out 2> said";
+  const int status = std::system(command.c_str());
+  std::ifstream in(fs::path(folder) / "said");
+  said.assign(std::istreambuf_iterator<char>(in), {});
+  fs::remove_all(folder);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+// A ram that pushes a slider farther than crank and rod reach: after 0.1 s no pose is left.
+const std::string out_of_reach = R"(
+ground: {points: {O: [0, 0]}}
+bodies:
+  crank: {rigid: {mass: 1, inertia: 0.1}, points: {A: [0, 0], B: [1, 0]}, pose: {angle: 0.5}}
+  rod: {rigid: {mass: 1, inertia: 0.1}, points: {A: [0, 0], B: [1, 0]}, pose: {at: [0.88, 0.48], angle: -0.5}}
+  slider: {rigid: {mass: 1, inertia: 0.1}, points: {P: [0, 0]}, pose: {at: [1.75, 0]}}
+joints:
+  pivot: {revolute: [ground.O, crank.A]}
+  knee: {revolute: [crank.B, rod.A]}
+  pin: {revolute: [rod.B, slider.P]}
+  guide: {prismatic: [ground, slider]}
+drivers: {ram: {distance: [ground.O, slider.P], law: "1.8 m + 2 m/s*t"}}
+run: {until: 1, method: dopri5}
+)";
+
+TEST(ExitCodes, CheckOfARunThatFailsWhenTriedOutIsFour) {
+  std::string said;
+  EXPECT_EQ(exit_code("check", {{"scene.yaml", out_of_reach}}, said), 4);
+  EXPECT_TRUE(holds(said, "the run fails") && holds(said, "t = 0.1 s")) << said;
+  EXPECT_EQ(exit_code("check --json", {{"scene.yaml", out_of_reach}}, said), 4);
+  EXPECT_EQ(exit_code("check", {{"scene.yaml", std::string(four_bar)}}, said), 0);
+  EXPECT_EQ(said, "");
+}
+
+TEST(ExitCodes, ASweepOfWhichNoCaseRanIsFour) {
+  const std::string study = "scene: scene.yaml\nmeasure: {turned: energy lost}\nsweep: {grid: {run.tolerance: [1e-6, 1e-7]}}\n";
+  std::string said;
+  EXPECT_EQ(exit_code("sweep -q", {{"study.yaml", study}, {"scene.yaml", out_of_reach}}, said), 4);
+  EXPECT_TRUE(holds(said, "none of 2 cases ran") && holds(said, "failed")) << said;
+  EXPECT_EQ(exit_code("sweep -q", {{"study.yaml", study}, {"scene.yaml", std::string(four_bar)}}, said), 0);
+}
+
 }  // namespace
