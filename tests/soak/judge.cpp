@@ -12,6 +12,7 @@
 #include "framework/run/pieces.h"
 #include "framework/run/results.h"
 #include "framework/scene/reader.h"
+#include "tests/soak/agree.h"
 
 namespace soak {
 
@@ -233,6 +234,8 @@ Verdict judge(const std::string& text, Question question, bool twice, double sec
         return judge_driven(scene, model, inverse(scene, model, assembly, stop_after(seconds)).run);
       case Question::linearize:
         return judge_linear(scene, linearize(scene, model, assembly.start));
+      case Question::agree:
+        return agreement(scene, model, assembly, seconds);
     }
     return bad("no such question", "");
   } catch (const SceneError& e) {

@@ -12,9 +12,9 @@ struct Verdict {
   double steps = 0, seconds = 0;
 };
 
-/// What is asked of a scene.
-enum class Question { run, statics, kinematics, inverse, linearize };
-inline constexpr const char* question_names[] = {"run", "statics", "kinematics", "inverse", "linearize"};
+/// What is asked of a scene; `agree`: whether another method comes to the same.
+enum class Question { run, statics, kinematics, inverse, linearize, agree };
+inline constexpr const char* question_names[] = {"run", "statics", "kinematics", "inverse", "linearize", "agree"};
 
 /// Reads, builds and assembles a scene, and asks one thing of it. Good: refused with a reason; or an answer of finite numbers that says
 /// it was found, or why not. Of a run also: points of every pin together, and books that close by their own columns. `twice`: a run must

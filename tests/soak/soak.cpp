@@ -6,7 +6,8 @@
 //   soak --shrink 17              the scene of a seed that fails, with all lines left out that the failure does not need
 //   soak --list                   a line a seed, not only for failures
 //   soak --method dopri5          that method instead of a random one; stands before --print and --shrink
-//   soak --ask statics            that alone, instead of a run and one other in turn; before --shrink
+//   soak --ask statics            that alone, instead of a run and one other in turn; before --shrink; `agree`: by two methods
+//   soak --agree                  besides, of every mechanism whether two methods agree
 //   soak --steps 500              so many steps at most
 #include <sys/wait.h>
 #include <unistd.h>
@@ -74,9 +75,9 @@ std::string with(std::string scene, const std::string& key, const std::string& v
 }
 
 soak::Question question(const std::string& name) {
-  for (int k = 0; k < 5; ++k)
+  for (int k = 0; k < 6; ++k)
     if (name == soak::question_names[k]) return static_cast<soak::Question>(k);
-  throw std::invalid_argument("there is no question \"" + name + "\": run, statics, kinematics, inverse or linearize");
+  throw std::invalid_argument("there is no question \"" + name + "\": run, statics, kinematics, inverse, linearize or agree");
 }
 
 std::string shrunk(const std::string& scene, soak::Question question, const std::string& outcome) {
@@ -110,7 +111,7 @@ int main(int argc, char** argv) try {
   std::uint64_t seed = 1;
   long count = -1;
   double minutes = 0;
-  bool list = false;
+  bool list = false, agree = false;
   std::string method, steps;
   std::vector<soak::Question> asked;  // empty: a run, and one other in turn
   const auto scene_of = [&](std::uint64_t n) { return with(with(soak::random_scene(n), "method", method), "max steps", steps); };
@@ -118,6 +119,10 @@ int main(int argc, char** argv) try {
     const std::string word = argv[i];
     if (word == "--list") {
       list = true;
+      continue;
+    }
+    if (word == "--agree") {
+      agree = true;
       continue;
     }
     if (i + 1 == argc) throw std::invalid_argument("what is " + word + "? See the head of tests/soak/soak.cpp");
@@ -161,6 +166,7 @@ int main(int argc, char** argv) try {
     const std::string scene = scene_of(seed);
     std::vector<soak::Question> questions = asked;
     if (asked.empty()) questions = {soak::Question::run, static_cast<soak::Question>(1 + seed % 4)};
+    if (agree) questions.push_back(soak::Question::agree);
     for (const soak::Question q : questions) {
       soak::Verdict v = in_child(scene, q, seed % 8 == 0);
       if (q != soak::Question::run) v.outcome = std::string(soak::question_names[static_cast<int>(q)]) + ": " + v.outcome;

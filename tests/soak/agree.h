@@ -1,0 +1,12 @@
+#pragma once
+
+#include "framework/run/simulate.h"
+#include "tests/soak/judge.h"
+
+namespace soak {
+
+/// A run against the same run by another method, and against itself from a start that is a little off, which tells how errors
+/// grow. Good: they agree within what their tolerances allow, or cannot be compared, with the reason.
+Verdict agreement(const pintle::Scene&, const pintle::Model&, const pintle::Assembly&, double seconds);
+
+}  // namespace soak
