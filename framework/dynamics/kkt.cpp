@@ -190,6 +190,12 @@ void Kkt::solve(VectorXd& x, VectorXd& y) {
   y = d.z.tail(d.m);
 }
 
+void Kkt::forget() {
+  data_->factored = data_->shifted = false;
+  data_->since = 0;
+  if (data_->sparse) data_->sparse->forget();
+}
+
 bool Kkt::dependent() const { return data_->shifted; }
 double Kkt::inconsistency() const { return data_->shifted ? data_->refine.left_over() : 0; }
 bool Kkt::sparse() const { return data_->sparse.has_value(); }

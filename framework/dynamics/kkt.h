@@ -31,6 +31,9 @@ class Kkt {
   /// them by the least sum of squares. @pre factor returned true
   void solve(Eigen::VectorXd& x, Eigen::VectorXd& y);
 
+  /// The next factorization is as the first.
+  void forget();
+
   bool dependent() const;        ///< the last factorization met dependent rows
   double inconsistency() const;  ///< of the last solve: residual over right-hand side, both scaled; 0 if independent
   bool sparse() const;

@@ -108,8 +108,7 @@ void SparseLu::load(std::istream& in, const std::vector<double>& values) {
   get_binary(in, data_->seed);
   klu_free_numeric(&data_->numeric, &data_->common);
   if (!in || !factored) return;
-  data_->choose_pivots(std::vector<double>(data_->seed));
-  data_->factor(values);
+  if (!data_->choose_pivots(std::vector<double>(data_->seed)) || !data_->factor(values)) in.setstate(std::ios::failbit);
 }
 
 }  // namespace pintle

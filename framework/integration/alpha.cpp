@@ -62,6 +62,15 @@ void Alpha::evaluate_at(const System& system, const State& state, const VectorXd
   ++eq.evaluations;
 }
 
+void Alpha::begin_beside(Alpha& other) {
+  kkt_.forget();
+  lent_ = other.factored_ ? &other.kkt_ : nullptr;
+  factored_ = other.factored_, tired_ = other.tired_;
+  kept_ = other.kept_;
+  rate_ = 1;
+  length_ = other.length_, speed_ = other.speed_;
+}
+
 void Alpha::evaluate_between(const System& system, const Step& step, const State& state, Equations& eq) {
   const double x = step.h > 0 ? (state.t - step.from.state.t) / step.h : 1;
   evaluate_at(system, state, step.to.dy, step.to.memory.lambda, eq);
@@ -86,7 +95,7 @@ void Alpha::interpolate_between(const System& system, const Step& step, double t
   visit_jacobian(eq, [&](int row, int column, double value) { mu_[row] += value * dv_[column]; });
   dp_.setZero();
   add_mass_times(system, eq, dv_, dp_);
-  kkt_.solve(dp_, mu_);
+  solve(dp_, mu_);
   out.y.head(n) += dp_;
 }
 
@@ -143,6 +152,7 @@ Alpha::Weights Alpha::predict(double h, const Instant& from, Instant& to) {
 
 bool Alpha::refactor(const System& system, const Weights& w, const Instant& node, Equations& eq) {
   tangent_.evaluate(system, node.state, eq, eq.a, eq.lambda, {.q = w.q, .s = w.s, .a = 1}, values_);
+  lent_ = nullptr;
   factored_ = kkt_.factor(system, eq, values_);
   ++eq.factorizations;
   kept_ = w;
@@ -198,13 +208,13 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     add_reaction(eq, eq.lambda, work_);
     dv_ -= work_;
     mu_ = stabilised_ ? eq.Cdot * (-1 / w.s) : eq.C * (-1 / w.q);
-    kkt_.solve(dv_, mu_);
+    solve(dv_, mu_);
     v += dv_;
     to.memory.lambda += mu_;
     dp_.setZero();
     if (stabilised_ && system.n_rows() > 0) {
       mu_ = (w.q / w.s) * eq.Cdot - eq.C;  // what δv̇ does to C taken off
-      kkt_.solve(dp_, mu_);
+      solve(dp_, mu_);
       p_ += dp_;
     }
     ++iterations_;
@@ -239,7 +249,7 @@ bool Alpha::attempt(const System& system, double h, Step& step, Equations& eq) {
   to.state.y.tail(system.n_z()) = from.y.tail(system.n_z());
   trouble_.clear();
   Weights w = predict(h, step.from, to);
-  if (w.q > 2 * kept_.q || w.q < 0.5 * kept_.q) rate_ = 1;
+  if (w.q > 2 * kept_.q || w.q < 0.5 * kept_.q) rate_ = 1, tired_ = tired_ || lent_;  // a lent factor serves like steps only
   if (!iterate(system, w, to, eq)) {
     if (!trouble_.empty() || !factored_) return false;
     tired_ = true;  // the factor was old: once more with a new one
@@ -279,7 +289,7 @@ void Alpha::filter(const System& system, Eigen::Ref<VectorXd> e, Equations& eq) 
     dp_.setZero();
     add_mass_times(system, eq, work_, dp_);
     mu_.setZero();
-    kkt_.solve(dp_, mu_);
+    solve(dp_, mu_);
     work_ = dp_;
   }
   e = work_;

@@ -36,6 +36,8 @@ class Alpha {
   /// As Stages::attempt. step.error is the local error, filtered through the iteration matrix so that
   /// what the scheme damps does not count. @returns false if Newton does not converge; see trouble()
   bool attempt(const System&, double h, Step&, Equations&);
+  /// Newton begins as that of another, with its judgement and its factor where that fits, and keeps nothing of its own.
+  void begin_beside(Alpha& other);
   /// The state inside the step, as `interpolate`, with what bends between the nodes kept out of stiff directions.
   void interpolate_between(const System&, const Step&, double t, State& out, Equations&);
   /// Evaluates at a state inside the step or at its end, v̇ and λ between those of the ends; changes no state.
@@ -50,7 +52,7 @@ class Alpha {
   /// What the next steps depend on besides the nodes, exactly.
   template <class A>
   void archive(A& x) {
-    x(rate_, tired_, kept_, factored_, iterations_);
+    x(PINTLE_MEMBERS(rate_, tired_, kept_, factored_, iterations_));
     if constexpr (A::loading) {
       if (factored_ && !kkt_.load(x.stream)) x.stream.setstate(std::ios::failbit);
     } else if (factored_) {
@@ -62,12 +64,13 @@ class Alpha {
   struct Weights {
     double q = 0, s = 0;  ///< of v̇₁ in q₁ and s₁: h² β(1 − α_f)/(1 − α_m), h γ(1 − α_f)/(1 − α_m)
     template <class A>
-    void archive(A& x) { x(q, s); }
+    void archive(A& x) { x(PINTLE_MEMBERS(q, s)); }
   };
   Weights predict(double h, const Instant& from, Instant& to);
   bool iterate(const System&, const Weights&, Instant& to, Equations&);
   void evaluate_at(const System&, const State&, const Eigen::VectorXd& dy, const Eigen::VectorXd& lambda, Equations&);
   bool refactor(const System&, const Weights&, const Instant&, Equations&);
+  void solve(Eigen::VectorXd& x, Eigen::VectorXd& y) { (lent_ ? *lent_ : kkt_).solve(x, y); }
   double judge(const System&, const Weights&, const State&) const;
   void forces_of(const System&, const Equations&, Memory&);
   void remember(const System&, double h, const Instant& from, Instant& to, Equations&);
@@ -83,6 +86,7 @@ class Alpha {
   Eigen::VectorXd unit_;  ///< of each coordinate, for a length of 1 m
   Tangent tangent_;
   Kkt kkt_;
+  Kkt* lent_ = nullptr;                  ///< another's factor, used in place of kkt_'s until a new one is made
   std::vector<double> values_;
   Eigen::VectorXd q_base_, s_base_, p_;  ///< q₁ = q_base + w.q v̇₁ + p, s₁ = s_base + w.s v̇₁
   Eigen::VectorXd dv_, dp_, mu_, work_;

@@ -1,15 +1,29 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
+#include <cstdint>
 #include <istream>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "framework/integration/members.h"
+
 namespace pintle {
+
+/// Changes with the names of members, their order and the sizes of numbers among them.
+template <class... T>
+constexpr std::uint32_t layout(std::string_view names) {
+  std::uint32_t h = 2166136261u;  // FNV-1a
+  for (const char c : names) h = (h ^ static_cast<unsigned char>(c)) * 16777619u;
+  const auto add = [&](std::size_t size) { h = (h ^ static_cast<std::uint32_t>(size)) * 16777619u; };
+  (add(std::is_arithmetic_v<T> || std::is_enum_v<T> ? 2 * sizeof(T) + std::is_floating_point_v<T> : 0), ...);
+  return h;
+}
 
 /// Writes numbers as the bits they are, for the same program on the same machine to read. A class takes
 /// part by `template <class A> void archive(A& a)`, which names its members once for both directions.
@@ -18,15 +32,22 @@ class Writer {
   static constexpr bool loading = false;
   explicit Writer(std::ostream& out) : stream(out) {}
   template <class... T>
-  void operator()(const T&... x) {
+  void operator()(std::string_view names, const T&... x) {
+    put(layout<T...>(names));
     (put(x), ...);
+  }
+  template <class T>
+  void whole(const T& x) {
+    put(x);
   }
   std::ostream& stream;
 
  private:
   template <class T>
   void put(const T& x) {
-    if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>)
+    if constexpr (std::is_same_v<T, bool>)
+      put(static_cast<unsigned char>(x));
+    else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>)
       stream.write(reinterpret_cast<const char*>(&x), sizeof x);
     else
       const_cast<T&>(x).archive(*this);  // which changes nothing when it writes
@@ -34,10 +55,6 @@ class Writer {
   template <class T>
   void put(const std::vector<T>& v) {
     put(v.size());
-    for (const T& x : v) put(x);
-  }
-  template <class T, std::size_t N>
-  void put(const std::array<T, N>& v) {
     for (const T& x : v) put(x);
   }
   void put(const Eigen::VectorXd& v) {
@@ -50,60 +67,76 @@ class Writer {
   }
 };
 
-/// Reads what Writer wrote. `good()` is false once something is missing or of absurd size.
+/// Reads what Writer wrote. `good()` is false once something is missing, is not what it must be, or is of another layout.
 class Reader {
  public:
   static constexpr bool loading = true;
   explicit Reader(std::istream& in) : stream(in) {}
   template <class... T>
-  void operator()(T&... x) {
+  void operator()(std::string_view names, T&... x) {
+    std::uint32_t found = 0;
+    get(found);
+    if (good() && found != layout<T...>(names)) other_layout_ = true, fail();
     (get(x), ...);
   }
+  template <class T>
+  void whole(T& x) {
+    get(x);
+  }
   bool good() const { return static_cast<bool>(stream); }
+  bool other_layout() const { return other_layout_; }
+  void fail() { stream.setstate(std::ios::failbit); }
   std::istream& stream;
 
  private:
-  static constexpr std::size_t most = 100'000'000;
+  /// What is left bounds what can be there.
   template <class T>
-  bool sized(T& size) {
+  bool sized(T& size, std::size_t each) {
+    size = 0;
     get(size);
-    if (static_cast<std::size_t>(size) > most) stream.setstate(std::ios::failbit);
+    const std::streamsize left = good() ? std::max<std::streamsize>(stream.rdbuf()->in_avail(), 0) : 0;
+    if (size < 0 || static_cast<std::uint64_t>(size) > static_cast<std::uint64_t>(left) / each) fail();
+    if (!good()) size = 0;
     return good();
   }
   template <class T>
   void get(T& x) {
-    if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>)
+    if constexpr (std::is_same_v<T, bool>) {
+      unsigned char byte = 0;
+      get(byte);
+      if (byte > 1) fail();
+      x = byte == 1;
+    } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
       stream.read(reinterpret_cast<char*>(&x), sizeof x);
-    else
+    } else if (good()) {
       x.archive(*this);
+    }
   }
   template <class T>
   void get(std::vector<T>& v) {
     std::size_t size = 0;
     v.clear();
-    if (!sized(size)) return;
+    if (!sized(size, 1)) return;
     for (std::size_t i = 0; i < size && good(); ++i) {
       T x{};
       get(x);
       v.push_back(x);
     }
   }
-  template <class T, std::size_t N>
-  void get(std::array<T, N>& v) {
-    for (T& x : v) get(x);
-  }
   void get(Eigen::VectorXd& v) {
     Eigen::Index size = 0;
-    if (!sized(size)) return;
+    if (!sized(size, sizeof(double))) return;
     v.resize(size);
     stream.read(reinterpret_cast<char*>(v.data()), size * static_cast<std::streamsize>(sizeof(double)));
   }
   void get(std::string& s) {
     std::size_t size = 0;
-    if (!sized(size)) return;
+    if (!sized(size, 1)) return;
     s.resize(size);
     stream.read(s.data(), static_cast<std::streamsize>(size));
   }
+
+  bool other_layout_ = false;
 };
 
 }  // namespace pintle

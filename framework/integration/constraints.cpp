@@ -43,6 +43,15 @@ void Partition::choose(const System& system, const Equations& eq) {
   ++choices_;
 }
 
+bool Partition::fits(const System& system) const {
+  std::vector<bool> taken(static_cast<std::size_t>(system.n()), false);
+  for (const int i : dependent_) {
+    if (i < 0 || i >= system.n() || taken[static_cast<std::size_t>(i)]) return false;
+    taken[static_cast<std::size_t>(i)] = true;
+  }
+  return dependent_.size() <= static_cast<std::size_t>(system.n_rows());
+}
+
 void Partition::factor() {
   block_.resize(Cq_.rows(), static_cast<Index>(dependent_.size()));
   for (std::size_t i = 0; i < dependent_.size(); ++i)

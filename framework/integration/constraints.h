@@ -7,6 +7,7 @@
 #include <Eigen/QR>
 
 #include "framework/dynamics/equations.h"
+#include "framework/integration/members.h"
 
 namespace pintle {
 
@@ -22,14 +23,19 @@ class Partition {
   /// The chosen set has become so ill determined that it should be chosen anew.
   bool worn() const { return quality_ < 0.3 * chosen_quality_; }
 
+  void take_set(const Partition& other) {
+    if (dependent_ != other.dependent_) dependent_ = other.dependent_;
+  }
+
+  /// Its set is one of coordinates of the system.
+  bool fits(const System&) const;
+
   int choices() const { return choices_; }
   const std::vector<int>& dependent() const { return dependent_; }
   /// What the next corrections depend on.
   template <class A>
   void archive(A& x) {
-    x(dependent_, quality_, chosen_quality_, choices_);
-    const auto rows = static_cast<Eigen::Index>(dependent_.size());
-    if constexpr (A::loading) block_.resize(rows, rows), step_.resize(rows);
+    x(PINTLE_MEMBERS(dependent_, quality_, chosen_quality_, choices_));
   }
 
  private:

@@ -13,7 +13,6 @@ using Index = Eigen::Index;
 namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-constexpr double short_part = 1e-3;  // of a step: in less, an implicit one shows the rounding of speeds in accelerations and multipliers
 constexpr double slowest_speed = 1e-6;  // over the finest length and the step: slower is rest
 
 std::string number_text(double x) {
@@ -50,7 +49,6 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
   step_.error.setZero(system.n_y());
   step_.dy_before.setZero(system.n_y());
   step_.from = step_.to;
-  scratch_ = step_.to;
   dense_ = step_.to.state;
   if (scheme_.tableau)
     stages_.emplace(system, *scheme_.tableau, scheme_.constraints);
@@ -350,42 +348,13 @@ bool Integrator::watch_stiffness() {
   return settle(step_.to) || stop("singular pose");
 }
 
-// Evaluates, without forgetting what an implicit scheme remembers.
-void Integrator::restore() {
-  after_known_ = false;
-  if (!alpha_)
-    stages_->settle(system_, step_.to, eq_);
-  else
-    alpha_->evaluate_between(system_, step_, step_.to.state, eq_);
-}
-
 bool Integrator::sample(double t, State& out) {
-  if (t >= step_.to.state.t) {
-    out = step_.to.state;
-  } else if (alpha_) {
-    const double h = t - step_.from.state.t;
-    Step part = step_;  // a true step: forces of stiff springs are in balance at its end, not between nodes
-    const bool implicit = step_.from.memory.a.size() > 0;  // not the step after which the scheme was changed
-    if (implicit && h > short_part * step_.h && alpha_->attempt(system_, h, part, eq_)) {
-      out = part.to.state;
-      return true;
-    }
-    alpha_->interpolate_between(system_, step_, t, out, eq_);
-  } else if (stages_->tableau().order > 5) {  // better than dense output, whose fifth order its long steps show
-    if (!stages_->reach(system_, step_.from, t - step_.from.state.t, scratch_, eq_)) return false;
-    out = scratch_.state;
-    return true;
-  } else {
-    interpolate(system_, step_, t, out);
-  }
-  if (alpha_) {
-    alpha_->evaluate_between(system_, step_, out, eq_);
-    return out.y.allFinite();
-  }
-  scratch_.state = out;
-  if (!stages_->settle(system_, scratch_, eq_)) return false;
-  out = scratch_.state;
-  return true;
+  if (!sampler_) sampler_ = std::make_unique<Sampler>(system_);
+  if (alpha_)
+    sampler_->follow(system_, *alpha_, scheme_.rho, scheme_.constraints, scheme_.tolerance);
+  else
+    sampler_->follow(system_, *stages_);
+  return sampler_->sample(system_, step_, t, eq_.lasting, out);
 }
 
 }  // namespace pintle

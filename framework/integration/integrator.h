@@ -2,11 +2,13 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/integration/alpha.h"
+#include "framework/integration/sampler.h"
 #include "framework/integration/step.h"
 
 namespace pintle {
@@ -52,13 +54,13 @@ struct Impact {
   double peak_force = 0;     ///< normal [N]
   double lost = 0;           ///< to hysteresis and friction [J]
   template <class A>
-  void archive(A& x) { x(contact, begin, end, approach, separation, deepest, peak_force, lost); }
+  void archive(A& x) { x(PINTLE_MEMBERS(contact, begin, end, approach, separation, deepest, peak_force, lost)); }
 };
 
 struct Counts {
   long steps = 0, rejected = 0, events = 0, evaluations = 0, factorizations = 0, partitions = 0;
   template <class A>
-  void archive(A& x) { x(steps, rejected, events, evaluations, factorizations, partitions); }
+  void archive(A& x) { x(PINTLE_MEMBERS(steps, rejected, events, evaluations, factorizations, partitions)); }
 };
 
 /// Marches a system in time: adaptive steps of an embedded Runge–Kutta pair or of generalised-α, constraints
@@ -70,15 +72,15 @@ class Integrator {
 
   /// One step towards `until`, ending there at the latest. @returns false when it cannot; see failure()
   bool advance(double until);
-  /// Dense output inside the last step, fully evaluated: `equations()` holds it until the next call. Of an
-  /// explicit step it is brought onto the constraints, of an implicit one, whose a and λ are the scheme's,
-  /// it is not. @returns false if it cannot be settled
+  /// Dense output inside the last step or at its end, fully evaluated in `sampled()`. Of an explicit step it is brought
+  /// onto the constraints, of an implicit one, whose a and λ are the scheme's, it is not. Changes nothing of the steps and
+  /// depends on the last one alone, not on what was sampled before. @returns false if it cannot be settled
   bool sample(double t, State& out);
+  /// At the state that `sample` gave last. @pre there was one
+  const Equations& sampled() const { return sampler_->equations(); }
 
   const State& state() const { return step_.to.state; }
-  const Equations& equations() const { return eq_; }
-  /// Evaluates equations() at the present state again, after `sample` has used them.
-  void restore();
+  const Equations& equations() const { return eq_; }  ///< at the present state, while steps succeed
   const Step& last() const { return step_; }
   const std::vector<Impact>& impacts() const { return impacts_; }  ///< in order of beginning
   const std::string& failure() const { return failure_; }
@@ -91,8 +93,8 @@ class Integrator {
   /// Everything the following steps depend on, and the impacts and counts so far, as they are to the bit.
   /// For this System, scheme and program only.
   std::string save() const;
-  /// Goes on from there as the integrator saved would have. @throws std::invalid_argument it is not what
-  /// `save` of an integrator of this system made
+  /// Goes on from there as the integrator saved would have. Afterwards it is as saved or, where it throws, of no use.
+  /// @throws std::invalid_argument saying why it is not what `save` of an integrator of this system made
   void load(const std::string& saved);
 
  private:
@@ -100,6 +102,7 @@ class Integrator {
   friend class Reader;
   template <class A>
   void archive(A&);
+  const char* fault_of_loaded() const;
   bool settle(Instant&);
   bool attempt(double h);
   bool watch_stiffness();
@@ -107,7 +110,11 @@ class Integrator {
   bool at_fork() const;
   std::string trouble() const;
   double fastest_speed(const Eigen::VectorXd& y) const;
-  struct Touch { double depth, rate; };
+  struct Touch {
+    double depth, rate;
+    template <class A>
+    void archive(A& x) { x(PINTLE_MEMBERS(depth, rate)); }
+  };
   Touch touch(int contact, const State&);
   Touch touch_at(int contact, double t);
   double scaled_error();
@@ -132,8 +139,8 @@ class Integrator {
   Equations eq_;
   std::optional<Stages> stages_;  ///< one of the two
   std::optional<Alpha> alpha_;
+  std::unique_ptr<Sampler> sampler_;  ///< from the first sample on
   Step step_;
-  Instant scratch_;
   State dense_;
   double h_ = 0, h_open_ = 0, h_closed_ = 0, error_before_ = 1;
   double fastest_ = 0, energy_ = 0, fine_length_ = 1, mass_ = 0, lowest_shape_ = 0;  ///< scales of the error norm

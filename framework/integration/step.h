@@ -4,6 +4,7 @@
 
 #include "framework/dynamics/equations.h"
 #include "framework/integration/constraints.h"
+#include "framework/integration/members.h"
 #include "framework/integration/tableau.h"
 
 namespace pintle {
@@ -23,7 +24,7 @@ struct Memory {
   Eigen::VectorXd dy_before;       ///< derivative a step earlier
   Eigen::VectorXd F, P;            ///< f − Cqᵀλ, and M v̇, which Newton leaves a little apart
   template <class A>
-  void archive(A& x) { x(h, a, lambda, lambda_before, dy_before, F, P); }
+  void archive(A& x) { x(PINTLE_MEMBERS(h, a, lambda, lambda_before, dy_before, F, P)); }
 };
 
 /// A state with its derivative.
@@ -32,7 +33,7 @@ struct Instant {
   Eigen::VectorXd dy;
   Memory memory = {};
   template <class A>
-  void archive(A& x) { x(state.t, state.y, state.impact_rate, dy, memory); }
+  void archive(A& x) { x(PINTLE_MEMBERS(state.t, state.y, state.impact_rate, dy, memory)); }
 };
 
 /// From one accepted node to a trial one, with what dense output and error control need.
@@ -44,6 +45,8 @@ struct Step {
   Eigen::VectorXd dy_before = {};  ///< … from this, which ends the step's dense output
   const Eigen::VectorXd& dy_end() const { return struck ? dy_before : to.dy; }
 };
+
+inline constexpr double short_part = 1e-3;  ///< of a step: in less, an implicit one shows the rounding of speeds in accelerations and multipliers
 
 /// Scratch of a scheme: its stages and the constraint treatment. One per thread.
 class Stages {
@@ -60,7 +63,11 @@ class Stages {
   /// Chooses a new independent set if the present one has worn out. After an accepted step.
   void refresh(const System&, Equations&);
 
+  /// Has the same coordinates follow from the others.
+  void take_partition(const Stages& other) { partition_.take_set(other.partition_); }
+
   const Tableau& tableau() const { return tableau_; }
+  Constraints constraints() const { return constraints_; }
   int partitions() const { return partition_.choices(); }
   /// A stage since the last `reach` began stood at or near a pose where rows are dependent, or there is one among the long steps
   /// of a pair of high order: a pivot falls with the square of the distance.
@@ -70,7 +77,9 @@ class Stages {
   double stiffness(const System&, const Step&) const;
   /// What the next steps depend on besides the nodes.
   template <class A>
-  void archive(A& x) { x(partition_); }
+  void archive(A& x) { x(PINTLE_MEMBERS(partition_)); }
+  /// What was loaded fits the system.
+  bool fits(const System& system) const { return partition_.fits(system); }
 
  private:
   bool evaluate_stage(const System&, State&, Equations&, Eigen::VectorXd& dy);

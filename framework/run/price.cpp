@@ -99,10 +99,9 @@ void price_rows(const Scene& scene, const Model& model, Integrator& run, OutputC
   int made = 0;
   for (; made < samples && since(begin) < enough; ++made) {
     if (!run.sample(run.last().from.state.t + run.last().h * (made + 0.5) / samples, at)) return;
-    record(model, at, run.equations(), trajectory);
-    record_ledger(model.system, at, energies(model.system, at, run.equations()), 0, ledger);
+    record(model, at, run.sampled(), trajectory);
+    record_ledger(model.system, at, energies(model.system, at, run.sampled()), 0, ledger);
   }
-  run.restore();
   const std::string text = csv(trajectory) + csv(ledger);
   std::size_t heads = 0;
   for (const Table* t : {&trajectory, &ledger})
@@ -130,13 +129,14 @@ struct Temporary {
 void price_frames(const Scene& scene, const Model& model, Integrator& run, OutputCost& out) {
   if (scene.output.frames < 2) return;
   out.frames = scene.output.frames;
-  run.restore();
+  State at;
+  run.sample(run.state().t, at);
   const Temporary folder;
   const Drafting drafting(scene, model);
   FrameWriter writer(folder.path);
   for (int i = 0; i < 2; ++i) {
     const double begin = computed();
-    writer.add(draw(model, drafting, run.state(), run.equations()));
+    writer.add(draw(model, drafting, at, run.sampled()));
     out.frame_seconds = since(begin);
   }
   for (const auto& file : fs::recursive_directory_iterator(folder.path))

@@ -91,7 +91,7 @@ std::string explain_numbers(const System& system, const Integrator& integrator) 
   if (angle > many)
     return "an angle has come to " + short_number(angle) + " rad, whose last digit moves points by " +
            short_number(angle * 2.2e-16 * system.length) + " m; begin again from this state with angles in one turn";
-  const Schur& rows = integrator.equations().schur;
+  const Schur& rows = integrator.sampled().schur;
   if (integrator.implicit() || system.n() != system.n_rigid() || system.n_rows() == 0 || !(rows.kept() < few)) return "";
   const Unlike bodies = most_unlike(system);
   if (!(bodies.ratio > unlike)) return "";
@@ -223,7 +223,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   clock::duration spent_listening{};
   Integrator integrator(system, model.scheme, assembly.start);
   State sampled;
-  double last_row = from ? from->t : 0;
+  double last_row = from ? from->t : 0, asked = 0;
   Bending bending(model);
   RowFigures figures(system, run);
   SlowContacts slow(system);
@@ -238,7 +238,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   }
   states.pass(integrator.state().t);
   const auto book = [&](const State& state) {
-    const Energies e = energies(system, state, integrator.equations());
+    const Energies e = energies(system, state, integrator.sampled());
     if (!started) run.first = e, started = true;
     run.energy_in_play = std::max(run.energy_in_play, in_play(e, run.first));
     run.last = e;
@@ -246,7 +246,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
     if (std::abs(run.unexplained) > std::abs(run.worst_unexplained)) run.worst_unexplained = run.unexplained;
   };
   const auto add_row = [&](const State& state) {
-    record(model, state, integrator.equations(), run.trajectory);
+    record(model, state, integrator.sampled(), run.trajectory);
     record_ledger(system, state, run.last, run.unexplained, run.ledger);
     figures.see();
     last_row = state.t;
@@ -258,24 +258,20 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   };
   // Everything due up to the present step's end. @returns false if an output cannot be evaluated
   const auto report = [&] {
-    bool used = false;
     while (outputs.due(integrator.state().t)) {
-      if (!integrator.sample(outputs.next(), sampled)) return false;
-      used = true;
+      if (!integrator.sample(asked = outputs.next(), sampled)) return false;
       book(sampled);
       bending.see(sampled);
       add_row(sampled);
       outputs.tick();
     }
     while (frames.due(integrator.state().t)) {
-      if (!integrator.sample(frames.next(), sampled)) return false;
-      used = true;
+      if (!integrator.sample(asked = frames.next(), sampled)) return false;
       const auto before = clock::now();
-      listeners.frame(sampled, integrator.equations());
+      listeners.frame(sampled, integrator.sampled());
       spent_listening += clock::now() - before;
       frames.tick();
     }
-    if (used) integrator.restore();
     return true;
   };
   const auto save = [&] {
@@ -307,8 +303,8 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   if (!going && !ended_short(run)) {
     run.status = Status::failed;
     run.reason = integrator.failure();
-    integrator.restore();
     const State& at = integrator.state();
+    integrator.sample(at.t, sampled);
     std::string why = run.reason.empty() || !at.y.allFinite() ? "" : explain_pose(system, at.t, at.y);
     if (why.empty() && !run.reason.empty()) why = explain_numbers(system, integrator);
     if (why.empty() && !run.reason.empty()) why = bending.worst_doubt();
@@ -316,17 +312,17 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
     if (run.reason.empty() && !countable) run.reason = "the energy at the start is beyond what a double holds; check masses, speeds and units";
     if (run.reason.empty()) {
       std::ostringstream s;
-      s << "t = " << sampled.t << " s: the output there cannot be evaluated (a singular pose, or numbers beyond what a "
+      s << "t = " << asked << " s: the output there cannot be evaluated (a singular pose, or numbers beyond what a "
            "double holds: check masses, stiffnesses and speeds)";
       run.reason = s.str();
     }
   }
   guarded(run, last_row, [&] {
     if (started && !ended_short(run)) {
-      integrator.restore();
+      integrator.sample(integrator.state().t, sampled);
       book(integrator.state());
       // Where a run ends early it has a last row too, so that its figures and its books are of one moment.
-      const Equations& eq = integrator.equations();
+      const Equations& eq = integrator.sampled();
       if (run.status != Status::finished && integrator.state().t > last_row && eq.a.allFinite() && eq.lambda.allFinite()) add_row(integrator.state());
     }
     if (listeners.state && !ended_short(run)) save();

@@ -229,7 +229,6 @@ TEST(Budget, SamplingDoesNotAllocate) {
   };
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(run.advance(10) && sample());
   for (int i = 0; i < 200; ++i) {
-    run.restore();
     ASSERT_TRUE(run.advance(10));
     bool settled = false;
     EXPECT_EQ(allocated([&] { settled = sample(); }), 0);
