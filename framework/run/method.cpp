@@ -15,9 +15,8 @@ namespace {
 // whose steps are too long for that, by a step of its own.
 const Tableau* automatic_explicit(const Scene& scene, const Spectrum& s, const Demand& d) {
   constexpr double fine = 1e-6, brief = 0.05, taken = 0.4;  // of the demand, by a smooth motion
+  constexpr double read = 1000;  // as a run writes by default: what this one writes must not change its motion
   const Tableau *low = find_tableau("dopri5"), *high = find_tableau("verner87");
-  const OutputOptions& out = scene.output;
-  const double read = (out.every > 0 ? scene.run.until / out.every : 1000) + out.frames;
   const double steps = taken * scene.run.until * std::max(d.stability, d.accuracy), long_steps = taken * scene.run.until * d.high;
   const bool by_contacts = s.fastest.rate < brief * s.strike;  // impacts are brief, and what is smooth goes on
   const bool dearer = high->stages() * (long_steps + read) > (low->stages() - 1) * steps + read;

@@ -145,18 +145,25 @@ TEST(Auto, TakesAnExplicitPairForWhatIsNotStiffAndSaysSo) {
   EXPECT_NE(model.scheme.reason.find("steps a second"), std::string::npos) << model.scheme.reason;
 }
 
-TEST(Auto, TakesHighOrderWhereTheMotionIsSmoothTheToleranceFineAndRowsAreFew) {
-  const auto taken = [](pintle::Scene s, double tolerance, double every) {
-    s.run.tolerance = tolerance, s.output.every = every;
-    return pintle::name(pintle::build(s).scheme);
-  };
-  const pintle::Scene smooth = scene(SliderCrank{.clearance = 0, .until = 0.1, .method = "auto"}),
-                      worn = scene(SliderCrank{.clearance = 5e-4, .until = 0.1, .method = "auto"});
-  EXPECT_EQ(taken(smooth, 1e-8, 0.1), "verner87");
-  EXPECT_EQ(taken(smooth, 1e-8, 1e-4), "dopri5");
-  EXPECT_EQ(taken(smooth, 1e-5, 0.1), "dopri5");
-  EXPECT_EQ(taken(worn, 1e-8, 0.1), "dopri5");
-  EXPECT_EQ(taken(flexible_crank("auto", 1e-8, 207e9), 1e-8, 0.1), "verner87");
+std::string taken(pintle::Scene s, double tolerance, double until, double every, int frames = 0) {
+  s.run.tolerance = tolerance, s.run.until = until, s.output.every = every, s.output.frames = frames;
+  return pintle::name(pintle::build(s).scheme);
+}
+
+TEST(Auto, TakesHighOrderWhereTheMotionIsSmoothTheToleranceFineAndStepsAreMany) {
+  const pintle::Scene smooth = scene(SliderCrank{.clearance = 0, .method = "auto"}), worn = scene(SliderCrank{.clearance = 5e-4, .method = "auto"});
+  EXPECT_EQ(taken(smooth, 1e-8, 10, 1), "verner87");
+  EXPECT_EQ(taken(smooth, 1e-8, 0.1, 0.1), "dopri5");
+  EXPECT_EQ(taken(smooth, 1e-5, 10, 1), "dopri5");
+  EXPECT_EQ(taken(worn, 1e-8, 10, 1), "dopri5");
+  EXPECT_EQ(taken(flexible_crank("auto", 1e-8, 207e9), 1e-8, 1, 0.1), "verner87");
+}
+
+TEST(Auto, TakesTheSameMethodWhateverIsWrittenOut) {
+  const pintle::Scene smooth = scene(SliderCrank{.clearance = 0, .method = "auto"});
+  for (const double until : {0.1, 1.0, 3.0, 10.0})
+    for (const auto& [every, frames] : {std::pair{until, 0}, {until / 1e5, 0}, {until, 100'000}})
+      EXPECT_EQ(taken(smooth, 1e-8, until, every, frames), taken(smooth, 1e-8, until, 0)) << until << " " << every << " " << frames;
 }
 
 TEST(Auto, TakesGeneralizedAlphaForAStiffSpringOrDamperAndNamesIt) {
