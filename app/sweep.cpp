@@ -111,6 +111,7 @@ int carry_out(const Sweep& sweep, const Options& options, Fellows* together, boo
     settings.progress = [&](const SweepCount& count) { return progress(count); };
     end = run_sweep(sweep, out, settings);
   }
+  for (const std::string& note : end.notes) std::cerr << "note: " << note << "\n";
   if (!end.shortage.empty()) std::cerr << "warning: " << end.shortage << "\n";
   if (!leads) return ok;
   if (options.json) std::cout << sweep_json(sweep, end);

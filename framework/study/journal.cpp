@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <chrono>
@@ -14,6 +15,7 @@
 #include <functional>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <thread>
 
 #include <nlohmann/json.hpp>
@@ -36,9 +38,17 @@ std::string exact(double x) {
 
 double exact(const Json& text) {
   const auto& s = text.get_ref<const std::string&>();
-  double out = std::nan("");
-  std::from_chars(s.data(), s.data() + s.size(), out);
+  double out = 0;
+  if (std::from_chars(s.data(), s.data() + s.size(), out).ptr != s.data() + s.size() || s.empty()) throw std::invalid_argument(s);
   return out;
+}
+
+/// Of a count; JSON would turn what is no whole number, or below 0, into one.
+template <class T>
+T count(const Json& j) {
+  const auto x = j.is_number_integer() ? j.get<std::int64_t>() : -1;
+  if (x < 0 || (j.is_number_unsigned() && j.get<std::uint64_t>() > INT64_MAX)) throw std::invalid_argument("count");
+  return static_cast<T>(x);
 }
 
 std::string sealed(const Json& content) {
@@ -60,13 +70,22 @@ std::string heading(std::uint64_t study) {
   return sealed({{"pintle sweep", fingerprint_text(study)}});
 }
 
-/// @returns false: there is no whole heading
+std::string remedy(const fs::path& path) {
+  return "name another directory with --out, or remove " + path.parent_path().string() + " and run the sweep again";
+}
+
+/// @returns false: there is none yet, as its process was killed while it wrote the first line
+/// @throws OtherStudy, SceneError
 bool judge_heading(const fs::path& path, const std::string& text, std::uint64_t study) {
+  const std::string ours = heading(study);
   const std::size_t end = text.find('\n');
+  if (end == std::string::npos && text.size() <= ours.size() && text.substr(0, text.find('\0')) == ours.substr(0, std::min(text.size(), text.find('\0'))))
+    return false;
   const std::optional<Json> first = end == std::string::npos ? std::nullopt : unsealed(std::string_view(text).substr(0, end));
-  if (!first || !first->contains("pintle sweep")) return false;
-  if (text.substr(0, end + 1) != heading(study))
-    throw SceneError(path.string(), {}, "belongs to another study, or to this one before it, its scene, a file that they name, --set or "
+  if (!first || !first->is_object() || !first->contains("pintle sweep"))
+    throw SceneError(path.string() + ":1: is damaged: its first line does not name a sweep, so nothing in it is known to belong to this one; " + remedy(path));
+  if (text.substr(0, end + 1) != ours)
+    throw OtherStudy(path.string(), {}, "belongs to another study, or to this one before it, its scene, a file that they name, --set or "
                                         "the program was changed; name another directory with --out, or remove " + path.parent_path().string());
   return true;
 }
@@ -94,6 +113,13 @@ bool locked(int file, int how, double patience) {
   return within(patience, [&] { return ::flock(file, how | LOCK_NB) == 0 || errno != EWOULDBLOCK; });
 }
 
+/// What is said of a last line without its end.
+std::string torn(const fs::path& path, const std::string& text) {
+  const auto line = 1 + std::count(text.begin(), text.end(), '\n');
+  return path.string() + ":" + std::to_string(line) + ": was torn as its process ended while it wrote; dropped, " +
+         (line == 1 ? "the journal begins again" : "the case is run again");
+}
+
 bool is_journal(const fs::path& path) {
   return path.filename().string().starts_with("journal-") && path.extension() == ".txt";
 }
@@ -108,19 +134,25 @@ std::string line_of(const Row& r) {
                  {"build", exact(r.build_seconds)}, {"run", exact(r.run_seconds)}});
 }
 
-std::optional<Row> row_of(std::string_view line) {
+std::optional<Row> row_of(std::string_view line) try {
   const std::optional<Json> found = unsealed(line);
-  if (!found || !found->contains("case")) return {};
+  if (!found || !found->is_object()) return {};
   const Json& j = *found;
   Row r;
-  r.number = j["case"], r.status = j["status"], r.reason = j["reason"], r.units = j["units"], r.steps = j["steps"], r.impacts = j["impacts"];
-  r.worker = j["worker"], r.t_end = exact(j["t_end"]), r.unexplained_share = exact(j["unexplained"]);
-  r.build_seconds = exact(j["build"]), r.run_seconds = exact(j["run"]);
-  for (const Json& x : j["values"]) r.values.push_back(exact(x));
+  r.number = count<std::size_t>(j.at("case")), r.status = j.at("status"), r.reason = j.at("reason"), r.units = j.at("units");
+  r.steps = count<long>(j.at("steps")), r.impacts = count<long>(j.at("impacts"));
+  r.worker = j.at("worker"), r.t_end = exact(j.at("t_end")), r.unexplained_share = exact(j.at("unexplained"));
+  r.build_seconds = exact(j.at("build")), r.run_seconds = exact(j.at("run"));
+  if (!j.at("values").is_array()) return {};
+  for (const Json& x : j.at("values")) r.values.push_back(exact(x));
   return r;
+} catch (const Json::exception&) {  // sealed, but not what line_of writes
+  return {};
+} catch (const std::invalid_argument&) {
+  return {};
 }
 
-Journal::Journal(const fs::path& path, std::uint64_t study) : path_(path) {
+Journal::Journal(const fs::path& path, std::uint64_t study, std::vector<std::string>* notes) : path_(path) {
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) throw std::runtime_error(path.string() + ": cannot be written (" + std::strerror(errno) + "); name another place with --out");
   try {
@@ -130,6 +162,7 @@ Journal::Journal(const fs::path& path, std::uint64_t study) : path_(path) {
     const std::string text = contents(path);
     const bool begun = judge_heading(path, text, study);
     size_ = begun ? static_cast<std::int64_t>(text.rfind('\n') + 1) : 0;
+    if (notes && size_ < static_cast<std::int64_t>(text.size())) notes->push_back(torn(path, text));
     if (::ftruncate(file_, size_) != 0) throw std::runtime_error(path.string() + ": cannot be written (" + std::strerror(errno) + ")");
     if (!begun) write(heading(study));
   } catch (...) {
@@ -171,14 +204,24 @@ fs::path journal_path(const fs::path& folder, int rank) {
   return folder / ("journal-" + std::to_string(rank) + ".txt");
 }
 
-std::vector<Row> read_journals(const fs::path& folder, std::uint64_t study) {
+std::vector<Row> read_journals(const fs::path& folder, std::uint64_t study, std::size_t cases, std::vector<std::string>* notes) {
   std::map<std::size_t, Row> rows;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (!is_journal(entry.path())) continue;
-    const std::string text = contents(entry.path());
-    if (!judge_heading(entry.path(), text, study)) continue;
-    for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
-      if (std::optional<Row> row = row_of(std::string_view(text).substr(begin, end - begin))) rows.emplace(row->number, std::move(*row));
+    const fs::path& path = entry.path();
+    if (!is_journal(path)) continue;
+    const std::string text = contents(path);
+    if (notes && !text.ends_with('\n') && !text.empty()) notes->push_back(torn(path, text));
+    if (!judge_heading(path, text, study)) continue;
+    std::size_t line = 2;
+    for (std::size_t begin = text.find('\n') + 1, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1, ++line) {
+      std::optional<Row> row = row_of(std::string_view(text).substr(begin, end - begin));
+      const std::string where = path.string() + ":" + std::to_string(line);
+      if (!row)
+        throw SceneError(where + ": is damaged: its checksum, or what it holds, is not that of a case; remove this line, which runs its case again, or " + remedy(path));
+      if (row->number < 1 || row->number > cases)
+        throw SceneError(where + ": is of case " + std::to_string(row->number) + ", where the study has " + std::to_string(cases) + "; " + remedy(path));
+      rows.emplace(row->number, std::move(*row));
+    }
   }
   std::vector<Row> out;
   for (auto& [number, row] : rows) out.push_back(std::move(row));

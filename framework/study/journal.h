@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "framework/scene/error.h"
 #include "framework/study/case.h"
 
 /// What a sweep has done so far, kept so that nothing is lost when the process dies at any moment.
@@ -28,8 +29,13 @@ struct Row {
 
 /// One line: a checksum and the row; numbers come back to the bit.
 std::string line_of(const Row&);
-/// @returns nothing if the line is torn or changed
+/// @returns nothing if the line is torn or changed, or does not hold what line_of writes
 std::optional<Row> row_of(std::string_view line);
+
+/// A journal holds cases of another study.
+struct OtherStudy : SceneError {
+  using SceneError::SceneError;
+};
 
 /// A file that only grows, a line for each case, written by one process: several threads may append. Each line goes to
 /// the kernel in one piece before `append` returns, so a process that is killed loses none; the disk is asked to keep it
@@ -37,9 +43,11 @@ std::optional<Row> row_of(std::string_view line);
 class Journal {
  public:
   /// @param study  fingerprint of what the cases belong to
-  /// @throws SceneError          it holds cases of another study
+  /// @param notes  takes what was mended, if not null
+  /// @throws OtherStudy          it holds cases of another study
+  /// @throws SceneError          its heading is damaged
   /// @throws std::runtime_error  it cannot be made, or another process has it open
-  Journal(const std::filesystem::path&, std::uint64_t study);
+  Journal(const std::filesystem::path&, std::uint64_t study, std::vector<std::string>* notes = nullptr);
   ~Journal();
   Journal(const Journal&) = delete;
   /// @throws std::runtime_error  it cannot be written; the line is not there then
@@ -57,9 +65,11 @@ class Journal {
 /// The file of process `rank` in a sweep's folder.
 std::filesystem::path journal_path(const std::filesystem::path& folder, int rank);
 
-/// All journals in the folder, rows in the order of their numbers, each number once.
-/// @throws SceneError          one belongs to another study
-std::vector<Row> read_journals(const std::filesystem::path& folder, std::uint64_t study);
+/// All journals in the folder, rows in the order of their numbers, each number once. A last line torn by a kill is left out.
+/// @param cases  of the study  @param notes  takes what was left out, if not null
+/// @throws OtherStudy          one belongs to another study
+/// @throws SceneError          one is damaged otherwise, or holds a case that the study has not: naming file and line
+std::vector<Row> read_journals(const std::filesystem::path& folder, std::uint64_t study, std::size_t cases, std::vector<std::string>* notes = nullptr);
 
 /// Waits until no process has a journal of the folder open but this one. @returns false: some still has after `seconds`
 bool journals_are_free(const std::filesystem::path& folder, const std::filesystem::path& but, double seconds);

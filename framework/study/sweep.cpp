@@ -290,8 +290,8 @@ SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettin
     open_folder(folder);
     const fs::path own = journal_path(folder, 0);
     try {
-      journal.emplace(own, sweep.print);
-    } catch (const SceneError&) {
+      journal.emplace(own, sweep.print, &end.notes);
+    } catch (const OtherStudy&) {
       throw SceneError(folder.string(), {}, "belongs to another study. " + what_differs(sweep, folder) +
                                                 ". Name another directory with --out, or remove " + folder.string());
     }
@@ -300,7 +300,7 @@ SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettin
     write_synced(folder / "study.yaml", sweep.text);
     write_synced(folder / "scene.yaml", sweep.study.scene.text);
     std::vector<bool> ended(sweep.cases.size() + 1, false);
-    for (const Row& row : read_journals(folder, sweep.print)) ended[row.number] = true;
+    for (const Row& row : read_journals(folder, sweep.print, sweep.cases.size(), &end.notes)) ended[row.number] = true;
     for (std::size_t k = 1; k < ended.size(); ++k)
       if (!ended[k]) numbers.push_back(k);
   } catch (...) {
@@ -315,7 +315,7 @@ SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettin
     leader.lead();
   }
   journal.reset();
-  end.rows = read_journals(folder, sweep.print);
+  end.rows = read_journals(folder, sweep.print, sweep.cases.size());
   end.whole = end.rows.size() == sweep.cases.size();
   write_tables(sweep, folder, end);
   return end;

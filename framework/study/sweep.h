@@ -51,6 +51,7 @@ struct SweepEnd {
   SweepCount count;
   int workers = 1;           ///< threads of all processes
   std::string shortage;      ///< why this process had fewer threads than asked for; empty: it had them
+  std::vector<std::string> notes;  ///< what was torn in journals, and what was done about it
   std::vector<Row> rows;     ///< of all sessions, in the order of cases; in process 0
   double efficiency() const { return count.seconds > 0 ? count.busy / (workers * count.seconds) : 1; }
 };
