@@ -11,6 +11,7 @@
 #include "app/progress.h"
 #include "app/run_end.h"
 #include "framework/run/computed.h"
+#include "framework/run/identity.h"
 #include "framework/run/results.h"
 #include "framework/run/pieces.h"
 #include "framework/run/room.h"
@@ -217,7 +218,7 @@ class Recording {
  public:
   Recording(const fs::path& directory, const Scene& scene, const Model& model, const Assembly& assembly)
       : directory_(directory), scene_(scene), model_(model), assembly_(assembly), files_(directory, model),
-        kept_for_report_(directory / "room for run.json", least_room + 4 * scene.filled_in.size()) {
+        identity_(identity(scene, model, assembly)), kept_for_report_(directory / "room for run.json", least_room + 4 * scene.filled_in.size()) {
     if (scene.output.frames < 2) return;
     writer_.emplace(directory);
     drafting_.emplace(scene, model);
@@ -248,7 +249,7 @@ class Recording {
     std::error_code error;
     fs::create_directories(directory_ / "states", error);
     if (error) throw FileError(directory_ / "states", error.value(), "cannot be made");
-    write_text(directory_ / "states" / name.str(), state_text(scene_, state));
+    write_text(directory_ / "states" / name.str(), state_text(identity_, state));
   }
 
   const fs::path directory_;
@@ -256,15 +257,16 @@ class Recording {
   const Model& model_;
   const Assembly& assembly_;
   RunFiles files_;
+  const std::string identity_;  ///< of what a saved state belongs to
   ReservedRoom kept_for_report_;
   std::optional<FrameWriter> writer_;
   std::optional<Drafting> drafting_;
   int saved_ = 0;
 };
 
-std::optional<SavedState> saved_state(const Options& options, const Scene& scene) {
+std::optional<SavedState> saved_state(const Options& options, const Scene& scene, const Model& model, const Assembly& assembly) {
   if (options.restart.empty()) return {};
-  SavedState from = read_state(options.restart, scene);
+  SavedState from = read_state(options.restart, scene, model, assembly);
   if (from.t >= scene.run.until)
     throw SceneError("--restart " + options.restart + ": was saved at " + number(from.t, 9) + " s, where the run of " + scene.file +
                      " has ended; make run.until longer");
@@ -281,7 +283,7 @@ int run(const Options& options) {
   now_doing("building the model");
   Model model = build(scene);
   const Assembly assembly = assemble(scene, model);
-  const std::optional<SavedState> from = saved_state(options, scene);
+  const std::optional<SavedState> from = saved_state(options, scene, model, assembly);
   for (std::string& doubt : judge_room(out, room_needed(scene, model, from ? from->t : 0), room_at(out))) model.warnings.push_back(std::move(doubt));
 
   now_doing("running the scene");

@@ -221,13 +221,11 @@ bool Kkt::load(std::istream& in) {
   for (VectorXd* v : {&d.T, &d.E}) get_binary(in, *v);
   if (in && d.shifted) d.shift_rows();
   if (in && d.sparse) d.sparse->load(in, d.shifted ? d.shifted_values : d.values);
-  if (!in) {
-    d.factored = d.shifted = false;
-    d.since = 0;
-    return false;
-  }
-  if (!d.sparse && d.factored) d.shifted ? d.factor_shifted() : d.factor_plain();
-  return true;
+  bool whole = in && d.factored;
+  if (whole && d.sparse) whole = d.sparse->nonzeros() > 0;
+  if (whole && !d.sparse) whole = d.shifted ? d.factor_shifted() : d.factor_plain();
+  if (!whole) forget();
+  return whole;
 }
 
 }  // namespace pintle

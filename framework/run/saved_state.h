@@ -4,7 +4,7 @@
 #include <string>
 
 #include "framework/dynamics/energy.h"
-#include "framework/scene/scene.h"
+#include "framework/run/assemble.h"
 
 namespace pintle {
 
@@ -16,10 +16,13 @@ struct SavedState {
   double energy_in_play = 0, worst_unexplained = 0;  ///< so far [J]
 };
 
-/// A state as a text file that names the scene it belongs to by all that changes the motion: not its title,
-/// `run.until` and `output`.
-std::string state_text(const Scene&, const SavedState&);
-/// @throws SceneError  the file cannot be read, is no saved state or not whole, or is of another scene or version
-SavedState read_state(const std::filesystem::path&, const Scene&);
+/// A state as a file holds it, with a checksum of the whole.
+/// @param identity  of what it belongs to (identity.h), found before the run: files may change meanwhile
+std::string state_text(const std::string& identity, const SavedState&);
+/// @param source  names the text in messages
+SavedState state_of(const std::string& text, const std::string& source, const Scene&, const Model&, const Assembly&);
+/// @throws SceneError  the file cannot be read, is no saved state, not whole, not what was written, or is of another scene,
+///                     program or version
+SavedState read_state(const std::filesystem::path&, const Scene&, const Model&, const Assembly&);
 
 }  // namespace pintle

@@ -1,5 +1,6 @@
 #include "framework/run/simulate.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -117,6 +118,14 @@ void warn_of_depth(const System& system, Run& run) {
         << system.contacts[c].normal.k << " N/m^" << system.contacts[c].normal.n << " meant?)";
       run.warnings.push_back(s.str());
     }
+}
+
+/// What is judged by rows is judged by those of this run.
+void warn_of_gap(const System& system, const Model& model, const SavedState& from, Run& run) {
+  const bool linked = std::ranges::any_of(system.contacts, [](const ContactPair& c) { return c.link >= 0; });
+  if (!linked && model.bending.empty()) return;
+  run.warnings.push_back("this run goes on from " + short_number(from.t) + " s: " + (linked ? "whether a massless link pushed" : "how far bodies bent") +
+                         (linked && !model.bending.empty() ? " and how far bodies bent" : "") + " before that was judged by the run that saved it");
 }
 
 /// A massless link holds the journal at the wall whether the wall presses or not.
@@ -330,6 +339,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
 
   run.t_end = ended_short(run) ? last_row : integrator.state().t;  // a step may have been cut short
   run.impacts = integrator.impacts();
+  if (from) warn_of_gap(system, model, *from, run);
   warn_of_depth(system, run);
   warn_of_pushing(system, run);
   slow.warn(system, run.energy_in_play, run.warnings);
