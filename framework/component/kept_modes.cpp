@@ -50,7 +50,7 @@ Modes elastic(const EigenPairs& pairs, const Problem& p) {
   if (pairs.zero > p.rigid) {
     std::ostringstream text;
     text << "modes of " << p.whose << ": " << pairs.zero << " motions cause no strain, expected "
-         << p.rigid << "; its parts are not joined";
+         << p.rigid << "; its parts are not joined, or one is more than ten thousand times as long as thick";
     throw std::runtime_error(text.str());
   }
   const Eigen::Index k = std::max<Eigen::Index>(0, pairs.lambda.size() - p.rigid);

@@ -1,9 +1,11 @@
 #include "framework/component/statics.h"
 
 #include "framework/component/factor.h"
+#include "framework/component/reduction.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -237,6 +239,14 @@ std::vector<int> free_freedoms(const FeModel& model, const Supports& supports) {
   for (int i = 0; i < model.n(); ++i)
     if (!held[static_cast<std::size_t>(i)]) free.push_back(i);
   return free;
+}
+
+int rigid_motions_left(const FeModel& model, const Supports& supports) {
+  if (supports.freedoms.empty()) return 3;
+  const Eigen::MatrixX3d held = scaled_rigid_motions(model)(supports.freedoms, Eigen::all);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(held);
+  const VectorXd& size = svd.singularValues();
+  return 3 - static_cast<int>((size.array() > held_rank * size[0]).count());
 }
 
 StaticSolution solve_static(const FeModel& model, const Sparse& K, const Supports& supports,

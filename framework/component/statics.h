@@ -18,6 +18,8 @@ void hold(Supports&, const FeModel&, int node, bool x, bool y, bool turn);
 void hold(Supports&, const FeModel&, const Port&, bool x, bool y, bool turn);
 /// Freedoms that stay free, ascending.
 std::vector<int> free_freedoms(const FeModel&, const Supports&);
+/// Rigid motions of the whole body that the supports leave, 0 to 3.
+int rigid_motions_left(const FeModel&, const Supports&);
 
 /// A static answer, in nodal freedoms or nodes where not said otherwise.
 struct StaticSolution {

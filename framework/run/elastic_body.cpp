@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <sstream>
@@ -53,6 +54,31 @@ void judge_locking(const ScenePlate& plate, const Mesh& mesh, std::vector<std::s
   std::ostringstream s;
   s << (triangles ? "triangle3" : plate.element) << " locks in plane strain at a Poisson's ratio of " << solid->poisson
     << ": it comes out far too stiff; take quadrilateral4, triangle6 or quadrilateral8";
+  warnings.push_back(s.str());
+}
+
+/// Rounding of the stretch, which is so much stiffer, in the bending of a slender beam (docs/theory/elements.md).
+void judge_slenderness(const FeModel& model, std::vector<std::string>& warnings) {
+  constexpr double too_much = 0.01;
+  double length = 0, stretch = 0, bending = std::numeric_limits<double>::infinity();
+  int elements = 0;
+  const auto count = [&](const auto& block) {
+    for (int i = 0; i < block.size(); ++i) {
+      const auto beam = block.element(i);
+      if constexpr (requires { beam.EI; }) {
+        const auto x = block.coords(i, model.x);
+        length += (x.col(1) - x.col(0)).norm();
+        stretch = std::max(stretch, beam.EA), bending = std::min(bending, beam.EI);
+        ++elements;
+      }
+    }
+  };
+  for (const AnyBlock& any : model.blocks) std::visit(count, any);
+  const double lost = elements * std::numeric_limits<double>::epsilon() * stretch * length * length / (3 * bending);
+  if (!(lost > too_much)) return;
+  std::ostringstream s;
+  s << "it is so slender (" << std::setprecision(2) << length * std::sqrt(stretch / (12 * bending))
+    << " times as long as thick) that rounding may change its bending by " << 100 * lost << " %; take a thicker section or a shorter beam";
   warnings.push_back(s.str());
 }
 
@@ -250,6 +276,7 @@ ElasticBody elastic_body(const Scene& scene, const SceneBody& body) {
       e.thickness = plate_of(body).thickness;
     }
     e.model = fe_model(e.mesh.x, blocks_of(body, e.mesh, e.fibres), lumps_of(scene, body, e.mesh));
+    judge_slenderness(e.model, e.warnings);
     add_ports(scene, body, e.mesh, e.model, e.warnings);
     const Assembler assembler(e.model);
     e.K = assembler.stiffness();

@@ -145,6 +145,7 @@ Finding worst(const std::vector<Finding>& all) {
 
 std::string Row::wrong() const {
   if (!found.trouble.empty()) return found.trouble;
+  if (found.end == End::refused && !what->or_refused.empty() && found.said.find(what->or_refused) != std::string::npos) return "";
   if (found.end != what->end)
     return std::string(word(found.end)) + ", not " + word(what->end) + (found.said.empty() ? "" : ": " + found.said);
   if (found.said.find(what->says) == std::string::npos) return "does not say \"" + what->says + "\" but \"" + found.said + "\"";

@@ -1,6 +1,7 @@
 // Bodies of elements: slender, nearly incompressible, with few and all modes, soft and stiff, damped.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "framework/run/modes.h"
@@ -22,6 +23,7 @@ double clamped_frequency(double h) { return first_root * first_root * h / std::s
 
 /// A beam of 1 m welded to the ground at A; a force at its other end B follows `law`.
 struct Cantilever {
+  std::string end = "[1, 0]";
   double height = 0.01;  ///< of its section, which is 10 mm wide [m]
   std::string theory = "euler", modes = "{frame: {tangent: A}, craig-bampton: {count: 0}}", damping = "{ratios: 1}", law = "0", more = {};
   double until = 1;
@@ -30,7 +32,7 @@ std::string text(const Cantilever& c) {
   return with(R"(bodies:
   b:
     beam: {from: A, to: B, section: {rectangle: [{h}, 10 mm]}, young: 200 GPa, poisson: 0.3, density: 8000, theory: {theory}, elements: 20}
-    points: {A: [0, 0], B: [1, 0]}
+    points: {A: [0, 0], B: {end}}
     modes: {modes}
     damping: {damping}
     supports: {A: fixed}
@@ -39,7 +41,8 @@ forces: {push: {force: [0, "{law}"], at: b.B}}
 run: {until: {until}{more}}
 output: {points: [b.B], every: {every}}
 )",
-              {{"h", number(c.height)},
+              {{"end", c.end},
+               {"h", number(c.height)},
                {"theory", c.theory},
                {"modes", c.modes},
                {"damping", c.damping},
@@ -82,22 +85,26 @@ Finding deflection_of(Cantilever c, double bound) {
 }  // namespace
 
 Axis slenderness() {
-  Axis axis{"slenderness", "A clamped beam of 20 elements, length over height of its section.",
+  Axis axis{"slenderness", "A clamped beam of 20 elements, length over height of its section; along x, or askew.",
             "its first frequency against Euler's closed form, and in a run its deflection under a force that rises slowly against F L³/3EI; relative.",
-            "1e-6 for Euler's beam, and Timoshenko's what shear and rotary inertia take, 4 (h/L)²; of the run 1e-4, what a slow rise leaves.", {}};
-  for (const double s : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
-    axis.cases.push_back({s, printed("%g", s), "Euler", End::finished, "", [s] {
-                            Cantilever c{.height = 1 / s};
-                            c.theory = "euler, rotary inertia: false";
-                            return frequency_of(c, 1e-6);
-                          }});
-    axis.cases.push_back({s, printed("%g", s), "Timoshenko", End::finished, "", [s] {
-                            return frequency_of({.height = 1 / s, .theory = "timoshenko"}, 4 / (s * s) + 1e-6);
-                          }});
+            "1e-6 for Euler's beam, and Timoshenko's what shear and rotary inertia take, 4 (h/L)²; of the run 1e-4, what a slow rise leaves; to both "
+            "what rounding of the stretch leaves of bending, ten times 20 EA L²/3EI units in the last place, of a frequency along x none. Past 1e5 what is found "
+            "differs between processors: a frequency within 1 %, which is what the residual may be, or a refusal.", {}};
+  const std::string unheld = "more than ten thousand times as long as thick";
+  const auto rounding = [](double s) { return 10 * 20 * std::numeric_limits<double>::epsilon() * 4 * s * s; };
+  const auto add = [&](double s, const char* what, auto run) {
+    Case c{s, printed("%g", s), what, End::finished, "", run};
+    if (s > 1e5) c.end = End::warned, c.says = "so slender", c.or_refused = unheld;
+    axis.cases.push_back(std::move(c));
+  };
+  for (const double s : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7}) {
+    add(s, "Euler", [s] { return frequency_of({.height = 1 / s, .theory = "euler, rotary inertia: false"}, s > 1e5 ? 1e-2 : 1e-6); });
+    add(s, "Timoshenko", [s] { return frequency_of({.height = 1 / s, .theory = "timoshenko"}, s > 1e5 ? 1e-2 : 4 / (s * s) + 1e-6); });
   }
-  for (const double s : {1e2, 1e4, 1e6})
-    axis.cases.push_back({s, printed("%g", s), "run", End::finished, "", [s] { return deflection_of({.height = 1 / s}, 1e-4); }});
-  axis.cases.push_back({1e7, "1e+07", "Euler", End::refused, "more than a million times as long as thick", [] { return frequency_of({.height = 1e-7}, 1); }});
+  for (const double s : {1e1, 1e2, 1e3, 1e4})
+    add(s, "Euler, askew", [=] { return frequency_of({.end = "[0.6, 0.8]", .height = 1 / s, .theory = "euler, rotary inertia: false"}, 1e-6 + rounding(s)); });
+  axis.cases.push_back({1e5, "1e+05", "Euler, askew", End::refused, unheld, [] { return frequency_of({.end = "[0.6, 0.8]", .height = 1e-5}, 1); }});
+  for (const double s : {1e2, 1e4, 1e5, 1e6}) add(s, "run", [=] { return deflection_of({.height = 1 / s}, 1e-4 + rounding(s)); });
   return axis;
 }
 

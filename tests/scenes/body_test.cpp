@@ -165,6 +165,34 @@ TEST(BadBody, BarsHingedInALineHaveNoModes) {
   expect_words(complaint("bodies:\n  rod:\n    beam: {from: A, to: B, section: {circle: 0.1}, elements: 10, theory: bar, " + steel + "}\n    points: {A: [0, 0], B: [1, 0]}\n    supports: {A: fixed}\n"), {"rod", "without stiffness"});
 }
 
+std::string blade(const std::string& height, const std::string& end) {
+  return "bodies:\n  blade:\n    beam: {from: A, to: B, section: {rectangle: [" + height + ", 0.01]}, elements: 20, theory: euler, " + steel +
+         "}\n    points: {A: [0, 0], B: " + end + "}\n    supports: {A: fixed}\n";
+}
+
+// Askew, its stiffness to bending is lost in the rounding of its stiffness to stretch: 1e-13 of it is taken for none.
+TEST(BadBody, AModeLostInRoundingIsNotTakenForARigidMotion) {
+  EXPECT_EQ(complaint(blade("1e-4", "[0.6, 0.8]")), "");
+  expect_words(complaint(blade("1e-5", "[0.6, 0.8]")), {"blade", "without stiffness", "ten thousand times as long as thick"});
+}
+
+TEST(Body, ABeamSoSlenderThatRoundingMayBendItHasAWarning) {
+  const auto warnings = [](const std::string& height) {
+    const Scene scene = read_scene_text(blade(height, "[1, 0]"), "test.yaml");
+    return elastic_body(scene, scene.bodies[0]).warnings;
+  };
+  EXPECT_TRUE(warnings("1e-5").empty());  // 20 EA L²/3EI units in the last place: 0.02 %
+  ASSERT_EQ(warnings("1e-6").size(), 1u);
+  expect_words(warnings("1e-6")[0], {"1e+06 times as long as thick", "1.8 %", "thicker section"});
+}
+
+TEST(Body, SupportsThatLeaveAMotionLeaveTheModesAsked) {
+  const Scene scene = read_scene_text(beam("    supports: {A: pinned}\n"), "test.yaml");
+  const ModesReport r = modes_of(scene, elastic_body(scene, scene.bodies[0]), 3);
+  EXPECT_EQ(r.rigid, 1);
+  EXPECT_EQ(r.natural.modes.omega.size(), 3);
+}
+
 TEST(BadBody, DampingThatWouldFeedAModeIsRefused) {
   expect_words(complaint(beam("    supports: {A: fixed}\n    damping: {rayleigh: {ratios: [0.2, 0.001]}}\n")), {"damping", "mode 6", "ratio -0.28", "feed"});
 }
