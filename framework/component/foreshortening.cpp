@@ -53,13 +53,18 @@ double virial(const RigidRim& rim, const VectorXd& f) {
 
 std::vector<MatrixXd> foreshortening(const Component& c, const FrameTie& tie,
                                      const ModalModel& modes, const MatrixXd& loads) {
+  return foreshortening_of_response(c, modes, static_response(c, tie, loads));
+}
+
+std::vector<MatrixXd> foreshortening_of_response(const Component& c, const ModalModel& modes,
+                                                 const MatrixXd& response) {
   const MatrixXd& phi = modes.shapes;
-  const MatrixXd u = nodal(c.model, static_response(c, tie, loads));
+  const MatrixXd u = nodal(c.model, response);
   const Assembler assembler(c.model);
   const std::vector<RigidRim> rims = rigid_rims(c.model);
   const MatrixXd force = rims.empty() ? MatrixXd() : assembler.stiffness() * u;
   std::vector<MatrixXd> all;
-  for (Eigen::Index k = 0; k < loads.cols(); ++k) {
+  for (Eigen::Index k = 0; k < u.cols(); ++k) {
     MatrixXd F = -phi.transpose() * (assembler.geometric_stiffness(u.col(k)) * phi);
     for (const RigidRim& rim : rims) {
       const Eigen::RowVectorXd turn = modes.ports.row(3 * rim.port + 2);

@@ -21,6 +21,9 @@ namespace pintle {
 /// @throws std::runtime_error     parts of the body are not joined, or move without resistance
 std::vector<Eigen::MatrixXd> foreshortening(const Component&, const FrameTie&, const ModalModel&,
                                             const Eigen::MatrixXd& loads);
+/// The same of loads whose static responses are known. @param u  independent freedoms, n × count
+std::vector<Eigen::MatrixXd> foreshortening_of_response(const Component&, const ModalModel&,
+                                                        const Eigen::MatrixXd& u);
 
 /// The same for the loads of inertia, about the origin of the body's axes: what FlexInertia holds.
 /// Under mean axes S is zero: there the mass centre stays where it is.

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "framework/component/factor.h"
 #include "framework/component/reduction.h"
 #include "framework/component/statics.h"
 
@@ -32,21 +31,27 @@ Supports determinate_hold(const FeModel& model) {
 
 }  // namespace
 
-MatrixXd static_response(const Component& c, const FrameTie& tie, const MatrixXd& loads) {
-  if (loads.rows() != c.model.n())
-    throw std::invalid_argument("static response: loads of " + std::to_string(loads.rows()) +
-                                " rows, must be " + std::to_string(c.model.n()) +
-                                ", one per independent freedom");
-  const std::vector<int> moving = free_freedoms(c.model, determinate_hold(c.model));
-  Factor held;
-  if (!held.compute(restricted(c.K, moving)))
+StaticResponse::StaticResponse(const Component& c)
+    : c_(c), moving_(free_freedoms(c.model, determinate_hold(c.model))) {
+  if (!held_.compute(restricted(c.K, moving_)))
     throw std::runtime_error(
         "static response: parts of the body are not joined, or a part of it moves without "
         "resistance; join them with elements that resist");
-  const MatrixXd moving_loads = in_equilibrium(c, tie, loads)(moving, Eigen::all);
+}
+
+MatrixXd StaticResponse::under(const FrameTie& tie, const MatrixXd& loads) const {
+  if (loads.rows() != c_.model.n())
+    throw std::invalid_argument("static response: loads of " + std::to_string(loads.rows()) +
+                                " rows, must be " + std::to_string(c_.model.n()) +
+                                ", one per independent freedom");
+  const MatrixXd moving_loads = in_equilibrium(c_, tie, loads)(moving_, Eigen::all);
   MatrixXd u = MatrixXd::Zero(loads.rows(), loads.cols());
-  u(moving, Eigen::all) = held.solve(moving_loads);  // in equilibrium: the hold carries nothing
-  return tied(c, tie, u);
+  u(moving_, Eigen::all) = held_.solve(moving_loads);  // in equilibrium: the hold carries nothing
+  return tied(c_, tie, u);
+}
+
+MatrixXd static_response(const Component& c, const FrameTie& tie, const MatrixXd& loads) {
+  return StaticResponse(c).under(tie, loads);
 }
 
 }  // namespace pintle

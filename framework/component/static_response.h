@@ -1,5 +1,8 @@
 #pragma once
 
+#include <vector>
+
+#include "framework/component/factor.h"
 #include "framework/component/modal_model.h"
 
 namespace pintle {
@@ -11,5 +14,19 @@ namespace pintle {
 /// @throws std::invalid_argument  as tie_rows; `loads` has another number of rows
 /// @throws std::runtime_error     parts of the body are not joined, or move without resistance
 Eigen::MatrixXd static_response(const Component&, const FrameTie&, const Eigen::MatrixXd& loads);
+
+/// The same of one body under several ties, its stiffness factored once.
+class StaticResponse {
+ public:
+  /// @throws std::runtime_error  as static_response
+  explicit StaticResponse(const Component&);  ///< the component must outlive it
+  /// @throws std::invalid_argument  as static_response
+  Eigen::MatrixXd under(const FrameTie&, const Eigen::MatrixXd& loads) const;
+
+ private:
+  const Component& c_;
+  std::vector<int> moving_;
+  Factor held_;
+};
 
 }  // namespace pintle
