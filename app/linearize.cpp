@@ -80,7 +80,11 @@ int linearize(const Options& options) {
   const Model model = build(scene);
   const Assembly assembly = assemble(scene, model);
   State state;
-  if (options.at_rest) {
+  std::string note;
+  if (!options.at_rest && options.at.empty()) {
+    LinearizedStart start = linearized_start(scene, model, assembly);
+    state = std::move(start.state), note = std::move(start.note);
+  } else if (options.at_rest) {
     const Equilibrium rest = find_equilibrium(scene, model, assembly, t);
     if (!rest.found) {
       std::cerr << scene.file << ": no equilibrium to linearize about: " << rest.reason << "\n";
@@ -95,7 +99,8 @@ int linearize(const Options& options) {
       return run_failed;
     }
   }
-  const Linearization lin = linearize(scene, model, state, options.at_rest ? Laws::hold : Laws::go_on);
+  Linearization lin = linearize(scene, model, state, options.at_rest ? Laws::hold : Laws::go_on);
+  if (!note.empty()) lin.notes.push_back(note);
 
   write_whole(options, out, [&](const fs::path& folder) {
     write_linearization(folder, scene, lin, options.count);

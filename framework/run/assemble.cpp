@@ -9,6 +9,7 @@
 #include <Eigen/SparseCore>
 
 #include "framework/run/closure.h"
+#include "framework/run/equilibrium.h"
 #include "framework/run/ideal_pin.h"
 #include "framework/run/least_step.h"
 #include "framework/run/row_space.h"
@@ -44,11 +45,18 @@ Place named_place(const Scene& scene, const std::string& name) {
 struct Rough {
   VectorXd y, W_pose, W_speed;
   std::vector<Pin> places, rates;
+  std::vector<int> bent;  ///< bodies whose bending the scene says
 };
 
-Rough rough_state(const Scene& scene, const System& system) {
+using Bent = std::vector<std::pair<int, VectorXd>>;  ///< bodies that start bent, and their modal coordinates
+
+Rough rough_state(const Scene& scene, const System& system, const Bent& bent) {
   Rough r;
   r.y.setZero(system.n_y());
+  for (const auto& [body, eta] : bent) {
+    r.y.segment(system.eta_begin[at(body)], eta.size()) = eta;
+    r.bent.push_back(body);
+  }
   r.W_pose.resize(system.n());
   r.W_speed.resize(system.n());
   r.W_pose.tail(system.n() - system.n_rigid()).setZero();  // undeformed if that closes
@@ -256,7 +264,7 @@ int undeformed_first(const System& system, Rough& r, VectorXd Rough::*weight, Cl
   } catch (const AssemblyError&) {
   }
   for (std::size_t b = 0; b < system.bodies.size(); ++b)
-    if (const int n = system.bodies[b].modes(); n > 0) {
+    if (const int n = system.bodies[b].modes(); n > 0 && !(weight == &Rough::W_pose && std::ranges::count(r.bent, static_cast<int>(b)))) {
       const VectorXd& omega = system.bodies[b].flex->omega;
       const bool pose = weight == &Rough::W_pose;
       (bent.*weight).segment(system.eta_begin[b], n) =
@@ -293,11 +301,11 @@ std::vector<std::string> doubts(const Model& model, const Assembly& assembly) {
   return out;
 }
 
-Assembly assemble(const Scene& scene, const Model& model) { return assemble(scene, model.system); }
+namespace {
 
-Assembly assemble(const Scene& scene, const System& system) {
+Assembly assembled(const Scene& scene, const System& system, const Bent& bent) {
   Closure closure(scene, system, pressed_directions(scene, system));
-  Rough r = rough_state(scene, system);
+  Rough r = rough_state(scene, system, bent);
   const VectorXd before = r.y.head(system.n());
   Assembly out;
   out.iterations = undeformed_first(system, r, &Rough::W_pose, [&](Rough& from) { return close_joints(scene, closure, system, from); });
@@ -314,6 +322,29 @@ Assembly assemble(const Scene& scene, const System& system) {
     if (const std::string quarrel = contradiction(system, 0, r.y, scene.run.until); !quarrel.empty())
       throw AssemblyError(scene.file, named_place(scene, last_driver(system, out.redundant)),
                           quarrel + "; leave one of them out, or let it follow the other");
+  return out;
+}
+
+/// The speeds that drivers ask for where the mechanism would rest without them.
+void start_at_rest(const Scene& scene, const Model& model, Assembly& out) {
+  const Equilibrium rest = find_equilibrium(scene, model, out);
+  if (!rest.found) throw AssemblyError(scene.file, {0, "start"}, "there is no equilibrium to start from: " + rest.reason);
+  Closure closure(scene, model.system, pressed_directions(scene, model.system));
+  Rough r = rough_state(scene, model.system, {});
+  out.moved = std::max(out.moved, (rest.state.y - out.start.y).head(model.system.n()).lpNorm<Eigen::Infinity>());
+  out.start = rest.state;
+  r.y = out.start.y;
+  undeformed_first(model.system, r, &Rough::W_speed, [&](Rough& from) { return match_speeds(scene, closure, model.system, from); });
+  out.start.y = r.y;
+}
+
+}  // namespace
+
+Assembly assemble(const Scene& scene, const System& system) { return assembled(scene, system, {}); }
+
+Assembly assemble(const Scene& scene, const Model& model) {
+  Assembly out = assembled(scene, model.system, model.bent);
+  if (scene.start_at_rest) start_at_rest(scene, model, out);
   return out;
 }
 

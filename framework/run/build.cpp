@@ -15,6 +15,8 @@
 #include "framework/run/laws.h"
 #include "framework/run/mechanism_body.h"
 #include "framework/run/method.h"
+#include "framework/run/modes.h"
+#include "framework/run/shape_doubts.h"
 #include "framework/scene/nearest.h"
 
 namespace pintle {
@@ -51,6 +53,7 @@ class Builder {
       if (const std::string doubt = j.clearance ? rounding_doubt(scene_, j, model_.system.length) : ""; !doubt.empty())
         model_.warnings.push_back(doubt);
     model_.clearances = settle_clearances(scene_, model_.system, model_.warnings);
+    for (std::string& doubt : contact_doubts(scene_, model_.system, model_.order, elements_)) model_.warnings.push_back(std::move(doubt));
     scheme();
     return std::move(model_);
   }
@@ -138,21 +141,32 @@ class Builder {
       FlexibleReport& r = model_.flexible.emplace_back(flexible_report(*elements_[i]));
       r.choice = choices_[i];
       model_.bending.push_back(bending_probe(*elements_[i], static_cast<int>(i)));
-      if (run_.usable()) r.motion = motion_estimate(scene_, *elements_[i], run_.bodies[i]);
+      StiffeningProbe& probe = model_.stiffening.emplace_back(stiffening_probe(*elements_[i], static_cast<int>(i)));
+      if (run_.usable()) r.motion = motion_estimate(*elements_[i], run_.bodies[i]), probe.judged = true;
       const std::vector<std::string> found = doubts(scene_, r, imposed);
       model_.warnings.insert(model_.warnings.end(), found.begin(), found.end());
-      if (!r.motion) doubt_spin(*elements_[i]);
+      if (!r.motion) probe.judged = doubt_spin(*elements_[i]) || probe.judged;
+      if (const std::string doubt = stiff_parts_doubt(*elements_[i]); !doubt.empty()) model_.warnings.push_back(doubt);
     }
+    if (!model_.stiffening.empty()) find_grips();
     const std::vector<std::string> held = holding_warnings(scene_, elements_);
     model_.warnings.insert(model_.warnings.end(), held.begin(), held.end());
   }
 
-  /// Without a rigid run: a body whose spin is given.
-  void doubt_spin(const MechanismBody& b) {
-    if (b.elastic.scene->elastic->stiffening != Stiffening::none) return;
+  /// Without a rigid run: a body whose spin is given. @returns whether it is doubted
+  bool doubt_spin(const MechanismBody& b) {
+    if (b.elastic.scene->elastic->stiffening != Stiffening::none) return false;
     const double spin = given_spin(scene_, b.body.name);
-    if (!(spin > 0)) return;
-    if (const std::string doubt = spin_doubt(b.body.name, spin, stiffened_by_spin(scene_, b, spin)); !doubt.empty()) model_.warnings.push_back(doubt);
+    if (!(spin > 0)) return false;
+    const std::string doubt = spin_doubt(b.body.name, spin, stiffened_by_spin(scene_, b, spin));
+    if (!doubt.empty()) model_.warnings.push_back(doubt);
+    return !doubt.empty();
+  }
+
+  void find_grips() {
+    std::vector<const ElasticBody*> flexible;
+    for (const auto& made : elements_) flexible.push_back(made && made->body.flex ? &made->elastic : nullptr);
+    model_.grips = grips_of(scene_, model_.order, flexible);
   }
 
   int body(const PointRef& ref) const {
@@ -214,6 +228,7 @@ class Builder {
     const int a = marker(j.a, turns || j.kind == JointKind::slot ? Holds::direction : Holds::point);
     const int b = marker(j.b, turns ? Holds::direction : Holds::point);
     auto& joints = model_.system.joints;
+    model_.order.joints.push_back(static_cast<int>(joints.size()));
     switch (j.kind) {
       case JointKind::revolute: joints.push_back(Revolute{a, b}); break;
       case JointKind::slot: joints.push_back(Slot{a, b}); break;
@@ -254,6 +269,7 @@ class Builder {
       model_.system.joints.push_back(Distance{pair.bearing, pair.journal, pair.gap.clearance()});
       model_.system.joint_names.push_back(j.name);
     }
+    model_.order.joints.push_back(static_cast<int>(model_.system.contacts.size()));
     model_.system.contacts.push_back(pair);
     model_.system.contact_names.push_back(j.name);
   }
@@ -263,6 +279,7 @@ class Builder {
     two_bodies(d.a, d.b, d.place);
     const Holds what = d.kind == DriverKind::angle ? Holds::direction : Holds::point;
     const int a = marker(d.a, what), b = marker(d.b, what);
+    model_.order.drivers.push_back(static_cast<int>(model_.system.joints.size()));
     if (d.kind == DriverKind::angle) {
       model_.system.joints.push_back(AngleDriver{a, b, d.law.at});
     } else {
@@ -275,6 +292,7 @@ class Builder {
   void add(const SceneLoad& l) {
     unique(l.name, "force", l.place);
     auto& forces = model_.system.forces;
+    model_.order.loads.push_back(static_cast<int>(forces.size()));
     if (const auto* f = std::get_if<SceneForce>(&l.what)) {
       if (body(f->at) == ground) wrong(f->at.place, "a force on the ground moves nothing; name a body's point");
       const int b = marker(f->at, f->follows ? Holds::direction : Holds::point);
@@ -303,6 +321,7 @@ class Builder {
         for (const auto& [name, i] : index_) known.push_back(name);
         wrong(s.place, "there is no body " + quoted(s.body) + suggestion(s.body, known));
       }
+    bend_starts();
     for (const StartJournal& s : scene_.start_journals) {
       const auto& known = model_.system.contact_names;
       const auto found = std::find(known.begin(), known.end(), s.joint);
@@ -316,9 +335,32 @@ class Builder {
     }
   }
 
+  void bend_starts() {
+    for (const StartBody& s : scene_.start_bodies) {
+      if (s.deflection.empty() && s.modes.empty()) continue;
+      const std::size_t b = static_cast<std::size_t>(index_.at(s.body));
+      if (!elements_[b] || !elements_[b]->body.flex) wrong(s.place, quoted(s.body) + " stays rigid and cannot start bent: its `modes` keep no shape; keep more");
+      model_.bent.emplace_back(static_cast<int>(b), bent_start(scene_, *elements_[b], s));
+    }
+  }
+
+  /// Under `stiffening: rotation` joints hold points of first order, so that those are recorded where the joints are; others
+  /// come nearer as the body bends.
+  Marker recorded_at(const PointRef& ref) const {
+    Marker m = marker_at(ref, Holds::point);
+    if (m.shape.size() == 0 || m.second[0].size() > 0) return m;
+    const MechanismBody& b = *elements_[static_cast<std::size_t>(m.body)];
+    const int port = port_of(b.elastic, ref.point);
+    const auto holds = [&](const PointRef& held) { return held.body == ref.body && port_of(b.elastic, held.point) == port; };
+    const auto joins = [&](const auto& j) { return holds(j.a) || holds(j.b); };
+    const bool joined = std::any_of(scene_.joints.begin(), scene_.joints.end(), joins) || std::any_of(scene_.drivers.begin(), scene_.drivers.end(), joins);
+    if (!joined && !b.second.empty()) m.second = b.second[static_cast<std::size_t>(port)];
+    return m;
+  }
+
   void record() {
     for (const PointRef& p : scene_.output.points)
-      model_.points.push_back({p.point.empty() ? p.body : p.body + "." + p.point, marker_at(p, Holds::point)});
+      model_.points.push_back({p.point.empty() ? p.body : p.body + "." + p.point, recorded_at(p)});
     for (const PointRef& p : scene_.output.stress) {
       const int b = body(p);
       const std::optional<MechanismBody> none;

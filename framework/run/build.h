@@ -9,6 +9,7 @@
 #include "framework/run/clearance.h"
 #include "framework/run/flexible_drawing.h"
 #include "framework/run/flexible_report.h"
+#include "framework/run/grips.h"
 #include "framework/scene/error.h"
 #include "framework/scene/scene.h"
 
@@ -52,6 +53,10 @@ struct Model {
   std::vector<std::pair<int, int>> pin_joints;         ///< joint, marker: where a joint is drawn
   std::vector<FlexibleReport> flexible;                ///< of flexible bodies, in their order
   std::vector<BendingProbe> bending;                   ///< likewise
+  std::vector<StiffeningProbe> stiffening;             ///< likewise
+  std::vector<std::pair<int, Eigen::VectorXd>> bent;   ///< bodies that start bent, and their modal coordinates
+  std::vector<Grip> grips;                             ///< on flexible bodies
+  BuiltOrder order;
   std::optional<Rehearsal> rehearsal;                  ///< the rigid run, if there was one
 };
 

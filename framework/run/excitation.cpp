@@ -1,11 +1,9 @@
 #include "framework/run/excitation.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Geometry>
 #include <unsupported/Eigen/FFT>
 
 #include "framework/component/inertia.h"
@@ -14,6 +12,7 @@
 #include "framework/integration/integrator.h"
 #include "framework/run/assemble.h"
 #include "framework/run/computed.h"
+#include "framework/run/grips.h"
 #include "framework/run/modes.h"
 
 namespace pintle {
@@ -51,102 +50,20 @@ Scene rigid_twin(const Scene& scene, const std::vector<const ElasticBody*>& elem
   Scene twin = scene;
   for (std::size_t b = 0; b < elements.size(); ++b)
     if (elements[b]) twin.bodies[b] = rigid_twin(*elements[b]);
+  for (StartBody& s : twin.start_bodies) s.deflection.clear(), s.modes.clear();
   twin.output.points.clear();
   twin.output.stress.clear();
   twin.output.frames = 0;
   return twin;
 }
 
-/// Where something acts on a body of elements: its wrench is the k-th of joints, contacts or forces.
-struct Grip {
-  enum Of { joint, contact, force } of;
-  std::size_t k;
-  bool first;  ///< on a, or the journal
-  std::size_t body;
-  Index row;  ///< of the load history
-};
-
-/// Finds the grips in the order in which `build` makes joints, drivers, contacts and forces.
-class Grips {
- public:
-  Grips(const Scene& scene, const System& system, const std::vector<const ElasticBody*>& elements)
-      : scene_(scene), elements_(elements) {
-    std::size_t joints = 0, contacts = 0, forces = 0;
-    for (const SceneJoint& j : scene.joints) {
-      const bool gap = j.clearance.has_value();
-      const bool a_bears = gap && j.clearance->bearing != j.b.body;
-      const std::size_t k = gap ? contacts++ : joints++;
-      if (gap && j.clearance->model == ClearanceModel::massless_link) ++joints;
-      add(gap ? Grip::contact : Grip::joint, k, !a_bears, j.a);
-      add(gap ? Grip::contact : Grip::joint, k, a_bears, j.b);
-    }
-    for (const SceneDriver& d : scene.drivers) {
-      add(Grip::joint, joints, true, d.a);
-      add(Grip::joint, joints++, false, d.b);
-    }
-    for (const SceneLoad& l : scene.loads) {
-      std::visit([&](const auto& what) {
-        if constexpr (requires { what.at; }) {
-          add(Grip::force, forces, false, what.at);
-        } else {
-          add(Grip::force, forces, true, what.a);
-          add(Grip::force, forces, false, what.b);
-        }
-      }, l.what);
-      ++forces;
-    }
-    assert(joints == system.joints.size() && contacts == system.contacts.size() && forces == system.forces.size());
-    static_cast<void>(system);
-  }
-  const std::vector<Grip>& all() const { return all_; }
-
- private:
-  void add(Grip::Of of, std::size_t k, bool first, const PointRef& ref) {
-    for (std::size_t b = 0; b < elements_.size(); ++b) {
-      if (scene_.bodies[b].name != ref.body || !elements_[b]) continue;
-      const int port = port_of(*elements_[b], ref.point);
-      if (port >= 0) all_.push_back({of, k, first, b, inertia_loads + 3 * Index{port}});
-    }
-  }
-
-  const Scene& scene_;
-  const std::vector<const ElasticBody*>& elements_;
-  std::vector<Grip> all_;
-};
-
-Wrench wrench(const System& system, const Equations& eq, const Grip& g) {
-  if (g.of == Grip::contact) {
-    const ContactEffect now = clearance_effect(system, eq, g.k);
-    return g.first ? now.on_journal : now.on_bearing;
-  }
-  if (g.of == Grip::force) return g.first ? eq.force[g.k].on_a : eq.force[g.k].on_b;
-  const int row = system.row_begin[g.k], m = system.row_begin[g.k + 1] - row;
-  const auto& L = g.first ? eq.rows[g.k].La : eq.rows[g.k].Lb;
-  return -L.topRows(m).transpose() * eq.lambda.segment(row, m);
-}
-
 /// One column of every history at the present state.
 void keep(const System& system, const std::vector<Grip>& grips, const State& state, const Equations& eq, Index column,
           std::vector<LoadHistory>& bodies) {
-  const auto n = static_cast<Index>(system.n());
-  const auto turned = [&](std::size_t b) { return Eigen::Rotation2Dd(-state.y[3 * static_cast<Index>(b) + 2]); };
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b].factor.size() == 0) continue;
-    const Index i = 3 * static_cast<Index>(b);
-    const double spin = state.y[n + i + 2];
-    auto out = bodies[b].factor.col(column);
-    out.setZero();
-    out.head<2>() = turned(b) * (system.gravity - eq.a.segment<2>(i));
-    out[2] = -eq.a[i + 2];
-    out[3] = spin * spin;
+    loads_now(system, grips, state, eq, b, bodies[b].factor.col(column));
     bodies[b].t.push_back(state.t);
-  }
-  for (const Grip& g : grips) {
-    if (bodies[g.body].factor.size() == 0) continue;
-    const Wrench w = wrench(system, eq, g);
-    auto out = bodies[g.body].factor.col(column);
-    out.segment<2>(g.row) += turned(g.body) * w.head<2>();
-    out[g.row + 2] += w[2];
   }
 }
 
@@ -228,7 +145,7 @@ RigidRun rigid_run(const Scene& scene, const std::vector<const ElasticBody*>& el
       const Redundancy& r = assembly.redundant.front();
       run.trouble = "with every body rigid, " + row_text(model.system, r.joint, r.row) + " repeats what other joints hold";
     } else {
-      march(twin, model, assembly, Grips(scene, model.system, elements).all(), imposed_frequencies(scene), run);
+      march(twin, model, assembly, grips_of(scene, model.order, elements), imposed_frequencies(scene), run);
     }
   } catch (const AssemblyError& error) {
     run.trouble = error.what();

@@ -6,9 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "framework/component/foreshortening.h"
 #include "framework/run/elastic_parts.h"
-#include "framework/run/in_body.h"
 #include "framework/run/modes.h"
 
 namespace pintle {
@@ -21,7 +19,6 @@ using Eigen::VectorXd;
 
 constexpr double two_pi = 2 * std::numbers::pi;
 constexpr Index responding = 40;  ///< of the lowest shapes, in estimates
-constexpr Index stiffened = 12;   ///< of the lowest shapes that loads may mix
 constexpr double rounding = 1e-9;  ///< of a modal force beside its terms
 
 /// Greatest turn in a nodal field of displacements, of sections and ports.
@@ -66,13 +63,6 @@ double greatest_change(const VectorXd& omega, const std::vector<MatrixXd>& F, co
   return greatest;
 }
 
-void estimate_stiffening(const MechanismBody& b, const LoadHistory& history, MotionEstimate& out) {
-  const ModalModel modes = lowest_of(b.modes, std::min(stiffened, b.modes.omega.size()));
-  const std::vector<MatrixXd> F = foreshortening(component_of(b.elastic), b.tie, modes, loads_on(b.elastic));
-  out.by_rotation = greatest_change(modes.omega, F, history.factor.topRows<inertia_loads>());
-  out.by_all_loads = greatest_change(modes.omega, F, history.factor);
-}
-
 /// The port by which a joint pins the body to the ground, −1 if none does.
 int pivot(const Scene& scene, const ElasticBody& e) {
   for (const SceneJoint& j : scene.joints) {
@@ -103,11 +93,7 @@ void doubt_linearity(const Scene& scene, const FlexibleReport& r, std::vector<st
   const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const SceneBody& b) { return b.name == r.body; });
   const Stiffening now = body->elastic->stiffening;
   const MotionEstimate& m = *r.motion;
-  const bool by_points = std::abs(m.by_all_loads - m.by_rotation) > stiffening_matters;
-  if (const std::string doubt = spin_doubt(r.body, m.spin, m.by_all_loads); now == Stiffening::none && !by_points && !doubt.empty())
-    out.push_back(doubt);
-  else if (now != Stiffening::axial && by_points)
-    out.push_back("the loads on \"" + r.body + "\" and its points " + changed(m.by_all_loads) + "; add stiffening: axial");
+  if (const std::string doubt = stiffening_doubt(r.body, now, {m.spin, m.by_rotation, m.by_all_loads}); !doubt.empty()) out.push_back(doubt);
   const std::string doubt = deflection_doubt(r.body, m.deflection, m.slope, "would bend");
   if (!doubt.empty()) out.push_back(doubt + (now == Stiffening::none ? "" : " (estimated without its stiffening; a run tells)"));
 }
@@ -124,6 +110,7 @@ FlexibleReport flexible_report(const MechanismBody& b) {
   r.highest = flex.omega.maxCoeff() / two_pi;
   r.least_damping = flex.zeta.minCoeff();
   r.most_damping = flex.zeta.maxCoeff();
+  for (Index i = 0; i < flex.omega.size(); ++i) r.frequencies.push_back(flex.omega[i] / two_pi), r.damping.push_back(flex.zeta[i]);
   if (b.tie.kind != FrameTie::mean_axes) {
     const Eigen::Vector3d sum = effective_mass(b.elastic.model, b.elastic.M, b.modes).rowwise().sum();
     r.mass = Eigen::Vector3d(sum[0] / b.body.m, sum[1] / b.body.m, sum[2] / b.body.J);
@@ -133,7 +120,7 @@ FlexibleReport flexible_report(const MechanismBody& b) {
   return r;
 }
 
-MotionEstimate motion_estimate(const Scene& scene, const MechanismBody& b, const LoadHistory& history) {
+MotionEstimate motion_estimate(const MechanismBody& b, const LoadHistory& history) {
   MotionEstimate out;
   const ModalModel modes = lowest_of(b.modes, std::min(responding, b.modes.omega.size()));
   const MatrixXd work = work_of_loads(b.elastic, modes);
@@ -153,19 +140,31 @@ MotionEstimate motion_estimate(const Scene& scene, const MechanismBody& b, const
     out.deflection = std::max(out.deflection, greatest_displacement(b.elastic, u) / size_of(b.elastic));
     out.slope = std::max(out.slope, greatest_turn(b.elastic, u, modes.ports * eta.col(t)));
   }
-  in_body(scene, *b.elastic.scene, [&] { estimate_stiffening(b, history, out); });
+  const FrequencyChange change = frequency_change(b.modes.omega, b.by_load, history.factor);
+  out.by_rotation = change.by_rotation, out.by_all_loads = change.by_all_loads;
   return out;
 }
 
 double stiffened_by_spin(const Scene& scene, const MechanismBody& b, double spin) {
-  const ModalModel modes = lowest_of(b.modes, std::min(stiffened, b.modes.omega.size()));
-  const MatrixXd loads = loads_on(b.elastic);
-  MatrixXd load = loads.col(3);
+  MatrixXd F = b.by_load[3];
   if (const int port = pivot(scene, b.elastic); port >= 0) {
     const Eigen::Vector2d arm = b.centre - b.elastic.model.ports[static_cast<std::size_t>(port)].x;
-    load += loads.leftCols<2>() * arm - b.body.m * loads.middleCols<2>(inertia_loads + 3 * Index{port}) * arm;
+    for (std::size_t k = 0; k < 2; ++k)
+      F += arm[static_cast<Index>(k)] * (b.by_load[k] - b.body.m * b.by_load[inertia_loads + 3 * static_cast<std::size_t>(port) + k]);
   }
-  return change(modes.omega, spin * spin * foreshortening(component_of(b.elastic), b.tie, modes, load).front());
+  return change(b.modes.omega.head(F.rows()), spin * spin * F);
+}
+
+StiffeningProbe stiffening_probe(const MechanismBody& b, int index) {
+  const Stiffening now = b.elastic.scene->elastic->stiffening;
+  StiffeningProbe probe{b.body.name, index, now, now == Stiffening::axial, b.modes.omega.head(b.by_load.front().rows()), {}};
+  if (!probe.judged) probe.F = b.by_load;
+  return probe;
+}
+
+FrequencyChange frequency_change(const VectorXd& omega, const std::vector<MatrixXd>& F, const MatrixXd& factor) {
+  const VectorXd lowest = omega.head(F.front().rows());
+  return {std::sqrt(factor.row(3).maxCoeff()), greatest_change(lowest, F, factor.topRows<inertia_loads>()), greatest_change(lowest, F, factor)};
 }
 
 BendingProbe bending_probe(const MechanismBody& b, int index) {
@@ -207,6 +206,13 @@ double given_spin(const Scene& scene, const std::string& body) {
 std::string spin_doubt(const std::string& body, double spin, double change) {
   if (!(std::abs(change) > stiffening_matters)) return "";
   return "at " + shown_number(spin) + " rad/s the loads of inertia on \"" + body + "\" " + changed(change) + "; add stiffening: rotation";
+}
+
+std::string stiffening_doubt(const std::string& body, Stiffening now, const FrequencyChange& c) {
+  const bool by_points = std::abs(c.by_all_loads - c.by_rotation) > stiffening_matters;
+  if (now == Stiffening::none && !by_points) return spin_doubt(body, c.spin, c.by_all_loads);
+  if (now == Stiffening::axial || !by_points) return "";
+  return "the loads on \"" + body + "\" and its points " + changed(c.by_all_loads) + "; add stiffening: axial";
 }
 
 std::string deflection_doubt(const std::string& body, double deflection, double slope, const std::string& when) {

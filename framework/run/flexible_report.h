@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/run/grips.h"
 #include "framework/run/mechanism_body.h"
 #include "framework/run/modal_choice.h"
 
@@ -33,6 +34,7 @@ struct FlexibleReport {
   int shapes = 0;
   double lowest = 0, highest = 0;   ///< frequency [Hz]
   double least_damping = 0, most_damping = 0;  ///< ratio
+  std::vector<double> frequencies, damping;    ///< of each shape, ascending [Hz], and its ratio
   /// Share of the mass in x, y and of the inertia in rotation; none under mean axes, whose shapes
   /// carry no momentum.
   std::optional<Eigen::Vector3d> mass;
@@ -40,6 +42,22 @@ struct FlexibleReport {
   std::string compliance_at;        ///< "B, y"; empty: no port yields
   std::optional<ModalChoice> choice;       ///< of `keep: auto`
   std::optional<MotionEstimate> motion;    ///< after a rigid run
+};
+
+/// Relative change of the first frequency by loads, where it is greatest in magnitude; −1: it falls to zero.
+struct FrequencyChange {
+  double spin = 0;  ///< greatest [rad/s]
+  double by_rotation = 0, by_all_loads = 0;  ///< by those of inertia, by all
+};
+
+/// What a run needs to tell how its loads would stiffen or soften a body.
+struct StiffeningProbe {
+  std::string body;
+  int index = 0;                   ///< into System::bodies
+  Stiffening now = Stiffening::none;
+  bool judged = false;             ///< the model's warnings speak of it already
+  Eigen::VectorXd omega;           ///< of the lowest shapes
+  std::vector<Eigen::MatrixXd> F;  ///< foreshortening of each of `loads_on`, on these
 };
 
 /// By how much a body bends within its frame, told from a few of its points.
@@ -54,13 +72,18 @@ BendingProbe bending_probe(const MechanismBody&, int index);
 
 /// @pre the body has shapes
 FlexibleReport flexible_report(const MechanismBody&);
-MotionEstimate motion_estimate(const Scene&, const MechanismBody&, const LoadHistory&);
+StiffeningProbe stiffening_probe(const MechanismBody&, int index);
+/// Over a history of loads. @param factor  loads × times, as LoadHistory
+FrequencyChange frequency_change(const Eigen::VectorXd& omega, const std::vector<Eigen::MatrixXd>& F, const Eigen::MatrixXd& factor);
+MotionEstimate motion_estimate(const MechanismBody&, const LoadHistory&);
 /// Relative change of the first frequency by steady turning at `spin`, about the first of its points that
 /// a joint pins to the ground, else about the mass centre.
 double stiffened_by_spin(const Scene&, const MechanismBody&, double spin);
 /// Spin that drivers on the ground or `start` give the body [rad/s]; 0: none that is plain to see.
 double given_spin(const Scene&, const std::string& body);
 
+/// The advice on such a change for a body that stiffens as `now`; empty if that counts all that matters.
+std::string stiffening_doubt(const std::string& body, Stiffening now, const FrequencyChange&);
 /// What makes the choice of modes or the linear body doubtful, in words.
 std::vector<std::string> doubts(const Scene&, const FlexibleReport&, const std::vector<Imposed>&);
 /// The advice on a spin by whose loads the first frequency changes so; empty if it hardly does.

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "framework/run/build.h"
+#include "framework/run/assemble.h"
 #include "framework/run/small_motion.h"
 
 namespace pintle {
@@ -79,6 +79,15 @@ inline constexpr int most_linearized = 1500;
 /// @throws SceneError     more than `most_linearized` coordinates
 /// @throws AssemblyError  a singular pose, or free motion without mass
 Linearization linearize(const Scene&, const Model&, const State&, Laws = Laws::go_on);
+
+/// The start to linearize about. Flexible bodies start undeformed; where drivers turn the mechanism steadily, they are bent here as they
+/// rest in the axes that turn with it. Where it does not, the assembled start. `note` says which, and what bending is left
+/// out; empty where no body bends or nothing moves.
+struct LinearizedStart {
+  State state;
+  std::string note;
+};
+LinearizedStart linearized_start(const Scene&, const Model&, const Assembly&);
 
 /// The state that a run reaches. @throws std::runtime_error  saying at what time and why the run failed
 State state_at(const Model&, const State& start, double t);

@@ -1,6 +1,7 @@
 #include "framework/run/mechanism_body.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -15,6 +16,7 @@ namespace pintle {
 namespace {
 
 using Eigen::Vector2d;
+using Eigen::VectorXd;
 
 // The shapes must leave the frame some inertia: M − BBᵀ > 0, against the rigid body's.
 void judge_frame(const MechanismBody& b) {
@@ -48,7 +50,8 @@ void judge_inertia(const Scene& scene, const ElasticBody& e) {
 }
 
 MechanismBody mechanism_body(const Scene& scene, ElasticBody elastic, Reduction r) {
-  MechanismBody b{std::move(elastic), r.tie, std::move(r.modes), {}, Vector2d::Zero(), std::move(r.second), std::move(r.compliance), {}};
+  MechanismBody b{std::move(elastic), r.tie, std::move(r.modes), {}, Vector2d::Zero(), std::move(r.second), std::move(r.compliance),
+                  std::move(r.when_free), r.inertia_covered, std::move(r.by_load), {}};
   const SceneBody& body = *b.elastic.scene;
   for (const std::string& w : b.elastic.warnings) b.warnings.push_back("\"" + body.name + "\": " + w);
   const RigidInertia inertia = rigid_inertia(b.elastic.model, b.elastic.M);
@@ -91,6 +94,39 @@ Marker marker_of(const Scene& scene, const MechanismBody& b, int body, const Poi
   if (e.scene->elastic->stiffening == Stiffening::axial)
     m.second = b.second[i];
   return m;
+}
+
+VectorXd bent_start(const Scene& scene, const MechanismBody& b, const StartBody& start) {
+  const Eigen::Index n = b.body.modes();
+  VectorXd eta = VectorXd::Zero(n);
+  if (!start.modes.empty()) {
+    if (static_cast<Eigen::Index>(start.modes.size()) > n)
+      throw SceneError(scene.file, start.place, "gives " + std::to_string(start.modes.size()) + " modal coordinates, but \"" + b.body.name + "\" keeps " +
+                                                    std::to_string(n) + " shapes; leave out the rest, or keep more");
+    for (std::size_t i = 0; i < start.modes.size(); ++i) eta[static_cast<Eigen::Index>(i)] = start.modes[i];
+    return eta;
+  }
+  // η = Ω⁻¹x with the least |x|, whose square is twice the strain energy.
+  Eigen::MatrixXd D(2 * static_cast<Eigen::Index>(start.deflection.size()), n);
+  VectorXd u(D.rows());
+  Eigen::Index row = 0;
+  for (const StartDeflection& d : start.deflection) {
+    D.middleRows<2>(row) = b.modes.ports.middleRows<2>(3 * Eigen::Index{port_of(b.elastic, d.point)});
+    u.segment<2>(row) = vector(d.u);
+    row += 2;
+  }
+  const VectorXd softness = b.modes.omega.cwiseInverse();
+  eta = softness.cwiseProduct((D * softness.asDiagonal()).completeOrthogonalDecomposition().solve(u));
+  const VectorXd made = D * eta;
+  constexpr double met = 1e-9;
+  for (std::size_t i = 0; i < start.deflection.size(); ++i) {
+    const Vector2d there = made.segment<2>(2 * static_cast<Eigen::Index>(i));
+    if ((there - vector(start.deflection[i].u)).norm() <= met * u.norm()) continue;
+    throw SceneError(scene.file, start.deflection[i].place, "the shapes of \"" + b.body.name + "\" cannot displace it by " + shown(vector(start.deflection[i].u)) +
+                                                               "; nearest is " + shown(there) + ": its frame, \"" + title_of(*b.elastic.scene->elastic->modes) +
+                                                               "\", holds that point, or too few shapes are kept");
+  }
+  return eta;
 }
 
 }  // namespace pintle

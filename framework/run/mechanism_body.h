@@ -19,8 +19,11 @@ struct MechanismBody {
   ModalModel modes;            ///< no shapes: rigid
   Body body;                   ///< mass, inertia, invariants about the mass centre
   Eigen::Vector2d centre;      ///< of mass, undeformed, body axes [m]
-  std::vector<std::array<Eigen::MatrixXd, 2>> second;  ///< of each port, if `stiffening: axial`
+  std::vector<std::array<Eigen::MatrixXd, 2>> second;  ///< of each port, if it stiffens
   CoveredCompliance compliance;
+  std::vector<FreeCompliance> when_free;  ///< of each port
+  CoveredInertia inertia_covered;
+  std::vector<Eigen::MatrixXd> by_load;     ///< foreshortening of each of `loads_on`, on the lowest shapes
   std::vector<std::string> warnings;
 };
 
@@ -36,5 +39,9 @@ MechanismBody mechanism_body(const Scene&, ElasticBody, std::optional<int> chose
 /// @param turns  whether what takes hold there needs a direction
 /// @throws SceneError  no such point; no point at the origin; a point of a plate, which has no direction
 Marker marker_of(const Scene&, const MechanismBody&, int body, const PointRef&, bool turns);
+
+/// Modal coordinates of the body as it starts bent: as given, or of the least strain energy that displaces the points so.
+/// @throws SceneError  more coordinates than shapes; a displacement that the shapes cannot make, and what they can
+Eigen::VectorXd bent_start(const Scene&, const MechanismBody&, const StartBody&);
 
 }  // namespace pintle

@@ -317,6 +317,11 @@ class Redirection {
         out.push_back(start);
         continue;
       }
+      if (!start.deflection.empty() || !start.modes.empty())
+        throw SceneError(before_.file, start.place,
+                         "\"" + start.body +
+                             "\" is cut into pieces, and how it starts bent is not shared among them; " +
+                             "leave it out, or begin at rest by start: equilibrium");
       for (const SceneBody& piece : found->second.bodies) {
         out.push_back(start);
         out.back().body = piece.name;

@@ -67,6 +67,7 @@ Json flexible_json(const Model& model) {
   for (const FlexibleReport& r : model.flexible) {
     Json one = {{"body", r.body}, {"basis", r.basis}, {"shapes", r.shapes}, {"lowest [Hz]", r.lowest}, {"highest [Hz]", r.highest},
                 {"least damping", r.least_damping}, {"greatest damping", r.most_damping},
+                {"frequencies [Hz]", r.frequencies}, {"damping ratios", r.damping},
                 {"mass share", r.mass ? Json{{"x", r.mass->x()}, {"y", r.mass->y()}, {"rotation", r.mass->z()}} : Json(nullptr)},
                 {"compliance covered", r.compliance}, {"compliance covered least at", r.compliance_at}};
     if (r.choice) one["choice"] = choice_json(*r.choice);

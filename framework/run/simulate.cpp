@@ -8,6 +8,7 @@
 
 #include "framework/run/guarded.h"
 #include "framework/run/slow_contact.h"
+#include "framework/run/watch.h"
 
 namespace pintle {
 
@@ -170,37 +171,6 @@ class RowFigures {
   std::vector<std::pair<std::size_t, std::ptrdiff_t>> normal_;  ///< contact, column
 };
 
-/// Greatest deflection and slope of each flexible body at the output times.
-class Bending {
- public:
-  explicit Bending(const Model& model) : model_(model), greatest_(model.bending.size(), {0, 0}) {}
-  void see(const State& state) {
-    for (std::size_t k = 0; k < greatest_.size(); ++k) {
-      const BendingProbe& p = model_.bending[k];
-      const auto eta = state.y.segment(model_.system.eta_begin[static_cast<std::size_t>(p.index)], p.displacement.cols());
-      const Eigen::VectorXd u = p.displacement * eta;
-      for (Eigen::Index i = 0; i + 1 < u.size(); i += 2) greatest_[k][0] = std::max(greatest_[k][0], u.segment<2>(i).norm() / p.size);
-      if (p.slope.rows() > 0) greatest_[k][1] = std::max(greatest_[k][1], (p.slope * eta).lpNorm<Eigen::Infinity>());
-    }
-  }
-  std::string worst_doubt() const {
-    std::vector<std::string> all;
-    warn(all);
-    return all.empty() ? "" : all.front();
-  }
-  void warn(std::vector<std::string>& warnings) const {
-    for (std::size_t k = 0; k < greatest_.size(); ++k) {
-      const BendingProbe& p = model_.bending[k];
-      const std::string doubt = deflection_doubt(p.body, greatest_[k][0], greatest_[k][1], "bent");
-      if (!doubt.empty()) warnings.push_back(doubt);
-    }
-  }
-
- private:
-  const Model& model_;
-  std::vector<std::array<double, 2>> greatest_;  ///< over the body's size, [rad]
-};
-
 }  // namespace
 
 const char* status_text(Status s) {
@@ -233,7 +203,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   Integrator integrator(system, model.scheme, assembly.start);
   State sampled;
   double last_row = from ? from->t : 0, asked = 0;
-  Bending bending(model);
+  Watch watch(model);
   RowFigures figures(system, run);
   SlowContacts slow(system);
   bool started = false;
@@ -270,7 +240,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
     while (outputs.due(integrator.state().t)) {
       if (!integrator.sample(asked = outputs.next(), sampled)) return false;
       book(sampled);
-      bending.see(sampled);
+      watch.see(sampled, integrator.sampled());
       add_row(sampled);
       outputs.tick();
     }
@@ -303,6 +273,11 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
       going = integrator.advance(until);
       if (going && !system.contacts.empty()) slow.see(system, integrator.last(), integrator.equations());
       going = going && report();
+      if (going && !watch.hopeless().empty()) {
+        run.status = Status::failed;
+        run.reason = watch.hopeless();
+        break;
+      }
       if (going && states.due(integrator.state().t)) {
         states.pass(integrator.state().t);
         save();
@@ -316,7 +291,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
     integrator.sample(at.t, sampled);
     std::string why = run.reason.empty() || !at.y.allFinite() ? "" : explain_pose(system, at.t, at.y);
     if (why.empty() && !run.reason.empty()) why = explain_numbers(system, integrator);
-    if (why.empty() && !run.reason.empty()) why = bending.worst_doubt();
+    if (why.empty() && !run.reason.empty()) why = watch.worst_doubt();
     if (!why.empty()) run.reason += "; " + why;
     if (run.reason.empty() && !countable) run.reason = "the energy at the start is beyond what a double holds; check masses, speeds and units";
     if (run.reason.empty()) {
@@ -343,7 +318,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   warn_of_depth(system, run);
   warn_of_pushing(system, run);
   slow.warn(system, run.energy_in_play, run.warnings);
-  bending.warn(run.warnings);
+  watch.warn(run.warnings);
   run.counts = integrator.counts();
   run.switched = integrator.switched();
   run.worst_position = integrator.worst_position();

@@ -167,10 +167,13 @@ Json json(const StartBody& start) {
   put("vx", start.vx);
   put("vy", start.vy);
   put("speed", start.speed);
+  for (const StartDeflection& d : start.deflection) out["deflection"][d.point] = json(d.u);
+  if (!start.modes.empty()) out["modes"] = start.modes;
   return out;
 }
 
 Json starts(const Scene& scene) {
+  if (scene.start_at_rest) return "equilibrium";
   Json out = Json::object();
   for (const StartBody& s : scene.start_bodies) append(out, s.body, json(s));
   for (const StartJournal& s : scene.start_journals)

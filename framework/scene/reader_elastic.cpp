@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "framework/scene/nearest.h"
 #include "framework/scene/reader_parts.h"
@@ -19,6 +21,7 @@ SceneKeep read_keep(const Node& node, long least) {
     if (node.has(key)) said.push_back(key);
   if (said.size() > 1)
     node.fail("says how many shapes stay by " + listed(said, "and") + " at once; keep one of them");
+  keep.automatic = said.empty();
   if (node.has("keep"))
     keep.automatic = node.at("keep").one_of(choices("bodies.*.modes", "keep")) == "auto";
   if (node.has("count")) {
@@ -205,6 +208,63 @@ SceneElastic read_elastic(const Node& node, const SceneBody& body,
   if (node.has("stiffening")) refuse_of_rigid(node.at("stiffening"));
   if (beam && node.at("beam").has("pieces")) refuse_of_rigid(node.at("beam").at("pieces"));
   return out;
+}
+
+namespace {
+
+/// Points of a body that joints hold, each once, and those of them whose direction they hold too.
+struct Held {
+  std::vector<const ScenePoint*> points, clamped;
+};
+
+Held held_points(const SceneBody& body, const Scene& scene) {
+  Held held;
+  const auto add = [&](std::vector<const ScenePoint*>& to, const PointRef& ref) {
+    if (ref.body != body.name) return;
+    const auto named = [&](const ScenePoint& p) { return ref.point.empty() ? p.hole.empty() && p.at[0] == 0 && p.at[1] == 0 : p.name == ref.point; };
+    const auto p = std::ranges::find_if(body.points, named);
+    if (p != body.points.end() && std::ranges::find(to, &*p) == to.end()) to.push_back(&*p);
+  };
+  std::vector<const ScenePoint*> turned;
+  for (const SceneDriver& d : scene.drivers)
+    if (d.kind == DriverKind::angle) add(turned, d.a), add(turned, d.b);
+  for (const SceneJoint& j : scene.joints)
+    for (const PointRef* ref : {&j.a, &j.b}) {
+      add(held.points, *ref);
+      if (j.kind == JointKind::weld || j.kind == JointKind::prismatic) add(held.clamped, *ref);
+    }
+  for (const ScenePoint* p : held.points)
+    if (std::ranges::find(turned, p) != turned.end() && std::ranges::find(held.clamped, p) == held.clamped.end()) held.clamped.push_back(p);
+  return held;
+}
+
+bool can_turn(const SceneBody& body, const ScenePoint& p) {
+  const auto* beam = std::get_if<SceneBeam>(&body.elastic->shape);
+  return beam ? !beam->bar : !p.hole.empty();
+}
+
+double apart(const ScenePoint& a, const ScenePoint& b) {
+  return a.hole.empty() && b.hole.empty() ? std::hypot(a.at[0] - b.at[0], a.at[1] - b.at[1]) : 0;
+}
+
+}  // namespace
+
+void choose_frame(SceneBody& body, const Scene& scene) {
+  using Frame = SceneModes::Frame;
+  SceneModes& modes = *body.elastic->modes;
+  const Held held = held_points(body, scene);
+  if (held.points.size() == 1 && held.clamped.size() == 1 && can_turn(body, *held.clamped.front())) {
+    modes.frame = Frame::tangent;
+    modes.a = held.clamped.front()->name;
+  }
+  if (held.points.size() < 2) return;
+  const ScenePoint *a = held.points[0], *b = held.points[1];
+  for (const ScenePoint* p : held.points)
+    for (const ScenePoint* q : held.points)
+      if (apart(*p, *q) > apart(*a, *b)) a = p, b = q;
+  if (a->hole.empty() && b->hole.empty() && apart(*a, *b) == 0) return;
+  modes.frame = Frame::chord;
+  modes.a = a->name, modes.b = b->name;
 }
 
 }  // namespace pintle

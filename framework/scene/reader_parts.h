@@ -64,4 +64,8 @@ void read_optional(const Node& group, std::string_view key, const Dimension&, Ru
 /// The scene as JSON that the reader reads back to the same scene.
 std::string filled_in(const Scene&, const Parameters&);
 
+/// The frame of a body whose modes are chosen by the scene's motion and that says none: through the two points farthest apart that
+/// joints hold, or at the only one if that is clamped; else mean axes. @pre it has modes
+void choose_frame(SceneBody&, const Scene&);
+
 }  // namespace pintle

@@ -34,7 +34,25 @@ void refuse(const Node& group, std::initializer_list<std::string_view> keys, con
     if (group.has(key)) group.at(key).fail(message);
 }
 
-StartBody read_start_body(const Node& node) {
+// How a flexible body is bent at t = 0.
+void read_bent(const Node& node, const SceneBody& body, StartBody& start) {
+  for (const char* key : {"deflection", "modes"})
+    if (node.has(key) && !(body.elastic && body.elastic->modes))
+      node.at(key).fail("is asked of a rigid body: without modes it does not bend in a mechanism; " +
+                        std::string("give \"") + body.name + "\" modes, or leave it out");
+  if (node.has("deflection") && node.has("modes"))
+    node.fail("is bent by deflection and by modes at once; keep one of them");
+  if (node.has("deflection"))
+    for (const Node& at : node.at("deflection").entries("points and how far they are displaced: {B: [0, 5 mm]}")) {
+      check_own_point(at, at.name(), body);
+      start.deflection.push_back({at.name(), at.pair(dimension::length), at.place()});
+    }
+  if (node.has("modes"))
+    for (const Node& eta : node.at("modes").list(1, "modal coordinates in m kg^0.5, the lowest first: [1e-3, 0]"))
+      start.modes.push_back(eta.quantity(dimension::number, rule::any));
+}
+
+StartBody read_start_body(const Node& node, const SceneBody& body) {
   refuse(node, {"eccentricity"}, "belongs to a joint with clearance, but this is a body; use at");
   StartBody start;
   start.body = node.name();
@@ -45,11 +63,12 @@ StartBody read_start_body(const Node& node) {
   if (node.has("speed") && node.at("speed").is_list())
     node.at("speed").fail("of a body is its angular speed, one value; write velocity: [vx, vy]");
   read_if(node, "speed", dimension::angular_speed, start.speed);
+  read_bent(node, body, start);
   return start;
 }
 
 StartJournal read_start_journal(const Node& node) {
-  refuse(node, {"at", "x", "y", "angle", "velocity", "vx", "vy"},
+  refuse(node, {"at", "x", "y", "angle", "velocity", "vx", "vy", "deflection", "modes"},
          "belongs to a body, but this is a joint; its journal has eccentricity and speed");
   StartJournal start;
   start.joint = node.name();
@@ -63,13 +82,14 @@ StartJournal read_start_journal(const Node& node) {
 void read_start_entry(const Node& node, Scene& scene) {
   check_keys(node, "start.*");
   const std::string name = node.name();
-  const bool body = std::ranges::find(scene.bodies, name, &SceneBody::name) != scene.bodies.end();
+  const auto found = std::ranges::find(scene.bodies, name, &SceneBody::name);
+  const bool body = found != scene.bodies.end();
   const auto joint = std::ranges::find(scene.joints, name, &SceneJoint::name);
   const bool journal = joint != scene.joints.end() && joint->clearance;
   if (body && journal)
     node.fail("both a body and a joint are named \"" + name + "\"; rename one of them");
   if (body) {
-    scene.start_bodies.push_back(read_start_body(node));
+    scene.start_bodies.push_back(read_start_body(node, *found));
   } else if (journal) {
     scene.start_journals.push_back(read_start_journal(node));
   } else if (joint != scene.joints.end()) {
@@ -168,6 +188,11 @@ double read_deformation(const Node& node) {
 
 void read_start(const Node& root, Scene& scene) {
   if (!root.has("start")) return;
+  if (root.at("start").is_scalar()) {
+    root.at("start").one_of(choices("", "start"));
+    scene.start_at_rest = true;
+    return;
+  }
   for (const Node& node :
        root.at("start").entries("bodies and how they start: {crank: {speed: 5 rad/s}}"))
     read_start_entry(node, scene);

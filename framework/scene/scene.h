@@ -148,12 +148,20 @@ struct SceneLoad {
   Place place;
 };
 
+/// Displacement of a point of a flexible body within its frame, body axes [m].
+struct StartDeflection {
+  std::string point;
+  Pair u{0, 0};
+  Place place;
+};
 /// What the scene pins down of a body at t = 0. Unset: found by assembly.
 struct StartBody {
   std::string body;
   std::optional<double> x, y, angle;    ///< of the body's origin and axes [m, m, rad]
   std::optional<double> vx, vy, speed;  ///< [m/s, m/s, rad/s]
   Place place;
+  std::vector<StartDeflection> deflection = {};  ///< it starts bent so, with the least strain energy …
+  std::vector<double> modes = {};                ///< … or by these modal coordinates, the lowest first [m kg^0.5]
 };
 /// Where a journal starts in its bearing, world axes; by default concentric and moving with it.
 struct StartJournal {
@@ -201,6 +209,7 @@ struct Scene {
   std::vector<SceneDriver> drivers;
   std::vector<SceneLoad> loads;
   std::vector<StartBody> start_bodies;
+  bool start_at_rest = false;  ///< `start: equilibrium`
   std::vector<StartJournal> start_journals;
   bool has_run = true;  ///< false: nothing to run (reader.h: require_run); `run` is without meaning
   RunOptions run;
