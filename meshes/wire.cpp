@@ -22,12 +22,12 @@ struct Packer {
 
   template <Number T>
   void one(const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
-  std::uint64_t size(std::size_t n) {
-    one(std::uint64_t{n});
-    return n;
+  void size(std::size_t n) { one(std::uint64_t{n}); }
+  template <class List, class Pass>
+  void each(List& list, Pass pass_one) {
+    size(list.size());
+    for (auto& one : list) pass_one(one);
   }
-  template <class List>
-  void resize(const List&, std::uint64_t) {}
 };
 
 struct Unpacker {
@@ -39,14 +39,22 @@ struct Unpacker {
     std::memcpy(&value, rest.data(), sizeof value);
     rest.remove_prefix(sizeof value);
   }
-  std::uint64_t size(std::size_t) {
+  std::uint64_t size() {
     std::uint64_t n = 0;
     one(n);
     if (n > rest.size()) spoilt();  // every item has a byte or more
     return n;
   }
-  template <class List>
-  void resize(List& list, std::uint64_t n) { list.resize(static_cast<std::size_t>(n)); }
+  /// Grows with what is there, whatever length is claimed.
+  template <class List, class Pass>
+  void each(List& list, Pass pass_one) {
+    list.clear();
+    for (std::uint64_t k = size(); k > 0; --k) {
+      typename List::value_type one{};
+      pass_one(one);
+      list.push_back(std::move(one));
+    }
+  }
 };
 
 // One description for both ways: `pass` writes what it is given, or reads into it.
@@ -69,8 +77,7 @@ void pass(Archive& a, std::vector<T>& all);
 
 template <class Archive>
 void pass(Archive& a, std::string& text) {
-  a.resize(text, a.size(text.size()));
-  for (char& c : text) a.one(c);
+  a.each(text, [&](char& c) { a.one(c); });
 }
 
 template <class Archive>
@@ -113,8 +120,7 @@ void pass(Archive& a, Group& g) { pass(a, g.name), pass(a, g.nodes), pass(a, g.s
 
 template <class Archive, class T>
 void pass(Archive& a, std::vector<T>& all) {
-  a.resize(all, a.size(all.size()));
-  for (T& one : all) pass(a, one);
+  a.each(all, [&](T& one) { pass(a, one); });
 }
 
 template <class Archive>

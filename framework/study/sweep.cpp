@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <fstream>
 #include <iterator>
 #include <optional>
 #include <thread>
 
+#include "files/files.h"
 #include "framework/run/text.h"
 #include "framework/study/crew.h"
 
@@ -235,8 +235,12 @@ void open_folder(const fs::path& folder) {
 }
 
 std::string contents(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  constexpr std::size_t most_bytes = std::size_t{100} << 20;
+  try {
+    return read_file(path, most_bytes);
+  } catch (const FileRefused&) {
+    return {};  // then it is not what was kept there
+  }
 }
 
 /// Why the folder of another study is refused: what has changed since, as far as that is known.
