@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "framework/dynamics/branch.h"
+#include "framework/dynamics/worse.h"
 
 namespace pintle {
 
@@ -69,7 +70,7 @@ void solve_reactions(const System& system, Equations& eq) {
   for (int i = 0; i <= refinements; ++i) {
     eq.mu = -eq.gamma;
     add_product(eq, eq.a.data(), eq.mu);
-    const double residual = eq.mu.lpNorm<Eigen::Infinity>();
+    const double residual = largest(eq.mu);
     if (i == 0) size = residual;
     if (i > 0 && residual <= rounding * size) break;
     eq.schur.solve(eq.mu);
@@ -85,11 +86,11 @@ bool agree(const System& system, Equations& eq) {
   constexpr double rounding = 1e-8;  // of the accelerations that the joints take away
   eq.g = eq.f;
   multiply_inverse_mass(system, eq, eq.g);
-  const double free = rounding * eq.g.lpNorm<Eigen::Infinity>();
+  const double free = rounding * largest(eq.g);
   eq.mu = -eq.gamma;
-  const double size = eq.mu.lpNorm<Eigen::Infinity>();
+  const double size = largest(eq.mu);
   add_product(eq, eq.a.data(), eq.mu);
-  return eq.mu.lpNorm<Eigen::Infinity>() <= little * std::max({size, eq.a.lpNorm<Eigen::Infinity>(), free});
+  return largest(eq.mu) <= little * std::max({size, largest(eq.a), free});
 }
 
 }  // namespace
@@ -332,24 +333,24 @@ bool evaluate(const System& system, const State& state, Equations& eq, VectorXd&
 }
 
 double position_violation(const System& system, const Equations& eq) {
-  return eq.C.size() == 0 ? 0 : eq.C.cwiseProduct(system.row_scale).lpNorm<Eigen::Infinity>();
+  return largest(eq.C.cwiseProduct(system.row_scale));
 }
 
 double velocity_violation(const System& system, const VectorXd& y, const Equations& eq) {
   if (eq.Cdot.size() == 0) return 0;
-  return eq.Cdot.cwiseProduct(system.row_scale).lpNorm<Eigen::Infinity>() / fastest_rate(system, y);
+  return largest(eq.Cdot.cwiseProduct(system.row_scale)) / fastest_rate(system, y);
 }
 
 double angle_rounding(const System& system, const VectorXd& y) {
   double angle = 0;
-  for (Index b = 2; b < system.n_rigid(); b += 3) angle = std::max(angle, std::abs(y[b]));
+  for (Index b = 2; b < system.n_rigid(); b += 3) angle = worse(angle, std::abs(y[b]));
   return 1.1e-16 * angle;
 }
 
 double fastest_rate(const System& system, const VectorXd& y) {
   double fastest = 1e-9;  // less is rest
   const Index n = system.n();
-  for (Index i = 0; i < n; ++i) fastest = std::max(fastest, std::abs(y[n + i]) / system.scale[i]);
+  for (Index i = 0; i < n; ++i) fastest = worse(fastest, std::abs(y[n + i]) / system.scale[i]);
   return fastest;
 }
 
@@ -362,7 +363,7 @@ bool project(const System& system, double t, VectorXd& y, Equations& eq) {
     eq.mu = violation;
     eq.schur.solve(eq.mu);
     subtract_reaction(system, eq, eq.mu, x);
-    return eq.g.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>();
+    return largest(eq.g.cwiseQuotient(system.scale));
   };
   return onto_constraints(system, t, y, eq, factored, subtract);
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "framework/dynamics/kkt.h"
+#include "framework/dynamics/worse.h"
 #include "framework/run/guarded.h"
 #include "framework/run/kinematics.h"
 #include "framework/scene/table.h"
@@ -67,13 +68,13 @@ double spline_error(const DriverEffort& e) {
   for (std::size_t k = 0; k < e.t.size(); k += 2) half.t.push_back(e.t[k]), half.value.push_back(e.value[k]);
   const Spline spline(half);
   double worst = 0;
-  for (std::size_t k = 1; k < e.t.size() && e.t[k] < half.t.back(); k += 2) worst = std::max(worst, std::abs(spline(e.t[k]).value - e.value[k]));
+  for (std::size_t k = 1; k < e.t.size() && e.t[k] < half.t.back(); k += 2) worst = worse(worst, std::abs(spline(e.t[k]).value - e.value[k]));
   return worst;
 }
 
 double largest(const std::vector<double>& values) {
   double out = 0;
-  for (double v : values) out = std::max(out, std::abs(v));
+  for (double v : values) out = worse(out, std::abs(v));
   return out;
 }
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/SVD>
 
+#include "framework/dynamics/worse.h"
 #include "framework/run/guarded.h"
 
 namespace pintle {
@@ -81,10 +82,10 @@ bool DrivenMotion::settle(State& state, VectorXd& a) {
   speed(system_, state.t, state.y, eq_);
   acceleration_side(system_, eq_, gamma_);
   a += rows_.solve(system_, gamma_ - rows_.times(system_, a));
-  worst_position_ = std::max(worst_position_, worst);
+  worst_position_ = worse(worst_position_, worst);
   const double fastest = std::max(size(state.y.segment(n, n)), 1e-9);
-  const double drift = eq_.Cdot.size() > 0 ? eq_.Cdot.cwiseProduct(system_.row_scale).lpNorm<Eigen::Infinity>() : 0;
-  worst_velocity_ = std::max(worst_velocity_, drift / fastest);
+  const double drift = largest(eq_.Cdot.cwiseProduct(system_.row_scale));
+  worst_velocity_ = worse(worst_velocity_, drift / fastest);
   return state.y.allFinite() && a.allFinite() && drift <= 1e-7 * std::max(fastest, size(a) * 1e-3);
 }
 
