@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/dynamics/worse.h"
+
 namespace pintle {
 
 using Eigen::Index;
@@ -25,9 +27,8 @@ AlphaWeights::AlphaWeights(double rho)
       shift(m - f),
       error(beta + shift / 2 - 1.0 / 6) {}
 
-Alpha::Alpha(const System& system, const Equations& eq, double rho, Constraints constraints, double tolerance)
+Alpha::Alpha(const System& system, const Equations& eq, double rho, double tolerance)
     : weights_(rho),
-      stabilised_(constraints != Constraints::index3),
       tolerance_(tolerance),
       length_(system.length),
       unit_(VectorXd::Ones(system.n())),
@@ -37,6 +38,7 @@ Alpha::Alpha(const System& system, const Equations& eq, double rho, Constraints 
       q_base_(VectorXd::Zero(system.n())),
       s_base_(q_base_),
       p_(q_base_),
+      start_(q_base_),
       dv_(q_base_),
       dp_(q_base_),
       mu_(VectorXd::Zero(system.n_rows())),
@@ -132,10 +134,10 @@ Alpha::Weights Alpha::predict(double h, const Instant& from, Instant& to) {
   Weights w;
   p_.setZero();
   if (memory.h == 0) {
-    w = {h * h * (beta + weights_.shift / 2), h / 2};
-    q_base_ = q0 + h * s0 + (h * h / 2 - w.q) * v0;
-    s_base_ = s0 + h / 2 * v0;
-    guess = v0;
+    w = start_weights(h);
+    q_base_ = q0 + h * s0 + (h * h / 2 - w.q) * start_;
+    s_base_ = s0 + h / 2 * start_;
+    guess = start_;
     to.memory.lambda = memory.lambda;
     return w;
   }
@@ -148,6 +150,29 @@ Alpha::Weights Alpha::predict(double h, const Instant& from, Instant& to) {
   guess = v0 + reach * (v0 - memory.dy_before.segment(n, n));
   to.memory.lambda = memory.lambda + reach * (memory.lambda - memory.lambda_before);
   return w;
+}
+
+Alpha::Weights Alpha::start_weights(double h) const { return {h * h * (weights_.beta + weights_.shift / 2), h / 2}; }
+
+// v̇ at a start as the step can follow it. Of a spring out of balance that is stiff for the step, v̇₀ would be taken for a whole
+// step, and leave it with hω times the speed that it could ever reach. With F v = (M + w.s D + w.q K)⁻¹M v, kept to the
+// constraints, v̇₀ − (1 − F)²v̇₀ is v̇₀ to h² where nothing is stiff. With ρ = 1 the start is the trapezoid's rule, which keeps energies as they are.
+bool Alpha::soften_start(const System& system, double h, const Instant& from, Equations& eq) {
+  const Index n = system.n();
+  start_ = from.dy.segment(n, n);
+  if (weights_.shift == 0) return true;
+  evaluate_at(system, from.state, from.dy, from.memory.lambda, eq);
+  if (!refactor(system, start_weights(h), from, eq)) return blame(system, eq, "the iteration matrix is singular");
+  for (int i = 0; i < 2; ++i) {
+    dp_.setZero();
+    add_mass_times(system, eq, i == 0 ? start_ : work_, dp_);
+    mu_.setZero();
+    visit_jacobian(eq, [&](int row, int column, double value) { mu_[row] += value * (i == 0 ? start_ : work_)[column]; });
+    kkt_.solve(dp_, mu_);
+    if (i == 0) work_ = 2 * start_ - dp_;  // F(2 − F)
+  }
+  start_ = dp_;
+  return true;
 }
 
 bool Alpha::refactor(const System& system, const Weights& w, const Instant& node, Equations& eq) {
@@ -170,9 +195,8 @@ double Alpha::judge(const System& system, const Weights& w, const State& state) 
   for (Index i = 0; i < unit_.size(); ++i) {
     const double place = rounding * (system.scale[i] + std::abs(state.y[i]));
     const double of_q = enough * length_ * unit_[i] + place;
-    double of_s = enough * speed_ * unit_[i] + rounding * (std::abs(state.y[n + i]) + speed_ * unit_[i]);
-    if (!stabilised_) of_s += place * w.s / w.q;  // C, known to rounding, moves s by it over the step
-    worst = std::max({worst, std::abs(w.q * dv_[i] + dp_[i]) / of_q, std::abs(w.s * dv_[i]) / of_s});
+    const double of_s = enough * speed_ * unit_[i] + rounding * (std::abs(state.y[n + i]) + speed_ * unit_[i]);
+    worst = worse(worse(worst, std::abs(w.q * dv_[i] + dp_[i]) / of_q), std::abs(w.s * dv_[i]) / of_s);
   }
   return worst;
 }
@@ -191,8 +215,8 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     evaluate_at(system, to.state, to.dy, to.memory.lambda, eq);
     if (enough) {
       const double left = position_violation(system, eq) - std::min(8 * angle_rounding(system, y), still_near);
-      const double drift = stabilised_ ? velocity_violation(system, y, eq) : 0;
-      if (std::max(left, drift) <= (i > most_iterations / 2 ? nearly : on_constraints)) {
+      const double drift = velocity_violation(system, y, eq);
+      if (worse(left, drift) <= (i > most_iterations / 2 ? nearly : on_constraints)) {
         tired_ = tired_ || i > many_iterations || rate_ > slow;
         return true;
       }
@@ -207,12 +231,12 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     add_mass_times(system, eq, eq.a, work_);
     add_reaction(eq, eq.lambda, work_);
     dv_ -= work_;
-    mu_ = stabilised_ ? eq.Cdot * (-1 / w.s) : eq.C * (-1 / w.q);
+    mu_ = eq.Cdot * (-1 / w.s);
     solve(dv_, mu_);
     v += dv_;
     to.memory.lambda += mu_;
     dp_.setZero();
-    if (stabilised_ && system.n_rows() > 0) {
+    if (system.n_rows() > 0) {
       mu_ = (w.q / w.s) * eq.Cdot - eq.C;  // what δv̇ does to C taken off
       solve(dp_, mu_);
       p_ += dp_;
@@ -248,6 +272,7 @@ bool Alpha::attempt(const System& system, double h, Step& step, Equations& eq) {
   to.state.y.resize(system.n_y());
   to.state.y.tail(system.n_z()) = from.y.tail(system.n_z());
   trouble_.clear();
+  if (step.from.memory.h == 0 && !soften_start(system, h, step.from, eq)) return false;
   Weights w = predict(h, step.from, to);
   if (w.q > 2 * kept_.q || w.q < 0.5 * kept_.q) rate_ = 1, tired_ = tired_ || lent_;  // a lent factor serves like steps only
   if (!iterate(system, w, to, eq)) {
@@ -259,16 +284,18 @@ bool Alpha::attempt(const System& system, double h, Step& step, Equations& eq) {
   remember(system, h, step.from, to, eq);
   estimate(system, step, eq);
   if (loss_ >= 0) book_loss(system, eq, step);
-  return to.dy.allFinite() && step.error.allFinite();
+  return to.state.y.allFinite() && to.dy.allFinite() && step.error.allFinite();
 }
 
 void Alpha::remember(const System& system, double h, const Instant& from, Instant& to, Equations& eq) {
   const Index n = system.n();
   fill_derivative(system, to.state.y, eq, to.dy);
-  const auto v0 = from.dy.segment(n, n);
   const auto v1 = to.dy.segment(n, n);
   Memory& memory = to.memory;
   const double m = weights_.m, f = weights_.f;
+  memory.dy_before = from.dy;
+  if (from.memory.h == 0) memory.dy_before.segment(n, n) = start_;
+  const auto v0 = memory.dy_before.segment(n, n);
   if (from.memory.h == 0)
     work_ = v0 + weights_.shift * (v1 - v0);
   else
@@ -276,16 +303,16 @@ void Alpha::remember(const System& system, double h, const Instant& from, Instan
   memory.a = ((1 - f) * v1 + f * v0 - m * work_) / (1 - m);
   memory.h = h;
   memory.lambda_before = from.memory.lambda;
-  memory.dy_before = from.dy;
   forces_of(system, eq, memory);
   for (Index i = 2 * n; i < system.n_y(); ++i) to.state.y[i] = from.state.y[i] + h / 2 * (from.dy[i] + to.dy[i]);
 }
 
-// e ← the solution of (M + w.s D + w.q K) x + Cqᵀμ = M e, Cq x = 0, twice: a ring at hω ≫ 1, which the scheme
-// takes away, would be left its h³ by one, and draw the step down to where it must be followed for good.
-void Alpha::filter(const System& system, Eigen::Ref<VectorXd> e, Equations& eq) {
+// e ← the solution of (M + w.s D + w.q K) x + Cqᵀμ = M e, Cq x = 0. Once leaves of a ring at hω ≫ 1 its displacement, which
+// counts where it is above the tolerance; of its speed, which the scheme takes away, once would leave so much that the
+// step is drawn down to where the ring must be followed for good: those are filtered twice.
+void Alpha::filter(const System& system, Eigen::Ref<VectorXd> e, int times, Equations& eq) {
   work_ = e;
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < times; ++i) {
     dp_.setZero();
     add_mass_times(system, eq, work_, dp_);
     mu_.setZero();
@@ -295,7 +322,8 @@ void Alpha::filter(const System& system, Eigen::Ref<VectorXd> e, Equations& eq) 
   e = work_;
 }
 
-// What the step has against the integrals of the parabola through v̇ at three nodes; at a start the line.
+// What the step has against the integrals of the parabola through v̇ at three nodes; at a start, which knows two, the one that
+// leaves it with v̇₀ and no slope: the trapezoid's error is not seen by a line.
 void Alpha::estimate(const System& system, Step& step, Equations& eq) {
   const Index n = system.n();
   const double h = step.h, h0 = step.from.memory.h;
@@ -303,13 +331,13 @@ void Alpha::estimate(const System& system, Step& step, Equations& eq) {
   const VectorXd& before = step.from.memory.dy_before;
   step.error.resize(system.n_y());
   for (Index i = n; i < system.n_y(); ++i) {
-    const double bend = h0 > 0 ? ((d1[i] - d0[i]) / h - (d0[i] - before[i]) / h0) / (h + h0) : 0;
+    const double bend = h0 > 0 ? ((d1[i] - d0[i]) / h - (d0[i] - before[i]) / h0) / (h + h0) : (d1[i] - d0[i]) / (h * h);
     step.error[i] = y1[i] - y0[i] - h / 2 * (d0[i] + d1[i]) + bend * h * h * h / 6;
     if (i < 2 * n)
       step.error[i - n] = y1[i - n] - y0[i - n] - h * y0[i] - h * h * (d0[i] / 3 + d1[i] / 6) + bend * h * h * h * h / 12;
   }
-  filter(system, step.error.head(n), eq);
-  filter(system, step.error.segment(n, n), eq);
+  filter(system, step.error.head(n), 1, eq);
+  filter(system, step.error.segment(n, n), 2, eq);
 }
 
 // With F the forces and P = M v̇ at both ends and w = Δs − ½h(v̇₀ + v̇₁), the energy of a linear system

@@ -21,15 +21,14 @@ struct AlphaWeights {
 
 /// Generalised-α for the constrained equations of motion [ArnoldBruls2007], by modified Newton:
 ///   M(q₁) v̇₁ + Cqᵀλ₁ = f(q₁, s₁),  C(q₁) = 0,
-///   q₁ = q₀ + h s₀ + h² ((½ − β) a₀ + β a₁) [+ p],   s₁ = s₀ + h ((1 − γ) a₀ + γ a₁),
+///   q₁ = q₀ + h s₀ + h² ((½ − β) a₀ + β a₁) + p,   s₁ = s₀ + h ((1 − γ) a₀ + γ a₁),
 ///   (1 − α_m) a₁ + α_m a₀ = (1 − α_f) v̇₁ + α_f v̇₀.
-/// Constraints::index3 has no p: λ serves C = 0, and s is off Ċ = 0 by h². Constraints::projection is the
-/// stabilised index 2: λ serves Ċ(q₁, s₁) = 0, and p, small as h³, C = 0, by the shortest way in the metric of
+/// The stabilised index 2: λ serves Ċ(q₁, s₁) = 0, and p, small as h³, C = 0, by the shortest way in the metric of
 /// the iteration matrix, which leaves stiff directions alone. Theory: docs/theory/implicit.md.
 class Alpha {
  public:
   /// @param tolerance  of the step's error: Newton stops well below it. 0: to rounding
-  Alpha(const System&, const Equations&, double rho, Constraints, double tolerance);
+  Alpha(const System&, const Equations&, double rho, double tolerance);
 
   /// Brings y onto the constraints, evaluates there and forgets: a start. @returns false at a singular pose
   bool settle(const System&, Instant&, Equations&);
@@ -66,6 +65,8 @@ class Alpha {
     template <class A>
     void archive(A& x) { x(PINTLE_MEMBERS(q, s)); }
   };
+  Weights start_weights(double h) const;
+  bool soften_start(const System&, double h, const Instant& from, Equations&);
   Weights predict(double h, const Instant& from, Instant& to);
   bool iterate(const System&, const Weights&, Instant& to, Equations&);
   void evaluate_at(const System&, const State&, const Eigen::VectorXd& dy, const Eigen::VectorXd& lambda, Equations&);
@@ -75,12 +76,11 @@ class Alpha {
   void forces_of(const System&, const Equations&, Memory&);
   void remember(const System&, double h, const Instant& from, Instant& to, Equations&);
   void estimate(const System&, Step&, Equations&);
-  void filter(const System&, Eigen::Ref<Eigen::VectorXd>, Equations&);
+  void filter(const System&, Eigen::Ref<Eigen::VectorXd>, int times, Equations&);
   void book_loss(const System&, const Equations&, Step&);
   bool blame(const System&, const Equations&, const char* what);
 
   AlphaWeights weights_;
-  bool stabilised_;
   double tolerance_, length_, speed_ = 0;
   int loss_ = -1;         ///< the integral that takes what the scheme loses; −1: none
   Eigen::VectorXd unit_;  ///< of each coordinate, for a length of 1 m
@@ -89,6 +89,7 @@ class Alpha {
   Kkt* lent_ = nullptr;                  ///< another's factor, used in place of kkt_'s until a new one is made
   std::vector<double> values_;
   Eigen::VectorXd q_base_, s_base_, p_;  ///< q₁ = q_base + w.q v̇₁ + p, s₁ = s_base + w.s v̇₁
+  Eigen::VectorXd start_;  ///< v̇ at a start, as the step takes it
   Eigen::VectorXd dv_, dp_, mu_, work_;
   double rate_ = 1;                      ///< contraction of Newton's iteration, as last seen
   bool tired_ = true, factored_ = false; ///< the factor should be made anew; there is one

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "framework/dynamics/energy.h"
+#include "framework/dynamics/worse.h"
 
 namespace pintle {
 
@@ -53,7 +54,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
   if (scheme_.tableau)
     stages_.emplace(system, *scheme_.tableau, scheme_.constraints);
   else
-    alpha_.emplace(system, eq_, scheme_.rho, scheme_.constraints, scheme_.tolerance);
+    alpha_.emplace(system, eq_, scheme_.rho, scheme_.tolerance);
   if (!settle(step_.to)) {
     stop("the start is a singular pose or off the constraints");
     return;
@@ -145,7 +146,7 @@ double Integrator::scaled_error() {
     const double reach = reach_[at(static_cast<int>(b))];
     const auto judge = [&](Index i, double scale) {
       const double rounding = 1e-15 * std::abs(y[i]);
-      worst = std::max(worst, std::abs(step_.error[i]) / (scheme_.tolerance * scale + rounding));
+      worst = worse(worst, std::abs(step_.error[i]) / (scheme_.tolerance * scale + rounding));
     };
     judge(3 * b, length);
     judge(3 * b + 1, length);
@@ -162,8 +163,7 @@ double Integrator::scaled_error() {
     }
   }
   for (Index i = 2 * n; i < y.size(); ++i)
-    worst = std::max(worst, std::abs(step_.error[i]) /
-                                (scheme_.tolerance * std::max(energy, std::abs(y[i])) + 1e-300));
+    worst = worse(worst, std::abs(step_.error[i]) / (scheme_.tolerance * std::max(energy, std::abs(y[i])) + 1e-300));
   return worst;
 }
 
@@ -185,10 +185,10 @@ bool Integrator::step_to(double h_left) {
       h_ = h / 4;
       continue;
     }
-    const double error = std::max(scaled_error(), 1e-10);
-    if (error > 1) {
+    const double error = worse(1e-10, scaled_error());
+    if (!(error <= 1)) {
       ++counts_.rejected;
-      h_ = h * std::max(0.2, 0.9 * std::pow(error, -1 / order));
+      h_ = h * (std::isnan(error) ? 0.2 : std::max(0.2, 0.9 * std::pow(error, -1 / order)));
       continue;
     }
     if (!last && !at_fork_ && tries < 3 && at_fork()) {  // momentum carries past what no step should start from
@@ -230,6 +230,10 @@ bool Integrator::advance(double until) {
     const Index n = system_.n();
     const double speed = step_.from.state.y.segment(n, n).norm(), accel = step_.from.dy.segment(n, n).norm();
     h_ = std::min(left, accel > 0 ? 0.01 * std::max(speed / accel, 1e-3 * std::sqrt(fine_length_ / accel)) : left);
+    // An implicit step much longer than a period shows its error as a part of it only: the first is so short that nothing moves
+    // by more than the tolerance, and the next, each five times as long at most, see what was resolved before them.
+    if (const double fastest = fastest_speed(step_.from.state.y); alpha_ && fastest > 0)
+      h_ = std::min(h_, std::max(std::max(scheme_.tolerance, 1e-6) * fine_length_ / fastest, 1e-12 * left));
     for (const Body& b : system_.bodies)  // no shape's first period is stepped over
       if (b.modes() > 0 && !alpha_) h_ = std::min(h_, 0.3 / b.flex->omega.maxCoeff());
     h_ = std::min(h_, scheme_.max_step);
@@ -310,8 +314,8 @@ bool Integrator::advance(double until) {
   const auto& y = step_.to.state.y;
   fastest_ = std::max(fastest_, fastest_speed(y));
   energy_ = std::max(energy_, kinetic_energy(system_, y));
-  worst_position_ = std::max(worst_position_, position_violation(system_, eq_));
-  worst_velocity_ = std::max(worst_velocity_, velocity_violation(system_, y, eq_));
+  worst_position_ = worse(worst_position_, position_violation(system_, eq_));
+  worst_velocity_ = worse(worst_velocity_, velocity_violation(system_, y, eq_));
   if (contact < 0 && scheme_.switch_below > 0 && stages_) return watch_stiffness();
   return true;
 }
@@ -341,7 +345,7 @@ bool Integrator::watch_stiffness() {
   switched_ = "generalized-alpha from t = " + number_text(step_.to.state.t) + " s on: stability, not accuracy, held " +
               std::to_string(many) + " explicit steps near " + number_text(step_.h) + " s";
   stages_.reset();
-  alpha_.emplace(system_, eq_, scheme_.rho, scheme_.constraints, scheme_.tolerance);
+  alpha_.emplace(system_, eq_, scheme_.rho, scheme_.tolerance);
   h_open_ = h_closed_ = 0;
   error_before_ = 1;
   after_known_ = false;
@@ -351,7 +355,7 @@ bool Integrator::watch_stiffness() {
 bool Integrator::sample(double t, State& out) {
   if (!sampler_) sampler_ = std::make_unique<Sampler>(system_);
   if (alpha_)
-    sampler_->follow(system_, *alpha_, scheme_.rho, scheme_.constraints, scheme_.tolerance);
+    sampler_->follow(system_, *alpha_, scheme_.rho, scheme_.tolerance);
   else
     sampler_->follow(system_, *stages_);
   return sampler_->sample(system_, step_, t, eq_.lasting, out);

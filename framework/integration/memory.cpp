@@ -19,7 +19,7 @@ void Integrator::archive(A& x) {
   x(PINTLE_MEMBERS(implicit, pair, fallback, scheme_.switch_below));
   if constexpr (A::loading) {
     if (x.good() && implicit) {  // it had switched
-      if (!alpha_) alpha_.emplace(system_, eq_, scheme_.rho, scheme_.constraints, scheme_.tolerance);
+      if (!alpha_) alpha_.emplace(system_, eq_, scheme_.rho, scheme_.tolerance);
       stages_.reset();
     } else if (const Tableau* saved = find_tableau(pair); x.good() && saved) {  // what `auto` takes now may be another
       if (saved != scheme_.tableau && switched_.empty()) switched_ = pair + " throughout, as in the run that was saved";

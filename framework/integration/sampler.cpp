@@ -8,11 +8,12 @@ void Sampler::follow(const System& system, const Stages& steps) {
   alpha_.reset();
   if (!stages_ || &stages_->tableau() != &steps.tableau()) stages_.emplace(system, steps.tableau(), steps.constraints());
   stages_->take_partition(steps);
+  stages_of_steps_ = &steps;
 }
 
-void Sampler::follow(const System& system, Alpha& steps, double rho, Constraints constraints, double tolerance) {
+void Sampler::follow(const System& system, Alpha& steps, double rho, double tolerance) {
   stages_.reset();
-  if (!alpha_) alpha_.emplace(system, eq_, rho, constraints, tolerance);
+  if (!alpha_) alpha_.emplace(system, eq_, rho, tolerance);
   of_steps_ = &steps;
 }
 
@@ -28,10 +29,12 @@ bool Sampler::sample_explicit(const System& system, const Step& step, double t, 
   if (by_a_step) {
     found = stages_->reach(system, step.from, t - step.from.state.t, node_, eq_);
   } else {
-    if (inside)
+    if (inside) {
       interpolate(system, step, t, node_.state);
-    else
+      stages_of_steps_->refine_integrals(system, step, node_.state);
+    } else {
       node_.state = step.to.state;
+    }
     found = stages_->settle(system, node_, eq_);
   }
   if (found) out = node_.state;

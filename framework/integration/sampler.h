@@ -15,7 +15,7 @@ class Sampler {
 
   /// The scheme that made the step, or goes on from its end; the later call counts.
   void follow(const System&, const Stages&);
-  void follow(const System&, Alpha&, double rho, Constraints, double tolerance);
+  void follow(const System&, Alpha&, double rho, double tolerance);
   /// As Integrator::sample. @param lasting  rows that others imply, as the steps have found: Equations::lasting
   bool sample(const System&, const Step&, double t, int lasting, State& out);
   /// Evaluated at the state of the last sample.
@@ -28,7 +28,8 @@ class Sampler {
   Equations eq_;
   std::optional<Stages> stages_;  ///< one of the two
   std::optional<Alpha> alpha_;
-  Alpha* of_steps_ = nullptr;     ///< the Newton iteration that made the step
+  const Stages* stages_of_steps_ = nullptr;  ///< what made the step: its stages
+  Alpha* of_steps_ = nullptr;                ///< or its Newton iteration
   Instant node_;
   Step part_;
 };

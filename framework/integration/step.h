@@ -12,8 +12,7 @@ namespace pintle {
 /// How C = 0 and Ċ = 0 are kept.
 enum class Constraints {
   projection,    ///< both: after each explicit step, by the shortest way in the metric of M; in each implicit one
-  partitioning,  ///< both, in each stage of an explicit scheme: dependent coordinates follow from the independent ones
-  index3         ///< of an implicit scheme, C = 0 alone
+  partitioning   ///< both, in each stage of an explicit scheme: dependent coordinates follow from the independent ones
 };
 
 /// What an implicit scheme knows at a node besides the state; empty for an explicit one.
@@ -62,6 +61,9 @@ class Stages {
   bool reach(const System&, const Instant& from, double h, Instant& to, Equations&);
   /// Chooses a new independent set if the present one has worn out. After an accepted step.
   void refresh(const System&, Equations&);
+  /// Adds to the integrals that `interpolate` has put into `out` what the last attempt's stages know of them between its ends.
+  /// @pre the step is that of the last attempt
+  void refine_integrals(const System&, const Step&, State& out) const;
 
   /// Has the same coordinates follow from the others.
   void take_partition(const Stages& other) { partition_.take_set(other.partition_); }

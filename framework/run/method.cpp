@@ -110,10 +110,9 @@ Constraints constraints_of(const Scene& scene, bool is_explicit) {
   const std::string& c = scene.run.constraints;
   if (c == "partitioning" && !is_explicit)
     throw SceneError(scene.file, scene.run.place, "generalized-alpha does not take constraints: partitioning; leave it out, or take dopri5");
-  if (c == "index 3" && is_explicit)
-    throw SceneError(scene.file, scene.run.place, "constraints: index 3 belongs to method: generalized-alpha; " + scene.run.method +
-                                                      " takes projection or partitioning");
-  return c == "partitioning" ? Constraints::partitioning : c == "index 3" ? Constraints::index3 : Constraints::projection;
+  if (c != "partitioning" && c != "projection")
+    throw SceneError(scene.file, scene.run.place, "there are no constraints: " + c + "; take projection, the default, or partitioning");
+  return c == "partitioning" ? Constraints::partitioning : Constraints::projection;
 }
 
 // At one tolerance a whole run of generalised-α errs by its power ⅔, an explicit one by the tolerance itself.
@@ -123,7 +122,7 @@ void choose(const Scene& scene, const System& system, Scheme& scheme) {
   const Spectrum s = spectrum(scene, system);
   const Demand d = demand(s, scene.run.tolerance);
   const double needed = std::max(d.stability, d.accuracy);
-  const bool is_implicit = scene.run.constraints == "index 3" || (needed > dearer * d.implicit && scene.run.constraints != "partitioning");
+  const bool is_implicit = needed > dearer * d.implicit && scene.run.constraints != "partitioning";
   if (!is_implicit) scheme.tableau = automatic_explicit(scene, s, d);
   if (!is_implicit && scheme.tableau != find_tableau("dopri5")) scheme.fallback = find_tableau("dopri5");
   std::string& why = scheme.reason;

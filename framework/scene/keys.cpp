@@ -225,7 +225,7 @@ const std::vector<KeyTable>& tables() {
        {{"until", required, "0.1 s"},
         {"method", optional, "", {"auto", "rkf45", "dopri5", "verner87", "generalized-alpha"}},
         {"tolerance"},
-        {"constraints", optional, "", {"projection", "partitioning", "index 3"}},
+        {"constraints", optional, "", {"projection", "partitioning"}},
         {"onset", optional, "", {"locate"}},
         {"max step"},
         {"max steps"},

@@ -204,6 +204,55 @@ TEST_P(SchemeContract, DenseOutputHasTheOrderOfItsPolynomials) {
   expect_order(4, h, z);
 }
 
+TEST(LedgerInsideSteps, OfDopri5HasFifthOrder) {
+  const Case k = link::make();
+  const std::vector<double> h{0.06, 0.03, 0.015};
+  std::vector<double> error;
+  for (const double span : h) {
+    Equations eq(k.system);
+    Stages stages(k.system, *find_tableau("dopri5"), Constraints::projection);
+    Step step;
+    step.to.state = k.start;
+    step.to.dy.setZero(k.system.n_y());
+    ASSERT_TRUE(stages.settle(k.system, step.to, eq));
+    step.from = step.to;
+    ASSERT_TRUE(stages.attempt(k.system, span, step, eq));
+    error.push_back(0);
+    State dense;
+    for (int tenth = 1; tenth < 10; ++tenth) {
+      interpolate(k.system, step, tenth * span / 10, dense);
+      stages.refine_integrals(k.system, step, dense);
+      const VectorXd truth = k.truth(tenth * span / 10);
+      error.back() = std::max({error.back(), std::abs(dense.y[6] - truth[4]), std::abs(dense.y[7] - truth[5])});
+    }
+  }
+  expect_order(5, h, error);
+}
+
+// The cubic through the powers at both ends alone errs by a hundred times as much inside as at the ends, and more at finer tolerances.
+TEST(LedgerInsideSteps, OfDopri5ErrsNoMoreThanAtTheirEnds) {
+  const Case k = link::make();
+  for (const double tolerance : {1e-6, 1e-8}) {
+    Integrator run(k.system, {.tableau = find_tableau("dopri5"), .tolerance = tolerance}, k.start);
+    State sample;
+    double inside = 0, at_ends = 0;
+    const auto off = [&](const State& state) {
+      const VectorXd truth = k.truth(state.t);
+      return std::max(std::abs(state.y[6] - truth[4]), std::abs(state.y[7] - truth[5]));
+    };
+    while (run.state().t < 0.5) {
+      ASSERT_TRUE(run.advance(0.5)) << run.failure();
+      for (const double x : {0.25, 0.5, 0.75}) {
+        ASSERT_TRUE(run.sample(run.last().from.state.t + x * run.last().h, sample));
+        inside = std::max(inside, off(sample));
+      }
+      run.restore();
+      at_ends = std::max(at_ends, off(run.state()));
+    }
+    EXPECT_LT(inside, 10 * at_ends) << tolerance;
+  }
+}
+
 TEST_P(SchemeContract, DenseOutputMeetsBothEnds) {
   const Case k = crank::make();
   const Step step = march(k, 0.01, 3);

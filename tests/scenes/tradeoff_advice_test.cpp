@@ -222,7 +222,7 @@ TEST(TradeAdvice, EverySettingIsReadBeforeAnythingRuns) {
   for (const char* axes : {"    t: {run.tolerance: [5]}\n", "    s: {run.method: [euler]}\n"})
     EXPECT_EQ(said(axes).find("--set"), std::string::npos) << said(axes);
   // What the reader takes beside other values alone, or the builder refuses, makes rows with a reason.
-  EXPECT_EQ(said("    s: {run.method: [dopri5, generalized-alpha]}\n    c: {run.constraints: [projection, index 3]}\n"), "accepted");
+  EXPECT_EQ(said("    s: {run.method: [dopri5, generalized-alpha]}\n    c: {run.constraints: [projection, partitioning]}\n"), "accepted");
   const std::string given = "    p: {plain: {run.until: 1 s}, given: {parameters: {half: 0.2 m, full: 0.4 m}}}\n",
                     at = "    o: {full: {\"bodies.rod.points.O\": [-full/2, 0]}}\n";
   EXPECT_EQ(said(given + at), "accepted");

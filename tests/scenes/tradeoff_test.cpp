@@ -176,7 +176,7 @@ TEST(Tradeoff, OfAPendulumTheReferenceAndEveryErrorAreHonestAgainstTheClosedForm
   const std::vector<Measure> angle{{"angle", at}};
   TradePlan plan;
   plan.axes = {axis("tolerance", "run.tolerance", {"1e-3", "1e-5", "1e-7"}), axis("scheme", "run.method", {"rkf45", "generalized-alpha"}),
-               axis("constraints", "run.constraints", {"projection", "index 3"})};
+               axis("constraints", "run.constraints", {"projection", "partitioning"})};
   plan.tolerance = 1e-6;
   plan.repeats = 1;
   const TradeReport r = run_tradeoff(plan, angle, runner(source));
@@ -192,7 +192,7 @@ TEST(Tradeoff, OfAPendulumTheReferenceAndEveryErrorAreHonestAgainstTheClosedForm
     ++usable;
     EXPECT_NEAR(p.errors[0], std::abs(p.values[0] - there) / std::abs(there), p.doubts[0]) << setting_text(plan, p);
   }
-  EXPECT_EQ(refused, 3) << "index 3 with an explicit scheme";
+  EXPECT_EQ(refused, 3) << "partitioning with an implicit scheme";
   EXPECT_EQ(usable, 10);
 }
 

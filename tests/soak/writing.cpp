@@ -90,7 +90,7 @@ class Writing {
     const std::string method = methods[static_cast<std::size_t>(chance_.below(static_cast<int>(methods.size())))];
     std::vector<std::string> fitting;  // what the method takes
     for (const std::string& c : constraints)
-      if (c != (method == "generalized-alpha" ? "partitioning" : "index 3")) fitting.push_back(c);
+      if (method != "generalized-alpha" || c != "partitioning") fitting.push_back(c);
     const double tolerance = chance_.decades(-10, -4);
     out_ << "run: {until: " << until << ", method: " << method << ", constraints: " << chance_.of(fitting) << ", tolerance: " << tolerance
          << ", max steps: " << chance_.from_to(2000, 12000);

@@ -177,7 +177,7 @@ struct Method {
   const char *name, *constraints;
 };
 const Method schemes[] = {{"rkf45", "projection"},   {"rkf45", "partitioning"},           {"dopri5", "projection"},
-                          {"dopri5", "partitioning"}, {"verner87", "projection"}, {"generalized-alpha", "projection"}, {"generalized-alpha", "index 3"}};
+                          {"dopri5", "partitioning"}, {"verner87", "projection"}, {"generalized-alpha", "projection"}};
 
 // Only two things may allocate after the first steps: the list of impacts as it doubles, and
 // partitioning at the rare steps that choose a new set of coordinates.
