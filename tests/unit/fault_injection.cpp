@@ -118,7 +118,7 @@ int fsync(int file) {
   return counts(file) ? judged(sync_call, act) : act();
 }
 
-int syncfs(int file) {
+int syncfs(int file) noexcept {
   const auto act = [&] { return static_cast<int>(::syscall(SYS_syncfs, file)); };
   return counts(file) ? judged(sync_call, act) : act();
 }
@@ -142,17 +142,17 @@ int open(const char* path, int flags, ...) {
   return file;
 }
 
-int rename(const char* from, const char* to) {
+int rename(const char* from, const char* to) noexcept {
   const auto act = [&] { return static_cast<int>(::syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0)); };
   return counts(to) ? judged(rename_call, act) : act();
 }
 
-int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) {
+int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) noexcept {
   const auto act = [&] { return static_cast<int>(::syscall(SYS_renameat2, from_folder, from, to_folder, to, flags)); };
   return counts(to) ? judged(rename_call, act) : act();
 }
 
-int mkdir(const char* path, mode_t mode) {
+int mkdir(const char* path, mode_t mode) noexcept {
   const auto act = [&] { return static_cast<int>(::syscall(SYS_mkdirat, AT_FDCWD, path, mode)); };
   return counts(path) ? judged(mkdir_call, act) : act();
 }
@@ -166,7 +166,7 @@ int posix_fallocate(int file, off_t offset, off_t length) {
 }
 
 // PINTLE_FAULT_CLOCK: every seventh look at the clock an hour earlier than the one before, and on from there.
-int clock_gettime(clockid_t clock, timespec* time) {
+int clock_gettime(clockid_t clock, timespec* time) noexcept {
   static std::atomic<long> looks{0};
   static const bool jumps = std::getenv("PINTLE_FAULT_CLOCK") != nullptr;
   const int done = static_cast<int>(::syscall(SYS_clock_gettime, clock, time));
@@ -174,7 +174,7 @@ int clock_gettime(clockid_t clock, timespec* time) {
   return done;
 }
 
-sighandler_t signal(int number, sighandler_t handler) {
+sighandler_t signal(int number, sighandler_t handler) noexcept {
   armed = true;
   return real<sighandler_t(int, sighandler_t)>("signal")(number, handler);
 }
@@ -183,12 +183,12 @@ void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
-void* malloc(std::size_t size) { return fails_for_memory() ? nullptr : __libc_malloc(size); }
-void* calloc(std::size_t n, std::size_t size) { return fails_for_memory() ? nullptr : __libc_calloc(n, size); }
-void* realloc(void* old, std::size_t size) { return fails_for_memory() ? nullptr : __libc_realloc(old, size); }
-void* memalign(std::size_t alignment, std::size_t size) { return fails_for_memory() ? nullptr : __libc_memalign(alignment, size); }
-void* aligned_alloc(std::size_t alignment, std::size_t size) { return fails_for_memory() ? nullptr : __libc_memalign(alignment, size); }
-int posix_memalign(void** out, std::size_t alignment, std::size_t size) {
+void* malloc(std::size_t size) noexcept { return fails_for_memory() ? nullptr : __libc_malloc(size); }
+void* calloc(std::size_t n, std::size_t size) noexcept { return fails_for_memory() ? nullptr : __libc_calloc(n, size); }
+void* realloc(void* old, std::size_t size) noexcept { return fails_for_memory() ? nullptr : __libc_realloc(old, size); }
+void* memalign(std::size_t alignment, std::size_t size) noexcept { return fails_for_memory() ? nullptr : __libc_memalign(alignment, size); }
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept { return fails_for_memory() ? nullptr : __libc_memalign(alignment, size); }
+int posix_memalign(void** out, std::size_t alignment, std::size_t size) noexcept {
   if (fails_for_memory()) return ENOMEM;
   *out = __libc_memalign(alignment, size);
   return *out ? 0 : ENOMEM;

@@ -12,10 +12,6 @@
 
 #include "tests/unit/program.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define PINTLE_SANITIZED 1
-#endif
-
 namespace {
 
 namespace fs = std::filesystem;

@@ -11,6 +11,14 @@
 #include <string>
 #include <vector>
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define PINTLE_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define PINTLE_SANITIZED 1
+#endif
+#endif
+
 extern char** environ;
 
 /// The program itself, started on a folder of its own.
