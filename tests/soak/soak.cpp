@@ -9,6 +9,7 @@
 //   soak --ask statics            that alone, instead of a run and one other in turn; before --shrink; `agree`: by two methods
 //   soak --agree                  besides, of every mechanism whether two methods agree
 //   soak --steps 500              so many steps at most
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -39,7 +40,9 @@ soak::Verdict in_child(const std::string& scene, soak::Question question, bool t
   if (child < 0) throw std::runtime_error("no child process");
   if (child == 0) {
     close(ends[0]);
-    alarm(dead_seconds);
+    const itimerval computing{{0, 0}, {dead_seconds, 0}};
+    setitimer(ITIMER_PROF, &computing, nullptr);
+    alarm(20 * dead_seconds);
     const soak::Verdict v = soak::judge(scene, question, twice, run_seconds);
     std::ostringstream s;
     s << v.good << '\0' << v.outcome << '\0' << v.detail << '\0' << v.steps << '\0' << v.seconds << '\0';
@@ -58,7 +61,7 @@ soak::Verdict in_child(const std::string& scene, soak::Question question, bool t
   close(ends[0]);
   int status = 0;
   waitpid(child, &status, 0);
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) return {false, "hangs", "", 0, dead_seconds};
+  if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGALRM || WTERMSIG(status) == SIGPROF)) return {false, "hangs", "", 0, dead_seconds};
   if (WIFSIGNALED(status)) return {false, std::string("crashes: ") + strsignal(WTERMSIG(status)), "", 0, 0};
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return {false, "ends without a verdict", "", 0, 0};
   std::vector<std::string> parts;
