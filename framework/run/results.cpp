@@ -131,6 +131,7 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
       {"unexplained [J]", run.unexplained},
       {"worst unexplained [J]", run.worst_unexplained},
       {"energy in play [J]", run.energy_in_play},
+      {"ledger bound", {{"share of the energy in play", run.ledger_bound}, {"and of rounding [J]", run.ledger_floor}}},
       {"worst scaled violation", {{"position", run.worst_position}, {"velocity", run.worst_velocity}}},
       {"counts",
        {{"steps", run.counts.steps},

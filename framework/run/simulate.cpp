@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "framework/dynamics/worse.h"
+#include "framework/run/books.h"
 #include "framework/run/guarded.h"
 #include "framework/run/slow_contact.h"
 #include "framework/run/watch.h"
@@ -219,10 +221,11 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   const auto book = [&](const State& state) {
     const Energies e = energies(system, state, integrator.sampled());
     if (!started) run.first = e, started = true;
-    run.energy_in_play = std::max(run.energy_in_play, in_play(e, run.first));
+    run.energy_in_play = worse(run.energy_in_play, in_play(e, run.first));
     run.last = e;
     run.unexplained = e.balance() - run.first.balance();
-    if (std::abs(run.unexplained) > std::abs(run.worst_unexplained)) run.worst_unexplained = run.unexplained;
+    const double worst = std::abs(run.worst_unexplained), now = std::abs(run.unexplained);
+    if (!std::isnan(worst) && !(now <= worst)) run.worst_unexplained = run.unexplained;
   };
   const auto add_row = [&](const State& state) {
     record(model, state, integrator.sampled(), run.trajectory);
@@ -324,16 +327,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   run.worst_position = integrator.worst_position();
   run.worst_velocity = integrator.worst_velocity();
   run.seconds = std::chrono::duration<double>(clock::now() - begin - spent_listening).count();
-  if (run.status == Status::finished &&
-      !(std::abs(run.worst_unexplained) <= scene.run.ledger_bound * run.energy_in_play + rounding_energy(system, integrator.state(), until))) {
-    std::ostringstream s;
-    s.precision(3);
-    s << "the ledger leaves " << run.worst_unexplained << " J unexplained, "
-      << std::abs(run.worst_unexplained) / run.energy_in_play << " of the energy in play; bound "
-      << scene.run.ledger_bound << " (tighten run.tolerance, or raise run.ledger bound)";
-    run.status = Status::ledger_over_bound;
-    run.reason = s.str();
-  }
+  judge_books(scene, model, integrator.implicit(), rounding_energy(system, integrator.state(), until), run);
   return run;
 }
 

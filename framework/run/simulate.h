@@ -32,6 +32,8 @@ struct Run {
   double unexplained = 0;           ///< at the end [J]
   double worst_unexplained = 0;     ///< largest in magnitude at any output [J]
   double energy_in_play = 0;        ///< what `unexplained` is held against [J]
+  double ledger_bound = 0;          ///< share of it that may stay unexplained, by the scene or the method
+  double ledger_floor = 0;          ///< and this besides, which rounding may leave [J]
   Counts counts;
   double worst_position = 0, worst_velocity = 0;  ///< scaled constraint violations
   double seconds = 0;               ///< of computing, frames and files excluded
