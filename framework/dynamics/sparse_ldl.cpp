@@ -123,6 +123,7 @@ struct SparseLdl::Data {
   bool factor_blocks(double* values) {
     cholmod_sparse A = upper(pattern, values);
     cholmod_factorize(&A, blocks, &common);
+    if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     return common.status == CHOLMOD_OK;
   }
 

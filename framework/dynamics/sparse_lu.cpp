@@ -32,6 +32,7 @@ struct SparseLu::Data {
     seed = v;
     ++pivotings;
     numeric = klu_factor(pattern.column_begin.data(), pattern.row.data(), seed.data(), symbolic, &common);
+    if (!numeric && common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
     if (!numeric) return false;
     growth = measure(seed);
     pivots = std::vector<double>(diagonal(), diagonal() + pattern.size());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <numeric>
 
 #include <Eigen/SparseCore>
@@ -42,6 +43,7 @@ class QR {
     common_.print = 0;
     cholmod_sparse* matrix = cholmod_l_allocate_sparse(static_cast<std::size_t>(A.rows()), static_cast<std::size_t>(A.cols()),
                                                        static_cast<std::size_t>(A.nonZeros()), 1, 1, 0, CHOLMOD_REAL, &common_);
+    if (!matrix) fail();
     auto* begin = static_cast<SuiteSparse_long*>(matrix->p);
     auto* row = static_cast<SuiteSparse_long*>(matrix->i);
     auto* value = static_cast<double*>(matrix->x);
@@ -54,12 +56,9 @@ class QR {
     SuiteSparseQR<double>(SPQR_ORDERING_COLAMD, tolerance, 0, matrix, &R_, &order_, &common_);
     cholmod_l_free_sparse(&matrix, &common_);
     columns_ = static_cast<int>(A.cols());
+    if (!R_ || common_.status == CHOLMOD_OUT_OF_MEMORY) fail();
   }
-  ~QR() {
-    cholmod_l_free_sparse(&R_, &common_);
-    cholmod_l_free(static_cast<std::size_t>(columns_), sizeof(SuiteSparse_long), order_, &common_);
-    cholmod_l_finish(&common_);
-  }
+  ~QR() { free(); }
   QR(const QR&) = delete;
   QR& operator=(const QR&) = delete;
 
@@ -98,6 +97,15 @@ class QR {
   }
 
  private:
+  void free() {
+    cholmod_l_free_sparse(&R_, &common_);
+    cholmod_l_free(static_cast<std::size_t>(columns_), sizeof(SuiteSparse_long), order_, &common_);
+    cholmod_l_finish(&common_);
+  }
+  [[noreturn]] void fail() {
+    free();
+    throw std::bad_alloc();
+  }
   int original(SuiteSparse_long c) const { return static_cast<int>(order_ ? order_[c] : c); }
 
   cholmod_common common_;
