@@ -4,9 +4,10 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(pintle_config ${CMAKE_INSTALL_LIBDIR}/cmake/pintle)
 
-install(TARGETS pintle EXPORT pintleTargets)
+install(TARGETS pintle pintle_eigen EXPORT pintleTargets)
 install(DIRECTORY contact elements files framework meshes DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pintle
   FILES_MATCHING PATTERN "*.h")
+install(FILES eigen_layout.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pintle)
 install(EXPORT pintleTargets NAMESPACE pintle:: DESTINATION ${pintle_config})
 
 configure_package_config_file(cmake/pintleConfig.cmake.in pintleConfig.cmake

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
+
 namespace pintle {
 
 /// A point with a velocity and a spin, as a contact sees a body; world axes.

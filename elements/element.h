@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
+
 /// What every element answers. All matrices are in body axes; the nodal freedoms of a node are
 /// [u_x u_y] or, in beams, [u_x u_y φ] (m, m, rad), node after node.
 ///

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
+
 /// Linear elastic solids, seen by a plane element as D and by a beam as two moduli. Small strain,
 /// no temperature, no loss. Theory: docs/theory/elements.md.
 namespace pintle {

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
+
 namespace pintle {
 
 /// A lump at a node: freedoms [u_x u_y φ]. It has no stiffness. The two blocks are what `mass` and

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
+
 /// Links that need no drawing. All lengths in m; body axes as each says.
 namespace pintle {
 

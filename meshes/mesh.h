@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
+
 namespace pintle {
 
 /// Shapes of cells. Nodes: corners counter-clockwise, then middles of the sides 12, 23, …, then the

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
+
 namespace pintle {
 
 /// How large cells are to be: `largest`, or less near places that ask for it.

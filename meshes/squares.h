@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "eigen_layout.h"
+
 namespace pintle {
 
 /// Boxes sorted into the squares of a grid, so that those near a place are found without looking at all of them.

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
+
 namespace pintle {
 
 /// C = αM + βK gives a shape of frequency ω the ratio ζ = α/2ω + βω/2.

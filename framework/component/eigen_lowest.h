@@ -3,6 +3,8 @@
 #include <Eigen/SparseCore>
 #include <string>
 
+#include "eigen_layout.h"
+
 namespace pintle {
 
 struct EigenOptions {

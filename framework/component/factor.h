@@ -4,6 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "eigen_layout.h"
+
 namespace pintle {
 
 /// How a factor L is cut into supernodes: runs of columns with one pattern, children before

@@ -7,6 +7,7 @@
 
 #include <Eigen/SparseCore>
 
+#include "eigen_layout.h"
 #include "elements/line.h"
 #include "elements/plane.h"
 #include "elements/point_mass.h"

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
+
 /// All that the online side keeps of a body's finite elements.
 namespace pintle {
 

@@ -3,6 +3,7 @@
 #include <Eigen/SparseCore>
 #include <string>
 
+#include "eigen_layout.h"
 #include "framework/component/eigen_lowest.h"
 
 namespace pintle {

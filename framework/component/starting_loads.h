@@ -2,6 +2,8 @@
 
 #include <Eigen/SparseCore>
 
+#include "eigen_layout.h"
+
 namespace pintle {
 
 /// Starting loads R = M X, n × count. X after Bathe: all freedoms at once; single ones where

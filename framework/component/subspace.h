@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCore>
 
+#include "eigen_layout.h"
 #include "framework/component/factor.h"
 
 namespace pintle {

@@ -2,6 +2,8 @@
 
 #include <Eigen/SparseCore>
 
+#include "eigen_layout.h"
+
 namespace pintle {
 
 // Products of tall matrices, n × a few, which Eigen would take column by column. By BLAS.

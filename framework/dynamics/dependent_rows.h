@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
+
 namespace pintle {
 
 /// What the solvers do where constraint rows are dependent: they factor with a small shift on the rows'

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
 #include "framework/dynamics/flexible.h"
 #include "framework/dynamics/marker_motion.h"
 #include "framework/dynamics/schur.h"

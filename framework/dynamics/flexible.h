@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
 #include "framework/dynamics/system.h"
 
 namespace pintle {

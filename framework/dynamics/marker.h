@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
+
 namespace pintle {
 
 inline constexpr int ground = -1;

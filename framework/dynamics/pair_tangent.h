@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
 #include "framework/dynamics/contact_pair.h"
 #include "framework/dynamics/forces.h"
 #include "framework/dynamics/joints.h"

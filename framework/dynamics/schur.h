@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
 #include "framework/dynamics/flexible.h"
 #include "framework/dynamics/pattern.h"
 #include "framework/dynamics/system.h"

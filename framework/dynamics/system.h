@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
 #include "framework/component/inertia.h"
 #include "framework/dynamics/contact_pair.h"
 #include "framework/dynamics/forces.h"

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
+
 namespace pintle {
 
 /// The greater of two errors, and not a number if either is not: std::max drops a NaN or keeps it by the order of

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
 #include "framework/integration/members.h"
 
 namespace pintle {

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
+#include "eigen_layout.h"
 #include "framework/dynamics/equations.h"
 #include "framework/integration/members.h"
 

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 
+#include "eigen_layout.h"
 #include "framework/run/row_space.h"
 #include "framework/scene/scene.h"
 

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include "eigen_layout.h"
+
 namespace pintle {
 
 /// x of J x = r with the least |x| in the metric W⁻¹, W a diagonal ≥ 0:  x = W Jᵀ (J W Jᵀ + μ)⁻¹ r, refined.

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
 #include "framework/run/assemble.h"
 #include "framework/run/small_motion.h"
 

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <Eigen/SparseCore>
 
+#include "eigen_layout.h"
 #include "framework/dynamics/equations.h"
 
 namespace pintle {

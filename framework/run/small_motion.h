@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
 #include "framework/dynamics/equations.h"
 
 /// Small motion about a motion, the constraints eliminated: docs/theory/linearisation.md.

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
 #include "meshes/mesh.h"
 
 namespace pintle {

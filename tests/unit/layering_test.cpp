@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <string>
 #include <string_view>
@@ -113,6 +114,21 @@ TEST(Layering, EveryIncludeIsAnEdgeOfTheTable) {
     }
   }
   EXPECT_GT(seen, 100) << "the scan has missed the sources";
+}
+
+TEST(Layering, HeadersThatUseEigenCheckItsLayout) {
+  const fs::path root = PINTLE_SOURCE_DIR;
+  int seen = 0;
+  for (const auto* folder : {"elements", "contact", "meshes", "framework"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      if (entry.path().extension() != ".h") continue;
+      std::ifstream in(entry.path());
+      const std::string text{std::istreambuf_iterator<char>(in), {}};
+      if (text.find("#include <Eigen/") == std::string::npos) continue;
+      ++seen;
+      EXPECT_NE(text.find("#include \"eigen_layout.h\""), std::string::npos) << entry.path() << ": must include eigen_layout.h";
+    }
+  EXPECT_GT(seen, 20) << "the scan has missed the headers";
 }
 
 TEST(Layering, TheTableForbidsWhatItShould) {
