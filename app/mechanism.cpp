@@ -244,6 +244,7 @@ class Recording {
   static constexpr std::size_t least_room = std::size_t{1} << 16;
 
   void add(const SavedState& state) {
+    files_.flush();  // rows come first where the disk fills
     std::ostringstream name;
     name << std::setw(5) << std::setfill('0') << ++saved_ << ".state";
     std::error_code error;

@@ -30,7 +30,7 @@ extern "C" void ask_to_stop(int signal) {
 void heed(int signal) {
   struct sigaction before {};
   ::sigaction(signal, nullptr, &before);
-  if (before.sa_handler == SIG_IGN) return;
+  if (signal == SIGHUP && before.sa_handler == SIG_IGN) return;  // nohup
   struct sigaction asks {};
   asks.sa_handler = ask_to_stop;
   asks.sa_flags = SA_RESTART;

@@ -38,9 +38,9 @@ class Refinement {
       : unit_(unit), b_(unit), left_(unit), before_(unit), last_(unit), rows_(rows) {}
 
   /// z: b on entry. solve(v): v ← shifted⁻¹ v; subtract_product(z, out): out −= K z; shifts_made: on the rows of multipliers, with
-  /// its sign. No allocation.
+  /// its sign, where the multipliers are found whole and their part that does no work is to be taken off. No allocation.
   template <class Solve, class SubtractProduct>
-  void operator()(Eigen::VectorXd& z, Solve solve, SubtractProduct subtract_product, const Eigen::VectorXd& shifts_made) {
+  void operator()(Eigen::VectorXd& z, Solve solve, SubtractProduct subtract_product, const Eigen::VectorXd* shifts_made = nullptr) {
     constexpr int most = 8;
     constexpr double rounding = 1e-15;
     b_ = left_ = z;
@@ -63,7 +63,7 @@ class Refinement {
     // What cannot be met adds the same to the multipliers at each sweep: the last one's, taken back.
     const Eigen::Index m = z.size() - rows_;
     z.tail(m) -= sweeps * last_.tail(m);
-    take_null_part(z, solve, shifts_made);
+    if (shifts_made) take_null_part(z, solve, *shifts_made);
     left_over_ = size > 0 ? left_.tail(m).cwiseProduct(unit_.tail(m)).lpNorm<Eigen::Infinity>() / size : 0;
   }
 

@@ -29,7 +29,7 @@ struct Kkt::Data {
   std::vector<int> where_J, where_C, where_D;  ///< entry of each summand; of Cq two each, of the rows' diagonal
   Pattern full_pattern;                        ///< of a dense one
   std::vector<double> values, shifted_values;  ///< scaled, without and with the shift
-  VectorXd T, E, minus_E;                      ///< x, y = T ẑ, T = [D; R]; the shift is −E
+  VectorXd T, E;                      ///< x, y = T ẑ, T = [D; R]; the shift is −E
   VectorXd z, work, unit, ones;
   dependent_rows::Refinement refine;
   std::optional<SparseLu> sparse;
@@ -104,7 +104,6 @@ struct Kkt::Data {
   void shift_rows() {
     shifted_values = values;
     for (Index i = 0; i < m; ++i) shifted_values[at(where_D[at(i)])] -= E[i];
-    minus_E = -E;
   }
   bool factor_shifted() {
     shift_rows();
@@ -159,7 +158,6 @@ Kkt::Kkt(const System& system, const Equations& eq, const Tangent& tangent) : da
   if (d.dense) d.shifted_values = d.values;  // sparse: at the first dependent rows
   d.T.setZero(d.size);
   d.E.setZero(d.m);
-  d.minus_E = d.E;
   d.ones.setOnes(d.m);
   d.unit = d.ones;
   d.z.setZero(d.size);
@@ -182,7 +180,7 @@ void Kkt::solve(VectorXd& x, VectorXd& y) {
   d.z << x, y;
   d.z.array() *= d.T.array();
   if (d.shifted)
-    d.refine(d.z, [&](VectorXd& v) { d.solve_in_place(v); }, [&](const VectorXd& v, VectorXd& out) { d.subtract_product(v, out); }, d.minus_E);
+    d.refine(d.z, [&](VectorXd& v) { d.solve_in_place(v); }, [&](const VectorXd& v, VectorXd& out) { d.subtract_product(v, out); });
   else
     d.solve_in_place(d.z);
   d.z.array() *= d.T.array();

@@ -283,7 +283,7 @@ void Schur::solve(VectorXd& mu) {
   if (!dependent())
     solve_factored(mu);
   else
-    data_->refine(mu, [&](VectorXd& v) { solve_factored(v); }, [&](const VectorXd& x, VectorXd& out) { subtract_product(x, out); }, data_->shift);
+    data_->refine(mu, [&](VectorXd& v) { solve_factored(v); }, [&](const VectorXd& x, VectorXd& out) { subtract_product(x, out); }, &data_->shift);
 }
 
 }  // namespace pintle

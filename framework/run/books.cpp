@@ -15,13 +15,6 @@ std::string number_text(double x, int digits) {
   return s.str();
 }
 
-/// The largest magnitude of an integral of the ledger at any output [J].
-double greatest(const Table& ledger, std::size_t column) {
-  double most = 0;
-  for (std::size_t row = 0; row < ledger.rows(); ++row) most = std::max(most, std::abs(ledger.data[row * ledger.columns() + column]));
-  return most;
-}
-
 /// Sliding that does no work of its force leaves its own energy open, which says nothing of the other rows.
 bool books_agree_with_model(const System& system) {
   return std::none_of(system.contacts.begin(), system.contacts.end(),
@@ -31,17 +24,16 @@ bool books_agree_with_model(const System& system) {
 // Errors of a run go where its energy goes: each row may be off by what is unexplained, by what the scheme itself took, and by
 // the tolerance of the energy in play.
 void warn_of_small_rows(const System& system, const Scheme& scheme, Run& run) {
-  constexpr double doubtful = 0.05, rounding = 1e-13;
-  if (run.ledger.rows() == 0 || !books_agree_with_model(system)) return;
-  const std::size_t first = first_integral(system);
+  constexpr double doubtful = 0.05, noticed = 1e-6;  // of a row, of the energy in play: less is a force that does no work
+  if (run.greatest_integrals.size() != system.integrals.size() || !books_agree_with_model(system)) return;
   double doubt = std::abs(run.worst_unexplained) + scheme.tolerance * run.energy_in_play;
   for (std::size_t i = 0; i < system.integrals.size(); ++i)
-    if (system.integrals[i].account == Account::scheme) doubt += greatest(run.ledger, first + i);
+    if (system.integrals[i].account == Account::scheme) doubt += run.greatest_integrals[i];
   std::size_t worst = 0, more = 0;
   double least = 0;
   for (std::size_t i = 0; i < system.integrals.size(); ++i) {
-    const double size = greatest(run.ledger, first + i);
-    if (system.integrals[i].account == Account::scheme || size <= rounding * run.energy_in_play || doubt <= doubtful * size) continue;
+    const double size = run.greatest_integrals[i];
+    if (system.integrals[i].account == Account::scheme || size <= noticed * run.energy_in_play || doubt <= doubtful * size) continue;
     if (more++ == 0 || size < least) worst = i, least = size;
   }
   if (more == 0) return;

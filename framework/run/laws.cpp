@@ -27,11 +27,9 @@ bool stands_still(const Law& law, double until) {
 
 /// A jump of what a driver imposes, or of its speed, is an impact, whose energy no equation here books.
 void judge_jumps(const Scene& scene, const SceneDriver& d, const LawScale& scale) {
-  double fastest = 0;
-  for (const double t : scale.pieces) fastest = std::max(fastest, std::abs(d.law.at(t).rate));
   for (const LawBreak& b : scale.breaks) {
     const bool place = value_jumps(b);
-    if (!place && !speed_jumps(b, fastest)) continue;
+    if (!place && !speed_jumps(b, scale.fastest)) continue;
     const auto [from, to] = place ? std::pair(b.left.value, b.right.value) : std::pair(b.left.rate, b.right.rate);
     const std::string unit = std::string(d.kind == DriverKind::angle ? "rad" : "m") + (place ? "" : "/s"), when = number(b.after);
     throw SceneError(scene.file, d.place,

@@ -93,6 +93,10 @@ void RunFiles::add(const Table& trajectory, const Table& ledger, const std::vect
   while (impacts_ < impacts.size() && !std::isnan(impacts[impacts_].end)) add_impact(impacts[impacts_]);
 }
 
+void RunFiles::flush() {
+  for (FileWriter* file : {&trajectory_, &ledger_, &events_}) file->flush();
+}
+
 void RunFiles::finish(const std::vector<Impact>& impacts) {
   std::exception_ptr trouble;
   const auto attempt = [&](auto act) {

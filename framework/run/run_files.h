@@ -15,6 +15,8 @@ class RunFiles {
   RunFiles(const std::filesystem::path& directory, const Model&);
   /// All rows of the tables, and the impacts that have ended since. @throws FileError
   void add(const Table& trajectory, const Table& ledger, const std::vector<Impact>&);
+  /// Puts what is in buffers on the disk. @throws FileError
+  void flush();
   /// The impacts that go on, and what is in buffers. @throws FileError  the first of the three; all are closed
   void finish(const std::vector<Impact>&);
 

@@ -150,6 +150,7 @@ class RowFigures {
  public:
   RowFigures(const System& system, Run& run) : run_(run), first_integral_(first_integral(system)), n_z_(static_cast<std::size_t>(system.n_z())) {
     run.links.resize(system.contacts.size());
+    run.greatest_integrals.assign(n_z_, 0);
     for (std::size_t c = 0; c < system.contacts.size(); ++c) {
       if (system.contacts[c].link < 0) continue;
       const auto& header = run.trajectory.header;
@@ -159,6 +160,7 @@ class RowFigures {
   void see() {
     const auto books = run_.ledger.data.end() - static_cast<std::ptrdiff_t>(run_.ledger.columns() - first_integral_);
     run_.integrals.assign(books, books + static_cast<std::ptrdiff_t>(n_z_));
+    for (std::size_t i = 0; i < n_z_; ++i) run_.greatest_integrals[i] = worse(run_.greatest_integrals[i], std::abs(run_.integrals[i]));
     for (const auto& [c, column] : normal_) {
       const double N = *(run_.trajectory.data.end() - static_cast<std::ptrdiff_t>(run_.trajectory.columns()) + column);
       Run::LinkForce& force = run_.links[c];
@@ -320,6 +322,9 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   if (from) warn_of_gap(system, model, *from, run);
   warn_of_depth(system, run);
   warn_of_pushing(system, run);
+  if (integrator.implicit() && !assembly.redundant.empty())
+    run.warnings.push_back("by generalised-alpha the joint forces that are not unique take on a part that does no work and may grow (" +
+                           rows_text(system, assembly.shared, true) + "); the motion is right; for these forces take method: dopri5");
   slow.warn(system, run.energy_in_play, run.warnings);
   watch.warn(run.warnings);
   run.counts = integrator.counts();

@@ -26,6 +26,7 @@ struct Run {
     double least = 0, greatest = 0; ///< of the rows [N]
     long pushing = 0, rows = 0;     ///< rows below zero; all
   };
+  std::vector<double> greatest_integrals;  ///< of the ledger, in magnitude, at any output [J]
   std::vector<LinkForce> links;     ///< of each contact that is a massless link; of others nothing
   std::vector<Impact> impacts;
   Energies first, last;             ///< the books at the start and at the end

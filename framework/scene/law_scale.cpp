@@ -192,11 +192,14 @@ class Spread {
     if (!std::isfinite(s.jet.value)) return;
     const double off = s.jet.value - first_ - slope_ * s.t;
     least_ = std::min(least_, off), most_ = std::max(most_, off), size_ = std::max(size_, std::abs(s.jet.value));
+    if (std::isfinite(s.jet.rate)) fastest_ = std::max(fastest_, std::abs(s.jet.rate));
   }
-  double little() const { return part * (most_ - least_) + known_to * size_; }
+  double seen() const { return most_ - least_; }
+  double little() const { return part * seen() + known_to * size_; }
+  double fastest() const { return fastest_; }
 
  private:
-  double first_, slope_, least_ = 0, most_ = 0, size_ = 0;
+  double first_, slope_, least_ = 0, most_ = 0, size_ = 0, fastest_ = 0;
 };
 
 /// Samples a formula between its roots until nothing of size can be hidden between them.
@@ -224,20 +227,24 @@ class Sampling {
     double a, b, hidden;
     bool operator<(const Cell& other) const { return hidden < other.hidden; }
   };
-  // What the value may do in between that the rates of the samples do not show: the excess of the rate's bounds, times the time.
+  // What the value may do in between that the rates of the samples do not show: the excess of the rate's bounds, times the time;
+  // where the samples' values show less than half of the value's bounds, as where all fall on one phase of a wave, those bounds.
   void look(double a, double b) {
     constexpr int n = 8;
     const auto t = [&](int i) { return i == n ? b : a + (b - a) * i / n; };
-    Range seen{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}, bounds = seen;
+    Range seen{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}, bounds = seen, values = seen;
     for (int i = 0; i <= n; ++i) {
       const Sample s{t(i), law_(t(i))};
       spread_.see(s);
       if (i > 0) samples_.push_back(s);
       seen = hull(seen, {s.jet.rate, s.jet.rate});
-      if (i < n) bounds = hull(bounds, ranges_.run(program_, program_.code.size(), time_from(t(i), t(i + 1)))[-1].rate);
+      if (i == n) break;
+      const RangeJet over = ranges_.run(program_, program_.code.size(), time_from(t(i), t(i + 1)))[-1];
+      bounds = hull(bounds, over.rate), values = hull(values, over.value);
     }
     const double excess = std::max(0.0, seen.lo - bounds.lo) + std::max(0.0, bounds.hi - seen.hi);
-    queue_.push({a, b, std::isnan(excess) ? std::numeric_limits<double>::infinity() : excess * (b - a)});
+    const double unseen = values.hi - values.lo - 2 * spread_.seen(), hidden = std::max(excess * (b - a), std::isnan(unseen) ? 0 : unseen);
+    queue_.push({a, b, std::isnan(hidden) ? std::numeric_limits<double>::infinity() : hidden});
   }
 
   const Program& program_;
@@ -260,7 +267,9 @@ double hermite(const Sample& from, const Sample& to, double t) {
 }
 
 /// Divides [a, b] by halves until each part is the polynomial of its ends, to what counts.
-void divide(const TimeLaw& law, double a, double b, const std::vector<Sample>& samples, double little, double until, std::vector<double>& ends) {
+/// @returns false where that takes too many
+bool divide(const TimeLaw& law, double a, double b, const std::vector<Sample>& samples, double little, double until, std::vector<double>& ends) {
+  if (ends.size() > most_intervals) return false;
   constexpr int looks = 8;
   const Sample from{a, law(a)}, to{b, law(b)};
   const auto off = [&](double t, double value) { return !(std::abs(hermite(from, to, t) - value) <= little); };
@@ -273,10 +282,10 @@ void divide(const TimeLaw& law, double a, double b, const std::vector<Sample>& s
   for (auto s = begin; s != samples.end() && s->t < b && !bends; ++s) bends = off(s->t, s->jet.value);
   if (!bends || b - a <= narrowest * std::max(b, until)) {
     ends.push_back(b);
-    return;
+    return true;
   }
-  divide(law, a, a + (b - a) / 2, samples, little, until, ends);
-  divide(law, a + (b - a) / 2, b, samples, little, until, ends);
+  const double middle = a + (b - a) / 2;
+  return divide(law, a, middle, samples, little, until, ends) && divide(law, middle, b, samples, little, until, ends);
 }
 
 /// The greatest value, rate and acceleration that a few looks show: what a difference is small against.
@@ -318,7 +327,9 @@ LawScale of_formula(const Program& program, const TimeLaw& law, double until) {
   between.emplace_back(begin, until);
   for (const auto& [a, b] : between) sampling.begin(a, b);
   if (!sampling.refine(until)) return {};
-  for (const auto& [a, b] : between) divide(law, a, b, sampling.samples(), spread.little(), until, out.pieces);
+  for (const auto& [a, b] : between)
+    if (!divide(law, a, b, sampling.samples(), spread.little(), until, out.pieces)) return {};
+  out.fastest = spread.fastest();
   out.known = true;
   return out;
 }
@@ -336,11 +347,12 @@ LawScale of_samples(const Samples& s, bool linear, const TimeLaw& law, double un
     if (!(t > 0 && t < until)) continue;
     const LawBreak b{t - roundings(t, 4), t + roundings(t, 4), law(t - roundings(t, 4)), law(t + roundings(t, 4))};
     if (std::abs(b.right.rate - b.left.rate) * h <= spread.little()) continue;
-    divide(law, begin, b.before, samples, spread.little(), until, out.pieces);
+    if (!divide(law, begin, b.before, samples, spread.little(), until, out.pieces)) return {};
     begin = b.after;
     out.breaks.push_back(b);
   }
-  divide(law, begin, until, samples, spread.little(), until, out.pieces);
+  if (!divide(law, begin, until, samples, spread.little(), until, out.pieces)) return {};
+  out.fastest = spread.fastest();
   out.known = true;
   return out;
 }

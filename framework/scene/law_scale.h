@@ -17,6 +17,7 @@ struct LawScale {
   bool known = false;            ///< false: nothing is known of how the law is made, or it has too many
   std::vector<LawBreak> breaks;  ///< in order; ends of step(…) among them, though smooth
   std::vector<double> pieces;    ///< ends of the times in which it is as smooth as a polynomial of fifth degree, up to `until`
+  double fastest = 0;            ///< greatest |rate| seen [1/s]
 };
 
 /// Of a formula found by its parts: roots of what its conditions, abs, min, max and step compare, and bounds of its rate over

@@ -246,7 +246,6 @@ TEST(LedgerInsideSteps, OfDopri5ErrsNoMoreThanAtTheirEnds) {
         ASSERT_TRUE(run.sample(run.last().from.state.t + x * run.last().h, sample));
         inside = std::max(inside, off(sample));
       }
-      run.restore();
       at_ends = std::max(at_ends, off(run.state()));
     }
     EXPECT_LT(inside, 10 * at_ends) << tolerance;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "framework/run/identity.h"
 #include "framework/run/results.h"
 #include "framework/run/room.h"
 #include "framework/scene/reader.h"
@@ -42,12 +43,12 @@ Written written(const std::filesystem::path& folder) {
   const Assembly assembly = assemble(scene, model);
   Written out;
   Listeners listeners;
-  listeners.state = [&](const SavedState& s) { out.state = state_text(scene, s); };
+  listeners.state = [&](const SavedState& s) { out.state = state_text(identity(scene, model, assembly), s); };
   const Run run = simulate(scene, model, assembly, listeners);
   out.filled_in = scene.filled_in;
   out.trajectory = csv(run.trajectory);
   { std::ofstream(folder / "s.state", std::ios::binary) << out.state; }
-  out.restarted = read_state(folder / "s.state", scene).t;
+  out.restarted = read_state(folder / "s.state", scene, model, assembly).t;
   out.warning = judge_room("out", {1, 5e9, 1, 1}, {1.5e9, 1e12}).at(0);
   try {
     read_scene_text(text, "scene.yaml", {{"run.until", "12345.5 m"}}, folder);
