@@ -223,9 +223,9 @@ Tree tree_of(const fs::path& folder) {
 }
 
 void sync_tree(const fs::path& folder) {
-  const auto [files, folders] = tree_of(folder);
+  const auto tree = tree_of(folder);
   const auto each = [&](auto act) {
-    for (const fs::path& path : files) {
+    for (const fs::path& path : tree.files) {
       const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
       if (file < 0) throw FileError(path, errno);
       const int failed = act(file);
@@ -234,7 +234,7 @@ void sync_tree(const fs::path& folder) {
     }
   };
 #if defined(__linux__)
-  if (files.size() > 2) {  // one wait for the disk instead of one for each
+  if (tree.files.size() > 2) {  // one wait for the disk instead of one for each
     const int whole = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (whole < 0) throw FileError(folder, errno);
     const int failed = ::syncfs(whole) == 0 ? 0 : errno;
@@ -244,7 +244,7 @@ void sync_tree(const fs::path& folder) {
   }
 #endif
   each([](int file) { return sync_file(file); });
-  for (const fs::path& path : folders) sync_folder(path);
+  for (const fs::path& path : tree.folders) sync_folder(path);
 }
 
 int rename_new(const fs::path& from, const fs::path& to) {
