@@ -33,7 +33,7 @@ void warn_of_small_rows(const System& system, const Scheme& scheme, Run& run) {
   double least = 0;
   for (std::size_t i = 0; i < system.integrals.size(); ++i) {
     const double size = run.greatest_integrals[i];
-    if (system.integrals[i].account == Account::scheme || size <= noticed * run.energy_in_play || doubt <= doubtful * size) continue;
+    if (system.integrals[i].account == Account::scheme || size <= std::max(noticed * run.energy_in_play, run.ledger_floor) || doubt <= doubtful * size) continue;
     if (more++ == 0 || size < least) worst = i, least = size;
   }
   if (more == 0) return;
@@ -48,7 +48,10 @@ void warn_of_small_rows(const System& system, const Scheme& scheme, Run& run) {
 
 // A step errs by c(hω)³, which is the tolerance at most; the scheme, of second order, then moves up to (hω)² of the energy between
 // what is stored and what is booked. Twice that, for parts that give theirs to each other.
-double left_by_scheme(const Scheme& scheme) { return 2 * std::pow(scheme.tolerance / AlphaWeights(scheme.rho).error, 2.0 / 3); }
+double left_by_scheme(const Scheme& scheme) {
+  constexpr double most = 0.025;  // books that leave more open are none
+  return std::min(most, 2 * std::pow(scheme.tolerance / AlphaWeights(scheme.rho).error, 2.0 / 3));
+}
 
 void judge_books(const Scene& scene, const Model& model, bool implicit, double floor, Run& run) {
   run.ledger_bound = scene.run.ledger_bound;

@@ -96,9 +96,10 @@ std::string explain_numbers(const System& system, const Integrator& integrator) 
     return "an angle has come to " + short_number(angle) + " rad, whose last digit moves points by " +
            short_number(angle * 2.2e-16 * system.length) + " m; begin again from this state with angles in one turn";
   const Schur& rows = integrator.sampled().schur;
-  if (integrator.implicit() || system.n() != system.n_rigid() || system.n_rows() == 0 || !(rows.kept() < few)) return "";
+  if (integrator.implicit() || system.n() != system.n_rigid() || system.n_rows() == 0) return "";
   const Unlike bodies = most_unlike(system);
-  if (!(bodies.ratio > unlike)) return "";
+  constexpr double hopeless = 1e12;  // nothing of the lighter is left in sums with the heavier
+  if (!(bodies.ratio > unlike && (rows.kept() < few || bodies.ratio > hopeless))) return "";
   return "the inertia of \"" + system.bodies[bodies.light].name + "\" is " + short_number(1 / bodies.ratio) + " of that of \"" +
          system.bodies[bodies.heavy].name + "\", at its centre or turning about it, which leaves " +
          short_number(rows.kept()) + " of what the joint forces are found from; give \"" +

@@ -192,14 +192,16 @@ class Spread {
     if (!std::isfinite(s.jet.value)) return;
     const double off = s.jet.value - first_ - slope_ * s.t;
     least_ = std::min(least_, off), most_ = std::max(most_, off), size_ = std::max(size_, std::abs(s.jet.value));
+    lowest_ = std::min(lowest_, s.jet.value), highest_ = std::max(highest_, s.jet.value);
     if (std::isfinite(s.jet.rate)) fastest_ = std::max(fastest_, std::abs(s.jet.rate));
   }
-  double seen() const { return most_ - least_; }
-  double little() const { return part * seen() + known_to * size_; }
+  double seen() const { return highest_ - lowest_; }
+  double little() const { return part * (most_ - least_) + known_to * size_; }
   double fastest() const { return fastest_; }
 
  private:
   double first_, slope_, least_ = 0, most_ = 0, size_ = 0, fastest_ = 0;
+  double lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;
 };
 
 /// Samples a formula between its roots until nothing of size can be hidden between them.

@@ -127,8 +127,8 @@ Axis impact_time() {
   for (const double late : {1.0, 1e2, 1e4, 1e5, 1e6, 1e8, 1e12, 1e16})
     axis.cases.push_back({.value = late,
                           .label = printed("%g s", late),
-                          .end = late < 1e8 ? End::finished : End::stopped,
-                          .says = late < 1e8 ? "" : "step became too small",
+                          .end = late <= 1e8 ? End::finished : End::stopped,
+                          .says = late <= 1e8 ? "" : "step became too small",
                           .run = [=] { return strikes_late(late); }});
   return axis;
 }
