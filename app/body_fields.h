@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "framework/run/vtk.h"
+#include "framework/drawing/vtk.h"
 
 namespace pintle {
 

@@ -7,12 +7,12 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/run_end.h"
-#include "framework/run/inverse.h"
-#include "framework/run/kinematics.h"
-#include "framework/run/pieces.h"
-#include "framework/run/results.h"
-#include "framework/run/stand_in.h"
-#include "framework/run/text.h"
+#include "framework/analysis/kinematics/inverse.h"
+#include "framework/analysis/kinematics/kinematics.h"
+#include "framework/bodies/pieces.h"
+#include "framework/build/stand_in.h"
+#include "framework/common/text.h"
+#include "framework/output/results.h"
 
 namespace pintle::app {
 

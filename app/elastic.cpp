@@ -8,12 +8,12 @@
 
 #include "app/options.h"
 #include "app/run_end.h"
-#include "framework/run/body_drawing.h"
-#include "framework/run/file_doubts.h"
-#include "framework/run/modes.h"
-#include "framework/run/results.h"
-#include "framework/run/static_case.h"
-#include "framework/run/text.h"
+#include "framework/analysis/static_case/static_case.h"
+#include "framework/bodies/file_doubts.h"
+#include "framework/bodies/modes.h"
+#include "framework/common/text.h"
+#include "framework/drawing/body_drawing.h"
+#include "framework/output/results.h"
 
 namespace pintle::app {
 

@@ -6,10 +6,10 @@
 
 #include "app/options.h"
 #include "app/run_end.h"
-#include "framework/run/equilibrium.h"
-#include "framework/run/pieces.h"
-#include "framework/run/results.h"
-#include "framework/run/stand_in.h"
+#include "framework/analysis/equilibrium/equilibrium.h"
+#include "framework/bodies/pieces.h"
+#include "framework/build/stand_in.h"
+#include "framework/output/results.h"
 
 namespace pintle::app {
 

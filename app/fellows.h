@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "framework/study/fellows.h"
+#include "framework/study/sweep/fellows.h"
 
 namespace pintle::app {
 

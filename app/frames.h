@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "framework/run/vtk.h"
+#include "framework/drawing/vtk.h"
 
 namespace pintle {
 

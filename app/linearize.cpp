@@ -7,12 +7,12 @@
 
 #include "app/options.h"
 #include "app/run_end.h"
-#include "framework/run/assemble.h"
-#include "framework/run/drawing.h"
-#include "framework/run/equilibrium.h"
-#include "framework/run/linearize.h"
-#include "framework/run/pieces.h"
-#include "framework/run/results.h"
+#include "framework/analysis/equilibrium/equilibrium.h"
+#include "framework/analysis/linearize/linearize.h"
+#include "framework/bodies/pieces.h"
+#include "framework/configuration/assemble.h"
+#include "framework/mechanism/drawing.h"
+#include "framework/output/results.h"
 
 namespace pintle::app {
 

@@ -10,13 +10,13 @@
 #include "app/price_text.h"
 #include "app/progress.h"
 #include "app/run_end.h"
-#include "framework/run/computed.h"
-#include "framework/run/identity.h"
-#include "framework/run/results.h"
-#include "framework/run/pieces.h"
-#include "framework/run/room.h"
-#include "framework/run/run_files.h"
-#include "framework/run/text.h"
+#include "framework/analysis/simulate/identity.h"
+#include "framework/bodies/pieces.h"
+#include "framework/common/computed.h"
+#include "framework/common/text.h"
+#include "framework/output/results.h"
+#include "framework/output/room.h"
+#include "framework/output/run_files.h"
 
 namespace pintle::app {
 

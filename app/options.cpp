@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "files/trust.h"
-#include "framework/run/results_directory.h"
-#include "framework/scene/expression.h"
+#include "framework/output/results_directory.h"
+#include "framework/scene/units/expression.h"
 #include "meshes/limits.h"
 
 namespace pintle::app {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "framework/scene/reader.h"
+#include "framework/scene/yaml/reader.h"
 
 /// What the commands share.
 namespace pintle::app {

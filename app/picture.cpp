@@ -1,5 +1,5 @@
 // pintle-picture DIR OUT.png: one frame of a run's animation as a picture for a page, drawn
-// offscreen by VTK. Reads what framework/run/vtk.h describes.
+// offscreen by VTK. Reads what framework/drawing/vtk.h describes.
 
 #include <algorithm>
 #include <array>

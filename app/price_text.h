@@ -1,6 +1,6 @@
 #pragma once
 
-#include "framework/run/price.h"
+#include "framework/analysis/cost/price.h"
 
 namespace pintle::app {
 

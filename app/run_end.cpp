@@ -5,7 +5,7 @@
 #include <new>
 
 #include "app/progress.h"
-#include "framework/run/file.h"
+#include "framework/common/file.h"
 
 namespace pintle::app {
 

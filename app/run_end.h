@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "app/options.h"
-#include "framework/run/results_directory.h"
-#include "framework/run/simulate.h"
+#include "framework/analysis/simulate/simulate.h"
+#include "framework/output/results_directory.h"
 
 namespace pintle::app {
 

@@ -1,5 +1,5 @@
 // pintle sweep: the cases of a study by threads and processes.
-#include "framework/study/sweep.h"
+#include "framework/study/sweep/sweep.h"
 
 #include <unistd.h>
 
@@ -14,7 +14,7 @@
 #include "app/fellows.h"
 #include "app/options.h"
 #include "app/progress.h"
-#include "framework/run/simulate.h"
+#include "framework/analysis/simulate/simulate.h"
 
 namespace pintle::app {
 

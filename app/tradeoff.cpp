@@ -1,5 +1,5 @@
 // pintle tradeoff: what accuracy costs, for one scene and the quantities that matter to its user.
-#include "framework/study/tradeoff.h"
+#include "framework/study/tradeoff/tradeoff.h"
 
 #include <unistd.h>
 
@@ -13,11 +13,11 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/run_end.h"
-#include "framework/run/results.h"
-#include "framework/run/text.h"
-#include "framework/scene/text_file.h"
-#include "framework/scene/yaml_node.h"
-#include "framework/study/wanted.h"
+#include "framework/common/text.h"
+#include "framework/output/results.h"
+#include "framework/scene/yaml/text_file.h"
+#include "framework/scene/yaml/yaml_node.h"
+#include "framework/study/tradeoff/wanted.h"
 
 namespace pintle::app {
 

@@ -15,7 +15,7 @@
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
 
-#include "framework/dynamics/kkt.h"
+#include "framework/dynamics/newton/kkt.h"
 
 namespace {
 

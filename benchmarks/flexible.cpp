@@ -13,8 +13,8 @@
 #include <numbers>
 #include <string>
 
-#include "framework/run/simulate.h"
-#include "framework/scene/reader.h"
+#include "framework/analysis/simulate/simulate.h"
+#include "framework/scene/yaml/reader.h"
 
 namespace {
 

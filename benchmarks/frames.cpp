@@ -10,8 +10,8 @@
 #include <numbers>
 #include <string>
 
-#include "framework/run/flexible_drawing.h"
-#include "framework/scene/reader.h"
+#include "framework/drawing/flexible_drawing.h"
+#include "framework/scene/yaml/reader.h"
 
 namespace {
 

@@ -16,10 +16,10 @@
 #include <string>
 #include <vector>
 
-#include "framework/component/assembly.h"
-#include "framework/component/eigen_lowest.h"
-#include "framework/component/factor.h"
-#include "framework/component/from_mesh.h"
+#include "framework/component/eigen/eigen_lowest.h"
+#include "framework/component/eigen/factor.h"
+#include "framework/component/fe/assembly.h"
+#include "framework/component/fe/from_mesh.h"
 #include "meshes/generate.h"
 
 namespace {

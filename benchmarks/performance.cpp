@@ -12,7 +12,7 @@
 #include <optional>
 #include <sstream>
 
-#include "framework/scene/keys.h"
+#include "framework/scene/yaml/keys.h"
 #include "tests/oracles/slider_crank_clearance.h"
 
 namespace performance {

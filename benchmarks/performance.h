@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/run/simulate.h"
+#include "framework/analysis/simulate/simulate.h"
 #include "tests/paper/plot.h"
 
 /// The page on error against time: see performance.cpp.

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/run/simulate.h"
+#include "framework/analysis/simulate/simulate.h"
 #include "tests/oracles/runge_kutta.h"
 #include "tests/oracles/slider_crank_clearance.h"
 

@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <iostream>
 
-#include "framework/run/text.h"
-#include "framework/scene/expression.h"
-#include "framework/study/printed.h"
-#include "framework/study/tradeoff.h"
-#include "framework/study/tradeoff_words.h"
+#include "framework/common/printed.h"
+#include "framework/common/text.h"
+#include "framework/scene/units/expression.h"
+#include "framework/study/tradeoff/tradeoff.h"
+#include "framework/study/tradeoff/tradeoff_words.h"
 
 namespace {
 

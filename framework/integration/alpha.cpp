@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/dynamics/worse.h"
+#include "framework/common/worse.h"
 
 namespace pintle {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/dynamics/kkt.h"
-#include "framework/dynamics/tangent.h"
+#include "framework/dynamics/equations/tangent.h"
+#include "framework/dynamics/newton/kkt.h"
 #include "framework/integration/step.h"
 
 namespace pintle {

@@ -7,7 +7,7 @@
 #include <Eigen/QR>
 
 #include "eigen_layout.h"
-#include "framework/dynamics/equations.h"
+#include "framework/dynamics/equations/equations.h"
 #include "framework/integration/members.h"
 
 namespace pintle {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "framework/dynamics/energy.h"
-#include "framework/dynamics/worse.h"
+#include "framework/common/worse.h"
+#include "framework/dynamics/equations/energy.h"
 
 namespace pintle {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "framework/dynamics/equations.h"
+#include "framework/dynamics/equations/equations.h"
 #include "framework/integration/constraints.h"
 #include "framework/integration/members.h"
 #include "framework/integration/tableau.h"

@@ -7,9 +7,9 @@
 #include <variant>
 #include <vector>
 
+#include "framework/common/time_law.h"
 #include "framework/scene/elastic.h"
 #include "framework/scene/place.h"
-#include "framework/time_law.h"
 
 /// What the user means: plain data with names and defaults, SI units throughout, no matrices.
 /// Written by hand in C++ or by the reader (reader.h). Only `build` judges it.

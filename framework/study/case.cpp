@@ -8,8 +8,8 @@
 #include <new>
 #include <optional>
 
-#include "framework/run/pieces.h"
-#include "framework/scene/text_file.h"
+#include "framework/bodies/pieces.h"
+#include "framework/scene/yaml/text_file.h"
 #include "meshes/limits.h"
 
 namespace pintle {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/scene/reader.h"
-#include "framework/study/measure.h"
+#include "framework/scene/yaml/reader.h"
+#include "framework/study/measures/measure.h"
 
 namespace pintle {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/scene/yaml_node.h"
+#include "framework/scene/yaml/yaml_node.h"
 #include "framework/study/case.h"
 
 namespace pintle {

@@ -7,9 +7,9 @@
 #include <Eigen/LU>
 
 #include "contact/normal_law.h"
-#include "framework/run/build.h"
-#include "framework/run/simulate.h"
-#include "framework/scene/reader.h"
+#include "framework/analysis/simulate/simulate.h"
+#include "framework/build/build.h"
+#include "framework/scene/yaml/reader.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 
 #include <Eigen/Dense>
 
-#include "framework/dynamics/energy.h"
+#include "framework/dynamics/equations/energy.h"
 #include "framework/integration/integrator.h"
 #include "tests/contracts/scheme_cases.h"
 

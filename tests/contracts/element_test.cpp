@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "framework/component/fe_model.h"
+#include "framework/component/fe/fe_model.h"
 #include "tests/contracts/element_samples.h"
 
 namespace pintle {

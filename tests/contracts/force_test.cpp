@@ -1,7 +1,7 @@
 // The exam every force element sits, and the contact pair with them. A new force joins by one line
 // in `kinds`.
 
-#include "framework/dynamics/forces.h"
+#include "framework/dynamics/model/forces.h"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@
 #include <variant>
 #include <vector>
 
-#include "framework/dynamics/contact_pair.h"
-#include "framework/dynamics/equations.h"
+#include "framework/dynamics/equations/equations.h"
+#include "framework/dynamics/model/contact_pair.h"
 #include "tests/contracts/moving_bodies.h"
 
 namespace pintle {

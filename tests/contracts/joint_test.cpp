@@ -1,6 +1,6 @@
 // The exam every joint sits. A new joint joins by one line in `kinds`.
 
-#include "framework/dynamics/joints.h"
+#include "framework/dynamics/model/joints.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 #include <variant>
 #include <vector>
 
-#include "framework/dynamics/equations.h"
+#include "framework/dynamics/equations/equations.h"
 #include "tests/contracts/moving_bodies.h"
 
 namespace pintle {

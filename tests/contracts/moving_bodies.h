@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/dynamics/equations.h"
+#include "framework/dynamics/equations/equations.h"
 
 /// Two bodies whose markers a joint, a force or a contact holds, and random states of them.
 namespace pintle {

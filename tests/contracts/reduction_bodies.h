@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/component/assembly.h"
-#include "framework/component/modal_model.h"
+#include "framework/component/fe/assembly.h"
+#include "framework/component/reduction/modal_model.h"
 #include "tests/unit/fe_bodies.h"
 
 /// Bodies that the tests of reductions share, and what these judge by: dense algebra on the

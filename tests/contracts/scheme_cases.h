@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "framework/dynamics/equations.h"
+#include "framework/dynamics/equations/equations.h"
 #include "tests/oracles/runge_kutta.h"
 #include "tests/oracles/slider_crank_clearance.h"
 

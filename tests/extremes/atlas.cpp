@@ -5,9 +5,9 @@
 #include <ctime>
 #include <stdexcept>
 
-#include "framework/run/pieces.h"
+#include "framework/bodies/pieces.h"
 #include "framework/scene/error.h"
-#include "framework/scene/reader.h"
+#include "framework/scene/yaml/reader.h"
 
 namespace extremes {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/run/simulate.h"
+#include "framework/analysis/simulate/simulate.h"
 #include "tests/paper/plot.h"
 
 /// The atlas of extremes: how far each axis of a scene may go, and what is said past that. One table of cases, run by the

@@ -4,10 +4,10 @@
 #include <limits>
 #include <numbers>
 
-#include "framework/run/modes.h"
-#include "framework/run/static_case.h"
+#include "framework/analysis/static_case/static_case.h"
+#include "framework/bodies/modes.h"
 #include "framework/scene/error.h"
-#include "framework/scene/reader.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/extremes/motion.h"
 
 namespace extremes {

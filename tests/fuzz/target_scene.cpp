@@ -1,6 +1,6 @@
 #include <string>
 
-#include "framework/scene/reader.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/fuzz/targets.h"
 
 namespace pintle {

@@ -1,6 +1,6 @@
 #include "framework/scene/error.h"
 #include "framework/study/study.h"
-#include "framework/study/sweep.h"
+#include "framework/study/sweep/sweep.h"
 #include "tests/fuzz/file.h"
 #include "tests/fuzz/targets.h"
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "framework/scene/error.h"
-#include "framework/scene/table.h"
+#include "framework/scene/units/table.h"
 #include "tests/fuzz/file.h"
 #include "tests/fuzz/targets.h"
 

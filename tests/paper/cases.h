@@ -2,9 +2,9 @@
 
 #include <functional>
 
-#include "framework/run/assemble.h"
-#include "framework/run/simulate.h"
-#include "framework/scene/reader.h"
+#include "framework/analysis/simulate/simulate.h"
+#include "framework/configuration/assemble.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/paper/plot.h"
 
 namespace paper {

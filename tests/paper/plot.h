@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/study/plot.h"
-#include "framework/study/printed.h"
+#include "framework/common/printed.h"
+#include "framework/study/tradeoff/plot.h"
 
 /// The page on Ebrahimi, Salahshoor and Moradi (2017): see page.cpp.
 namespace paper {

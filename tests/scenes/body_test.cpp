@@ -6,12 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/run/body_drawing.h"
-#include "framework/run/modes.h"
-#include "framework/run/build.h"
-#include "framework/run/static_case.h"
+#include "framework/analysis/static_case/static_case.h"
+#include "framework/bodies/modes.h"
+#include "framework/build/build.h"
+#include "framework/drawing/body_drawing.h"
 #include "framework/scene/error.h"
-#include "framework/scene/reader.h"
+#include "framework/scene/yaml/reader.h"
 
 namespace pintle {
 namespace {

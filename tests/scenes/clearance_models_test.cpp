@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/run/equilibrium.h"
-#include "framework/run/kinematics.h"
-#include "framework/run/linearize.h"
-#include "framework/run/saved_state.h"
+#include "framework/analysis/equilibrium/equilibrium.h"
+#include "framework/analysis/kinematics/kinematics.h"
+#include "framework/analysis/linearize/linearize.h"
+#include "framework/analysis/simulate/saved_state.h"
 #include "framework/scene/error.h"
 #include "tests/oracles/slider_crank_link.h"
 #include "tests/scenes/mechanisms.h"

@@ -1,12 +1,12 @@
 // Where mechanisms rest: against closed forms and against their own damped motion.
-#include "framework/run/equilibrium.h"
+#include "framework/analysis/equilibrium/equilibrium.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "framework/run/stand_in.h"
+#include "framework/build/stand_in.h"
 #include "tests/scenes/flexible_scenes.h"
 
 namespace pintle_scenes {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
 
-#include "framework/component/assembly.h"
-#include "framework/run/elastic_body.h"
+#include "framework/bodies/elastic_body.h"
+#include "framework/component/fe/assembly.h"
 #include "tests/oracles/flexible_slider_crank.h"
 #include "tests/scenes/flexible_scenes.h"
 

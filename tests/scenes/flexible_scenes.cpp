@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/run/pieces.h"
-#include "framework/scene/reader.h"
+#include "framework/bodies/pieces.h"
+#include "framework/scene/yaml/reader.h"
 
 namespace pintle_scenes {
 

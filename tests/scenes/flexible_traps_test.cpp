@@ -7,12 +7,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "framework/run/equilibrium.h"
-#include "framework/run/linearize.h"
-#include "framework/run/pieces.h"
-#include "framework/run/results.h"
-#include "framework/run/simulate.h"
-#include "framework/scene/reader.h"
+#include "framework/analysis/equilibrium/equilibrium.h"
+#include "framework/analysis/linearize/linearize.h"
+#include "framework/analysis/simulate/simulate.h"
+#include "framework/bodies/pieces.h"
+#include "framework/output/results.h"
+#include "framework/scene/yaml/reader.h"
 
 namespace pintle {
 namespace {

@@ -8,9 +8,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-#include "framework/component/fe_model.h"
-#include "framework/dynamics/flexible.h"
-#include "framework/run/mechanism_body.h"
+#include "framework/bodies/mechanism_body.h"
+#include "framework/component/fe/fe_model.h"
+#include "framework/dynamics/model/flexible.h"
 #include "tests/scenes/flexible_scenes.h"
 
 namespace pintle_scenes {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <string>
 
-#include "framework/run/simulate.h"
-#include "framework/scene/reader.h"
+#include "framework/analysis/simulate/simulate.h"
+#include "framework/scene/yaml/reader.h"
 
 namespace pintle {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/run/books.h"
-#include "framework/run/method.h"
+#include "framework/analysis/simulate/books.h"
+#include "framework/build/method.h"
 #include "framework/scene/error.h"
-#include "framework/scene/reader.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/scenes/flexible_scenes.h"
 #include "tests/scenes/mechanisms.h"
 

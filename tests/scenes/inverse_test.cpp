@@ -1,12 +1,12 @@
 // Driving efforts: against virtual power, and by driving with what was found.
-#include "framework/run/inverse.h"
+#include "framework/analysis/kinematics/inverse.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "framework/scene/table.h"
+#include "framework/scene/units/table.h"
 #include "tests/scenes/flexible_scenes.h"
 
 namespace pintle_scenes {

@@ -1,13 +1,13 @@
 // Driven motions against closed forms, through singular poses, and to the end of reach.
-#include "framework/run/kinematics.h"
+#include "framework/analysis/kinematics/kinematics.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "framework/run/inverse.h"
-#include "framework/run/stand_in.h"
+#include "framework/analysis/kinematics/inverse.h"
+#include "framework/build/stand_in.h"
 #include "tests/scenes/mechanisms.h"
 
 namespace pintle_scenes {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/study/refinement.h"
+#include "framework/study/tradeoff/refinement.h"
 
 namespace pintle {
 

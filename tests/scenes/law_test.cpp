@@ -6,8 +6,8 @@
 #include <numbers>
 #include <string>
 
-#include "framework/scene/expression.h"
-#include "framework/scene/table.h"
+#include "framework/scene/units/expression.h"
+#include "framework/scene/units/table.h"
 #include "tests/scenes/mechanisms.h"
 
 namespace pintle_scenes {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "framework/dynamics/equations.h"
-#include "framework/run/trajectory.h"
+#include "framework/dynamics/equations/equations.h"
+#include "framework/mechanism/trajectory.h"
 
 namespace pintle_scenes {
 

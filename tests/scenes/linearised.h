@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "framework/run/build.h"
+#include "framework/build/build.h"
 
 /// Small motion about a steady one by differences of the library's own accelerations.
 ///

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/run/equilibrium.h"
-#include "framework/run/linearize.h"
+#include "framework/analysis/equilibrium/equilibrium.h"
+#include "framework/analysis/linearize/linearize.h"
 #include "tests/scenes/flexible_scenes.h"
 #include "tests/scenes/mechanisms.h"
 

@@ -1,6 +1,6 @@
 // Small motion about a state: frequencies, damping and state space against closed forms, an independent
 // linearisation by differences, models in minimal coordinates and the simulation itself.
-#include "framework/run/linearize.h"
+#include "framework/analysis/linearize/linearize.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "framework/run/assemble.h"
+#include "framework/configuration/assemble.h"
 #include "tests/oracles/four_bar.h"
 #include "tests/oracles/pendulum.h"
 #include "tests/oracles/rotating_beam.h"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "framework/study/case.h"
-#include "framework/study/measure_words.h"
+#include "framework/study/measures/measure_words.h"
 #include "tests/oracles/pendulum.h"
 #include "tests/oracles/slider_crank_clearance.h"
 #include "tests/unit/worn_slider_crank.h"

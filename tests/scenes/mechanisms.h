@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/run/simulate.h"
+#include "framework/analysis/simulate/simulate.h"
 #include "framework/scene/scene.h"
 #include "tests/oracles/four_bar.h"
 #include "tests/oracles/pendulum.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/scene/reader.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/oracles/flexible_slider_crank.h"
 #include "tests/scenes/mechanisms.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/run/assemble.h"
+#include "framework/configuration/assemble.h"
 #include "tests/oracles/exact_beam.h"
 #include "tests/scenes/flexible_scenes.h"
 #include "tests/scenes/linearised.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
-#include "framework/run/equilibrium.h"
-#include "framework/run/linearize.h"
+#include "framework/analysis/equilibrium/equilibrium.h"
+#include "framework/analysis/linearize/linearize.h"
 #include "tests/scenes/mechanisms.h"
 
 namespace pintle_scenes {

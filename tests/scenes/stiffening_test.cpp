@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "framework/run/assemble.h"
+#include "framework/configuration/assemble.h"
 #include "tests/oracles/rotating_beam.h"
 #include "tests/scenes/flexible_scenes.h"
 #include "tests/scenes/linearised.h"

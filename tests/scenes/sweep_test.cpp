@@ -1,5 +1,5 @@
 // Sweeps: what is kept of their cases, and that the table does not depend on who did the work.
-#include "framework/study/sweep.h"
+#include "framework/study/sweep/sweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "framework/study/fingerprint.h"
+#include "framework/common/fingerprint.h"
 #include "tests/unit/scarce_threads.h"
 
 namespace pintle {

@@ -1,6 +1,6 @@
 // The trade of error against time: fronts, references, chaos, what is recommended.
 #include "files/trust.h"
-#include "framework/study/tradeoff.h"
+#include "framework/study/tradeoff/tradeoff.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <random>
 #include <thread>
 
-#include "framework/study/refinement.h"
+#include "framework/study/tradeoff/refinement.h"
 #include "tests/scenes/known_trade.h"
 
 namespace pintle {

@@ -10,13 +10,13 @@
 #include <sstream>
 #include <string>
 
-#include "framework/run/beam_mesh.h"
-#include "framework/run/build.h"
-#include "framework/run/elastic_parts.h"
-#include "framework/run/file_doubts.h"
-#include "framework/run/modes.h"
-#include "framework/run/pieces.h"
-#include "framework/scene/reader.h"
+#include "framework/bodies/beam_mesh.h"
+#include "framework/bodies/elastic_parts.h"
+#include "framework/bodies/file_doubts.h"
+#include "framework/bodies/modes.h"
+#include "framework/bodies/pieces.h"
+#include "framework/build/build.h"
+#include "framework/scene/yaml/reader.h"
 #include "meshes/gmsh.h"
 #include "meshes/rim_shape.h"
 

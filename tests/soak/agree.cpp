@@ -5,7 +5,7 @@
 #include <optional>
 #include <sstream>
 
-#include "framework/run/computed.h"
+#include "framework/common/computed.h"
 
 namespace soak {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "framework/run/simulate.h"
+#include "framework/analysis/simulate/simulate.h"
 #include "tests/soak/judge.h"
 
 namespace soak {

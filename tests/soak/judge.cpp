@@ -5,13 +5,13 @@
 #include <cmath>
 #include <sstream>
 
-#include "framework/run/equilibrium.h"
-#include "framework/run/inverse.h"
-#include "framework/run/kinematics.h"
-#include "framework/run/linearize.h"
-#include "framework/run/pieces.h"
-#include "framework/run/results.h"
-#include "framework/scene/reader.h"
+#include "framework/analysis/equilibrium/equilibrium.h"
+#include "framework/analysis/kinematics/inverse.h"
+#include "framework/analysis/kinematics/kinematics.h"
+#include "framework/analysis/linearize/linearize.h"
+#include "framework/bodies/pieces.h"
+#include "framework/output/results.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/soak/agree.h"
 
 namespace soak {

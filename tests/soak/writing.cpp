@@ -1,6 +1,6 @@
 #include <sstream>
 
-#include "framework/scene/keys.h"
+#include "framework/scene/yaml/keys.h"
 #include "tests/soak/drawn.h"
 
 namespace soak {

@@ -1,6 +1,6 @@
 // Putting a mechanism together at t = 0, judged by closed forms and by a dense solve of its own.
 
-#include "framework/run/assemble.h"
+#include "framework/configuration/assemble.h"
 
 #include <gtest/gtest.h>
 

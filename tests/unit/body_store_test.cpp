@@ -1,5 +1,5 @@
 // Bodies of elements that are made once for many scenes: to the bit what each scene would make for itself.
-#include "framework/run/body_store.h"
+#include "framework/bodies/body_store.h"
 
 #include <atomic>
 #include <chrono>
@@ -12,8 +12,8 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/run/build.h"
-#include "framework/scene/reader.h"
+#include "framework/build/build.h"
+#include "framework/scene/yaml/reader.h"
 #include "framework/study/case.h"
 
 namespace pintle {

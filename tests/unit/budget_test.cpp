@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "framework/configuration/assemble.h"
 #include "framework/integration/constraints.h"
-#include "framework/run/assemble.h"
-#include "framework/scene/reader.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/unit/heap.h"
 #include "tests/unit/rods.h"
 

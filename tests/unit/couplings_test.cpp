@@ -1,8 +1,8 @@
 // Rims tied to ports: judged by rigid motion, by LᵀAL written out and by least squares.
 
-#include "framework/component/assembly.h"
-#include "framework/component/fe_model.h"
-#include "framework/component/from_mesh.h"
+#include "framework/component/fe/assembly.h"
+#include "framework/component/fe/fe_model.h"
+#include "framework/component/fe/from_mesh.h"
 #include "tests/unit/fe_bodies.h"
 
 #include <gtest/gtest.h>

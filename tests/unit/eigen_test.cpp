@@ -1,6 +1,6 @@
 // Pairs of K φ = λ M φ against closed forms, dense algebra and Spectra's Lanczos iteration.
 
-#include "framework/component/eigen_lowest.h"
+#include "framework/component/eigen/eigen_lowest.h"
 
 #include <Spectra/MatOp/SparseSymMatProd.h>
 #include <Spectra/MatOp/SymShiftInvert.h>
@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "framework/component/factor.h"
-#include "framework/component/starting_loads.h"
-#include "framework/component/subspace.h"
+#include "framework/component/eigen/factor.h"
+#include "framework/component/eigen/starting_loads.h"
+#include "framework/component/eigen/subspace.h"
 #include "tests/unit/eigen_bodies.h"
 
 namespace pintle {

@@ -1,4 +1,4 @@
-#include "framework/scene/expression.h"
+#include "framework/scene/units/expression.h"
 
 #include <gtest/gtest.h>
 

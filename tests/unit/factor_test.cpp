@@ -1,4 +1,4 @@
-#include "framework/component/factor.h"
+#include "framework/component/eigen/factor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "elements/material.h"
-#include "framework/component/fe_model.h"
-#include "framework/component/from_mesh.h"
-#include "framework/component/statics.h"
+#include "framework/component/fe/fe_model.h"
+#include "framework/component/fe/from_mesh.h"
+#include "framework/component/fe/statics.h"
 #include "meshes/mesh.h"
 
 #include <Eigen/Core>

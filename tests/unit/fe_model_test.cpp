@@ -1,9 +1,9 @@
 // Numbering, assembly and couplings of a body of elements. Judged by sums written out here, by
 // rigid motion, and by least squares; elements themselves are judged elsewhere.
 
-#include "framework/component/fe_model.h"
+#include "framework/component/fe/fe_model.h"
 
-#include "framework/component/assembly.h"
+#include "framework/component/fe/assembly.h"
 #include "tests/unit/fe_bodies.h"
 
 #include <gtest/gtest.h>

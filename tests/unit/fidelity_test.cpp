@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "framework/study/convergence.h"
-#include "framework/study/refinement.h"
-#include "framework/study/wanted.h"
+#include "framework/study/tradeoff/convergence.h"
+#include "framework/study/tradeoff/refinement.h"
+#include "framework/study/tradeoff/wanted.h"
 
 namespace pintle {
 namespace {

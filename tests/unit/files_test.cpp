@@ -12,7 +12,7 @@
 #include <string>
 
 #include "files/trust.h"
-#include "framework/scene/reader.h"
+#include "framework/scene/yaml/reader.h"
 #include "meshes/inp.h"
 
 namespace pintle {

@@ -1,7 +1,7 @@
 // One free flexible body beside a rigid one: what the equations of motion hold of it, against its
 // kinetic and potential energy and against the motion of its points alone.
 
-#include "framework/dynamics/flexible.h"
+#include "framework/dynamics/model/flexible.h"
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@
 #include <tuple>
 #include <vector>
 
-#include "framework/dynamics/energy.h"
-#include "framework/run/build.h"
-#include "framework/scene/reader.h"
+#include "framework/build/build.h"
+#include "framework/dynamics/equations/energy.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/contracts/moving_bodies.h"
 
 namespace pintle {

@@ -5,9 +5,9 @@
 
 #include <string>
 
+#include "framework/configuration/assemble.h"
 #include "framework/integration/integrator.h"
-#include "framework/run/assemble.h"
-#include "framework/scene/reader.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/unit/heap.h"
 
 namespace pintle {

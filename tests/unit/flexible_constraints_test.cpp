@@ -8,8 +8,8 @@
 #include <cmath>
 #include <string>
 
-#include "framework/run/assemble.h"
-#include "framework/scene/reader.h"
+#include "framework/configuration/assemble.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/contracts/moving_bodies.h"
 
 namespace pintle {

@@ -1,5 +1,5 @@
 // Shapes put in by hand, whose displacement and stress are known in closed form, on small bodies.
-#include "framework/run/flexible_drawing.h"
+#include "framework/drawing/flexible_drawing.h"
 
 #include <cmath>
 #include <functional>
@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "framework/run/modes.h"
+#include "framework/bodies/modes.h"
 #include "framework/scene/error.h"
-#include "framework/scene/reader.h"
+#include "framework/scene/yaml/reader.h"
 
 namespace pintle {
 namespace {

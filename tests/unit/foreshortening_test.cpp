@@ -1,7 +1,7 @@
 // What bending adds to displacement at second order, by its matrices alone: against published
 // rotating and buckling beams, exact integrals of slopes and direct eigenvalue problems.
 
-#include "framework/component/foreshortening.h"
+#include "framework/component/reduction/foreshortening.h"
 
 #include <gtest/gtest.h>
 

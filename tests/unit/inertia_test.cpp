@@ -1,7 +1,7 @@
 // What the online side keeps of a body, against the motion of its material: kinetic energy by
 // quadrature over elements and section fibres, with shape functions alone.
 
-#include "framework/component/inertia.h"
+#include "framework/component/reduction/inertia.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 
 #include "tests/contracts/reduction_bodies.h"
 
-#include "framework/run/modes.h"
+#include "framework/bodies/modes.h"
 
 namespace pintle {
 namespace {

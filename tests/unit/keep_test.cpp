@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/component/modal_model.h"
+#include "framework/component/reduction/modal_model.h"
 #include "tests/contracts/reduction_bodies.h"
 
 namespace pintle {

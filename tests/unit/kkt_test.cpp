@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
-#include "framework/dynamics/kkt.h"
+#include "framework/dynamics/newton/kkt.h"
 #include "framework/integration/constraints.h"
 
 namespace pintle {

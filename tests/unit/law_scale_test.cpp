@@ -1,4 +1,4 @@
-#include "framework/scene/law_scale.h"
+#include "framework/scene/units/law_scale.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/scene/expression.h"
-#include "framework/scene/table.h"
+#include "framework/scene/units/expression.h"
+#include "framework/scene/units/table.h"
 
 namespace pintle {
 namespace {

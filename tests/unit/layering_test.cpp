@@ -27,14 +27,14 @@ const std::vector<Layer> layers{
     {"elements/", {}},
     {"contact/", {}},
     {"meshes/", {"files/"}},
-    {"framework/time_law.h", {}},
+    {"framework/common/time_law.h", {}},
     {"framework/component/", {"elements/", "meshes/"}},
-    {"framework/dynamics/", {"contact/", "framework/component/inertia.h", "framework/time_law.h"}},
+    {"framework/dynamics/", {"contact/", "framework/component/reduction/inertia.h", "framework/common/time_law.h"}},
     {"framework/integration/", {"framework/dynamics/"}},
     {"framework/scene/",
-     {"files/", "framework/time_law.h", "elements/material.h", "elements/section.h", "meshes/link.h"}},
+     {"files/", "framework/common/time_law.h", "elements/material.h", "elements/section.h", "meshes/link.h"}},
     {"framework/run/", {"framework/dynamics/", "framework/integration/", "framework/scene/", "framework/component/",
-                        "framework/time_law.h", "contact/", "elements/", "files/", "meshes/"}},
+                        "framework/common/time_law.h", "contact/", "elements/", "files/", "meshes/"}},
     {"framework/study/", {"framework/", "files/", "meshes/limits.h"}},
     {"app/", {"framework/", "elements/", "contact/", "files/", "meshes/"}},
     {"examples/", {"framework/", "elements/", "contact/", "meshes/"}},
@@ -50,16 +50,16 @@ struct Foreign {
   Paths may;
 };
 const std::vector<Foreign> foreign{
-    {"vtk", {"framework/run/vtk_encoder.cpp", "app/picture.cpp", "app/png.cpp", "app/canvas.h", "app/canvas.cpp",
+    {"vtk", {"framework/drawing/vtk_encoder.cpp", "app/picture.cpp", "app/png.cpp", "app/canvas.h", "app/canvas.cpp",
              "app/field_picture.cpp", "app/frames.cpp", "tests/unit/vtk_test.cpp"}},
     {"yaml-cpp/", {"framework/scene/", "tests/"}},
-    {"muParser", {"framework/scene/expression.cpp"}},
-    {"cholmod", {"framework/dynamics/sparse_ldl.cpp", "framework/component/"}},
-    {"Eigen/CholmodSupport", {"framework/run/least_step.cpp"}},
-    {"ldl.h", {"framework/dynamics/sparse_ldl.cpp"}},
-    {"klu", {"framework/dynamics/sparse_lu.cpp"}},
+    {"muParser", {"framework/scene/units/expression.cpp"}},
+    {"cholmod", {"framework/dynamics/solvers/sparse_ldl.cpp", "framework/component/"}},
+    {"Eigen/CholmodSupport", {"framework/configuration/least_step.cpp"}},
+    {"ldl.h", {"framework/dynamics/solvers/sparse_ldl.cpp"}},
+    {"klu", {"framework/dynamics/solvers/sparse_lu.cpp"}},
     {"umfpack", {}},
-    {"SuiteSparseQR", {"framework/run/row_space.cpp"}},
+    {"SuiteSparseQR", {"framework/configuration/row_space.cpp"}},
     {"gmsh.h", {"meshes/gmsh_"}},
     {"Spectra/", {"tests/", "benchmarks/"}},
     {"mpi.h", {"app/fellows.cpp"}},
@@ -132,13 +132,13 @@ TEST(Layering, HeadersThatUseEigenCheckItsLayout) {
 }
 
 TEST(Layering, TheTableForbidsWhatItShould) {
-  EXPECT_FALSE(allowed("contact/gap.h", "framework/dynamics/marker.h", true));
-  EXPECT_FALSE(allowed("framework/dynamics/joints.cpp", "framework/component/fe_model.h", true));
+  EXPECT_FALSE(allowed("contact/gap.h", "framework/dynamics/model/marker.h", true));
+  EXPECT_FALSE(allowed("framework/dynamics/model/joints.cpp", "framework/component/fe/fe_model.h", true));
   EXPECT_FALSE(allowed("framework/integration/step.cpp", "framework/scene/scene.h", true));
   EXPECT_FALSE(allowed("tests/oracles/pendulum.h", "contact/gap.h", true));
-  EXPECT_FALSE(allowed("framework/run/simulate.cpp", "vtkPoints.h", false));
-  EXPECT_FALSE(allowed("framework/run/build.cpp", "yaml-cpp/yaml.h", false));
-  EXPECT_TRUE(allowed("framework/run/build.cpp", "framework/dynamics/system.h", true));
+  EXPECT_FALSE(allowed("framework/analysis/simulate/simulate.cpp", "vtkPoints.h", false));
+  EXPECT_FALSE(allowed("framework/build/build.cpp", "yaml-cpp/yaml.h", false));
+  EXPECT_TRUE(allowed("framework/build/build.cpp", "framework/dynamics/model/system.h", true));
 }
 
 }  // namespace

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/run/identity.h"
-#include "framework/run/results.h"
-#include "framework/run/room.h"
-#include "framework/scene/reader.h"
+#include "framework/analysis/simulate/identity.h"
+#include "framework/output/results.h"
+#include "framework/output/room.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/unit/program.h"
 
 namespace pintle {

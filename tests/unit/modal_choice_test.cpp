@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/run/pieces.h"
-#include "framework/run/simulate.h"
-#include "framework/scene/reader.h"
+#include "framework/analysis/simulate/simulate.h"
+#include "framework/bodies/pieces.h"
+#include "framework/scene/yaml/reader.h"
 
 namespace pintle {
 namespace {

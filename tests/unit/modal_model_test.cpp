@@ -2,7 +2,7 @@
 // are kept and what is refused: keep_test.cpp. What every frame tie must do:
 // contracts/frame_tie_test.cpp.
 
-#include "framework/component/modal_model.h"
+#include "framework/component/reduction/modal_model.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "framework/scene/keys.h"
-#include "framework/scene/override.h"
+#include "framework/scene/yaml/keys.h"
+#include "framework/scene/yaml/override.h"
 #include "tests/unit/scene_text.h"
 
 namespace pintle {

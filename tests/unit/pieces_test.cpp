@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/component/modal_model.h"
-#include "framework/run/elastic_body.h"
-#include "framework/run/pieces.h"
+#include "framework/bodies/elastic_body.h"
+#include "framework/bodies/pieces.h"
+#include "framework/component/reduction/modal_model.h"
 #include "tests/unit/scene_text.h"
 
 namespace pintle {

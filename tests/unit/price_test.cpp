@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "framework/run/price.h"
-#include "framework/run/results.h"
-#include "framework/run/simpler.h"
-#include "framework/scene/reader.h"
+#include "framework/analysis/cost/price.h"
+#include "framework/analysis/cost/simpler.h"
+#include "framework/output/results.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/unit/worn_slider_crank.h"
 
 namespace pintle {

@@ -1,5 +1,5 @@
 // Roots of (λ² M + λ D + K) x = 0 against those that the matrices were made of.
-#include "framework/run/quadratic_roots.h"
+#include "framework/analysis/linearize/quadratic_roots.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "framework/scene/reader.h"
+#include "framework/scene/yaml/reader.h"
 
 #include <gtest/gtest.h>
 

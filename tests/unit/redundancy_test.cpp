@@ -1,6 +1,6 @@
 // Which rows are redundant and which joint forces unique, judged by hand and by dense decompositions.
 
-#include "framework/run/redundancy.h"
+#include "framework/configuration/redundancy.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <random>
 #include <string>
 
+#include "framework/configuration/assemble.h"
 #include "framework/integration/constraints.h"
-#include "framework/run/assemble.h"
 #include "tests/scenes/mechanisms.h"
 
 namespace pintle_scenes {

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "framework/run/drawing.h"
-#include "framework/run/simulate.h"
-#include "framework/scene/reader.h"
+#include "framework/analysis/simulate/simulate.h"
+#include "framework/mechanism/drawing.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/unit/stepping.h"
 #include "tests/unit/worn_slider_crank.h"
 

@@ -1,5 +1,5 @@
 // Which cases a sweep has: grids, lists, samples, and what is said of a wrong one.
-#include "framework/study/sampling.h"
+#include "framework/study/sweep/sampling.h"
 
 #include <array>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/scene/expression.h"
+#include "framework/scene/units/expression.h"
 
 namespace pintle {
 namespace {

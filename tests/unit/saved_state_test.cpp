@@ -1,5 +1,5 @@
 // A saved state is taken where it belongs and is whole, and refused everywhere else.
-#include "framework/run/saved_state.h"
+#include "framework/analysis/simulate/saved_state.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <limits>
 #include <string>
 
+#include "framework/analysis/simulate/identity.h"
 #include "framework/integration/archive.h"
-#include "framework/run/identity.h"
-#include "framework/run/sha256.h"
+#include "framework/common/sha256.h"
 #include "tests/scenes/flexible_scenes.h"
 
 namespace pintle_scenes {

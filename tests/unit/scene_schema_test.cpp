@@ -14,8 +14,8 @@
 #include <set>
 
 #include "contact/normal_law.h"
-#include "framework/scene/keys.h"
-#include "framework/scene/reader.h"
+#include "framework/scene/yaml/keys.h"
+#include "framework/scene/yaml/reader.h"
 
 namespace pintle {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/scene/reader.h"
+#include "framework/scene/yaml/reader.h"
 
 namespace pintle {
 

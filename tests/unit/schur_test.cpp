@@ -8,7 +8,7 @@
 
 #include <Eigen/QR>
 
-#include "framework/dynamics/equations.h"
+#include "framework/dynamics/equations/equations.h"
 #include "framework/integration/constraints.h"
 
 namespace pintle {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/study/signal.h"
+#include "framework/study/measures/signal.h"
 
 namespace pintle {
 namespace {

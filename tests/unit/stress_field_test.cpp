@@ -1,10 +1,10 @@
 // Static answers, loads and stresses, judged by closed forms of beams, rods, thick cylinders and
 // the plate with a hole, and by equilibrium.
 
-#include "framework/component/statics.h"
+#include "framework/component/fe/statics.h"
 
-#include "framework/component/from_mesh.h"
-#include "framework/component/loads.h"
+#include "framework/component/fe/from_mesh.h"
+#include "framework/component/fe/loads.h"
 #include "tests/unit/fe_bodies.h"
 
 #include <gtest/gtest.h>

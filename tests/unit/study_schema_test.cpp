@@ -13,7 +13,7 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
-#include "framework/scene/keys.h"
+#include "framework/scene/yaml/keys.h"
 
 namespace pintle {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "framework/scene/override.h"
+#include "framework/scene/yaml/override.h"
 #include "framework/study/study.h"
 #include "tests/unit/scene_text.h"
 #include "tests/unit/worn_slider_crank.h"

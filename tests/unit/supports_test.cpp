@@ -1,7 +1,7 @@
 // Supports that leave a motion free are told by it; parts and mechanisms by their place.
 
-#include "framework/component/loads.h"
-#include "framework/component/statics.h"
+#include "framework/component/fe/loads.h"
+#include "framework/component/fe/statics.h"
 #include "tests/unit/fe_bodies.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "framework/scene/table.h"
+#include "framework/scene/units/table.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "framework/dynamics/tangent.h"
+#include "framework/dynamics/equations/tangent.h"
 #include "tests/contracts/moving_bodies.h"
 #include "tests/unit/heap.h"
 

@@ -1,7 +1,7 @@
 // The tangent of the equations of motion against differences of their residual, for every joint, force and
 // contact on bodies of every kind. A new joint or force joins by one line in `kinds`.
 
-#include "framework/dynamics/tangent.h"
+#include "framework/dynamics/equations/tangent.h"
 
 #include <gtest/gtest.h>
 

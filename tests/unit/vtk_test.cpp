@@ -1,4 +1,4 @@
-#include "framework/run/vtk.h"
+#include "framework/drawing/vtk.h"
 
 #include <filesystem>
 #include <fstream>

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "framework/component/assembly.h"
-#include "framework/component/eigen_lowest.h"
+#include "framework/component/eigen/eigen_lowest.h"
+#include "framework/component/fe/assembly.h"
 #include "tests/verification/closed_forms.h"
 #include "tests/verification/page.h"
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "framework/run/modes.h"
-#include "framework/run/static_case.h"
-#include "framework/scene/reader.h"
+#include "framework/analysis/static_case/static_case.h"
+#include "framework/bodies/modes.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/paper/plot.h"
 
 /// The page on published problems of plane elements and beams: see page.cpp.

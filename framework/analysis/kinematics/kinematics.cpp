@@ -1,0 +1,256 @@
+#include "framework/analysis/kinematics/kinematics.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+#include <Eigen/SVD>
+
+#include "framework/analysis/simulate/guarded.h"
+#include "framework/common/worse.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::VectorXd;
+using Index = Eigen::Index;
+
+std::string number_text(double x) {
+  std::ostringstream s;
+  s.precision(6);
+  s << x;
+  return s.str();
+}
+
+std::string listed(const std::vector<std::string>& all) {
+  std::string out;
+  for (const std::string& s : all) out += (out.empty() ? "\"" : ", \"") + s + "\"";
+  return out;
+}
+
+std::vector<std::string> driver_names(const System& system) {
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < system.joints.size(); ++k)
+    if (is_driver(system.joints[k])) out.push_back(system.joint_names[k]);
+  return out;
+}
+
+std::vector<double> even_times(double interval, double until) {
+  const auto n = static_cast<long>(std::ceil(until / interval - 1e-9));
+  std::vector<double> out;
+  for (long k = 0; k < n; ++k) out.push_back(static_cast<double>(k) * interval);
+  out.push_back(until);
+  return out;
+}
+
+/// Times k·every up to `until`, the last one `until` itself; a thousandth of it if every is 0.
+std::vector<double> output_times(const Scene& scene) {
+  return even_times(scene.output.every > 0 ? scene.output.every : scene.run.until / 1000, scene.run.until);
+}
+
+/// Of the animation; empty if there is none.
+std::vector<double> frame_times(const Scene& scene) {
+  return scene.output.frames > 1 ? even_times(scene.run.until / (scene.output.frames - 1), scene.run.until) : std::vector<double>{};
+}
+
+}  // namespace
+
+DrivenMotion::DrivenMotion(const System& system, State start)
+    : system_(system), eq_(system), state_(std::move(start)), a_(VectorXd::Zero(system.n())), gamma_(VectorXd::Zero(system.n_rows())) {
+  state_.impact_rate.resize(system.contacts.size(), 0.0);
+  if (!settle(state_, a_)) failure_ = "t = " + number_text(state_.t) + " s: " + why();
+}
+
+bool DrivenMotion::settle(State& state, VectorXd& a) {
+  constexpr double enough = 1e-14, good = 1e-11;
+  constexpr int most = 10;
+  const Index n = system_.n();
+  double worst = 0;
+  for (int i = 0; i < most; ++i) {
+    pose(system_, state.t, state.y, eq_);
+    rows_.factor(system_, eq_);
+    const double before = worst;
+    worst = position_violation(system_, eq_);
+    if (worst <= enough || (i > 0 && worst <= good && worst > 0.1 * before)) break;
+    state.y.head(n) -= rows_.solve(system_, eq_.C);
+  }
+  if (!(worst <= good)) return false;
+  speed(system_, state.t, state.y, eq_);
+  state.y.segment(n, n) -= rows_.solve(system_, eq_.Cdot);
+  speed(system_, state.t, state.y, eq_);
+  acceleration_side(system_, eq_, gamma_);
+  a += rows_.solve(system_, gamma_ - rows_.times(system_, a));
+  worst_position_ = worse(worst_position_, worst);
+  const double fastest = std::max(size(state.y.segment(n, n)), 1e-9);
+  const double drift = largest(eq_.Cdot.cwiseProduct(system_.row_scale));
+  worst_velocity_ = worse(worst_velocity_, drift / fastest);
+  return state.y.allFinite() && a.allFinite() && drift <= 1e-7 * std::max(fastest, size(a) * 1e-3);
+}
+
+// One step of h if the corrections stay within what the prediction promises.
+bool DrivenMotion::attempt(double h, State& trial, VectorXd& a) {
+  constexpr double farthest = 0.5, part = 0.1, speed_part = 0.3, small = 1e-6, small_turn = 1e-4, careful = 1e-3;
+  const Index n = system_.n();
+  const VectorXd s = state_.y.segment(n, n), step = h * s + h * h / 2 * a_, s_predicted = s + h * a_;
+  trial = state_;
+  trial.t = state_.t + h;
+  trial.y.head(n) += step;
+  trial.y.segment(n, n) = s_predicted;
+  const VectorXd q_predicted = trial.y.head(n);
+  a = a_;
+  const double position = worst_position_, velocity = worst_velocity_;
+  const double move = size(step);
+  if (move > farthest) return false;
+  if (settle(trial, a) && size(trial.y.head(n) - q_predicted) <= part * move + small && (!rows_.deficient() || move <= careful)) {
+    const double change = size(trial.y.segment(n, n) - s_predicted), fastest = std::max(size(s), size(trial.y.segment(n, n)));
+    if (change <= speed_part * fastest || change * h <= small_turn) return true;
+  }
+  worst_position_ = position;
+  worst_velocity_ = velocity;
+  return false;
+}
+
+bool DrivenMotion::advance(double t) {
+  if (!failure_.empty()) return false;
+  State trial;
+  VectorXd a;
+  if (h_ == 0) h_ = t - state_.t;
+  while (state_.t < t) {
+    const double left = t - state_.t, h = h_ >= left * (1 - 1e-12) ? left : h_;
+    if (attempt(h, trial, a)) {
+      if (h == left) trial.t = t;
+      std::swap(state_, trial);
+      a_ = a;
+      ++steps_;
+      if (h >= h_ * (1 - 1e-12)) h_ *= 2;
+      continue;
+    }
+    ++rejected_;
+    h_ = h / 3;
+    if (h_ < 1e-11 * std::max(std::abs(t), left)) {
+      failure_ = "t = " + number_text(state_.t) + " s: " + why();
+      settle(state_, a_);
+      return false;
+    }
+  }
+  return true;
+}
+
+// Which drivers take part in the rows that have become dependent, or nearly so, where the motion ends.
+std::string DrivenMotion::why() {
+  std::vector<std::string> asking = driver_names(system_), moving;
+  pose(system_, state_.t, state_.y, eq_);
+  if (system_.n_rows() <= 400 && system_.n_rows() > 0) {
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(system_.n_rows(), system_.n());
+    visit_jacobian(eq_, [&](int row, int column, double value) { A(row, column) += system_.row_scale[row] * value * system_.scale[column]; });
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Index last = std::min(A.rows(), A.cols()) - 1;
+    const VectorXd u = svd.matrixU().rightCols(A.rows() - last).rowwise().norm(), v = svd.matrixV().col(last);
+    std::vector<std::string> part;
+    for (std::size_t k = 0; k < system_.joints.size(); ++k)
+      if (is_driver(system_.joints[k]) && u[system_.row_begin[k]] > 1e-3) part.push_back(system_.joint_names[k]);
+    if (!part.empty()) asking = part;
+    for (std::size_t b = 0; b < system_.bodies.size(); ++b)
+      if (v.segment<3>(static_cast<Index>(3 * b)).norm() > 0.1) moving.push_back(system_.bodies[b].name);
+    std::string at_pose;
+    for (std::size_t b = 0; b < system_.bodies.size() && b < 4; ++b)
+      at_pose += (b ? ", " : "") + system_.bodies[b].name + " " + number_text(state_.y[static_cast<Index>(3 * b) + 2]) + " rad";
+    if (svd.singularValues()[last] > 1e-3 * svd.singularValues()[0])
+      return "nothing near the angles " + at_pose + " does what the law of " + listed(asking) +
+             " says: drivers fight, a law jumps, or a length is out of reach; correct the law";
+    return "dead centre or end of reach at the angles " + at_pose + ": the law of " + listed(asking) +
+           " cannot be followed further; it no longer determines where " + listed(moving) + " goes; change the law, or drive another body";
+  }
+  return "a singular pose, or one that " + listed(asking) + " cannot reach";
+}
+
+void require_driven(const Scene& scene, const Model& model, const Assembly& assembly) {
+  const System& system = model.system;
+  const int open = system.n() - assembly.rank;
+  std::vector<std::string> loose;
+  for (const std::string& name : system.contact_names) loose.push_back(name);
+  const Place place{scene.drivers.empty() ? 0 : scene.drivers.front().place.line, "drivers"};
+  if (!loose.empty())
+    throw AssemblyError(scene.file, place,
+                        "the clearance at " + listed(loose) +
+                            " leaves freedoms that no driver moves; leave `clearance` out here, or use `pintle run`");
+  if (open <= 0) return;
+  // A displacement that no row feels, taken from one that moves everything.
+  Equations eq(system);
+  pose(system, 0, assembly.start.y, eq);
+  RowSolver rows;
+  rows.factor(system, eq);
+  VectorXd any(system.n());
+  for (Index i = 0; i < any.size(); ++i) any[i] = system.scale[i] * (1 + std::cos(static_cast<double>(i * i + 1)));
+  if (system.n_rows() > 0) any -= rows.solve(system, rows.times(system, any));
+  any = any.cwiseQuotient(system.scale);
+  std::vector<std::string> moving;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b)
+    if (any.segment<3>(static_cast<Index>(3 * b)).norm() > 1e-6) moving.push_back(system.bodies[b].name);
+  const bool singular = system.n_rows() >= system.n();
+  throw AssemblyError(scene.file, place,
+                      std::to_string(open) + (open == 1 ? " freedom is" : " freedoms are") + " not driven" +
+                          (singular ? " at the starting pose, which may be a singular one (dead centre, flat linkage)" : "") + ": " + listed(moving) + (moving.size() == 1 ? " moves" : " move") + " freely; add a driver for each, " +
+                          (singular ? "or start elsewhere, " : "") + "or use `pintle run`");
+}
+
+void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const std::function<bool(double)>& advance, const Listeners& listeners, Run& run) {
+  using clock = std::chrono::steady_clock;
+  const auto begin = clock::now();
+  clock::duration drawing{};
+  run.trajectory = trajectory_table(told);
+  const std::vector<double> outputs = output_times(scene), frames = listeners.frame ? frame_times(scene) : std::vector<double>{};
+  std::size_t o = 0, f = 0;
+  bool going = motion.failure().empty();
+  double reached = motion.state().t;
+  const auto steps = [&] {
+    while (going && (o < outputs.size() || f < frames.size())) {
+      const double t = o == outputs.size() ? frames[f] : f == frames.size() ? outputs[o] : std::min(outputs[o], frames[f]);
+      if (listeners.progress && o % 64 == 0 && !listeners.progress(t)) {
+        run.status = Status::interrupted;
+        run.reason = "stopped by the user";
+        break;
+      }
+      going = advance(t);
+      if (!going) break;
+      reached = t;
+      if (o < outputs.size() && outputs[o] == t) record(told, motion.state(), motion.equations(), run.trajectory), ++o;
+      if (f < frames.size() && frames[f] == t) {
+        const auto before = clock::now();
+        listeners.frame(motion.state(), motion.equations()), ++f;
+        drawing += clock::now() - before;
+      }
+    }
+  };
+  guarded(run, reached, steps);
+  if (!going && !ended_short(run)) {
+    run.status = Status::failed;
+    run.reason = motion.failure();
+  }
+  run.t_end = ended_short(run) ? reached : motion.state().t;
+  run.counts.steps = motion.steps();
+  run.counts.rejected = motion.rejected();
+  run.worst_position = motion.worst_position();
+  run.worst_velocity = motion.worst_velocity();
+  run.seconds = std::chrono::duration<double>(clock::now() - begin - drawing).count();
+}
+
+Run kinematics(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners) {
+  require_driven(scene, model, assembly);
+  Model told = model;  // what is written: no forces
+  told.system.joints.clear(), told.system.forces.clear(), told.system.contacts.clear(), told.stresses.clear();
+  Run run;
+  run.warnings = model.warnings;
+  DrivenMotion motion(model.system, assembly.start);
+  const auto advance = [&](double t) {
+    if (!motion.advance(t)) return false;
+    motion.equations().a = motion.acceleration();
+    return true;
+  };
+  follow(scene, told, motion, advance, listeners, run);
+  return run;
+}
+
+}  // namespace pintle

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "framework/analysis/simulate/simulate.h"
+#include "framework/configuration/row_solver.h"
+
+namespace pintle {
+
+/// The motion that drivers impose on rigid bodies which they leave no freedom: positions by Newton's method from the
+/// prediction q + hs + ½h²a, speeds by Cq s = −Ct, accelerations by Cq a = γ, rows that repeat others by least
+/// squares. Masses play no part. A step whose correction, or whose change of speed, is more than its prediction
+/// allows is taken in parts, so that no other branch of the linkage is met by accident; through a singular pose the
+/// prediction decides.
+class DrivenMotion {
+ public:
+  /// @pre start meets C = 0 nearly
+  DrivenMotion(const System&, State start);
+  /// On to time t ≥ state().t. @returns false when it cannot; see failure()
+  bool advance(double t);
+
+  const State& state() const { return state_; }
+  const Eigen::VectorXd& acceleration() const { return a_; }
+  const RowSolver& rows() const { return rows_; }  ///< at state()
+  Equations& equations() { return eq_; }           ///< pose and speed are those of state()
+  const std::string& failure() const { return failure_; }
+  long steps() const { return steps_; }
+  long rejected() const { return rejected_; }
+  double worst_position() const { return worst_position_; }  ///< scaled, as Integrator has it
+  double worst_velocity() const { return worst_velocity_; }
+
+ private:
+  bool settle(State&, Eigen::VectorXd& a);
+  bool attempt(double h, State& trial, Eigen::VectorXd& a);
+  double size(const Eigen::VectorXd& d) const { return d.cwiseQuotient(system_.scale).lpNorm<Eigen::Infinity>(); }
+  std::string why();
+
+  const System& system_;
+  Equations eq_;
+  RowSolver rows_;
+  State state_;
+  Eigen::VectorXd a_, gamma_;
+  std::string failure_;
+  double h_ = 0, worst_position_ = 0, worst_velocity_ = 0;
+  long steps_ = 0, rejected_ = 0;
+};
+
+/// @throws AssemblyError  drivers and joints leave freedoms open at the start: how many, and which bodies move
+void require_driven(const Scene&, const Model&, const Assembly&);
+
+/// The driven motion over `run.until`: trajectory of bodies and points, no forces, no ledger. `reason` says why it
+/// ended early, if it did; what came before is kept.
+/// @throws AssemblyError  as require_driven
+Run kinematics(const Scene&, const Model&, const Assembly&, const Listeners& = {});
+
+/// trajectory.csv and kinematics.json in `directory`.
+/// @throws std::runtime_error  naming the path that cannot be written
+void write_kinematics(const std::filesystem::path& directory, const Scene&, const Model&, const Run&);
+std::string kinematics_json(const Scene&, const Model&, const Run&);
+
+/// Follows a driven motion through the scene's outputs, recorded into the run's table as `told` has it, and its frames,
+/// until its end, a failure or the listener's stop. Status, reason, times and counts of the run are filled in.
+/// @param advance  on to a time, what is recorded evaluated there; false: it cannot, see failure()
+void follow(const Scene&, const Model& told, DrivenMotion&, const std::function<bool(double)>& advance, const Listeners&, Run&);
+
+}  // namespace pintle

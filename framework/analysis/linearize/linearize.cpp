@@ -1,0 +1,363 @@
+#include "framework/analysis/linearize/linearize.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <sstream>
+
+#include <Eigen/Cholesky>
+
+#include "framework/analysis/linearize/quadratic_roots.h"
+#include "framework/analysis/linearize/state_space.h"
+
+namespace pintle {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+using Complex = std::complex<double>;
+
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+std::string text(double x, int digits = 4) {
+  std::ostringstream s;
+  s.precision(digits);
+  s << x;
+  return s.str();
+}
+
+/// The system with the points that are recorded among its markers, its laws held still where they are to be.
+System prepared(const Model& model, double t, Laws laws) {
+  System out = model.system;
+  for (const RecordedPoint& p : model.points) out.markers.push_back(p.marker);
+  if (laws == Laws::go_on) return out;
+  const auto hold = [t](TimeLaw& law) {
+    const double value = law(t).value;
+    law = [value](double) { return Jet{value, 0, 0}; };
+  };
+  for (Joint& j : out.joints) {
+    if (auto* d = std::get_if<AngleDriver>(&j)) hold(d->law);
+    if (auto* d = std::get_if<DistanceDriver>(&j)) hold(d->law);
+  }
+  for (Force& f : out.forces) {
+    if (auto* p = std::get_if<PointForce>(&f)) hold(p->x), hold(p->y);
+    if (auto* q = std::get_if<Torque>(&f)) hold(q->law);
+  }
+  return out;
+}
+
+std::vector<std::string> coordinate_names(const System& system) {
+  std::vector<std::string> out(at(system.n()));
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const Body& body = system.bodies[b];
+    const std::string centre = body.x_BO.isZero() ? "." : ".centre ";
+    out[3 * b] = body.name + centre + "x [m]";
+    out[3 * b + 1] = body.name + centre + "y [m]";
+    out[3 * b + 2] = body.name + ".angle [rad]";
+    for (int i = 0; i < body.modes(); ++i) out[at(system.eta_begin[b] + i)] = body.name + ".mode " + std::to_string(i + 1) + " [m kg^0.5]";
+  }
+  return out;
+}
+
+/// Sizes of what is summed to M, D and K, as if nothing cancelled.
+SmallMotion sizes(const FreeMotion& f, const MotionAt& at) {
+  constexpr double differenced = 100;  // less exact are derivatives along the motion than what they are added to
+  const MatrixXd Z = f.X.leftCols(f.m()).cwiseAbs(), Z1 = f.X1.leftCols(f.m()).cwiseAbs() * differenced,
+                 Z2 = f.X2.leftCols(f.m()).cwiseAbs() * differenced;
+  const MatrixXd M = at.M.cwiseAbs(), D = at.D.cwiseAbs(), K = at.K.cwiseAbs();
+  return {Z.transpose() * M * Z, Z.transpose() * (2 * M * Z1 + D * Z), Z.transpose() * (M * Z2 + D * Z1 + K * Z)};
+}
+
+/// Greatest difference of coefficients over their size, in coordinates in which the mass is one; what is slower than
+/// the motion's own rate counts by that rate.
+double difference(const SmallMotion& a, const SmallMotion& b, double rate) {
+  if (a.M.rows() == 0) return 0;
+  const Eigen::LLT<MatrixXd> llt(a.M);
+  const auto weighed = [&](const MatrixXd& A) -> MatrixXd {
+    const MatrixXd half = llt.matrixL().solve(A);
+    return llt.matrixL().solve(half.transpose()).transpose();
+  };
+  const auto worst = [&](const MatrixXd& from, const MatrixXd& to, double floor) {
+    const MatrixXd A = weighed(from), change = (weighed(to) - A).cwiseAbs();
+    const VectorXd size = A.diagonal().cwiseAbs().cwiseSqrt();
+    const double rounding = 1e-9 * A.cwiseAbs().maxCoeff();
+    return change.cwiseQuotient(((size * size.transpose()).array() + floor + rounding).matrix()).maxCoeff();
+  };
+  return std::max({worst(a.M, b.M, 0), worst(a.D, b.D, rate), worst(a.K, b.K, rate * rate)});
+}
+
+/// The motion a little earlier or later, to fifth order in the time; nothing where it cannot be had.
+class NearBy {
+ public:
+  NearBy(const System& system, const MotionAt& here, double window) : system_(system), here_(here) {
+    jerk_ = snap_ = VectorXd::Zero(system.n());
+    const auto before = at(-window / 2), after = at(window / 2);
+    if (!before || !after) return;
+    snap_ = (after->eq.a - 2 * here.eq.a + before->eq.a) / (window * window / 4);
+    jerk_ = (after->eq.a - before->eq.a) / window;
+    next_ = at(window);
+  }
+  const MotionAt* next() const { return next_.get(); }
+
+ private:
+  std::unique_ptr<MotionAt> at(double t) const {
+    State to = here_.state;
+    const Index n = system_.n();
+    const VectorXd &a = here_.eq.a, s = here_.state.y.segment(n, n);
+    to.t += t;
+    to.y.head(n) += t * (s + t / 2 * (a + t / 3 * (jerk_ + t / 4 * snap_)));
+    to.y.segment(n, n) += t * (a + t / 2 * (jerk_ + t / 3 * snap_));
+    Equations eq(system_);
+    if (!to.y.allFinite() || !project(system_, to.t, to.y, eq)) return nullptr;
+    auto out = std::make_unique<MotionAt>(system_, to);
+    return out->regular ? std::move(out) : nullptr;
+  }
+
+  const System& system_;
+  const MotionAt& here_;
+  VectorXd jerk_, snap_;
+  std::unique_ptr<MotionAt> next_;
+};
+
+/// Spins that the mechanism shows, those of more bodies first; four at most.
+std::vector<double> spins(const System& system, const State& state, double rate) {
+  std::vector<std::pair<int, double>> found;
+  for (Index b = 0; b < static_cast<Index>(system.bodies.size()); ++b) {
+    const double w = state.y[system.n() + 3 * b + 2];
+    if (std::abs(w) < 1e-6 * rate) continue;
+    const auto same = std::ranges::find_if(found, [&](const auto& f) { return std::abs(f.second - w) < 1e-9 * rate; });
+    if (same == found.end())
+      found.emplace_back(1, w);
+    else
+      ++same->first;
+  }
+  std::ranges::stable_sort(found, [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<double> out;
+  for (std::size_t i = 0; i < std::min<std::size_t>(found.size(), 4); ++i) out.push_back(found[i].second);
+  return out;
+}
+
+/// Chooses the axes in which the coefficients stay, and says how well they do.
+FreeMotion in_steady_axes(const System& system, const MotionAt& here, const std::vector<int>& offsets, Linearization& out) {
+  constexpr double reach = 2e-2;   // of a scale; what the path lacks by then is 1e-11 of it
+  constexpr double steady = 1e-8;  // what changes does so by reach, or reach²/2 where it is at an extreme
+  FreeMotion world(system, here, {}, offsets);
+  const double rate = here.rate(system);
+  const SmallMotion now = world.project(here);
+  double stiffest = system.gravity.norm() / system.length;
+  for (Index i = 0; i < now.M.rows(); ++i) stiffest = std::max(stiffest, std::abs(now.K(i, i) / now.M(i, i)));
+  if (rate * rate <= 1e-12 * stiffest) return world;
+  out.window = reach / rate;
+  const NearBy motion(system, here, out.window);
+  const MotionAt* next = motion.next();
+  const auto drift_in = [&](const Axes& axes, const FreeMotion& free) {
+    if (!next) return 1.0;
+    const FreeMotion then(system, *next, {axes.rate, axes.rate * out.window}, offsets, &free.independent);
+    return difference(free.project(here), then.project(*next), rate);
+  };
+  out.drift = drift_in({}, world);
+  if (out.drift <= steady) return world;
+  for (const double w : spins(system, here.state, rate)) {
+    FreeMotion turning(system, here, {w, 0}, offsets);
+    const double drift = drift_in({w, 0}, turning);
+    if (drift > steady) continue;
+    out.coefficients = Coefficients::turning, out.turn = w, out.drift = drift;
+    return turning;
+  }
+  out.coefficients = Coefficients::frozen;
+  return world;
+}
+
+/// The body of most kinetic energy, and what moves most in it.
+void name_carrier(const System& system, const MotionAt& here, const std::vector<std::string>& names, LinearMode& mode) {
+  double most = 0, total = 0;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    std::vector<Index> own;
+    for (Index i = 0; i < 3; ++i) own.push_back(static_cast<Index>(3 * b) + i);
+    for (Index i = system.eta_begin[b]; i < system.eta_begin[b + 1]; ++i) own.push_back(i);
+    const VectorXcd x = mode.shape(own);
+    const double energy = x.dot(here.M(own, own) * x).real();
+    total += energy;
+    if (energy <= most) continue;
+    most = energy;
+    double greatest = -1;
+    for (std::size_t i = 0; i < own.size(); ++i)
+      if (const double e = std::norm(x[static_cast<Index>(i)]) * here.M(own[i], own[i]); e > greatest)
+        greatest = e, mode.carrier = names[at(own[i])];
+  }
+  mode.carrier = mode.carrier.substr(0, mode.carrier.rfind(" ["));
+  mode.share = total > 0 ? most / total : 0;
+}
+
+VectorXcd normalised(const System& system, const VectorXcd& shape) {
+  Index most = 0;
+  const double size = shape.cwiseAbs().cwiseQuotient(system.scale).maxCoeff(&most);
+  return size > 0 ? VectorXcd(shape * (system.scale[most] / shape[most])) : shape;
+}
+
+/// Zero roots share shapes: one mode for each motion that nothing holds, in the metric of M.
+void add_zero_modes(const System& system, const std::vector<QuadraticRoot>& roots, const Linearization& lin, std::vector<LinearMode>& out) {
+  constexpr double another = 1e-3;
+  std::vector<VectorXd> basis;
+  int count = 0;
+  for (const QuadraticRoot& r : roots) {
+    if (!r.zero) continue;
+    ++count;
+    VectorXd x = r.right.real().norm() >= r.right.imag().norm() ? VectorXd(r.right.real()) : VectorXd(r.right.imag());
+    x /= std::sqrt(x.dot(lin.motion.M * x));
+    for (const VectorXd& b : basis) x -= b.dot(lin.motion.M * x) * b;
+    if (const double left = std::sqrt(x.dot(lin.motion.M * x)); left > another) basis.push_back(x / left);
+  }
+  for (std::size_t i = 0; i < basis.size(); ++i) {
+    LinearMode& mode = out.emplace_back();
+    mode.kind = LinearMode::Kind::zero;
+    mode.roots = count / static_cast<int>(basis.size()) + (static_cast<int>(i) < count % static_cast<int>(basis.size()) ? 1 : 0);
+    mode.shape = normalised(system, (lin.Z * basis[i]).cast<Complex>());
+  }
+}
+
+std::vector<LinearMode> modes_of(const System& system, const MotionAt& here, const SmallMotion& size, const Linearization& lin) {
+  std::vector<LinearMode> out;
+  const std::vector<QuadraticRoot> roots = roots_of(lin.motion, size);
+  add_zero_modes(system, roots, lin, out);
+  for (const QuadraticRoot& r : roots) {
+    if (r.zero || r.lambda.imag() < 0) continue;
+    LinearMode& mode = out.emplace_back();
+    mode.root = r.lambda;
+    mode.uncertainty = r.uncertainty;
+    mode.roots = r.lambda.imag() == 0 ? 1 : 2;
+    mode.kind = r.lambda.real() > r.uncertainty ? LinearMode::Kind::growing
+                : r.lambda.imag() == 0          ? LinearMode::Kind::decaying
+                                                : LinearMode::Kind::oscillating;
+    mode.shape = normalised(system, lin.Z.cast<Complex>() * r.right);
+  }
+  for (LinearMode& mode : out) name_carrier(system, here, lin.coordinates, mode);
+  return out;
+}
+
+std::vector<LinearContact> contacts_of(const System& system, const MotionAt& here) {
+  std::vector<LinearContact> out;
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    const ContactEffect e = clearance_effect(system, here.eq, c);
+    out.push_back({system.contact_names[c], e.normal.force > 0, e.gap.depth, e.normal.force, e.normal.d_depth, e.normal.d_rate,
+                   here.state.impact_rate[c]});
+  }
+  return out;
+}
+
+bool laws_vary(const Scene& scene) {
+  const auto varies = [](const SceneLoad& l) {
+    const auto* f = std::get_if<SceneForce>(&l.what);
+    const auto* q = std::get_if<SceneTorque>(&l.what);
+    return (f && !(f->x.constant && f->y.constant)) || (q && !q->law.constant);
+  };
+  return std::ranges::any_of(scene.loads, varies);
+}
+
+void add_notes(const Scene& scene, const System& system, const MotionAt& here, Laws laws, Linearization& out) {
+  const Index n = system.n();
+  const bool moves = out.window > 0 && !here.state.y.segment(n, n).isZero(1e-12);
+  if (out.coefficients == Coefficients::turning)
+    out.notes.push_back("steady rotation: coordinates are told in axes that turn at " + text(out.turn, 6) +
+                        " rad/s about the world's origin; in these the coefficients stay");
+  if (out.coefficients == Coefficients::frozen)
+    out.notes.push_back(std::string(moves ? "the coefficients change as the motion goes on" : "this is no equilibrium, the mechanism begins to move") +
+                        ": roots are those of the coefficients frozen at this instant, which depend on the choice of coordinates and "
+                        "decide no stability" + (moves ? "" : "; --equilibrium linearizes where it rests"));
+  for (std::size_t i = 0; i < out.contacts.size(); ++i) {
+    const LinearContact& c = out.contacts[i];
+    if (system.contacts[i].link >= 0)
+      out.notes.push_back("\"" + c.name + "\" is a massless link that carries " + text(c.force) + " N" +
+                          (c.force < 0 ? ", pushing as no wall could pull" : ""));
+    else if (c.closed && system.contacts[i].normal.d > 0)
+      out.notes.push_back("\"" + c.name + "\" is closed: stiffness " + text(c.stiffness) + " N/m along its normal, damping " +
+                          text(c.damping) + " N s/m");
+    else if (c.closed)
+      out.notes.push_back("\"" + c.name + "\" is closed: stiffness " + text(c.stiffness) + " N/m along its normal, damping " +
+                          text(c.damping) + " N s/m of an impact at " + text(c.impact_rate) + " m/s");
+    else if (c.depth > 0 && c.impact_rate > 0)
+      out.notes.push_back("\"" + c.name + "\" overlaps without force (it parts faster than its law pushes) and adds nothing");
+    else
+      out.notes.push_back("\"" + c.name + "\" is open and adds nothing");
+  }
+  if (laws_vary(scene))
+    out.notes.push_back(laws == Laws::hold ? "loads are held at what they are at t = " + text(out.about.t, 6) + " s"
+                                           : "loads that vary in time count as they are at t = " + text(out.about.t, 6) + " s");
+  if (out.independent.empty()) out.notes.emplace_back("joints and drivers leave nothing free: there are no modes");
+  if (std::ranges::any_of(out.modes, [](const LinearMode& m) { return m.kind == LinearMode::Kind::growing; }) &&
+      out.coefficients != Coefficients::frozen)
+    out.notes.emplace_back("unstable: a mode grows");
+}
+
+}  // namespace
+
+double LinearMode::frequency() const { return std::abs(root.imag()) / (2 * std::numbers::pi); }
+double LinearMode::natural() const { return std::abs(root) / (2 * std::numbers::pi); }
+double LinearMode::damping() const { return root == 0.0 ? 0 : (0 - root.real()) / std::abs(root); }
+
+const char* kind_text(LinearMode::Kind kind) {
+  switch (kind) {
+    case LinearMode::Kind::oscillating: return "oscillates";
+    case LinearMode::Kind::decaying: return "decays";
+    case LinearMode::Kind::growing: return "grows";
+    case LinearMode::Kind::zero: return "zero";
+  }
+  return "";
+}
+
+Linearization linearize(const Scene& scene, const Model& model, const State& state, Laws laws) {
+  const System system = prepared(model, state.t, laws);
+  if (system.n() > most_linearized)
+    throw SceneError(scene.file, {}, "a linearisation is dense and meant for up to " + std::to_string(most_linearized) +
+                                         " coordinates, this scene has " + std::to_string(system.n()) +
+                                         "; keep fewer modes, cut beams into fewer pieces, or linearize a part of it");
+  const MotionAt here(system, state);
+  if (!here.regular)
+    throw AssemblyError(scene.file, {}, "singular at t = " + text(state.t, 6) + " s: the joints' rows depend on each other there; "
+                                        "linearize at another pose, or remove what is redundant");
+  Linearization out;
+  out.about = state;
+  out.coordinates = coordinate_names(system);
+  const FreeMotion free = in_steady_axes(system, here, driven_rows(system), out);
+  out.independent = free.independent;
+  out.motion = free.project(here);
+  out.Z = free.X.leftCols(free.m());
+  out.contacts = contacts_of(system, here);
+  try {
+    out.modes = modes_of(system, here, sizes(free, here), out);
+    out.space = state_space(model, system, here, free, out.motion, out.coordinates);
+  } catch (const SceneError&) {
+    throw;
+  } catch (const std::runtime_error& e) {
+    throw AssemblyError(scene.file, {}, std::string("t = ") + text(state.t, 6) + " s: " + e.what());
+  }
+  add_notes(scene, system, here, laws, out);
+  return out;
+}
+
+State state_at(const Model& model, const State& start, double t) {
+  Integrator integrator(model.system, model.scheme, start);
+  while (integrator.failure().empty() && integrator.state().t < t && integrator.advance(t)) {
+  }
+  if (!integrator.failure().empty()) throw std::runtime_error("the run to the state failed: " + integrator.failure());
+  return integrator.state();
+}
+
+State displaced(const Model& model, const Linearization& lin, const LinearMode& mode, double phase) {
+  constexpr double amplitude = 0.1;
+  const System& system = model.system;
+  State out = lin.about;
+  const double period = mode.frequency() > 0 ? 1 / mode.frequency() : 1;
+  out.t += phase / (2 * std::numbers::pi) * period;
+  out.y.head(system.n()) += amplitude * (mode.shape * std::polar(1.0, phase)).real();
+  out.impact_rate.assign(out.impact_rate.size(), 0.0);
+  State closed = out;
+  Equations eq(system);
+  return project(system, lin.about.t, closed.y, eq) ? closed : out;
+}
+
+}  // namespace pintle

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <complex>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "eigen_layout.h"
+#include "framework/analysis/linearize/small_motion.h"
+#include "framework/configuration/assemble.h"
+
+namespace pintle {
+
+/// What the coefficients of a small motion do along the motion that it is about.
+enum class Coefficients {
+  constant,  ///< they stay, in the world's axes
+  turning,   ///< they stay in axes that turn steadily about the world's origin
+  frozen     ///< they change; those of the instant are given, in the world's axes
+};
+
+/// x' = A x + B u,  y = C x + D u. x: independent coordinates, then their rates; u: loads, and of each driver an
+/// offset of its law with the offset's first and second rate; all as deviations from the motion.
+struct StateSpace {
+  Eigen::MatrixXd A, B, C, D;
+  std::vector<std::string> states, inputs, outputs;  ///< "name [unit]"
+};
+
+/// A clearance joint as the small motion sees it.
+struct LinearContact {
+  std::string name;
+  bool closed;              ///< an open one contributes nothing
+  double depth, force;      ///< at the state [m], [N]
+  double stiffness, damping;  ///< ∂force/∂depth [N/m], ∂force/∂rate [N s/m], at the latched approach speed
+  double impact_rate;       ///< that speed [m/s]
+};
+
+/// A solution  q = shape exp(root t)  of the small motion; of an oscillating pair the root with positive
+/// imaginary part.
+struct LinearMode {
+  enum class Kind { oscillating, decaying, growing, zero } kind = Kind::oscillating;
+  std::complex<double> root;     ///< [1/s]; exactly 0 of a zero mode
+  double uncertainty = 0;        ///< of the root, from rounding of the coefficients [1/s]
+  int roots = 2;                 ///< how many of the 2m roots it stands for
+  Eigen::VectorXcd shape;        ///< n; the coordinate that moves most, by its scale, is 1 · its scale
+  std::string carrier;           ///< the coordinate that moves most in the body of the greatest kinetic energy
+  double share = 0;              ///< of that body in the kinetic energy
+
+  double frequency() const;      ///< |Im root|/2π [Hz]
+  double natural() const;        ///< |root|/2π [Hz]
+  double damping() const;        ///< −Re root/|root|; 0 of a zero mode
+};
+const char* kind_text(LinearMode::Kind);
+
+/// All of a linearisation. Theory: docs/theory/linearisation.md.
+struct Linearization {
+  State about;
+  Coefficients coefficients = Coefficients::constant;
+  double turn = 0;               ///< rate of the axes in which the coordinates are told [rad/s]
+  double drift = 0;              ///< greatest change of a coefficient, over its size, while the motion goes on by …
+  double window = 0;             ///< … [s]; 0 at rest, where nothing changes
+  std::vector<int> independent;  ///< indices into q
+  SmallMotion motion;             ///< M, D, K of p
+  Eigen::MatrixXd Z;             ///< δq = Z p, n × m
+  StateSpace space;
+  std::vector<LinearMode> modes;  ///< by size of the root, zero modes first
+  std::vector<LinearContact> contacts;
+  std::vector<std::string> coordinates;  ///< "name [unit]" of each of q
+  std::vector<std::string> notes;        ///< what a reader must know, in words
+};
+
+/// Whether laws of drivers and loads go on, or stay at what they are at the state's instant.
+enum class Laws { go_on, hold };
+
+/// Coordinates up to which a scene is linearised; everything is dense.
+inline constexpr int most_linearized = 1500;
+
+/// The small motion about a state that meets the constraints, as the mechanism moves there.
+/// @throws SceneError     more than `most_linearized` coordinates
+/// @throws AssemblyError  a singular pose, or free motion without mass
+Linearization linearize(const Scene&, const Model&, const State&, Laws = Laws::go_on);
+
+/// The start to linearize about. Flexible bodies start undeformed; where drivers turn the mechanism steadily, they are bent here as they
+/// rest in the axes that turn with it. Where it does not, the assembled start. `note` says which, and what bending is left
+/// out; empty where no body bends or nothing moves.
+struct LinearizedStart {
+  State state;
+  std::string note;
+};
+LinearizedStart linearized_start(const Scene&, const Model&, const Assembly&);
+
+/// The state that a run reaches. @throws std::runtime_error  saying at what time and why the run failed
+State state_at(const Model&, const State& start, double t);
+
+/// linearized.csv, shapes.csv (of the modes that `shapes` counts), A.csv, B.csv, C.csv, D.csv, linearized.json.
+/// @throws std::runtime_error  naming the path that cannot be written
+void write_linearization(const std::filesystem::path& directory, const Scene&, const Linearization&, int shapes);
+std::string linearized_json(const Scene&, const Linearization&);
+
+/// The mechanism displaced along a mode at a phase of its period, so that its greatest coordinate moves by a tenth of
+/// the mechanism's length or by 0.1 rad; joints are kept closed where they can be. @returns its state, contacts open
+State displaced(const Model&, const Linearization&, const LinearMode&, double phase);
+
+}  // namespace pintle

@@ -1,0 +1,74 @@
+// Where a linearization begins: flexible bodies of a mechanism that turns steadily, bent as they then stay.
+#include <algorithm>
+#include <cmath>
+
+#include "framework/analysis/kinematics/inverse.h"
+#include "framework/analysis/linearize/linearize.h"
+#include "framework/bodies/elastic_parts.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// How far the bodies would bend if they followed the forces of the start statically, over their size, the most.
+double bending_left(const Model& model, const State& start, std::string& body) {
+  const System& system = model.system;
+  Equations eq(system);
+  VectorXd dy(system.n_y());
+  double most = 0;
+  if (!evaluate(system, start, eq, dy)) return most;
+  for (const BendingProbe& p : model.bending) {
+    const auto b = static_cast<std::size_t>(p.index);
+    const VectorXd eta = eq.a.segment(system.eta_begin[b], system.bodies[b].modes()).cwiseQuotient(system.bodies[b].flex->omega.cwiseAbs2());
+    const VectorXd u = p.displacement * eta;
+    for (Index i = 0; i + 1 < u.size(); i += 2)
+      if (const double part = u.segment<2>(i).norm() / p.size; part > most) most = part, body = p.body;
+  }
+  return most;
+}
+
+/// Flexible bodies at rest in axes that turn with the mechanism: no shape accelerates, no spin changes.
+bool steady(const System& system, const State& state) {
+  constexpr double rest = 1e-6;
+  Equations eq(system);
+  VectorXd dy(system.n_y());
+  if (!evaluate(system, state, eq, dy)) return false;
+  const Index n = system.n();
+  double fastest = 0;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) fastest = std::max(fastest, std::abs(state.y[n + 3 * static_cast<Index>(b) + 2]));
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const Index spin = 3 * static_cast<Index>(b) + 2;
+    if (std::abs(eq.a[spin]) > rest * fastest * fastest) return false;
+    for (Index i = system.eta_begin[b]; i < system.eta_begin[b + 1]; ++i)
+      if (std::abs(eq.a[i]) > rest * fastest * fastest * system.scale[i]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+LinearizedStart linearized_start(const Scene& scene, const Model& model, const Assembly& assembly) {
+  constexpr double nothing = 1e-9;
+  const System& system = model.system;
+  const Index n = system.n();
+  LinearizedStart out{assembly.start, ""};
+  if (n == system.n_rigid() || assembly.start.y.segment(n, n).isZero(0)) return out;
+  std::string body;
+  const double left = bending_left(model, assembly.start, body);
+  if (!(left > nothing)) return out;
+  const State there = steady_start(model, assembly).start;
+  if (steady(system, there)) {
+    out.note = "flexible bodies are bent as they stay in steady rotation, \"" + body + "\" by " + shown_number(100 * left) + " % of its size";
+    out.state = there;
+  } else {
+    out.note = "flexible bodies start undeformed, where nothing balances what bends them (\"" + body + "\" by some " + shown_number(100 * left) +
+               " % of its size): the roots lack that; linearize at a later time with --at, where damping has brought them to rest, or keep the spin by a driver" +
+               (scene.has_run ? "" : " (needs `run`)");
+  }
+  return out;
+}
+
+}  // namespace pintle

@@ -1,0 +1,129 @@
+#include "framework/analysis/linearize/quadratic_roots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "framework/component/eigen/lapack.h"
+
+namespace pintle {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+using Complex = std::complex<double>;
+
+namespace {
+
+// Of the sums behind each coefficient: rounding of sums of some ten terms, and of derivatives along the motion.
+constexpr double rounding = 1e-13;
+
+double bilinear(const VectorXcd& y, const MatrixXd& A, const VectorXcd& x) { return y.cwiseAbs().dot(A * x.cwiseAbs()); }
+
+bool conservative(const SmallMotion& s, const SmallMotion& size) {
+  const auto within = [](const MatrixXd& A, const MatrixXd& of) { return (A.cwiseAbs().array() <= rounding * of.array()).all(); };
+  return within(s.D, size.D) && within(s.K - s.K.transpose(), size.K + size.K.transpose());
+}
+
+// ω² of a symmetric problem: pairs on the imaginary axis, or ± on the real one where it is negative.
+std::vector<QuadraticRoot> symmetric_roots(const SmallMotion& s, const MatrixXd& L) {
+  const MatrixXd half = L.triangularView<Eigen::Lower>().solve((s.K + s.K.transpose()) / 2);
+  const MatrixXd K = L.triangularView<Eigen::Lower>().solve(half.transpose());
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver((K + K.transpose()) / 2);
+  if (solver.info() != Eigen::Success) throw std::runtime_error("the natural frequencies cannot be found: the iteration does not converge");
+  const MatrixXd shapes = L.transpose().triangularView<Eigen::Upper>().solve(solver.eigenvectors());
+  std::vector<QuadraticRoot> out;
+  for (Index i = 0; i < shapes.cols(); ++i) {
+    const VectorXd x = shapes.col(i);
+    const double square = x.dot(s.K * x) / x.dot(s.M * x);
+    const Complex root = square >= 0 ? Complex(0, std::sqrt(square)) : Complex(std::sqrt(-square), 0);
+    for (const Complex& r : {root, -root}) out.push_back({r, x.cast<Complex>(), x.cast<Complex>()});
+  }
+  return out;
+}
+
+// The root of a λ² + b λ + c nearest to `near`.
+Complex nearest_root(Complex a, Complex b, Complex c, Complex near) {
+  Complex d = std::sqrt(b * b - 4.0 * a * c);
+  if ((std::conj(b) * d).real() < 0) d = -d;
+  const Complex q = -0.5 * (b + d);  // the larger of the two in size: no cancellation
+  if (q == 0.0) return 0;
+  const Complex one = q / a, two = c / q;
+  return std::abs(one - near) < std::abs(two - near) ? one : two;
+}
+
+// Of [0 σ; −K̃/σ −D̃], K̃ and D̃ in coordinates in which the mass is one.
+std::vector<QuadraticRoot> companion_roots(const SmallMotion& s, const MatrixXd& L) {
+  const Index m = s.M.rows();
+  const auto weighed = [&](const MatrixXd& A) -> MatrixXd {
+    const MatrixXd half = L.triangularView<Eigen::Lower>().solve(A);
+    return L.triangularView<Eigen::Lower>().solve(half.transpose()).transpose();
+  };
+  const MatrixXd K = weighed(s.K), D = weighed(s.D);
+  const double sigma = std::max({std::sqrt(K.cwiseAbs().maxCoeff()), D.cwiseAbs().maxCoeff(), 1e-150});
+  MatrixXd A(2 * m, 2 * m);
+  A << MatrixXd::Zero(m, m), sigma * MatrixXd::Identity(m, m), -K / sigma, -D;
+
+  const int n = static_cast<int>(2 * m);
+  VectorXd re(n), im(n), scale(n), unused(n);
+  MatrixXd left(n, n), right(n, n);
+  int low = 0, high = 0, info = 0, more = -1, no_integers = 0;
+  double norm = 0, wanted = 0;
+  const auto solve = [&](double* work) {
+    dgeevx_("B", "V", "V", "N", &n, A.data(), &n, re.data(), im.data(), left.data(), &n, right.data(), &n, &low, &high, scale.data(), &norm,
+            unused.data(), unused.data(), work, &more, &no_integers, &info);
+  };
+  solve(&wanted);
+  more = static_cast<int>(wanted);
+  std::vector<double> work(static_cast<std::size_t>(more));
+  solve(work.data());
+  if (info != 0) throw std::runtime_error("the natural frequencies cannot be found: the iteration does not converge");
+
+  std::vector<QuadraticRoot> out;
+  for (Index i = 0; i < n; ++i) {
+    QuadraticRoot& root = out.emplace_back();
+    root.lambda = {re[i], im[i]};
+    VectorXcd x = right.col(i).head(m), y = left.col(i).tail(m);
+    if (im[i] != 0) {  // a pair: real and imaginary part stand side by side
+      const Index first = im[i] > 0 ? i : i - 1;
+      const Complex j(0, im[i] > 0 ? 1 : -1);
+      x = right.col(first).head(m).cast<Complex>() + j * right.col(first + 1).head(m).cast<Complex>();
+      y = left.col(first).tail(m).cast<Complex>() + j * left.col(first + 1).tail(m).cast<Complex>();
+    }
+    const auto back = L.transpose().triangularView<Eigen::Upper>();
+    root.right = back.solve(x), root.left = back.solve(y);
+    const Complex a = root.left.dot(s.M * root.right), b = root.left.dot(s.D * root.right), c = root.left.dot(s.K * root.right);
+    if (a == 0.0) continue;
+    const Complex better = nearest_root(a, b, c, root.lambda);
+    if (std::abs(better - root.lambda) <= 1e-6 * sigma && (im[i] != 0 || better.imag() == 0)) root.lambda = better;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<QuadraticRoot> roots_of(const SmallMotion& s, const SmallMotion& size) {
+  if (s.M.rows() == 0) return {};
+  const Eigen::LLT<MatrixXd> llt((s.M + s.M.transpose()) / 2);
+  if (llt.info() != Eigen::Success) throw std::runtime_error("the mass matrix of the free motion is not positive");
+  const MatrixXd L = llt.matrixL();
+  std::vector<QuadraticRoot> out = conservative(s, size) ? symmetric_roots(s, L) : companion_roots(s, L);
+  double fastest = 0;
+  for (const QuadraticRoot& r : out) fastest = std::max(fastest, std::abs(r.lambda));
+  for (QuadraticRoot& r : out) {
+    const double l = std::abs(r.lambda), noise = rounding * bilinear(r.left, size.K, r.right);
+    const double inertia = l * l * std::abs(r.left.dot(s.M * r.right)), drag = l * std::abs(r.left.dot(s.D * r.right));
+    r.zero = std::max(inertia, drag) <= noise || l <= 1e-10 * fastest;
+    const double slope = std::abs(r.left.dot(2.0 * r.lambda * (s.M * r.right) + s.D * r.right));
+    const double error = noise + rounding * (l * l * bilinear(r.left, size.M, r.right) + l * bilinear(r.left, size.D, r.right));
+    r.uncertainty = slope > 0 ? std::min(error / slope, l) : l;
+  }
+  std::ranges::stable_sort(out, {}, [](const QuadraticRoot& r) { return std::abs(r.lambda); });
+  return out;
+}
+
+}  // namespace pintle

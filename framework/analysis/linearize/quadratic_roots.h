@@ -1,0 +1,26 @@
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "framework/analysis/linearize/small_motion.h"
+
+namespace pintle {
+
+/// A root of (λ² M + λ D + K) x = 0, yᴴ (λ² M + λ D + K) = 0.
+struct QuadraticRoot {
+  std::complex<double> lambda;  ///< [1/s]
+  Eigen::VectorXcd right, left;
+  double uncertainty = 0;       ///< of lambda, from rounding of the coefficients [1/s]
+  bool zero = false;            ///< nothing but rounding
+};
+
+/// All 2m roots, by size. Where D is nothing and K symmetric they are those of a symmetric problem, exactly on an
+/// axis; else LAPACK's of the balanced companion matrix. Each is then made better by the quotient of its own
+/// quadratic yᴴ(λ² M + λ D + K)x, which keeps slow roots beside fast ones.
+/// @param size  what was summed to the coefficients, without cancellation: sets what counts as rounding
+/// @pre M is symmetric positive definite
+/// @throws std::runtime_error  M is not, or the iteration for roots does not converge
+std::vector<QuadraticRoot> roots_of(const SmallMotion&, const SmallMotion& size);
+
+}  // namespace pintle

@@ -1,0 +1,226 @@
+#include "framework/analysis/linearize/state_space.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "framework/mechanism/trajectory.h"
+
+namespace pintle {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// Generalised forces of the loads' inputs, a column each.
+MatrixXd load_inputs(const System& system, const Equations& eq, std::vector<std::string>& names) {
+  std::vector<VectorXd> columns;
+  const auto add = [&](const std::string& name, int a, int b, const Wrench& on_b) {
+    VectorXd& v = columns.emplace_back(VectorXd::Zero(system.n()));
+    add_wrench(system, eq, b, on_b, v);
+    if (a >= 0) add_wrench(system, eq, a, -on_b, v);
+    names.push_back(name);
+  };
+  for (std::size_t k = 0; k < system.forces.size(); ++k) {
+    const std::string& name = system.force_names[k];
+    if (const auto* f = std::get_if<PointForce>(&system.forces[k])) {
+      const Eigen::Vector2d x = f->follows ? eq.motion[at(f->b)].u : Eigen::Vector2d(1, 0);
+      add(name + (f->follows ? ".along [N]" : ".fx [N]"), -1, f->b, {x.x(), x.y(), 0});
+      add(name + (f->follows ? ".across [N]" : ".fy [N]"), -1, f->b, {-x.y(), x.x(), 0});
+    } else if (const auto* q = std::get_if<Torque>(&system.forces[k])) {
+      add(name + ".torque [N m]", q->a, q->b, {0, 0, 1});
+    }
+  }
+  MatrixXd out(system.n(), static_cast<Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) out.col(static_cast<Index>(k)) = columns[k];
+  return out;
+}
+
+/// What is measured of a pose: rows of ∂(measure)/∂q.
+struct Measures {
+  explicit Measures(const Model& model, const System& of) : system(of) {
+    const auto add = [&](const std::string& name) { names.push_back(name); };
+    for (const Body& b : system.bodies) add(b.name + ".x [m]"), add(b.name + ".y [m]"), add(b.name + ".angle [rad]");
+    points = static_cast<Index>(names.size());
+    for (const RecordedPoint& p : model.points) add(p.name + ".x [m]"), add(p.name + ".y [m]");
+    springs = static_cast<Index>(names.size());
+    first_marker = static_cast<int>(system.markers.size() - model.points.size());
+    for (std::size_t k = 0; k < system.forces.size(); ++k) {
+      if (std::holds_alternative<Spring>(system.forces[k])) add(system.force_names[k] + ".length [m]");
+      if (std::holds_alternative<TorsionSpring>(system.forces[k])) add(system.force_names[k] + ".twist [rad]");
+    }
+    for (const std::string& c : system.contact_names) add(c + ".ex [m]"), add(c + ".ey [m]");
+  }
+
+  void fill(const Equations& eq, MatrixXd& H) const {
+    Index row = 0;
+    for (std::size_t b = 0; b < system.bodies.size(); ++b, row += 3) {
+      const auto i = static_cast<Index>(3 * b);
+      const double c = eq.cos_[static_cast<Index>(b)], s = eq.sin_[static_cast<Index>(b)];
+      const Eigen::Vector2d& x = system.bodies[b].x_BO;
+      H(row, i) = H(row + 1, i + 1) = H(row + 2, i + 2) = 1;
+      H(row, i + 2) = -(s * x.x() + c * x.y());
+      H(row + 1, i + 2) = c * x.x() - s * x.y();
+    }
+    for (int m = first_marker; m < static_cast<int>(system.markers.size()); ++m, row += 2) place(eq, m, 1, row, H);
+    for (const Force& f : system.forces) {
+      if (const auto* spring = std::get_if<Spring>(&f)) {
+        const Eigen::Vector2d d = eq.motion[at(spring->b)].r - eq.motion[at(spring->a)].r;
+        const double length = d.norm();
+        const Eigen::Vector2d along = length > 0 ? Eigen::Vector2d(d / length) : Eigen::Vector2d(0, 0);
+        visit_motion(system, eq, spring->b, [&](int j, const Eigen::Vector3d& p) { H(row, j) += along.dot(p.head<2>()); });
+        visit_motion(system, eq, spring->a, [&](int j, const Eigen::Vector3d& p) { H(row, j) -= along.dot(p.head<2>()); });
+        ++row;
+      } else if (const auto* torsion = std::get_if<TorsionSpring>(&f)) {
+        visit_motion(system, eq, torsion->b, [&](int j, const Eigen::Vector3d& p) { H(row, j) += p[2]; });
+        visit_motion(system, eq, torsion->a, [&](int j, const Eigen::Vector3d& p) { H(row, j) -= p[2]; });
+        ++row;
+      }
+    }
+    for (const ContactPair& c : system.contacts) {
+      place(eq, c.journal, 1, row, H);
+      place(eq, c.bearing, -1, row, H);
+      row += 2;
+    }
+  }
+
+  const System& system;
+  std::vector<std::string> names;
+  Index points = 0, springs = 0;  ///< rows where they begin
+  int first_marker = 0;
+
+ private:
+  void place(const Equations& eq, int marker, double sign, Index row, MatrixXd& H) const {
+    visit_motion(system, eq, marker, [&](int j, const Eigen::Vector3d& p) {
+      H(row, j) += sign * p[0];
+      H(row + 1, j) += sign * p[1];
+    });
+  }
+};
+
+/// δq, δs, δa and generalised loads as they follow from [p; ṗ; inputs].
+struct Maps {
+  MatrixXd q, s, a, load;
+};
+
+std::string per_second(const std::string& name, const char* what) {
+  const std::size_t unit = name.rfind(" [");
+  std::string in = name.substr(unit + 2, name.size() - unit - 3);
+  if (const std::size_t blank = in.find(' '); blank != std::string::npos) in = "m/s" + in.substr(blank);  // m kg^0.5
+  else in += "/s";
+  return name.substr(0, unit) + what + " [" + in + "]";
+}
+
+/// C and D of the outputs, row after row.
+class Outputs {
+ public:
+  Outputs(StateSpace& space, Index rows) : space_(space), all_(rows, space.B.cols() + space.A.cols()) {}
+  template <class Row>
+  void add(const std::string& name, const Row& row) {
+    all_.row(count_++) = row;
+    space_.outputs.push_back(name);
+  }
+  void finish() {
+    space_.C = all_.topLeftCorner(count_, space_.A.cols());
+    space_.D = all_.topRightCorner(count_, space_.B.cols());
+  }
+
+ private:
+  StateSpace& space_;
+  MatrixXd all_;
+  Index count_ = 0;
+};
+
+void add_efforts(const System& system, const MotionAt& here, const FreeMotion& free, const Maps& maps, Outputs& out) {
+  if (free.dependent.empty()) return;
+  const MatrixXd left = here.M * maps.a + here.D * maps.s + here.K * maps.q - maps.load;
+  const VectorXd measure = system.scale(free.dependent);
+  const MatrixXd square = measure.asDiagonal() * free.Cq(Eigen::all, free.dependent).transpose() * system.row_scale.asDiagonal();
+  const MatrixXd effort =  // −δλ, from Cqᵀ δλ = −left in the dependent rows
+      system.row_scale.asDiagonal() * square.partialPivLu().solve(measure.asDiagonal() * left(free.dependent, Eigen::all));
+  for (std::size_t k = 0; k < system.joints.size(); ++k)
+    if (is_driver(system.joints[k]))
+      out.add(system.joint_names[k] + (std::holds_alternative<AngleDriver>(system.joints[k]) ? ".torque [N m]" : ".thrust [N]"),
+              effort.row(system.row_begin[k]));
+}
+
+}  // namespace
+
+std::vector<int> driven_rows(const System& system) {
+  std::vector<int> out;
+  for (std::size_t k = 0; k < system.joints.size(); ++k)
+    if (is_driver(system.joints[k])) out.push_back(system.row_begin[k]);
+  return out;
+}
+
+StateSpace state_space(const Model& model, const System& system, const MotionAt& here, const FreeMotion& free, const SmallMotion& motion,
+                       const std::vector<std::string>& coordinates) {
+  StateSpace out;
+  const MatrixXd loads = load_inputs(system, here.eq, out.inputs);
+  const Index m = free.m(), offsets = free.X.cols() - m, forces = loads.cols(), inputs = forces + 3 * offsets, all = 2 * m + inputs;
+  for (const int i : free.independent) out.states.push_back(coordinates[at(i)]);
+  for (const int i : free.independent) out.states.push_back(per_second(coordinates[at(i)], " rate"));
+  for (std::size_t k = 0; k < system.joints.size(); ++k)
+    if (is_driver(system.joints[k])) {
+      const std::string name = system.joint_names[k], unit = std::holds_alternative<AngleDriver>(system.joints[k]) ? "rad" : "m";
+      out.inputs.insert(out.inputs.end(), {name + ".offset [" + unit + "]", name + ".offset rate [" + unit + "/s]",
+                                           name + ".offset acceleration [" + unit + "/s^2]"});
+    }
+
+  // Columns of [p; ṗ; loads; u₁ u̇₁ ü₁ u₂ …].
+  const auto Z = free.X.leftCols(m), Z1 = free.X1.leftCols(m), Z2 = free.X2.leftCols(m);
+  const MatrixXd none = MatrixXd::Zero(system.n(), all);
+  Maps maps{none, none, none, none};
+  maps.q.leftCols(m) = Z;
+  maps.s.leftCols(m) = Z1;
+  maps.s.middleCols(m, m) = Z;
+  maps.a.leftCols(m) = Z2;
+  maps.a.middleCols(m, m) = 2 * Z1;
+  maps.load.middleCols(2 * m, forces) = loads;
+  for (Index k = 0; k < offsets; ++k) {
+    const Index u = 2 * m + forces + 3 * k;
+    maps.q.col(u) = maps.s.col(u + 1) = maps.a.col(u + 2) = free.X.col(m + k);
+    maps.s.col(u) = free.X1.col(m + k);
+    maps.a.col(u + 1) = 2 * free.X1.col(m + k);
+    maps.a.col(u) = free.X2.col(m + k);
+  }
+  // p̈ from Zᵀ(M δa + D δs + K δq − load) = 0, of which M Z p̈ is all that is not in the maps yet.
+  MatrixXd p2(m, all);
+  if (m > 0) p2 = -motion.M.llt().solve(Z.transpose() * (here.M * maps.a + here.D * maps.s + here.K * maps.q - maps.load));
+  maps.a += Z * p2;
+  out.A.setZero(2 * m, 2 * m);
+  out.A.topRightCorner(m, m).setIdentity();
+  out.A.bottomRows(m) = p2.leftCols(2 * m);
+  out.B.setZero(2 * m, inputs);
+  out.B.bottomRows(m) = p2.rightCols(inputs);
+
+  const Measures measures(model, system);
+  const auto rows = static_cast<Index>(measures.names.size());
+  const Derivatives H = along(system, here, rows, system.n(), [&](const Equations& eq, MatrixXd& to) { measures.fill(eq, to); });
+  const MatrixXd value = H.value * maps.q, rate = H.value * maps.s + H.rate * maps.q;
+  Outputs outputs(out, 3 * rows + offsets);
+  for (Index i = 0; i < rows; ++i) outputs.add(measures.names[at(i)], value.row(i));
+  for (Index i = measures.points; i < measures.springs; ++i) {
+    const std::string& name = measures.names[at(i)];  // "rod.P.x [m]" to "rod.P.vx [m/s]"
+    outputs.add(name.substr(0, name.size() - 5) + "v" + name.substr(name.size() - 5, 1) + " [m/s]", rate.row(i));
+  }
+  Index row = measures.springs;
+  for (std::size_t k = 0; k < system.forces.size(); ++k) {
+    if (const auto* s = std::get_if<Spring>(&system.forces[k])) {
+      outputs.add(system.force_names[k] + ".pull [N]", s->k * value.row(row) + s->c * rate.row(row));
+      ++row;
+    } else if (const auto* r = std::get_if<TorsionSpring>(&system.forces[k])) {
+      outputs.add(system.force_names[k] + ".restoring torque [N m]", r->k * value.row(row) + r->c * rate.row(row));
+      ++row;
+    }
+  }
+  if (free.full_rank) add_efforts(system, here, free, maps, outputs);
+  outputs.finish();
+  for (MatrixXd* each : {&out.A, &out.B, &out.C, &out.D}) each->array() += 0.0;  // no zero with a sign
+  return out;
+}
+
+}  // namespace pintle

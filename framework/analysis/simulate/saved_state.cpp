@@ -1,0 +1,111 @@
+#include "framework/analysis/simulate/saved_state.h"
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <locale>
+#include <sstream>
+
+#include "framework/analysis/simulate/identity.h"
+#include "framework/common/sha256.h"
+
+namespace pintle {
+
+namespace {
+
+constexpr std::string_view kind = "pintle state ", first_line = "pintle state 2\n", last_word = "\nchecksum ";
+constexpr std::size_t last_line = 75;  // of "\nchecksum ", 64 digits and "\n"
+
+std::string hex(double x) {
+  std::array<char, 16> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), std::bit_cast<std::uint64_t>(x), 16).ptr;
+  return {digits.data(), end};
+}
+
+bool read_hex(std::istream& in, double& x) {
+  std::string word;
+  if (!(in >> word)) return false;
+  std::uint64_t bits = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), bits, 16);
+  x = std::bit_cast<double>(bits);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+template <class State, class F>
+bool each_number(State& s, F f) {  // the same order for writing and reading
+  auto& [kinetic, gravity, springs, contacts, strain, lost, input] = s.first;
+  return f(s.t) && f(kinetic) && f(gravity) && f(springs) && f(contacts) && f(strain) && f(lost) && f(input) && f(s.energy_in_play) &&
+         f(s.worst_unexplained);
+}
+
+}  // namespace
+
+std::string state_text(const std::string& identity, const SavedState& state) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(17);
+  out << first_line << "version " << PINTLE_VERSION << "\nscene " << identity << "\nt " << state.t << " s\nbooks";
+  each_number(state, [&](double x) {
+    out << ' ' << hex(x);
+    return true;
+  });
+  out << "\nmemory " << state.memory.size() << '\n' << state.memory;
+  const std::string text = out.str();
+  return text + std::string(last_word) + sha256(text) + "\n";
+}
+
+SavedState state_of(const std::string& text, const std::string& source, const Scene& scene, const Model& model, const Assembly& assembly) {
+  const auto refuse = [&](const std::string& why) { return SceneError(source + ": " + why); };
+  if (!text.starts_with(kind)) throw refuse("is no saved state; name a file states/NNNNN.state of a run");
+  if (!text.starts_with(first_line)) throw refuse("was saved by another version of pintle; run the scene from its start");
+  if (text.size() < first_line.size() + last_line || text.compare(text.size() - last_line, last_word.size(), last_word) != 0)
+    throw refuse("is not whole: its last line must be its checksum; take another saved state");
+  const std::string said = text.substr(0, text.size() - last_line);
+  if (text.substr(text.size() - last_line) != std::string(last_word) + sha256(said) + "\n")
+    throw refuse("is damaged: its checksum is not that of its contents; take another saved state");
+
+  std::istringstream in(said);
+  in.imbue(std::locale::classic());
+  std::string word, version, of_scene;
+  SavedState state;
+  std::size_t size = 0;
+  std::getline(in, word);
+  in >> word >> version;
+  if (version != PINTLE_VERSION) throw refuse("was saved by pintle " + version + ", this is " + PINTLE_VERSION + "; run the scene from its start");
+  bool finite = true;
+  const bool read = in >> word >> of_scene >> word >> word >> word >> word && each_number(state, [&](double& x) {
+    const bool good = read_hex(in, x);
+    finite = finite && std::isfinite(x);
+    return good;
+  }) && in >> word >> size && in.get() == '\n' && size == said.size() - static_cast<std::size_t>(in.tellg());
+  if (!read) throw refuse("cannot be understood; take another saved state");
+  if (!finite || state.t < 0 || state.energy_in_play < 0)
+    throw refuse("holds books that are no energies; take an earlier state, or run the scene from its start");
+  if (of_scene != identity(scene, model, assembly))
+    throw refuse("belongs to another scene, or to this one before it, a table, a mesh or a drawing was changed (only title, run.until and output may "
+                 "change), or to another machine; restore the scene, its files and its --set values, or run it from its start");
+  state.memory = said.substr(said.size() - size);
+  try {
+    Integrator trial(model.system, model.scheme, assembly.start);
+    trial.load(state.memory);
+    if (trial.state().t != state.t) throw std::invalid_argument("it is of another time than it says");
+  } catch (const std::invalid_argument& why) {
+    throw refuse(std::string("cannot be gone on from: ") + why.what() + "; take another saved state, or run the scene from its start");
+  }
+  return state;
+}
+
+SavedState read_state(const std::filesystem::path& file, const Scene& scene, const Model& model, const Assembly& assembly) {
+  const std::string source = "--restart " + file.string();
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in.is_open() || in.bad() || text.fail()) throw SceneError(source + ": cannot be read; name a file states/NNNNN.state of a run");
+  return state_of(text.str(), source, scene, model, assembly);
+}
+
+}  // namespace pintle

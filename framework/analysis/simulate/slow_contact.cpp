@@ -1,0 +1,49 @@
+#include "framework/analysis/simulate/slow_contact.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace pintle {
+
+// An impact slows down from its onset: |δ̇| ≤ δ̇₀, and damping is χ of the elastic force at most. Pressed in at twice the onset
+// rate, with damping above the elastic force, the law is no longer the one that was fitted to a restitution.
+void SlowContacts::see(const System& system, const Step& step, const Equations& eq) {
+  constexpr double faster = 2, outweighs = 1;
+  for (std::size_t c = 0; c < seen_.size(); ++c) {
+    Seen& s = seen_[c];
+    const ContactPair& pair = system.contacts[c];
+    const double onset = step.to.state.impact_rate[c], chi = pair.normal.chi;
+    if (!(onset > 0) || chi == 0 || pair.link >= 0) {
+      s.beyond = false;
+      continue;
+    }
+    const Gap& gap = eq.contact[c].gap;
+    const double over = chi * gap.rate / onset;
+    const bool beyond = gap.depth > 0 && gap.rate > faster * onset && over > outweighs;
+    if (beyond || s.beyond) {
+      const Eigen::Index z = 2 * system.n() + system.contact_z[c];
+      s.lost += step.to.state.y[z] - step.from.state.y[z];
+    }
+    if (beyond && s.since < 0) s.since = step.to.state.t;
+    if (beyond && over > s.over) s.over = over, s.onset = onset, s.rate = gap.rate;
+    s.beyond = beyond;
+  }
+}
+
+void SlowContacts::warn(const System& system, double in_play, std::vector<std::string>& warnings) const {
+  constexpr double little = 1e-2;  // of the energy in play
+  for (std::size_t c = 0; c < seen_.size(); ++c) {
+    const Seen& s = seen_[c];
+    if (!(s.lost > little * in_play)) continue;
+    std::ostringstream text;
+    text.precision(3);
+    text << "\"" << system.contact_names[c] << "\": from t = " << s.since << " s on a contact that began at " << s.onset
+         << " m/s was pressed in at up to " << s.rate << " m/s, where the damping of its law is " << s.over
+         << " times the elastic force; the law is made for impacts, which slow down from their onset. Doubtful are " << s.lost << " J of hysteresis, "
+         << 100 * s.lost / in_play << " % of the energy in play; raise `slowest impact` to the speeds meant, set restitution: 1, or take "
+         << "model: spring-damper";
+    warnings.push_back(text.str());
+  }
+}
+
+}  // namespace pintle

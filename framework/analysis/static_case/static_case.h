@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "framework/bodies/elastic_body.h"
+
+namespace pintle {
+
+struct SupportReaction {
+  std::string at;
+  Eigen::Vector3d resultant;  ///< Fx, Fy and moment about the origin of the body's axes [N, N, N m]
+};
+struct PortDisplacement {
+  std::string name;
+  Eigen::Vector2d x;  ///< [m]
+  Eigen::Vector3d u;  ///< u_x, u_y, φ [m, m, rad]; φ is NaN where the point has no rotation
+};
+
+struct StaticReport {
+  StaticSolution solution;
+  StressField stress;
+  std::vector<SupportReaction> reactions;
+  std::vector<PortDisplacement> ports;
+  Eigen::Vector3d load = Eigen::Vector3d::Zero();  ///< resultant of all loads, as a reaction's
+  double greatest_displacement = 0;  ///< [m]
+  Eigen::Vector2d displaced_at;
+  double greatest_stress = 0;        ///< von Mises [Pa]
+  Eigen::Vector2d stressed_at;
+  double seconds = 0;
+};
+
+/// @throws SceneError  no static case in the scene, no supports or too few, a load that does not fit
+StaticReport solve_case(const Scene&, const ElasticBody&);
+
+/// static.vtu (displacement, stress components, von Mises, principal stresses), points.csv and, of beams,
+/// section_forces.csv; static.json
+void write_case(const std::filesystem::path& directory, const Scene&, const ElasticBody&, const StaticReport&);
+std::string static_json(const Scene&, const ElasticBody&, const StaticReport&);
+
+/// mesh.vtu (quality of each cell, a field for each group) and mesh.json.
+void write_mesh_report(const std::filesystem::path& directory, const Scene&, const ElasticBody&);
+std::string mesh_json(const Scene&, const ElasticBody&);
+
+}  // namespace pintle

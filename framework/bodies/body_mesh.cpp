@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "files/files.h"
+#include "framework/bodies/beam_mesh.h"
+#include "framework/bodies/elastic_parts.h"
+#include "framework/bodies/file_doubts.h"
+#include "framework/bodies/in_body.h"
+#include "meshes/generate.h"
+#include "meshes/gmsh.h"
+#include "meshes/inp.h"
+#include "meshes/soundness.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Vector2d;
+namespace fs = std::filesystem;
+
+CellShape shape_of(const std::string& element) {
+  if (element.empty() || element == "triangle6") return CellShape::triangle6;
+  if (element == "triangle3") return CellShape::triangle3;
+  if (element.starts_with("quadrilateral4")) return CellShape::quadrilateral4;
+  return element == "quadrilateral9" ? CellShape::quadrilateral9 : CellShape::quadrilateral8;
+}
+
+Mesh plate_mesh(const Scene& scene, const SceneBody& body, const ScenePlate& plate, std::vector<std::string>& warnings) {
+  if (const auto* grid = std::get_if<SceneGrid>(&plate.shape)) {
+    std::array<Vector2d, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) corners[i] = vector(grid->corners[i]);
+    return grid_mesh(corners, grid->nx, grid->ny, shape_of(plate.element));
+  }
+  MeshOptions options;
+  options.shape = shape_of(plate.element);
+  options.size = plate.size;
+  options.hole_size = plate.hole_size;
+  for (const ScenePoint& p : body.points)
+    if (p.hole.empty()) options.points.push_back(vector(p.at));
+  if (const auto* link = std::get_if<Link>(&plate.shape)) return mesh_link(*link, options);
+  const SceneFile& file = std::get<SceneFile>(plate.shape);
+  const fs::path folder = fs::path(scene.file).parent_path(), path = contained_file(file.path, folder);
+  if (kind_of(path) != ".inp") return read_geometry(path, options, file.scale, folder);
+  InpClaims claims;
+  Mesh mesh = read_inp(path, file.scale, folder, &claims);
+  judge_claims(claims, plate, warnings);
+  warnings.insert(warnings.end(), claims.warnings.begin(), claims.warnings.end());
+  return mesh;
+}
+
+void judge(const Mesh& mesh) {
+  if (mesh.cell_count() == 0) throw std::invalid_argument("its mesh is empty: no cell in the plane; look at the drawing's surfaces");
+  std::vector<int> piece;
+  if (const int n = pieces(mesh, piece); n > 1) {
+    const auto other = std::find_if(piece.begin(), piece.end(), [](int p) { return p != 0; }) - piece.begin();
+    const auto number = [&](Eigen::Index node) { return std::to_string(mesh.node_numbers[static_cast<std::size_t>(node)]); };
+    std::string remedy = "; join them, or make them bodies of their own";
+    if (const auto pair = unjoined(mesh, piece))
+      remedy = "; nodes " + number(pair->first) + " and " + number(pair->second) + " both lie at " + shown(mesh.x.col(pair->first)) +
+               ": merge nodes that lie at one place, or make the pieces bodies of their own";
+    throw std::invalid_argument("its mesh falls into " + std::to_string(n) + " pieces that share no node; one holds node " +
+                                number(other) + " at " + shown(mesh.x.col(other)) + remedy);
+  }
+}
+
+}  // namespace
+
+Mesh mesh_of(const Scene& scene, const SceneBody& body, std::vector<std::string>& warnings) {
+  return in_body(scene, body, [&] {
+    Mesh mesh;
+    if (const SceneBeam* beam = beam_of(body)) {
+      const BeamAxis axis = beam_axis(scene, body, *beam);
+      for (std::string& doubt : crossings(axis)) warnings.push_back(std::move(doubt));
+      mesh = beam_mesh(axis, *beam);
+    } else {
+      mesh = plate_mesh(scene, body, plate_of(body), warnings);
+    }
+    if (mesh.cell_count() > 0 && mesh.plane() == (beam_of(body) != nullptr))
+      throw std::invalid_argument("its mesh is made of lines, not of plane cells; a beam is described by points, not by a file");
+    if (mesh.plane()) orient(mesh);
+    judge(mesh);
+    return mesh;
+  });
+}
+
+}  // namespace pintle

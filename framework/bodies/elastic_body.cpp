@@ -1,0 +1,289 @@
+#include "framework/bodies/elastic_body.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <sstream>
+
+#include "framework/bodies/elastic_parts.h"
+#include "framework/bodies/in_body.h"
+#include "framework/component/fe/assembly.h"
+#include "framework/component/fe/from_mesh.h"
+#include "meshes/rim_shape.h"
+#include "meshes/soundness.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Vector2d;
+
+std::string described(const WorstCell& cell) {
+  std::ostringstream s;
+  s << name_of(cell.shape) << " " << cell.number << " at " << shown(cell.at) << " (scaled Jacobian "
+    << std::setprecision(3) << cell.quality.jacobian << ")";
+  return s.str();
+}
+
+void judge(const MeshQuality& q, std::vector<std::string>& warnings) {
+  if (!q.inverted.empty())
+    throw std::invalid_argument("its mesh has " + std::to_string(q.inverted.size()) + " inverted cell(s), the worst " +
+                                described(q.inverted.front()) + "; refine there, take another element, or mend the mesh");
+  if (!q.bad.empty())
+    warnings.push_back(std::to_string(q.bad.size()) + " badly shaped cell(s), the worst " + described(q.bad.front()) + ": stress there is not to be trusted");
+}
+
+/// Cells that overlap or do not hold together are another body than the one meant.
+void judge_soundness(const Mesh& mesh, std::vector<std::string>& warnings) {
+  const Soundness s = soundness(mesh);
+  if (!s.faults.empty()) throw std::invalid_argument("its mesh is no single sheet: " + s.faults.front());
+  warnings.insert(warnings.end(), s.doubts.begin(), s.doubts.end());
+}
+
+/// Elements of few freedoms whose strain cannot keep its volume at every point and still bend.
+void judge_locking(const ScenePlate& plate, const Mesh& mesh, std::vector<std::string>& warnings) {
+  constexpr double nearly = 0.48;
+  const auto* solid = std::get_if<Isotropic>(&plate.material.material.elastic);
+  if (!solid || plate.state != PlaneState::strain || solid->poisson < nearly) return;
+  const bool triangles = std::any_of(mesh.cells.begin(), mesh.cells.end(), [](const Cells& c) { return c.shape == CellShape::triangle3; });
+  if (!triangles && plate.element != "quadrilateral4-plain") return;
+  std::ostringstream s;
+  s << (triangles ? "triangle3" : plate.element) << " locks in plane strain at a Poisson's ratio of " << solid->poisson
+    << ": it comes out far too stiff; take quadrilateral4, triangle6 or quadrilateral8";
+  warnings.push_back(s.str());
+}
+
+/// Rounding of the stretch, which is so much stiffer, in the bending of a slender beam (docs/theory/elements.md).
+void judge_slenderness(const FeModel& model, std::vector<std::string>& warnings) {
+  constexpr double too_much = 0.01;
+  double length = 0, stretch = 0, bending = std::numeric_limits<double>::infinity();
+  int elements = 0;
+  const auto count = [&](const auto& block) {
+    for (int i = 0; i < block.size(); ++i) {
+      const auto beam = block.element(i);
+      if constexpr (requires { beam.EI; }) {
+        const auto x = block.coords(i, model.x);
+        length += (x.col(1) - x.col(0)).norm();
+        stretch = std::max(stretch, beam.EA), bending = std::min(bending, beam.EI);
+        ++elements;
+      }
+    }
+  };
+  for (const AnyBlock& any : model.blocks) std::visit(count, any);
+  const double lost = elements * std::numeric_limits<double>::epsilon() * stretch * length * length / (3 * bending);
+  if (!(lost > too_much)) return;
+  std::ostringstream s;
+  s << "it is so slender (" << std::setprecision(2) << length * std::sqrt(stretch / (12 * bending))
+    << " times as long as thick) that rounding may change its bending by " << 100 * lost << " %; take a thicker section or a shorter beam";
+  warnings.push_back(s.str());
+}
+
+/// The material with the density that gives `mass` to a body whose mass at density 1 is `volume`.
+Material with_mass(Material material, const std::optional<double>& mass, double volume) {
+  if (mass) material.density = *mass / volume;
+  return material;
+}
+
+AnyBlock line_block(const SceneBeam& beam, const Mesh& mesh, std::vector<Fibre>& fibres, const Material& material) {
+  const std::vector<int>& nodes = mesh.cells.front().nodes;
+  const int n = static_cast<int>(mesh.cells.front().size());
+  Block<Bar> bars;
+  Block<BeamEuler> euler;
+  Block<BeamTimoshenko> timoshenko;
+  double length = 0;
+  for (int i = 0; i < n; ++i) length += (mesh.x.col(nodes[static_cast<std::size_t>(2 * i + 1)]) - mesh.x.col(nodes[static_cast<std::size_t>(2 * i)])).norm();
+  double begun = 0;
+  std::vector<int> cells(static_cast<std::size_t>(n));
+  std::iota(cells.begin(), cells.end(), 0);
+  fibres.clear();
+  for (int i = 0; i < n; ++i) {
+    const Vector2d d = mesh.x.col(nodes[static_cast<std::size_t>(2 * i + 1)]) - mesh.x.col(nodes[static_cast<std::size_t>(2 * i)]);
+    const double middle = (begun + d.norm() / 2) / length;
+    begun += d.norm();
+    const BeamModuli moduli = beam_moduli(material, std::atan2(d.y(), d.x()));
+    const Section s = section(beam.taper_to ? between(beam.section, *beam.taper_to, middle) : beam.section, beam.shear, moduli.nu);
+    const double EA = moduli.E * s.A, EI = moduli.E * s.I, rhoA = material.density * s.A;
+    const double rhoI = beam.rotary ? material.density * s.I : 0;
+    if (beam.bar)
+      bars.properties.push_back({EA, rhoA});
+    else if (beam.theory == BeamTheory::euler)
+      euler.properties.push_back({EA, EI, rhoA, rhoI});
+    else
+      timoshenko.properties.push_back({EA, EI, s.kappa * moduli.G * s.A, rhoA, rhoI});
+    fibres.push_back({s.A, s.I, beam.bar ? 0 : s.fibre});
+  }
+  const auto filled = [&](auto block) -> AnyBlock {
+    block.nodes = nodes;
+    block.cells = cells;
+    return block;
+  };
+  if (beam.bar) return filled(std::move(bars));
+  if (beam.theory == BeamTheory::euler) return filled(std::move(euler));
+  return filled(std::move(timoshenko));
+}
+
+double total_mass(const std::vector<AnyBlock>& blocks, const Eigen::Matrix2Xd& x) {
+  double m = 0;
+  for (const AnyBlock& any : blocks)
+    std::visit([&](const auto& block) {
+      for (int i = 0; i < block.size(); ++i) {
+        const auto lumped = lumped_mass(block.element(i), block.coords(i, x));
+        for (int k = 0; k < lumped.size(); k += static_cast<int>(lumped.size()) / static_cast<int>(block.coords(i, x).cols())) m += lumped[k];
+      }
+    }, any);
+  return m;
+}
+
+std::vector<AnyBlock> blocks_of(const SceneBody& body, const Mesh& mesh, std::vector<Fibre>& fibres) {
+  const auto at_density = [&](double density, const std::optional<double>& mass, double volume) -> std::vector<AnyBlock> {
+    if (const SceneBeam* beam = beam_of(body)) {
+      Material material = beam->material.material;
+      material.density = density;
+      return {line_block(*beam, mesh, fibres, with_mass(material, mass, volume))};
+    }
+    const ScenePlate& plate = plate_of(body);
+    Material material = plate.material.material;
+    material.density = density;
+    material = with_mass(material, mass, volume);
+    return plane_blocks(mesh, {plane_material(material, plate.state), material.density, plate.thickness}, plate.element);
+  };
+  const SceneBeam* beam = beam_of(body);
+  const std::optional<double>& mass = beam ? beam->mass : plate_of(body).mass;
+  if (!mass) return at_density((beam ? beam->material : plate_of(body).material).material.density, {}, 1);
+  return at_density(1, mass, total_mass(at_density(1, {}, 1), mesh.x));
+}
+
+/// Whether sides close a loop that has the body inside: the outline, not a hole.
+bool is_outline(const Mesh& mesh, const std::vector<Cells>& sides) {
+  std::vector<int> begins, ends;
+  double twice_area = 0;
+  for (const Cells& c : sides)
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      const int a = c.nodes[i * static_cast<std::size_t>(nodes_of(c.shape))], b = c.nodes[i * static_cast<std::size_t>(nodes_of(c.shape)) + 1];
+      begins.push_back(a);
+      ends.push_back(b);
+      twice_area += mesh.x(0, a) * mesh.x(1, b) - mesh.x(1, a) * mesh.x(0, b);
+    }
+  std::sort(begins.begin(), begins.end());
+  std::sort(ends.begin(), ends.end());
+  return begins == ends && twice_area > 0;
+}
+
+/// A point coupled to a part of a rim stands in the middle of that part, not of the hole.
+void judge_rim(const Scene& scene, const Mesh& mesh, const ScenePoint& p, const RimPort& port, const std::vector<Cells>& sides,
+               std::vector<std::string>& warnings) {
+  constexpr double bent = 10 * std::numbers::pi / 180, round = 45 * std::numbers::pi / 180, on_circle = 0.02;
+  const RimShape rim = rim_shape(mesh, sides);
+  const std::string name = "\"" + p.hole + "\"", stands = "point \"" + p.name + "\" stands at " + shown(port.x);
+  if (rim.loops + rim.open > 1)
+    warnings.push_back(name + " is " + std::to_string(rim.loops + rim.open) + " separate rims or edges, coupled to each other: " + stands +
+                       ", in the middle of them all; give each a name and a point of its own if that is not meant");
+  if (rim.open == 0 || rim.angle < bent) return;
+  if (rim.misfit > on_circle) {
+    warnings.push_back(name + " is no closed rim: its sides do not come round, and " + stands + ", their middle; name the whole rim if a hole is meant");
+    return;
+  }
+  const double grain = 1e-9 * rim.radius;
+  const Vector2d center = (rim.center / grain).array().round() * grain;
+  const std::string part = name + " covers " + shown_number(rim.angle * 180 / std::numbers::pi) + " of 360 deg of a circle of radius " + shown_number(rim.radius) +
+                           " m about " + shown(center) + ", but its ";
+  if (rim.open == 1 && rim.angle >= round)
+    throw SceneError(scene.file, p.place, part + "point would stand at " + shown(port.x) + ", the middle of that arc; give the whole rim the name");
+  warnings.push_back(part + stands + ", the middle of that arc; give the whole rim the name if a hole is meant");
+}
+
+RimPort rim_port(const Scene& scene, const Mesh& mesh, const ScenePoint& p, std::vector<std::string>& warnings) {
+  Group rim = group_of(scene, mesh, p.hole, p.place, "give the curve of the hole a physical name in the drawing");
+  rim.sides = sides_of(mesh, rim);
+  if (rim.sides.empty())
+    throw SceneError(scene.file, p.place, "\"" + p.hole + "\" is no rim: none of the mesh's sides lies along it; name the curve of a hole");
+  if (is_outline(mesh, rim.sides))
+    throw SceneError(scene.file, p.place, "\"" + p.hole + "\" is the outline of the body, not a hole in it; name a hole, or hold the edge under supports");
+  RimPort port{p.name, Vector2d::Zero(), rim.nodes, rim_weights(mesh, rim), p.coupling == RimCoupling::average ? Coupling::average : Coupling::rigid};
+  double length = 0;
+  for (std::size_t i = 0; i < rim.nodes.size(); ++i) {
+    port.x += port.weights[i] * mesh.x.col(rim.nodes[i]);
+    length += port.weights[i];
+  }
+  port.x /= length;
+  judge_rim(scene, mesh, p, port, rim.sides, warnings);
+  return port;
+}
+
+NodePort node_port(const Scene& scene, const SceneBody& body, const Mesh& mesh, const ScenePoint& p) {
+  const double size = (mesh.x.rowwise().maxCoeff() - mesh.x.rowwise().minCoeff()).norm();
+  const int node = nearest_node(mesh, vector(p.at), size);
+  const double gap = (mesh.x.col(node) - vector(p.at)).norm();
+  const bool given = !beam_of(body) && is_finished_mesh(plate_of(body));
+  if (gap > (given ? 1e-4 : 1e-7) * size) {
+    const auto* file = beam_of(body) ? nullptr : std::get_if<SceneFile>(&plate_of(body).shape);
+    const int far = file && !file->unit_given ? nearest_node(mesh, 1000 * vector(p.at), 1e-4 * size) : -1;
+    if (far >= 0 && vector(p.at).norm() > 0)
+      throw SceneError(scene.file, p.place, "no node lies at " + shown(vector(p.at)) + ", but one at " + shown(mesh.x.col(far)) + ", a thousand times as far: " + file->path +
+                       " is read in m because the scene gives no unit; if it is in mm, add unit: mm");
+    throw SceneError(scene.file, p.place, "no node lies at " + shown(vector(p.at)) + "; the nearest, " +
+                     std::to_string(mesh.node_numbers[static_cast<std::size_t>(node)]) + ", is at " + shown(mesh.x.col(node)) +
+                     (beam_of(body) ? "; put the point on the beam's axis" : "; put the point there, or mesh a drawing, where points become nodes"));
+  }
+  return {p.name, node};
+}
+
+void add_ports(const Scene& scene, const SceneBody& body, const Mesh& mesh, FeModel& model, std::vector<std::string>& warnings) {
+  std::vector<NodePort> nodes;
+  std::vector<RimPort> rims;
+  for (const ScenePoint& p : body.points)
+    if (p.hole.empty())
+      nodes.push_back(node_port(scene, body, mesh, p));
+    else
+      rims.push_back(rim_port(scene, mesh, p, warnings));
+  pintle::add_ports(model, nodes, rims);
+}
+
+std::vector<Lump> lumps_of(const Scene& scene, const SceneBody& body, const Mesh& mesh) {
+  std::vector<Lump> lumps;
+  for (const SceneLump& l : body.elastic->lumps) {
+    const ScenePoint& p = point_of(scene, body, l.at, l.place);
+    if (!p.hole.empty())
+      throw SceneError(scene.file, l.place, "\"" + l.at + "\" is the middle of a hole, where no material is; give the lump to a point of the plate itself");
+    lumps.push_back({node_port(scene, body, mesh, p).node, {l.mass, l.inertia}});
+  }
+  return lumps;
+}
+
+double seconds(std::chrono::steady_clock::time_point since) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+}
+
+}  // namespace
+
+ElasticBody elastic_body(const Scene& scene, const SceneBody& body) {
+  ElasticBody e;
+  e.scene = &body;
+  const auto start = std::chrono::steady_clock::now();
+  e.mesh = mesh_of(scene, body, e.warnings);
+  e.mesh_seconds = seconds(start);
+  const auto meshed = std::chrono::steady_clock::now();
+  in_body(scene, body, [&] {
+    if (e.mesh.plane()) {
+      e.quality = quality(e.mesh);
+      judge(e.quality, e.warnings);
+      judge_soundness(e.mesh, e.warnings);
+      judge_locking(plate_of(body), e.mesh, e.warnings);
+      e.thickness = plate_of(body).thickness;
+    }
+    e.model = fe_model(e.mesh.x, blocks_of(body, e.mesh, e.fibres), lumps_of(scene, body, e.mesh));
+    judge_slenderness(e.model, e.warnings);
+    add_ports(scene, body, e.mesh, e.model, e.warnings);
+    const Assembler assembler(e.model);
+    e.K = assembler.stiffness();
+    e.M = assembler.mass(body.elastic->lumped ? MassKind::lumped : MassKind::consistent);
+  });
+  e.assembly_seconds = seconds(meshed);
+  return e;
+}
+
+}  // namespace pintle

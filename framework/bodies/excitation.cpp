@@ -1,0 +1,193 @@
+#include "framework/bodies/excitation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <unsupported/Eigen/FFT>
+
+#include "framework/bodies/grips.h"
+#include "framework/bodies/modes.h"
+#include "framework/common/computed.h"
+#include "framework/component/fe/loads.h"
+#include "framework/component/reduction/inertia.h"
+#include "framework/component/reduction/modal_model.h"
+#include "framework/configuration/assemble.h"
+#include "framework/integration/integrator.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+constexpr double two_pi = 2 * std::numbers::pi;
+
+constexpr long most_steps = 20'000;
+constexpr double most_numbers = 1e7;  ///< kept of all bodies together: 80 MB
+constexpr int turns_seen = 10;        ///< of the slowest motor
+constexpr int steps_a_turn = 64;      ///< at least, of the fastest driver
+constexpr double least_tolerance = 1e-6;
+constexpr Index law_samples = 4096;
+
+/// The body as a rigid one with the same points, so that all names keep their meaning.
+SceneBody rigid_twin(const ElasticBody& e) {
+  SceneBody body = *e.scene;
+  const RigidInertia inertia = rigid_inertia(e.model, e.M);
+  const Vector2d centre = inertia.c / inertia.m;
+  body.mass = inertia.m;
+  body.inertia = inertia.J - inertia.c.squaredNorm() / inertia.m;
+  body.center = {centre.x(), centre.y()};
+  for (ScenePoint& p : body.points)
+    if (const Port* port = e.model.port(p.name)) p.at = {port->x.x(), port->x.y()};
+  body.elastic.reset();
+  return body;
+}
+
+Scene rigid_twin(const Scene& scene, const std::vector<const ElasticBody*>& elements) {
+  Scene twin = scene;
+  for (std::size_t b = 0; b < elements.size(); ++b)
+    if (elements[b]) twin.bodies[b] = rigid_twin(*elements[b]);
+  for (StartBody& s : twin.start_bodies) s.deflection.clear(), s.modes.clear();
+  twin.output.points.clear();
+  twin.output.stress.clear();
+  twin.output.frames = 0;
+  return twin;
+}
+
+/// One column of every history at the present state.
+void keep(const System& system, const std::vector<Grip>& grips, const State& state, const Equations& eq, Index column,
+          std::vector<LoadHistory>& bodies) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b].factor.size() == 0) continue;
+    loads_now(system, grips, state, eq, b, bodies[b].factor.col(column));
+    bodies[b].t.push_back(state.t);
+  }
+}
+
+/// Whether nothing but even motors and unchanging forces drives the scene.
+bool is_even(const Scene& scene, const std::vector<Imposed>& imposed) {
+  const auto turns = [](const Imposed& i) { return i.even && i.turns; };
+  bool even = !imposed.empty() && std::all_of(imposed.begin(), imposed.end(), turns);
+  for (const SceneLoad& l : scene.loads) {
+    if (const auto* f = std::get_if<SceneForce>(&l.what)) even = even && f->x.constant && f->y.constant;
+    if (const auto* q = std::get_if<SceneTorque>(&l.what)) even = even && q->law.constant;
+  }
+  return even;
+}
+
+double span_of(const Scene& scene, const std::vector<Imposed>& imposed) {
+  if (!is_even(scene, imposed)) return scene.run.until;
+  double slowest = 0;
+  for (const Imposed& i : imposed) slowest = std::max(slowest, turns_seen / i.frequency);
+  return std::min(scene.run.until, slowest);
+}
+
+Scheme scheme_of(const Model& model, double span, const std::vector<Imposed>& imposed) {
+  Scheme scheme = model.scheme;
+  scheme.tolerance = std::max(scheme.tolerance, least_tolerance);
+  scheme.max_step = std::min(scheme.max_step, span / steps_a_turn);
+  for (const Imposed& i : imposed)
+    if (i.frequency > 0) scheme.max_step = std::min(scheme.max_step, 1 / (steps_a_turn * i.frequency));
+  return scheme;
+}
+
+void march(const Scene& twin, const Model& model, const Assembly& assembly, const std::vector<Grip>& grips,
+           const std::vector<Imposed>& imposed, RigidRun& run) {
+  double rows = 1;
+  for (const LoadHistory& h : run.bodies) rows += static_cast<double>(h.factor.rows());
+  const long most = std::min(most_steps, static_cast<long>(most_numbers / rows));
+  for (LoadHistory& h : run.bodies) h.factor.conservativeResize(Eigen::NoChange, h.factor.rows() > 0 ? most + 1 : 0);
+  const double span = span_of(twin, imposed);
+  Integrator integrator(model.system, scheme_of(model, span, imposed), assembly.start);
+  if (integrator.failure().empty()) keep(model.system, grips, integrator.state(), integrator.equations(), 0, run.bodies);
+  while (integrator.failure().empty() && run.steps < most && integrator.state().t < span && integrator.advance(span))
+    keep(model.system, grips, integrator.state(), integrator.equations(), ++run.steps, run.bodies);
+  run.until = integrator.state().t;
+  run.trouble = integrator.failure();
+  for (LoadHistory& h : run.bodies)
+    h.factor.conservativeResize(Eigen::NoChange, h.factor.rows() > 0 ? run.steps + 1 : 0);
+}
+
+}  // namespace
+
+Eigen::MatrixXd loads_on(const ElasticBody& e) {
+  const FeModel& model = e.model;
+  const RigidFields f = rigid_fields(model);
+  const RigidInertia inertia = rigid_inertia(model, e.M);
+  const Vector2d c = inertia.c / inertia.m;
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(model.n(), inertia_loads + 3 * static_cast<Index>(model.ports.size()));
+  loads.col(0) = independent_load(model, e.M * f.T.col(0));
+  loads.col(1) = independent_load(model, e.M * f.T.col(1));
+  loads.col(2) = independent_load(model, e.M * f.R) + c.y() * loads.col(0) - c.x() * loads.col(1);
+  loads.col(3) = independent_load(model, e.M * f.x) - c.x() * loads.col(0) - c.y() * loads.col(1);
+  for (std::size_t p = 0; p < model.ports.size(); ++p)
+    for (Index k = 0; k < 3; ++k)
+      if (const int freedom = model.ports[p].freedom[k]; freedom >= 0)
+        loads(freedom, inertia_loads + 3 * static_cast<Index>(p) + k) = 1;
+  return loads;
+}
+
+RigidRun rigid_run(const Scene& scene, const std::vector<const ElasticBody*>& elements) {
+  RigidRun run;
+  const double begin = computed();
+  run.bodies.resize(scene.bodies.size());
+  for (std::size_t b = 0; b < elements.size(); ++b)
+    if (elements[b] && elements[b]->scene->elastic->modes)
+      run.bodies[b].factor.resize(inertia_loads + 3 * static_cast<Index>(elements[b]->model.ports.size()), 1);
+  const Scene twin = rigid_twin(scene, elements);
+  const Model model = build(twin);
+  try {
+    const Assembly assembly = assemble(twin, model);
+    if (!assembly.redundant.empty()) {
+      const Redundancy& r = assembly.redundant.front();
+      run.trouble = "with every body rigid, " + row_text(model.system, r.joint, r.row) + " repeats what other joints hold";
+    } else {
+      march(twin, model, assembly, grips_of(scene, model.order, elements), imposed_frequencies(scene), run);
+    }
+  } catch (const AssemblyError& error) {
+    run.trouble = error.what();
+  }
+  run.seconds = computed() - begin;
+  return run;
+}
+
+VectorXd power_spectrum(const VectorXd& samples) {
+  const Index n = samples.size();
+  VectorXd windowed = samples.array() - samples.mean();
+  for (Index i = 0; i < n; ++i)  // Hann: what leaks falls off fast
+    windowed[i] *= 1 - std::cos(two_pi * static_cast<double>(i) / static_cast<double>(n));
+  Eigen::VectorXcd transform(n);
+  Eigen::FFT<double> fft;
+  fft.fwd(transform, windowed);
+  return transform.head(n / 2 + 1).cwiseAbs2();
+}
+
+std::vector<Imposed> imposed_frequencies(const Scene& scene) {
+  std::vector<Imposed> all;
+  const double until = scene.run.until;
+  for (const SceneDriver& d : scene.drivers) {
+    VectorXd acceleration(law_samples);
+    double fastest = 0;
+    for (Index i = 0; i < law_samples; ++i) {
+      const Jet law = d.law.at(until * static_cast<double>(i) / static_cast<double>(law_samples));
+      acceleration[i] = law.accel;
+      fastest = std::max(fastest, std::abs(law.rate));
+    }
+    Imposed out{d.name, 0, false, false};
+    // What is left of an even law is rounding of its rate.
+    out.even = acceleration.lpNorm<Eigen::Infinity>() * until <= 1e-6 * fastest;
+    if (!out.even) {
+      Index most = 0;
+      power_spectrum(acceleration).maxCoeff(&most);
+      out.frequency = static_cast<double>(std::max<Index>(1, most)) / until;
+    }
+    if (d.kind == DriverKind::angle && fastest / two_pi > out.frequency) out.frequency = fastest / two_pi, out.turns = true;
+    all.push_back(out);
+  }
+  return all;
+}
+
+}  // namespace pintle

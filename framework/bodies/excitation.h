@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/bodies/elastic_body.h"
+
+/// What a mechanism does to its flexible bodies, seen while they are rigid.
+/// Theory: docs/theory/reduction.md, "Choosing modes by the scene".
+namespace pintle {
+
+/// Columns of `loads_on` before those of the ports, 3 each.
+inline constexpr int inertia_loads = 4;
+
+/// The loads that motion and joints can put on a body, in independent freedoms, n × (4 + 3·ports):
+/// M T along x, along y, M R and M x about the mass centre, then a unit force along x, along y and a
+/// unit couple at each port (zero where it cannot turn).
+Eigen::MatrixXd loads_on(const ElasticBody&);
+
+/// How much of each load acts over time, one column a time: gravity less acceleration of the mass
+/// centre [m/s²], less the angular acceleration [rad/s²], spin² [rad²/s²], then [N, N, N m] at each
+/// port; body axes. Together in equilibrium.
+struct LoadHistory {
+  std::vector<double> t;   ///< ends of the steps, ascending [s]
+  Eigen::MatrixXd factor;  ///< (4 + 3·ports) × times
+};
+
+/// A short run with every body rigid.
+struct RigidRun {
+  std::string trouble;  ///< why there is none, or why it ended early; in words
+  double until = 0;     ///< reached [s]
+  long steps = 0;
+  double seconds = 0;   ///< of computing
+  std::vector<LoadHistory> bodies;  ///< one a body of the scene; empty unless it has modes
+  bool usable() const { return steps > 0; }
+};
+
+/// The scene, its bodies of elements rigid, over `run.until` or, where nothing but motors that turn
+/// evenly and forces that do not change drive it, over ten turns; no longer than a bounded number of
+/// steps. Cannot fail for mechanical reasons: `trouble` says what went wrong.
+/// @param elements  one a body of the scene, nullptr for those that are not made of elements
+/// @throws SceneError  as build
+RigidRun rigid_run(const Scene&, const std::vector<const ElasticBody*>& elements);
+
+/// What a driver imposes: turns per second, or the frequency that its acceleration has most of.
+struct Imposed {
+  std::string driver;
+  double frequency = 0;  ///< [Hz], 0: at rest or even
+  bool turns = false;    ///< the frequency is that of turning
+  bool even = false;     ///< the law has no acceleration
+};
+/// One a driver, from its law over `run.until`.
+std::vector<Imposed> imposed_frequencies(const Scene&);
+
+/// Power of what varies in samples taken at even times over a span T, by frequency k/T, k = 0 … n/2.
+/// @pre the number of samples is a power of two
+Eigen::VectorXd power_spectrum(const Eigen::VectorXd& samples);
+
+}  // namespace pintle

@@ -1,0 +1,232 @@
+#include "framework/bodies/flexible_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+
+#include "framework/bodies/elastic_parts.h"
+#include "framework/bodies/modes.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double two_pi = 2 * std::numbers::pi;
+constexpr Index responding = 40;  ///< of the lowest shapes, in estimates
+constexpr double rounding = 1e-9;  ///< of a modal force beside its terms
+
+/// Greatest turn in a nodal field of displacements, of sections and ports.
+double greatest_turn(const ElasticBody& e, const VectorXd& nodal, const VectorXd& ports) {
+  double turn = 0;
+  for (std::size_t i = 0; i + 1 < e.model.begin.size(); ++i)
+    if (e.model.begin[i + 1] - e.model.begin[i] == 3) turn = std::max(turn, std::abs(nodal[e.model.begin[i] + 2]));
+  for (Index p = 2; p < ports.size(); p += 3) turn = std::max(turn, std::abs(ports[p]));
+  return turn;
+}
+
+double greatest_displacement(const ElasticBody& e, const VectorXd& nodal) {
+  double most = 0;
+  for (std::size_t i = 0; i + 1 < e.model.begin.size(); ++i) most = std::max(most, nodal.segment<2>(e.model.begin[i]).norm());
+  return most;
+}
+
+double size_of(const ElasticBody& e) { return (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm(); }
+
+/// Relative change of the first frequency when −F is added to its stiffness; −1: nothing is left of it.
+double change(const VectorXd& omega, const MatrixXd& F) {
+  MatrixXd K = -F;
+  K.diagonal() += omega.cwiseAbs2();
+  const double least = Eigen::SelfAdjointEigenSolver<MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  return std::sqrt(std::max(0.0, least)) / omega[0] - 1;
+}
+
+/// The same over a history, where it is greatest in magnitude: judged by the first shape alone, then exactly.
+double greatest_change(const VectorXd& omega, const std::vector<MatrixXd>& F, const MatrixXd& factor) {
+  VectorXd first(factor.rows());
+  for (Index k = 0; k < factor.rows(); ++k) first[k] = F[static_cast<std::size_t>(k)](0, 0);
+  const Eigen::RowVectorXd on_first = first.transpose() * factor;
+  Index ends[2];
+  on_first.minCoeff(&ends[0]);
+  on_first.maxCoeff(&ends[1]);
+  double greatest = 0;
+  for (const Index t : ends) {
+    MatrixXd sum = MatrixXd::Zero(omega.size(), omega.size());
+    for (Index k = 0; k < factor.rows(); ++k) sum += factor(k, t) * F[static_cast<std::size_t>(k)];
+    if (const double c = change(omega, sum); std::abs(c) > std::abs(greatest)) greatest = c;
+  }
+  return greatest;
+}
+
+/// The port by which a joint pins the body to the ground, −1 if none does.
+int pivot(const Scene& scene, const ElasticBody& e) {
+  for (const SceneJoint& j : scene.joints) {
+    if (j.kind != JointKind::revolute && j.kind != JointKind::weld) continue;
+    const PointRef* own = j.a.body == e.scene->name && j.b.body == "ground" ? &j.a : j.b.body == e.scene->name && j.a.body == "ground" ? &j.b : nullptr;
+    if (own) return port_of(e, own->point);
+  }
+  return -1;
+}
+
+std::string percent(double part) {
+  return shown_number(std::round(1000 * part) / 10) + " %";
+}
+
+std::string changed(double change) {
+  if (change <= -1) return "take away all stiffness, so that it would buckle; the linear body does not know";
+  return std::string(change > 0 ? "raise" : "lower") + " its first frequency by " + percent(std::abs(change));
+}
+
+void doubt_frequency(const FlexibleReport& r, const std::vector<Imposed>& imposed, std::vector<std::string>& out) {
+  for (const Imposed& i : imposed)
+    if (i.frequency > r.highest)
+      out.push_back("modes of \"" + r.body + "\" reach " + shown_number(r.highest) + " Hz, but driver \"" + i.driver + "\" " +
+                    (i.turns ? "turns at " : "moves with ") + shown_number(i.frequency) + " Hz; keep more");
+}
+
+void doubt_linearity(const Scene& scene, const FlexibleReport& r, std::vector<std::string>& out) {
+  const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const SceneBody& b) { return b.name == r.body; });
+  const Stiffening now = body->elastic->stiffening;
+  const MotionEstimate& m = *r.motion;
+  if (const std::string doubt = stiffening_doubt(r.body, now, {m.spin, m.by_rotation, m.by_all_loads}); !doubt.empty()) out.push_back(doubt);
+  const std::string doubt = deflection_doubt(r.body, m.deflection, m.slope, "would bend");
+  if (!doubt.empty()) out.push_back(doubt + (now == Stiffening::none ? "" : " (estimated without its stiffening; a run tells)"));
+}
+
+}  // namespace
+
+FlexibleReport flexible_report(const MechanismBody& b) {
+  FlexibleReport r;
+  const FlexInertia& flex = *b.body.flex;
+  r.body = b.body.name;
+  r.basis = title_of(*b.elastic.scene->elastic->modes);
+  r.shapes = b.body.modes();
+  r.lowest = flex.omega.minCoeff() / two_pi;
+  r.highest = flex.omega.maxCoeff() / two_pi;
+  r.least_damping = flex.zeta.minCoeff();
+  r.most_damping = flex.zeta.maxCoeff();
+  for (Index i = 0; i < flex.omega.size(); ++i) r.frequencies.push_back(flex.omega[i] / two_pi), r.damping.push_back(flex.zeta[i]);
+  if (b.tie.kind != FrameTie::mean_axes) {
+    const Eigen::Vector3d sum = effective_mass(b.elastic.model, b.elastic.M, b.modes).rowwise().sum();
+    r.mass = Eigen::Vector3d(sum[0] / b.body.m, sum[1] / b.body.m, sum[2] / b.body.J);
+  }
+  r.compliance = b.compliance.share;
+  r.compliance_at = b.compliance.at;
+  return r;
+}
+
+MotionEstimate motion_estimate(const MechanismBody& b, const LoadHistory& history) {
+  MotionEstimate out;
+  const ModalModel modes = lowest_of(b.modes, std::min(responding, b.modes.omega.size()));
+  const MatrixXd work = work_of_loads(b.elastic, modes);
+  MatrixXd Q = work * history.factor;
+  const MatrixXd terms = work.cwiseAbs() * history.factor.cwiseAbs();
+  for (Index i = 0; i < Q.rows(); ++i)  // loads in equilibrium that leave a mode nothing but rounding
+    if (Q.row(i).lpNorm<Eigen::Infinity>() <= rounding * terms.row(i).maxCoeff()) Q.row(i).setZero();
+  const MatrixXd eta = oscillator_response(modes.omega, b.body.flex->zeta, history.t, Q);
+  out.spin = std::sqrt(history.factor.row(3).maxCoeff());
+  out.excited_up_to = excited_up_to(history.t, Q, modes.omega);
+  // The field at each mode's greatest amplitude and at the greatest displacement in the mean square.
+  std::vector<Index> times(1);
+  eta.colwise().squaredNorm().maxCoeff(&times[0]);
+  for (Index i = 0; i < std::min<Index>(3, eta.rows()); ++i) eta.row(i).cwiseAbs().maxCoeff(&times.emplace_back());
+  for (const Index t : times) {
+    const VectorXd u = modes.shapes * eta.col(t);
+    out.deflection = std::max(out.deflection, greatest_displacement(b.elastic, u) / size_of(b.elastic));
+    out.slope = std::max(out.slope, greatest_turn(b.elastic, u, modes.ports * eta.col(t)));
+  }
+  const FrequencyChange change = frequency_change(b.modes.omega, b.by_load, history.factor);
+  out.by_rotation = change.by_rotation, out.by_all_loads = change.by_all_loads;
+  return out;
+}
+
+double stiffened_by_spin(const Scene& scene, const MechanismBody& b, double spin) {
+  MatrixXd F = b.by_load[3];
+  if (const int port = pivot(scene, b.elastic); port >= 0) {
+    const Eigen::Vector2d arm = b.centre - b.elastic.model.ports[static_cast<std::size_t>(port)].x;
+    for (std::size_t k = 0; k < 2; ++k)
+      F += arm[static_cast<Index>(k)] * (b.by_load[k] - b.body.m * b.by_load[inertia_loads + 3 * static_cast<std::size_t>(port) + k]);
+  }
+  return change(b.modes.omega.head(F.rows()), spin * spin * F);
+}
+
+StiffeningProbe stiffening_probe(const MechanismBody& b, int index) {
+  const Stiffening now = b.elastic.scene->elastic->stiffening;
+  StiffeningProbe probe{b.body.name, index, now, now == Stiffening::axial, b.modes.omega.head(b.by_load.front().rows()), {}};
+  if (!probe.judged) probe.F = b.by_load;
+  return probe;
+}
+
+FrequencyChange frequency_change(const VectorXd& omega, const std::vector<MatrixXd>& F, const MatrixXd& factor) {
+  const VectorXd lowest = omega.head(F.front().rows());
+  return {std::sqrt(factor.row(3).maxCoeff()), greatest_change(lowest, F, factor.topRows<inertia_loads>()), greatest_change(lowest, F, factor)};
+}
+
+BendingProbe bending_probe(const MechanismBody& b, int index) {
+  constexpr Index most = 32;
+  const FeModel& model = b.elastic.model;
+  BendingProbe probe{b.body.name, index, size_of(b.elastic), {}, {}};
+  std::vector<int> moved, turned;
+  const Index nodes = model.x.cols(), count = std::min(most, nodes);
+  for (Index k = 0; k < count; ++k) {
+    const auto node = static_cast<std::size_t>(count > 1 ? k * (nodes - 1) / (count - 1) : 0);
+    moved.insert(moved.end(), {model.begin[node], model.begin[node] + 1});
+    if (model.begin[node + 1] - model.begin[node] == 3) turned.push_back(model.begin[node] + 2);
+  }
+  const Index ports = static_cast<Index>(model.ports.size()), n = b.modes.omega.size();
+  probe.displacement.resize(static_cast<Index>(moved.size()) + 2 * ports, n);
+  probe.slope.resize(static_cast<Index>(turned.size()) + ports, n);
+  probe.displacement.topRows(static_cast<Index>(moved.size())) = b.modes.shapes(moved, Eigen::all);
+  probe.slope.topRows(static_cast<Index>(turned.size())) = b.modes.shapes(turned, Eigen::all);
+  for (Index p = 0; p < ports; ++p) {
+    probe.displacement.middleRows<2>(static_cast<Index>(moved.size()) + 2 * p) = b.modes.ports.middleRows<2>(3 * p);
+    probe.slope.row(static_cast<Index>(turned.size()) + p) = b.modes.ports.row(3 * p + 2);
+  }
+  return probe;
+}
+
+double given_spin(const Scene& scene, const std::string& body) {
+  double spin = 0;
+  for (const StartBody& s : scene.start_bodies)
+    if (s.body == body && s.speed) spin = std::abs(*s.speed);
+  for (const SceneDriver& d : scene.drivers) {
+    if (d.kind != DriverKind::angle) continue;
+    if (!(d.a.body == "ground" && d.b.body == body) && !(d.b.body == "ground" && d.a.body == body)) continue;
+    constexpr int samples = 256;
+    for (int i = 0; i <= samples; ++i) spin = std::max(spin, std::abs(d.law.at(scene.run.until * i / samples).rate));
+  }
+  return spin;
+}
+
+std::string spin_doubt(const std::string& body, double spin, double change) {
+  if (!(std::abs(change) > stiffening_matters)) return "";
+  return "at " + shown_number(spin) + " rad/s the loads of inertia on \"" + body + "\" " + changed(change) + "; add stiffening: rotation";
+}
+
+std::string stiffening_doubt(const std::string& body, Stiffening now, const FrequencyChange& c) {
+  const bool by_points = std::abs(c.by_all_loads - c.by_rotation) > stiffening_matters;
+  if (now == Stiffening::none && !by_points) return spin_doubt(body, c.spin, c.by_all_loads);
+  if (now == Stiffening::axial || !by_points) return "";
+  return "the loads on \"" + body + "\" and its points " + changed(c.by_all_loads) + "; add stiffening: axial";
+}
+
+std::string deflection_doubt(const std::string& body, double deflection, double slope, const std::string& when) {
+  if (!(deflection > large_deflection || slope > large_slope)) return "";
+  return "\"" + body + "\" " + when + " by " + percent(deflection) + " of its size, its slope " + shown_number(slope) +
+         " rad, within one frame, where deformation is taken as small (up to " + percent(large_deflection) + " and " + shown_number(large_slope) +
+         " rad); cut a beam into pieces";
+}
+
+std::vector<std::string> doubts(const Scene& scene, const FlexibleReport& r, const std::vector<Imposed>& imposed) {
+  std::vector<std::string> out;
+  doubt_frequency(r, imposed, out);
+  if (r.motion) doubt_linearity(scene, r, out);
+  return out;
+}
+
+}  // namespace pintle

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/bodies/body_reduction.h"
+#include "framework/component/reduction/modal_model.h"
+#include "framework/dynamics/model/system.h"
+
+namespace pintle {
+
+/// A body of elements as a mechanism meets it: reduced to a few shapes if the scene says `modes`, rigid
+/// if not. Of finite-element size; gone once the mechanism is built, unless it is drawn.
+struct MechanismBody {
+  ElasticBody elastic;
+  FrameTie tie;
+  ModalModel modes;            ///< no shapes: rigid
+  Body body;                   ///< mass, inertia, invariants about the mass centre
+  Eigen::Vector2d centre;      ///< of mass, undeformed, body axes [m]
+  std::vector<std::array<Eigen::MatrixXd, 2>> second;  ///< of each port, if it stiffens
+  CoveredCompliance compliance;
+  std::vector<FreeCompliance> when_free;  ///< of each port
+  CoveredInertia inertia_covered;
+  std::vector<Eigen::MatrixXd> by_load;     ///< foreshortening of each of `loads_on`, on the lowest shapes
+  std::vector<std::string> warnings;
+};
+
+/// @throws SceneError  the body has no moment of inertia about its mass centre
+void judge_inertia(const Scene&, const ElasticBody&);
+
+/// @throws SceneError  as damping_of; no moment of inertia; shapes that leave the frame none
+MechanismBody mechanism_body(const Scene&, ElasticBody, Reduction);
+/// The same with its reduction made here. @throws SceneError  also as reduction_of
+MechanismBody mechanism_body(const Scene&, ElasticBody, std::optional<int> chosen = {});
+
+/// The marker of a named point; without a name, of the point at the origin.
+/// @param turns  whether what takes hold there needs a direction
+/// @throws SceneError  no such point; no point at the origin; a point of a plate, which has no direction
+Marker marker_of(const Scene&, const MechanismBody&, int body, const PointRef&, bool turns);
+
+/// Modal coordinates of the body as it starts bent: as given, or of the least strain energy that displaces the points so.
+/// @throws SceneError  more coordinates than shapes; a displacement that the shapes cannot make, and what they can
+Eigen::VectorXd bent_start(const Scene&, const MechanismBody&, const StartBody&);
+
+}  // namespace pintle

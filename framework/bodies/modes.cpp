@@ -1,0 +1,299 @@
+#include "framework/bodies/modes.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iomanip>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/bodies/elastic_parts.h"
+#include "framework/bodies/in_body.h"
+#include "framework/bodies/modal_choice.h"
+#include "framework/common/text.h"
+#include "framework/component/eigen/eigen_lowest.h"
+#include "framework/component/fe/assembly.h"
+#include "framework/scene/yaml/json_text.h"
+#include "framework/scene/yaml/nearest.h"
+
+namespace pintle {
+
+namespace {
+
+int named_port(const Scene& scene, const ElasticBody& e, const std::string& name, const Place& place) {
+  if (const int port = port_of(e, name); port >= 0) return port;
+  std::vector<std::string> known;
+  for (const Port& p : e.model.ports) known.push_back(p.name);
+  throw SceneError(scene.file, place, "\"" + e.scene->name + "\" has no point \"" + name + "\"." + did_you_mean(name, known));
+}
+
+Keep keep_of(const SceneKeep& k, const std::optional<int>& chosen) {
+  if (k.automatic && chosen) return {*chosen, {}, {}, false};
+  return {k.count, k.below, k.effective_mass, !k.count && !k.below && !k.effective_mass};
+}
+
+/// Complaints of the reduction, at the scene's `modes`.
+template <class Work>
+auto in_modes(const Scene& scene, const SceneModes& modes, Work work) {
+  try {
+    return work();
+  } catch (const std::invalid_argument& error) {
+    throw SceneError(scene.file, modes.place, error.what());
+  } catch (const SceneError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw SceneError(scene.file, modes.place, error.what());
+  }
+}
+
+void judge(const Scene& scene, const ElasticBody& e, const FrameTie& tie) {
+  const SceneModes& modes = *e.scene->elastic->modes;
+  const Port& a = e.model.ports[static_cast<std::size_t>(tie.a)];
+  if (tie.kind == FrameTie::tangent && a.freedom[2] < 0)
+    throw SceneError(scene.file, modes.place, "the frame is tangent at " + a.name + ", a point of " + (e.plate() ? "a plate" : "a bar") +
+                                                  ", which has no direction; take " + (e.plate() ? "the middle of a hole, " : "") +
+                                                  "a chord through two points, or mean axes");
+  if (tie.kind == FrameTie::tangent) return;
+  const Port& b = e.model.ports[static_cast<std::size_t>(tie.b)];
+  const double size = (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm();
+  if ((b.x - a.x).norm() <= 1e-9 * size)
+    throw SceneError(scene.file, modes.place, "the frame's chord runs from " + a.name + " to " + b.name + ", which lie at the same place, " + shown(a.x) +
+                                                  "; name two points that lie apart, or tangent: " + a.name);
+}
+
+/// The lowest modes of the body with `held` freedoms at zero, as shapes of all freedoms.
+ModalModel held_modes(const ElasticBody& e, const Component& c, const Supports& held, int count, int& rigid) {
+  const std::vector<int> free = free_freedoms(e.model, held);
+  const Sparse K = restricted(c.K, free), M = restricted(c.M, free);
+  EigenOptions options;
+  options.count = count;
+  EigenPairs pairs = eigen_lowest(K, M, options);
+  if (pairs.zero > 0) {  // the supports leave motions: as many elastic modes as were asked for
+    rigid = pairs.zero;
+    options.count = count + rigid;
+    pairs = eigen_lowest(K, M, options);
+  }
+  if (!pairs.converged || pairs.missed > 0)
+    throw std::runtime_error("its modes were not found: " + (pairs.reason.empty() ? std::to_string(pairs.missed) + " missed by the Sturm check" : pairs.reason));
+  bool sound = pairs.zero <= rigid_motions_left(e.model, held);
+  for (Eigen::Index i = pairs.zero; i < pairs.lambda.size(); ++i) sound = sound && pairs.lambda[i] > 0 && pairs.residual[i] <= 1e-2;
+  if (!sound)
+    throw std::runtime_error("it has motions without stiffness besides those of a rigid body (bars hinged in a line, or a part more than ten thousand times as long as thick?); hold them, or take a beam theory that bends and a thicker section");
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(e.model.n(), count);
+  for (std::size_t i = 0; i < free.size(); ++i) all.row(free[i]) = pairs.shapes.row(static_cast<Eigen::Index>(i)).tail(count);
+  ModalModel out;
+  out.shapes = nodal(e.model, all);
+  out.omega = pairs.lambda.tail(count).cwiseSqrt();
+  out.residual = pairs.residual.tail(count);
+  out.sturm = static_cast<int>(pairs.lambda.size()) + pairs.missed;
+  return out;
+}
+
+std::string hertz(double omega) {
+  std::ostringstream s;
+  s << std::setprecision(4) << omega / (2 * std::numbers::pi);
+  return s.str();
+}
+
+nlohmann::ordered_json table_json(const ModeTable& t, const ModesReport& r) {
+  auto rows = nlohmann::ordered_json::array();
+  for (Eigen::Index i = 0; i < t.modes.omega.size(); ++i)
+    rows.push_back({{"mode", i + 1},
+                    {"frequency [Hz]", t.modes.omega[i] / (2 * std::numbers::pi)},
+                    {"omega [rad/s]", t.modes.omega[i]},
+                    {"effective mass x [kg]", t.mass(0, i)},
+                    {"effective mass y [kg]", t.mass(1, i)},
+                    {"effective inertia [kg m^2]", t.mass(2, i)},
+                    {"share x", t.mass(0, i) / r.inertia.m},
+                    {"share y", t.mass(1, i) / r.inertia.m},
+                    {"share rotation", r.centre_inertia > 0 ? t.mass(2, i) / r.centre_inertia : 0},
+                    {"damping ratio", t.zeta[i]},
+                    {"residual", t.modes.residual[i]}});
+  return {{"basis", t.title}, {"modes", rows}};
+}
+
+}  // namespace
+
+Component component_of(const ElasticBody& e) {
+  return {e.model, independent(e.model, e.K), independent(e.model, e.M)};
+}
+
+int port_of(const ElasticBody& e, const std::string& point) {
+  const double size = (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm();
+  for (std::size_t i = 0; i < e.model.ports.size(); ++i)
+    if (point.empty() ? e.model.ports[i].x.norm() <= 1e-7 * size : e.model.ports[i].name == point) return static_cast<int>(i);
+  return -1;
+}
+
+std::vector<int> interface_of(const Scene& scene, const ElasticBody& e) {
+  std::set<int> used;
+  const auto note = [&](const PointRef& ref) {
+    if (ref.body == e.scene->name) used.insert(port_of(e, ref.point));
+  };
+  for (const SceneJoint& j : scene.joints) note(j.a), note(j.b);
+  for (const SceneDriver& d : scene.drivers) note(d.a), note(d.b);
+  for (const SceneLoad& l : scene.loads)
+    std::visit([&](const auto& w) {
+      if constexpr (requires { w.at; }) note(w.at);
+      else note(w.a), note(w.b);
+    }, l.what);
+  std::vector<int> ports;
+  for (int i = 0; i < static_cast<int>(e.model.ports.size()); ++i)
+    if (used.empty() || used.contains(i)) ports.push_back(i);
+  return ports;
+}
+
+ModalModel lowest_of(const ModalModel& m, Eigen::Index count) {
+  return {m.shapes.leftCols(count), m.ports.leftCols(count), m.omega.head(count), m.residual.head(count), {}};
+}
+
+Sparse skew_mass_of(const ElasticBody& e) {
+  if (!e.scene->elastic->lumped) return Assembler(e.model).skew_mass();
+  std::vector<Eigen::Triplet<double>> entries;  // point masses: m Zᵀ at each node
+  for (std::size_t i = 0; i + 1 < e.model.begin.size(); ++i) {
+    const int x = e.model.begin[i];
+    const double m = e.M.coeff(x, x);
+    entries.emplace_back(x, x + 1, m);
+    entries.emplace_back(x + 1, x, -m);
+  }
+  Sparse G(e.model.N(), e.model.N());
+  G.setFromTriplets(entries.begin(), entries.end());
+  return G;
+}
+
+FrameTie tie_of(const Scene& scene, const ElasticBody& e) {
+  const SceneModes& modes = *e.scene->elastic->modes;
+  using Frame = SceneModes::Frame;
+  if (modes.frame == Frame::mean_axes) return {FrameTie::mean_axes};
+  const std::size_t needed = modes.frame == Frame::tangent ? 1 : 2;
+  if (e.model.ports.size() < needed)
+    throw SceneError(scene.file, modes.place, "the frame needs " + std::string(needed == 1 ? "a point" : "two points") + " of the body; add " + (needed == 1 ? "it" : "them") + " under points");
+  std::string a = modes.a, b = modes.b;
+  if (const auto* beam = std::get_if<SceneBeam>(&e.scene->elastic->shape); beam && a.empty()) a = beam->through.front();
+  if (const auto* beam = std::get_if<SceneBeam>(&e.scene->elastic->shape); beam && b.empty()) b = beam->through.back();
+  if (a.empty()) a = e.scene->points.front().name;
+  if (b.empty()) b = e.scene->points.back().name;
+  const int first = named_port(scene, e, a, modes.place);
+  const FrameTie tie = modes.frame == Frame::tangent ? FrameTie{FrameTie::tangent, first} : FrameTie{FrameTie::chord, first, named_port(scene, e, b, modes.place)};
+  judge(scene, e, tie);
+  return tie;
+}
+
+std::string title_of(const SceneModes& m) {
+  const std::string frame = m.frame == SceneModes::Frame::tangent ? "tangent frame" : m.frame == SceneModes::Frame::chord ? "chord frame" : "mean axes";
+  switch (m.method) {
+    case SceneModes::Method::normal: return "normal modes, " + frame;
+    case SceneModes::Method::craig_bampton: return "Craig-Bampton, " + frame;
+    case SceneModes::Method::free: return "free modes with residual attachment, " + frame;
+  }
+  return frame;
+}
+
+Eigen::VectorXd damping_of(const Scene& scene, const SceneBody& body, const Eigen::VectorXd& omega, const Eigen::VectorXd& basis) {
+  const auto& damping = body.elastic->damping;
+  Eigen::VectorXd zeta = Eigen::VectorXd::Zero(omega.size());
+  if (!damping) return zeta;
+  if (!damping->ratios.empty()) {
+    for (Eigen::Index i = 0; i < omega.size(); ++i)
+      zeta[i] = damping->ratios[std::min(static_cast<std::size_t>(i), damping->ratios.size() - 1)];
+    return zeta;
+  }
+  Rayleigh c;
+  if (damping->rayleigh) {
+    c = {(*damping->rayleigh)[0], (*damping->rayleigh)[1]};
+  } else {
+    const int first = damping->rayleigh_modes[0], second = damping->rayleigh_modes[1];
+    const auto& z = *damping->rayleigh_ratios;
+    if (basis.size() == 1 && z[0] == z[1]) return zeta.setConstant(z[0]);
+    if (std::max(first, second) > basis.size())
+      throw SceneError(scene.file, damping->place, "Rayleigh damping is set by modes " + std::to_string(first) + " and " + std::to_string(second) + ", but there are " + std::to_string(basis.size()) + "; name two of those under modes, or keep more");
+    c = in_body(scene, body, [&] { return rayleigh(basis[first - 1], z[0], basis[second - 1], z[1]); });
+  }
+  zeta = ratios(c, omega);
+  Eigen::Index at = 0;
+  if (zeta.size() > 0 && zeta.minCoeff(&at) < 0)
+    throw SceneError(scene.file, damping->place, "Rayleigh damping gives mode " + std::to_string(at + 1) + " at " + hertz(omega[at]) + " Hz the ratio " + hertz(2 * std::numbers::pi * zeta[at]) +
+                     ", which would feed it energy; bring the two ratios nearer to each other, or give a ratio to each mode");
+  return zeta;
+}
+
+ModalModel reduce(const Scene& scene, const ElasticBody& e, std::optional<int> chosen) {
+  const SceneModes& m = *e.scene->elastic->modes;
+  const FrameTie tie = tie_of(scene, e);
+  const Keep keep = keep_of(m.keep, chosen);
+  return in_modes(scene, m, [&] {
+    const Component c = component_of(e);
+    switch (m.method) {
+      case SceneModes::Method::craig_bampton: return craig_bampton(c, interface_of(scene, e), tie, keep);
+      case SceneModes::Method::free: return free_modes(c, interface_of(scene, e), tie, keep);
+      case SceneModes::Method::normal: break;
+    }
+    return normal_modes(c, tie, keep);
+  });
+}
+
+ModesReport modes_of(const Scene& scene, const ElasticBody& e, int count) {
+  ModesReport r;
+  r.inertia = rigid_inertia(e.model, e.M);
+  r.centre_inertia = r.inertia.J - r.inertia.c.squaredNorm() / r.inertia.m;
+  const std::vector<NamedSupport> supports = supports_of(scene, e);
+  const auto start = std::chrono::steady_clock::now();
+  in_body(scene, *e.scene, [&] {
+    const Component c = component_of(e);
+    r.natural.title = "free";
+    for (const NamedSupport& s : supports) r.natural.title = (&s == &supports.front() ? "held at " : r.natural.title + ", ") + s.at;
+    if (supports.empty()) {
+      r.natural.modes = normal_modes(c, {FrameTie::mean_axes}, {count, {}, {}, false});
+      r.rigid = 3;
+    } else {
+      r.natural.modes = held_modes(e, c, together(supports), count, r.rigid);
+    }
+  });
+  r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (e.scene->elastic->modes) {
+    r.reduced.emplace();
+    r.reduced->title = title_of(*e.scene->elastic->modes);
+    std::optional<int> chosen;
+    if (e.scene->elastic->modes->keep.automatic) chosen = choose_modes(scene, e).count;
+    r.reduced->modes = reduce(scene, e, chosen);
+  }
+  for (ModeTable* t : {&r.natural, r.reduced ? &*r.reduced : nullptr}) {
+    if (!t) continue;
+    t->mass = effective_mass(e.model, e.M, t->modes);
+    t->zeta = damping_of(scene, *e.scene, t->modes.omega, (r.reduced ? *r.reduced : r.natural).modes.omega);
+  }
+  return r;
+}
+
+std::string modes_csv(const ModeTable& t, const ModesReport& r) {
+  std::string out = "mode,frequency [Hz],effective mass x [kg],effective mass y [kg],effective inertia [kg m^2],share x,share y,share rotation,damping ratio,residual\n";
+  for (Eigen::Index i = 0; i < t.modes.omega.size(); ++i) {
+    out += std::to_string(i + 1);
+    for (const double v : {t.modes.omega[i] / (2 * std::numbers::pi), t.mass(0, i), t.mass(1, i), t.mass(2, i), t.mass(0, i) / r.inertia.m,
+                           t.mass(1, i) / r.inertia.m, r.centre_inertia > 0 ? t.mass(2, i) / r.centre_inertia : 0, t.zeta[i], t.modes.residual[i]}) {
+      out += ',';
+      append_number(out, v);
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+std::string modes_json(const Scene& scene, const ElasticBody& e, const ModesReport& r) {
+  nlohmann::ordered_json out = {
+      {"program", "pintle"}, {"version", PINTLE_VERSION}, {"command", "modes"}, {"title", scene.title}, {"file", scene.file}, {"body", e.scene->name},
+      {"nodes", e.mesh.x.cols()}, {"cells", e.mesh.cell_count()}, {"freedoms", e.model.n()},
+      {"mass [kg]", r.inertia.m},
+      {"centre [m]", {r.inertia.c.x() / r.inertia.m, r.inertia.c.y() / r.inertia.m}},
+      {"inertia about the centre [kg m^2]", r.centre_inertia},
+      {"warnings", e.warnings}, {"rigid motions", r.rigid}, {"natural", table_json(r.natural, r)}};
+  if (r.natural.modes.sturm) out["natural"]["Sturm count"] = *r.natural.modes.sturm;
+  if (r.reduced) out["reduced"] = table_json(*r.reduced, r);
+  out["timings [s]"] = {{"mesh", e.mesh_seconds}, {"assembly", e.assembly_seconds}, {"modes", r.seconds}};
+  out["scene"] = scene.filled_in.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json::parse(scene.filled_in, nullptr, false);
+  return json_text(out) + "\n";
+}
+
+}  // namespace pintle

@@ -1,0 +1,431 @@
+#include "framework/build/build.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "framework/bodies/body_store.h"
+#include "framework/bodies/elastic_parts.h"
+#include "framework/bodies/file_doubts.h"
+#include "framework/bodies/holding.h"
+#include "framework/bodies/mechanism_body.h"
+#include "framework/bodies/modes.h"
+#include "framework/build/laws.h"
+#include "framework/build/method.h"
+#include "framework/build/shape_doubts.h"
+#include "framework/scene/yaml/nearest.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Vector2d;
+
+std::string quoted(const std::string& s) { return "\"" + s + "\""; }
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+  return "." + did_you_mean(word, known);
+}
+
+/// What is needed to turn names into markers.
+class Builder {
+ public:
+  Builder(const Scene& scene, bool rehearse, BodyStore* store) : scene_(scene), rehearse_(rehearse), store_(store) {}
+
+  Model build() {
+    model_.system.gravity = vector(scene_.gravity);
+    if (scene_.bodies.empty()) throw SceneError(scene_.file, {0, "bodies"}, "there is no body; a scene needs at least one");
+    make_elements();
+    for (const SceneBody& b : scene_.bodies) add(b);
+    for (const SceneJoint& j : scene_.joints) add(j);
+    for (const SceneDriver& d : scene_.drivers) add(d);
+    for (const SceneLoad& l : scene_.loads) add(l);
+    judge_starts();
+    judge_output();
+    record();
+    keep_drawings();
+    report();
+    model_.system.length = size();
+    for (const SceneJoint& j : scene_.joints)
+      if (const std::string doubt = j.clearance ? rounding_doubt(scene_, j, model_.system.length) : ""; !doubt.empty())
+        model_.warnings.push_back(doubt);
+    model_.clearances = settle_clearances(scene_, model_.system, model_.warnings);
+    for (std::string& doubt : contact_doubts(scene_, model_.system, model_.order, elements_)) model_.warnings.push_back(std::move(doubt));
+    scheme();
+    return std::move(model_);
+  }
+
+ private:
+  [[noreturn]] void wrong(const Place& place, const std::string& message) const {
+    throw SceneError(scene_.file, place, message);
+  }
+
+  void unique(const std::string& name, const char* what, const Place& place) {
+    if (!names_.insert(name).second)
+      wrong(place, quoted(name) + " names two things; give this " + what + " a name of its own");
+  }
+
+  void add(const SceneBody& b) {
+    if (b.name == "ground")
+      wrong(b.place, "\"ground\" is the fixed world; give the body another name");
+    unique(b.name, "body", b.place);
+    const std::size_t i = model_.system.bodies.size();
+    index_[b.name] = static_cast<int>(i);
+    std::vector<Vector2d> outline;
+    if (b.elastic) {
+      const std::optional<int> chosen = choices_[i] ? std::optional<int>(choices_[i]->count) : std::nullopt;
+      Reduction reduction = store_ ? store_->reduction(scene_, *meshed_[i], chosen) : reduction_of(scene_, *meshed_[i], chosen);
+      const MechanismBody& made = elements_[i].emplace(mechanism_body(scene_, std::move(*meshed_[i]), std::move(reduction)));
+      model_.system.bodies.push_back(made.body);
+      model_.warnings.insert(model_.warnings.end(), made.warnings.begin(), made.warnings.end());
+      for (const Port& p : made.elastic.model.ports) outline.push_back(p.x - made.centre);
+    } else {
+      judge_mass(b);
+      model_.system.bodies.push_back({b.name, b.mass, b.inertia, -vector(b.center)});
+      for (const ScenePoint& p : b.points) outline.push_back(vector(p.at) - vector(b.center));
+    }
+    model_.outlines.push_back(std::move(outline));
+  }
+
+  /// A rigid body moves by its mass and inertia; a scene may leave them out where nothing asks for them.
+  void judge_mass(const SceneBody& b) const {
+    std::string missing;
+    if (b.mass == 0) missing = "mass: 0.3 kg";
+    if (b.inertia == 0) missing += (missing.empty() ? "" : ", and ") + std::string("inertia: 1e-4 kg m^2");
+    if (!missing.empty())
+      wrong(b.place, quoted(b.name) + " lacks what forces act on; add for example " + missing + " (only `pintle kinematics` does without, and `pintle statics` without gravity)");
+    if (!(b.mass > 0)) wrong(b.place, "mass must be above 0 kg");
+    if (!(b.inertia > 0)) wrong(b.place, "inertia must be above 0 kg m^2");
+  }
+
+  /// Meshes all bodies of elements, and runs them rigid where something is to be judged by that.
+  void make_elements() {
+    const std::size_t n = scene_.bodies.size();
+    meshed_.resize(n), elements_.resize(n), choices_.resize(n);
+    std::vector<const ElasticBody*> all(n, nullptr);
+    bool flexible = false, automatic = false;
+    for (std::size_t i = 0; i < n; ++i) {
+      const SceneBody& b = scene_.bodies[i];
+      if (!b.elastic) continue;
+      if (const auto* beam = std::get_if<SceneBeam>(&b.elastic->shape); beam && beam->pieces > 1)
+        wrong(b.place, "it is to be cut into pieces; build what with_pieces makes of the scene");
+      all[i] = &meshed_[i].emplace(store_ ? store_->elastic(scene_, b) : elastic_body(scene_, b));
+      if (const std::string doubt = size_doubt(scene_, *all[i]); !doubt.empty()) meshed_[i]->warnings.push_back(doubt);
+      judge_inertia(scene_, *all[i]);
+      flexible = flexible || b.elastic->modes;
+      automatic = automatic || (b.elastic->modes && b.elastic->modes->keep.automatic);
+    }
+    if (!automatic && !(rehearse_ && flexible)) return;
+    if (scene_.has_run) run_ = rigid_run(scene_, all);
+    else run_.trouble = "the scene has no `run`";
+    model_.rehearsal = {run_.until, run_.seconds, run_.steps, run_.trouble};
+    for (std::size_t i = 0; i < n; ++i)
+      if (all[i] && scene_.bodies[i].elastic->modes && scene_.bodies[i].elastic->modes->keep.automatic)
+        choices_[i] = run_.usable() ? choose_modes(scene_, *all[i], run_.bodies[i]) : choose_by_rule(scene_, *all[i], run_.trouble);
+  }
+
+  /// What the flexible bodies have kept, and what is doubtful about it.
+  void report() {
+    std::vector<Imposed> imposed;
+    for (const Body& b : model_.system.bodies)
+      if (b.modes() > 0 && imposed.empty()) imposed = imposed_frequencies(scene_);
+    for (std::size_t i = 0; i < elements_.size(); ++i) {
+      if (!elements_[i] || !elements_[i]->elastic.scene->elastic->modes) continue;
+      if (!elements_[i]->body.flex) {
+        model_.warnings.push_back(quoted(scene_.bodies[i].name) + " stays rigid: its `modes` keep no shape; raise below, or ask for a count");
+        continue;
+      }
+      FlexibleReport& r = model_.flexible.emplace_back(flexible_report(*elements_[i]));
+      r.choice = choices_[i];
+      model_.bending.push_back(bending_probe(*elements_[i], static_cast<int>(i)));
+      StiffeningProbe& probe = model_.stiffening.emplace_back(stiffening_probe(*elements_[i], static_cast<int>(i)));
+      if (run_.usable()) r.motion = motion_estimate(*elements_[i], run_.bodies[i]), probe.judged = true;
+      const std::vector<std::string> found = doubts(scene_, r, imposed);
+      model_.warnings.insert(model_.warnings.end(), found.begin(), found.end());
+      if (!r.motion) probe.judged = doubt_spin(*elements_[i]) || probe.judged;
+      if (const std::string doubt = stiff_parts_doubt(*elements_[i]); !doubt.empty()) model_.warnings.push_back(doubt);
+    }
+    if (!model_.stiffening.empty()) find_grips();
+    const std::vector<std::string> held = holding_warnings(scene_, elements_);
+    model_.warnings.insert(model_.warnings.end(), held.begin(), held.end());
+  }
+
+  /// Without a rigid run: a body whose spin is given. @returns whether it is doubted
+  bool doubt_spin(const MechanismBody& b) {
+    if (b.elastic.scene->elastic->stiffening != Stiffening::none) return false;
+    const double spin = given_spin(scene_, b.body.name);
+    if (!(spin > 0)) return false;
+    const std::string doubt = spin_doubt(b.body.name, spin, stiffened_by_spin(scene_, b, spin));
+    if (!doubt.empty()) model_.warnings.push_back(doubt);
+    return !doubt.empty();
+  }
+
+  void find_grips() {
+    std::vector<const ElasticBody*> flexible;
+    for (const auto& made : elements_) flexible.push_back(made && made->body.flex ? &made->elastic : nullptr);
+    model_.grips = grips_of(scene_, model_.order, flexible);
+  }
+
+  int body(const PointRef& ref) const {
+    if (ref.body == "ground") return ground;
+    const auto found = index_.find(ref.body);
+    if (found != index_.end()) return found->second;
+    std::vector<std::string> known{"ground"};
+    for (const SceneBody& b : scene_.bodies) known.push_back(b.name);
+    wrong(ref.place, "there is no body " + quoted(ref.body) + suggestion(ref.body, known));
+  }
+
+  /// What takes hold of a direction needs one: on bodies of elements not every point has it.
+  enum class Holds { point, direction };
+
+  Marker marker_at(const PointRef& ref, Holds what) const {
+    const int b = body(ref);
+    if (b != ground && elements_[static_cast<std::size_t>(b)])
+      return marker_of(scene_, *elements_[static_cast<std::size_t>(b)], b, ref, what == Holds::direction);
+    Vector2d at = Vector2d::Zero();
+    double angle = 0;
+    const auto& points = b == ground ? scene_.ground : scene_.bodies[static_cast<std::size_t>(b)].points;
+    if (!ref.point.empty()) {
+      const auto p = std::find_if(points.begin(), points.end(),
+                                  [&](const ScenePoint& q) { return q.name == ref.point; });
+      if (p == points.end()) {
+        std::vector<std::string> known;
+        for (const ScenePoint& q : points) known.push_back(q.name);
+        wrong(ref.place, quoted(ref.body) + " has no point " + quoted(ref.point) + suggestion(ref.point, known));
+      }
+      at = vector(p->at);
+      angle = p->angle;
+    }
+    if (b != ground) at += model_.system.bodies[static_cast<std::size_t>(b)].x_BO;
+    return {b, at, angle};
+  }
+
+  int marker(const PointRef& ref, Holds what = Holds::point) {
+    const Marker made = marker_at(ref, what);
+    const bool flexible = made.shape.size() > 0;  // two points of one place may move differently
+    const auto [known, is_new] = markers_.try_emplace({made.body, made.x_BP.x(), made.x_BP.y(), made.angle, flexible ? ref.point : ""},
+                                                      static_cast<int>(model_.system.markers.size()));
+    if (is_new) {
+      model_.system.markers.push_back(made);
+      if (made.body != ground) model_.outlines[static_cast<std::size_t>(made.body)].push_back(made.x_BP);
+    }
+    return known->second;
+  }
+
+  void two_bodies(const PointRef& a, const PointRef& b, const Place& place) const {
+    if (body(a) == body(b))
+      wrong(place, "both ends are on " + quoted(a.body) + "; join two different bodies");
+  }
+
+  void add(const SceneJoint& j) {
+    unique(j.name, "joint", j.place);
+    two_bodies(j.a, j.b, j.place);
+    if (j.clearance) return add_contact(j);
+    const bool turns = j.kind == JointKind::prismatic || j.kind == JointKind::weld;
+    const int a = marker(j.a, turns || j.kind == JointKind::slot ? Holds::direction : Holds::point);
+    const int b = marker(j.b, turns ? Holds::direction : Holds::point);
+    auto& joints = model_.system.joints;
+    model_.order.joints.push_back(static_cast<int>(joints.size()));
+    switch (j.kind) {
+      case JointKind::revolute: joints.push_back(Revolute{a, b}); break;
+      case JointKind::slot: joints.push_back(Slot{a, b}); break;
+      case JointKind::prismatic: joints.push_back(Prismatic{a, b, nearest_turn(j)}); break;
+      case JointKind::weld: joints.push_back(Weld{a, b, nearest_turn(j)}); break;
+      case JointKind::distance:
+        if (!(j.length > 0))
+          wrong(j.place, "length must be above 0; for two points that coincide use revolute");
+        joints.push_back(Distance{a, b, j.length});
+        break;
+    }
+    model_.system.joint_names.push_back(j.name);
+    model_.pin_joints.emplace_back(static_cast<int>(joints.size()) - 1, b);
+  }
+
+  /// The joint's angle with the whole turns that its bodies' rough poses show.
+  double nearest_turn(const SceneJoint& j) const {
+    const auto direction = [&](const PointRef& ref) {
+      const int b = body(ref);
+      double angle = marker_at(ref, Holds::direction).angle;
+      if (b == ground) return angle;
+      angle += scene_.bodies[static_cast<std::size_t>(b)].angle;
+      for (const StartBody& s : scene_.start_bodies)
+        if (s.body == ref.body && s.angle) angle += *s.angle - scene_.bodies[static_cast<std::size_t>(b)].angle;
+      return angle;
+    };
+    constexpr double turn = 2 * std::numbers::pi;
+    return j.angle + turn * std::round((direction(j.b) - direction(j.a) - j.angle) / turn);
+  }
+
+  void add_contact(const SceneJoint& j) {
+    ContactPair pair = contact_of(scene_, j);
+    const bool b_bears = j.clearance->bearing == j.b.body;
+    pair.journal = marker(b_bears ? j.a : j.b);
+    pair.bearing = marker(b_bears ? j.b : j.a);
+    if (j.clearance->model == ClearanceModel::massless_link) {
+      pair.link = static_cast<int>(model_.system.joints.size());
+      model_.system.joints.push_back(Distance{pair.bearing, pair.journal, pair.gap.clearance()});
+      model_.system.joint_names.push_back(j.name);
+    }
+    model_.order.joints.push_back(static_cast<int>(model_.system.contacts.size()));
+    model_.system.contacts.push_back(pair);
+    model_.system.contact_names.push_back(j.name);
+  }
+
+  void add(const SceneDriver& d) {
+    unique(d.name, "driver", d.place);
+    two_bodies(d.a, d.b, d.place);
+    const Holds what = d.kind == DriverKind::angle ? Holds::direction : Holds::point;
+    const int a = marker(d.a, what), b = marker(d.b, what);
+    model_.order.drivers.push_back(static_cast<int>(model_.system.joints.size()));
+    if (d.kind == DriverKind::angle) {
+      model_.system.joints.push_back(AngleDriver{a, b, d.law.at});
+    } else {
+      if (!(d.law.at(0).value > 0)) wrong(d.place, "a driven distance must stay above 0; at t = 0 it is not");
+      model_.system.joints.push_back(DistanceDriver{a, b, d.law.at});
+    }
+    model_.system.joint_names.push_back(d.name);
+  }
+
+  void add(const SceneLoad& l) {
+    unique(l.name, "force", l.place);
+    auto& forces = model_.system.forces;
+    model_.order.loads.push_back(static_cast<int>(forces.size()));
+    if (const auto* f = std::get_if<SceneForce>(&l.what)) {
+      if (body(f->at) == ground) wrong(f->at.place, "a force on the ground moves nothing; name a body's point");
+      const int b = marker(f->at, f->follows ? Holds::direction : Holds::point);
+      forces.push_back(PointForce{marker({"ground", "", f->at.place}), b, f->x.at, f->y.at, f->follows});
+    } else if (const auto* q = std::get_if<SceneTorque>(&l.what)) {
+      two_bodies(q->a, q->b, l.place);
+      const int a = marker(q->a, Holds::direction);
+      forces.push_back(Torque{a, marker(q->b, Holds::direction), q->law.at});
+    } else if (const auto* s = std::get_if<SceneSpring>(&l.what)) {
+      two_bodies(s->a, s->b, l.place);
+      const int a = marker(s->a);
+      forces.push_back(Spring{a, marker(s->b), s->stiffness, s->damping, s->free_length});
+    } else {
+      const auto& r = std::get<SceneTorsionSpring>(l.what);
+      two_bodies(r.a, r.b, l.place);
+      const int a = marker(r.a, Holds::direction);
+      forces.push_back(TorsionSpring{a, marker(r.b, Holds::direction), r.stiffness, r.damping, r.free_angle});
+    }
+    model_.system.force_names.push_back(l.name);
+  }
+
+  void judge_starts() {
+    for (const StartBody& s : scene_.start_bodies)
+      if (!index_.count(s.body)) {
+        std::vector<std::string> known;
+        for (const auto& [name, i] : index_) known.push_back(name);
+        wrong(s.place, "there is no body " + quoted(s.body) + suggestion(s.body, known));
+      }
+    bend_starts();
+    for (const StartJournal& s : scene_.start_journals) {
+      const auto& known = model_.system.contact_names;
+      const auto found = std::find(known.begin(), known.end(), s.joint);
+      if (found == known.end())
+        wrong(s.place, quoted(s.joint) + " is not a joint with clearance" + suggestion(s.joint, known));
+      const ContactPair& pair = model_.system.contacts[static_cast<std::size_t>(found - known.begin())];
+      const JournalBearing& gap = pair.gap;
+      if (pair.link < 0 && vector(s.eccentricity).norm() > gap.clearance() + too_deep * gap.journal)
+        wrong(s.place, "eccentricity puts the journal deeper into the wall than a tenth of its radius, where no contact law holds; "
+                       "the clearance is " + std::to_string(1e3 * gap.clearance()) + " mm");
+    }
+  }
+
+  void bend_starts() {
+    for (const StartBody& s : scene_.start_bodies) {
+      if (s.deflection.empty() && s.modes.empty()) continue;
+      const std::size_t b = static_cast<std::size_t>(index_.at(s.body));
+      if (!elements_[b] || !elements_[b]->body.flex) wrong(s.place, quoted(s.body) + " stays rigid and cannot start bent: its `modes` keep no shape; keep more");
+      model_.bent.emplace_back(static_cast<int>(b), bent_start(scene_, *elements_[b], s));
+    }
+  }
+
+  /// Under `stiffening: rotation` joints hold points of first order, so that those are recorded where the joints are; others
+  /// come nearer as the body bends.
+  Marker recorded_at(const PointRef& ref) const {
+    Marker m = marker_at(ref, Holds::point);
+    if (m.shape.size() == 0 || m.second[0].size() > 0) return m;
+    const MechanismBody& b = *elements_[static_cast<std::size_t>(m.body)];
+    const int port = port_of(b.elastic, ref.point);
+    const auto holds = [&](const PointRef& held) { return held.body == ref.body && port_of(b.elastic, held.point) == port; };
+    const auto joins = [&](const auto& j) { return holds(j.a) || holds(j.b); };
+    const bool joined = std::any_of(scene_.joints.begin(), scene_.joints.end(), joins) || std::any_of(scene_.drivers.begin(), scene_.drivers.end(), joins);
+    if (!joined && !b.second.empty()) m.second = b.second[static_cast<std::size_t>(port)];
+    return m;
+  }
+
+  void record() {
+    for (const PointRef& p : scene_.output.points)
+      model_.points.push_back({p.point.empty() ? p.body : p.body + "." + p.point, recorded_at(p)});
+    for (const PointRef& p : scene_.output.stress) {
+      const int b = body(p);
+      const std::optional<MechanismBody> none;
+      const auto& made = b == ground ? none : elements_[static_cast<std::size_t>(b)];
+      if (!made || !made->body.flex)
+        wrong(p.place, quoted(p.body) + " has no stress, " + (made && made->elastic.scene->elastic->modes
+                           ? "its `modes` keep no shape; keep more" : "it is rigid; make it a beam or plate with `modes`"));
+      model_.stresses.push_back({p.body + "." + p.point, b, stress_probe(scene_, made->elastic, made->modes, p)});
+    }
+  }
+
+  void keep_drawings() {
+    if (scene_.output.frames < 2) return;
+    for (const auto& made : elements_)
+      if (made && made->body.flex) model_.drawings.emplace_back(made->elastic, made->modes, made->centre);
+  }
+
+  void judge_output() const {
+    constexpr double most = 1e7;
+    if (scene_.output.every > 0 && scene_.run.until / scene_.output.every > most)
+      wrong(scene_.output.place, "`every` asks for more than ten million rows; make it longer, or run.until shorter");
+    if (scene_.output.frames == 1) wrong(scene_.output.place, "one frame is no animation; ask for 0, or 2 and more");
+  }
+
+  // The largest arm of a body or distance between ground points: what "small" is measured by.
+  double size() const {
+    double length = 0;
+    for (const Marker& m : model_.system.markers) length = std::max(length, m.x_BP.norm());
+    for (const Joint& j : model_.system.joints)
+      if (const auto* d = std::get_if<Distance>(&j)) length = std::max(length, d->length);
+    for (const ContactPair& c : model_.system.contacts) length = std::max(length, c.gap.bearing);
+    return length > 0 ? length : 1;
+  }
+
+  void scheme() {
+    const RunOptions& run = scene_.run;
+    Scheme& s = model_.scheme;
+    choose_method(scene_, model_.system, s);
+    number(model_.system, !s.tableau || s.switch_below > 0);
+    s.tolerance = run.tolerance;
+    if (s.constraints == Constraints::partitioning && model_.system.n_rows() > 300)
+      wrong(run.place, "partitioning is dense and meant for up to 300 rows, this scene has " +
+                           std::to_string(model_.system.n_rows()) + "; use constraints: projection");
+    s.onset_cut = run.onset_cut.value_or(0);
+    follow_laws(scene_, s);
+    s.max_steps = run.max_steps;
+  }
+
+  const Scene& scene_;
+  bool rehearse_;
+  BodyStore* store_;
+  Model model_;
+  std::map<std::string, int> index_;
+  std::vector<std::optional<ElasticBody>> meshed_;      ///< until they are added
+  std::vector<std::optional<ModalChoice>> choices_;
+  RigidRun run_;
+  std::vector<std::optional<MechanismBody>> elements_;  ///< of bodies made of elements
+  std::map<std::tuple<int, double, double, double, std::string>, int> markers_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+Model build(const Scene& scene) { return Builder(scene, false, nullptr).build(); }
+Model build(const Scene& scene, BodyStore& store) { return Builder(scene, false, &store).build(); }
+Model build_and_rehearse(const Scene& scene) { return Builder(scene, true, nullptr).build(); }
+
+}  // namespace pintle

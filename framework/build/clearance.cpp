@@ -1,0 +1,166 @@
+#include "framework/build/clearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "framework/configuration/ideal_pin.h"
+#include "framework/scene/error.h"
+#include "framework/scene/yaml/nearest.h"
+
+namespace pintle {
+
+namespace {
+
+std::string text(double x) {
+  std::ostringstream out;
+  out << x;
+  return out.str();
+}
+
+bool has_normal(const SceneClearance& c) { return c.normal.stiffness || c.normal.bearing.young > 0; }
+
+/// The contact law of the scene's words.
+ImpactLaw law_of(const Scene& scene, const SceneClearance& c) {
+  const SceneNormal& n = c.normal;
+  const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, n.place, message); };
+  const ImpactFactor* factor = find_impact_factor(n.law);
+  if (!factor) {
+    std::vector<std::string> known;
+    for (const ImpactFactor& f : impact_factors()) known.emplace_back(f.name);
+    wrong("there is no impact law \"" + n.law + "\"." + did_you_mean(n.law, known));
+  }
+  if (n.restitution < 0 || n.restitution > 1 || (n.restitution == 0 && !factor->zero_allowed))
+    wrong("restitution must lie in " + std::string(factor->zero_allowed ? "[0, 1]" : "(0, 1]") + " for " + n.law);
+  if (!n.stiffness && n.exponent != 1.5)
+    wrong("`young` and `poisson` give the stiffness of exponent 1.5; with another exponent give `stiffness`");
+  const double k = contact_stiffness(c);
+  if (!(k > 0) || !std::isfinite(k)) wrong("no stiffness: give `young` and `poisson`, or `stiffness`");
+  return {k, n.exponent, factor->chi(n.restitution)};
+}
+
+bool rubs(const SceneClearance& c) { return c.friction && c.friction->coefficient != 0; }
+
+/// What of the scene's words the model does not use.
+std::string left_out(const SceneClearance& c) {
+  std::vector<std::string> unused;
+  const bool given = c.stiffness && c.damping;
+  if (has_normal(c) && (c.model == ClearanceModel::massless_link || (c.model == ClearanceModel::spring_damper && given)))
+    unused.emplace_back("normal");
+  if (rubs(c) && c.model == ClearanceModel::massless_link) unused.emplace_back("friction");
+  if (c.stiffness && c.model != ClearanceModel::spring_damper) unused.emplace_back("stiffness");
+  if (c.damping && c.model != ClearanceModel::spring_damper) unused.emplace_back("damping");
+  std::string out;
+  for (const std::string& word : unused) out += (out.empty() ? "; not used: " : ", ") + word;
+  return out;
+}
+
+std::string friction_text(const ContactPair& pair) { return pair.friction ? ", friction " + text(pair.friction->mu) : ", no friction"; }
+
+/// Completes the spring and damper. E = F c is the energy that the ideal joint's force F has over the clearance c; the
+/// spring stores it at the depth at which the contact does, the damper takes as much of it. @returns this, in words
+std::string match(const Scene& scene, const SceneClearance& c, const IdealPin& pin, ContactPair& pair) {
+  const ImpactLaw law = law_of(scene, c);
+  const double radial = pair.gap.clearance();
+  std::string words;
+  if (!c.stiffness) {
+    const double energy = pin.force * radial;
+    const double depth = energy > 0 ? std::pow((law.n + 1) * energy / law.k, 1 / (law.n + 1)) : 0.01 * radial;
+    pair.normal.k = 2 * law.k * std::pow(depth, law.n - 1) / (law.n + 1);
+    words += "; the stiffness stores what the contact law does at a depth of " + text(depth) + " m" +
+             (energy > 0 ? ", which " + text(pin.force) + " N, the ideal joint's force, brings it to over the clearance" : "");
+  }
+  if (!c.damping) {
+    const double e = effective_restitution(law.chi);
+    pair.normal.d = 2 * damping_ratio(e) * std::sqrt(pair.normal.k * pin.mass);
+    words += "; the damping gives the law's restitution of " + text(e) + " to the " + text(pin.mass) + " kg that meet there";
+  }
+  return words;
+}
+
+}  // namespace
+
+ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
+  const auto wrong = [&](const Place& place, const std::string& message) { throw SceneError(scene.file, place, message); };
+  const SceneClearance& c = *j.clearance;
+  if (j.kind != JointKind::revolute)
+    wrong(c.place, "only a revolute joint takes a clearance");
+  if (c.bearing != j.a.body && c.bearing != j.b.body)
+    wrong(c.place, "bearing: \"" + c.bearing + "\" is neither \"" + j.a.body + "\" nor \"" + j.b.body + "\"." +
+                       did_you_mean(c.bearing, std::vector{j.a.body, j.b.body}));
+  if (!(c.radial > 0)) wrong(c.place, "radial must be above 0; leave out `clearance` for an ideal joint");
+  if (!(c.radial < c.bearing_radius))
+    wrong(c.place, "radial clearance must be below the bearing radius, else no journal is left");
+  if (!(c.bearing_radius - c.radial < c.bearing_radius))
+    wrong(c.place, "radial clearance is less than the last digit of the bearing radius; leave out `clearance` for an ideal joint");
+
+  ContactPair pair{};
+  pair.gap = {c.bearing_radius - c.radial, c.bearing_radius};
+  pair.slowest_impact = c.normal.slowest_impact;
+  if (c.model == ClearanceModel::massless_link) return pair;
+  if (c.model == ClearanceModel::contact) {
+    pair.normal = law_of(scene, c);
+  } else {
+    if (!(c.stiffness && c.damping)) law_of(scene, c);  // judged now, asked for what is missing by settle_clearances
+    if ((c.stiffness && !(*c.stiffness > 0)) || (c.damping && !(*c.damping >= 0)))
+      wrong(c.place, "stiffness must be above 0 and damping not below");
+    pair.normal = {.k = c.stiffness.value_or(0), .n = 1, .chi = 0, .d = c.damping.value_or(0)};
+  }
+  if (rubs(c)) {
+    pair.friction = Ambrosio{c.friction->coefficient, c.friction->v0, c.friction->v1};
+    pair.sliding = c.friction->sliding == SlidingSpeed::material ? Sliding::material : Sliding::geometric;
+  }
+  return pair;
+}
+
+std::vector<std::string> settle_clearances(const Scene& scene, System& system, std::vector<std::string>& warnings) {
+  std::vector<const SceneJoint*> joints;
+  bool open = false;
+  for (const SceneJoint& j : scene.joints)
+    if (j.clearance) {
+      joints.push_back(&j);
+      open = open || (j.clearance->model == ClearanceModel::spring_damper && !(j.clearance->stiffness && j.clearance->damping));
+    }
+  const std::vector<IdealPin> pins = open ? ideal_pins(scene, system) : std::vector<IdealPin>(joints.size());
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const SceneClearance& c = *joints[i]->clearance;
+    ContactPair& pair = system.contacts[i];
+    std::string words = model_name(c.model);
+    if (c.model == ClearanceModel::contact) {
+      words += ", stiffness " + text(pair.normal.k) + " N/m^" + text(pair.normal.n) + ", restitution delivered " +
+               text(effective_restitution(pair.normal.chi)) + friction_text(pair);
+    } else if (c.model == ClearanceModel::spring_damper) {
+      const std::string how = c.stiffness && c.damping ? "" : match(scene, c, pins[i], pair);
+      words += ", stiffness " + text(pair.normal.k) + " N/m, damping " + text(pair.normal.d) + " N s/m" + friction_text(pair) + how;
+    } else if (rubs(c)) {
+      warnings.push_back("\"" + joints[i]->name + "\": a massless link has no wall to slide on; its friction is left out");
+    }
+    out.push_back(words + left_out(c));
+  }
+  return out;
+}
+
+double contact_stiffness(const SceneClearance& c) {
+  if (c.normal.stiffness) return *c.normal.stiffness;
+  const Elasticity& j = c.normal.journal.young > 0 ? c.normal.journal : c.normal.bearing;
+  if (!(c.normal.bearing.young > 0)) return 0;
+  return hertz_stiffness(c.bearing_radius - c.radial, c.bearing_radius, j.young, j.poisson,
+                         c.normal.bearing.young, c.normal.bearing.poisson,
+                         c.normal.radii == RadiusConvention::internal);
+}
+
+std::string rounding_doubt(const Scene& scene, const SceneJoint& j, double length) {
+  constexpr double few = 1e-6, most = 1e-3;
+  const double lost = std::numeric_limits<double>::epsilon() * length / j.clearance->radial;
+  if (lost <= few) return "";
+  std::ostringstream s;
+  s.precision(3);
+  s << "radial clearance " << j.clearance->radial << " m: places in a mechanism of " << length << " m are rounded to "
+    << 100 * lost << " % of it";
+  if (lost > most) throw SceneError(scene.file, j.clearance->place, s.str() + "; leave out `clearance` for an ideal joint");
+  return "\"" + j.name + "\": " + s.str();
+}
+
+}  // namespace pintle

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/dynamics/model/contact_pair.h"
+#include "framework/dynamics/model/system.h"
+#include "framework/scene/scene.h"
+
+namespace pintle {
+
+/// A clearance joint's gap and laws; its markers and, of a massless link, its joint are left to fill in, of a spring and
+/// damper what the scene does not give (settle_clearances).
+/// @throws SceneError  another kind of joint; radii, restitution, law or stiffness that cannot be
+ContactPair contact_of(const Scene&, const SceneJoint&);
+
+/// Gives springs and dampers what the scene leaves to its contact law: docs/theory/contact.md.
+/// @param system    all but numbered
+/// @param warnings  gets what a model leaves out of the scene and a result would miss
+/// @returns  how each clearance joint is modelled, in words
+/// @throws AssemblyError  as assemble, where a spring and damper have to be found
+std::vector<std::string> settle_clearances(const Scene&, System& system, std::vector<std::string>& warnings);
+
+/// Contact stiffness as the scene's words give it [N/mⁿ].
+double contact_stiffness(const SceneClearance&);
+
+/// Where rounding of places in a mechanism of this length [m] is more than a millionth of a radial clearance: a
+/// warning that says so; else empty.
+/// @throws SceneError  it is more than a thousandth
+std::string rounding_doubt(const Scene&, const SceneJoint&, double length);
+
+}  // namespace pintle

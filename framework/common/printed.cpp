@@ -1,0 +1,20 @@
+#include "framework/common/printed.h"
+
+#include <cstdarg>
+#include <cstdio>
+
+namespace pintle {
+
+std::string printed(const char* format, ...) {
+  va_list arguments, again;
+  va_start(arguments, format);
+  va_copy(again, arguments);
+  const int length = std::vsnprintf(nullptr, 0, format, arguments);
+  va_end(arguments);
+  std::string text(static_cast<std::size_t>(length < 0 ? 0 : length), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, format, again);
+  va_end(again);
+  return text;
+}
+
+}  // namespace pintle

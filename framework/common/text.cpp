@@ -1,0 +1,23 @@
+#include "framework/common/text.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace pintle {
+
+std::string csv_field(const std::string& s) {
+  if (s.find_first_of(",\"\r\n") == std::string::npos) return s;
+  std::string out(1, '"');
+  for (char c : s) out.append(c == '"' ? 2 : 1, c);
+  out += '"';
+  return out;
+}
+
+void append_number(std::string& out, double x) {
+  if (std::isnan(x)) return;
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, x).ptr;
+  out.append(text, end);
+}
+
+}  // namespace pintle

@@ -1,0 +1,223 @@
+#include "framework/component/eigen/eigen_lowest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "framework/component/eigen/factor.h"
+#include "framework/component/eigen/pencil.h"
+#include "framework/component/eigen/starting_loads.h"
+#include "framework/component/eigen/subspace.h"
+#include "framework/component/eigen/tall.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Sparse = Eigen::SparseMatrix<double>;
+
+constexpr Index small = 400;         // freedoms that are solved for densely
+constexpr Index dense_limit = 4000;  // and so are this many, if a quarter of all pairs is asked for
+constexpr double share = 1e-10;      // shift over ΣK_ii/ΣM_ii
+constexpr double dense_share = 1e-6;  // the same where all pairs are found
+constexpr double cluster = 1e-6;      // a relative gap in which no count is attempted
+
+void judge(const Sparse& K, const Sparse& M, const EigenOptions& o) {
+  if (K.rows() != K.cols() || M.rows() != M.cols() || K.rows() != M.rows()) {
+    std::ostringstream text;
+    text << "K is " << K.rows() << " by " << K.cols() << " and M " << M.rows() << " by " << M.cols()
+         << ", must be square and of one size";
+    throw std::invalid_argument(text.str());
+  }
+  if (o.count < 1)
+    throw std::invalid_argument(std::to_string(o.count) + " modes asked for, must be at least 1");
+  if (!(o.shift <= 0))
+    throw std::invalid_argument("shift = " + std::to_string(o.shift) +
+                                ", must be negative, or 0 to have it chosen");
+  if (!(o.tolerance > 0))
+    throw std::invalid_argument("tolerance = " + std::to_string(o.tolerance) +
+                                ", must be positive");
+  const Index massive = (M.diagonal().array() > 0).count();
+  if (o.count > massive) throw std::invalid_argument(too_many(o.count, massive));
+}
+
+// The pairs in the making: what is iterated on, and how many are wanted for the check to be
+// decisive.
+struct Search {
+  const Sparse &K, &M;
+  const EigenOptions& options;
+  double mu;
+  Factor factor;
+  Index block, wanted;
+};
+
+// Factors K − μM, with a larger shift where rounding hides the smaller.
+void factor_shifted(Search& s) {
+  const int attempts = s.options.shift < 0 ? 1 : 3;
+  for (int i = 0; i < attempts; ++i) {
+    if (s.factor.compute(shifted(s.K, s.M, s.mu))) return;
+    if (i + 1 < attempts) s.mu *= 100;
+  }
+  throw std::runtime_error(not_definite(s.mu) + " (at freedom " + std::to_string(s.factor.pivot()) +
+                           ")");
+}
+
+VectorXd residuals(const Subspace& space, const Search& s, Index count) {
+  VectorXd r(count);
+  for (Index j = 0; j < count; ++j) {
+    const double sigma = 1 / space.theta()[j];
+    r[j] = space.defect()[j] * sigma / std::max(std::abs(sigma + s.mu), -s.mu);
+  }
+  return r;
+}
+
+// Where to count, above μ: in the gap above the last wanted pair; 0 if that is no gap.
+double place_of_check(const Subspace& space, const Search& s) {
+  const double last = 1 / space.theta()[s.wanted - 1];
+  const double next = space.old() > s.wanted && space.theta()[s.wanted] > 0
+                          ? 1 / space.theta()[s.wanted]
+                          : std::numeric_limits<double>::infinity();
+  const double offset = std::min(0.5 * (next - last), std::max(1e-3 * last, -0.3 * s.mu));
+  return offset > cluster * last ? last + offset : 0;
+}
+
+// Eigenvalues below μ + `at`; moved down a little where that is an eigenvalue of a part of the
+// body.
+int count_below(const Search& s, double at) {
+  for (int i = 0;; ++i) {
+    try {
+      return negative_eigenvalues(shifted(s.K, s.M, s.mu + at), s.factor.supernodes());
+    } catch (const std::runtime_error&) {
+      if (i == 3) throw;
+      at -= 1e-5 * at;
+    }
+  }
+}
+
+// @returns true  the iteration is over
+bool check(const Subspace& space, Search& s, EigenPairs& out) {
+  const double at = place_of_check(space, s);
+  if (at == 0) {
+    ++s.wanted;
+    return false;
+  }
+  const int below = count_below(s, at);
+  out.checked = true;
+  out.missed = below - static_cast<int>(s.wanted);
+  out.converged = out.missed == 0;
+  if (out.missed >= 0) {
+    s.wanted = below;
+    return out.missed == 0;
+  }
+  out.reason = "the Sturm check counts " + std::to_string(below) + " eigenvalues where " +
+               std::to_string(s.wanted) +
+               " were found: K or M is not symmetric or not semidefinite";
+  return true;
+}
+
+// Columns of Q; `width`: of the current block.
+Index capacity_for(const Search& s, Index width) {
+  return std::min(s.K.rows(), std::max(2 * s.wanted, s.wanted + 8 * std::max(s.block, width)));
+}
+
+// A subspace that A⁻¹M maps onto itself has nothing more to say: other vectors must.
+void feed(Subspace& space, const Search& s, int iteration) {
+  space.add_loads(random_loads(s.M, static_cast<int>(s.block),
+                               s.options.seed + static_cast<unsigned>(iteration)));
+  if (space.width() == 0 && space.old() < s.options.count)
+    throw std::invalid_argument(too_many(s.options.count, space.old()));
+}
+
+void iterate(Subspace& space, Search& s, EigenPairs& out) {
+  space.add_loads(starting_loads(s.K, s.M, static_cast<int>(s.block), s.options.seed));
+  double worst = 0;
+  Index good = 0;
+  while (out.iterations < s.options.max_iterations) {
+    ++out.iterations;
+    space.reserve(capacity_for(s, space.width()));
+    if (!space.room())
+      space.restart(std::min(space.old(), s.wanted + (space.capacity() - s.wanted) / 4));
+    if (space.width() == 0) feed(space, s, out.iterations);
+    space.step();
+    space.project();
+    if (space.old() < s.wanted) continue;
+    const VectorXd r = residuals(space, s, s.wanted);
+    good = (r.array() <= s.options.tolerance).count();
+    worst = r.maxCoeff();
+    if (good < s.wanted) continue;
+    if (!s.options.check) {
+      out.converged = true;
+      return;
+    }
+    if (check(space, s, out)) return;
+    if (out.missed > 0) feed(space, s, out.iterations);
+  }
+  std::ostringstream text;
+  text << good << " of " << s.wanted << " pairs were found in " << out.iterations
+       << " iterations, the largest residual is " << worst;
+  if (out.missed > 0) text << ", and " << out.missed << " more are there by the Sturm check";
+  out.reason = text.str();
+}
+
+// A plain one on the p vectors, which clears the shapes of the rounding of all before.
+void last_iteration(const Subspace& space, const Search& s, EigenPairs& out) {
+  const Index p = std::min<Index>(s.options.count, space.old());
+  MatrixXd Z;
+  s.factor.solve_into(product(s.M, space.iterated(p)), Z);
+  out.solves = space.solves() + p;
+  Z *= space.theta().head(p).cwiseInverse().asDiagonal();
+  refine(s.K, s.M, std::move(Z), static_cast<int>(p), out);
+}
+
+}  // namespace
+
+EigenPairs eigen_lowest(const Sparse& K, const Sparse& M, const EigenOptions& options) {
+  judge(K, M, options);
+  const Index n = K.rows(), p = options.count;
+  const double scale = stiffness_over_mass(K, M);
+  if (n <= small || (4 * p > n && n <= dense_limit) || 2 * p > n)
+    return eigen_dense(K, M, options.count,
+                       options.shift < 0 ? options.shift : -dense_share * scale);
+
+  const Sparse mass = M.pruned(1.0, 0.0);  // assembled with K's pattern, it is half zeros
+  Search s{K, mass, options, options.shift < 0 ? options.shift : -share * scale, {}, 0, p};
+  s.block = std::clamp<Index>(2 + p / 3, 4, 16);
+  factor_shifted(s);
+  Subspace space(s.factor, mass, capacity_for(s, s.block));
+  EigenPairs out;
+  iterate(space, s, out);
+  last_iteration(space, s, out);
+  return out;
+}
+
+EigenPairs eigen_below(const Sparse& K, const Sparse& M, double limit,
+                       const EigenOptions& options) {
+  EigenOptions o = options;
+  o.count = 1;
+  judge(K, M, o);
+  o.count = negative_eigenvalues(shifted(K, M, limit));
+  EigenPairs out;
+  if (o.count == 0) {
+    out.shapes.resize(K.rows(), 0);
+    out.converged = out.checked = true;
+    return out;
+  }
+  out = eigen_lowest(K, M, o);
+  const int found = static_cast<int>((out.lambda.array() < limit).count());
+  if (found < o.count) {
+    out.missed = std::max(out.missed, o.count - found);
+    out.converged = false;
+    out.reason = std::to_string(o.count) + " eigenvalues lie below the limit, " +
+                 std::to_string(found) + " were found there";
+  }
+  return out;
+}
+
+}  // namespace pintle

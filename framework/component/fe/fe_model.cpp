@@ -1,0 +1,107 @@
+#include "framework/component/fe/fe_model.h"
+
+#include "meshes/refuse.h"
+
+#include <algorithm>
+
+namespace pintle {
+
+namespace {
+
+struct NodeSizes {
+  std::vector<int>& size;
+
+  template <class E>
+  void operator()(const Block<E>& block) const {
+    const std::size_t count = block.nodes.size() / E::nodes;
+    if (block.nodes.size() != count * E::nodes)
+      refuse("elements of ", E::nodes, " nodes: ", block.nodes.size(),
+             " node numbers are not a multiple of it; give each element all its nodes");
+    if (block.properties.size() != 1 && block.properties.size() != count)
+      refuse("elements: ", block.properties.size(), " properties for ", count,
+             " elements; give one for all or one each");
+    for (const int node : block.nodes) {
+      if (node < 0 || static_cast<std::size_t>(node) >= size.size())
+        refuse("element: node ", node, " is not there; nodes run from 0 to ", size.size(), " − 1");
+      int& s = size[static_cast<std::size_t>(node)];
+      s = std::max(s, E::dofs_per_node);
+    }
+  }
+};
+
+}  // namespace
+
+const Port* FeModel::port(std::string_view name) const {
+  const auto at =
+      std::find_if(ports.begin(), ports.end(), [&](const Port& p) { return p.name == name; });
+  return at == ports.end() ? nullptr : &*at;
+}
+
+FeModel fe_model(Eigen::Matrix2Xd x, std::vector<AnyBlock> blocks, std::vector<Lump> lumps) {
+  FeModel model;
+  std::vector<int> size(static_cast<std::size_t>(x.cols()), 0);
+  for (const AnyBlock& block : blocks) std::visit(NodeSizes{size}, block);
+  model.begin.reserve(size.size() + 1);
+  model.begin.push_back(0);
+  for (std::size_t i = 0; i < size.size(); ++i) {
+    if (size[i] == 0) {
+      const Eigen::Vector2d at = x.col(static_cast<Eigen::Index>(i));
+      refuse("node ", i, " at (", at.x(), ", ", at.y(),
+             ") belongs to no element; drop it from the mesh");
+    }
+    model.begin.push_back(model.begin.back() + size[i]);
+  }
+  for (const Lump& lump : lumps) {
+    if (lump.node < 0 || static_cast<std::size_t>(lump.node) >= size.size())
+      refuse("point mass: node ", lump.node, " is not there; nodes run from 0 to ", size.size(),
+             " − 1");
+    if (!(lump.mass.m >= 0 && lump.mass.J >= 0))
+      refuse("point mass at node ", lump.node, ": m = ", lump.mass.m, " kg, J = ", lump.mass.J,
+             " kg m²; neither may be negative");
+    if (lump.mass.J > 0 && size[static_cast<std::size_t>(lump.node)] < 3)
+      refuse("point mass at node ", lump.node, ": J = ", lump.mass.J,
+             " kg m² but the node has no rotation; leave J out or spread the mass over two nodes");
+  }
+  model.x = std::move(x);
+  model.blocks = std::move(blocks);
+  model.lumps = std::move(lumps);
+  return model;
+}
+
+RigidFields rigid_fields(const FeModel& model) {
+  const int N = model.N();
+  RigidFields f{Eigen::MatrixX2d::Zero(N, 2), Eigen::VectorXd::Zero(N), Eigen::VectorXd::Zero(N)};
+  for (Eigen::Index i = 0; i < model.x.cols(); ++i) {
+    const int at = model.begin[static_cast<std::size_t>(i)];
+    f.T(at, 0) = f.T(at + 1, 1) = 1;
+    f.x.segment<2>(at) = model.x.col(i);
+    f.R.segment<2>(at) << -model.x(1, i), model.x(0, i);
+    if (model.begin[static_cast<std::size_t>(i) + 1] - at == 3) f.R[at + 2] = 1;
+  }
+  return f;
+}
+
+Eigen::MatrixX3d rigid_motions(const FeModel& model) {
+  const RigidFields f = rigid_fields(model);
+  Eigen::MatrixX3d all = Eigen::MatrixX3d::Zero(model.n(), 3);
+  for (int i = 0; i < model.N(); ++i)
+    if (const int k = model.independent_of(i); k >= 0) all.row(k) << f.T.row(i), f.R[i];
+  for (const Port& port : model.ports) {
+    all.row(port.freedom[0]) << 1, 0, -port.x.y();
+    all.row(port.freedom[1]) << 0, 1, port.x.x();
+    if (port.freedom[2] >= 0) all.row(port.freedom[2]) << 0, 0, 1;
+  }
+  return all;
+}
+
+Eigen::MatrixXd nodal(const FeModel& model, const Eigen::MatrixXd& independent) {
+  if (model.L.size() == 0) return independent;
+  return model.L * independent;
+}
+
+Eigen::VectorXd independent_load(const FeModel& model, const Eigen::VectorXd& nodal_load) {
+  if (model.L.size() == 0) return nodal_load;
+  return model.L.transpose() * nodal_load;
+}
+
+}  // namespace pintle

@@ -1,0 +1,91 @@
+#include <Eigen/SVD>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "framework/component/eigen/factor.h"
+#include "framework/component/fe/statics.h"
+#include "framework/component/reduction/reduction.h"
+
+namespace pintle {
+namespace {
+
+/// Interface displacements that are no rigid motions, b × (b − 3).
+Eigen::MatrixXd straining(const Component& c, const std::vector<int>& interface) {
+  const auto b = static_cast<Eigen::Index>(interface.size());
+  if (b >= 3) {
+    Eigen::MatrixXd rigid = scaled_rigid_motions(c.model)(interface, Eigen::all);
+    // Ports that span less than 1e-8 of the body would leave nothing of K⁻¹ but rounding.
+    const auto spans = [](const auto& svd) { return svd.singularValues()[2] > 1e-8 * svd.singularValues()[0]; };
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rigid, Eigen::ComputeFullU);
+    if (spans(svd)) return svd.matrixU().rightCols(b - 3);
+    // A body of nanometres: turns, counted in the body's size, are as much as its places.
+    Eigen::VectorXd size = Eigen::VectorXd::Ones(b);
+    const double place = rigid.leftCols<2>().cwiseAbs().maxCoeff();
+    for (Eigen::Index i = 0; i < b; ++i)
+      if (rigid.row(i).head<2>().isZero(0) && rigid(i, 2) != 0) size[i] = place / std::abs(rigid(i, 2));
+    rigid = size.asDiagonal() * rigid;
+    const Eigen::JacobiSVD<Eigen::MatrixXd> sized(rigid, Eigen::ComputeFullU);
+    if (spans(sized)) return size.cwiseInverse().asDiagonal() * sized.matrixU().rightCols(b - 3);
+  }
+  throw std::invalid_argument("Craig–Bampton: the interface ports hold the body with " +
+                              std::to_string(b) +
+                              " freedoms and leave a rigid motion free; add a port, take one that "
+                              "can turn, or use free modes");
+}
+
+/// Displacements of the whole body when the interface moves as the columns of C and no load acts
+/// inside.
+Eigen::MatrixXd static_shapes(const Component& c, const std::vector<int>& interface,
+                              const std::vector<int>& interior, const Eigen::MatrixXd& C) {
+  Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(c.model.n(), C.cols());
+  shapes(interface, Eigen::all) = C;
+  if (interior.empty() || C.cols() == 0) return shapes;
+  Factor inside;
+  if (!inside.compute(restricted(c.K, interior)))
+    throw std::runtime_error(
+        "Craig–Bampton: with its ports held, a part of the body still moves freely; its parts are "
+        "not joined");
+  const Eigen::MatrixXd pull = (c.K * shapes)(interior, Eigen::all);
+  shapes(interior, Eigen::all) = -inside.solve(pull);
+  return shapes;
+}
+
+Sparse columns_of_identity(int n, const std::vector<int>& which) {
+  Sparse S(n, static_cast<Eigen::Index>(which.size()));
+  S.reserve(Eigen::VectorXi::Constant(S.cols(), 1));
+  for (int k = 0; k < S.cols(); ++k) S.insert(which[static_cast<std::size_t>(k)], k) = 1;
+  S.makeCompressed();
+  return S;
+}
+
+Modes fixed_modes(const Component& c, const std::vector<int>& interior, const Keep& keep) {
+  return held_modes(c, columns_of_identity(c.model.n(), interior), keep,
+                    "the body with its interface held");
+}
+
+}  // namespace
+
+ModalModel fixed_interface_modes(const Component& c, const std::vector<int>& ports,
+                                 const FrameTie& tie, const Keep& keep) {
+  Modes fixed = fixed_modes(c, free_freedoms(c.model, {port_freedoms(c.model, ports)}), keep);
+  fixed.shapes = tied(c, tie, fixed.shapes);
+  return modal_model(c, tie, fixed);
+}
+
+ModalModel craig_bampton(const Component& c, const std::vector<int>& ports, const FrameTie& tie,
+                         const Keep& keep) {
+  const std::vector<int> interface = port_freedoms(c.model, ports);
+  const Eigen::MatrixXd C = straining(c, interface);
+  // All fixed-interface modes and all static shapes span what all modes under the tie span.
+  if (keep.all) return normal_modes(c, tie, keep);
+
+  const std::vector<int> interior = free_freedoms(c.model, {interface});
+  const Modes fixed = fixed_modes(c, interior, keep);
+  Eigen::MatrixXd V(c.model.n(), fixed.shapes.cols() + C.cols());
+  V.leftCols(fixed.shapes.cols()) = fixed.shapes;
+  V.rightCols(C.cols()) = static_shapes(c, interface, interior, C);
+  return diagonalised(c, tie, V, fixed.sturm);
+}
+
+}  // namespace pintle

@@ -1,0 +1,57 @@
+#include "framework/component/reduction/static_response.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <stdexcept>
+#include <string>
+
+#include "framework/component/fe/statics.h"
+#include "framework/component/reduction/reduction.h"
+
+namespace pintle {
+namespace {
+
+using Eigen::MatrixXd;
+
+/// Loads with the reactions of the tie or, under mean axes, the inertia of the acceleration that
+/// they cause. The adjoint of `tied`: on any motion they do the work of f on that motion tied.
+MatrixXd in_equilibrium(const Component& c, const FrameTie& tie, const MatrixXd& loads) {
+  const MatrixXd B = tie_rows(c, tie);
+  const Eigen::MatrixX3d r = scaled_rigid_motions(c.model);
+  const Eigen::Matrix3d rB = (B * r).transpose();
+  return loads - B.transpose() * rB.fullPivLu().solve(r.transpose() * loads);
+}
+
+/// Three freedoms that hold the body, far enough apart to hold it well.
+Supports determinate_hold(const FeModel& model) {
+  const MatrixXd motions = scaled_rigid_motions(model).transpose();
+  const auto order = motions.colPivHouseholderQr().colsPermutation().indices();
+  return {{order[0], order[1], order[2]}};
+}
+
+}  // namespace
+
+StaticResponse::StaticResponse(const Component& c)
+    : c_(c), moving_(free_freedoms(c.model, determinate_hold(c.model))) {
+  if (!held_.compute(restricted(c.K, moving_)))
+    throw std::runtime_error(
+        "static response: parts of the body are not joined, or a part of it moves without "
+        "resistance; join them with elements that resist");
+}
+
+MatrixXd StaticResponse::under(const FrameTie& tie, const MatrixXd& loads) const {
+  if (loads.rows() != c_.model.n())
+    throw std::invalid_argument("static response: loads of " + std::to_string(loads.rows()) +
+                                " rows, must be " + std::to_string(c_.model.n()) +
+                                ", one per independent freedom");
+  const MatrixXd moving_loads = in_equilibrium(c_, tie, loads)(moving_, Eigen::all);
+  MatrixXd u = MatrixXd::Zero(loads.rows(), loads.cols());
+  u(moving_, Eigen::all) = held_.solve(moving_loads);  // in equilibrium: the hold carries nothing
+  return tied(c_, tie, u);
+}
+
+MatrixXd static_response(const Component& c, const FrameTie& tie, const MatrixXd& loads) {
+  return StaticResponse(c).under(tie, loads);
+}
+
+}  // namespace pintle

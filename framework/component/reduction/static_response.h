@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "framework/component/eigen/factor.h"
+#include "framework/component/reduction/modal_model.h"
+
+namespace pintle {
+
+/// Displacement, tied, under each column of `loads`, in independent freedoms, n × count: of the body
+/// held by the tie (tangent, chord) or, under mean axes, of the free body that the load accelerates.
+/// For a displacement v that meets the tie, vᵀK u = vᵀf, so that uᵀf is twice the strain energy.
+/// @param loads  independent freedoms, n × count
+/// @throws std::invalid_argument  as tie_rows; `loads` has another number of rows
+/// @throws std::runtime_error     parts of the body are not joined, or move without resistance
+Eigen::MatrixXd static_response(const Component&, const FrameTie&, const Eigen::MatrixXd& loads);
+
+/// The same of one body under several ties, its stiffness factored once.
+class StaticResponse {
+ public:
+  /// @throws std::runtime_error  as static_response
+  explicit StaticResponse(const Component&);  ///< the component must outlive it
+  /// @throws std::invalid_argument  as static_response
+  Eigen::MatrixXd under(const FrameTie&, const Eigen::MatrixXd& loads) const;
+
+ private:
+  const Component& c_;
+  std::vector<int> moving_;
+  Factor held_;
+};
+
+}  // namespace pintle

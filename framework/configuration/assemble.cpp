@@ -1,0 +1,351 @@
+#include "framework/configuration/assemble.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include <Eigen/Geometry>
+#include <Eigen/SparseCore>
+
+#include "framework/analysis/equilibrium/equilibrium.h"
+#include "framework/configuration/closure.h"
+#include "framework/configuration/ideal_pin.h"
+#include "framework/configuration/least_step.h"
+#include "framework/configuration/row_space.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::VectorXd;
+using Index = Eigen::Index;
+using Sparse = Eigen::SparseMatrix<double>;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Where the scene says something of this name.
+Place place_of(const Scene& scene, const std::string& name) {
+  for (const SceneJoint& j : scene.joints)
+    if (j.name == name) return j.place;
+  for (const SceneDriver& d : scene.drivers)
+    if (d.name == name) return d.place;
+  for (const StartBody& s : scene.start_bodies)
+    if (s.body == name) return s.place;
+  return {};
+}
+/// The same, naming the thing itself where the scene was not read from a file.
+Place named_place(const Scene& scene, const std::string& name) {
+  Place place = place_of(scene, name);
+  if (place.key.empty()) place.key = "\"" + name + "\"";
+  return place;
+}
+
+/// Rough pose, angles and spins that the scene pins in place (their W is 0), and its pins of origins.
+struct Rough {
+  VectorXd y, W_pose, W_speed;
+  std::vector<Pin> places, rates;
+  std::vector<int> bent;  ///< bodies whose bending the scene says
+};
+
+using Bent = std::vector<std::pair<int, VectorXd>>;  ///< bodies that start bent, and their modal coordinates
+
+Rough rough_state(const Scene& scene, const System& system, const Bent& bent) {
+  Rough r;
+  r.y.setZero(system.n_y());
+  for (const auto& [body, eta] : bent) {
+    r.y.segment(system.eta_begin[at(body)], eta.size()) = eta;
+    r.bent.push_back(body);
+  }
+  r.W_pose.resize(system.n());
+  r.W_speed.resize(system.n());
+  r.W_pose.tail(system.n() - system.n_rigid()).setZero();  // undeformed if that closes
+  r.W_speed.tail(system.n() - system.n_rigid()).setZero();
+  std::map<std::string, const StartBody*> starts;
+  for (const StartBody& s : scene.start_bodies) starts[s.body] = &s;
+  const double area = system.length * system.length;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const SceneBody& body = scene.bodies[b];
+    const auto i = static_cast<Index>(3 * b);
+    const int index = static_cast<int>(b);
+    r.W_pose.segment<3>(i) << area, area, 1;
+    r.W_speed.segment<3>(i) << 1 / system.bodies[b].m, 1 / system.bodies[b].m, 1 / system.bodies[b].J;
+    double x = body.at[0], y = body.at[1], angle = body.angle;
+    if (const auto found = starts.find(body.name); found != starts.end()) {
+      const StartBody& s = *found->second;
+      if (s.angle) angle = *s.angle, r.W_pose[i + 2] = 0;
+      if (s.speed) r.y[system.n() + i + 2] = *s.speed, r.W_speed[i + 2] = 0;
+      if (s.x) x = *s.x, r.places.push_back({index, 0, *s.x});
+      if (s.y) y = *s.y, r.places.push_back({index, 1, *s.y});
+      if (s.vx) r.rates.push_back({index, 0, *s.vx});
+      if (s.vy) r.rates.push_back({index, 1, *s.vy});
+    }
+    const Eigen::Vector2d arm = Eigen::Rotation2Dd(angle) * system.bodies[b].x_BO;
+    r.y.segment<3>(i) << x - arm.x(), y - arm.y(), angle;
+  }
+  return r;
+}
+
+[[noreturn]] void cannot(const Scene& scene, const std::string& what, const Closure& closure, const VectorXd& left,
+                         const char* per, const char* remedy) {
+  Index worst = 0;
+  left.cwiseAbs().maxCoeff(&worst);
+  std::string message = what + ": " + closure.amount(worst, left[worst]) + per + " remains";
+  std::string others;
+  for (const std::string& name : closure.opponents(worst, left)) others += (others.empty() ? "\"" : ", \"") + name + "\"";
+  if (!others.empty()) message += "; it contradicts " + others;
+  throw AssemblyError(scene.file, named_place(scene, closure.owner(worst)), message + "; " + remedy);
+}
+
+// Near a pose where motions branch C grows with the square of the distance, so what passes for closed may be a million
+// roundings away, too far to choose a branch: Newton's steps, doubled as a double root asks, while they lessen C.
+void close_in(Closure& closure, const System& system, Rough& r, VectorXd& C, Sparse& J) {
+  constexpr double near = 1e-4, rounding = 4e-16, far = 1e-3;
+  Equations eq(system);
+  for (int i = 0; i < 20 && C.size() > 0 && C.lpNorm<Eigen::Infinity>() > rounding; ++i) {
+    pose(system, 0, r.y, eq);
+    if (i == 0 && row_space(system, eq, near).dependences.empty()) return;
+    const VectorXd step = least_step(J, r.W_pose, -C, 1e-18, 2), from = r.y.head(system.n());
+    if (!step.allFinite() || step.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>() > far) return;
+    bool better = false;
+    for (const double times : {2.0, 1.0}) {
+      r.y.head(system.n()) = from + times * step;
+      const VectorXd C_trial = closure.violation(r.y);
+      better = C_trial.norm() < 0.7 * C.norm();
+      if (better) break;
+    }
+    if (!better) r.y.head(system.n()) = from;
+    C = closure.violation(r.y, &J);
+    if (!better) return;
+  }
+}
+
+// What of C a run takes for met (onto_constraints); here no more may be left.
+double constraints_met(const System& system, const VectorXd& y) {
+  constexpr double met = 1e-11, still_good = 1e-8;
+  return std::max(met, std::min(8 * angle_rounding(system, y), still_good));
+}
+
+// Levenberg–Marquardt on C = 0, from the rough pose.
+int close_joints(const Scene& scene, Closure& closure, const System& system, Rough& r) {
+  constexpr double closed = 1e-12;
+  closure.pin(r.places);
+  Sparse J;
+  double mu = 1e-9;
+  VectorXd C = closure.violation(r.y, &J);
+  int i = 0;
+  for (; i < 300 && C.size() > 0 && C.lpNorm<Eigen::Infinity>() > closed; ++i) {
+    VectorXd step = least_step(J, r.W_pose, -C, mu, 1);
+    const double reach = std::max((step.array() / r.W_pose.array().max(1e-300).sqrt()).abs().maxCoeff(), 1e-300);
+    if (reach > 0.5) step *= 0.5 / reach;
+    VectorXd trial = r.y;
+    trial.head(system.n()) += step;
+    const VectorXd C_trial = closure.violation(trial);
+    if (C_trial.norm() < C.norm()) {
+      // Towards a singular pose Newton's steps are half of what is left: so are residuals a quarter.
+      const VectorXd further = r.y.head(system.n()) + 2 * step;
+      r.y = trial;
+      if (const double left = C_trial.norm() / C.norm(); left > 0.2 && left < 0.3 && reach <= 0.5) {
+        trial.head(system.n()) = further;
+        if (closure.violation(trial).norm() < 0.1 * C_trial.norm()) r.y = trial;
+      }
+      C = closure.violation(r.y, &J);
+      mu = std::max(mu / 10, 1e-15);
+    } else if (mu < 1e3) {
+      mu *= 10;
+    } else {
+      break;
+    }
+  }
+  const double left = C.size() > 0 ? C.lpNorm<Eigen::Infinity>() : 0;
+  if (!(left <= constraints_met(system, r.y))) {
+    constexpr double misfit = 1e-6;  // no pose is nearly right by chance
+    closure.violation(r.y);
+    const bool pinned = !scene.start_bodies.empty();
+    cannot(scene, pinned ? "cannot close with what `start` pins down" : "cannot close", closure, C, "",
+           left < misfit ? "redundant joints must fit each other to 1e-11 of the mechanism's size: write lengths, points and angles with more digits, or leave a joint out"
+                         : "check lengths and points, or give the bodies rough poses (`pose`) nearer to the wanted one");
+  }
+  close_in(closure, system, r, C, J);
+  return i;
+}
+
+/// Where motions branch: brings speeds that meet Ċ = 0 to a branch, Nᵀ dĊ/dt = 0 for every dependence N that holds at this
+/// pose only. With H = Σ N ∂²C that is sᵀH s − Nᵀ∂²law/∂t² = 0; 2 sᵀH is the change of Nᵀ Cq along s.
+bool choose_branch(Closure& closure, const System& system, const Sparse& J, const std::vector<Dependence>& singular, Rough& r) {
+  const Index n = system.n(), count = static_cast<Index>(singular.size());
+  const auto bend = [&](Sparse& G, VectorXd& g) {
+    const VectorXd s = r.y.segment(n, n);
+    const double rate = s.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>();
+    if (rate == 0) return 0.0;
+    const double step = 1e-4 / rate;
+    Equations eq(system);
+    std::vector<Eigen::Triplet<double>> entries;
+    VectorXd change = VectorXd::Zero(system.n_rows());
+    std::vector<std::vector<std::pair<Index, double>>> of_row(at(system.n_rows()));
+    for (Index d = 0; d < count; ++d)
+      for (const auto& [row, weight] : singular[static_cast<std::size_t>(d)].N) of_row[at(row)].emplace_back(d, weight * system.row_scale[row]);
+    for (double sign : {-1.0, 1.0}) {
+      VectorXd to = r.y;
+      to.head(n) += sign * step * s;
+      pose(system, sign * step, to, eq);
+      speed(system, sign * step, to, eq);
+      change += sign / (2 * step) * eq.Cdot;
+      visit_jacobian(eq, [&](int row, int column, double value) {
+        for (const auto& [d, weight] : of_row[at(row)])
+          entries.emplace_back(static_cast<int>(J.rows() + d), column, sign * weight * value / (step * rate));
+      });
+    }
+    for (Index c = 0; c < J.outerSize(); ++c)
+      for (Sparse::InnerIterator it(J, c); it; ++it) entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(it.col()), it.value());
+    G.resize(J.rows() + count, n);
+    G.setFromTriplets(entries.begin(), entries.end());
+    g.setZero(J.rows() + count);
+    g.head(J.rows()) = closure.drift(r.y);
+    for (std::size_t row = 0; row < of_row.size(); ++row)
+      for (const auto& [d, weight] : of_row[row]) g[J.rows() + d] += weight * change[static_cast<Index>(row)] / rate;
+    return rate;
+  };
+  Sparse G;
+  VectorXd g;
+  for (int i = 0; i < 60; ++i) {
+    const double rate = bend(G, g);
+    if (g.size() == 0 || g.lpNorm<Eigen::Infinity>() <= 1e-7 * rate) return true;
+    const double before = g.norm();
+    const VectorXd step = least_step(G, r.W_speed, -g, i == 0 ? 1e-6 : 1e-12, i == 0 ? 1 : 4), from = r.y.segment(n, n);
+    double part = 1;
+    for (; part > 1e-3; part /= 2) {
+      r.y.segment(n, n) = from + part * step;
+      bend(G, g);
+      if (g.norm() < before) break;
+    }
+  }
+  return false;
+}
+
+int match_speeds(const Scene& scene, Closure& closure, const System& system, Rough& r) {
+  closure.pin(r.rates);
+  Sparse J;
+  closure.violation(r.y, &J);
+  if (J.rows() == 0) return 0;
+  const VectorXd D = closure.drift(r.y);
+  auto s = r.y.segment(system.n(), system.n());
+  s += least_step(J, r.W_speed, -D, 1e-13, 8);
+  VectorXd left = closure.drift(r.y);
+  const double scale = std::max({D.lpNorm<Eigen::Infinity>(), r.y.tail(r.y.size() - system.n()).lpNorm<Eigen::Infinity>(), 1e-12});
+  for (int i = 0; i < 3 && left.lpNorm<Eigen::Infinity>() > 1e-12 * scale; ++i) {  // masses so unlike that the metric hides some rows
+    const VectorXd W = r.W_speed.cwiseMax(1e-6 * r.W_speed.maxCoeff()).cwiseProduct((r.W_speed.array() > 0).cast<double>().matrix());
+    const VectorXd before = s;
+    s += least_step(J, W, -left, 1e-13, 8);
+    const VectorXd now = closure.drift(r.y);
+    if (!(now.lpNorm<Eigen::Infinity>() < left.lpNorm<Eigen::Infinity>())) s = before;
+    if (!(now.lpNorm<Eigen::Infinity>() < left.lpNorm<Eigen::Infinity>())) break;
+    left = now;
+  }
+  if (left.lpNorm<Eigen::Infinity>() > 1e-8 * scale)
+    cannot(scene, "cannot move as `start` and the drivers ask", closure, left, "/s",
+           "leave out a speed in `start`, or a driver");
+  const std::vector<Dependence> singular = singular_dependences(system, 0, r.y);
+  if (!singular.empty() && !choose_branch(closure, system, J, singular, r))
+    throw AssemblyError(scene.file, named_place(scene, closure.owner(singular.front().N.back().first)),
+                        "the start is a singular pose, where motions branch, and no branch has these speeds; start elsewhere, "
+                        "or give other speeds in `start`");
+  return 1;
+}
+
+// Flexible bodies start undeformed and move as rigid ones; only where that cannot close they bend, soft
+// shapes before stiff ones.
+template <class Close>
+int undeformed_first(const System& system, Rough& r, VectorXd Rough::*weight, Close close) {
+  if (system.n() == system.n_rigid()) return close(r);
+  Rough bent = r;
+  try {
+    return close(r);
+  } catch (const AssemblyError&) {
+  }
+  for (std::size_t b = 0; b < system.bodies.size(); ++b)
+    if (const int n = system.bodies[b].modes(); n > 0 && !(weight == &Rough::W_pose && std::ranges::count(r.bent, static_cast<int>(b)))) {
+      const VectorXd& omega = system.bodies[b].flex->omega;
+      const bool pose = weight == &Rough::W_pose;
+      (bent.*weight).segment(system.eta_begin[b], n) =
+          pose ? VectorXd((system.scale.segment(system.eta_begin[b], n) * omega.minCoeff()).cwiseQuotient(omega).cwiseAbs2()) : VectorXd::Ones(n);
+    }
+  r = bent;
+  return close(r);
+}
+
+/// The driver that a dependence ends in; else the joint.
+const std::string& last_driver(const System& system, const std::vector<Redundancy>& redundant) {
+  for (const Redundancy& r : redundant)
+    if (is_driver(system.joints[at(r.joint)])) return system.joint_names[at(r.joint)];
+  return system.joint_names[at(redundant.front().joint)];
+}
+
+}  // namespace
+
+std::vector<std::string> doubts(const Model& model, const Assembly& assembly) {
+  const System& system = model.system;
+  std::vector<std::string> out;
+  std::string singular;
+  bool any = false;
+  for (const Redundancy& r : assembly.redundant) {
+    any = any || r.lasting;
+    if (!r.lasting) singular += (singular.empty() ? "" : ", ") + row_text(system, r.joint, r.row);
+  }
+  if (any)
+    out.push_back("redundant joints: how they share these forces does not follow from the motion and is settled by convention (least norm): " +
+                  rows_text(system, assembly.shared));
+  if (!singular.empty())
+    out.push_back("the start is a singular pose, where motions branch: there, and only there, other joints imply " + singular +
+                  "; speeds in `start` choose the branch, else it is the one nearest to the least kinetic energy");
+  return out;
+}
+
+namespace {
+
+Assembly assembled(const Scene& scene, const System& system, const Bent& bent) {
+  Closure closure(scene, system, pressed_directions(scene, system));
+  Rough r = rough_state(scene, system, bent);
+  const VectorXd before = r.y.head(system.n());
+  Assembly out;
+  out.iterations = undeformed_first(system, r, &Rough::W_pose, [&](Rough& from) { return close_joints(scene, closure, system, from); });
+  out.moved = (r.y.head(system.n()) - before).lpNorm<Eigen::Infinity>();
+  undeformed_first(system, r, &Rough::W_speed, [&](Rough& from) { return match_speeds(scene, closure, system, from); });
+  out.start.t = 0;
+  out.start.y = r.y;
+  out.start.impact_rate.assign(system.contacts.size(), 0.0);
+  RowReport rows = judge_rows(system, 0, r.y);
+  out.rank = rows.rank;
+  out.redundant = std::move(rows.redundant);
+  out.shared = std::move(rows.shared);
+  if (!out.redundant.empty())
+    if (const std::string quarrel = contradiction(system, 0, r.y, scene.run.until); !quarrel.empty())
+      throw AssemblyError(scene.file, named_place(scene, last_driver(system, out.redundant)),
+                          quarrel + "; leave one of them out, or let it follow the other");
+  return out;
+}
+
+/// The speeds that drivers ask for where the mechanism would rest without them.
+void start_at_rest(const Scene& scene, const Model& model, Assembly& out) {
+  const Equilibrium rest = find_equilibrium(scene, model, out);
+  if (!rest.found) throw AssemblyError(scene.file, {0, "start"}, "there is no equilibrium to start from: " + rest.reason);
+  Closure closure(scene, model.system, pressed_directions(scene, model.system));
+  Rough r = rough_state(scene, model.system, {});
+  out.moved = std::max(out.moved, (rest.state.y - out.start.y).head(model.system.n()).lpNorm<Eigen::Infinity>());
+  out.start = rest.state;
+  r.y = out.start.y;
+  undeformed_first(model.system, r, &Rough::W_speed, [&](Rough& from) { return match_speeds(scene, closure, model.system, from); });
+  out.start.y = r.y;
+}
+
+}  // namespace
+
+Assembly assemble(const Scene& scene, const System& system) { return assembled(scene, system, {}); }
+
+Assembly assemble(const Scene& scene, const Model& model) {
+  Assembly out = assembled(scene, model.system, model.bent);
+  if (scene.start_at_rest) start_at_rest(scene, model, out);
+  return out;
+}
+
+}  // namespace pintle

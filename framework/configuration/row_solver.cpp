@@ -1,0 +1,64 @@
+#include "framework/configuration/row_solver.h"
+
+#include "framework/configuration/least_step.h"
+
+namespace pintle {
+
+using Eigen::VectorXd;
+
+namespace {
+constexpr double damping = 1e-12;  // of least squares by normal equations; the sweeps take it away
+constexpr int sweeps = 6;
+}  // namespace
+
+void acceleration_side(const System& system, const Equations& eq, VectorXd& gamma) {
+  for (std::size_t k = 0; k < system.joints.size(); ++k)
+    for (int row = system.row_begin[k], i = 0; row < system.row_begin[k + 1]; ++row, ++i) {
+      gamma[row] = -eq.rows[k].kappa[i];
+      for (std::size_t side = 0; side < 2; ++side) {
+        const auto& L = side == 0 ? eq.rows[k].La : eq.rows[k].Lb;
+        const int marker = side == 0 ? marker_a(system.joints[k]) : marker_b(system.joints[k]);
+        if (system.markers[static_cast<std::size_t>(marker)].body == ground) continue;
+        const MarkerMotion& m = eq.motion[static_cast<std::size_t>(marker)];
+        gamma[row] -= L(i, 0) * m.a0.x() + L(i, 1) * m.a0.y() + L(i, 2) * m.alpha0;
+      }
+    }
+}
+
+void RowSolver::factor(const System& system, const Equations& eq) {
+  dense_ = system.n() <= dense_size;
+  if (dense_) {
+    D_.setZero(system.n_rows(), system.n());
+    visit_jacobian(eq, [&](int row, int column, double value) { D_(row, column) += system.row_scale[row] * value * system.scale[column]; });
+    cod_.setThreshold(singular);
+    cod_.compute(D_);
+    rank_ = cod_.rank();
+    return;
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  visit_jacobian(eq, [&](int row, int column, double value) {
+    entries.emplace_back(row, column, system.row_scale[row] * value * system.scale[column]);
+  });
+  A_.resize(system.n_rows(), system.n());
+  A_.setFromTriplets(entries.begin(), entries.end());
+  At_ = A_.transpose();
+}
+
+VectorXd RowSolver::solve(const System& system, const VectorXd& r) const {
+  const VectorXd b = system.row_scale.cwiseProduct(r);
+  const VectorXd x = dense_ ? VectorXd(cod_.solve(b)) : least_step(A_, VectorXd::Ones(A_.cols()), b, damping, sweeps);
+  return system.scale.cwiseProduct(x);
+}
+
+VectorXd RowSolver::reactions(const System& system, const VectorXd& g) const {
+  const VectorXd b = system.scale.cwiseProduct(g);
+  const VectorXd x = dense_ ? VectorXd(cod_.transpose().solve(b)) : least_step(At_, VectorXd::Ones(At_.cols()), b, damping, sweeps);
+  return system.row_scale.cwiseProduct(x);
+}
+
+VectorXd RowSolver::times(const System& system, const VectorXd& x) const {
+  const VectorXd scaled = x.cwiseQuotient(system.scale);
+  return (dense_ ? VectorXd(D_ * scaled) : VectorXd(A_ * scaled)).cwiseQuotient(system.row_scale);
+}
+
+}  // namespace pintle

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/bodies/elastic_body.h"
+#include "framework/component/reduction/modal_model.h"
+#include "framework/drawing/vtk.h"
+
+namespace pintle {
+
+/// Where a flexible body is and how it is bent: its coordinates and speeds.
+struct FlexiblePose {
+  Eigen::Vector2d r, v;        ///< mass centre of the undeformed body, world axes [m], [m/s]
+  double angle = 0, w = 0;     ///< of the frame [rad], [rad/s]
+  Eigen::VectorXd eta, speed;  ///< modal coordinates and their rates, n
+};
+
+/// A flexible body of a mechanism as it is drawn: a plate as its own mesh, a beam as a ribbon as
+/// high as its sections. Displacement and stress are linear in the modal coordinates; the shapes at
+/// all drawn points live on here, and only if frames are asked for. Displacements are those of
+/// first order: the foreshortening of a body that stiffens is not drawn.
+class FlexibleDrawing {
+ public:
+  /// @param centre  mass centre in body axes [m]
+  FlexibleDrawing(const ElasticBody&, const ModalModel&, const Eigen::Vector2d& centre);
+
+  /// The frame's grid: point x of the body, displaced by u in body axes, is drawn at
+  ///   r + A(θ)(x − centre + exaggeration·u),
+  /// with these fields, which no exaggeration enters:
+  ///
+  /// | field                                | what |
+  /// |--------------------------------------|---------------------------------------------------|
+  /// | `displacement [m]`                   | A u                                               |
+  /// | `velocity [m/s]`                     | v + w Z d + A u̇, d = A(x − centre + u)            |
+  /// | `von Mises [Pa]`                     | of plates; of beams the magnitude of N/A ∓ M y/I  |
+  /// | `principal 1 [Pa]`, `principal 2 [Pa]` | the larger and the smaller one in the plane     |
+  /// | `section force [N]`                  | of beams: N along the axis and V across it        |
+  /// | `section moment [N m]`               | of beams: M, stretching the right side if positive |
+  DrawnBody at(const FlexiblePose&, double exaggeration) const;
+  double largest_displacement(const Eigen::VectorXd& eta) const;  ///< of a drawn point [m]
+  double size() const { return size_; }                           ///< diagonal of the body [m]
+
+ private:
+  std::string name_;
+  Eigen::Matrix2Xd x_;  ///< drawn points from the mass centre, undeformed, body axes [m]
+  std::vector<Cells> cells_;
+  double size_;
+  // A column a shape, drawn points one below the other:
+  Eigen::MatrixXd u_;       ///< displacement [x y], body axes
+  Eigen::MatrixXd stress_;  ///< [σx σy τxy σz]; of beams the stress along the axis stands in σx
+  Eigen::MatrixXd forces_;  ///< of beams: [N V M]
+};
+
+/// Stress of a named point while a mechanism runs: a few rows times the modal coordinates. It is
+/// told from displacement alone, which misses what loads between a beam's nodes, such as its
+/// inertia, add within an element: less as the elements are finer.
+struct StressProbe {
+  bool beam = false;
+  /// Plates: [σx σy τxy σz] [Pa], 4 × n, the mean over the elements that meet at the node. Beams:
+  /// [N V M] [N, N, N m], 3 × n, the mean of both sides of the node.
+  Eigen::MatrixXd rows;
+  double A = 0, I = 0, distance = 0;  ///< of a beam's section there, likewise [m²], [m⁴], [m]
+};
+/// @throws SceneError  there is no such point; the origin of the axes or the middle of a hole,
+/// where
+///                     there is no material
+StressProbe stress_probe(const Scene&, const ElasticBody&, const ModalModel&, const PointRef&);
+
+}  // namespace pintle

@@ -1,0 +1,371 @@
+#include "framework/dynamics/equations/equations.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/common/worse.h"
+#include "framework/dynamics/equations/branch.h"
+
+namespace pintle {
+
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+using Index = Eigen::Index;
+using Modal = Eigen::Map<const VectorXd>;
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// v ← M⁻¹ v
+void multiply_inverse_mass(const System& system, Equations& eq, VectorXd& v) {
+  const Index n = system.n_rigid();
+  if (eq.flexible.empty()) {
+    v.array() *= eq.W.array();
+    return;
+  }
+  for (Index b = 0; b < n / 3; ++b)
+    if (eq.flexible_of[static_cast<std::size_t>(b)] < 0) v.segment<3>(3 * b).array() *= eq.W.segment<3>(3 * b).array();
+  for (FlexibleInertia& body : eq.flexible) solve(body, v.data());
+}
+
+// v −= M⁻¹ Cqᵀ x
+void subtract_reaction(const System& system, Equations& eq, const VectorXd& x, double* v) {
+  eq.g.setZero();
+  add_reaction(eq, x, eq.g);
+  multiply_inverse_mass(system, eq, eq.g);
+  Eigen::Map<VectorXd>(v, eq.g.size()) -= eq.g;
+}
+
+// ∂C/∂p of the marker's pose
+const double* row_of_L(const Equations& eq, const Equations::Source& r) {
+  const ConstraintRows& rows = eq.rows[at(r.joint)];
+  return (r.is_b ? rows.Lb : rows.La).data() + 3 * r.i;
+}
+
+// out += Cq v
+void add_product(const Equations& eq, const double* v, VectorXd& out) {
+  for (const Equations::Row& r : eq.side_rows) {
+    const double *B = eq.B.front().data() + r.at, *x = v + r.q;
+    out.data()[r.row] += B[0] * x[0] + B[1] * x[1] + B[2] * x[2];
+  }
+  if (eq.flexible.empty()) return;
+  for (const Equations::Side& side : eq.sides) {
+    if (!side.bends) continue;
+    double* o = out.data() + side.row;
+    const FlexibleInertia& body = eq.flexible[at(side.flexible)];
+    const Eigen::Map<const VectorXd> eta(v + body.begin, body.n);
+    for (int r = 0; r < side.m; ++r) o[r] += eq.B_eta[side.block].row(r).dot(eta);
+  }
+}
+
+// λ and a from a = M⁻¹ f. A body of little inertia, or on a long arm, leaves Cq a − γ above rounding;
+// the residual, solved for again, takes that away.
+void solve_reactions(const System& system, Equations& eq) {
+  constexpr double rounding = 1e-13;
+  constexpr int refinements = 2;
+  eq.lambda.setZero();
+  if (eq.lambda.size() == 0) return;
+  double size = 0;
+  for (int i = 0; i <= refinements; ++i) {
+    eq.mu = -eq.gamma;
+    add_product(eq, eq.a.data(), eq.mu);
+    const double residual = largest(eq.mu);
+    if (i == 0) size = residual;
+    if (i > 0 && residual <= rounding * size) break;
+    eq.schur.solve(eq.mu);
+    eq.lambda += eq.mu;
+    subtract_reaction(system, eq, eq.mu, eq.a.data());
+    if (!eq.uneven && !eq.schur.weak()) break;
+  }
+}
+
+// Dependent rows ask for the same accelerations: the solved-for λ leave nothing of Cq a − γ.
+bool agree(const System& system, Equations& eq) {
+  constexpr double little = 1e-2;  // of what they ask: close to singular poses speeds off by 1e-6 weigh that much
+  constexpr double rounding = 1e-8;  // of the accelerations that the joints take away
+  eq.g = eq.f;
+  multiply_inverse_mass(system, eq, eq.g);
+  const double free = rounding * largest(eq.g);
+  eq.mu = -eq.gamma;
+  const double size = largest(eq.mu);
+  add_product(eq, eq.a.data(), eq.mu);
+  return largest(eq.mu) <= little * std::max({size, largest(eq.a), free});
+}
+
+}  // namespace
+
+void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
+  for (Index b = 0; b < eq.cos_.size(); ++b) {
+    const double angle = y[3 * b + 2];
+    eq.cos_[b] = std::cos(angle);
+    eq.sin_[b] = std::sin(angle);
+  }
+  for (std::size_t i = 0; i < eq.points.size(); ++i) {
+    const Equations::Point& point = eq.points[i];
+    if (point.body == ground) continue;
+    MarkerMotion& m = eq.motion[i];
+    const double c = eq.cos_[point.body], s = eq.sin_[point.body];
+    const double* q = y.data() + 3 * point.body;
+    if (m.flex.cols() > 0) {
+      pose_on_flexible(system, system.markers[i], y, c, s, m);
+    } else {
+      m.d = {c * point.x - s * point.y, s * point.x + c * point.y};
+      m.r = {q[0] + m.d.x(), q[1] + m.d.y()};
+      m.angle = q[2] + point.angle;
+    }
+    if (!eq.directed[i]) continue;
+    if (m.angle == q[2])
+      m.u = {c, s};
+    else
+      m.u = {std::cos(m.angle), std::sin(m.angle)};
+  }
+  for (std::size_t k = 0; k < system.joints.size(); ++k)
+    evaluate_pose(system.joints[k], eq.motion[eq.ends[k][0]], eq.motion[eq.ends[k][1]], t, eq.rows[k]);
+  for (Index row = 0; row < eq.C.size(); ++row) {
+    const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
+    eq.C[row] = eq.rows[at(joint)].C[i];
+  }
+  for (std::size_t k = 0; k < eq.sources.size(); ++k) {  // B = L J
+    const double* L = row_of_L(eq, eq.sources[k]);
+    const Vector2d& d = eq.motion[at(eq.sources[k].marker)].d;
+    double* B = eq.B.front().data() + eq.side_rows[k].at;
+    B[0] = L[0];
+    B[1] = L[1];
+    B[2] = L[2] - L[0] * d.y() + L[1] * d.x();
+  }
+  if (eq.flexible.empty()) return;
+  for (const Equations::Side& side : eq.sides) {
+    if (!side.bends) continue;
+    const ConstraintRows::Block& L = side.is_b ? eq.rows[side.joint].Lb : eq.rows[side.joint].La;
+    RowBlock& B_eta = eq.B_eta[side.block];
+    const Eigen::Matrix2Xd& flex = eq.motion[at(side.marker)].flex;
+    for (int i = 0; i < side.m; ++i)
+      B_eta.row(i) = L(i, 0) * flex.row(0) + L(i, 1) * flex.row(1) + L(i, 2) * system.markers[at(side.marker)].slope;
+  }
+}
+
+void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
+  const double* s = y.data() + system.n();
+  for (std::size_t i = 0; i < eq.points.size(); ++i) {
+    const int body = eq.points[i].body;
+    if (body == ground) continue;
+    MarkerMotion& m = eq.motion[i];
+    m.w = s[3 * body + 2];
+    m.v = {s[3 * body] - m.w * m.d.y(), s[3 * body + 1] + m.w * m.d.x()};
+    m.a0 = -m.w * m.w * m.d;
+    if (m.flex.cols() > 0) move_on_flexible(system, system.markers[i], y, eq.cos_[body], eq.sin_[body], m);
+  }
+  for (std::size_t k = 0; k < system.joints.size(); ++k)
+    evaluate_speed(system.joints[k], eq.motion[eq.ends[k][0]], eq.motion[eq.ends[k][1]], t, eq.rows[k]);
+  for (Index row = 0; row < eq.Cdot.size(); ++row) {
+    const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
+    eq.Cdot[row] = eq.rows[at(joint)].Ct[i];
+  }
+  add_product(eq, s, eq.Cdot);
+}
+
+void weigh(const System& system, const VectorXd& y, Equations& eq) {
+  for (FlexibleInertia& body : eq.flexible) evaluate_inertia(system, y, eq.cos_[body.body], eq.sin_[body.body], body);
+}
+
+void add_mass_times(const System& system, const Equations& eq, const VectorXd& v, VectorXd& out) {
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const auto i = static_cast<Index>(3 * b);
+    if (eq.flexible_of[b] >= 0) {
+      add_mass_times(eq.flexible[at(eq.flexible_of[b])], v.data(), out.data());
+      continue;
+    }
+    out[i] += system.bodies[b].m * v[i];
+    out[i + 1] += system.bodies[b].m * v[i + 1];
+    out[i + 2] += system.bodies[b].J * v[i + 2];
+  }
+}
+
+void add_reaction(const Equations& eq, const VectorXd& x, VectorXd& out) {
+  for (const Equations::Row& r : eq.side_rows) {
+    const double *B = eq.B.front().data() + r.at, x_r = x.data()[r.row];
+    double* o = out.data() + r.q;
+    o[0] += B[0] * x_r;
+    o[1] += B[1] * x_r;
+    o[2] += B[2] * x_r;
+  }
+  if (eq.flexible.empty()) return;
+  for (const Equations::Side& side : eq.sides) {
+    if (!side.bends) continue;
+    const FlexibleInertia& body = eq.flexible[at(side.flexible)];
+    for (int r = 0; r < side.m; ++r)
+      out.segment(body.begin, body.n) += x[side.row + r] * eq.B_eta[side.block].row(r).transpose();
+  }
+}
+
+void factor(const System& system, const VectorXd& y, Equations& eq) {
+  ++eq.factorizations;
+  weigh(system, y, eq);
+  eq.regular = true;
+  for (FlexibleInertia& body : eq.flexible) eq.regular = eq.regular && invert(body);
+  if (!eq.regular) return;
+  if (eq.flexible.empty()) {
+    eq.regular = eq.schur.factor(eq.B, eq.B_eta_hat);
+    return;
+  }
+  for (const Equations::Side& side : eq.sides) {  // Cq M⁻¹ Cqᵀ = B̂ B̂ᵀ + B̂_η B̂_ηᵀ
+    if (side.flexible < 0) {
+      eq.B_hat[side.block] = eq.B[side.block];
+    } else if (!side.bends) {
+      eq.B_hat[side.block].noalias() = eq.B[side.block] * eq.flexible[at(side.flexible)].frame.root;
+    } else {
+      Eigen::Matrix3d B_hat;
+      to_metric(eq.flexible[at(side.flexible)], eq.B[side.block], eq.B_eta[side.block], B_hat, eq.B_eta_hat[side.block]);
+      eq.B_hat[side.block] = B_hat;
+    }
+  }
+  eq.regular = eq.schur.factor(eq.B_hat, eq.B_eta_hat);
+}
+
+void add_wrench(const System& system, const Equations& eq, int marker, const Wrench& w, VectorXd& v) {
+  const int body = system.markers[at(marker)].body;
+  if (body == ground) return;
+  const Vector2d& d = eq.motion[at(marker)].d;
+  v[3 * body] += w[0];
+  v[3 * body + 1] += w[1];
+  v[3 * body + 2] += w[2] + d.x() * w[1] - d.y() * w[0];
+  const Eigen::Matrix2Xd& flex = eq.motion[at(marker)].flex;
+  if (const Index n = flex.cols(); n > 0) {
+    const Eigen::RowVectorXd& slope = system.markers[at(marker)].slope;
+    v.segment(system.eta_begin[at(body)], n) += (w[0] * flex.row(0) + w[1] * flex.row(1) + w[2] * slope).transpose();
+  }
+}
+
+namespace {
+
+// Of rigid bodies; flexible ones have more to do (add_forces).
+void add_weight(const System& system, Equations& eq) {
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    if (eq.flexible_of[b] >= 0) continue;
+    const auto i = static_cast<Index>(3 * b);
+    eq.f[i] = system.bodies[b].m * system.gravity.x();
+    eq.f[i + 1] = system.bodies[b].m * system.gravity.y();
+  }
+}
+
+}  // namespace
+
+void load(const System& system, const State& state, Equations& eq) {
+  eq.f.setZero();
+  if (has_gravity(system)) add_weight(system, eq);
+  for (FlexibleInertia& body : eq.flexible) add_forces(system, state.y, body, eq.f);
+  for (std::size_t i = 0; i < system.forces.size(); ++i) {
+    const int ma = marker_a(system.forces[i]), mb = marker_b(system.forces[i]);
+    eq.force[i] = evaluate(system.forces[i], eq.motion[at(ma)], eq.motion[at(mb)], state.t);
+    add_wrench(system, eq, ma, eq.force[i].on_a, eq.f);
+    add_wrench(system, eq, mb, eq.force[i].on_b, eq.f);
+  }
+  for (std::size_t i = 0; i < system.contacts.size(); ++i) {
+    const ContactPair& pair = system.contacts[i];
+    eq.contact[i] = evaluate(pair, eq.motion[at(pair.journal)], eq.motion[at(pair.bearing)],
+                             state.impact_rate[i]);
+    if (eq.contact[i].normal.force == 0) continue;
+    add_wrench(system, eq, pair.journal, eq.contact[i].on_journal, eq.f);
+    add_wrench(system, eq, pair.bearing, eq.contact[i].on_bearing, eq.f);
+  }
+}
+
+void accelerate(const System& system, const State& state, Equations& eq) {
+  load(system, state, eq);
+
+  // S λ = Cq M⁻¹ f − γ,  a = M⁻¹ (f − Cqᵀ λ)
+  eq.a = eq.f;
+  multiply_inverse_mass(system, eq, eq.a);
+  for (Index row = 0; row < eq.gamma.size(); ++row) {
+    const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
+    eq.gamma[row] = -eq.rows[at(joint)].kappa[i];
+  }
+  for (std::size_t k = 0; k < eq.sources.size(); ++k) {
+    const double* L = row_of_L(eq, eq.sources[k]);
+    const MarkerMotion& m = eq.motion[at(eq.sources[k].marker)];
+    eq.gamma.data()[eq.side_rows[k].row] -= L[0] * m.a0.x() + L[1] * m.a0.y() + L[2] * m.alpha0;
+  }
+  solve_reactions(system, eq);
+  ++eq.evaluations;
+  if (eq.schur.lost() > 0) eq.regular = agree(system, eq) && follow_branch(system, state, eq);
+}
+
+void fill_derivative(const System& system, const VectorXd& y, const Equations& eq, VectorXd& dy) {
+  const Index n = system.n();
+  dy.head(n) = y.segment(n, n);
+  dy.segment(n, n) = eq.a;
+  for (Index i = 0; i < system.n_z(); ++i) {
+    const Integral& z = system.integrals[static_cast<std::size_t>(i)];
+    const std::size_t k = at(z.index);
+    double rate = 0;
+    switch (z.account) {
+      case Account::hysteresis: rate = eq.contact[k].normal.dissipation; break;
+      case Account::friction: rate = eq.contact[k].friction_loss; break;
+      case Account::damper: rate = eq.force[k].dissipation; break;
+      case Account::load: rate = eq.force[k].input; break;
+      case Account::driver: rate = eq.lambda[system.row_begin[k]] * eq.rows[k].Ct[0]; break;
+      case Account::damping: rate = damping_loss(system, y, z.index); break;
+      case Account::scheme: break;  // no rate: booked step by step
+    }
+    dy[2 * n + i] = rate;
+  }
+}
+
+ContactEffect clearance_effect(const System& system, const Equations& eq, std::size_t c) {
+  ContactEffect out = eq.contact[c];
+  if (system.contacts[c].link < 0) return out;
+  const double N = eq.lambda[system.row_begin[at(system.contacts[c].link)]];
+  out.normal.force = N;
+  out.on_journal << -N * out.gap.n, 0;
+  out.on_bearing << N * out.gap.n, 0;
+  return out;
+}
+
+bool evaluate(const System& system, const State& state, Equations& eq, VectorXd& dy) {
+  pose(system, state.t, state.y, eq);
+  factor(system, state.y, eq);
+  if (!eq.regular) return false;
+  speed(system, state.t, state.y, eq);
+  accelerate(system, state, eq);
+  fill_derivative(system, state.y, eq, dy);
+  return eq.regular;
+}
+
+double position_violation(const System& system, const Equations& eq) {
+  return largest(eq.C.cwiseProduct(system.row_scale));
+}
+
+double velocity_violation(const System& system, const VectorXd& y, const Equations& eq) {
+  if (eq.Cdot.size() == 0) return 0;
+  return largest(eq.Cdot.cwiseProduct(system.row_scale)) / fastest_rate(system, y);
+}
+
+double angle_rounding(const System& system, const VectorXd& y) {
+  double angle = 0;
+  for (Index b = 2; b < system.n_rigid(); b += 3) angle = worse(angle, std::abs(y[b]));
+  return 1.1e-16 * angle;
+}
+
+double fastest_rate(const System& system, const VectorXd& y) {
+  double fastest = 1e-9;  // less is rest
+  const Index n = system.n();
+  for (Index i = 0; i < n; ++i) fastest = worse(fastest, std::abs(y[n + i]) / system.scale[i]);
+  return fastest;
+}
+
+bool project(const System& system, double t, VectorXd& y, Equations& eq) {
+  const auto factored = [&] {
+    factor(system, y, eq);
+    return eq.regular;
+  };
+  const auto subtract = [&](const VectorXd& violation, double* x) {
+    eq.mu = violation;
+    eq.schur.solve(eq.mu);
+    subtract_reaction(system, eq, eq.mu, x);
+    return largest(eq.g.cwiseQuotient(system.scale));
+  };
+  return onto_constraints(system, t, y, eq, factored, subtract);
+}
+
+}  // namespace pintle

@@ -1,0 +1,192 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "eigen_layout.h"
+#include "framework/dynamics/model/flexible.h"
+#include "framework/dynamics/model/marker_motion.h"
+#include "framework/dynamics/model/system.h"
+#include "framework/dynamics/solvers/schur.h"
+
+namespace pintle {
+
+/// Scratch of one evaluation of the equations of motion, sized by the system; one per thread.
+///   M a + Cqᵀ λ = f(q, s, t),   Cq a = γ,   Cq s = −Ct,   C = 0.
+/// Nothing here allocates after construction while the rows are few enough to be dense.
+struct Equations {
+  explicit Equations(const System&);
+
+  /// One side of a joint on a body that moves, with the indices it needs at hand.
+  struct Side {
+    std::size_t joint, block;  ///< B[block] is its share of Cq
+    int marker, q, row, m;     ///< marker; first coordinate; first row; rows
+    bool is_b;
+    int flexible;              ///< index into `flexible`, −1 for a rigid body
+    bool bends;                ///< B_eta may be other than 0
+  };
+  std::vector<Side> sides;
+  /// One row of a side on a body that moves, for products: B's three entries, counted through all blocks, at q.
+  struct Row {
+    int row, q, at;
+  };
+  std::vector<Row> side_rows;
+  /// … and where it comes from: row i of a joint's L at a marker.
+  struct Source {
+    int joint, marker;
+    short i;
+    bool is_b;
+  };
+  std::vector<Source> sources;
+  /// What a pose needs of a marker on a rigid body or the ground; tables as narrow as they can be: large systems wait for memory.
+  struct Point {
+    int body;
+    double x, y, angle;
+  };
+  std::vector<Point> points;          ///< of each marker
+  struct JointRow {
+    int joint, i;
+  };
+  std::vector<JointRow> joint_rows;   ///< of each constraint row
+  std::vector<std::array<std::size_t, 2>> ends;  ///< markers a and b of each joint
+  Eigen::VectorXd W;                  ///< M⁻¹ of rigid bodies, diagonal, n_rigid
+  std::vector<FlexibleInertia> flexible;  ///< of each flexible body
+  std::vector<int> flexible_of;       ///< per body, index into `flexible` or −1
+
+  std::vector<MarkerMotion> motion;   ///< of each marker
+  std::vector<bool> directed;         ///< per marker: a slot or a following force asks for its direction u
+  std::vector<ConstraintRows> rows;   ///< of each joint, in poses of its markers
+  std::vector<Schur::Block> B;        ///< rows of Cq, two blocks a joint: L J on [x y θ] …
+  std::vector<RowBlock> B_eta;        ///< … and on η; empty for a rigid body
+  std::vector<Schur::Block> B_hat;    ///< both in the metric of M⁻¹: see to_metric
+  std::vector<RowBlock> B_eta_hat;
+  Schur schur;
+  Eigen::VectorXd C;                  ///< position violation [m or rad], n_rows
+  Eigen::VectorXd Cdot;               ///< velocity violation Cq s + Ct, n_rows
+  Eigen::VectorXd f, a, lambda;       ///< forces, accelerations, multipliers
+  std::vector<ContactEffect> contact;
+  std::vector<ForceEffect> force;
+  bool regular = true;                ///< false: no accelerations can be had here
+  bool uneven = false;                ///< inertias so unlike that λ and a need a second look
+  int lasting = 0;                    ///< rows that others imply wherever it has moved so far
+
+  long evaluations = 0, factorizations = 0;
+
+  Eigen::VectorXd gamma;              ///< right-hand side at acceleration level, Cq a = γ
+  Eigen::VectorXd mu, g, cos_, sin_;  ///< work
+};
+
+/// Poses of the markers, C and Cq. q is the first n numbers of y.
+void pose(const System&, double t, const Eigen::VectorXd& y, Equations&);
+/// Speeds of the markers, Ct, κ and Ċ. After pose.
+void speed(const System&, double t, const Eigen::VectorXd& y, Equations&);
+/// Inertia of flexible bodies. After pose.
+void weigh(const System&, const Eigen::VectorXd& y, Equations&);
+/// Weighs, inverts the inertia of flexible bodies and factors S. After pose; sets `regular`.
+void factor(const System&, const Eigen::VectorXd& y, Equations&);
+/// f: gravity, what inertia does with speed, force elements, contacts. After speed and weigh.
+void load(const System&, const State&, Equations&);
+/// Loads, λ, a. After speed and factor. Clears `regular` where rows contradict each other, and in a
+/// singular pose that speeds do not lead out of.
+void accelerate(const System&, const State&, Equations&);
+/// out += M v, n. After weigh.
+void add_mass_times(const System&, const Equations&, const Eigen::VectorXd& v, Eigen::VectorXd& out);
+/// out += Cqᵀ x, x of n_rows. After pose.
+void add_reaction(const Equations&, const Eigen::VectorXd& x, Eigen::VectorXd& out);
+/// ẏ = [s, a, ż] after accelerate.
+void fill_derivative(const System&, const Eigen::VectorXd& y, const Equations&, Eigen::VectorXd& dy);
+
+/// Everything above in order. @returns false if there are no accelerations
+bool evaluate(const System&, const State&, Equations&, Eigen::VectorXd& dy);
+
+/// Largest |C| over the mechanism's length, and |Ċ| over its length and fastest angular rate.
+double position_violation(const System&, const Equations&);
+double velocity_violation(const System&, const Eigen::VectorXd& y, const Equations&);
+/// Largest speed over its scale, never 0 [1/s].
+double fastest_rate(const System&, const Eigen::VectorXd& y);
+/// What the last digit of the angles, after many turns, leaves of |C| at the least, over the mechanism's length.
+double angle_rounding(const System&, const Eigen::VectorXd& y);
+
+/// Newton's iteration for q on C = 0, then s on Ċ = 0, at time t. `factor()` prepares, at a pose, what
+/// `subtract(violation, x)` needs to take a violation out of x, the coordinates or the speeds in y; it
+/// returns the largest change over its scale. `factor` returns false at a pose where that cannot be had.
+/// Leaves pose and speed at the corrected state. Near a singular pose, where motions branch and a small
+/// violation asks for a large correction, it does not jump to another branch: it fails where Newton's
+/// method does not contract fast, and leaves the speeds alone rather than turn them.
+/// @returns false if it does not converge
+template <class Factor, class Subtract>
+bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equations& eq, Factor factor,
+                      Subtract subtract) {
+  constexpr double still_good = 1e-8;  // beyond so many turns that digits run short of it, it gives up
+  const double known = angle_rounding(system, y), enough = std::max(1e-13, known), good = std::max(1e-11, std::min(8 * known, still_good));
+  constexpr double contracts = 0.1;              // a jump between branches leaves a quarter of the violation at the least
+  constexpr double amplified = 1e3, turns = 1e-6;  // times the violation; of the fastest speed
+  constexpr int most = 8;
+  double worst = 0;
+  for (int i = 0; i < most; ++i) {
+    pose(system, t, y, eq);
+    if (!factor()) return false;
+    const double before = worst;
+    worst = position_violation(system, eq);
+    if (worst <= enough || (i > 0 && worst <= good && worst > 0.1 * before)) break;
+    if (i > 0 && eq.schur.weak() && worst > contracts * before) return false;
+    subtract(eq.C, y.data());
+  }
+  if (!(worst <= good)) return false;
+  speed(system, t, y, eq);
+  for (int i = 0; i < 2; ++i) {
+    const double violation = velocity_violation(system, y, eq);  // over the fastest speed
+    if (violation <= 1e-13) break;
+    const double fastest = fastest_rate(system, y);
+    const double change = subtract(eq.Cdot, y.data() + system.n());
+    if (eq.schur.weak() && change > turns * fastest && change > amplified * violation * fastest) {
+      eq.Cdot = -eq.Cdot;
+      subtract(eq.Cdot, y.data() + system.n());
+      i = 2;
+    }
+    speed(system, t, y, eq);
+  }
+  return true;
+}
+
+/// Moves q, then s, to C = 0 and Ċ = 0 by the shortest way in the metric of M; leaves pose, speed and
+/// factor as for the corrected state. @returns false if it does not converge
+bool project(const System&, double t, Eigen::VectorXd& y, Equations&);
+
+/// put(column of q, [∂r_x, ∂r_y, ∂angle]) for each coordinate that moves a marker. After pose.
+template <class Put>
+void visit_motion(const System& system, const Equations& eq, int marker, Put put) {
+  const Marker& m = system.markers[static_cast<std::size_t>(marker)];
+  if (m.body == ground) return;
+  const MarkerMotion& motion = eq.motion[static_cast<std::size_t>(marker)];
+  put(3 * m.body, Eigen::Vector3d(1, 0, 0));
+  put(3 * m.body + 1, Eigen::Vector3d(0, 1, 0));
+  put(3 * m.body + 2, Eigen::Vector3d(-motion.d.y(), motion.d.x(), 1));
+  const int begin = system.eta_begin[static_cast<std::size_t>(m.body)];
+  for (int i = 0; i < static_cast<int>(motion.flex.cols()); ++i)
+    put(begin + i, Eigen::Vector3d(motion.flex(0, i), motion.flex(1, i), m.slope[i]));
+}
+
+/// put(row, column, value) for each entry of Cq, zeros included. After pose.
+template <class Put>
+void visit_jacobian(const Equations& eq, Put put) {
+  for (const Equations::Side& side : eq.sides)
+    for (int r = 0; r < side.m; ++r) {
+      for (int c = 0; c < 3; ++c) put(side.row + r, side.q + c, eq.B[side.block](r, c));
+      if (side.flexible < 0) continue;
+      const FlexibleInertia& body = eq.flexible[static_cast<std::size_t>(side.flexible)];
+      for (int c = 0; c < body.n; ++c) put(side.row + r, body.begin + c, eq.B_eta[side.block](r, c));
+    }
+}
+
+/// What clearance joint c does in an evaluated state: its contact, or its massless link, whose normal force is
+/// that of the row, acts at the centres, and is below zero where the link pushes as no wall could pull.
+ContactEffect clearance_effect(const System&, const Equations&, std::size_t c);
+
+/// v ← v + Σ of a marker's wrench brought to its body's coordinates.
+void add_wrench(const System&, const Equations&, int marker, const Wrench&, Eigen::VectorXd& v);
+
+}  // namespace pintle

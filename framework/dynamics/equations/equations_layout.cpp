@@ -1,0 +1,89 @@
+// What the equations of a system have room for: tables of markers, sides and rows, found once.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "framework/dynamics/equations/equations.h"
+
+namespace pintle {
+
+using Eigen::VectorXd;
+using Index = Eigen::Index;
+
+namespace {
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+}  // namespace
+
+Equations::Equations(const System& system)
+    : motion(system.markers.size()),
+      rows(system.joints.size()),
+      B(2 * system.joints.size(), Schur::Block::Zero()),
+      B_eta(B.size()),
+      schur(system),
+      C(VectorXd::Zero(system.n_rows())),
+      Cdot(C),
+      f(VectorXd::Zero(system.n())),
+      a(f),
+      lambda(C),
+      contact(system.contacts.size()),
+      force(system.forces.size()),
+      gamma(C),
+      mu(C),
+      g(f),
+      cos_(VectorXd::Zero(static_cast<Index>(system.bodies.size()))),
+      sin_(cos_) {
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const Marker& marker = system.markers[i];
+    points.push_back({marker.body, marker.x_BP.x(), marker.x_BP.y(), marker.angle});
+    if (marker.body != ground) continue;
+    motion[i].r = motion[i].d = marker.x_BP;
+    motion[i].angle = marker.angle;
+    motion[i].u = {std::cos(marker.angle), std::sin(marker.angle)};
+  }
+  directed.assign(motion.size(), false);
+  for (const Joint& j : system.joints)
+    if (std::holds_alternative<Slot>(j) || std::holds_alternative<Prismatic>(j)) directed[at(marker_a(j))] = true;
+  for (const Force& acting : system.forces)
+    if (const auto* p = std::get_if<PointForce>(&acting); p && p->follows) directed[at(p->b)] = true;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const int n = system.bodies[b].modes();
+    flexible_of.push_back(n > 0 ? static_cast<int>(flexible.size()) : -1);
+    if (n == 0) continue;
+    flexible.emplace_back(system, static_cast<int>(b));
+  }
+  for (std::size_t i = 0; i < motion.size(); ++i)
+    if (system.markers[i].body != ground) motion[i].flex.setZero(2, system.bodies[at(system.markers[i].body)].modes());
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const std::array<int, 2> markers{marker_a(system.joints[k]), marker_b(system.joints[k])};
+    ends.push_back({at(markers[0]), at(markers[1])});
+    for (int i = 0; i < pintle::rows(system.joints[k]); ++i) joint_rows.push_back({static_cast<int>(k), i});
+    for (std::size_t s = 0; s < 2; ++s)
+      if (const int body = system.markers[at(markers[s])].body; body != ground) {
+        sides.push_back({k, 2 * k + s, markers[s], 3 * body, system.row_begin[k],
+                         system.row_begin[k + 1] - system.row_begin[k], s == 1, flexible_of[at(body)],
+                         feels_shapes(system, system.joints[k], markers[s])});
+        for (int i = 0; i < sides.back().m; ++i) {
+          side_rows.push_back({system.row_begin[k] + i, 3 * body, static_cast<int>(9 * (2 * k + s)) + 3 * i});
+          sources.push_back({static_cast<int>(k), markers[s], static_cast<short>(i), s == 1});
+        }
+        B_eta[2 * k + s].setZero(3, system.bodies[at(body)].modes());
+      }
+  }
+  if (!flexible.empty()) B_hat = B;
+  B_eta_hat = B_eta;
+  for (const Side& side : sides)
+    if (side.flexible >= 0 && flexible[at(side.flexible)].stiffens) B_eta_hat[side.block].setZero(3, flexible[at(side.flexible)].n + 3);
+  W.resize(system.n_rigid());
+  constexpr double alike = 100;  // inverse inertias that leave no more than two digits of rounding
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  const auto weigh_in = [&](double w) { least = std::min(least, w), most = std::max(most, w); };
+  for (const Body& body : system.bodies) weigh_in(1 / body.m);
+  for (const Marker& m : system.markers)
+    if (m.body != ground) weigh_in(1 / system.bodies[at(m.body)].m + m.x_BP.squaredNorm() / system.bodies[at(m.body)].J);
+  uneven = !flexible.empty() || most > alike * least;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b)
+    W.segment<3>(static_cast<Index>(3 * b)) << 1 / system.bodies[b].m, 1 / system.bodies[b].m,
+        1 / system.bodies[b].J;
+}
+
+}  // namespace pintle

@@ -1,0 +1,248 @@
+#include "framework/dynamics/equations/tangent.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace pintle {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Block = Eigen::Map<Eigen::MatrixXd>;
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+int size_of(const System& system, int body) { return 3 + system.bodies[at(body)].modes(); }
+
+// Coordinate i of a body, of [x y θ η], in q.
+int coordinate(const System& system, int body, int i) {
+  return i < 3 ? 3 * body + i : system.eta_begin[at(body)] + i - 3;
+}
+
+}  // namespace
+
+Tangent::Tangent(const System& system) {
+  for (std::size_t i = 0; i < system.joints.size(); ++i)
+    link(system, Pair::joint, i, marker_a(system.joints[i]), marker_b(system.joints[i]), reach(system.joints[i]));
+  for (std::size_t i = 0; i < system.forces.size(); ++i)
+    link(system, Pair::force, i, marker_a(system.forces[i]), marker_b(system.forces[i]), reach(system.forces[i]));
+  for (std::size_t i = 0; i < system.contacts.size(); ++i)
+    link(system, Pair::contact, i, system.contacts[i].journal, system.contacts[i].bearing, reach(system.contacts[i]));
+  lay_out(system);
+
+  Index most = 0;
+  for (const Body& body : system.bodies) {
+    if (body.modes() > 0) flexible_.emplace_back(body.modes());
+    most = std::max<Index>(most, body.modes());
+  }
+  for (End& end : ends_) {
+    end.J_eta.setZero(most, 3);
+    end.V_eta.setZero(most, 3);
+  }
+}
+
+// Notes the pair with 0 for each block that it has; lay_out turns these into places.
+void Tangent::link(const System& system, Pair::Kind kind, std::size_t index, int a, int b, const PairReach& r) {
+  const bool on_a = system.markers[at(a)].body != ground, on_b = system.markers[at(b)].body != ground;
+  const auto block = [](bool there) { return there ? 0 : -1; };
+  const bool between = r.ab && on_a && on_b;
+  const Pair pair{kind, index, {a, b}, {{{block(r.aa && on_a), block(between)}, {block(between), block(r.bb && on_b)}}}, r.rate};
+  if (pair.block[0][0] >= 0 || pair.block[1][1] >= 0 || between) pairs_.push_back(pair);
+}
+
+void Tangent::lay_out(const System& system) {
+  const auto body_of = [&](const Pair& pair, std::size_t side) { return system.markers[at(pair.marker[side])].body; };
+  const auto put_block = [&](int row_body, int column_body) {
+    const int begin = static_cast<int>(places_.size());
+    for (int j = 0; j < size_of(system, column_body); ++j)
+      for (int i = 0; i < size_of(system, row_body); ++i)
+        places_.push_back({coordinate(system, row_body, i), coordinate(system, column_body, j)});
+    return begin;
+  };
+
+  std::vector<bool> full;
+  for (const Body& body : system.bodies) full.push_back(body.modes() > 0);
+  for (const Pair& pair : pairs_)
+    for (const std::size_t side : {0u, 1u}) {
+      // Both ends on one body: what is between them is its own.
+      const bool itself = pair.block[0][1] >= 0 && body_of(pair, 0) == body_of(pair, 1);
+      if (pair.block[side][side] >= 0 || itself) full[at(body_of(pair, side))] = true;
+    }
+
+  for (int b = 0; b < static_cast<int>(system.bodies.size()); ++b) {
+    const int begin = static_cast<int>(places_.size());
+    own_.push_back({begin, full[at(b)] ? size_of(system, b) : 0});
+    if (full[at(b)])
+      put_block(b, b);
+    else
+      for (int i = 0; i < 3; ++i) places_.push_back({3 * b + i, 3 * b + i});
+  }
+  std::map<std::pair<int, int>, int> known;
+  for (Pair& pair : pairs_)
+    for (const std::size_t i : {0u, 1u})
+      for (const std::size_t j : {0u, 1u}) {
+        if (pair.block[i][j] < 0) continue;
+        const int row = body_of(pair, i), column = body_of(pair, j);
+        if (row == column) {
+          pair.block[i][j] = own_[at(row)].begin;
+          continue;
+        }
+        const auto [place, is_new] = known.try_emplace({row, column});
+        if (is_new) place->second = put_block(row, column);
+        pair.block[i][j] = place->second;
+      }
+}
+
+void Tangent::evaluate(const System& system, const State& state, const Equations& eq, const VectorXd& a,
+                       const VectorXd& lambda, const Weights& w, std::vector<double>& values) {
+  std::fill(values.begin(), values.end(), 0.0);
+  add_inertia(system, state, eq, a, w, values.data());
+  if (w.q != 0) add_turning(system, eq, lambda, w.q, values.data());
+  if (w.q != 0 || w.s != 0) add_pairs(system, state, eq, lambda, w, values.data());
+}
+
+void Tangent::add_inertia(const System& system, const State& state, const Equations& eq, const VectorXd& a, const Weights& w,
+                          double* values) {
+  for (std::size_t b = 0; b < own_.size(); ++b) {
+    if (eq.flexible_of[b] >= 0) continue;
+    const int begin = own_[b].begin, next = own_[b].stride + 1;
+    values[begin] += w.a * system.bodies[b].m;
+    values[begin + next] += w.a * system.bodies[b].m;
+    values[begin + 2 * next] += w.a * system.bodies[b].J;
+  }
+  for (std::size_t i = 0; i < eq.flexible.size(); ++i) {
+    const FlexibleInertia& e = eq.flexible[i];
+    Block K(values + own_[at(e.body)].begin, 3 + e.n, 3 + e.n);
+    add_inertia_tangent(system, e, state.y, a, w, flexible_[i], K);
+  }
+}
+
+// −Σ f·∂²p/∂q²: forces keep their place on bodies that turn and bend.
+void Tangent::add_turning(const System& system, const Equations& eq, const VectorXd& lambda, double weight,
+                          double* values) const {
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
+    const ConstraintRows& rows = eq.rows[k];
+    double ax = 0, ay = 0, bx = 0, by = 0;
+    for (int i = 0; i < m; ++i) {
+      const double l = weight * lambda[row + i];
+      ax -= rows.La(i, 0) * l;
+      ay -= rows.La(i, 1) * l;
+      bx -= rows.Lb(i, 0) * l;
+      by -= rows.Lb(i, 1) * l;
+    }
+    turn(system, eq, static_cast<int>(eq.ends[k][0]), ax, ay, values);
+    turn(system, eq, static_cast<int>(eq.ends[k][1]), bx, by, values);
+  }
+  for (std::size_t k = 0; k < system.forces.size(); ++k) {
+    const ForceEffect& now = eq.force[k];
+    turn(system, eq, marker_a(system.forces[k]), weight * now.on_a[0], weight * now.on_a[1], values);
+    turn(system, eq, marker_b(system.forces[k]), weight * now.on_b[0], weight * now.on_b[1], values);
+  }
+  for (std::size_t k = 0; k < system.contacts.size(); ++k) {
+    const ContactEffect& now = eq.contact[k];
+    if (now.normal.force == 0) continue;
+    turn(system, eq, system.contacts[k].journal, weight * now.on_journal[0], weight * now.on_journal[1], values);
+    turn(system, eq, system.contacts[k].bearing, weight * now.on_bearing[0], weight * now.on_bearing[1], values);
+  }
+}
+
+void Tangent::turn(const System& system, const Equations& eq, int marker, double fx, double fy, double* values) const {
+  const Marker& m = system.markers[at(marker)];
+  if (m.body == ground) return;
+  const MarkerMotion& motion = eq.motion[at(marker)];
+  const Own& own = own_[at(m.body)];
+  values[own.begin + 2 + 2 * own.stride] += fx * motion.d.x() + fy * motion.d.y();
+  const Index n = motion.flex.cols();
+  if (n == 0) return;
+  Block K(values + own.begin, 3 + n, 3 + n);
+  for (Index i = 0; i < n; ++i) {
+    const double turned = fy * motion.flex(0, i) - fx * motion.flex(1, i);  // f·ZF
+    K(2, 3 + i) -= turned;
+    K(3 + i, 2) -= turned;
+  }
+  if (m.second[0].size() == 0) return;
+  const double c = eq.cos_[m.body], s = eq.sin_[m.body];
+  K.bottomRightCorner(n, n) -= (c * fx + s * fy) * m.second[0] + (c * fy - s * fx) * m.second[1];
+}
+
+void Tangent::stand(const System& system, const State& state, const Equations& eq, int marker, End& end) const {
+  const Marker& m = system.markers[at(marker)];
+  end.n = 0;
+  if (m.body == ground) return;
+  const MarkerMotion& motion = eq.motion[at(marker)];
+  const double* s = state.y.data() + system.n() + 3 * m.body;
+  end.J_theta << -motion.d.y(), motion.d.x(), 1;
+  end.V_theta << s[1] - motion.v.y(), motion.v.x() - s[0], 0;  // Z(v − ṙ)
+  end.n = motion.flex.cols();
+  if (end.n == 0) return;
+  end.J_eta.topLeftCorner(end.n, 2) = motion.flex.transpose();
+  end.J_eta.col(2).head(end.n) = m.slope.transpose();
+  end.V_eta.col(0).head(end.n) = -s[2] * motion.flex.row(1).transpose();
+  end.V_eta.col(1).head(end.n) = s[2] * motion.flex.row(0).transpose();
+  if (m.second[0].size() == 0) return;
+  const Eigen::Map<const VectorXd> rate(state.y.data() + system.n() + system.eta_begin[at(m.body)], end.n);
+  const double c = eq.cos_[m.body], sine = eq.sin_[m.body];
+  for (Index i = 0; i < end.n; ++i) {
+    const double x = m.second[0].col(i).dot(rate), y = m.second[1].col(i).dot(rate);
+    end.V_eta(i, 0) += c * x - sine * y;
+    end.V_eta(i, 1) += sine * x + c * y;
+  }
+}
+
+// −Jᵀ(P J + D V) in q and −JᵀD J in s, P and D the derivatives of the wrenches in poses and their rates.
+void Tangent::add_pairs(const System& system, const State& state, const Equations& eq, const VectorXd& lambda,
+                        const Weights& w, double* values) {
+  for (const Pair& pair : pairs_) {
+    if (w.q == 0 && !pair.rate) continue;
+    if (pair.kind == Pair::contact && eq.contact[pair.index].normal.force == 0) continue;
+    const MarkerMotion &a = eq.motion[at(pair.marker[0])], &b = eq.motion[at(pair.marker[1])];
+    const PairTangent tangent =
+        pair.kind == Pair::joint   ? pair_tangent(system.joints[pair.index], a, b, lambda.data() + system.row_begin[pair.index])
+        : pair.kind == Pair::force ? pair_tangent(system.forces[pair.index], eq.force[pair.index], a, b)
+                                   : pair_tangent(system.contacts[pair.index], eq.contact[pair.index], a, b);
+    for (const std::size_t i : {0u, 1u}) stand(system, state, eq, pair.marker[i], ends_[i]);
+
+    for (const std::size_t i : {0u, 1u})
+      for (const std::size_t j : {0u, 1u}) {
+        if (pair.block[i][j] < 0) continue;
+        const End &on = ends_[i], &by = ends_[j];
+        const Index row = static_cast<Index>(3 * i), column = static_cast<Index>(3 * j);
+        Matrix3d K = w.q * tangent.pose.block<3, 3>(row, column);
+        Matrix3d D = Matrix3d::Zero();
+        if (pair.rate) {
+          D = tangent.rate.block<3, 3>(row, column);
+          K += w.s * D;
+          D *= w.q;
+        }
+        Matrix3d in_frame = K;  // (K J + D V) on [x y θ], J being [1 J_θ J_η]
+        in_frame.col(2) = K * by.J_theta + D * by.V_theta;
+        Eigen::Map<Matrix3d, 0, Eigen::OuterStride<>> frame(values + pair.block[i][j], Eigen::OuterStride<>(3 + on.n));
+        frame.topRows<2>() -= in_frame.topRows<2>();
+        frame.row(2) -= on.J_theta.transpose() * in_frame;
+        if (on.n == 0 && by.n == 0) continue;
+        Block block(values + pair.block[i][j], 3 + on.n, 3 + by.n);
+        const auto from_shapes = on.J_eta.topRows(on.n);
+        for (Index c = 0; c < 3; ++c) block.col(c).tail(on.n).noalias() -= from_shapes.lazyProduct(in_frame.col(c));
+        for (Index c = 0; c < by.n; ++c) {
+          const Vector3d in_shape = K * by.J_eta.row(c).transpose() + D * by.V_eta.row(c).transpose();
+          auto by_shape = block.col(3 + c);
+          by_shape.head<2>() -= in_shape.head<2>();
+          by_shape[2] -= on.J_theta.dot(in_shape);
+          by_shape.tail(on.n).noalias() -= from_shapes.lazyProduct(in_shape);
+        }
+      }
+  }
+}
+
+Eigen::MatrixXd dense(const System& system, const Tangent& tangent, const std::vector<double>& values) {
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(system.n(), system.n());
+  for (std::size_t i = 0; i < values.size(); ++i) A(tangent.places()[i].row, tangent.places()[i].column) += values[i];
+  return A;
+}
+
+}  // namespace pintle

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "framework/dynamics/equations/equations.h"
+#include "framework/dynamics/model/flexible_tangent.h"
+#include "framework/dynamics/model/pair_tangent.h"
+
+namespace pintle {
+
+/// How the residual of the equations of motion, r(q, s, a, λ, t) = M a + Cqᵀλ − f, answers to small
+/// changes: ∂r/∂q, ∂r/∂s and ∂r/∂a = M, each n × n. Its pattern follows from the system alone: a block for
+/// each body and two for each pair of bodies whose interaction answers to their relative motion; pins and
+/// welds, which do not, couple no bodies. Theory: docs/theory/tangent.md.
+class Tangent {
+ public:
+  explicit Tangent(const System&);
+
+  struct Place {
+    int row, column;
+  };
+  /// Where each summand stands, in the order of `evaluate`; the same at each state. A place may have
+  /// several summands.
+  const std::vector<Place>& places() const { return places_; }
+
+  using Weights = TangentWeights;
+  /// values[i] ← summand i of  w.q ∂r/∂q + w.s ∂r/∂s + w.a M,  λ and a held. No allocation.
+  /// @pre pose, speed, weigh and load were done at `state`; values has places().size()
+  void evaluate(const System&, const State&, const Equations&, const Eigen::VectorXd& a, const Eigen::VectorXd& lambda,
+                const Weights& w, std::vector<double>& values);
+
+ private:
+  /// A body's own block, by columns: entry (i, j) on [x y θ η] is summand begin + i + j·stride. A rigid
+  /// body that no interaction needs more of has its diagonal only: stride 0.
+  struct Own {
+    int begin, stride;
+  };
+  /// What answers to poses or rates of its two markers. block[i][j]: first summand of ∂(force on body i)/
+  /// ∂(coordinates of body j), by columns; −1 where there is none.
+  struct Pair {
+    enum Kind { joint, force, contact } kind;
+    std::size_t index;
+    std::array<int, 2> marker;
+    std::array<std::array<int, 2>, 2> block;
+    bool rate;
+  };
+  /// One end of a pair: ṗ = [1 J_θ J_ηᵀ]s and its derivatives V by θ and, transposed, by η.
+  struct End {
+    Eigen::Vector3d J_theta, V_theta;
+    Eigen::MatrixX3d J_eta, V_eta;
+    Eigen::Index n = 0;
+  };
+
+  void lay_out(const System&);
+  void link(const System&, Pair::Kind, std::size_t index, int marker_a, int marker_b, const PairReach&);
+  void add_inertia(const System&, const State&, const Equations&, const Eigen::VectorXd& a, const Weights&, double* values);
+  void add_turning(const System&, const Equations&, const Eigen::VectorXd& lambda, double weight, double* values) const;
+  void turn(const System&, const Equations&, int marker, double fx, double fy, double* values) const;
+  void add_pairs(const System&, const State&, const Equations&, const Eigen::VectorXd& lambda, const Weights&, double* values);
+  void stand(const System&, const State&, const Equations&, int marker, End&) const;
+
+  std::vector<Place> places_;
+  std::vector<Own> own_;  ///< per body
+  std::vector<Pair> pairs_;
+  std::vector<FlexibleScratch> flexible_;  ///< per flexible body
+  std::array<End, 2> ends_;
+};
+
+/// The same as a dense matrix; for those who have time.
+Eigen::MatrixXd dense(const System&, const Tangent&, const std::vector<double>& values);
+
+}  // namespace pintle

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <variant>
+
+#include "framework/common/time_law.h"
+#include "framework/dynamics/model/marker.h"
+
+namespace pintle {
+
+/// What a force element does at an instant: wrenches on its two markers and where the power goes.
+/// Promise: wrench_a·ṗ_a + wrench_b·ṗ_b = input − dissipation − d(stored)/dt.
+struct ForceEffect {
+  Wrench on_a = Wrench::Zero(), on_b = Wrench::Zero();
+  double stored = 0;       ///< recoverable energy [J]
+  double dissipation = 0;  ///< power lost, never negative [W]
+  double input = 0;        ///< power put in by the outside [W]
+};
+
+/// A force on b, in world axes, or turning with b's direction if `follows`. a is unused (ground).
+struct PointForce {
+  int a, b;  ///< markers
+  TimeLaw x, y;  ///< [N]
+  bool follows = false;
+};
+/// A torque on b, its opposite on a.
+struct Torque {
+  int a, b;
+  TimeLaw law;  ///< [N m]
+};
+/// f = k(ℓ − ℓ₀) + c ℓ̇ along the line from a to b, pulling when positive.
+struct Spring {
+  int a, b;
+  double k, c, free_length;  ///< [N/m], [N s/m], [m]
+};
+/// τ = k(φ − φ₀) + c φ̇, φ = φ_b − φ_a; turns b back.
+struct TorsionSpring {
+  int a, b;
+  double k, c, free_angle;  ///< [N m/rad], [N m s/rad], [rad]
+};
+
+using Force = std::variant<PointForce, Torque, Spring, TorsionSpring>;
+
+/// Cannot fail. A spring of no length has no direction and gives no force.
+ForceEffect evaluate(const Force&, const MarkerMotion& a, const MarkerMotion& b, double t);
+
+inline int marker_a(const Force& f) {
+  return std::visit([](const auto& k) { return k.a; }, f);
+}
+inline int marker_b(const Force& f) {
+  return std::visit([](const auto& k) { return k.b; }, f);
+}
+
+}  // namespace pintle

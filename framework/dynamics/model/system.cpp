@@ -1,0 +1,68 @@
+#include "framework/dynamics/model/system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace pintle {
+
+void number(System& system, bool scheme_loses) {
+  system.eta_begin.assign(1, system.n_rigid());
+  for (const Body& b : system.bodies) system.eta_begin.push_back(system.eta_begin.back() + b.modes());
+  system.scale.setConstant(system.n(), system.length);
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    system.scale[3 * static_cast<Eigen::Index>(b) + 2] = 1;
+    system.scale.segment(system.eta_begin[b], system.bodies[b].modes()) *= std::sqrt(system.bodies[b].m);
+  }
+
+  system.row_begin.assign(1, 0);
+  for (const Joint& j : system.joints) system.row_begin.push_back(system.row_begin.back() + rows(j));
+
+  system.row_scale.resize(system.n_rows());
+  for (std::size_t k = 0; k < system.joints.size(); ++k)
+    for (int row = system.row_begin[k]; row < system.row_begin[k + 1]; ++row)
+      system.row_scale[row] =
+          is_angle_row(system.joints[k], row - system.row_begin[k]) ? 1 : 1 / system.length;
+
+  auto account = [&](Account what, std::size_t i) {
+    system.integrals.push_back({what, static_cast<int>(i)});
+    return static_cast<int>(system.integrals.size()) - 1;
+  };
+  system.integrals.clear();
+  system.contact_z.clear();
+  system.force_z.clear();
+  system.joint_z.clear();
+  for (std::size_t i = 0; i < system.contacts.size(); ++i) {
+    system.contact_z.push_back(account(Account::hysteresis, i));
+    if (system.contacts[i].friction) account(Account::friction, i);
+  }
+  for (std::size_t i = 0; i < system.forces.size(); ++i) {
+    const Force& f = system.forces[i];
+    const auto* spring = std::get_if<Spring>(&f);
+    const auto* torsion = std::get_if<TorsionSpring>(&f);
+    const bool passive = spring || torsion;
+    const double c = spring ? spring->c : torsion ? torsion->c : 0;
+    system.force_z.push_back(!passive ? account(Account::load, i)
+                             : c > 0  ? account(Account::damper, i)
+                                      : -1);
+  }
+  for (std::size_t i = 0; i < system.joints.size(); ++i)
+    system.joint_z.push_back(is_driver(system.joints[i]) ? account(Account::driver, i) : -1);
+  for (std::size_t i = 0; i < system.bodies.size(); ++i)
+    if (system.bodies[i].modes() > 0 && !system.bodies[i].flex->zeta.isZero()) account(Account::damping, i);
+  if (scheme_loses) account(Account::scheme, 0);
+}
+
+bool feels_shapes(const System& system, const Joint& joint, int marker) {
+  const Marker& m = system.markers[static_cast<std::size_t>(marker)];
+  if (m.body == ground) return false;
+  const Body& body = system.bodies[static_cast<std::size_t>(m.body)];
+  if (body.modes() == 0) return false;
+  return body.flex->second || !m.shape.isZero(0) || (feels_angle(joint) && !m.slope.isZero(0));
+}
+
+bool is_link(const System& system, int joint) {
+  return std::any_of(system.contacts.begin(), system.contacts.end(), [joint](const ContactPair& c) { return c.link == joint; });
+}
+
+}  // namespace pintle

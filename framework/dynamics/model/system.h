@@ -1,0 +1,84 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "eigen_layout.h"
+#include "framework/component/reduction/inertia.h"
+#include "framework/dynamics/model/contact_pair.h"
+#include "framework/dynamics/model/forces.h"
+#include "framework/dynamics/model/joints.h"
+#include "framework/dynamics/model/marker.h"
+
+namespace pintle {
+
+/// A body. Its coordinates are [x y θ] of its mass centre while undeformed, so the inertia of a rigid
+/// one is three constants, without velocity-dependent forces. A flexible one has modal coordinates η
+/// besides: docs/theory/motion.md.
+struct Body {
+  std::string name;
+  double m = 0;                                    ///< [kg]
+  double J = 0;                                    ///< about the mass centre [kg m²]
+  Eigen::Vector2d x_BO = Eigen::Vector2d::Zero();  ///< origin of the user's axes from the mass centre [m]
+  std::optional<FlexInertia> flex = {};            ///< about the mass centre
+  int modes() const { return flex ? static_cast<int>(flex->omega.size()) : 0; }
+};
+
+/// What an integral of the ledger accounts for.
+enum class Account { hysteresis, friction, damper, load, driver, damping, scheme };
+struct Integral {
+  Account account;
+  int index;  ///< contact, force, joint; of damping the body; of the scheme 0
+};
+
+/// A scene made ready to run: built once, then never changed. Ground is not among the bodies.
+struct System {
+  Eigen::Vector2d gravity = Eigen::Vector2d::Zero();  ///< [m/s²]
+  std::vector<Body> bodies;
+  std::vector<Marker> markers;  ///< every marker that a joint, force or contact uses
+  std::vector<Joint> joints;    ///< drivers included
+  std::vector<Force> forces;
+  std::vector<ContactPair> contacts;
+  std::vector<std::string> joint_names, force_names, contact_names;
+
+  double length = 1;               ///< size of the mechanism, for scaling [m]
+  /// First modal coordinate of body i in q, one past: q is [x y θ] body by body, then η body by body.
+  std::vector<int> eta_begin;
+  /// What each coordinate is measured by: length, 1 for an angle, length·√m for η, whose shapes have
+  /// the mean square displacement 1/m.
+  Eigen::VectorXd scale;
+  std::vector<int> row_begin;      ///< first constraint row of joint i; one past
+  Eigen::VectorXd row_scale;       ///< 1/length for a row in metres, 1 for an angle
+  std::vector<Integral> integrals; ///< what z accounts for, in order
+  std::vector<int> contact_z, force_z, joint_z;  ///< first integral of each, −1 for none
+
+  int n_rigid() const { return 3 * static_cast<int>(bodies.size()); }
+  int n() const { return eta_begin.empty() ? n_rigid() : eta_begin.back(); }
+  int n_rows() const { return row_begin.empty() ? 0 : row_begin.back(); }
+  int n_z() const { return static_cast<int>(integrals.size()); }
+  int n_y() const { return 2 * n() + n_z(); }
+};
+
+/// Fills what follows from the lists: coordinates, rows, integrals. Call once, after the lists are complete.
+/// @param scheme_loses  one more integral, for what an implicit scheme takes away
+void number(System&, bool scheme_loses = false);
+/// Joint k is the massless link of a clearance joint.
+bool is_link(const System&, int joint);
+
+/// Does bending of its body change a joint's rows at this marker, or what they weigh? Not where shapes stand still, as at a
+/// pin in which the body's frame is fixed.
+bool feels_shapes(const System&, const Joint&, int marker);
+
+inline bool has_gravity(const System& s) { return s.gravity.x() != 0 || s.gravity.y() != 0; }
+
+/// Everything that changes in time. Copy one to branch a run, store one to restart it.
+struct State {
+  double t = 0;             ///< [s]
+  Eigen::VectorXd y;        ///< coordinates q, speeds s, ledger integrals z: n + n + n_z
+  std::vector<double> impact_rate;  ///< per contact, latched approach speed; 0 while open [m/s]
+};
+
+}  // namespace pintle

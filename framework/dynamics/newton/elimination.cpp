@@ -1,0 +1,90 @@
+#include "framework/dynamics/newton/elimination.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+#include "framework/dynamics/solvers/sparse_ldl.h"
+
+namespace pintle {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Body of each coordinate.
+std::vector<int> bodies_of(const System& system) {
+  std::vector<int> body(at(system.n()));
+  for (int b = 0; b < static_cast<int>(system.bodies.size()); ++b) {
+    for (int c = 0; c < 3; ++c) body[at(3 * b + c)] = b;
+    for (int i = system.eta_begin[at(b)]; i < system.eta_begin[at(b) + 1]; ++i) body[at(i)] = b;
+  }
+  return body;
+}
+
+// Joints on each body.
+std::vector<std::vector<int>> joints_on(const System& system, const Equations& eq) {
+  std::vector<std::vector<int>> joints(system.bodies.size());
+  for (const Equations::Side& side : eq.sides) joints[at(side.q / 3)].push_back(static_cast<int>(side.joint));
+  return joints;
+}
+
+void append_rows(const System& system, int joint, std::vector<int>& order) {
+  for (int row = system.row_begin[at(joint)]; row < system.row_begin[at(joint) + 1]; ++row) order.push_back(system.n() + row);
+}
+
+std::vector<int> rows_last(const System& system, const std::vector<std::vector<int>>& joints) {
+  std::vector<int> order(at(system.n()));
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<Pattern::Place> meet;
+  for (const std::vector<int>& on : joints)
+    for (int a : on)
+      for (int b : on) meet.push_back({std::max(a, b), std::min(a, b)});
+  for (int joint : fill_reducing_order(static_cast<int>(system.joints.size()), meet)) append_rows(system, joint, order);
+  return order;
+}
+
+std::vector<int> body_by_body(const System& system, const std::vector<std::vector<int>>& joints,
+                              std::vector<Pattern::Place> meet) {
+  std::vector<std::vector<int>> ends(system.joints.size());
+  for (std::size_t b = 0; b < joints.size(); ++b)
+    for (int joint : joints[b]) ends[at(joint)].push_back(static_cast<int>(b));
+  for (const std::vector<int>& bodies : ends)
+    if (bodies.size() == 2) meet.push_back({bodies[0], bodies[1]});
+  std::vector<int> order, waiting(system.joints.size());
+  for (std::size_t k = 0; k < ends.size(); ++k) waiting[k] = static_cast<int>(ends[k].size());
+  for (int b : fill_reducing_order(static_cast<int>(system.bodies.size()), meet)) {
+    for (int c = 0; c < 3; ++c) order.push_back(3 * b + c);
+    for (int i = system.eta_begin[at(b)]; i < system.eta_begin[at(b) + 1]; ++i) order.push_back(i);
+    int room = 3 + system.bodies[at(b)].modes();
+    for (bool last_end : {true, false})
+      for (int joint : joints[at(b)]) {
+        int& left = waiting[at(joint)];
+        const int height = system.row_begin[at(joint) + 1] - system.row_begin[at(joint)];
+        if (last_end && left > 0) --left;  // this end is there now
+        if (left < 0 || (last_end ? left > 0 : height > room)) continue;
+        append_rows(system, joint, order);
+        room -= height;
+        left = -1;
+      }
+  }
+  for (std::size_t k = 0; k < ends.size(); ++k)  // joints of ground with ground
+    if (ends[k].empty()) append_rows(system, static_cast<int>(k), order);
+  return order;
+}
+
+}  // namespace
+
+std::vector<int> elimination_order(const System& system, const Equations& eq, const std::vector<Pattern::Place>& J) {
+  const std::vector<int> body = bodies_of(system);
+  const std::vector<std::vector<int>> joints = joints_on(system, eq);
+  std::vector<Pattern::Place> meet;
+  for (const Pattern::Place& p : J)
+    if (body[at(p.row)] != body[at(p.column)]) meet.push_back({body[at(p.row)], body[at(p.column)]});
+  double pairs = 0;  // entries of S, in joints: a hub of many joints makes it dense
+  for (const std::vector<int>& on : joints) pairs += static_cast<double>(on.size() * on.size());
+  const bool hub = pairs > 20 * static_cast<double>(system.joints.size());
+  return meet.empty() && !hub ? rows_last(system, joints) : body_by_body(system, joints, std::move(meet));
+}
+
+}  // namespace pintle

@@ -1,0 +1,289 @@
+#include "framework/dynamics/solvers/schur.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "framework/dynamics/solvers/dependent_rows.h"
+#include "framework/dynamics/solvers/sparse_ldl.h"
+
+namespace pintle {
+
+using Eigen::VectorXd;
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// f(n), with n known to the compiler where it is small.
+template <class F>
+auto with_size(int n, F f) {
+  using std::integral_constant;
+  switch (n) {
+    case 1: return f(integral_constant<int, 1>{});
+    case 2: return f(integral_constant<int, 2>{});
+    case 3: return f(integral_constant<int, 3>{});
+    case 4: return f(integral_constant<int, 4>{});
+    case 5: return f(integral_constant<int, 5>{});
+    case 6: return f(integral_constant<int, 6>{});
+    case 7: return f(integral_constant<int, 7>{});
+    case 8: return f(integral_constant<int, 8>{});
+    case 9: return f(integral_constant<int, 9>{});
+    case 10: return f(integral_constant<int, 10>{});
+    default: return f(n);
+  }
+}
+
+// S = L D Lᵀ in place, n × n by rows, lower half; D⁻¹ apart. @returns false if cancellation leaves `least` of a pivot, or
+// less; `smallest` is the least that it left of any
+template <class N>
+bool factor_ldl(N n, double* S, double* inverse, double least, double& smallest) {
+  std::array<double, Schur::dense_rows> before, column;
+  for (int i = 0; i < n; ++i) before[at(i)] = S[i * n + i];
+  for (int j = 0; j < n; ++j) {
+    const double pivot = S[j * n + j];
+    if (pivot < smallest * before[at(j)]) smallest = pivot / before[at(j)];
+    if (!(pivot > least * before[at(j)])) return false;
+    inverse[j] = 1 / pivot;
+    for (int i = j + 1; i < n; ++i) column[at(i)] = S[i * n + j];
+    for (int i = j + 1; i < n; ++i) {
+      double* Si = S + i * n;
+      const double l = Si[j] = column[at(i)] * inverse[j];
+      for (int k = j + 1; k <= i; ++k) Si[k] -= l * column[at(k)];
+    }
+  }
+  return true;
+}
+
+// Of x[rows[0]], … x[rows[n − 1]]
+template <class N>
+void solve_ldl(N n, const double* S, const double* inverse, const int* rows, double* of) {
+  std::array<double, Schur::dense_rows> x;
+  for (int i = 0; i < n; ++i) x[at(i)] = of[rows[i]];
+  for (int j = 0; j < n; ++j)
+    for (int i = j + 1; i < n; ++i) x[at(i)] -= S[i * n + j] * x[at(j)];
+  for (int i = 0; i < n; ++i) x[at(i)] *= inverse[i];
+  for (int i = n - 1; i > 0; --i)
+    for (int k = 0; k < i; ++k) x[at(k)] -= S[i * n + k] * x[at(i)];
+  for (int i = 0; i < n; ++i) of[rows[i]] = x[at(i)];
+}
+
+}  // namespace
+
+struct Schur::Data {
+  explicit Data(const VectorXd& row_scale)
+      : unit(row_scale), shift(VectorXd::Zero(row_scale.size())), S_ii(shift), refine(row_scale, 0) {}
+
+  VectorXd unit, shift, S_ii;
+  std::vector<double> whole;  ///< S without the shift, not factored
+  dependent_rows::Refinement refine;
+  std::optional<SparseLdl> sparse;
+};
+
+Schur::~Schur() = default;
+Schur::Schur(Schur&&) noexcept = default;
+
+Schur::Schur(const System& system) : n_(system.n_rows()), data_(std::make_unique<Data>(system.row_scale)) {
+  // Sides of joints on each body.
+  std::vector<std::vector<int>> sides(system.bodies.size());
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const std::array<int, 2> markers{marker_a(system.joints[k]), marker_b(system.joints[k])};
+    for (int side = 0; side < 2; ++side) {
+      const int body = system.markers[at(markers[at(side)])].body;
+      if (body != ground) sides[at(body)].push_back(2 * static_cast<int>(k) + side);
+    }
+  }
+  const auto first_row = [&](int side) { return system.row_begin[at(side / 2)]; };
+  const auto height = [&](int side) { return rows(system.joints[at(side / 2)]); };
+
+  std::vector<Pattern::Place> places;
+  for (std::size_t b = 0; b < sides.size(); ++b) {
+    const Body& body = system.bodies[b];
+    const int w = static_cast<int>(weights_.size());
+    const bool flexible = body.modes() > 0;
+    const auto bends = [&](int side) {
+      const Joint& joint = system.joints[at(side / 2)];
+      return flexible && feels_shapes(system, joint, side % 2 == 0 ? marker_a(joint) : marker_b(joint));
+    };
+    weights_.insert(weights_.end(), {flexible ? 1 : 1 / body.m, flexible ? 1 : 1 / body.m, flexible ? 1 : 1 / body.J});
+    for (std::size_t p = 0; p < sides[b].size(); ++p)
+      for (std::size_t q = 0; q <= p; ++q) {
+        const int i = sides[b][p], j = sides[b][q];
+        const bool both_bend = bends(i) && bends(j);
+        for (int r = 0; r < height(i); ++r)
+          for (int c = 0; c < (i == j ? r + 1 : height(j)); ++c) {
+            terms_.push_back({0, 9 * i + 3 * r, 9 * j + 3 * c, w});
+            modal_terms_.push_back({both_bend ? 0 : -1, i, r, j, c});
+            places.push_back({first_row(i) + r, first_row(j) + c});
+          }
+      }
+  }
+
+  std::vector<int> where;
+  if (n_ <= dense_rows) {
+    where = divide(places);
+    data_->whole = values_;
+  } else {
+    for (int i = 0; i < n_; ++i) places.push_back({i, i});
+    data_->sparse.emplace(n_, places, where);
+    values_.resize(at(data_->sparse->entries()));
+    diagonal_ = data_->sparse->diagonal();
+  }
+  for (std::size_t k = 0; k < terms_.size(); ++k) {
+    terms_[k].to = where[k];
+    if (modal_terms_[k].to == 0) modal_terms_[k].to = where[k];
+  }
+  std::erase_if(modal_terms_, [](const ModalTerm& t) { return t.to < 0; });
+  std::vector<bool> begun(values_.size(), false);
+  const auto later = std::stable_partition(terms_.begin(), terms_.end(), [&](const Term& t) {
+    const bool first = !begun[at(t.to)];
+    begun[at(t.to)] = true;
+    return first;
+  });
+  first_terms_ = static_cast<std::size_t>(later - terms_.begin());
+  for (std::size_t i = 0; i < begun.size(); ++i)
+    if (!begun[i]) zeros_.push_back(static_cast<int>(i));
+}
+
+// The parts that `places` connect. @returns which value each place is
+std::vector<int> Schur::divide(const std::vector<Pattern::Place>& places) {
+  std::vector<int> part(at(n_)), row_in_part(at(n_)), where;
+  std::iota(part.begin(), part.end(), 0);
+  for (const auto& [row, column] : places) {
+    const auto [kept, merged] = std::minmax({part[at(row)], part[at(column)]});
+    std::ranges::replace(part, int{merged}, int{kept});
+  }
+  int values = 0;
+  std::vector<Part> of(at(n_));
+  for (int first = 0; first < n_; ++first) {
+    if (part[at(first)] != first) continue;
+    Part made{0, static_cast<int>(order_.size()), values};
+    for (int row = first; row < n_; ++row)
+      if (part[at(row)] == first) row_in_part[at(row)] = made.n++, order_.push_back(row);
+    values += made.n * made.n;
+    of[at(first)] = made;
+    parts_.push_back(made);
+  }
+  const auto value = [&](int row, int column) {
+    const Part& p = of[at(part[at(row)])];
+    return p.at + row_in_part[at(row)] * p.n + row_in_part[at(column)];
+  };
+  for (const Pattern::Place& p : places) where.push_back(value(p.row, p.column));
+  for (int i = 0; i < n_; ++i) diagonal_.push_back(value(i, i));
+  values_.resize(at(values));
+  inverse_.resize(at(n_));
+  return where;
+}
+
+double Schur::inconsistency() const { return dependent() ? data_->refine.left_over() : 0; }
+bool Schur::sparse() const { return data_->sparse.has_value(); }
+
+const char* Schur::solver() const {
+  if (n_ == 0) return "none";
+  return !sparse() ? "dense" : data_->sparse->thin() ? "sparse (LDL)" : "sparse (CHOLMOD)";
+}
+
+double Schur::nonzeros() const {
+  if (sparse()) return data_->sparse->nonzeros();
+  double sum = 0;
+  for (const Part& p : parts_) sum += 0.5 * p.n * (p.n + 1);
+  return sum;
+}
+
+void Schur::sum(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta) {
+  for (const int i : zeros_) values_[at(i)] = 0;
+  if (terms_.empty()) return;
+  const double* entries = B.front().data();
+  const auto product = [&](const Term& t) {
+    const double *a = entries + t.a, *b = entries + t.b, *w = weights_.data() + t.w;
+    return a[0] * w[0] * b[0] + a[1] * w[1] * b[1] + a[2] * w[2] * b[2];
+  };
+  for (std::size_t k = 0; k < first_terms_; ++k) values_[at(terms_[k].to)] = product(terms_[k]);
+  for (std::size_t k = first_terms_; k < terms_.size(); ++k) values_[at(terms_[k].to)] += product(terms_[k]);
+  for (const ModalTerm& t : modal_terms_) values_[at(t.to)] += B_eta[at(t.i)].row(t.r).dot(B_eta[at(t.j)].row(t.c));
+}
+
+bool Schur::factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta) {
+  sum(B, B_eta);
+  lost_ = 0;
+  if (sparse()) least_ = data_->sparse->factor(values_);
+  if (sparse() ? least_ > dependent_rows::lost : factor_dense(dependent_rows::lost)) {
+    kept_ = least_;
+    return true;
+  }
+  if (!sparse()) sum(B, B_eta);  // the factor took its place
+  return factor_shifted();
+}
+
+bool Schur::factor_shifted() {
+  Data& d = *data_;
+  const auto entry = [&](int i) -> double& { return values_[at(diagonal_[at(i)])]; };
+  d.whole = values_;
+  for (int i = 0; i < n_; ++i) d.S_ii[i] = entry(i);
+  if (!(d.S_ii.array() > 0).all()) return false;
+  dependent_rows::shifts(d.S_ii, d.unit, d.shift);
+  for (int i = 0; i < n_; ++i) entry(i) += d.shift[i];
+  if (!(d.sparse ? d.sparse->factor(values_) > 0 : factor_dense(0))) return false;
+  kept_ = 1;
+  if (d.sparse) {
+    lost_ = d.sparse->below(values_, dependent_rows::held_up, kept_);
+  } else {
+    for (int k = 0; k < n_; ++k) {
+      const double ratio = 1 / (inverse_[at(k)] * d.S_ii[order_[at(k)]]);
+      if (ratio < dependent_rows::held_up) ++lost_;
+      else kept_ = std::min(kept_, ratio);
+    }
+  }
+  lost_ = std::max(lost_, 1);
+  least_ = 0;
+  return true;
+}
+
+bool Schur::factor_dense(double least) {
+  least_ = 1;
+  for (const Part& p : parts_)
+    if (!with_size(p.n, [&](auto n) { return factor_ldl(n, &values_[at(p.at)], &inverse_[at(p.begin)], least, least_); })) return false;
+  return true;
+}
+
+void Schur::solve_dense(double* mu) const {
+  for (const Part& p : parts_)
+    with_size(p.n, [&](auto n) { solve_ldl(n, &values_[at(p.at)], &inverse_[at(p.begin)], &order_[at(p.begin)], mu); });
+}
+
+void Schur::solve_factored(VectorXd& mu) {
+  if (sparse())
+    data_->sparse->solve(mu.data());
+  else
+    solve_dense(mu.data());
+}
+
+// out −= S x, of dependent rows
+void Schur::subtract_product(const VectorXd& x, VectorXd& out) const {
+  if (sparse()) {
+    data_->sparse->subtract_product(data_->whole, x.data(), out.data());
+    return;
+  }
+  for (const Part& p : parts_) {
+    const double* S = data_->whole.data() + p.at;
+    const int* rows = order_.data() + p.begin;
+    for (int i = 0; i < p.n; ++i) {
+      for (int j = 0; j < i; ++j) {
+        out[rows[i]] -= S[i * p.n + j] * x[rows[j]];
+        out[rows[j]] -= S[i * p.n + j] * x[rows[i]];
+      }
+      out[rows[i]] -= S[i * p.n + i] * x[rows[i]];
+    }
+  }
+}
+
+void Schur::solve(VectorXd& mu) {
+  if (!dependent())
+    solve_factored(mu);
+  else
+    data_->refine(mu, [&](VectorXd& v) { solve_factored(v); }, [&](const VectorXd& x, VectorXd& out) { subtract_product(x, out); }, &data_->shift);
+}
+
+}  // namespace pintle

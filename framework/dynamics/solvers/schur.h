@@ -1,0 +1,91 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "eigen_layout.h"
+#include "framework/dynamics/model/flexible.h"
+#include "framework/dynamics/model/system.h"
+#include "framework/dynamics/solvers/pattern.h"
+
+namespace pintle {
+
+/// The constraint equations after the accelerations are eliminated,  S μ = r  with  S = Cq M⁻¹ Cqᵀ:
+/// symmetric, positive definite while the rows are independent, one block for each pair of joints that
+/// share a body. Dense up to `dense_rows`, in parts that share no body, sparse above, its pattern analysed once,
+/// here. Where rows are dependent, at this pose or at all, multipliers are those of least norm. Theory:
+/// docs/theory/solvers.md.
+class Schur {
+ public:
+  static constexpr int dense_rows = 48;
+
+  explicit Schur(const System&);
+  ~Schur();
+  Schur(Schur&&) noexcept;
+
+  /// One side of each joint: B = L J, m × 3 in a 3 × 3 block; index 2·joint + (0 for a, 1 for b).
+  using Block = ConstraintRows::Block;
+
+  /// Sums and factors S. Sides on flexible bodies are given in the metric of M⁻¹ (to_metric). No allocation
+  /// when dense or thin (SparseLdl), but at the first dependent rows of a sparse one.
+  /// @returns false if S is not finite, or a row has no entries; dependent rows are allowed for
+  bool factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta);
+  /// μ ← S⁻¹ μ; of dependent rows the least norm, rows in metres counted over the mechanism's length, of
+  /// what misses r by the least sum of squares. @pre factor returned true
+  void solve(Eigen::VectorXd& mu);
+
+  bool dependent() const { return lost_ > 0; }  ///< the last factorization met dependent rows
+  int lost() const { return lost_; }            ///< how many pivots they left nothing of
+  double least() const { return least_; }       ///< pivot over the entry it came from, the smallest
+  double kept() const { return kept_; }         ///< the same of those that are not lost: small near a singular pose
+  bool weak() const { return least_ < 1e-5; }  ///< dependent, not far from it, or of very unlike inertias
+  /// Of the last solve: what S μ misses r by, over r, largest entries, rows in metres over the mechanism's
+  /// length; 0 of independent rows. Well above rounding: the rows contradict each other.
+  double inconsistency() const;
+
+  bool sparse() const;
+  const char* solver() const;  ///< how it is factored, in words
+  double nonzeros() const;     ///< of the factor
+
+ private:
+  /// A product of two rows of sides on one body: three entries of B each, counted through all blocks, by the body's
+  /// inverse inertia; and what the modal coordinates of a flexible one add.
+  struct Term {
+    int to, a, b, w;
+  };
+  struct ModalTerm {
+    int to, i, r, j, c;  ///< row r of side i by row c of side j
+  };
+  /// Rows of joints that bodies connect, dense: row order_[begin + i] of all is row i of the part.
+  struct Part {
+    int n, begin, at;  ///< n × n by rows from values_[at], lower half, then its factor
+  };
+  struct Data;
+  std::vector<int> divide(const std::vector<Pattern::Place>& places);
+  void sum(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta);
+  bool factor_shifted();
+  bool factor_dense(double least);
+  void solve_dense(double* mu) const;
+  void solve_factored(Eigen::VectorXd& mu);
+  void subtract_product(const Eigen::VectorXd& x, Eigen::VectorXd& out) const;
+
+  int n_;
+  int lost_ = 0;
+  double least_ = 1;  ///< pivot over the entry it came from, the smallest; 0 if some are lost
+  double kept_ = 1;   ///< the smallest of those that are not lost
+  std::vector<Term> terms_;      ///< first those that begin an entry
+  std::size_t first_terms_ = 0;  ///< how many these are
+  std::vector<int> zeros_;       ///< entries without any, which the factor fills
+  std::vector<ModalTerm> modal_terms_;
+  std::vector<double> weights_;  ///< 1/m, 1/m, 1/J of each body; 1 of a flexible one
+  std::vector<double> values_;   ///< dense: that of each part; sparse: SparseLdl's
+  std::vector<Part> parts_;
+  std::vector<int> order_;
+  std::vector<int> diagonal_;    ///< where S_ii is among the values
+  std::vector<double> inverse_;  ///< of the pivots of the parts, in their order
+  std::unique_ptr<Data> data_;  ///< what only sparse or dependent rows need
+};
+
+}  // namespace pintle

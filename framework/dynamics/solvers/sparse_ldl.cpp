@@ -1,0 +1,257 @@
+#include "framework/dynamics/solvers/sparse_ldl.h"
+
+#include <cholmod.h>
+extern "C" {  // it says nothing of C++
+#include <ldl.h>
+}
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <new>
+#include <utility>
+
+namespace pintle {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+cholmod_sparse upper(Pattern& p, double* values) {
+  cholmod_sparse A{};
+  A.nrow = A.ncol = at(p.size());
+  A.nzmax = p.row.size();
+  A.p = p.column_begin.data();
+  A.i = p.row.data();
+  A.x = values;
+  A.stype = 1;
+  A.itype = CHOLMOD_INT;
+  A.xtype = values ? CHOLMOD_REAL : CHOLMOD_PATTERN;
+  A.dtype = CHOLMOD_DOUBLE;
+  A.sorted = A.packed = 1;
+  return A;
+}
+
+// Places of the upper triangle after row and column i have become new_index[i].
+std::vector<Pattern::Place> permuted(const std::vector<Pattern::Place>& places, const std::vector<int>& new_index) {
+  std::vector<Pattern::Place> out;
+  out.reserve(places.size());
+  for (const Pattern::Place& p : places) {
+    const auto [row, column] = std::minmax(new_index[at(p.row)], new_index[at(p.column)]);
+    out.push_back({row, column});
+  }
+  return out;
+}
+
+// CHOLMOD's choice of an order.
+struct Order {
+  explicit Order(int size) : n(size) {
+    cholmod_start(&common);
+    common.print = 0;
+    common.supernodal_switch = SparseLdl::thick;
+  }
+  ~Order() { cholmod_finish(&common); }
+  Order(const Order&) = delete;
+  Order& operator=(const Order&) = delete;
+
+  void find(Pattern p) {
+    cholmod_sparse A = upper(p, nullptr);
+    cholmod_factor* found = cholmod_analyze(&A, &common);
+    if (!found) throw std::bad_alloc();
+    const int* perm = static_cast<const int*>(found->Perm);
+    order.assign(perm, perm + n);
+    thick = found->is_super != 0;
+    cholmod_free_factor(&found, &common);
+  }
+
+  int n;
+  cholmod_common common;
+  std::vector<int> order;
+  bool thick = false;
+};
+
+}  // namespace
+
+struct SparseLdl::Data {
+  explicit Data(int size) : n(size), x(at(size)) {
+    cholmod_start(&common);
+    common.print = 0;
+    common.quick_return_if_not_posdef = 1;
+  }
+  ~Data() {
+    cholmod_free_factor(&blocks, &common);
+    cholmod_free_dense(&result, &common);
+    cholmod_free_dense(&y, &common);
+    cholmod_free_dense(&e, &common);
+    cholmod_finish(&common);
+  }
+  Data(const Data&) = delete;
+  Data& operator=(const Data&) = delete;
+
+  void analyse_blocks() {
+    common.nmethods = 1;
+    common.method[0].ordering = CHOLMOD_NATURAL;
+    common.postorder = 0;
+    common.supernodal = CHOLMOD_SUPERNODAL;
+    cholmod_sparse A = upper(pattern, nullptr);
+    blocks = cholmod_analyze(&A, &common);
+    if (!blocks) throw std::bad_alloc();
+  }
+
+  void analyse_thin() {
+    parent.resize(at(n));
+    flag.resize(at(n));
+    count.resize(at(n));
+    begin.resize(at(n) + 1);
+    ldl_symbolic(n, pattern.column_begin.data(), pattern.row.data(), begin.data(), parent.data(), count.data(), flag.data(),
+                 nullptr, nullptr);
+    row.resize(at(begin.back()));
+    L.resize(row.size());
+    D.resize(at(n));
+    work.resize(at(n));
+    stack.resize(at(n));
+  }
+
+  double diagonal_entry(const double* values, int k) const { return values[pattern.column_begin[at(k) + 1] - 1]; }
+
+  bool factor_thin(double* values) {
+    return n == ldl_numeric(n, pattern.column_begin.data(), pattern.row.data(), values, begin.data(), parent.data(),
+                            count.data(), row.data(), L.data(), D.data(), work.data(), stack.data(), flag.data(), nullptr,
+                            nullptr);
+  }
+
+  bool factor_blocks(double* values) {
+    cholmod_sparse A = upper(pattern, values);
+    cholmod_factorize(&A, blocks, &common);
+    if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+    return common.status == CHOLMOD_OK;
+  }
+
+  // f(k, pivot) in the order of elimination
+  template <class F>
+  void each_pivot(F f) const {
+    if (!blocks) {
+      for (int k = 0; k < n; ++k) f(k, D[at(k)]);
+      return;
+    }
+    const int *first = static_cast<const int*>(blocks->super), *rows = static_cast<const int*>(blocks->pi),
+              *from = static_cast<const int*>(blocks->px);
+    const double* l = static_cast<const double*>(blocks->x);
+    for (std::size_t s = 0; s < blocks->nsuper; ++s)
+      for (int k = first[s]; k < first[s + 1]; ++k) {
+        const double root = l[from[s] + static_cast<std::ptrdiff_t>(k - first[s]) * (rows[s + 1] - rows[s] + 1)];
+        f(k, root * root);
+      }
+  }
+
+  void solve_blocks() {
+    cholmod_dense b{};
+    b.nrow = b.d = b.nzmax = at(n);
+    b.ncol = 1;
+    b.x = x.data();
+    b.xtype = CHOLMOD_REAL;
+    b.dtype = CHOLMOD_DOUBLE;
+    cholmod_solve2(CHOLMOD_A, blocks, &b, nullptr, &result, nullptr, &y, &e, &common);
+    std::copy_n(static_cast<const double*>(result->x), n, x.data());
+  }
+
+  int n;
+  cholmod_common common;
+  Pattern pattern;  ///< upper triangle, permuted
+  std::vector<int> order, diagonal;  ///< order[k]: row eliminated k-th
+  std::vector<double> x;
+  double lnz = 0;
+  // thin
+  std::vector<int> parent, flag, count, begin, row, stack;
+  std::vector<double> L, D, work;
+  // thick
+  cholmod_factor* blocks = nullptr;
+  cholmod_dense *result = nullptr, *y = nullptr, *e = nullptr;
+};
+
+std::vector<int> fill_reducing_order(int size, std::vector<Pattern::Place> places) {
+  for (Pattern::Place& p : places) p = {std::min(p.row, p.column), std::max(p.row, p.column)};
+  for (int i = 0; i < size; ++i) places.push_back({i, i});
+  std::vector<int> where;
+  Order order(size);
+  order.find(compress(size, places, where));
+  return order.order;
+}
+
+SparseLdl::SparseLdl(int size, const std::vector<Pattern::Place>& places, std::vector<int>& where)
+    : data_(std::make_unique<Data>(size)) {
+  Data& d = *data_;
+  std::vector<int> new_index(at(size));
+  for (int i = 0; i < size; ++i) new_index[at(i)] = i;
+  Order order(size);
+  order.find(compress(size, permuted(places, new_index), where));
+  d.order = order.order;
+  d.lnz = order.common.lnz;
+  for (int k = 0; k < size; ++k) new_index[at(d.order[at(k)])] = k;
+  d.pattern = compress(size, permuted(places, new_index), where);
+  d.diagonal.resize(at(size));
+  for (int i = 0; i < size; ++i) d.diagonal[at(i)] = d.pattern.column_begin[at(new_index[at(i)]) + 1] - 1;
+  if (order.thick)
+    d.analyse_blocks();
+  else
+    d.analyse_thin();
+}
+
+SparseLdl::~SparseLdl() = default;
+SparseLdl::SparseLdl(SparseLdl&&) noexcept = default;
+
+int SparseLdl::entries() const { return data_->pattern.entries(); }
+const std::vector<int>& SparseLdl::diagonal() const { return data_->diagonal; }
+bool SparseLdl::thin() const { return !data_->blocks; }
+double SparseLdl::nonzeros() const { return data_->lnz; }
+
+double SparseLdl::factor(const std::vector<double>& values) {
+  Data& d = *data_;
+  double* v = const_cast<double*>(values.data());  // both only read
+  if (!(d.blocks ? d.factor_blocks(v) : d.factor_thin(v))) return 0;
+  double least = std::numeric_limits<double>::infinity();
+  bool positive = true;
+  d.each_pivot([&](int k, double pivot) {
+    const double ratio = pivot / d.diagonal_entry(values.data(), k);
+    positive = positive && ratio > 0;  // NaN is not
+    least = std::min(least, ratio);
+  });
+  return positive ? least : 0;
+}
+
+int SparseLdl::below(const std::vector<double>& values, double ratio, double& least) const {
+  int count = 0;
+  data_->each_pivot([&](int k, double pivot) {
+    const double left = pivot / data_->diagonal_entry(values.data(), k);
+    if (left < ratio) ++count;
+    else least = std::min(least, left);
+  });
+  return count;
+}
+
+void SparseLdl::solve(double* x) {
+  Data& d = *data_;
+  for (int k = 0; k < d.n; ++k) d.x[at(k)] = x[d.order[at(k)]];
+  if (d.blocks) {
+    d.solve_blocks();
+  } else {
+    ldl_lsolve(d.n, d.x.data(), d.begin.data(), d.row.data(), d.L.data());
+    ldl_dsolve(d.n, d.x.data(), d.D.data());
+    ldl_ltsolve(d.n, d.x.data(), d.begin.data(), d.row.data(), d.L.data());
+  }
+  for (int k = 0; k < d.n; ++k) x[d.order[at(k)]] = d.x[at(k)];
+}
+
+void SparseLdl::subtract_product(const std::vector<double>& values, const double* x, double* out) const {
+  const Data& d = *data_;
+  for (int c = 0; c < d.n; ++c) {
+    const int column = d.order[at(c)];
+    for (int k = d.pattern.column_begin[at(c)]; k < d.pattern.column_begin[at(c) + 1]; ++k) {
+      const int row = d.order[at(d.pattern.row[at(k)])];
+      out[row] -= values[at(k)] * x[column];
+      if (row != column) out[column] -= values[at(k)] * x[row];
+    }
+  }
+}
+
+}  // namespace pintle

@@ -1,0 +1,171 @@
+#include "framework/mechanism/drawing.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Vector2d;
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+std::vector<Vector2d> circle(const Vector2d& center, double radius, int points = 48) {
+  std::vector<Vector2d> out;
+  for (int i = 0; i < points; ++i) {
+    const double a = 2 * std::numbers::pi * i / points;
+    out.emplace_back(center + radius * Vector2d(std::cos(a), std::sin(a)));
+  }
+  return out;
+}
+
+// Andrew's monotone chain.
+std::vector<Vector2d> convex_hull(std::vector<Vector2d> p) {
+  std::sort(p.begin(), p.end(), [](const Vector2d& a, const Vector2d& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
+  p.erase(std::unique(p.begin(), p.end()), p.end());
+  if (p.size() < 3) return p;
+  std::vector<Vector2d> hull;
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::size_t begin = hull.size();
+    for (const Vector2d& q : p) {
+      while (hull.size() >= begin + 2 &&
+             cross(hull.back() - hull[hull.size() - 2], q - hull.back()) <= 0)
+        hull.pop_back();
+      hull.push_back(q);
+    }
+    hull.pop_back();
+    std::reverse(p.begin(), p.end());
+  }
+  return hull;
+}
+
+// A link's outline: the hull of its points, `width` wider all round, with round corners.
+std::vector<Vector2d> outline(const std::vector<Vector2d>& points, double width) {
+  std::vector<Vector2d> cloud;
+  for (const Vector2d& p : points)
+    for (const Vector2d& q : circle(p, width, 32)) cloud.push_back(q);
+  return convex_hull(std::move(cloud));
+}
+
+std::vector<Vector2d> block(double half_length, double half_width) {
+  return {{-half_length, -half_width}, {half_length, -half_width}, {half_length, half_width}, {-half_length, half_width}};
+}
+
+std::vector<Vector2d> coil(const Vector2d& a, const Vector2d& b, double width) {
+  constexpr int turns = 12;
+  const Vector2d d = b - a;
+  const Vector2d side = d.norm() > 0 ? Vector2d(width * perp(d.normalized())) : Vector2d(0, 0);
+  std::vector<Vector2d> out{a};
+  for (int i = 1; i < turns; ++i)
+    out.emplace_back(a + d * i / turns + (i == 1 || i == turns - 1 ? 0 : i % 2 ? 1 : -1) * side);
+  out.push_back(b);
+  return out;
+}
+
+}  // namespace
+
+Drafting::Drafting(const Scene& scene, const Model& model) {
+  const System& system = model.system;
+  pin = 0.03 * system.length;
+  double half = 1.6 * pin;  // of a block, large enough for its bearings
+  for (const ContactPair& c : system.contacts) {
+    pin = std::min(pin, c.gap.bearing);
+    half = std::max(half, c.gap.bearing);
+  }
+  const double width = 1.6 * pin;
+  deformation = scene.output.deformation;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    owners.push_back(system.bodies[b].name);
+    if (system.bodies[b].flex) {  // drawn as it is
+      links.emplace_back();
+      continue;
+    }
+    std::vector<Vector2d> points = model.outlines[b];
+    if (!points.empty()) points.emplace_back(0, 0);  // a link reaches to its mass centre
+    double span = 0;
+    for (const Vector2d& p : points) span = std::max(span, (p - points[0]).norm());
+    if (span > 0) {
+      links.push_back(outline(points, width));
+    } else {  // a body known by one point: a block around it
+      auto box = block(2 * half, 1.4 * half);
+      const Vector2d center = model.outlines[b].empty() ? Vector2d(0, 0) : model.outlines[b][0];
+      for (Vector2d& p : box) p += center;
+      links.push_back(std::move(box));
+    }
+  }
+  for (const auto& name : system.joint_names) owners.push_back(name);
+  for (const auto& name : system.contact_names) owners.push_back(name);
+  if (scene.output.exaggerate > 0)
+    exaggeration = scene.output.exaggerate;
+  else
+    for (const ContactPair& c : system.contacts)
+      exaggeration = std::max(exaggeration, 0.3 * c.gap.bearing / c.gap.clearance());
+}
+
+Drawing draw(const Model& model, const Drafting& drafting, const State& state, const Equations& eq) {
+  const System& system = model.system;
+  Drawing out;
+  out.t = state.t;
+  out.exaggeration = drafting.exaggeration;
+  out.owners = drafting.owners;
+  const int bodies = static_cast<int>(system.bodies.size()), joints = static_cast<int>(system.joints.size());
+  out.deformation = drafting.deformation;
+  auto flexible = model.drawings.begin();
+  for (int b = 0; b < bodies; ++b) {
+    const double* q = state.y.data() + 3 * b;
+    if (system.bodies[at(b)].flex) {
+      if (flexible == model.drawings.end()) continue;
+      const double* s = q + system.n();
+      const int begin = system.eta_begin[at(b)], n = system.bodies[at(b)].modes();
+      out.bodies.push_back(flexible++->at({Vector2d(q[0], q[1]), Vector2d(s[0], s[1]), q[2], s[2],
+                                           state.y.segment(begin, n), state.y.segment(system.n() + begin, n)}, drafting.deformation));
+      continue;
+    }
+    const Eigen::Rotation2Dd A(q[2]);
+    DrawnLine line{Part::link, b, true, {}};
+    for (const Vector2d& x : drafting.links[at(b)]) line.points.emplace_back(Vector2d(q[0], q[1]) + A * x);
+    out.lines.push_back(std::move(line));
+  }
+  for (const auto& [joint, marker] : model.pin_joints) {
+    const MarkerMotion& m = eq.motion[at(marker)];
+    if (std::holds_alternative<Prismatic>(system.joints[at(joint)]) ||
+        std::holds_alternative<Slot>(system.joints[at(joint)])) {  // a stretch of the guiding line
+      const MarkerMotion& a = eq.motion[at(marker_a(system.joints[at(joint)]))];
+      const Vector2d foot = a.r + a.u * a.u.dot(m.r - a.r);
+      out.lines.push_back({Part::guide, bodies + joint, false,
+                           {foot - 0.5 * system.length * a.u, foot + 0.5 * system.length * a.u}});
+      if (std::holds_alternative<Slot>(system.joints[at(joint)]))
+        out.lines.push_back({Part::joint, bodies + joint, true, circle(m.r, 0.6 * drafting.pin)});
+    } else if (std::holds_alternative<Distance>(system.joints[at(joint)])) {
+      out.lines.push_back({Part::joint, bodies + joint, false,
+                           {eq.motion[at(marker_a(system.joints[at(joint)]))].r, m.r}});
+    } else {
+      out.lines.push_back({Part::joint, bodies + joint, true, circle(m.r, 0.6 * drafting.pin)});
+    }
+  }
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    const ContactPair& pair = system.contacts[c];
+    const int owner = bodies + joints + static_cast<int>(c);
+    const Vector2d center = eq.motion[at(pair.bearing)].r;
+    const ContactEffect now = clearance_effect(system, eq, c);
+    const double s = drafting.exaggeration;
+    out.lines.push_back({Part::bearing, owner, true, circle(center, pair.gap.bearing)});
+    out.lines.push_back({Part::journal, owner, true,
+                         circle(center + s * now.gap.e, std::max(pair.gap.bearing - s * pair.gap.clearance(), 0.05 * pair.gap.bearing))});
+    out.forces.push_back({center + pair.gap.bearing * now.gap.n, now.on_bearing.head<2>(), owner});
+  }
+  for (std::size_t f = 0; f < system.forces.size(); ++f)
+    if (std::holds_alternative<Spring>(system.forces[f])) {
+      const Vector2d a = eq.motion[at(marker_a(system.forces[f]))].r, b = eq.motion[at(marker_b(system.forces[f]))].r;
+      const int body = system.markers[at(marker_b(system.forces[f]))].body;
+      out.lines.push_back({Part::spring, body == ground ? 0 : body, false, coil(a, b, drafting.pin)});
+    }
+  return out;
+}
+
+}  // namespace pintle

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/build/build.h"
+#include "framework/dynamics/equations/energy.h"
+
+namespace pintle {
+
+/// Named columns over time.
+struct Table {
+  std::vector<std::string> header;  ///< "name [unit]"
+  std::vector<double> data;         ///< row after row
+  std::size_t columns() const { return header.size(); }
+  std::size_t rows() const { return header.empty() ? 0 : data.size() / header.size(); }
+  /// @throws std::out_of_range  no column of that name (its unit included)
+  std::vector<double> column(const std::string& name) const;
+};
+
+/// Motion of each body's origin, of a flexible one its modal coordinates; wrench of each joint on a named
+/// body, motion in each clearance; motion and stress of the points that the scene asks for.
+Table trajectory_table(const Model&);
+void record(const Model&, const State&, const Equations&, Table& trajectory);
+
+/// Energies, and each integral of the ledger.
+Table ledger_table(const System&);
+void record_ledger(const System&, const State&, const Energies&, double unexplained, Table& ledger);
+
+/// Its column of the first integral.
+std::size_t first_integral(const System&);
+
+/// Wrench of joint k on its body b (on a if b is the ground), world axes [N, N, N m].
+Wrench joint_wrench(const System&, const Equations&, int joint);
+/// The body that joint_wrench names.
+std::string joint_subject(const System&, int joint);
+/// "gudgeon pin.friction", the name of an integral
+std::string integral_name(const System&, const Integral&);
+
+}  // namespace pintle

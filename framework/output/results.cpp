@@ -1,0 +1,171 @@
+#include "framework/output/results.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/output/run_files.h"
+#include "framework/scene/yaml/json_text.h"
+
+namespace pintle {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json energies_json(const Energies& e) {
+  return {{"kinetic", e.kinetic}, {"gravity", e.gravity}, {"springs", e.springs}, {"contacts", e.contacts}, {"strain", e.strain},
+          {"stored", e.stored()}, {"lost", e.lost},       {"work in", e.input}};
+}
+
+Json assembly_json(const System& system, const Assembly& a) {
+  Json redundant = Json::array();
+  for (const Redundancy& r : a.redundant) {
+    Json others = Json::array();
+    for (int k : r.implied_by) others.push_back(system.joint_names[static_cast<std::size_t>(k)]);
+    redundant.push_back({{"joint", system.joint_names[static_cast<std::size_t>(r.joint)]},
+                         {"row", row_name(system.joints[static_cast<std::size_t>(r.joint)], r.row)},
+                         {"implied by", others},
+                         {"lasting", r.lasting}});
+  }
+  Json shared = Json::array();
+  for (std::size_t k = 0; k < system.joints.size() && !a.redundant.empty(); ++k)
+    for (int row = system.row_begin[k]; row < system.row_begin[k + 1]; ++row)
+      if (a.shared[static_cast<std::size_t>(row)])
+        shared.push_back({{"joint", system.joint_names[k]}, {"row", row_name(system.joints[k], row - system.row_begin[k])}});
+  return {{"bodies", system.bodies.size()},
+          {"coordinates", system.n()},
+          {"modal coordinates", system.n() - system.n_rigid()},
+          {"constraint rows", system.n_rows()},
+          {"rank", a.rank},
+          {"mobility", system.n() - a.rank},
+          {"contacts", system.contacts.size()},
+          {"forces", system.forces.size()},
+          {"ledger integrals", system.n_z()},
+          {"redundant rows", redundant},
+          {"joint forces not unique", shared}};
+}
+
+Json choice_json(const ModalChoice& c) {
+  Json modes = Json::array();
+  for (const ConsideredMode& m : c.considered)
+    modes.push_back({{"frequency [Hz]", m.frequency}, {"strain energy", m.energy}, {"left out of strain energy", m.left_energy},
+                     {"left out of displacement", m.left_displacement}, {"kept", m.kept}});
+  return {{"count", c.count}, {"reason", c.reason}, {"considered", modes}};
+}
+
+Json motion_json(const MotionEstimate& m) {
+  return {{"deflection over size", m.deflection}, {"slope [rad]", m.slope}, {"spin [rad/s]", m.spin},
+          {"excited up to [Hz]", m.excited_up_to},
+          {"first frequency changed by inertia", m.by_rotation},
+          {"first frequency changed by all loads", m.by_all_loads}};
+}
+
+Json flexible_json(const Model& model) {
+  Json all = Json::array();
+  for (const FlexibleReport& r : model.flexible) {
+    Json one = {{"body", r.body}, {"basis", r.basis}, {"shapes", r.shapes}, {"lowest [Hz]", r.lowest}, {"highest [Hz]", r.highest},
+                {"least damping", r.least_damping}, {"greatest damping", r.most_damping},
+                {"frequencies [Hz]", r.frequencies}, {"damping ratios", r.damping},
+                {"mass share", r.mass ? Json{{"x", r.mass->x()}, {"y", r.mass->y()}, {"rotation", r.mass->z()}} : Json(nullptr)},
+                {"compliance covered", r.compliance}, {"compliance covered least at", r.compliance_at}};
+    if (r.choice) one["choice"] = choice_json(*r.choice);
+    if (r.motion) one["rigid run"] = motion_json(*r.motion);
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+Json rehearsal_json(const Model& model) {
+  if (!model.rehearsal) return nullptr;
+  const Rehearsal& r = *model.rehearsal;
+  return {{"reached [s]", r.until}, {"steps", r.steps}, {"time [s]", r.seconds}, {"trouble", r.trouble}};
+}
+
+Json method_json(const Scheme& scheme, const std::string& switched) {
+  return {{"name", name(scheme)}, {"reason", scheme.reason}, {"changed in the run", switched.empty() ? Json(nullptr) : Json(switched)}};
+}
+
+Json scene_json(const Scene& scene) {
+  return scene.filled_in.empty() ? Json(nullptr) : Json::parse(scene.filled_in, nullptr, false);
+}
+
+}  // namespace
+
+std::string run_json(const Scene& scene, const Model& model, const Assembly& assembly, const Run& run) {
+  const System& system = model.system;
+  Json losses = Json::object();
+  for (std::size_t i = 0; i < run.integrals.size(); ++i) losses[integral_name(system, system.integrals[i])] = run.integrals[i];
+  Json contacts = Json::object();
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    const ContactPair& p = system.contacts[c];
+    Json& out = contacts[system.contact_names[c]] = {{"model", model.clearances[c]}};
+    if (p.link < 0) {
+      out["stiffness [N/m^n]"] = p.normal.k;
+      out["exponent"] = p.normal.n;
+      out["hysteresis factor"] = p.normal.chi;
+      out["damping [N s/m]"] = p.normal.d;
+      if (p.normal.d == 0) out["restitution delivered"] = effective_restitution(p.normal.chi);
+    }
+    out["journal radius [m]"] = p.gap.journal;
+    out["bearing radius [m]"] = p.gap.bearing;
+  }
+  const Json out = {
+      {"program", "pintle"},
+      {"version", PINTLE_VERSION},
+      {"title", scene.title},
+      {"file", scene.file},
+      {"status", status_text(run.status)},
+      {"reason", run.reason},
+      {"warnings", run.warnings},
+      {"reached [s]", run.t_end},
+      {"model", assembly_json(system, assembly)},
+      {"method", method_json(model.scheme, run.switched)},
+      {"flexible bodies", flexible_json(model)},
+      {"rigid run", rehearsal_json(model)},
+      {"contacts", contacts},
+      {"energy at start [J]", energies_json(run.first)},
+      {"energy at end [J]", energies_json(run.last)},
+      {"ledger [J]", losses},
+      {"unexplained [J]", run.unexplained},
+      {"worst unexplained [J]", run.worst_unexplained},
+      {"energy in play [J]", run.energy_in_play},
+      {"ledger bound", {{"share of the energy in play", run.ledger_bound}, {"and of rounding [J]", run.ledger_floor}}},
+      {"worst scaled violation", {{"position", run.worst_position}, {"velocity", run.worst_velocity}}},
+      {"counts",
+       {{"steps", run.counts.steps},
+        {"rejected", run.counts.rejected},
+        {"evaluations", run.counts.evaluations},
+        {"factorizations", run.counts.factorizations},
+        {"events", run.counts.events},
+        {"impacts", run.impacts.size()},
+        {"partitions chosen", run.counts.partitions}}},
+      {"timings [s]", {{"integration", run.seconds}}},
+      {"scene", scene_json(scene)}};
+  return json_text(out) + "\n";
+}
+
+std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly, const Price& price) {
+  std::vector<std::string> warnings = model.warnings;
+  for (std::string& w : doubts(model, assembly)) warnings.push_back(std::move(w));
+  const Json out = {{"title", scene.title}, {"file", scene.file}, {"model", assembly_json(model.system, assembly)},
+                    {"method", method_json(model.scheme, "")},
+                    {"clearances", model.clearances},
+                    {"flexible bodies", flexible_json(model)},
+                    {"rigid run", rehearsal_json(model)},
+                    {"price", Json::parse(price_json(price))},
+                    {"warnings", warnings},
+                    {"scene", scene_json(scene)}};
+  return json_text(out) + "\n";
+}
+
+void write_results(const fs::path& directory, const Scene& scene, const Model& model, const Assembly& assembly,
+                   const Run& run) {
+  RunFiles files(directory, model);
+  files.add(run.trajectory, run.ledger, run.impacts);
+  files.finish(run.impacts);
+  write_text(directory / "run.json", run_json(scene, model, assembly, run));
+}
+
+}  // namespace pintle

@@ -1,0 +1,111 @@
+#include "framework/output/results_directory.h"
+
+#include <limits.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+
+#include "framework/common/file.h"
+
+namespace pintle {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void require_new(const fs::path& directory) {
+  std::error_code error;
+  const fs::file_status there = fs::symlink_status(directory, error);
+  if (there.type() == fs::file_type::none) throw FileError(directory, error.value(), "cannot be made");
+  if (fs::exists(there)) throw std::runtime_error(directory.string() + ": exists already; name another directory with --out, or remove it");
+}
+
+void require_short_names(const fs::path& directory) {
+  for (const fs::path& part : directory)
+    if (part.native().size() > NAME_MAX) throw FileError(directory, ENAMETOOLONG, "cannot be made");
+  constexpr std::size_t inside = 300;  // what the longest path in it adds
+  if (directory.native().size() + inside > PATH_MAX) throw FileError(directory, ENAMETOOLONG, "cannot be made");
+}
+
+}  // namespace
+
+fs::path nearest_that_exists(const fs::path& directory) {
+  fs::path at = directory.parent_path();
+  std::error_code error;
+  while (!at.empty() && !fs::exists(at, error)) at = at.parent_path();
+  return at.empty() ? fs::path(".") : at;
+}
+
+fs::path without_slash(const fs::path& path) {
+  fs::path out = path.lexically_normal();
+  if (!out.has_filename() && out.has_parent_path() && out != out.root_path()) out = out.parent_path();
+  return out;
+}
+
+std::vector<fs::path> leftovers(const fs::path& directory) {
+  const fs::path final = without_slash(directory), parent = final.parent_path();
+  const std::string begins = final.filename().string() + ".part-";
+  std::vector<fs::path> out;
+  try {
+    for (const std::string& name : names_in(parent))
+      if (name.starts_with(begins)) out.push_back(parent / name);
+  } catch (const FileError&) {  // not there yet, or not to be read
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
+void require_writable(const fs::path& directory) {
+  const fs::path final = without_slash(directory);
+  require_new(final);
+  require_short_names(final);
+  const fs::path probe = make_unique_folder(nearest_that_exists(final) / ".pintle");
+  ::rmdir(probe.c_str());
+}
+
+ResultsDirectory::ResultsDirectory(const fs::path& directory) : final_(without_slash(directory)) {
+  require_new(final_);
+  require_short_names(final_);
+  std::error_code error;
+  if (final_.has_parent_path()) fs::create_directories(final_.parent_path(), error);
+  if (error) throw FileError(final_.parent_path(), error.value(), "cannot be made");
+  staging_ = make_unique_folder(final_);
+  fs::create_directory(staging_ / "frames", error);
+}
+
+ResultsDirectory::~ResultsDirectory() {
+  std::error_code ignored;
+  try {
+    if (committed_ || holds_files()) return;
+    fs::remove(staging_ / "frames", ignored);
+    fs::remove(staging_, ignored);
+  } catch (...) {  // no memory: it stays
+  }
+}
+
+bool ResultsDirectory::holds_files() const {
+  return !tree_of(staging_).files.empty();
+}
+
+void ResultsDirectory::commit() {
+  const auto moved = [](const fs::path& where, const std::string& why) {
+    return std::runtime_error(why + "; the results are in " + where.string());
+  };
+  std::error_code not_empty;
+  fs::remove(staging_ / "frames", not_empty);
+  try {
+    sync_tree(staging_);
+  } catch (const FileError& e) {
+    throw moved(staging_, e.what());
+  }
+  if (const int error = rename_new(staging_, final_); error != 0) throw moved(staging_, FileError(final_, error, "cannot be made").what());
+  committed_ = true;
+  try {
+    sync_folder(final_.parent_path());
+  } catch (const FileError& e) {
+    throw moved(final_, e.what());
+  }
+}
+
+}  // namespace pintle

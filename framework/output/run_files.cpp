@@ -1,0 +1,133 @@
+#include "framework/output/run_files.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <exception>
+
+#include "framework/common/text.h"
+#include "framework/output/results.h"
+
+namespace pintle {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* event_columns =
+    "joint,begin [s],end [s],approach speed [m/s],separation speed [m/s],deepest penetration [m],"
+    "peak force [N],energy lost [J]\n";
+
+std::string heading(const Table& table) {
+  std::string out;
+  for (std::size_t c = 0; c < table.columns(); ++c) {
+    if (c) out += ',';
+    out += csv_field(table.header[c]);
+  }
+  out += '\n';
+  return out;
+}
+
+void append_row(std::string& out, const Table& table, std::size_t row) {
+  for (std::size_t c = 0; c < table.columns(); ++c) {
+    if (c) out += ',';
+    append_number(out, table.data[row * table.columns() + c]);
+  }
+  out += '\n';
+}
+
+}  // namespace
+
+std::string csv(const Table& table) {
+  std::string out = heading(table);
+  for (std::size_t r = 0; r < table.rows(); ++r) append_row(out, table, r);
+  return out;
+}
+
+void write_csv(const fs::path& path, const Table& table) {
+  FileWriter file(path);
+  file.append(heading(table));
+  std::string row;
+  for (std::size_t r = 0; r < table.rows(); ++r) {
+    row.clear();
+    append_row(row, table, r);
+    file.append(row);
+  }
+  file.close();
+}
+
+RunFiles::RunFiles(const fs::path& directory, const Model& model)
+    : system_(model.system),
+      trajectory_(directory / "trajectory.csv"),
+      ledger_(directory / "ledger.csv"),
+      events_(directory / "events.csv") {
+  trajectory_.append(heading(trajectory_table(model)));
+  ledger_.append(heading(ledger_table(system_)));
+  events_.append(event_columns);
+}
+
+void RunFiles::add_rows(const Table& table, FileWriter& file) {
+  for (std::size_t r = 0; r < table.rows(); ++r) {
+    row_.clear();
+    append_row(row_, table, r);
+    file.append(row_);
+  }
+}
+
+void RunFiles::add_impact(const Impact& i) {
+  row_ = csv_field(system_.contact_names[static_cast<std::size_t>(i.contact)]);
+  for (const double x : {i.begin, i.end, i.approach, i.separation, i.deepest, i.peak_force, i.lost}) {
+    row_ += ',';
+    append_number(row_, x);
+  }
+  row_ += '\n';
+  events_.append(row_);
+  ++impacts_;
+}
+
+void RunFiles::add(const Table& trajectory, const Table& ledger, const std::vector<Impact>& impacts) {
+  add_rows(trajectory, trajectory_);
+  add_rows(ledger, ledger_);
+  while (impacts_ < impacts.size() && !std::isnan(impacts[impacts_].end)) add_impact(impacts[impacts_]);
+}
+
+void RunFiles::flush() {
+  for (FileWriter* file : {&trajectory_, &ledger_, &events_}) file->flush();
+}
+
+void RunFiles::finish(const std::vector<Impact>& impacts) {
+  std::exception_ptr trouble;
+  const auto attempt = [&](auto act) {
+    try {
+      act();
+    } catch (...) {
+      if (!trouble) trouble = std::current_exception();
+    }
+  };
+  attempt([&] { trajectory_.close(); });
+  attempt([&] { ledger_.close(); });
+  attempt([&] {
+    while (impacts_ < impacts.size()) add_impact(impacts[impacts_]);
+    events_.close();
+  });
+  if (trouble) std::rethrow_exception(trouble);
+}
+
+ReservedRoom::ReservedRoom(fs::path file, std::size_t bytes) : file_(std::move(file)) {
+  const int made = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (made < 0) throw FileError(file_, errno);
+  const int error = ::posix_fallocate(made, 0, static_cast<off_t>(bytes));
+  ::close(made);
+  if (error != ENOSPC && error != EDQUOT && error != EFBIG) return;  // else the file system cannot, or has
+  ::unlink(file_.c_str());
+  throw FileError(file_, error);
+}
+
+void ReservedRoom::release() {
+  if (!file_.empty()) ::unlink(file_.c_str());
+  file_.clear();
+}
+
+}  // namespace pintle

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "framework/common/time_law.h"
+#include "framework/scene/units/unit.h"
+
+namespace pintle {
+
+/// An expression that cannot be read; says what is wrong and what to write instead.
+struct ExpressionError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A number with its dimension; SI.
+struct Quantity {
+  double value = 0;
+  Dimension dimension;
+};
+
+enum class Op : unsigned char {
+  constant,
+  time,  // no operand
+  negate,
+  sin,
+  cos,
+  tan,
+  asin,
+  acos,
+  atan,
+  sqrt,
+  exp,
+  log,
+  abs,
+  smooth,  // one
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,
+  atan2,
+  min,
+  max,  // two
+  less,
+  greater,
+  at_most,
+  at_least,
+  equal,
+  unequal,
+  both,
+  either,  // two, answer 1 or 0
+  choose,  // three: condition, then, else
+};
+
+/// A formula in t as a stack machine over jets: value, rate and acceleration are exact, by the
+/// rules of differentiation. No allocation and no shared state: safe to call from many threads.
+struct Program {
+  struct Instruction {
+    Op op;
+    double value = 0;  ///< of a constant
+  };
+  static constexpr int most_stacked = 32;
+  std::vector<Instruction> code;  ///< postfix
+
+  Jet operator()(double t) const;
+};
+
+/// Builds a formula term by term, judging dimensions and folding constants as it goes. A term is
+/// named by its index.
+/// @throws ExpressionError  from every member, if the dimensions do not fit or a constant is not
+/// finite
+class Formula {
+ public:
+  /// @param of_time  what t is taken to be: a time, or a bare number of seconds
+  explicit Formula(const Dimension& of_time) : of_time_(of_time) {}
+
+  int constant(const Quantity&);
+  int time();
+  int term(Op, int a);
+  int term(Op, int a, int b);
+  int choose(int condition, int then, int otherwise);
+  /// 0 before t0, 1 after t1, 10s³ − 15s⁴ + 6s⁵ between: two continuous derivatives.
+  int step(int x, int x0, int x1);
+
+  bool is_constant(int i) const { return terms_[index(i)].op == Op::constant; }
+  Quantity quantity(int i) const { return {terms_[index(i)].value, terms_[index(i)].dimension}; }
+  bool uses_time() const { return uses_time_; }
+  Program program(int root) const;
+
+ private:
+  struct Term {
+    Op op;
+    int a = -1, b = -1, c = -1;
+    Dimension dimension = {};
+    double value = 0;
+  };
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  int append(Term);
+  Dimension dimension_of(Op, const Term& a) const;
+  Dimension dimension_of(Op, const Term& a, const Term& b) const;
+  int write(int i, std::vector<Program::Instruction>& code) const;
+
+  Dimension of_time_;
+  bool uses_time_ = false;
+  std::vector<Term> terms_;
+};
+
+}  // namespace pintle

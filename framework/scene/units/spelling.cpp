@@ -1,0 +1,220 @@
+#include "framework/scene/units/spelling.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "framework/scene/units/unit.h"
+
+namespace pintle {
+
+namespace {
+
+using Kind = Word::Kind;
+constexpr std::size_t longest_text = 2000;
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+// Characters an engineer types that are not ASCII.
+std::string plain(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> spellings{
+      {{"µ", "u"},
+       {"μ", "u"},
+       {"°", " deg"},
+       {"·", "*"},
+       {"×", "*"},
+       {"−", "-"},
+       {"²", "^2"},
+       {"³", "^3"},
+       {"π", "pi"},
+       {"\u00a0", " "}}};
+  std::string out;
+  while (!text.empty()) {
+    bool replaced = false;
+    for (const auto& [from, to] : spellings)
+      if (text.starts_with(from)) {
+        out += to;
+        text.remove_prefix(from.size());
+        replaced = true;
+        break;
+      }
+    if (replaced) continue;
+    out += text.front();
+    text.remove_prefix(1);
+  }
+  return out;
+}
+
+class Speller {
+ public:
+  Speller(const std::string& text, const Vocabulary& known) : rest_(text), known_(known) {}
+
+  std::vector<Word> words() {
+    for (skip_space(); !rest_.empty(); skip_space()) {
+      const char c = rest_.front();
+      if (is_digit(c) || (c == '.' && rest_.size() > 1 && is_digit(rest_[1])))
+        number();
+      else if (is_letter(c))
+        name();
+      else if (c == '(')
+        open();
+      else if (c == ')')
+        close();
+      else if (c == ',')
+        comma();
+      else
+        sign();
+    }
+    if (divided_.size() > 1) throw ExpressionError("a parenthesis is not closed" + hint_);
+    return std::move(words_);
+  }
+
+ private:
+  void skip_space() {
+    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t' ||
+                              rest_.front() == '\n' || rest_.front() == '\r'))
+      rest_.remove_prefix(1);
+  }
+  void take(Kind kind, std::size_t length, double value = 0) {
+    words_.push_back({kind, std::string(rest_.substr(0, length)), value});
+    rest_.remove_prefix(length);
+  }
+  // The last word ends a value, so that what follows must be a sign.
+  bool after_value() const {
+    if (words_.empty()) return false;
+    const Kind k = words_.back().kind;
+    return k == Kind::number || k == Kind::name || k == Kind::close;
+  }
+  std::string between(std::string_view next) const {
+    return "nothing stands between " + words_.back().text + " and " + std::string(next);
+  }
+  [[noreturn]] void side_by_side(std::string_view next) const {
+    const std::string last = words_.back().text;
+    throw ExpressionError(between(next) + ": write " + (last == ")" ? "" : last) + "*" +
+                          std::string(next));
+  }
+
+  void number();
+  void name();
+  void multiply_by_unit(std::string_view unit);
+  void open() {
+    if (after_value()) side_by_side("(");
+    divided_.push_back(false);
+    take(Kind::open, 1);
+  }
+  void close() {
+    if (divided_.size() == 1) throw ExpressionError("a parenthesis closes that was not opened");
+    divided_.pop_back();
+    take(Kind::close, 1);
+  }
+  void comma() {
+    if (divided_.size() == 1)
+      throw ExpressionError("a comma stands outside a function: the decimal point is \".\"");
+    divided_.back() = false;
+    take(Kind::comma, 1);
+  }
+  void sign();
+
+  std::string_view rest_;
+  const Vocabulary& known_;
+  std::vector<Word> words_;
+  std::vector<bool> divided_{false};  // per open parenthesis: the current product has divided
+  const std::string hint_ = "; inside { } or [ ] an expression with commas must stand in quotes";
+};
+
+void Speller::number() {
+  double value = 0;
+  const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+  const auto length = static_cast<std::size_t>(end - rest_.data());
+  const bool reciprocal = length == 1 && value == 1 && rest_.size() > 2 && rest_[1] == '/' &&
+                          is_letter(rest_[2]) && !words_.empty() &&
+                          words_.back().kind == Kind::number && !divided_.back();
+  if (reciprocal)
+    words_.push_back({Kind::sign, "*"});
+  else if (after_value())
+    side_by_side(rest_.substr(0, length));
+  if (error != std::errc())
+    throw ExpressionError(std::string(rest_.substr(0, length)) +
+                          " is too large or too small for a number");
+  take(Kind::number, length, value);
+}
+
+void Speller::name() {
+  std::size_t length = 0;
+  while (length < rest_.size() && (is_letter(rest_[length]) || is_digit(rest_[length]))) ++length;
+  const std::string_view text = rest_.substr(0, length);
+  std::size_t next = length;
+  while (next < rest_.size() && rest_[next] == ' ') ++next;
+  const bool calls = next < rest_.size() && rest_[next] == '(';
+  if (after_value()) {
+    const bool value = calls || text == "t" || text == "pi" || known_.parameters.contains(text);
+    if (value) side_by_side(text);
+    if (!known_.unit(text))
+      throw ExpressionError(between(text) + ", and " + no_unit(std::string(text)));
+    multiply_by_unit(text);
+  }
+  take(calls ? Kind::function : Kind::name, length);
+}
+
+// A space before a unit multiplies, left to right. After a division that could surprise (N/m s,
+// 10 deg/2 deg), so only the plain fraction 1/2 mm may do it there.
+void Speller::multiply_by_unit(std::string_view unit) {
+  const std::size_t n = words_.size();
+  const bool fraction = n >= 3 && words_[n - 1].kind == Kind::number && words_[n - 2].text == "/" &&
+                        words_[n - 3].kind == Kind::number && (n == 3 || words_[n - 4].text != "/");
+  if (divided_.back() && !fraction) {
+    const std::string last = words_.back().text, u(unit);
+    throw ExpressionError("\"" + last + " " + u +
+                          "\" after a \"/\" can be read two ways: write /(" + last + "*" + u +
+                          ") or *" + u);
+  }
+  divided_.back() = false;
+  words_.push_back({Kind::sign, "*"});
+}
+
+void Speller::sign() {
+  static constexpr std::array<std::string_view, 15> signs{
+      "<=", ">=", "==", "!=", "&&", "||", "+", "-", "*", "/", "^", "<", ">", "**", "="};
+  std::size_t length = 0;
+  for (const std::string_view s : signs)
+    if (rest_.starts_with(s) && s.size() > length) length = s.size();
+  const std::string_view s = rest_.substr(0, length);
+  if (s == "**") throw ExpressionError("a power is written ^");
+  if (s == "=") throw ExpressionError("= is no operator: write == to compare");
+  if (length == 0) {
+    const bool condition = rest_.front() == '?' || rest_.front() == ':';
+    if (condition) throw ExpressionError("a choice is written if(condition, a, b)");
+    throw ExpressionError("\"" + std::string(rest_.substr(0, rest_.front() < 0 ? 2 : 1)) +
+                          "\" has no meaning in an expression: it is made of numbers, units, "
+                          "parameters, t, functions and + - * / ^ ( )");
+  }
+  const bool prefix = !after_value();
+  if (!prefix && s != "^") divided_.back() = s == "/";
+  take(Kind::sign, length);
+}
+
+}  // namespace
+
+const Unit* Vocabulary::unit(std::string_view name) const {
+  const auto found = std::ranges::find(more_units, name, &Unit::name);
+  return found != more_units.end() ? &*found : find_unit(name);
+}
+
+std::vector<Word> spell(std::string_view text, const Vocabulary& known) {
+  if (text.size() > longest_text)
+    throw ExpressionError("it is longer than " + std::to_string(longest_text) +
+                          " characters: name parts of it in parameters, or use a table");
+  const std::string ascii = plain(text);
+  std::vector<Word> words = Speller(ascii, known).words();
+  if (words.empty()) throw ExpressionError("it is empty: write a value");
+  return words;
+}
+
+}  // namespace pintle

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "framework/scene/units/formula.h"
+
+namespace pintle {
+
+using Parameters = std::map<std::string, Quantity, std::less<>>;
+
+/// What names an expression may use beside t, pi and the functions. Must not outlive its parts.
+struct Vocabulary {
+  const Parameters& parameters;
+  std::span<const Unit> more_units = {};          ///< beside units()
+  const Unit* unit(std::string_view name) const;  ///< nullptr if there is none
+};
+
+/// An expression cut into words, with the multiplications that a space before a unit means written
+/// out. `10 mm` becomes 10 * mm; `1/2 mm` becomes 1 / 2 * mm.
+struct Word {
+  enum class Kind { number, name, function, sign, open, close, comma } kind;
+  std::string text;
+  double value = 0;  ///< of a number
+};
+
+/// `3 1/s` becomes 3 * 1 / s.
+/// @throws ExpressionError  a character, number or parenthesis that cannot be, two values side by
+///                          side, or a unit after a division that could be read two ways
+std::vector<Word> spell(std::string_view text, const Vocabulary&);
+
+}  // namespace pintle

@@ -1,0 +1,181 @@
+#include "framework/scene/units/table.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include "framework/scene/error.h"
+#include "framework/scene/yaml/text_file.h"
+
+namespace pintle {
+
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{50} << 20;
+
+std::vector<std::string_view> columns(std::string_view line) {
+  constexpr std::string_view separators = " \t\r,;";
+  std::vector<std::string_view> out;
+  for (std::size_t begin = line.find_first_not_of(separators); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(separators, begin), line.size());
+    out.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(separators, end);
+  }
+  return out;
+}
+
+std::optional<double> number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// Interval [i, i + 1] that holds t; t strictly inside the samples.
+std::size_t interval(const std::vector<double>& t, double at) {
+  const auto above = std::upper_bound(t.begin() + 1, t.end() - 1, at);
+  return static_cast<std::size_t>(above - t.begin()) - 1;
+}
+
+std::optional<Jet> held_end(const Samples& s, double t) {
+  if (t < s.t.front()) return Jet{s.value.front(), 0, 0};
+  if (t > s.t.back()) return Jet{s.value.back(), 0, 0};
+  return std::nullopt;
+}
+
+class SampleReader {
+ public:
+  SampleReader(std::string file, std::string key) : file_(std::move(file)), key_(std::move(key)) {}
+
+  void line(std::string_view text, double time_unit, double value_unit) {
+    ++line_;
+    if (line_ == 1 && text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // byte-order mark
+    const auto words = columns(text.substr(0, text.find('#')));
+    if (words.empty()) return;
+    const bool header = !seen_a_line_ && !number(words[0]);
+    seen_a_line_ = true;
+    if (header) return;
+    if (words.size() != 2)
+      fail("holds " + std::to_string(words.size()) + " columns; write two: time and value");
+    const double t = finite(words[0], 1) * time_unit, value = finite(words[1], 2) * value_unit;
+    if (!samples_.t.empty() && !(t > samples_.t.back()))
+      fail("time " + std::string(words[0]) +
+           " does not come after the one before; times must increase");
+    samples_.t.push_back(t);
+    samples_.value.push_back(value);
+  }
+  Samples samples() {
+    if (samples_.t.size() < 2) {
+      line_ = 0;
+      fail("holds " + std::to_string(samples_.t.size()) + " samples; a table needs at least two");
+    }
+    return std::move(samples_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw SceneError(file_, {line_, key_}, message);
+  }
+  double finite(std::string_view word, int column) const {
+    const std::optional<double> value = number(word);
+    // Before a first row of numbers the file may be anything, and is not shown.
+    if (!value)
+      fail((samples_.t.empty() ? "column " + std::to_string(column) : "\"" + std::string(word) + "\"") +
+           " is not a number; write one, like 0.25 or 2.5e-1");
+    if (!std::isfinite(*value))
+      fail("the value " + std::string(word) + " is not finite; correct or remove the line");
+    return *value;
+  }
+
+  std::string file_, key_;
+  int line_ = 0;
+  bool seen_a_line_ = false;
+  Samples samples_;
+};
+
+// Second derivatives at the samples from continuity of the first, with the third continuous across
+// the second and the last but one sample.
+std::vector<double> curvatures(const std::vector<double>& t, const std::vector<double>& y) {
+  const std::size_t n = t.size();
+  std::vector<double> m(n, 0.0);
+  if (n == 2) return m;
+  const auto h = [&](std::size_t i) { return t[i + 1] - t[i]; };
+  const auto slope = [&](std::size_t i) { return (y[i + 1] - y[i]) / h(i); };
+  if (n == 3) {
+    std::ranges::fill(m, 2 * (slope(1) - slope(0)) / (t[2] - t[0]));
+    return m;
+  }
+  // Rows i = 1 … n − 2:  lower m_{i−1} + diagonal m_i + upper m_{i+1} = right.
+  std::vector<double> diagonal(n), upper(n), right(n);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    double lower = h(i - 1);
+    diagonal[i] = 2 * (h(i - 1) + h(i));
+    upper[i] = h(i);
+    right[i] = 6 * (slope(i) - slope(i - 1));
+    if (i == 1) {
+      const double r = h(0) / h(1);  // m₀ = (1 + r) m₁ − r m₂
+      diagonal[i] += h(0) * (1 + r);
+      upper[i] -= h(0) * r;
+      lower = 0;
+    }
+    if (i == n - 2) {
+      const double r = h(n - 2) / h(n - 3);  // the same from the other end
+      diagonal[i] += h(i) * (1 + r);
+      lower -= h(i) * r;
+      upper[i] = 0;
+    }
+    if (i > 1) {
+      const double w = lower / diagonal[i - 1];
+      diagonal[i] -= w * upper[i - 1];
+      right[i] -= w * right[i - 1];
+    }
+  }
+  for (std::size_t i = n - 2; i >= 1; --i) m[i] = (right[i] - upper[i] * m[i + 1]) / diagonal[i];
+  m[0] = m[1] + (m[1] - m[2]) * h(0) / h(1);
+  m[n - 1] = m[n - 2] + (m[n - 2] - m[n - 3]) * h(n - 2) / h(n - 3);
+  return m;
+}
+
+}  // namespace
+
+Samples read_samples(const std::filesystem::path& file, double time_unit, double value_unit,
+                     const std::string& key) {
+  const std::string text = read_text_file(file, most_bytes, key);
+  SampleReader reader(file.string(), key);
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    reader.line(std::string_view(text).substr(begin, end - begin), time_unit, value_unit);
+    begin = end + 1;
+  }
+  return reader.samples();
+}
+
+Spline::Spline(Samples samples)
+    : samples_(std::move(samples)), curvature_(curvatures(samples_.t, samples_.value)) {}
+
+Jet Spline::operator()(double t) const {
+  if (const auto held = held_end(samples_, t)) return *held;
+  const std::size_t i = interval(samples_.t, t);
+  const double h = samples_.t[i + 1] - samples_.t[i];
+  const double a = (samples_.t[i + 1] - t) / h, b = 1 - a;  // weights of the two ends
+  const double ya = samples_.value[i], yb = samples_.value[i + 1];
+  const double ma = curvature_[i], mb = curvature_[i + 1];
+  return {a * ya + b * yb + ((a * a * a - a) * ma + (b * b * b - b) * mb) * h * h / 6,
+          (yb - ya) / h + ((1 - 3 * a * a) * ma + (3 * b * b - 1) * mb) * h / 6, a * ma + b * mb};
+}
+
+Jet Polyline::operator()(double t) const {
+  if (const auto held = held_end(samples_, t)) return *held;
+  const std::size_t i = interval(samples_.t, t);
+  const double slope =
+      (samples_.value[i + 1] - samples_.value[i]) / (samples_.t[i + 1] - samples_.t[i]);
+  return {samples_.value[i] + slope * (t - samples_.t[i]), slope, 0};
+}
+
+}  // namespace pintle

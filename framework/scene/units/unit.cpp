@@ -1,0 +1,173 @@
+#include "framework/scene/units/unit.h"
+
+#include <array>
+#include <cmath>
+#include <locale>
+#include <numbers>
+#include <sstream>
+#include <vector>
+
+#include "framework/scene/yaml/nearest.h"
+
+namespace pintle {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+namespace d = dimension;
+constexpr Dimension power_of_work{2, 1, -3, 0};
+
+constexpr std::array known_units{
+    Unit{"m", 1, d::length},       Unit{"km", 1e3, d::length},
+    Unit{"cm", 1e-2, d::length},   Unit{"mm", 1e-3, d::length},
+    Unit{"um", 1e-6, d::length},   Unit{"nm", 1e-9, d::length},
+    Unit{"kg", 1, d::mass},        Unit{"g", 1e-3, d::mass},
+    Unit{"mg", 1e-6, d::mass},     Unit{"s", 1, d::time},
+    Unit{"ms", 1e-3, d::time},     Unit{"us", 1e-6, d::time},
+    Unit{"ns", 1e-9, d::time},     Unit{"rad", 1, d::angle},
+    Unit{"mrad", 1e-3, d::angle},  Unit{"deg", pi / 180, d::angle},
+    Unit{"rev", 2 * pi, d::angle}, Unit{"rpm", pi / 30, d::angular_speed},
+    Unit{"N", 1, d::force},        Unit{"mN", 1e-3, d::force},
+    Unit{"kN", 1e3, d::force},     Unit{"MN", 1e6, d::force},
+    Unit{"Pa", 1, d::stress},      Unit{"kPa", 1e3, d::stress},
+    Unit{"MPa", 1e6, d::stress},   Unit{"GPa", 1e9, d::stress},
+    Unit{"J", 1, d::torque},       Unit{"mJ", 1e-3, d::torque},
+    Unit{"kJ", 1e3, d::torque},    Unit{"W", 1, power_of_work},
+    Unit{"kW", 1e3, power_of_work}};
+
+constexpr std::array turns{Unit{"Hz", 2 * pi, d::angular_speed},
+                           Unit{"kHz", 2e3 * pi, d::angular_speed}};
+
+struct Absent {
+  std::string_view name, remedy;
+};
+constexpr std::array absent{
+    Absent{"Hz", "Hz counts turns, not radians: write 50*rev/s, 3000 rpm or 50/s, as you mean it"},
+    Absent{"kHz", "Hz counts turns, not radians: write 1000*rev/s or 1000/s, as you mean it"},
+    Absent{"min", "minutes are not offered: write 60 s"},
+    Absent{"inch", "inches are not offered: write 25.4 mm"},
+    Absent{"in", "inches are not offered: write 25.4 mm"},
+    Absent{"ft", "feet are not offered: write 0.3048 m"},
+    Absent{"lb", "pounds are not offered: write 0.45359237 kg"},
+    Absent{"lbf", "pounds are not offered: write 4.4482216 N"},
+    Absent{"psi", "pounds are not offered: write 6894.7573 Pa"},
+    Absent{"ton", "write 1000 kg"},
+    Absent{"Nm", "a product of units is written with a space: N m"},
+    Absent{"Nmm", "a product of units is written with a space: N mm"},
+    Absent{"kNm", "a product of units is written with a space: kN m"},
+    Absent{"Ns", "a product of units is written with a space: N s"},
+    Absent{"kgm", "a product of units is written with a space: kg m"}};
+
+struct Named {
+  Dimension dimension;
+  const char *words, *unit;
+};
+// "unit" must read back as an expression.
+const std::array named{Named{d::number, "a number", ""},
+                       Named{d::length, "a length", "m"},
+                       Named{d::mass, "a mass", "kg"},
+                       Named{d::time, "a time", "s"},
+                       Named{d::speed, "a speed", "m/s"},
+                       Named{d::angular_speed, "an angular speed", "rad/s"},
+                       Named{d::acceleration, "an acceleration", "m/s^2"},
+                       Named{d::inertia, "a moment of inertia", "kg*m^2"},
+                       Named{d::force, "a force", "N"},
+                       Named{d::torque, "a torque or energy", "N*m"},
+                       Named{d::stress, "a stress", "Pa"},
+                       Named{d::stiffness, "a stiffness or line load", "N/m"},
+                       Named{d::damping, "a damping", "N*s/m"},
+                       Named{d::torsion_damping, "a torsional damping", "N*m*s/rad"},
+                       Named{power_of_work, "a power", "W"},
+                       Named{d::area, "an area", "m^2"},
+                       Named{d::second_moment, "a second moment of area", "m^4"},
+                       Named{{3, 0, 0, 0}, "a volume", "m^3"},
+                       Named{d::density, "a density", "kg/m^3"}};
+
+bool near(double a, double b) {
+  return std::abs(a - b) < 1e-9;
+}
+
+const Named* name_of(const Dimension& q) {
+  for (const Named& n : named)
+    if (same(n.dimension, q)) return &n;
+  return nullptr;
+}
+
+std::string base_units(const Dimension& q) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  const std::array<std::pair<const char*, double>, 3> parts{
+      {{"kg", q.mass}, {"m", q.length}, {"s", q.time}}};
+  for (const auto& [name, exponent] : parts) {
+    if (near(exponent, 0)) continue;
+    if (out.tellp() > 0) out << '*';
+    out << name;
+    if (!near(exponent, 1)) out << "^(" << exponent << ')';
+  }
+  return out.str();
+}
+
+}  // namespace
+
+Dimension product(const Dimension& a, const Dimension& b) {
+  return {a.length + b.length, a.mass + b.mass, a.time + b.time, a.angle + b.angle};
+}
+
+Dimension power(const Dimension& a, double n) {
+  return {n * a.length, n * a.mass, n * a.time, n * a.angle};
+}
+
+bool same(const Dimension& a, const Dimension& b) {
+  return near(a.length, b.length) && near(a.mass, b.mass) && near(a.time, b.time);
+}
+
+bool bare(const Dimension& a) {
+  return same(a, {}) && near(a.angle, 0);
+}
+
+std::string describe(const Dimension& q) {
+  if (same(q, d::number) && !bare(q)) return "an angle [rad]";
+  const Named* n = name_of(q);
+  if (!n) return "a quantity in " + base_units(q);
+  return n->unit[0] == '\0' ? n->words : std::string(n->words) + " [" + n->unit + "]";
+}
+
+std::string si_unit(const Dimension& q) {
+  if (same(q, d::number)) return bare(q) ? "" : "rad";
+  const Named* n = name_of(q);
+  return n ? n->unit : base_units(q);
+}
+
+std::span<const Unit> units() {
+  return known_units;
+}
+
+const Unit* find_unit(std::string_view name) {
+  for (const Unit& u : known_units)
+    if (u.name == name) return &u;
+  return nullptr;
+}
+
+std::span<const Unit> frequency_units() {
+  return turns;
+}
+
+std::string_view instead_of(std::string_view word) {
+  for (const Absent& a : absent)
+    if (a.name == word) return a.remedy;
+  return {};
+}
+
+std::string no_unit(const std::string& word) {
+  std::vector<std::string> known;
+  for (const Unit& u : known_units) known.emplace_back(u.name);
+  const std::string best = nearest(word, known);
+  std::string out = word + " is no unit here";
+  if (const std::string_view remedy = instead_of(word); !remedy.empty())
+    out.append(": ").append(remedy);
+  else if (!best.empty())
+    out += ": did you mean " + best + "?";
+  return out + (out.back() == '?' ? "" : ".") + " Units: " + listed(known, "and");
+}
+
+}  // namespace pintle

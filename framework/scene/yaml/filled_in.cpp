@@ -1,0 +1,243 @@
+#include "framework/scene/yaml/filled_in_parts.h"
+#include "framework/scene/yaml/json_text.h"
+#include "framework/scene/yaml/reader_parts.h"
+
+namespace pintle {
+
+void append(Json& object, const std::string& name, Json value) {
+  object.get_ref<Json::object_t&>().push_back({name, std::move(value)});
+}
+
+Json json(const Pair& p) {
+  return Json::array({p[0], p[1]});
+}
+
+namespace {
+
+using pintle::json;
+
+std::string json(const PointRef& ref) {
+  return ref.point.empty() ? ref.body : ref.body + "." + ref.point;
+}
+
+Json ends(const PointRef& a, const PointRef& b) {
+  return Json::array({json(a), json(b)});
+}
+
+Json json(const Law& law) {
+  if (law.constant) return law.at(0).value;
+  if (law.text.starts_with('{')) return Json::parse(law.text);
+  return law.text;
+}
+
+Json points(const std::vector<ScenePoint>& all) {
+  Json out = Json::object();
+  for (const ScenePoint& p : all) {
+    Json point = {{"angle", p.angle}};
+    if (p.hole.empty())
+      point["at"] = json(p.at);
+    else
+      point.update({{"hole", p.hole},
+                    {"coupling", p.coupling == RimCoupling::average ? "average" : "rigid"}});
+    append(out, p.name, point);
+  }
+  return out;
+}
+
+// A parameter keeps its unit, so that laws in t that use it read back.
+Json parameter(const std::string& name, double value, const Parameters& parameters) {
+  const auto found = parameters.find(name);
+  const std::string unit = found == parameters.end() ? "" : si_unit(found->second.dimension);
+  if (unit.empty()) return value;
+  return Json(value).dump() + " " + unit;
+}
+
+Json rigid(const SceneBody& body) {
+  Json out = Json::object();
+  if (body.mass > 0) out["mass"] = body.mass;
+  if (body.inertia > 0) out["inertia"] = body.inertia;
+  out["center"] = json(body.center);
+  return out;
+}
+
+Json json(const SceneBody& body) {
+  Json out = Json::object();
+  if (body.elastic)
+    out = json(*body.elastic);
+  else
+    out["rigid"] = rigid(body);
+  out["points"] = points(body.points);
+  out["pose"] = {{"at", json(body.at)}, {"angle", body.angle}};
+  return out;
+}
+
+Json json(const SceneNormal& normal) {
+  Json law = Json::object();
+  if (normal.law != "hertz") law["restitution"] = normal.restitution;
+  law["exponent"] = normal.exponent;
+  law["radii"] = normal.radii == RadiusConvention::internal ? "internal" : "external";
+  law["slowest impact"] = normal.slowest_impact;
+  if (normal.stiffness) {
+    law["stiffness"] = *normal.stiffness;
+  } else {
+    law["young"] = normal.bearing.young;
+    law["poisson"] = normal.bearing.poisson;
+    law["journal"] = {{"young", normal.journal.young}, {"poisson", normal.journal.poisson}};
+  }
+  Json out = Json::object();
+  out[normal.law] = law;
+  return out;
+}
+
+Json json(const SceneClearance& clearance) {
+  Json out = {{"radial", clearance.radial},
+              {"bearing radius", clearance.bearing_radius},
+              {"bearing", clearance.bearing},
+              {"model", model_name(clearance.model)}};
+  if (clearance.normal.stiffness || clearance.normal.bearing.young > 0) out["normal"] = json(clearance.normal);
+  if (clearance.stiffness) out["stiffness"] = *clearance.stiffness;
+  if (clearance.damping) out["damping"] = *clearance.damping;
+  if (const auto& f = clearance.friction)
+    out["friction"]["ambrosio"] = {
+        {"coefficient", f->coefficient},
+        {"v0", f->v0},
+        {"v1", f->v1},
+        {"sliding", f->sliding == SlidingSpeed::material ? "material" : "geometric"}};
+  return out;
+}
+
+Json json(const SceneJoint& joint) {
+  const Json two = ends(joint.a, joint.b);
+  Json out = Json::object();
+  switch (joint.kind) {
+    case JointKind::revolute:
+      out["revolute"] = two;
+      break;
+    case JointKind::prismatic:
+      out = {{"prismatic", two}, {"angle", joint.angle}};
+      break;
+    case JointKind::slot:
+      out["slot"] = two;
+      break;
+    case JointKind::weld:
+      out = {{"weld", two}, {"angle", joint.angle}};
+      break;
+    case JointKind::distance:
+      out = {{"distance", two}, {"length", joint.length}};
+      break;
+  }
+  if (joint.clearance) out["clearance"] = json(*joint.clearance);
+  return out;
+}
+
+Json json(const SceneDriver& driver) {
+  Json out = Json::object();
+  out[driver.kind == DriverKind::angle ? "angle" : "distance"] = ends(driver.a, driver.b);
+  out["law"] = json(driver.law);
+  return out;
+}
+
+Json load(const SceneForce& f) {
+  return {
+      {"force", Json::array({json(f.x), json(f.y)})}, {"at", json(f.at)}, {"follows", f.follows}};
+}
+Json load(const SceneTorque& f) {
+  return {{"torque", json(f.law)}, {"on", json(f.b)}, {"from", json(f.a)}};
+}
+Json load(const SceneSpring& f) {
+  Json out = {{"spring", ends(f.a, f.b)}, {"damping", f.damping}, {"free length", f.free_length}};
+  if (f.stiffness > 0) out["stiffness"] = f.stiffness;
+  return out;
+}
+Json load(const SceneTorsionSpring& f) {
+  Json out = {
+      {"torsion spring", ends(f.a, f.b)}, {"damping", f.damping}, {"free angle", f.free_angle}};
+  if (f.stiffness > 0) out["stiffness"] = f.stiffness;
+  return out;
+}
+
+Json json(const StartBody& start) {
+  Json out = Json::object();
+  const auto put = [&](const char* key, const std::optional<double>& value) {
+    if (value) out[key] = *value;
+  };
+  put("x", start.x);
+  put("y", start.y);
+  put("angle", start.angle);
+  put("vx", start.vx);
+  put("vy", start.vy);
+  put("speed", start.speed);
+  for (const StartDeflection& d : start.deflection) out["deflection"][d.point] = json(d.u);
+  if (!start.modes.empty()) out["modes"] = start.modes;
+  return out;
+}
+
+Json starts(const Scene& scene) {
+  if (scene.start_at_rest) return "equilibrium";
+  Json out = Json::object();
+  for (const StartBody& s : scene.start_bodies) append(out, s.body, json(s));
+  for (const StartJournal& s : scene.start_journals)
+    append(out, s.joint, {{"eccentricity", json(s.eccentricity)}, {"speed", json(s.speed)}});
+  return out;
+}
+
+Json json(const RunOptions& run) {
+  Json out = {{"until", run.until},
+              {"method", run.method},
+              {"tolerance", run.tolerance},
+              {"constraints", run.constraints},
+              {"onset", "locate"},
+              {"max steps", run.max_steps},
+              {"ledger bound", run.ledger_bound}};
+  if (run.method == "generalized-alpha") out["method"] = {{run.method, {{"rho", run.rho}}}};
+  if (run.onset_cut) out["onset"] = {{"cut", *run.onset_cut}};
+  if (run.max_step > 0) out["max step"] = run.max_step;
+  return out;
+}
+
+Json json(const OutputOptions& output, const Scene& scene) {
+  Json out = {{"frames", output.frames}};
+  if (output.every > 0)
+    out["every"] = output.every;
+  else if (scene.has_run)
+    out["every"] = scene.run.until / 1000;
+  if (output.states > 0) out["states"] = output.states;
+  if (output.exaggerate > 0) out["exaggerate"] = output.exaggerate;
+  if (output.deformation > 0)
+    out["deformation"] = output.deformation;
+  else
+    out["deformation"] = "auto";
+  for (const PointRef& ref : output.points) out["points"].push_back(json(ref));
+  for (const PointRef& ref : output.stress) out["stress"].push_back(json(ref));
+  return out;
+}
+
+}  // namespace
+
+std::string filled_in(const Scene& scene, const Parameters& parameters) {
+  Json out = Json::object();
+  if (!scene.title.empty()) out["title"] = scene.title;
+  out["gravity"] = json(scene.gravity);
+  Json& named = out["parameters"] = Json::object();
+  for (const auto& [name, value] : scene.parameters)
+    append(named, name, parameter(name, value, parameters));
+  Json& materials = out["materials"] = Json::object();
+  for (const SceneMaterial& m : scene.materials) append(materials, m.name, json(m));
+  out["ground"]["points"] = points(scene.ground);
+  Json& bodies = out["bodies"] = Json::object();
+  for (const SceneBody& b : scene.bodies) append(bodies, b.name, json(b));
+  Json& joints = out["joints"] = Json::object();
+  for (const SceneJoint& j : scene.joints) append(joints, j.name, json(j));
+  Json& drivers = out["drivers"] = Json::object();
+  for (const SceneDriver& d : scene.drivers) append(drivers, d.name, json(d));
+  Json& forces = out["forces"] = Json::object();
+  for (const SceneLoad& l : scene.loads)
+    append(forces, l.name, std::visit([](const auto& what) { return load(what); }, l.what));
+  out["start"] = starts(scene);
+  if (scene.statics) out["static"] = json(*scene.statics);
+  if (scene.has_run) out["run"] = json(scene.run);
+  out["output"] = json(scene.output, scene);
+  return json_text(out);
+}
+
+}  // namespace pintle

@@ -1,0 +1,317 @@
+#include "framework/scene/yaml/keys.h"
+
+#include <algorithm>
+
+#include "framework/scene/yaml/nearest.h"
+
+namespace pintle {
+
+namespace {
+
+constexpr bool required = true, optional = false;
+
+// Groups that stand in several places.
+const std::vector<Key> orthotropic_keys{{"young", required, "[140 GPa, 10 GPa]"},
+                                        {"poisson", required, "0.3"},
+                                        {"shear", required, "5 GPa"},
+                                        {"angle"}};
+const std::vector<Key> section_keys{{"rectangle"}, {"circle"},        {"tube"},  {"i"},
+                                    {"area"},      {"second moment"}, {"fibre"}, {"shear factor"}};
+const std::vector<Key> i_section_keys{{"height", required, "100 mm"},
+                                      {"width", required, "55 mm"},
+                                      {"web", required, "4 mm"},
+                                      {"flange", required, "6 mm"}};
+const std::vector<Key> eye_keys{{"bore", required, "10 mm"}, {"outer", required, "20 mm"}};
+const std::vector<Key> keep_keys{
+    {"keep", optional, "", {"all", "auto"}}, {"count"}, {"below"}, {"effective mass"}};
+const std::vector<std::string> element_names{"triangle3",      "triangle6",
+                                             "quadrilateral4", "quadrilateral4-plain",
+                                             "quadrilateral8", "quadrilateral8-reduced",
+                                             "quadrilateral9"};
+constexpr const char* two_eyes = "[{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]";
+
+const std::vector<KeyTable>& tables() {
+  static const std::vector<KeyTable> all{
+      {"",
+       {{"title"},
+        {"gravity"},
+        {"parameters"},
+        {"materials"},
+        {"ground"},
+        {"bodies", required, "{crank: {rigid: {mass: 0.3 kg, inertia: 1e-4 kg m^2}}}"},
+        {"joints"},
+        {"drivers"},
+        {"forces"},
+        {"static"},
+        {"start", optional, "", {"equilibrium"}},
+        {"run"},
+        {"output"}}},
+      {"materials.*", {{"young"}, {"poisson"}, {"orthotropic"}, {"density"}}},
+      {"materials.*.orthotropic", orthotropic_keys},
+      {"ground", {{"points"}}},
+      {"ground.points.*", {{"at", required, "[10 mm, 0]"}, {"angle"}}},
+      {"bodies.*",
+       {{"rigid"},
+        {"beam"},
+        {"plate"},
+        {"points"},
+        {"pose"},
+        {"modes"},
+        {"damping"},
+        {"stiffening", optional, "", {"none", "rotation", "axial"}},
+        {"mass matrix", optional, "", {"consistent", "lumped"}},
+        {"lumps"},
+        {"supports"}}},
+      {"bodies.*.rigid",
+       {{"mass"}, {"inertia"}, {"center"}}},
+      {"bodies.*.points.*",
+       {{"at"}, {"angle"}, {"hole"}, {"coupling", optional, "", {"rigid", "average"}}}},
+      {"bodies.*.pose", {{"at"}, {"angle"}}},
+      {"bodies.*.beam",
+       {{"from"},
+        {"to"},
+        {"through"},
+        {"section", required, "{rectangle: [10 mm, 5 mm]}"},
+        {"taper to"},
+        {"theory", optional, "", {"timoshenko", "euler", "bar"}},
+        {"shear factor", optional, "", {"cowper", "5/6"}},
+        {"rotary inertia", optional, "", {"true", "false"}},
+        {"material"},
+        {"young"},
+        {"poisson"},
+        {"orthotropic"},
+        {"density"},
+        {"mass"},
+        {"elements"},
+        {"pieces"}}},
+      {"bodies.*.beam.section", section_keys},
+      {"bodies.*.beam.section.i", i_section_keys},
+      {"bodies.*.beam.taper to", section_keys},
+      {"bodies.*.beam.taper to.i", i_section_keys},
+      {"bodies.*.beam.orthotropic", orthotropic_keys},
+      {"bodies.*.plate",
+       {{"file"},
+        {"link"},
+        {"grid"},
+        {"thickness", required, "8 mm"},
+        {"plane", optional, "", {"stress", "strain"}},
+        {"element", optional, "", element_names},
+        {"size"},
+        {"hole size"},
+        {"scale"},
+        {"unit", optional, "", {"m", "km", "cm", "mm", "um", "nm"}},
+        {"material"},
+        {"young"},
+        {"poisson"},
+        {"orthotropic"},
+        {"density"},
+        {"mass"}}},
+      {"bodies.*.plate.orthotropic", orthotropic_keys},
+      {"bodies.*.plate.link", {{"bar"}, {"eye bar"}, {"tapered bar"}, {"triangle"}, {"disc"}}},
+      {"bodies.*.plate.link.bar", {{"length", required, "100 mm"}, {"width", required, "20 mm"}}},
+      {"bodies.*.plate.link.eye bar",
+       {{"length", required, "100 mm"},
+        {"width", required, "12 mm"},
+        {"eyes", required, two_eyes}}},
+      {"bodies.*.plate.link.eye bar.eyes.*", eye_keys},
+      {"bodies.*.plate.link.tapered bar",
+       {{"length", required, "100 mm"}, {"widths", required, "[20 mm, 10 mm]"}}},
+      {"bodies.*.plate.link.triangle",
+       {{"centers", required, "[[0, 0], [100 mm, 0], [40 mm, 60 mm]]"},
+        {"eyes", required, "a list of three such as {bore: 10 mm, outer: 20 mm}"}}},
+      {"bodies.*.plate.link.triangle.eyes.*", eye_keys},
+      {"bodies.*.plate.link.disc", {{"diameter", required, "100 mm"}, {"bore", required, "20 mm"}}},
+      {"bodies.*.plate.grid",
+       {{"corners", required, "[[0, 0], [1 m, 0], [1 m, 0.5 m], [0, 0.5 m]]"},
+        {"cells", required, "[10, 5]"}}},
+      {"bodies.*.modes",
+       {{"frame", optional, "", {"tangent", "chord", "mean axes"}},
+        {"keep", optional, "", {"all", "auto"}},
+        {"count"},
+        {"below"},
+        {"effective mass"},
+        {"craig-bampton"},
+        {"free"}}},
+      {"bodies.*.modes.frame", {{"tangent"}, {"chord"}}},
+      {"bodies.*.modes.craig-bampton", keep_keys},
+      {"bodies.*.modes.free", keep_keys},
+      {"bodies.*.damping", {{"rayleigh"}, {"ratios"}}},
+      {"bodies.*.damping.rayleigh", {{"ratios"}, {"modes"}, {"alpha"}, {"beta"}}},
+      {"bodies.*.lumps.*", {{"mass"}, {"inertia"}}},
+      {"static", {{"body"}, {"loads", required, "{pull: {at: B, force: [1 kN, 0]}}"}}},
+      {"static.loads.*",
+       {{"force"},
+        {"torque"},
+        {"at"},
+        {"pressure"},
+        {"traction"},
+        {"on"},
+        {"acceleration"},
+        {"spin"},
+        {"about"},
+        {"line load"}}},
+      {"joints.*",
+       {{"revolute"},
+        {"prismatic"},
+        {"slot"},
+        {"weld"},
+        {"distance"},
+        {"angle"},
+        {"length"},
+        {"clearance"}}},
+      {"joints.*.clearance",
+       {{"radial", required, "0.1 mm"},
+        {"bearing radius", required, "10 mm"},
+        {"bearing", required, "slider"},
+        {"model", optional, "", {"contact", "massless link", "spring-damper"}},
+        {"normal"},
+        {"stiffness"},
+        {"damping"},
+        {"friction"}}},
+      {"joints.*.clearance.normal.*",
+       {{"restitution"},
+        {"young"},
+        {"poisson"},
+        {"stiffness"},
+        {"exponent"},
+        {"radii", optional, "", {"internal", "external"}},
+        {"slowest impact"},
+        {"journal"}}},
+      {"joints.*.clearance.normal.*.journal",
+       {{"young", required, "207 GPa"}, {"poisson", required, "0.3"}}},
+      {"joints.*.clearance.friction", {{"ambrosio", required, "{coefficient: 0.1}"}}},
+      {"joints.*.clearance.friction.ambrosio",
+       {{"coefficient", required, "0.1"},
+        {"v0"},
+        {"v1"},
+        {"sliding", optional, "", {"material", "geometric"}}}},
+      {"drivers.*", {{"angle"}, {"distance"}, {"law", required, "150 rad/s*t"}}},
+      {"drivers.*.law",
+       {{"table", required, "motion.csv"},
+        {"interpolation", optional, "", {"spline", "linear"}},
+        {"time unit"},
+        {"value unit"}}},
+      {"forces.*",
+       {{"force"},
+        {"at"},
+        {"follows", optional, "", {"true", "false"}},
+        {"torque"},
+        {"on"},
+        {"from"},
+        {"spring"},
+        {"torsion spring"},
+        {"stiffness"},
+        {"damping"},
+        {"free length"},
+        {"free angle"}}},
+      {"forces.*.torque",
+       {{"table", required, "torque.csv"},
+        {"interpolation", optional, "", {"spline", "linear"}},
+        {"time unit"},
+        {"value unit"}}},
+      {"start.*",
+       {{"at"},
+        {"x"},
+        {"y"},
+        {"angle"},
+        {"velocity"},
+        {"vx"},
+        {"vy"},
+        {"speed"},
+        {"deflection"},
+        {"modes"},
+        {"eccentricity"}}},
+      {"run",
+       {{"until", required, "0.1 s"},
+        {"method", optional, "", {"auto", "rkf45", "dopri5", "verner87", "generalized-alpha"}},
+        {"tolerance"},
+        {"constraints", optional, "", {"projection", "partitioning"}},
+        {"onset", optional, "", {"locate"}},
+        {"max step"},
+        {"max steps"},
+        {"ledger bound"}}},
+      {"run.method", {{"generalized-alpha", required, "{rho: 0.8}"}}},
+      {"run.method.generalized-alpha", {{"rho", required, "0.8"}}},
+      {"run.onset", {{"cut", required, "1e-8 m"}}},
+      {"output",
+       {{"every"},
+        {"states"},
+        {"frames"},
+        {"exaggerate"},
+        {"deformation", optional, "", {"auto"}},
+        {"points"},
+        {"stress"}}}};
+  return all;
+}
+
+const KeyTable& table_at(std::string_view path) {
+  const std::span<const KeyTable> all = path.starts_with("study") ? study_tables() : key_tables();
+  return *std::ranges::find(all, path, &KeyTable::path);
+}
+
+std::vector<std::string> names(const KeyTable& table) {
+  std::vector<std::string> out;
+  for (const Key& key : table.keys) out.push_back(key.name);
+  return out;
+}
+
+}  // namespace
+
+std::span<const KeyTable> key_tables() {
+  return tables();
+}
+
+std::span<const std::string> choices(std::string_view path, std::string_view key) {
+  return std::ranges::find(table_at(path).keys, key, &Key::name)->choices;
+}
+
+void check_keys(const Node& group, std::string_view path) {
+  const KeyTable& table = table_at(path);
+  const std::vector<std::string> known = names(table);
+  for (const Node& entry : group.entries("keys and values: " + listed(known)))
+    if (std::ranges::find(known, entry.name()) == known.end())
+      entry.fail("unknown key \"" + entry.name() + "\"." +
+                 (entry.is_nothing() ? std::string(" ") + hint_about_commas
+                                     : did_you_mean(entry.name(), known)));
+  std::string missing;
+  for (const Key& key : table.keys)
+    if (key.required && !group.has(key.name))
+      missing += (missing.empty() ? "" : ", and ") + key.name + ": " + key.example;
+  if (!missing.empty()) group.fail("lacks a required key; add for example " + missing);
+}
+
+std::string which_key(const Node& group, std::span<const std::string> keys,
+                      const std::string& what) {
+  std::vector<std::string> found;
+  for (const std::string& key : keys)
+    if (group.has(key)) found.push_back(key);
+  if (found.empty()) group.fail("does not say " + what + "; add " + listed(keys));
+  if (found.size() > 1)
+    group.fail("says " + what + " by " + listed(found, "and") + " at once; keep one of them");
+  return found.front();
+}
+
+std::size_t which_kind(const Node& group, std::span<const KindKeys> kinds) {
+  std::vector<std::string> all, found;
+  std::size_t which = 0;
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    all.push_back(kinds[i].kind);
+    if (!group.has(kinds[i].kind)) continue;
+    found.push_back(kinds[i].kind);
+    which = i;
+  }
+  if (found.empty()) group.fail("does not say what it is; add one of " + listed(all));
+  if (found.size() > 1) group.fail("is " + listed(found, "and") + " at once; keep one of them");
+  const KindKeys& kind = kinds[which];
+  for (const std::string& key : group.keys()) {
+    if (key == kind.kind || std::ranges::find(kind.beside, key) != kind.beside.end()) continue;
+    std::vector<std::string> owners;
+    for (const KindKeys& other : kinds)
+      if (std::ranges::find(other.beside, key) != other.beside.end()) owners.push_back(other.kind);
+    group.at(key).fail("does not belong to " + kind.kind + " but to " + listed(owners) +
+                       "; leave it out");
+  }
+  return which;
+}
+
+}  // namespace pintle

@@ -1,0 +1,134 @@
+#include "framework/scene/yaml/reader.h"
+
+#include <algorithm>
+#include <map>
+
+#include "framework/scene/yaml/nearest.h"
+#include "framework/scene/yaml/override.h"
+#include "framework/scene/yaml/reader_parts.h"
+#include "framework/scene/yaml/text_file.h"
+
+namespace pintle {
+
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{100} << 20;
+
+// An override is written as a parameter's value is; a bare number takes the parameter's own unit's
+// dimension, SI.
+Quantity overridden(const std::string& name, const std::string& text, const Quantity& written,
+                    const Source& source) {
+  const Place place{0, "--set " + name};
+  try {
+    const Quantity q = read_quantity(text, source.parameters);
+    if (bare(q.dimension)) return {q.value, written.dimension};
+    if (!bare(written.dimension) && !same(q.dimension, written.dimension))
+      throw ExpressionError("\"" + text + "\" is " + describe(q.dimension) +
+                            ", but the scene gives " + name + " as " + describe(written.dimension));
+    return q;
+  } catch (const ExpressionError& error) {
+    throw SceneError(source.file, place, error.what());
+  }
+}
+
+Quantity parameter(const Node& node, const std::vector<std::string>& all) {
+  if (const std::string fault = fault_of_name(node.name()); !fault.empty())
+    node.fail("\"" + node.name() + "\" cannot name a parameter: " + fault);
+  const std::string text = node.text("a value such as 0.1 mm");
+  try {
+    return read_quantity(text, node.source().parameters);
+  } catch (const ExpressionError& error) {
+    const std::string said = error.what();
+    for (const std::string& other : all)
+      if (said.find(": \"" + other + "\" is neither") != std::string::npos)
+        node.fail("\"" + text + "\": " + other +
+                  " is not known yet; parameters are read from the " + "top, so write " + other +
+                  " above " + node.name());
+    node.fail(said);
+  }
+}
+
+void read_parameters(const Node& root, const Overrides& overrides, Source& source, Scene& scene) {
+  std::map<std::string, std::string> set;
+  for (const auto& [name, text] : overrides) set[name] = text;
+  std::vector<std::string> all;
+  if (root.has("parameters")) {
+    const Node group = root.at("parameters");
+    const std::vector<Node> entries = group.entries("names and values: {clearance: 0.1 mm}");
+    all = group.keys();
+    for (const Node& node : entries) {
+      const std::string name = node.name();
+      Quantity q = parameter(node, all);
+      if (const auto found = set.find(name); found != set.end())
+        q = overridden(name, found->second, q, source);
+      source.parameters[name] = q;
+      scene.parameters.emplace_back(name, q.value);
+    }
+  }
+  for (const auto& [name, text] : set)
+    if (!source.parameters.contains(name))
+      throw SceneError(source.file, {0, "--set " + name},
+                       all.empty() ? "the scene has no parameters; name one under parameters, or any key by its path: run.until"
+                                   : "the scene has no such parameter." + did_you_mean(name, all));
+}
+
+void require_text(const std::string& file, const Overrides& overrides) {
+  for (const auto& [name, text] : overrides)
+    if (line_not_text(name + text) > 0)
+      throw SceneError(file, {0, "--set"}, "the override of \"" + (line_not_text(name) > 0 ? "?" : name) + "\" is not text (a zero byte, or bytes that are not UTF-8); "
+                                           "set the terminal to UTF-8, or put the value into the scene");
+}
+
+Scene read(const std::string& text, const std::string& file, const Overrides& overrides,
+           const std::filesystem::path& folder) {
+  require_text(file, overrides);
+  Yaml tree = parse_yaml(text, file);
+  Source source{file, {}};
+  const Node root(tree, source, {tree.line, {}});
+  if (tree.kind == Yaml::Kind::nothing) root.fail("is empty; docs/scene.md shows what to write");
+  const Overrides parameters = tree.kind == Yaml::Kind::map ? apply_paths(tree, file, overrides) : overrides;
+  check_keys(root, "");
+
+  Scene scene;
+  scene.file = file;
+  read_parameters(root, parameters, source, scene);
+  if (root.has("title")) scene.title = root.at("title").text("a line of text");
+  if (root.has("gravity")) scene.gravity = root.at("gravity").pair(dimension::acceleration);
+  read_run(root, scene);
+  read_materials(root, scene);
+  read_bodies(root, scene);
+  read_joints(root, scene);
+  read_drivers(root, folder, scene);
+  read_forces(root, folder, scene);
+  read_start(root, scene);
+  read_static(root, scene);
+  read_output(root, scene);
+  for (SceneBody& b : scene.bodies)
+    if (b.elastic && b.elastic->modes && b.elastic->modes->keep.automatic && !root.at("bodies").at(b.name).at("modes").has("frame"))
+      choose_frame(b, scene);
+  scene.filled_in = filled_in(scene, source.parameters);
+  return scene;
+}
+
+}  // namespace
+
+void require_run(const Scene& scene) {
+  if (!scene.has_run)
+    throw SceneError(scene.file, {0, "run"},
+                     "is missing: the scene does not say how long to run; add for example "
+                     "run: {until: 1 s}");
+}
+
+Scene read_scene(const std::filesystem::path& file, const Overrides& overrides) {
+  const std::string text = read_text_file(file, most_bytes);
+  return read(text, file.string(), overrides, file.parent_path());
+}
+
+Scene read_scene_text(const std::string& text, const std::string& name, const Overrides& overrides,
+                      const std::filesystem::path& folder) {
+  if (const int line = line_not_text(text); line > 0)
+    throw SceneError(name, {line, {}}, "is not text (a zero byte, or bytes that are not UTF-8)");
+  return read(text, name, overrides, folder);
+}
+
+}  // namespace pintle

@@ -1,0 +1,115 @@
+#include <array>
+#include <tuple>
+
+#include "framework/scene/yaml/reader_parts.h"
+
+namespace pintle {
+
+namespace {
+
+const std::array<KindKeys, 2> driver_kinds{{{"angle", {"law"}}, {"distance", {"law"}}}};
+
+const std::array<KindKeys, 4> force_kinds{
+    {{"force", {"at", "follows"}},
+     {"torque", {"on", "from"}},
+     {"spring", {"stiffness", "damping", "free length"}},
+     {"torsion spring", {"stiffness", "damping", "free angle"}}}};
+
+void must_have(const Node& node, std::string_view key, const std::string& example) {
+  if (!node.has(key))
+    node.fail("lacks a required key; add for example " + std::string(key) + ": " + example);
+}
+
+SceneForce read_force(const Node& node, const std::filesystem::path& folder, double until) {
+  must_have(node, "at", "crank.A");
+  const auto parts = node.at("force").items(2, "two components [x, y], each a force or a law in t");
+  const auto law = [&](const Node& part) {
+    return read_time_law(part, dimension::force, Smoothness::load, folder, until);
+  };
+  SceneForce force{read_point_ref(node.at("at")), law(parts[0]), law(parts[1])};
+  if (node.has("follows")) force.follows = node.at("follows").yes();
+  return force;
+}
+
+SceneTorque read_torque(const Node& node, const std::filesystem::path& folder, double until) {
+  must_have(node, "on", "crank");
+  PointRef from{"ground", "", node.place()};
+  if (node.has("from")) from = read_point_ref(node.at("from"));
+  return {from, read_point_ref(node.at("on")),
+          read_time_law(node.at("torque"), dimension::torque, Smoothness::load, folder, until)};
+}
+
+void must_act(const Node& node) {
+  if (!node.has("stiffness") && !node.has("damping"))
+    node.fail("neither springs nor damps; add stiffness, damping or both");
+}
+
+SceneSpring read_spring(const Node& node) {
+  must_act(node);
+  if (node.has("stiffness")) must_have(node, "free length", "50 mm");
+  SceneSpring spring;
+  std::tie(spring.a, spring.b) = read_ends(node.at("spring"));
+  read_optional(node, "stiffness", dimension::stiffness, rule::positive, spring.stiffness);
+  read_optional(node, "damping", dimension::damping, rule::not_negative, spring.damping);
+  read_optional(node, "free length", dimension::length, rule::not_negative, spring.free_length);
+  return spring;
+}
+
+SceneTorsionSpring read_torsion_spring(const Node& node) {
+  must_act(node);
+  SceneTorsionSpring spring;
+  std::tie(spring.a, spring.b) = read_ends(node.at("torsion spring"));
+  read_optional(node, "stiffness", dimension::torsion_stiffness, rule::positive, spring.stiffness);
+  read_optional(node, "damping", dimension::torsion_damping, rule::not_negative, spring.damping);
+  read_optional(node, "free angle", dimension::angle, rule::any, spring.free_angle);
+  return spring;
+}
+
+// Until when laws are judged.
+double end_of_run(const Scene& scene) {
+  return scene.has_run ? scene.run.until : 0;
+}
+
+}  // namespace
+
+void read_drivers(const Node& root, const std::filesystem::path& folder, Scene& scene) {
+  if (!root.has("drivers")) return;
+  for (const Node& node : root.at("drivers").entries(
+           "names and drivers: {motor: {angle: [ground, crank], law: 150 rad/s*t}}")) {
+    SceneDriver driver;
+    driver.name = checked_name(node);
+    driver.place = node.place();
+    check_keys(node, "drivers.*");
+    const std::size_t kind = which_kind(node, driver_kinds);
+    driver.kind = kind == 0 ? DriverKind::angle : DriverKind::distance;
+    std::tie(driver.a, driver.b) = read_ends(node.at(driver_kinds[kind].kind));
+    driver.law = read_time_law(node.at("law"), kind == 0 ? dimension::angle : dimension::length,
+                               Smoothness::driver, folder, end_of_run(scene));
+    scene.drivers.push_back(std::move(driver));
+  }
+}
+
+void read_forces(const Node& root, const std::filesystem::path& folder, Scene& scene) {
+  if (!root.has("forces")) return;
+  for (const Node& node :
+       root.at("forces").entries("names and forces: {load: {force: [0, -10 N], at: crank.A}}")) {
+    SceneLoad load{checked_name(node), {}, node.place()};
+    check_keys(node, "forces.*");
+    switch (which_kind(node, force_kinds)) {
+      case 0:
+        load.what = read_force(node, folder, end_of_run(scene));
+        break;
+      case 1:
+        load.what = read_torque(node, folder, end_of_run(scene));
+        break;
+      case 2:
+        load.what = read_spring(node);
+        break;
+      default:
+        load.what = read_torsion_spring(node);
+    }
+    scene.loads.push_back(std::move(load));
+  }
+}
+
+}  // namespace pintle

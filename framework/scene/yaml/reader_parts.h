@@ -1,0 +1,71 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "framework/scene/yaml/keys.h"
+#include "framework/scene/yaml/yaml_node.h"
+
+/// The reader, section by section. Each function reads one section of the root group into the
+/// scene; all throw SceneError.
+namespace pintle {
+
+void read_materials(const Node& root, Scene&);
+void read_bodies(const Node& root, Scene&);  ///< ground and bodies; after materials
+void read_joints(const Node& root, Scene&);
+void read_drivers(const Node& root, const std::filesystem::path& folder, Scene&);
+void read_forces(const Node& root, const std::filesystem::path& folder, Scene&);
+void read_start(const Node& root, Scene&);   ///< after bodies and joints
+void read_static(const Node& root, Scene&);  ///< after bodies
+void read_run(const Node& root, Scene&);
+void read_output(const Node& root, Scene&);  ///< after run
+
+/// The name of a body, point, joint, driver or force: what a table's header and "body.point" can
+/// bear.
+std::string checked_name(const Node&);
+/// "crank.A", "crank" or "ground".
+PointRef read_point_ref(const Node&);
+/// [a, b]
+std::pair<PointRef, PointRef> read_ends(const Node&);
+
+enum class Smoothness { driver, load };  ///< a driver needs two derivatives, a load only the value
+/// An expression in t, or {table: file}; judged to be finite from 0 to `until`.
+Law read_time_law(const Node&, const Dimension&, Smoothness, const std::filesystem::path& folder,
+                  double until);
+
+/// What a body of elements says; its points are read already.
+SceneElastic read_elastic(const Node& body, const SceneBody&, const std::vector<SceneMaterial>&);
+SceneBeam read_beam(const Node&, const SceneBody&, const std::vector<SceneMaterial>&);
+ScenePlate read_plate(const Node&, const std::vector<SceneMaterial>&);
+
+/// What a beam or plate is made of: a material of the scene, or one written in its own keys; and
+/// its mass, where that is given instead of a density.
+struct Made {
+  SceneMaterial material;
+  std::optional<double> mass;  ///< [kg]
+};
+/// @param keys  path of the owner's keys: "bodies.*.beam"
+Made read_made(const Node& owner, std::string_view keys, const std::vector<SceneMaterial>&);
+
+/// @throws SceneError  at the node: the body has no such point
+void check_own_point(const Node&, const std::string& name, const SceneBody&);
+/// Name of a point that the body has.
+std::string read_own_point(const Node&, const SceneBody&);
+/// n quantities in a list, each after the rule. `remedy`: what to write.
+std::vector<double> read_quantities(const Node&, std::size_t n, const Dimension&, Rule,
+                                    const std::string& remedy);
+
+/// Reads `key` into `value` if it is there.
+void read_optional(const Node& group, std::string_view key, const Dimension&, Rule, double& value);
+
+/// The scene as JSON that the reader reads back to the same scene.
+std::string filled_in(const Scene&, const Parameters&);
+
+/// The frame of a body whose modes are chosen by the scene's motion and that says none: through the two points farthest apart that
+/// joints hold, or at the only one if that is clamped; else mean axes. @pre it has modes
+void choose_frame(SceneBody&, const Scene&);
+
+}  // namespace pintle

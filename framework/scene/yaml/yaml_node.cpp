@@ -1,0 +1,139 @@
+#include "framework/scene/yaml/yaml_node.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/scene/yaml/nearest.h"
+
+namespace pintle {
+
+void Node::fail(const std::string& message) const {
+  throw SceneError(source_->file, place_, message);
+}
+
+std::string Node::shown() const {
+  constexpr std::size_t most = 40;
+  if (is_map()) return "a group of keys";
+  if (is_list()) return "a list of " + std::to_string(yaml_->items.size());
+  if (!is_scalar()) return "nothing";
+  const bool cut = yaml_->text.size() > most;
+  return std::string("\"").append(yaml_->text, 0, most).append(cut ? "…\"" : "\"");
+}
+
+Node Node::child(const Yaml& entry) const {
+  const std::string path = place_.key.empty() ? entry.key : place_.key + "." + entry.key;
+  return {entry, *source_, {entry.line, path}, entry.key};
+}
+
+std::vector<Node> Node::entries(const std::string& remedy) const {
+  if (!is_map()) fail("is " + shown() + "; write " + remedy);
+  std::vector<Node> out;
+  out.reserve(yaml_->items.size());
+  for (const Yaml& entry : yaml_->items) out.push_back(child(entry));
+  return out;
+}
+
+std::vector<Node> Node::items(std::size_t n, const std::string& remedy) const {
+  if (!is_list() || yaml_->items.size() != n) {
+    const bool torn = std::ranges::any_of(yaml_->items, [](const Yaml& item) {
+      return std::ranges::count(item.text, '(') != std::ranges::count(item.text, ')');
+    });
+    fail("is " + shown() + "; write " + remedy +
+         (torn ? std::string(". ") + hint_about_commas : ""));
+  }
+  return children();
+}
+
+std::vector<Node> Node::list(std::size_t least, const std::string& remedy) const {
+  if (!is_list() || yaml_->items.size() < least) fail("is " + shown() + "; write " + remedy);
+  return children();
+}
+
+std::vector<Node> Node::children() const {
+  std::vector<Node> out;
+  for (std::size_t i = 0; i < yaml_->items.size(); ++i)
+    out.push_back({yaml_->items[i],
+                   *source_,
+                   {yaml_->items[i].line, place_.key + "[" + std::to_string(i + 1) + "]"}});
+  return out;
+}
+
+bool Node::has(std::string_view key) const {
+  return std::ranges::any_of(yaml_->items, [&](const Yaml& e) { return e.key == key; });
+}
+
+Node Node::at(std::string_view key) const {
+  return child(*std::ranges::find_if(yaml_->items, [&](const Yaml& e) { return e.key == key; }));
+}
+
+std::vector<std::string> Node::keys() const {
+  std::vector<std::string> out;
+  for (const Yaml& e : yaml_->items) out.push_back(e.key);
+  return out;
+}
+
+std::string Node::text(const std::string& remedy) const {
+  if (!is_scalar() || yaml_->text.empty()) fail("is " + shown() + "; write " + remedy);
+  return yaml_->text;
+}
+
+double Node::quantity(const Dimension& expected, Rule must) const {
+  const std::string written = text(describe(expected));
+  double value = 0;
+  try {
+    value = read_quantity(written, expected, source_->parameters);
+  } catch (const ExpressionError& error) {
+    fail(error.what());
+  }
+  if (!must.holds(value)) fail(shown() + " " + must.words);
+  return value;
+}
+
+double Node::frequency(Rule must) const {
+  const std::string written = text("a frequency such as 5 kHz");
+  double value = 0;
+  try {
+    value = read_frequency(written, source_->parameters);
+  } catch (const ExpressionError& error) {
+    fail(error.what());
+  }
+  if (!must.holds(value)) fail(shown() + " " + must.words);
+  return value;
+}
+
+Pair Node::pair(const Dimension& expected) const {
+  const std::vector<Node> two = items(2, "two values [x, y], each " + describe(expected));
+  return {two[0].quantity(expected), two[1].quantity(expected)};
+}
+
+long Node::count(long least) const {
+  const double value = quantity(dimension::number);
+  if (value != std::floor(value) || value < static_cast<double>(least) || value > 1e15)
+    fail(shown() + " must be a whole number, at least " + std::to_string(least));
+  return static_cast<long>(value);
+}
+
+bool Node::yes() const {
+  const std::string written = text("true or false");
+  if (written != "true" && written != "false") fail(shown() + " must be true or false");
+  return written == "true";
+}
+
+std::string Node::one_of(std::span<const std::string> choices) const {
+  const std::string written = text(listed(choices));
+  if (std::ranges::find(choices, written) == choices.end())
+    fail(shown() + " must be " + listed(choices) + "." +
+         (nearest(written, choices).empty() ? "" : did_you_mean(written, choices)));
+  return written;
+}
+
+Law Node::law(const Dimension& expected) const {
+  try {
+    return read_law(text("an expression in t, " + describe(expected)), expected,
+                    source_->parameters);
+  } catch (const ExpressionError& error) {
+    fail(error.what());
+  }
+}
+
+}  // namespace pintle

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "framework/scene/error.h"
+#include "framework/scene/units/expression.h"
+
+/// A YAML file as a tree that knows where each key and value was written. Only
+/// yaml_tree.cpp includes yaml-cpp.
+namespace pintle {
+
+struct Yaml {
+  enum class Kind { nothing, scalar, list, map } kind = Kind::nothing;
+  int line = 0;                  ///< 1-based; of the key, if it has one
+  std::string key = {};          ///< in a map; unique there
+  std::string text = {};         ///< scalar
+  std::vector<Yaml> items = {};  ///< list and map, in the order written
+};
+
+/// Anchors, aliases, tags, repeated keys and a second document are refused: a scene is a tree that
+/// says each thing once.
+/// @throws SceneError  with the line
+Yaml parse_yaml(const std::string& text, const std::string& file);
+
+/// A rule a value must meet, and its words: "must be greater than 0".
+struct Rule {
+  bool (*holds)(double);
+  const char* words;
+};
+namespace rule {
+inline constexpr Rule any{[](double) { return true; }, ""};
+inline constexpr Rule positive{[](double x) { return x > 0; }, "must be greater than 0"};
+inline constexpr Rule not_negative{[](double x) { return x >= 0; }, "must not be negative"};
+inline constexpr Rule zero_to_one{[](double x) { return x >= 0 && x <= 1; },
+                                  "must lie between 0 and 1"};
+inline constexpr Rule at_least_one{[](double x) { return x >= 1; }, "must be at least 1"};
+inline constexpr Rule solid_poisson{[](double x) { return x > -1 && x < 0.5; },
+                                    "must be greater than -1 and less than 0.5; take 0.4999 for a "
+                                    "nearly incompressible solid"};
+inline constexpr Rule poisson{[](double x) { return x > -1 && x <= 0.5; },
+                              "must lie between -1 and 0.5"};
+/// Below 1e-14 the rounding of one step is more than the error it may make.
+inline constexpr Rule tolerance{[](double x) { return x >= 1e-14 && x < 1; },
+                                "must lie between 0 and 1, and not below 1e-14, which is rounding"};
+inline constexpr Rule inside_zero_one{[](double x) { return x > 0 && x < 1; },
+                                      "must lie between 0 and 1, and be neither"};
+}  // namespace rule
+
+inline constexpr const char* hint_about_commas =
+    "Inside { } or [ ] a comma separates entries: put an expression with commas in quotes.";
+
+/// What every value of one file shares.
+struct Source {
+  std::string file;
+  Parameters parameters;
+};
+
+/// A value in its place: knows the file, the path of keys to it and the line, so that whatever is
+/// wrong with it can say where. Cheap to copy; must not outlive tree and source.
+class Node {
+ public:
+  Node(const Yaml& yaml, const Source& source, Place place, std::string_view name = {})
+      : yaml_(&yaml), source_(&source), place_(std::move(place)), name_(name) {}
+
+  [[noreturn]] void fail(const std::string& message) const;
+  const Place& place() const { return place_; }
+  const Source& source() const { return *source_; }
+  std::string name() const { return std::string(name_); }  ///< the last key
+
+  const Yaml& yaml() const { return *yaml_; }               ///< what stands here
+
+  bool is_map() const { return yaml_->kind == Yaml::Kind::map; }
+  bool is_list() const { return yaml_->kind == Yaml::Kind::list; }
+  bool is_nothing() const { return yaml_->kind == Yaml::Kind::nothing; }
+  bool is_scalar() const { return yaml_->kind == Yaml::Kind::scalar; }
+  /// What the file says, short, for messages.
+  std::string shown() const;
+
+  /// @throws SceneError  not a map; `remedy` says what a map here looks like
+  std::vector<Node> entries(const std::string& remedy) const;
+  /// @throws SceneError  not a list of n
+  std::vector<Node> items(std::size_t n, const std::string& remedy) const;
+  /// @throws SceneError  not a list of at least so many
+  std::vector<Node> list(std::size_t least, const std::string& remedy) const;
+  bool has(std::string_view key) const;
+  Node at(std::string_view key) const;  ///< @pre has(key)
+  std::vector<std::string> keys() const;
+
+  std::string text(const std::string& remedy) const;
+  double quantity(const Dimension&, Rule = rule::any) const;
+  double frequency(Rule = rule::any) const;  ///< [Hz]
+  Pair pair(const Dimension&) const;
+  long count(long least) const;  ///< a whole number ≥ least
+  bool yes() const;              ///< true or false
+  std::string one_of(std::span<const std::string> choices) const;
+  Law law(const Dimension&) const;  ///< an expression in t
+
+ private:
+  Node child(const Yaml& entry) const;
+  std::vector<Node> children() const;  // of a list
+  const Yaml* yaml_;
+  const Source* source_;
+  Place place_;
+  std::string_view name_;
+};
+
+}  // namespace pintle

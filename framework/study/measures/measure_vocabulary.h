@@ -1,0 +1,115 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "framework/study/measures/measure_words.h"
+
+/// The words that measures are made of, longer before shorter where one begins like another.
+namespace pintle {
+
+struct StatisticWord {
+  const char* words;
+  Statistic statistic;
+};
+inline constexpr std::array statistic_words{StatisticWord{"range of", Statistic::range},
+                                            StatisticWord{"range", Statistic::range},
+                                            StatisticWord{"peak to peak", Statistic::range},
+                                            StatisticWord{"peak-to-peak", Statistic::range},
+                                            StatisticWord{"span of", Statistic::range},
+                                            StatisticWord{"peak", Statistic::peak},
+                                            StatisticWord{"greatest", Statistic::greatest},
+                                            StatisticWord{"maximum", Statistic::greatest},
+                                            StatisticWord{"max", Statistic::greatest},
+                                            StatisticWord{"largest", Statistic::greatest},
+                                            StatisticWord{"highest", Statistic::greatest},
+                                            StatisticWord{"least", Statistic::least},
+                                            StatisticWord{"minimum", Statistic::least},
+                                            StatisticWord{"min", Statistic::least},
+                                            StatisticWord{"smallest", Statistic::least},
+                                            StatisticWord{"lowest", Statistic::least},
+                                            StatisticWord{"mean", Statistic::mean},
+                                            StatisticWord{"average", Statistic::mean},
+                                            StatisticWord{"rms", Statistic::rms},
+                                            StatisticWord{"root mean square", Statistic::rms},
+                                            StatisticWord{"final", Statistic::last},
+                                            StatisticWord{"last", Statistic::last}};
+
+struct MotionWord {
+  const char *words, *part, *unit;
+};
+/// Longer before shorter. `speed` of a body is its turning, as in scenes; of a point its velocity's magnitude.
+inline constexpr std::array motion_words{MotionWord{"angular acceleration", "alpha", "rad/s^2"},
+                                         MotionWord{"angular velocity", "spin", "rad/s"},
+                                         MotionWord{"angular speed", "spin", "rad/s"},
+                                         MotionWord{"x velocity", "vx", "m/s"},
+                                         MotionWord{"y velocity", "vy", "m/s"},
+                                         MotionWord{"velocity x", "vx", "m/s"},
+                                         MotionWord{"velocity y", "vy", "m/s"},
+                                         MotionWord{"acceleration x", "ax", "m/s^2"},
+                                         MotionWord{"acceleration y", "ay", "m/s^2"},
+                                         MotionWord{"position x", "x", "m"},
+                                         MotionWord{"position y", "y", "m"},
+                                         MotionWord{"acceleration", "acceleration", "m/s^2"},
+                                         MotionWord{"velocity", "velocity", "m/s"},
+                                         MotionWord{"rotation", "angle", "rad"},
+                                         MotionWord{"angle", "angle", "rad"},
+                                         MotionWord{"speed", "speed", "m/s"},
+                                         MotionWord{"alpha", "alpha", "rad/s^2"},
+                                         MotionWord{"vx", "vx", "m/s"},
+                                         MotionWord{"vy", "vy", "m/s"},
+                                         MotionWord{"ax", "ax", "m/s^2"},
+                                         MotionWord{"ay", "ay", "m/s^2"},
+                                         MotionWord{"ux", "ux", "m"},
+                                         MotionWord{"uy", "uy", "m"},
+                                         MotionWord{"turn", "turn", "rad"},
+                                         MotionWord{"x", "x", "m"},
+                                         MotionWord{"y", "y", "m"}};
+inline constexpr std::array<std::string_view, 5> of_bodies_alone{"angle", "spin", "alpha"}, of_points_alone{"ux", "uy", "turn"};
+
+struct ColumnPart {
+  const char *name, *unit;
+};
+inline constexpr std::array body_columns{ColumnPart{"x", "m"},           ColumnPart{"y", "m"},
+                                         ColumnPart{"angle", "rad"},     ColumnPart{"vx", "m/s"},
+                                         ColumnPart{"vy", "m/s"},        ColumnPart{"speed", "rad/s"},
+                                         ColumnPart{"ax", "m/s^2"},      ColumnPart{"ay", "m/s^2"},
+                                         ColumnPart{"alpha", "rad/s^2"}, ColumnPart{"lost to damping", "J"}};
+inline constexpr std::array point_columns{ColumnPart{"x", "m"},       ColumnPart{"y", "m"},         ColumnPart{"vx", "m/s"},
+                                          ColumnPart{"vy", "m/s"},    ColumnPart{"ax", "m/s^2"},    ColumnPart{"ay", "m/s^2"},
+                                          ColumnPart{"ux", "m"},      ColumnPart{"uy", "m"},        ColumnPart{"turn", "rad"},
+                                          ColumnPart{"N", "N"},       ColumnPart{"V", "N"},         ColumnPart{"M", "N m"},
+                                          ColumnPart{"stress", "Pa"}, ColumnPart{"sx", "Pa"},       ColumnPart{"sy", "Pa"},
+                                          ColumnPart{"txy", "Pa"},    ColumnPart{"von Mises", "Pa"}};
+inline constexpr std::array actor_columns{ColumnPart{"fx", "N"},
+                                          ColumnPart{"fy", "N"},
+                                          ColumnPart{"torque", "N m"},
+                                          ColumnPart{"ex", "m"},
+                                          ColumnPart{"ey", "m"},
+                                          ColumnPart{"depth", "m"},
+                                          ColumnPart{"rate", "m/s"},
+                                          ColumnPart{"sliding", "m/s"},
+                                          ColumnPart{"normal", "N"},
+                                          ColumnPart{"friction", "N"},
+                                          ColumnPart{"lost to hysteresis", "J"},
+                                          ColumnPart{"lost to friction", "J"},
+                                          ColumnPart{"lost to damper", "J"},
+                                          ColumnPart{"work in", "J"}};
+inline constexpr std::array ledger_columns{ColumnPart{"kinetic", "J"},    ColumnPart{"gravity", "J"}, ColumnPart{"springs", "J"},
+                                           ColumnPart{"contacts", "J"},   ColumnPart{"strain", "J"},  ColumnPart{"stored", "J"},
+                                           ColumnPart{"unexplained", "J"}};
+
+struct EnergyWord {
+  const char *words, *column;
+};
+inline constexpr std::array energy_words{
+    EnergyWord{"kinetic energy", "kinetic"},         EnergyWord{"potential energy", "gravity"},
+    EnergyWord{"gravity energy", "gravity"},         EnergyWord{"energy of gravity", "gravity"},
+    EnergyWord{"spring energy", "springs"},          EnergyWord{"energy of springs", "springs"},
+    EnergyWord{"energy of the springs", "springs"},  EnergyWord{"contact energy", "contacts"},
+    EnergyWord{"energy of contacts", "contacts"},    EnergyWord{"strain energy", "strain"},
+    EnergyWord{"stored energy", "stored"},           EnergyWord{"energy stored", "stored"},
+    EnergyWord{"mechanical energy", "stored"},       EnergyWord{"total energy", "stored"},
+    EnergyWord{"unexplained energy", "unexplained"}, EnergyWord{"energy unexplained", "unexplained"}};
+
+}  // namespace pintle

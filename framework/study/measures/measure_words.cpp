@@ -1,0 +1,346 @@
+#include "framework/study/measures/measure_words.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "framework/common/words.h"
+#include "framework/scene/units/expression.h"
+#include "framework/scene/yaml/nearest.h"
+#include "framework/study/measures/measure_vocabulary.h"
+#include "framework/study/measures/offer.h"
+
+namespace pintle {
+
+namespace {
+
+class Reading {
+ public:
+  Reading(const Measure& measure, const Scene& scene)
+      : measure_(measure), scene_(scene), words_(measure.words), offer_(offer_of(scene)) {}
+
+  Asked read() {
+    words_.skip_articles();
+    read_statistic();
+    const std::size_t begin = words_.place();
+    words_.skip_articles();
+    if (!read_what()) {
+      words_.back_to(begin);
+      fail("\"" + words_.rest() +
+           "\" is nothing that can be measured; write for example peak force at JOINT, x of BODY.POINT at 0.05 s, "
+           "rms torque of DRIVER after 10 ms or energy lost (docs/studies.md)." +
+           described(offer_));
+    }
+    read_time();
+    judge();
+    if (asked_.frequency) asked_.unit = "Hz";
+    if (asked_.time_of) asked_.unit = "s";
+    return asked_;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    Place place = measure_.place;
+    if (place.key.empty()) place.key = "measure \"" + measure_.words + "\"";
+    throw SceneError(measure_.file.empty() ? scene_.file : measure_.file, place, message);
+  }
+
+  void read_statistic() {
+    if (!words_.take_any({"frequency of", "dominant frequency of", "main frequency of"}).empty()) {
+      asked_.frequency = true;
+      return;
+    }
+    asked_.time_of = !words_.take_any({"time of", "instant of", "when"}).empty();
+    words_.skip_articles();
+    for (const StatisticWord& s : statistic_words)
+      if (words_.take(s.words)) {
+        asked_.statistic = s.statistic;
+        words_.take_any({"value of", "of"});
+        return;
+      }
+    words_.take_any({"value of"});
+  }
+
+  bool is(What what, const char* unit, std::string part = "", std::string owner = "") {
+    asked_.what = what, asked_.unit = unit, asked_.part = std::move(part), asked_.owner = std::move(owner);
+    return true;
+  }
+
+  bool read_what() {
+    return read_column() || read_force() || read_contact() || read_lost() || read_energy() || read_elastic() || read_motion();
+  }
+
+  /// A name must follow.
+  std::string need(const char* kind, const Names& names) {
+    words_.take_any({"at", "of", "in", "on", "by"});
+    if (const std::string name = words_.take_name(names); !name.empty()) return name;
+    const std::string rest = words_.rest();
+    if (rest.empty()) fail(std::string("it does not say of which ") + kind + "." + described(offer_));
+    fail("\"" + rest + "\" begins with no " + kind + " of this scene." +
+         (names.empty() ? std::string(" It has none.") : did_you_mean(rest.substr(0, rest.find(" at ")), names)) + described(offer_));
+  }
+  /// A name may follow: it does if the words behind "at" are one.
+  std::string may_have(const Names& names) {
+    const std::size_t before = words_.place();
+    words_.take_any({"at", "of", "in", "by"});
+    std::string name = words_.take_name(names);
+    if (name.empty()) words_.back_to(before);
+    return name;
+  }
+
+  bool is_column(const std::string& owner, const ColumnPart& column) {
+    constexpr std::string_view lost = "lost to ";
+    const std::string part = column.name;
+    if (part == "work in") return is(What::work, "J", "", owner);
+    if (part.starts_with(lost)) return is(What::lost, "J", part.substr(lost.size()), owner);
+    if (std::ranges::find(offer_.actors, owner) == offer_.actors.end())
+      for (const MotionWord& m : motion_words)
+        if (part == m.part) return is(What::motion, column.unit, part == "speed" ? "spin" : part, owner);
+    return is(What::column, column.unit, part, owner);
+  }
+
+  template <std::size_t n>
+  bool read_column_of(const Names& owners, const std::array<ColumnPart, n>& parts) {
+    Names known;
+    for (const std::string& owner : owners)
+      for (const ColumnPart& part : parts) known.push_back(owner + "." + part.name);
+    const std::string found = words_.take_name(known);
+    if (found.empty()) return false;
+    for (const std::string& owner : owners)
+      for (const ColumnPart& part : parts)
+        if (owner + "." + part.name == found) is_column(owner, part);
+    if (words_.take("on")) need("body", offer_.bodies);
+    const std::string unit = words_.rest();
+    if (unit.starts_with("[") && unit.find(']') != std::string::npos)
+      words_.back_to(words_.place() + std::min(unit.size(), unit.find(']') + 2));
+    return true;
+  }
+
+  /// "slider.mode 2"
+  bool read_mode() {
+    const std::size_t before = words_.place();
+    Names known;
+    for (const std::string& body : offer_.bodies) known.push_back(body + ".mode");
+    const std::string found = words_.take_name(known), number = words_.rest().substr(0, words_.rest().find(' '));
+    if (!found.empty() && !number.empty() && words_.take(number) && number.find_first_not_of("0123456789") == std::string::npos) {
+      words_.take("[m kg^0.5]");
+      return is(What::column, "m kg^0.5", "mode " + number, found.substr(0, found.size() - 5));
+    }
+    words_.back_to(before);
+    return false;
+  }
+
+  bool read_column() {
+    if (read_mode() || read_column_of(offer_.points, point_columns) || read_column_of(offer_.actors, actor_columns) ||
+        read_column_of(offer_.bodies, body_columns))
+      return true;
+    const std::size_t before = words_.place();
+    for (const ColumnPart& part : ledger_columns)
+      if (words_.take(part.name)) {
+        if (words_.take("[j]") || words_.done() || words_.rest().find("energy") == std::string::npos)
+          return is(What::energy, "J", part.name);
+        words_.back_to(before);
+      }
+    return false;
+  }
+
+  bool read_force() {
+    struct Component {
+      const char *words, *part;
+    };
+    for (const Component c : {Component{"force x", "x"},
+                              {"force y", "y"},
+                              {"x force", "x"},
+                              {"y force", "y"},
+                              {"fx", "x"},
+                              {"fy", "y"},
+                              {"normal force", "normal"},
+                              {"friction force", "friction"},
+                              {"joint force", ""},
+                              {"contact force", ""},
+                              {"driving force", ""},
+                              {"force", ""}})
+      if (words_.take(c.words)) return is(What::force, "N", c.part, need("joint, driver or force", offer_.actors));
+    if (!words_.take_any({"driving torque", "torque", "moment", "couple"}).empty())
+      return is(What::torque, "N m", "", need("joint, driver or force", offer_.actors));
+    return false;
+  }
+
+  bool read_contact() {
+    if (words_.take("eccentricity")) return is(What::eccentricity, "m", "", need("joint", offer_.joints));
+    if (!words_.take_any({"depth", "penetration"}).empty()) return is(What::depth, "m", "", need("joint", offer_.joints));
+    if (!words_.take_any({"number of impacts", "number of contacts", "impacts", "impact count", "count of impacts"}).empty())
+      return is(What::impacts, "", "", may_have(offer_.joints));
+    if (!words_.take_any({"longest free flight", "longest flight"}).empty() ||
+        (asked_.statistic != Statistic::none && !words_.take_any({"free flight"}).empty())) {
+      if (asked_.statistic != Statistic::none && asked_.statistic != Statistic::greatest && asked_.statistic != Statistic::peak)
+        fail("of free flights the longest alone is known; write longest free flight");
+      asked_.statistic = Statistic::none;
+      return is(What::free_flight, "s", "", may_have(offer_.joints));
+    }
+    if (!words_.take_any({"time in contact", "contact time"}).empty()) return is(What::contact_time, "s", "", may_have(offer_.joints));
+    return false;
+  }
+
+  std::string read_account() {
+    words_.skip_articles();
+    struct Account {
+      const char *words, *column;
+    };
+    constexpr std::array accounts{Account{"friction", "friction"},
+                                  Account{"hysteresis", "hysteresis"},
+                                  Account{"impacts", "hysteresis"},
+                                  Account{"dampers", "damper"},
+                                  Account{"damper", "damper"},
+                                  Account{"damping", "damping"},
+                                  Account{"numerical dissipation", "numerical dissipation"},
+                                  Account{"scheme", "numerical dissipation"}};
+    for (const Account& a : accounts)
+      if (words_.take(a.words)) return a.column;
+    fail("\"" + words_.rest() +
+         "\" is nothing that energy is lost to; write friction, hysteresis, damper, damping or numerical dissipation");
+  }
+
+  bool read_lost() {
+    if (!words_.take_any({"work done", "work put in", "work in", "work"}).empty()) {
+      Names workers = offer_.drivers;
+      workers.insert(workers.end(), offer_.loads.begin(), offer_.loads.end());
+      return is(What::work, "J", "", words_.take_any({"of", "by", "in"}).empty() ? "" : need("driver or force", workers));
+    }
+    if (words_.take("scheme.lost to numerical dissipation")) return is(What::lost, "J", "numerical dissipation");
+    if (words_
+            .take_any({"energy lost", "lost energy", "energy loss", "energy dissipated", "dissipated energy", "loss of energy", "losses"})
+            .empty())
+      return false;
+    Names losers = offer_.actors;
+    losers.insert(losers.end(), offer_.bodies.begin(), offer_.bodies.end());
+    is(What::lost, "J");
+    asked_.owner = may_have(losers);
+    if (!words_.take_any({"to", "by"}).empty()) asked_.part = read_account();
+    if (asked_.owner.empty()) asked_.owner = may_have(losers);
+    return true;
+  }
+
+  bool read_energy() {
+    for (const EnergyWord& e : energy_words)
+      if (words_.take(e.words)) return is(What::energy, "J", e.column);
+    return false;
+  }
+
+  bool read_elastic() {
+    if (!words_.take_any({"von mises stress", "stress"}).empty()) return is(What::stress, "Pa", "", need("point", offer_.points));
+    if (!words_.take_any({"elastic displacement", "displacement"}).empty())
+      return is(What::displacement, "m", "", need("point", offer_.points));
+    if (words_.take("deflection")) return is(What::deflection, "m", "", need("body", offer_.bodies));
+    return false;
+  }
+
+  bool read_motion() {
+    Names all = offer_.bodies;
+    all.insert(all.end(), offer_.points.begin(), offer_.points.end());
+    if (words_.take("distance between") || words_.take("distance from")) {
+      is(What::distance, "m", "", need("body or point", all));
+      words_.take_any({"and", "to"});
+      asked_.other = need("body or point", all);
+      return true;
+    }
+    for (const MotionWord& m : motion_words)
+      if (words_.take(m.words)) {
+        const auto among = [&](const auto& parts) { return std::ranges::find(parts, std::string_view(m.part)) != parts.end(); };
+        const std::string owner = among(of_bodies_alone)   ? need("body", offer_.bodies)
+                                  : among(of_points_alone) ? need("point", offer_.points)
+                                                           : need("body or point", all);
+        const bool body = std::ranges::find(offer_.bodies, owner) != offer_.bodies.end();
+        const bool turning = body && m.part == std::string_view("speed");
+        return is(What::motion, turning ? "rad/s" : m.unit, turning ? "spin" : m.part, owner);
+      }
+    return false;
+  }
+
+  double time(const std::string& text) const {
+    Parameters parameters;
+    for (const auto& [name, value] : scene_.parameters) parameters[name] = {value, {}};
+    try {
+      const double t = read_quantity(text, dimension::time, parameters);
+      if (t < 0) throw ExpressionError("\"" + text + "\" is before the run begins");
+      return t;
+    } catch (const ExpressionError& error) {
+      fail(std::string(error.what()) +
+           "; a time stands at the end of a measure: at 0.05 s, after 10 ms, before 1 s, from 10 ms to 20 ms, in the last 5 ms");
+    }
+  }
+
+  /// Two times with a word between them.
+  bool read_window(const std::string& rest, const char* word) {
+    const std::string between = std::string(" ") + word + " ";
+    const auto middle = lower(rest).find(between);
+    if (middle == std::string::npos) return false;
+    asked_.from = time(rest.substr(0, middle));
+    asked_.to = time(rest.substr(middle + between.size()));
+    if (!(asked_.to > asked_.from)) fail("its window \"" + rest + "\" is empty; write the earlier time first");
+    return true;
+  }
+
+  void read_time() {
+    words_.take_any({","});
+    if (words_.done()) return;
+    if (!words_.take_any({"at the end", "at end", "at last"}).empty() && words_.done()) {
+      asked_.statistic = asked_.statistic == Statistic::none ? Statistic::last : asked_.statistic;
+      return;
+    }
+    const auto instant = [&](double t) { asked_.instant = true, asked_.from = asked_.to = t; };
+    if (!words_.take_any({"at the start", "at start", "at the beginning"}).empty() && words_.done()) return instant(0);
+    const std::string how = words_.take_any({"at t =", "at", "after", "before", "until", "up to", "from", "between", "in the last",
+                                             "over the last", "in the first", "over the first", "since"});
+    const std::string rest = words_.rest();
+    if (how.empty())
+      fail("\"" + rest +
+           "\" is not understood; after what is measured may stand a time: at 0.05 s, after 10 ms, before 1 s, from 10 ms to 20 ms, in "
+           "the last 5 ms." +
+           described(offer_));
+    if (how.starts_with("at")) return instant(time(rest));
+    if (how == "between" ? read_window(rest, "and") : how == "from" && (read_window(rest, "to") || read_window(rest, "until"))) return;
+    if (how == "between") fail("a window has two times; write between 10 ms and 20 ms");
+    if (how == "after" || how == "from" || how == "since")
+      asked_.from = time(rest);
+    else if (how.ends_with("last"))
+      asked_.from = std::max(0.0, scene_.run.until - time(rest));
+    else
+      asked_.to = time(rest);
+    if (!(asked_.to > 0)) fail("its window is empty");
+  }
+
+  void judge() const {
+    const bool events = asked_.what == What::impacts || asked_.what == What::free_flight || asked_.what == What::contact_time;
+    if (asked_.instant && (asked_.statistic != Statistic::none || asked_.time_of || asked_.frequency))
+      fail("an instant has one value; leave out the word before what is measured, or give a window: after 10 ms, before 1 s");
+    if (events && (asked_.statistic != Statistic::none && asked_.statistic != Statistic::last))
+      fail("it is one number of a run; leave out the word before it");
+    if (events && (asked_.frequency || asked_.time_of)) fail("it is no function of time; it has no frequency and no time of a peak");
+    if (asked_.time_of && asked_.statistic != Statistic::peak && asked_.statistic != Statistic::greatest &&
+        asked_.statistic != Statistic::least)
+      fail("a time is that of the peak, greatest or least; write time of peak WHAT");
+    if (asked_.statistic == Statistic::none && !asked_.instant && !asked_.frequency && !cumulative(asked_.what))
+      fail(
+          "it changes in time, and nothing says which of its values is meant; write peak, greatest, least, mean, rms, range or final "
+          "before it, or at 0.05 s after it");
+  }
+
+  const Measure& measure_;
+  const Scene& scene_;
+  Words words_;
+  Offer offer_;
+  Asked asked_;
+};
+
+}  // namespace
+
+bool cumulative(What what) {
+  return what == What::lost || what == What::work || what == What::impacts || what == What::free_flight || what == What::contact_time;
+}
+
+Asked read_measure(const Measure& measure, const Scene& scene) {
+  return Reading(measure, scene).read();
+}
+
+}  // namespace pintle

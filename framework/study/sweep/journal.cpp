@@ -1,0 +1,246 @@
+#include "framework/study/sweep/journal.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/common/fingerprint.h"
+#include "framework/scene/error.h"
+
+namespace pintle {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// JSON has no infinity and no NaN, and its numbers pass through many hands: these pass as text.
+std::string exact(double x) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, x).ptr};
+}
+
+double exact(const Json& text) {
+  const auto& s = text.get_ref<const std::string&>();
+  double out = 0;
+  if (std::from_chars(s.data(), s.data() + s.size(), out).ptr != s.data() + s.size() || s.empty()) throw std::invalid_argument(s);
+  return out;
+}
+
+/// Of a count; JSON would turn what is no whole number, or below 0, into one.
+template <class T>
+T count(const Json& j) {
+  const auto x = j.is_number_integer() ? j.get<std::int64_t>() : -1;
+  if (x < 0 || (j.is_number_unsigned() && j.get<std::uint64_t>() > INT64_MAX)) throw std::invalid_argument("count");
+  return static_cast<T>(x);
+}
+
+std::string sealed(const Json& content) {
+  const std::string text = content.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return fingerprint_text(fingerprint(text)) + " " + text + "\n";
+}
+
+std::optional<Json> unsealed(std::string_view line) {
+  constexpr std::size_t digits = 16;
+  if (line.ends_with('\n')) line.remove_suffix(1);
+  if (line.size() < digits + 2 || line[digits] != ' ') return {};
+  const std::string_view text = line.substr(digits + 1);
+  if (line.substr(0, digits) != fingerprint_text(fingerprint(text))) return {};
+  Json content = Json::parse(text, nullptr, false);
+  return content.is_discarded() ? std::optional<Json>() : std::move(content);
+}
+
+std::string heading(std::uint64_t study) {
+  return sealed({{"pintle sweep", fingerprint_text(study)}});
+}
+
+std::string remedy(const fs::path& path) {
+  return "name another directory with --out, or remove " + path.parent_path().string() + " and run the sweep again";
+}
+
+/// @returns false: there is none yet, as its process was killed while it wrote the first line
+/// @throws OtherStudy, SceneError
+bool judge_heading(const fs::path& path, const std::string& text, std::uint64_t study) {
+  const std::string ours = heading(study);
+  const std::size_t end = text.find('\n');
+  if (end == std::string::npos && text.size() <= ours.size() && text.substr(0, text.find('\0')) == ours.substr(0, std::min(text.size(), text.find('\0'))))
+    return false;
+  const std::optional<Json> first = end == std::string::npos ? std::nullopt : unsealed(std::string_view(text).substr(0, end));
+  if (!first || !first->is_object() || !first->contains("pintle sweep"))
+    throw SceneError(path.string() + ":1: is damaged: its first line does not name a sweep, so nothing in it is known to belong to this one; " + remedy(path));
+  if (text.substr(0, end + 1) != ours)
+    throw OtherStudy(path.string(), {}, "belongs to another study, or to this one before it, its scene, a file that they name, --set or "
+                                        "the program was changed; name another directory with --out, or remove " + path.parent_path().string());
+  return true;
+}
+
+std::string contents(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream s;
+  s << in.rdbuf();
+  if (!in.is_open() || in.bad()) throw std::runtime_error(path.string() + ": cannot be read; check its permissions");
+  return s.str();
+}
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+bool within(double seconds, const std::function<bool()>& holds) {
+  for (const double end = now() + seconds; !holds(); std::this_thread::sleep_for(std::chrono::milliseconds(50)))
+    if (now() > end) return false;
+  return true;
+}
+
+/// Where the file system has no locks, everything is free.
+bool locked(int file, int how, double patience) {
+  return within(patience, [&] { return ::flock(file, how | LOCK_NB) == 0 || errno != EWOULDBLOCK; });
+}
+
+/// What is said of a last line without its end.
+std::string torn(const fs::path& path, const std::string& text) {
+  const auto line = 1 + std::count(text.begin(), text.end(), '\n');
+  return path.string() + ":" + std::to_string(line) + ": was torn as its process ended while it wrote; dropped, " +
+         (line == 1 ? "the journal begins again" : "the case is run again");
+}
+
+bool is_journal(const fs::path& path) {
+  return path.filename().string().starts_with("journal-") && path.extension() == ".txt";
+}
+
+}  // namespace
+
+std::string line_of(const Row& r) {
+  Json values = Json::array();
+  for (double x : r.values) values.push_back(exact(x));
+  return sealed({{"case", r.number}, {"status", r.status}, {"reason", r.reason}, {"values", values}, {"units", r.units}, {"t_end", exact(r.t_end)},
+                 {"unexplained", exact(r.unexplained_share)}, {"steps", r.steps}, {"impacts", r.impacts}, {"worker", r.worker},
+                 {"build", exact(r.build_seconds)}, {"run", exact(r.run_seconds)}});
+}
+
+std::optional<Row> row_of(std::string_view line) try {
+  const std::optional<Json> found = unsealed(line);
+  if (!found || !found->is_object()) return {};
+  const Json& j = *found;
+  Row r;
+  r.number = count<std::size_t>(j.at("case")), r.status = j.at("status"), r.reason = j.at("reason"), r.units = j.at("units");
+  r.steps = count<long>(j.at("steps")), r.impacts = count<long>(j.at("impacts"));
+  r.worker = j.at("worker"), r.t_end = exact(j.at("t_end")), r.unexplained_share = exact(j.at("unexplained"));
+  r.build_seconds = exact(j.at("build")), r.run_seconds = exact(j.at("run"));
+  if (!j.at("values").is_array()) return {};
+  for (const Json& x : j.at("values")) r.values.push_back(exact(x));
+  return r;
+} catch (const Json::exception&) {  // sealed, but not what line_of writes
+  return {};
+} catch (const std::invalid_argument&) {
+  return {};
+}
+
+Journal::Journal(const fs::path& path, std::uint64_t study, std::vector<std::string>* notes) : path_(path) {
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file_ < 0) throw std::runtime_error(path.string() + ": cannot be written (" + std::strerror(errno) + "); name another place with --out");
+  try {
+    if (!locked(file_, LOCK_EX, 3))
+      throw std::runtime_error(path.string() + ": another process works on this sweep; wait for it, or end it. (If many were started at once as one "
+                                               "MPI job, they do not see each other: start them by mpirun, or by srun --mpi=pmix.)");
+    const std::string text = contents(path);
+    const bool begun = judge_heading(path, text, study);
+    size_ = begun ? static_cast<std::int64_t>(text.rfind('\n') + 1) : 0;
+    if (notes && size_ < static_cast<std::int64_t>(text.size())) notes->push_back(torn(path, text));
+    if (::ftruncate(file_, size_) != 0) throw std::runtime_error(path.string() + ": cannot be written (" + std::strerror(errno) + ")");
+    if (!begun) write(heading(study));
+  } catch (...) {
+    ::close(file_);
+    throw;
+  }
+}
+
+Journal::~Journal() {
+  ::fdatasync(file_);
+  ::close(file_);
+}
+
+void Journal::write(const std::string& line) {
+  for (std::size_t done = 0; done < line.size();) {
+    const ssize_t n = ::pwrite(file_, line.data() + done, line.size() - done, size_ + static_cast<std::int64_t>(done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) {
+      const std::string why = n < 0 ? std::strerror(errno) : "the disk may be full";
+      [[maybe_unused]] const int ignored = ::ftruncate(file_, size_);
+      throw std::runtime_error(path_.string() + ": cannot be written (" + why +
+                               "); the cases that ended before are kept: mend that, and start the same command again");
+    }
+    done += static_cast<std::size_t>(n);
+  }
+  size_ += static_cast<std::int64_t>(line.size());
+}
+
+void Journal::append(const Row& row) {
+  const std::string line = line_of(row);
+  const std::lock_guard lock(one_at_a_time_);
+  write(line);
+  if (now() - flushed_ < 1) return;
+  ::fdatasync(file_);
+  flushed_ = now();
+}
+
+fs::path journal_path(const fs::path& folder, int rank) {
+  return folder / ("journal-" + std::to_string(rank) + ".txt");
+}
+
+std::vector<Row> read_journals(const fs::path& folder, std::uint64_t study, std::size_t cases, std::vector<std::string>* notes) {
+  std::map<std::size_t, Row> rows;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const fs::path& path = entry.path();
+    if (!is_journal(path)) continue;
+    const std::string text = contents(path);
+    if (notes && !text.ends_with('\n') && !text.empty()) notes->push_back(torn(path, text));
+    if (!judge_heading(path, text, study)) continue;
+    std::size_t line = 2;
+    for (std::size_t begin = text.find('\n') + 1, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1, ++line) {
+      std::optional<Row> row = row_of(std::string_view(text).substr(begin, end - begin));
+      const std::string where = path.string() + ":" + std::to_string(line);
+      if (!row)
+        throw SceneError(where + ": is damaged: its checksum, or what it holds, is not that of a case; remove this line, which runs its case again, or " + remedy(path));
+      if (row->number < 1 || row->number > cases)
+        throw SceneError(where + ": is of case " + std::to_string(row->number) + ", where the study has " + std::to_string(cases) + "; " + remedy(path));
+      rows.emplace(row->number, std::move(*row));
+    }
+  }
+  std::vector<Row> out;
+  for (auto& [number, row] : rows) out.push_back(std::move(row));
+  return out;
+}
+
+bool journals_are_free(const fs::path& folder, const fs::path& but, double seconds) {
+  const auto held = [&] {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      if (!is_journal(entry.path()) || entry.path() == but) continue;
+      const int file = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
+      if (file < 0) continue;
+      const bool free = locked(file, LOCK_SH, 0);
+      ::close(file);
+      if (!free) return true;
+    }
+    return false;
+  };
+  return within(seconds, [&] { return !held(); });
+}
+
+}  // namespace pintle

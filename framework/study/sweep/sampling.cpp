@@ -1,0 +1,272 @@
+#include "framework/study/sweep/sampling.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+#include "framework/common/fingerprint.h"
+#include "framework/scene/yaml/keys.h"
+#include "framework/scene/yaml/override.h"
+
+namespace pintle {
+
+namespace {
+
+using Texts = std::vector<std::optional<std::string>>;
+
+constexpr const char* how_values_look = "a list such as [0.01 mm, 0.1 mm], or {from: 0.01 mm, to: 0.5 mm, count: 50, scale: log}";
+constexpr const char* how_spans_look = "{from: 0.01 mm, to: 0.5 mm, scale: log}, or a list of choices";
+
+double rounded(double x) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific, 11).ptr;
+  double out = 0;
+  std::from_chars(text.data(), end, out);
+  return out;
+}
+
+std::string decimal(double x) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), x).ptr};
+}
+
+/// ratio^u by square roots and products alone, which every machine rounds alike; `pow` may differ in its last bit.
+double power(double ratio, double u) {
+  double out = 1, root = ratio;
+  if (u >= 1) return ratio;
+  for (int bit = 0; bit < 53 && u > 0; ++bit) {
+    root = std::sqrt(root);
+    u *= 2;
+    if (u < 1) continue;
+    out *= root;
+    u -= 1;
+  }
+  return out;
+}
+
+Quantity quantity(const Node& node) {
+  try {
+    return read_quantity(node.text("a value such as 0.1 mm"), node.source().parameters);
+  } catch (const ExpressionError& error) {
+    node.fail(error.what());
+  }
+}
+
+struct Interval {
+  Span span;
+  Dimension dimension;
+};
+
+Interval interval(const Node& group) {
+  const Quantity a = quantity(group.at("from")), b = quantity(group.at("to"));
+  const bool fits = same(a.dimension, b.dimension) || (a.value == 0 && bare(a.dimension)) || (b.value == 0 && bare(b.dimension));
+  if (!fits) group.fail("from is " + describe(a.dimension) + " and to is " + describe(b.dimension) + "; give both in units of one kind");
+  Interval out{{a.value, b.value, false}, bare(a.dimension) ? b.dimension : a.dimension};
+  if (group.has("scale")) out.span.logarithmic = group.at("scale").one_of(choices("study.sweep.random.*", "scale")) == "log";
+  if (out.span.logarithmic && !(a.value > 0 && b.value > 0))
+    group.fail("a logarithmic scale needs from and to greater than 0; write scale: linear");
+  return out;
+}
+
+/// A number in SI with its unit, so that a header can name it.
+std::string with_unit(double x, const Dimension& dimension) {
+  const std::string unit = si_unit(dimension);
+  return unit.empty() ? decimal(x) : decimal(x) + " " + unit;
+}
+
+Texts values(const Node& node) {
+  Texts out;
+  if (node.is_map()) {
+    if (!node.has("from") && !node.has("to")) node.fail("is " + node.shown() + "; write " + how_values_look);
+    check_keys(node, "study.sweep.grid.*");
+    const Interval range = interval(node);
+    const auto n = static_cast<std::size_t>(node.at("count").count(1));
+    if (n > most_cases) node.at("count").fail("is more than " + std::to_string(most_cases) + " cases; take fewer");
+    for (std::size_t k = 0; k < n; ++k)
+      out.emplace_back(with_unit(range.span.at(n == 1 ? 0 : static_cast<double>(k) / static_cast<double>(n - 1)), range.dimension));
+    return out;
+  }
+  if (node.is_list() && node.yaml().items.empty())
+    node.fail(std::string("is an empty list, so there are no cases; write ") + how_values_look);
+  for (const Node& item : node.list(1, how_values_look)) out.emplace_back(override_text(item.yaml()));
+  return out;
+}
+
+std::vector<Node> named(const Node& section) {
+  const std::vector<Node> entries = section.entries(std::string("names of parameters (or paths) and their values: {clearance: ") + how_values_look + "}");
+  if (entries.empty()) section.fail("names nothing to vary; add for example clearance: [0.01 mm, 0.1 mm]");
+  return entries;
+}
+
+/// How many values(node) has, without making them; 1 where it refuses the node.
+std::size_t value_count(const Node& node) {
+  if (node.is_list()) return std::max<std::size_t>(1, node.yaml().items.size());
+  return node.is_map() && node.has("count") ? static_cast<std::size_t>(node.at("count").count(1)) : 1;
+}
+
+Cases grid(const Node& section) {
+  Cases cases;
+  std::size_t n = 1;
+  for (const Node& axis : named(section)) {
+    const std::size_t here = value_count(axis);
+    if (here > most_cases) values(axis);  // says so
+    if (n > most_cases / here) section.fail("has more than " + std::to_string(most_cases) + " combinations; take fewer values, or random");
+    n *= here;
+  }
+  std::vector<Texts> axes;
+  for (const Node& axis : named(section)) {
+    cases.names.push_back(axis.name());
+    cases.places.push_back(axis.place());
+    axes.push_back(values(axis));
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    Texts one(axes.size());
+    std::size_t rest = k;
+    for (std::size_t a = axes.size(); a-- > 0; rest /= axes[a].size()) one[a] = axes[a][rest % axes[a].size()];
+    cases.values.push_back(std::move(one));
+  }
+  return cases;
+}
+
+/// Before the values are made: a few lines could ask for more than any memory.
+void judge_size(const Node& section, std::size_t cases, std::size_t names) {
+  constexpr std::size_t most_values = 20'000'000;
+  if (cases > most_values / std::max<std::size_t>(1, names))
+    section.fail("has more than " + std::to_string(most_values) + " values, of " + std::to_string(names) + " names together; take fewer cases");
+}
+
+Cases columns(const Node& section) {
+  Cases cases;
+  for (const Node& column : named(section)) {
+    judge_size(section, value_count(column), named(section).size());
+    const Texts texts = values(column);
+    if (cases.names.empty()) cases.values.resize(texts.size());
+    if (texts.size() != cases.size())
+      column.fail("has " + std::to_string(texts.size()) + " values, " + cases.names.front() + " has " + std::to_string(cases.size()) +
+                  "; columns of a list are walked in step: give as many, or write grid for all combinations");
+    cases.names.push_back(column.name());
+    cases.places.push_back(column.place());
+    for (std::size_t k = 0; k < texts.size(); ++k) cases.values[k].push_back(texts[k]);
+  }
+  return cases;
+}
+
+Cases list(const Node& section) {
+  if (section.is_map()) return columns(section);
+  Cases cases;
+  for (const Node& row : section.list(1, "a list of cases such as [{clearance: 0.01 mm}, {clearance: 0.1 mm, speed: 50 rad/s}]")) {
+    Texts one(cases.names.size());
+    for (const Node& entry : row.entries("names and values: {clearance: 0.1 mm}")) {
+      const auto at = static_cast<std::size_t>(std::ranges::find(cases.names, entry.name()) - cases.names.begin());
+      if (at == cases.names.size()) {
+        cases.names.push_back(entry.name());
+        cases.places.push_back(entry.place());
+        for (Texts& earlier : cases.values) earlier.emplace_back();
+        one.emplace_back();
+      }
+      one[at] = override_text(entry.yaml());
+    }
+    cases.values.push_back(std::move(one));
+    if (cases.size() > most_cases) section.fail("has more than " + std::to_string(most_cases) + " cases; take fewer");
+  }
+  return cases;
+}
+
+Cases sampled(const Node& section, bool latin) {
+  std::vector<Node> entries = named(section);
+  if (!section.has("count")) section.fail("does not say how many cases; add for example count: 100");
+  const auto n = static_cast<std::size_t>(section.at("count").count(1));
+  if (n > most_cases) section.at("count").fail("is more than " + std::to_string(most_cases) + " cases; take fewer");
+  const auto seed = static_cast<std::uint64_t>(section.has("seed") ? section.at("seed").count(0) : 1);
+
+  judge_size(section, n, entries.size());
+  Cases cases;
+  cases.values.resize(n);
+  for (const Node& entry : entries) {
+    if (entry.name() == "count" || entry.name() == "seed") continue;
+    cases.names.push_back(entry.name());
+    cases.places.push_back(entry.place());
+    Stream stream(seed, entry.name());
+    std::vector<double> u;
+    if (latin) u = stream.strata(n);
+    else for (std::size_t k = 0; k < n; ++k) u.push_back(stream.uniform());
+    if (entry.is_list()) {
+      const Texts choices = values(entry);
+      for (std::size_t k = 0; k < n; ++k)
+        cases.values[k].push_back(choices[static_cast<std::size_t>(u[k] * static_cast<double>(choices.size()))]);
+      continue;
+    }
+    if (!entry.is_map()) entry.fail("is " + entry.shown() + "; write " + how_spans_look);
+    check_keys(entry, "study.sweep.random.*");
+    const Interval range = interval(entry);
+    for (std::size_t k = 0; k < n; ++k) cases.values[k].emplace_back(with_unit(range.span.at(u[k]), range.dimension));
+  }
+  if (cases.names.empty()) section.fail("names nothing to vary; add for example clearance: {from: 0.01 mm, to: 0.5 mm}");
+  return cases;
+}
+
+}  // namespace
+
+Overrides Cases::overrides(std::size_t k) const {
+  Overrides out;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (values[k][i]) out.emplace_back(names[i], *values[k][i]);
+  return out;
+}
+
+std::optional<Quantity> Cases::quantity(std::size_t k, std::size_t i) const {
+  if (!values[k][i]) return {};
+  try {
+    return read_quantity(*values[k][i]);
+  } catch (const ExpressionError&) {
+    return {};
+  }
+}
+
+double Span::at(double u) const {
+  if (u <= 0) return rounded(from);
+  if (u >= 1) return rounded(to);
+  return rounded(logarithmic ? from * power(to / from, u) : from * (1 - u) + to * u);
+}
+
+Stream::Stream(std::uint64_t seed, std::string_view name) {
+  // A step of SplitMix64, so that neighbouring seeds share nothing.
+  std::uint64_t z = seed * 0x9e3779b97f4a7c15u + fingerprint(name);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  numbers_.seed(z ^ (z >> 31));
+}
+
+double Stream::uniform() {
+  return static_cast<double>(numbers_() >> 11) * 0x1p-53;
+}
+
+std::uint64_t Stream::below(std::uint64_t n) {
+  // The numbers below 2^64 mod n would come once too often.
+  const std::uint64_t excess = (~n + 1) % n;
+  for (;;)
+    if (const std::uint64_t x = numbers_(); x >= excess) return x % n;
+}
+
+std::vector<double> Stream::strata(std::size_t n) {
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t k = n; k > 1; --k) std::swap(order[k - 1], order[below(k)]);
+  std::vector<double> out;
+  for (std::size_t k : order) out.push_back(std::min((static_cast<double>(k) + uniform()) / static_cast<double>(n), 1 - 0x1p-53));
+  return out;
+}
+
+Cases read_cases(const Node& sweep) {
+  static const std::vector<std::string> kinds{"grid", "list", "random", "latin hypercube"};
+  check_keys(sweep, "study.sweep");
+  const std::string kind = which_key(sweep, kinds, "which cases it has");
+  const Node section = sweep.at(kind);
+  if (kind == "grid") return grid(section);
+  if (kind == "list") return list(section);
+  return sampled(section, kind == "latin hypercube");
+}
+
+}  // namespace pintle

@@ -1,0 +1,328 @@
+#include "framework/study/sweep/sweep.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <iterator>
+#include <optional>
+#include <thread>
+
+#include "files/files.h"
+#include "framework/common/text.h"
+#include "framework/study/sweep/crew.h"
+
+namespace pintle {
+
+namespace {
+
+namespace fs = std::filesystem;
+using clock = std::chrono::steady_clock;
+
+/// What the processes say to each other: the first number of a message.
+enum Word : std::int64_t {
+  go,      ///< 0 to all: the folder is ready
+  refuse,  ///< 0 to all: there is nothing to do
+  ask,     ///< to 0: idle threads; then what was done since
+  deal,    ///< 0 to one: whether that was all there is; then numbers of cases
+  leave,   ///< to 0: whether it was stopped; then what was done since
+  bye,     ///< 0 to one that leaves
+  halt     ///< 0 to all: stop
+};
+
+using Message = std::vector<std::int64_t>;
+constexpr auto nap = std::chrono::milliseconds(2);  // next to the 50 ms of a portion
+constexpr std::size_t most_dealt = 400;  // fits a message that is sent without waiting for its receiver
+
+void report(Message& to, const Crew::Tally& since) {
+  to.insert(to.end(), {static_cast<std::int64_t>(since.done), static_cast<std::int64_t>(since.trouble),
+                       static_cast<std::int64_t>(since.busy * 1e6)});
+}
+
+void send_all(Fellows& fellows, Word word) {
+  for (int k = 1; k < fellows.size(); ++k) fellows.send(k, Message{word});
+}
+
+Message next_message(Fellows& fellows, int& from) {
+  Message said;
+  while (!fellows.receive(from, said)) std::this_thread::sleep_for(nap);
+  return said;
+}
+
+void take_leave(Fellows& fellows, const Message& last) {
+  fellows.send(0, last);
+  for (int from = 0; next_message(fellows, from)[0] != bye;) {}
+}
+
+/// Cases to hand out at once: as many as last some 50 ms, so that short ones do not wait for messages, but few
+/// enough to leave work for everyone; towards the end one for each idle thread.
+std::size_t portion(std::size_t left, std::size_t workers, std::size_t idle, const SweepCount& so_far) {
+  if (left <= 2 * workers) return std::min(left, idle);
+  const double each = so_far.done > 0 ? so_far.busy / static_cast<double>(so_far.done) : 1;
+  const auto some = static_cast<std::size_t>(std::min(0.05 / std::max(each, 1e-6), 1.0 * most_dealt));
+  return std::clamp<std::size_t>(some, 1, std::max<std::size_t>(left / (4 * workers), 1));
+}
+
+/// Process 0, or the only one: works, and hands out to the others.
+class Leader {
+ public:
+  Leader(const Sweep& sweep, Journal& journal, const SweepSettings& settings, const std::vector<std::size_t>& numbers, SweepEnd& end)
+      : settings_(settings), end_(end), present_(settings.fellows ? settings.fellows->size() - 1 : 0), crew_(sweep, journal, 0, settings.threads) {
+    crew_.deck().add(numbers);
+    if (present_ == 0) crew_.deck().close();
+  }
+
+  void lead() {
+    end_.workers += crew_.workers() - settings_.threads;
+    end_.shortage = crew_.shortage();
+    while (!crew_.home() || present_ > 0) {
+      while (present_ > 0 && listen()) {}
+      look();
+      tell();
+      crew_.work_here([this] { tell(); });
+      if (crew_.troubled()) stop();
+      if (crew_.deck().left() == 0) crew_.deck().close();
+      if (present_ > 0) std::this_thread::sleep_for(nap);
+      else crew_.wait(std::chrono::milliseconds(100));
+    }
+    look();
+    crew_.finish();
+  }
+
+ private:
+  void tell() {
+    if (clock::now() - told_ <= std::chrono::milliseconds(100)) return;
+    told_ = clock::now();
+    if (settings_.progress && !settings_.progress(end_.count)) stop();
+  }
+
+  void look() {
+    count(crew_.tally());
+    end_.count.seconds = std::chrono::duration<double>(clock::now() - begin_).count();
+  }
+
+  void count(const Crew::Tally& more) {
+    end_.count.done += more.done, end_.count.trouble += more.trouble, end_.count.busy += more.busy;
+  }
+
+  void stop() {
+    crew_.stop();
+    if (settings_.fellows && !halted_) send_all(*settings_.fellows, halt);
+    halted_ = true;
+  }
+
+  bool listen() {
+    int from = 0;
+    Message said;
+    if (!settings_.fellows->receive(from, said)) return false;
+    count({static_cast<std::size_t>(said[2]), static_cast<std::size_t>(said[3]), 1e-6 * static_cast<double>(said[4])});
+    if (said[0] == leave) {
+      --present_;
+      if (said[1] != 0) stop();
+      settings_.fellows->send(from, Message{bye});
+      return true;
+    }
+    const std::vector<std::size_t> some = crew_.deck().draw_some(
+        portion(crew_.deck().left(), static_cast<std::size_t>(end_.workers), static_cast<std::size_t>(said[1]), end_.count));
+    Message answer{deal, crew_.deck().left() == 0};
+    for (std::size_t k : some) answer.push_back(static_cast<std::int64_t>(k));
+    settings_.fellows->send(from, answer);
+    return true;
+  }
+
+  const SweepSettings& settings_;
+  SweepEnd& end_;
+  int present_;  ///< fellows that have not left
+  bool halted_ = false;
+  clock::time_point begin_ = clock::now(), told_{};
+  Crew crew_;
+};
+
+/// One of the other processes: asks for cases when its last one has been drawn, so that more are there when that is done.
+class Follower {
+ public:
+  Follower(const Sweep& sweep, Journal& journal, const SweepSettings& settings)
+      : settings_(settings), fellows_(*settings.fellows), crew_(sweep, journal, fellows_.rank(), settings.threads) {}
+
+  /// @returns its words of leave
+  Message follow() {
+    while (!crew_.home() || asked_) {
+      Message said;
+      if (int from = 0; fellows_.receive(from, said)) hear(said);
+      look_up();
+      crew_.work_here([this] { look_up(); });
+      if (crew_.troubled()) stop();
+      if (wants()) {
+        Message question{ask, crew_.idle()};
+        report(question, crew_.tally());
+        fellows_.send(0, question);
+        asked_ = true;
+      }
+      if (asked_) std::this_thread::sleep_for(nap / 2);
+      else crew_.wait(std::chrono::milliseconds(20));
+    }
+    crew_.finish();
+    Message last{leave, stopped_};
+    report(last, crew_.tally());
+    return last;
+  }
+  const std::string& shortage() const { return crew_.shortage(); }
+
+ private:
+  void look_up() {
+    if (settings_.progress && !settings_.progress({})) stop();
+  }
+
+  void stop() {
+    stopped_ = true;
+    crew_.stop();
+  }
+
+  bool wants() {
+    return !asked_ && !stopped_ && !crew_.deck().closed() && crew_.deck().left() == 0 && (!told_to_wait_ || crew_.idle() > 0);
+  }
+
+  void hear(const Message& said) {
+    if (said[0] == halt) return stop();
+    asked_ = false;
+    const std::vector<std::size_t> numbers(said.begin() + 2, said.end());
+    told_to_wait_ = numbers.empty();
+    if (!stopped_) crew_.deck().add(numbers);
+    if (said[1] != 0) crew_.deck().close();
+  }
+
+  const SweepSettings& settings_;
+  Fellows& fellows_;
+  bool asked_ = false, told_to_wait_ = false, stopped_ = false;
+  Crew crew_;
+};
+
+SweepEnd run_as_follower(const Sweep& sweep, const fs::path& folder, const SweepSettings& settings) {
+  Fellows& fellows = *settings.fellows;
+  if (refused(fellows)) return {};
+  Message last{leave, 1, 0, 0, 0};
+  SweepEnd end;
+  std::exception_ptr trouble;
+  try {
+    if (!fs::exists(journal_path(folder, 0)))
+      throw std::runtime_error(folder.string() + ": process " + std::to_string(fellows.rank()) +
+                               " does not see it; name a directory with --out that all machines share");
+    Journal journal(journal_path(folder, fellows.rank()), sweep.print);
+    Follower follower(sweep, journal, settings);
+    last = follower.follow();
+    end.shortage = follower.shortage();
+  } catch (...) {
+    trouble = std::current_exception();
+  }
+  take_leave(fellows, last);  // after the journal is closed: process 0 reads it then
+  if (trouble) std::rethrow_exception(trouble);
+  return end;
+}
+
+/// Makes the folder, or judges whether it is one to go on with.
+void open_folder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(folder, error))) {
+    const auto is_ours = [&](const fs::path& p) {
+      const std::string name = p.filename().string();
+      return name.starts_with("journal-") || name.starts_with("study.yaml") || name.starts_with("scene.yaml") || name.find(".part") != std::string::npos;
+    };
+    if (!fs::is_directory(folder)) throw SceneError(folder.string(), {}, "exists already and is not a directory; name another with --out");
+    const fs::directory_iterator entries(folder);
+    if (!fs::exists(journal_path(folder, 0)) && !std::all_of(begin(entries), end(entries), [&](const auto& e) { return is_ours(e.path()); })) throw SceneError(folder.string(), {}, "exists already and holds no sweep; name another directory with --out");
+  }
+  fs::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another place with --out");
+}
+
+std::string contents(const fs::path& path) {
+  constexpr std::size_t most_bytes = std::size_t{100} << 20;
+  try {
+    return read_file(path, most_bytes);
+  } catch (const FileRefused&) {
+    return {};  // then it is not what was kept there
+  }
+}
+
+/// Why the folder of another study is refused: what has changed since, as far as that is known.
+std::string what_differs(const Sweep& sweep, const fs::path& folder) {
+  const auto differs = [&](const char* name, const std::string& now) { return fs::exists(folder / name) && contents(folder / name) != now; };
+  const bool study = differs("study.yaml", sweep.text), scene = differs("scene.yaml", sweep.study.scene.text);
+  const std::string was = study && scene ? "The study and its scene are not those" : study ? "The study is not the one" : "The scene is not the one";
+  if (study || scene)
+    return was + " that ran there (kept there as " + (study ? "study.yaml" : "") + (study && scene ? " and " : "") +
+           (scene ? "scene.yaml" : "") + ")";
+  return "Study and scene are those that ran there, but --set, a file that they name or the program's version is another";
+}
+
+void write_tables(const Sweep& sweep, const fs::path& folder, const SweepEnd& end) {
+  std::error_code ignored;
+  if (!end.whole) {
+    write_synced(folder / "sweep-so-far.csv", sweep_csv(sweep, end.rows));
+    return;
+  }
+  fs::remove(folder / "sweep-so-far.csv", ignored);
+  if (end.count.done == 0 && fs::exists(folder / "sweep.csv")) return;
+  write_synced(folder / "timings.csv", timings_csv(end.rows));
+  write_synced(folder / "sweep.json", sweep_json(sweep, end));
+  write_synced(folder / "sweep.csv", sweep_csv(sweep, end.rows));
+}
+
+}  // namespace
+
+void refuse_all(Fellows& fellows) {
+  send_all(fellows, refuse);
+}
+
+bool refused(Fellows& fellows) {
+  int from = 0;
+  return next_message(fellows, from)[0] == refuse;
+}
+
+void stay_away(Fellows& fellows) {
+  take_leave(fellows, {leave, 1, 0, 0, 0});
+}
+
+SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettings& settings) {
+  Fellows* fellows = settings.fellows;
+  if (fellows && fellows->rank() > 0) return run_as_follower(sweep, folder, settings);
+
+  SweepEnd end;
+  end.workers = settings.threads * (fellows ? fellows->size() : 1);
+  std::optional<Journal> journal;
+  std::vector<std::size_t> numbers;
+  try {
+    open_folder(folder);
+    const fs::path own = journal_path(folder, 0);
+    try {
+      journal.emplace(own, sweep.print, &end.notes);
+    } catch (const OtherStudy&) {
+      throw SceneError(folder.string(), {}, "belongs to another study. " + what_differs(sweep, folder) +
+                                                ". Name another directory with --out, or remove " + folder.string());
+    }
+    if (!journals_are_free(folder, own, 10))
+      throw std::runtime_error(folder.string() + ": processes of an earlier session still work there; wait for them, or end them");
+    write_synced(folder / "study.yaml", sweep.text);
+    write_synced(folder / "scene.yaml", sweep.study.scene.text);
+    std::vector<bool> ended(sweep.cases.size() + 1, false);
+    for (const Row& row : read_journals(folder, sweep.print, sweep.cases.size(), &end.notes)) ended[row.number] = true;
+    for (std::size_t k = 1; k < ended.size(); ++k)
+      if (!ended[k]) numbers.push_back(k);
+  } catch (...) {
+    if (fellows) refuse_all(*fellows);
+    throw;
+  }
+  end.count.cases = sweep.cases.size();
+  end.count.before = sweep.cases.size() - numbers.size();
+  if (fellows) send_all(*fellows, go);
+  {
+    Leader leader(sweep, *journal, settings, numbers, end);
+    leader.lead();
+  }
+  journal.reset();
+  end.rows = read_journals(folder, sweep.print, sweep.cases.size());
+  end.whole = end.rows.size() == sweep.cases.size();
+  write_tables(sweep, folder, end);
+  return end;
+}
+
+}  // namespace pintle

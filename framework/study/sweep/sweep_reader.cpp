@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "files/files.h"
+#include "framework/common/fingerprint.h"
+#include "framework/common/text.h"
+#include "framework/scene/yaml/text_file.h"
+#include "framework/study/sweep/sweep.h"
+
+namespace pintle {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::size_t most_bytes = std::size_t{100} << 20, most_file_bytes = std::size_t{1} << 30;
+
+/// The contents of a file beside the scene that a value names, if it does: a table, drawing or mesh.
+std::optional<std::string> file_named(const std::string& text, const fs::path& folder) {
+  if (text.empty() || text.size() >= 256 || text.find('\n') != std::string::npos) return {};
+  try {
+    const fs::path path = contained_file(text, folder);
+    std::error_code error;
+    if (fs::is_regular_file(path, error)) return read_file(path, most_file_bytes);
+  } catch (const FileRefused&) {  // whoever reads it says why
+  }
+  return {};
+}
+
+std::uint64_t print_of_files(const Yaml& tree, const fs::path& folder, std::uint64_t print) {
+  if (tree.kind == Yaml::Kind::scalar)
+    if (const std::optional<std::string> file = file_named(tree.text, folder)) print = fingerprint(*file, fingerprint(tree.text, print));
+  for (const Yaml& item : tree.items) print = print_of_files(item, folder, print);
+  return print;
+}
+
+/// " mm" of "0.1 mm": the same of numbers in the same unit.
+std::string behind_number(const std::string& text) {
+  double number = 0;
+  return std::from_chars(text.data(), text.data() + text.size(), number).ptr;
+}
+
+/// Tells a study that is wrong from a case that is: by what the scene's reader says of some of the cases.
+class Trial {
+ public:
+  explicit Trial(const Sweep& sweep) : sweep_(sweep) {}
+
+  void judge() const {
+    for (std::size_t i = 0; i < sweep_.cases.names.size(); ++i) judge_name(i), judge_units(i);
+    judge_all();
+  }
+
+ private:
+  static constexpr std::size_t most = 8;
+
+  /// What the reader says of case k; empty if it can be read. Name i may have another value there.
+  std::string refusal(std::size_t k, std::size_t i = 0, const std::string* value = nullptr) const {
+    const CaseSource& source = sweep_.study.scene;
+    Overrides all = source.common;
+    for (auto& [name, text] : sweep_.cases.overrides(k)) all.emplace_back(name, value && name == sweep_.cases.names[i] ? *value : text);
+    try {
+      require_run(read_scene_text(source.text, source.file.string(), all, source.file.parent_path()));
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  /// What a refusal says of the value of name i, or what is put in by it; empty if it is about something else.
+  std::string about(std::size_t i, const std::string& refusal) const {
+    const std::string mark = ": --set " + sweep_.cases.names[i];
+    const auto at = refusal.find(mark);
+    if (at == std::string::npos) return "";
+    const std::string rest = refusal.substr(at + mark.size());
+    if (rest.starts_with(": ")) return rest.substr(2);
+    return rest.starts_with('.') || rest.starts_with('[') ? rest.substr(1) : "";
+  }
+
+  [[noreturn]] void fail(std::size_t i, const std::string& message) const {
+    throw SceneError(sweep_.study.file, sweep_.cases.places[i], message);
+  }
+
+  /// A name none of whose values can be read, for the value's sake: mistyped.
+  void judge_name(std::size_t i) const {
+    std::vector<std::size_t> with;
+    for (std::size_t k = 0; k < sweep_.cases.size(); ++k)
+      if (sweep_.cases.values[k][i]) with.push_back(k);
+    const std::size_t n = std::min(most, with.size());
+    std::string first;
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::string said = about(i, refusal(with[k * with.size() / n]));
+      if (said.empty()) return;
+      if (first.empty()) first = said;
+    }
+    if (n > 0) fail(i, first);
+  }
+
+  /// A value that the reader would take without its unit, beside values in units of another kind.
+  void judge_units(std::size_t i) const {
+    std::map<std::string, std::size_t> kinds;  // and the first case that has it
+    std::set<std::string, std::less<>> seen;
+    for (std::size_t k = 0; k < sweep_.cases.size(); ++k) {
+      if (!sweep_.cases.values[k][i] || !seen.insert(behind_number(*sweep_.cases.values[k][i])).second) continue;
+      if (const std::optional<Quantity> q = sweep_.cases.quantity(k, i)) kinds.emplace(si_unit(q->dimension), k);
+    }
+    if (kinds.size() < 2) return;
+    for (const auto& [unit, k] : kinds) {
+      const std::string said = unit.empty() ? "" : about(i, refusal(k));
+      std::string number;
+      append_number(number, sweep_.cases.quantity(k, i)->value);
+      if (!said.empty() && about(i, refusal(k, i, &number)).empty()) fail(i, said);
+    }
+  }
+
+  /// If the scene cannot be read in any of some cases, it is the study that is wrong.
+  void judge_all() const {
+    const std::size_t n = std::min(most, sweep_.cases.size());
+    std::string first;
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::string said = refusal(k * sweep_.cases.size() / n);
+      if (said.empty()) return;
+      if (first.empty()) first = said;
+    }
+    throw SceneError(first);
+  }
+
+  const Sweep& sweep_;
+};
+
+}  // namespace
+
+Sweep read_sweep(const fs::path& path, const Overrides& set) {
+  StudyFile file = read_study(path);
+  const Node root = file.root();
+  if (!root.has("sweep")) root.fail("has no sweep; add for example sweep: {grid: {clearance: [0.01 mm, 0.1 mm]}}");
+  const Node section = root.at("sweep");
+  Sweep out;
+  out.cases = read_cases(section);
+  out.study = file.study;
+  Overrides& common = out.study.scene.common;
+  common.insert(common.end(), set.begin(), set.end());
+  if (section.has("limit")) out.limits.seconds = section.at("limit").quantity(dimension::time, rule::positive);
+  if (section.has("most steps")) common.emplace_back("run.max steps", std::to_string(section.at("most steps").count(1)));
+
+  out.text = read_text_file(path, most_bytes);
+  const CaseSource& scene = out.study.scene;
+  out.print = fingerprint(scene.text, fingerprint(out.text, fingerprint(PINTLE_VERSION)));
+  for (const auto& [name, value] : set) out.print = fingerprint(value, fingerprint(name + "=", out.print));
+  const fs::path folder = scene.file.parent_path();
+  out.print = print_of_files(parse_yaml(scene.text, scene.file.string()), folder, out.print);
+  out.print = print_of_files(file.tree, folder, out.print);
+  for (const auto& [name, value] : set) out.print = print_of_files({Yaml::Kind::scalar, 0, {}, value, {}}, folder, out.print);
+  Trial(out).judge();
+  const Scene all_have = common_scene(out.study.scene);
+  judge(out.study.measures, all_have);
+  judge_flexible(out.study.measures, all_have, out.cases.names);
+  return out;
+}
+
+}  // namespace pintle

@@ -1,0 +1,96 @@
+// Why a trade recommends nothing.
+#include <algorithm>
+#include <cmath>
+
+#include "framework/common/printed.h"
+#include "framework/study/tradeoff/tradeoff_words.h"
+
+namespace pintle {
+
+namespace {
+
+void say_remedy(const TradeReport& r, std::vector<std::string>& said) {
+  const double asked = r.plan.error > 0 ? r.plan.error : useful_doubt;
+  std::string s, fine;
+  bool chaotic = false;
+  double ensembles = 0;
+  for (std::size_t q = 0; q < r.quantities.size(); ++q) {
+    const QuantityReference& x = r.reference.of[q];
+    if (!x.constant && x.doubt() <= asked) fine += (fine.empty() ? "" : ", ") + r.quantities[q];
+    if (x.doubt() <= asked || !x.chaotic) continue;
+    chaotic = true;
+    ensembles = std::max(ensembles, std::ceil(r.plan.ensemble * std::pow(1.5 * x.doubt() / asked, 2)));
+  }
+  if (r.reference.short_of_time && r.plan.budget > 0) s = "more time: --budget " + duration_text(4 * r.plan.budget);
+  if (chaotic && ensembles <= 100000)
+    s += (s.empty() ? "" : "; ") + printed("larger ensembles, ensemble: %.0f in a study, each that much dearer", ensembles);
+  if (chaotic)
+    s += (s.empty() ? "" : "; ") + std::string("a mean or rms over a longer time, or a look at an earlier time, before the motions part");
+  else
+    s += (s.empty() ? "" : "; ") + std::string(
+                                       "a quantity that depends less on details: a mean, an rms or an energy rather than a peak, or one taken over a "
+                                       "longer time or before it becomes uncertain");
+  if (!fine.empty()) s += "; or asking for " + fine + " alone, which is known well enough";
+  said.push_back(
+      "What would help: " + s + "." +
+      (r.reference.short_of_time || r.plan.budget <= 0 || chaotic ? "" : " A larger budget would not: refinement, not time, has come to its end."));
+}
+
+}  // namespace
+
+void say_unknown(const TradeReport& r, std::vector<std::string>& said) {
+  const double asked = r.plan.error > 0 ? r.plan.error : useful_doubt;
+  std::string s;
+  for (std::size_t q = 0; q < r.quantities.size(); ++q)
+    if (const QuantityReference& x = r.reference.of[q]; !x.constant && x.doubt() > asked)
+      s += (s.empty() ? "" : ", ") + r.quantities[q] + " to " + percent_text(x.doubt());
+  said.push_back(
+      "Nothing is recommended: the reference knows " + s + " only, and " +
+      (r.plan.error > 0 ? "an error of " + percent_text(asked) + " is wanted" : "worse than " + percent_text(asked) + " supports no advice") + ".");
+  const auto misses = static_cast<std::size_t>(
+      std::ranges::count_if(r.points, [&](const TradePoint& p) { return p.usable && verdict(p, asked) == Verdict::misses; }));
+  if (misses > 0 && misses < r.ran())
+    said.push_back(printed("Of the %s that ran, %zu err by more than %s for certain; of the rest it is not known.", settings_text(r.ran()).c_str(),
+                           misses, percent_text(asked).c_str()));
+  else
+    said.push_back(misses == 0 ? "Of no setting that ran is it known whether its error is smaller or larger."
+                               : "All " + settings_text(r.ran()) + " that ran err by more for certain.");
+  say_remedy(r, said);
+}
+
+void say_none_meets(const TradeReport& r, std::vector<std::string>& said) {
+  double least = INFINITY, most = 0;
+  std::vector<std::size_t> best, open;
+  for (const TradePoint& p : r.points)
+    if (p.usable) least = std::min(least, p.at_most());
+  for (std::size_t i = 0; i < r.points.size(); ++i) {
+    const TradePoint& p = r.points[i];
+    if (p.usable && p.at_least() <= least) best.push_back(i), most = std::max(most, p.at_most());
+    if (p.usable && verdict(p, r.plan.error) == Verdict::unknown) open.push_back(i);
+  }
+  said.push_back("Nothing is recommended: " + (r.ran() == r.listed() ? std::string("no setting") : "none" + of_how_many(r)) +
+                 " is shown to have an error of at most " + percent_text(r.plan.error) + ".");
+  if (best.size() == 1)
+    said.push_back("The most accurate is " + setting_text(r.plan, r.points[best.front()]) + ", " + priced(r, best.front()) + ".");
+  else
+    said.push_back(printed("The %zu most accurate cannot be told apart: each errs by at most %s.", best.size(), percent_text(most).c_str()));
+  if (!open.empty())
+    said.push_back(printed("Of %s it is not known, as the reference itself may err by %s.", settings_text(open.size()).c_str(),
+                           percent_text(r.doubt()).c_str()));
+  said.push_back(std::string("What would help: ") +
+                 (r.cut ? "more time, --budget " + duration_text(4 * r.plan.budget) + ", for the settings that did not run; or " : "") +
+                 "axes that reach further, finer values than these.");
+}
+
+void say_constant(const TradeReport& r, std::vector<std::string>& said) {
+  for (std::size_t q = 0; q < r.quantities.size(); ++q) {
+    const QuantityReference& x = r.reference.of[q];
+    if (!x.constant) continue;
+    const std::string value = x.value == 0 ? "0" : printed("%.6g", x.value) + (r.units[q].empty() ? "" : " " + r.units[q]);
+    said.push_back(r.quantities[q] + " is " + value + " in every run, whatever the setting: nothing can be told from it" +
+                   (r.tells() ? ", and what follows is from the others."
+                              : ". Nothing is recommended; ask for a quantity that the scene gives a value that varies."));
+  }
+}
+
+}  // namespace pintle
