@@ -10,6 +10,7 @@
 #include "framework/analysis/kinematics/inverse.h"
 #include "framework/analysis/kinematics/kinematics.h"
 #include "framework/bodies/pieces.h"
+#include "framework/build/build.h"
 #include "framework/build/stand_in.h"
 #include "framework/common/text.h"
 #include "framework/output/results.h"

@@ -8,9 +8,9 @@
 
 #include "app/options.h"
 #include "app/run_end.h"
+#include "framework/analysis/natural_modes/natural_modes.h"
 #include "framework/analysis/static_case/static_case.h"
 #include "framework/bodies/file_doubts.h"
-#include "framework/bodies/modes.h"
 #include "framework/common/text.h"
 #include "framework/drawing/body_drawing.h"
 #include "framework/output/results.h"

@@ -6,9 +6,10 @@
 
 #include "app/options.h"
 #include "app/run_end.h"
-#include "framework/analysis/equilibrium/equilibrium.h"
 #include "framework/bodies/pieces.h"
+#include "framework/build/build.h"
 #include "framework/build/stand_in.h"
+#include "framework/configuration/equilibrium.h"
 #include "framework/output/results.h"
 
 namespace pintle::app {

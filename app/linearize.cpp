@@ -7,10 +7,11 @@
 
 #include "app/options.h"
 #include "app/run_end.h"
-#include "framework/analysis/equilibrium/equilibrium.h"
 #include "framework/analysis/linearize/linearize.h"
 #include "framework/bodies/pieces.h"
+#include "framework/build/build.h"
 #include "framework/configuration/assemble.h"
+#include "framework/configuration/equilibrium.h"
 #include "framework/mechanism/drawing.h"
 #include "framework/output/results.h"
 

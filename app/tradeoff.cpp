@@ -15,7 +15,7 @@
 #include "app/run_end.h"
 #include "framework/common/text.h"
 #include "framework/output/results.h"
-#include "framework/scene/yaml/text_file.h"
+#include "framework/scene/text_file.h"
 #include "framework/scene/yaml/yaml_node.h"
 #include "framework/study/tradeoff/wanted.h"
 

@@ -12,6 +12,7 @@
 #include <optional>
 #include <sstream>
 
+#include "framework/build/build.h"
 #include "framework/scene/yaml/keys.h"
 #include "tests/oracles/slider_crank_clearance.h"
 

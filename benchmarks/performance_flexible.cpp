@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "benchmarks/performance.h"
+#include "framework/build/build.h"
 
 namespace performance {
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/performance.h"
+#include "framework/build/build.h"
 #include "tests/oracles/four_bar.h"
 #include "tests/oracles/runge_kutta.h"
 #include "tests/oracles/slider_crank_clearance.h"

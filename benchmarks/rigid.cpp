@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "framework/analysis/simulate/simulate.h"
+#include "framework/build/build.h"
 #include "tests/oracles/runge_kutta.h"
 #include "tests/oracles/slider_crank_clearance.h"
 

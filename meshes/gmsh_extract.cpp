@@ -11,8 +11,8 @@
 
 #include "meshes/gmsh_figure.h"
 #include "meshes/quality.h"
-#include "meshes/rim.h"
 #include "meshes/refuse.h"
+#include "meshes/rim.h"
 
 namespace pintle {
 

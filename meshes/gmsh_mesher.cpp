@@ -12,8 +12,8 @@
 #include "meshes/gmsh_figure.h"
 #include "meshes/gmsh_session.h"
 #include "meshes/quality.h"
-#include "meshes/sizes.h"
 #include "meshes/refuse.h"
+#include "meshes/sizes.h"
 
 namespace pintle {
 

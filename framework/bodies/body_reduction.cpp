@@ -6,10 +6,10 @@
 
 #include <Eigen/LU>
 
-#include "framework/bodies/excitation.h"
 #include "framework/bodies/in_body.h"
+#include "framework/bodies/load_history.h"
+#include "framework/bodies/modal_basis.h"
 #include "framework/bodies/modal_choice.h"
-#include "framework/bodies/modes.h"
 #include "framework/component/reduction/foreshortening.h"
 #include "framework/component/reduction/static_response.h"
 

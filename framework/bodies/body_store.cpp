@@ -3,7 +3,7 @@
 #include <string>
 
 #include "framework/bodies/body_key.h"
-#include "framework/bodies/modes.h"
+#include "framework/bodies/modal_basis.h"
 
 namespace pintle {
 

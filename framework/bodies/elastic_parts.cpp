@@ -4,7 +4,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "framework/scene/yaml/nearest.h"
+#include "framework/common/nearest.h"
 
 namespace pintle {
 

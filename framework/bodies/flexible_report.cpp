@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "framework/bodies/elastic_parts.h"
-#include "framework/bodies/modes.h"
+#include "framework/bodies/modal_basis.h"
 
 namespace pintle {
 

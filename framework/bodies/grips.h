@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "framework/bodies/elastic_body.h"
-#include "framework/bodies/excitation.h"
+#include "framework/bodies/load_history.h"
 #include "framework/dynamics/equations/equations.h"
 
 /// Where joints, drivers and forces take hold of bodies of elements, and what they put on them.

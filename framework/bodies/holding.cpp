@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "framework/bodies/modes.h"
+#include "framework/bodies/modal_basis.h"
 
 namespace pintle {
 

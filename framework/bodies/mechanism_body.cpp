@@ -8,8 +8,8 @@
 
 #include "framework/bodies/elastic_parts.h"
 #include "framework/bodies/in_body.h"
-#include "framework/bodies/modes.h"
-#include "framework/scene/yaml/nearest.h"
+#include "framework/bodies/modal_basis.h"
+#include "framework/common/nearest.h"
 
 namespace pintle {
 

@@ -8,7 +8,7 @@
 
 #include "framework/bodies/elastic_parts.h"
 #include "framework/bodies/in_body.h"
-#include "framework/bodies/modes.h"
+#include "framework/bodies/modal_basis.h"
 #include "framework/component/reduction/static_response.h"
 
 namespace pintle {
@@ -305,20 +305,6 @@ ModalChoice choose_by_rule(const Scene& scene, const ElasticBody& e, const std::
     return candidates_of(scene, e, c, without_a_run).modes.omega.size();
   });
   return {static_cast<int>(there), "the " + std::to_string(there) + " lowest modes, by rule, for there is no rigid run to judge by: " + why, {}, 0, 0};
-}
-
-ModalChoice choose_modes(const Scene& scene, const ElasticBody& e) {
-  if (!scene.has_run) return choose_by_rule(scene, e, "the scene has no `run`");
-  std::vector<ElasticBody> made;
-  made.reserve(scene.bodies.size());
-  std::vector<const ElasticBody*> elements;
-  std::size_t own = 0;
-  for (const SceneBody& b : scene.bodies) {
-    if (&b == e.scene) own = elements.size();
-    elements.push_back(&b == e.scene ? &e : b.elastic ? &made.emplace_back(elastic_body(scene, b)) : nullptr);
-  }
-  const RigidRun run = rigid_run(scene, elements);
-  return run.usable() ? choose_modes(scene, e, run.bodies[own]) : choose_by_rule(scene, e, run.trouble);
 }
 
 double excited_up_to(const std::vector<double>& t, const MatrixXd& Q, const VectorXd& omega) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/bodies/excitation.h"
+#include "framework/bodies/load_history.h"
 #include "framework/component/reduction/modal_model.h"
 
 /// Which of a body's modes its motion needs, and what the others would add.
@@ -44,8 +44,6 @@ Eigen::MatrixXd oscillator_response(const Eigen::VectorXd& omega, const Eigen::V
 ModalChoice choose_modes(const Scene&, const ElasticBody&, const LoadHistory&);
 /// The rule where there is no history: the `without_a_run` lowest, or as many as there are.
 ModalChoice choose_by_rule(const Scene&, const ElasticBody&, const std::string& why);
-/// The choice for one body of a scene alone: makes the others, and runs them rigid.
-ModalChoice choose_modes(const Scene&, const ElasticBody&);
 
 /// Work of each of `loads_on` on each shape, shapes × loads; times a history's factors: modal forces.
 Eigen::MatrixXd work_of_loads(const ElasticBody&, const ModalModel&);

@@ -7,7 +7,7 @@
 
 #include "framework/bodies/elastic_parts.h"
 #include "framework/bodies/in_body.h"
-#include "framework/scene/yaml/nearest.h"
+#include "framework/common/nearest.h"
 
 namespace pintle {
 

@@ -3,8 +3,8 @@
 
 #include "framework/bodies/elastic_parts.h"
 #include "framework/bodies/in_body.h"
+#include "framework/common/nearest.h"
 #include "framework/component/fe/loads.h"
-#include "framework/scene/yaml/nearest.h"
 
 namespace pintle {
 

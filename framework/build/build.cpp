@@ -13,11 +13,13 @@
 #include "framework/bodies/file_doubts.h"
 #include "framework/bodies/holding.h"
 #include "framework/bodies/mechanism_body.h"
-#include "framework/bodies/modes.h"
+#include "framework/bodies/modal_basis.h"
+#include "framework/build/clearance.h"
 #include "framework/build/laws.h"
 #include "framework/build/method.h"
+#include "framework/build/preliminary_run.h"
 #include "framework/build/shape_doubts.h"
-#include "framework/scene/yaml/nearest.h"
+#include "framework/common/nearest.h"
 
 namespace pintle {
 

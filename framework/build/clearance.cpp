@@ -5,9 +5,9 @@
 #include <limits>
 #include <sstream>
 
+#include "framework/common/nearest.h"
 #include "framework/configuration/ideal_pin.h"
 #include "framework/scene/error.h"
-#include "framework/scene/yaml/nearest.h"
 
 namespace pintle {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "framework/common/nearest.h"
 #include "framework/scene/error.h"
-#include "framework/scene/yaml/nearest.h"
 
 namespace pintle {
 

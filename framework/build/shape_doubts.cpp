@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "framework/bodies/elastic_parts.h"
-#include "framework/bodies/modes.h"
+#include "framework/bodies/modal_basis.h"
 #include "framework/build/method.h"
 
 namespace pintle {

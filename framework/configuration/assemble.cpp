@@ -8,11 +8,12 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 
-#include "framework/analysis/equilibrium/equilibrium.h"
 #include "framework/configuration/closure.h"
+#include "framework/configuration/equilibrium.h"
 #include "framework/configuration/ideal_pin.h"
 #include "framework/configuration/least_step.h"
 #include "framework/configuration/row_space.h"
+#include "framework/scene/error.h"
 
 namespace pintle {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/build/build.h"
 #include "framework/configuration/redundancy.h"
+#include "framework/mechanism/model.h"
 
 namespace pintle {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "framework/build/build.h"
 #include "framework/drawing/vtk.h"
+#include "framework/mechanism/model.h"
 
 namespace pintle {
 

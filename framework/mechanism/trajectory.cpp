@@ -57,16 +57,6 @@ bool is_turning(const Force& f) {
 }
 }  // namespace
 
-std::vector<double> Table::column(const std::string& name) const {
-  for (std::size_t c = 0; c < header.size(); ++c)
-    if (header[c] == name) {
-      std::vector<double> out;
-      for (std::size_t r = 0; r < rows(); ++r) out.push_back(data[r * columns() + c]);
-      return out;
-    }
-  throw std::out_of_range("no column \"" + name + "\"");
-}
-
 std::string joint_subject(const System& system, int joint) {
   const Joint& j = system.joints[at(joint)];
   return body_name(system, acts_on_b(system, joint) ? marker_b(j) : marker_a(j));

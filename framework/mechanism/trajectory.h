@@ -3,20 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "framework/build/build.h"
 #include "framework/dynamics/equations/energy.h"
+#include "framework/mechanism/model.h"
+#include "framework/mechanism/table.h"
 
 namespace pintle {
-
-/// Named columns over time.
-struct Table {
-  std::vector<std::string> header;  ///< "name [unit]"
-  std::vector<double> data;         ///< row after row
-  std::size_t columns() const { return header.size(); }
-  std::size_t rows() const { return header.empty() ? 0 : data.size() / header.size(); }
-  /// @throws std::out_of_range  no column of that name (its unit included)
-  std::vector<double> column(const std::string& name) const;
-};
 
 /// Motion of each body's origin, of a flexible one its modal coordinates; wrench of each joint on a named
 /// body, motion in each clearance; motion and stress of the points that the scene asks for.

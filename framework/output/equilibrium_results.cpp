@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
-#include "framework/analysis/equilibrium/equilibrium.h"
 #include "framework/common/text.h"
+#include "framework/configuration/equilibrium.h"
 #include "framework/scene/yaml/json_text.h"
 
 namespace pintle {

@@ -14,10 +14,6 @@ namespace pintle {
 /// @throws std::runtime_error  naming the path that cannot be written
 void write_results(const std::filesystem::path& directory, const Scene&, const Model&, const Assembly&, const Run&);
 
-/// A table as the text of a .csv file.
-std::string csv(const Table&);
-/// The same to a new file, row by row. @throws FileError
-void write_csv(const std::filesystem::path&, const Table&);
 /// What run.json holds, as text.
 std::string run_json(const Scene&, const Model&, const Assembly&, const Run&);
 /// What `pintle check --json` prints.

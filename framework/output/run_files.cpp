@@ -8,7 +8,6 @@
 #include <exception>
 
 #include "framework/common/text.h"
-#include "framework/output/results.h"
 
 namespace pintle {
 
@@ -20,58 +19,22 @@ constexpr const char* event_columns =
     "joint,begin [s],end [s],approach speed [m/s],separation speed [m/s],deepest penetration [m],"
     "peak force [N],energy lost [J]\n";
 
-std::string heading(const Table& table) {
-  std::string out;
-  for (std::size_t c = 0; c < table.columns(); ++c) {
-    if (c) out += ',';
-    out += csv_field(table.header[c]);
-  }
-  out += '\n';
-  return out;
-}
-
-void append_row(std::string& out, const Table& table, std::size_t row) {
-  for (std::size_t c = 0; c < table.columns(); ++c) {
-    if (c) out += ',';
-    append_number(out, table.data[row * table.columns() + c]);
-  }
-  out += '\n';
-}
-
 }  // namespace
-
-std::string csv(const Table& table) {
-  std::string out = heading(table);
-  for (std::size_t r = 0; r < table.rows(); ++r) append_row(out, table, r);
-  return out;
-}
-
-void write_csv(const fs::path& path, const Table& table) {
-  FileWriter file(path);
-  file.append(heading(table));
-  std::string row;
-  for (std::size_t r = 0; r < table.rows(); ++r) {
-    row.clear();
-    append_row(row, table, r);
-    file.append(row);
-  }
-  file.close();
-}
 
 RunFiles::RunFiles(const fs::path& directory, const Model& model)
     : system_(model.system),
       trajectory_(directory / "trajectory.csv"),
       ledger_(directory / "ledger.csv"),
       events_(directory / "events.csv") {
-  trajectory_.append(heading(trajectory_table(model)));
-  ledger_.append(heading(ledger_table(system_)));
+  trajectory_.append(csv_heading(trajectory_table(model)));
+  ledger_.append(csv_heading(ledger_table(system_)));
   events_.append(event_columns);
 }
 
 void RunFiles::add_rows(const Table& table, FileWriter& file) {
   for (std::size_t r = 0; r < table.rows(); ++r) {
     row_.clear();
-    append_row(row_, table, r);
+    append_csv_row(row_, table, r);
     file.append(row_);
   }
 }

@@ -9,7 +9,8 @@
 #include <optional>
 
 #include "framework/bodies/pieces.h"
-#include "framework/scene/yaml/text_file.h"
+#include "framework/build/build.h"
+#include "framework/scene/text_file.h"
 #include "meshes/limits.h"
 
 namespace pintle {

@@ -1,8 +1,8 @@
 #include "framework/study/study.h"
 
+#include "framework/scene/text_file.h"
 #include "framework/scene/yaml/keys.h"
 #include "framework/scene/yaml/override.h"
-#include "framework/scene/yaml/text_file.h"
 
 namespace pintle {
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "framework/bodies/pieces.h"
+#include "framework/build/build.h"
 #include "framework/scene/error.h"
 #include "framework/scene/yaml/reader.h"
 

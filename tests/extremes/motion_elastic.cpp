@@ -4,8 +4,8 @@
 #include <limits>
 #include <numbers>
 
+#include "framework/analysis/natural_modes/natural_modes.h"
 #include "framework/analysis/static_case/static_case.h"
-#include "framework/bodies/modes.h"
 #include "framework/scene/error.h"
 #include "framework/scene/yaml/reader.h"
 #include "tests/extremes/motion.h"

@@ -1,3 +1,4 @@
+#include "framework/build/build.h"
 #include "tests/paper/cases.h"
 
 #include <algorithm>

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "contact/normal_law.h"
+#include "framework/build/clearance.h"
 
 namespace paper {
 

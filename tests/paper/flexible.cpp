@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "contact/normal_law.h"
+#include "framework/build/clearance.h"
 #include "tests/paper/page.h"
 
 namespace paper {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "contact/normal_law.h"
+#include "framework/build/clearance.h"
 #include "tests/paper/page.h"
 
 namespace paper {

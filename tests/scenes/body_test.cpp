@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "framework/analysis/natural_modes/natural_modes.h"
 #include "framework/analysis/static_case/static_case.h"
-#include "framework/bodies/modes.h"
 #include "framework/build/build.h"
 #include "framework/drawing/body_drawing.h"
 #include "framework/scene/error.h"

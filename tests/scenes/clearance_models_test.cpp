@@ -7,10 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/analysis/equilibrium/equilibrium.h"
 #include "framework/analysis/kinematics/kinematics.h"
 #include "framework/analysis/linearize/linearize.h"
 #include "framework/analysis/simulate/saved_state.h"
+#include "framework/build/build.h"
+#include "framework/configuration/equilibrium.h"
 #include "framework/scene/error.h"
 #include "tests/oracles/slider_crank_link.h"
 #include "tests/scenes/mechanisms.h"

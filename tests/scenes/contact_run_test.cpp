@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "framework/build/build.h"
+#include "framework/build/clearance.h"
 #include "tests/oracles/hertz_bounce.h"
 #include "tests/scenes/mechanisms.h"
 

@@ -1,11 +1,12 @@
 // Where mechanisms rest: against closed forms and against their own damped motion.
-#include "framework/analysis/equilibrium/equilibrium.h"
+#include "framework/configuration/equilibrium.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "framework/build/build.h"
 #include "framework/build/stand_in.h"
 #include "tests/scenes/flexible_scenes.h"
 

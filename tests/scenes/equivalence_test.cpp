@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "framework/build/clearance.h"
 #include "tests/scenes/mechanisms.h"
 
 namespace pintle_scenes {

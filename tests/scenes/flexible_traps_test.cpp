@@ -7,10 +7,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "framework/analysis/equilibrium/equilibrium.h"
 #include "framework/analysis/linearize/linearize.h"
 #include "framework/analysis/simulate/simulate.h"
 #include "framework/bodies/pieces.h"
+#include "framework/build/build.h"
+#include "framework/configuration/equilibrium.h"
 #include "framework/output/results.h"
 #include "framework/scene/yaml/reader.h"
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "framework/analysis/simulate/simulate.h"
+#include "framework/build/build.h"
 #include "framework/scene/yaml/reader.h"
 
 namespace pintle {

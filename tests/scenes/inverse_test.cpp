@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/build/build.h"
 #include "framework/scene/units/table.h"
 #include "tests/scenes/flexible_scenes.h"
 

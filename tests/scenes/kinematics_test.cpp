@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "framework/analysis/kinematics/inverse.h"
+#include "framework/build/build.h"
 #include "framework/build/stand_in.h"
 #include "tests/scenes/mechanisms.h"
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "framework/build/build.h"
 #include "framework/scene/units/expression.h"
 #include "framework/scene/units/table.h"
 #include "tests/scenes/mechanisms.h"

@@ -5,8 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/analysis/equilibrium/equilibrium.h"
 #include "framework/analysis/linearize/linearize.h"
+#include "framework/build/build.h"
+#include "framework/configuration/equilibrium.h"
 #include "tests/scenes/flexible_scenes.h"
 #include "tests/scenes/mechanisms.h"
 

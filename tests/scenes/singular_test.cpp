@@ -6,8 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "framework/analysis/equilibrium/equilibrium.h"
 #include "framework/analysis/linearize/linearize.h"
+#include "framework/build/build.h"
+#include "framework/configuration/equilibrium.h"
 #include "tests/scenes/mechanisms.h"
 
 namespace pintle_scenes {

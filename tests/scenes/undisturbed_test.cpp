@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/build/build.h"
 #include "tests/scenes/flexible_scenes.h"
 
 namespace pintle_scenes {

@@ -10,10 +10,10 @@
 #include <sstream>
 #include <string>
 
+#include "framework/analysis/natural_modes/natural_modes.h"
 #include "framework/bodies/beam_mesh.h"
 #include "framework/bodies/elastic_parts.h"
 #include "framework/bodies/file_doubts.h"
-#include "framework/bodies/modes.h"
 #include "framework/bodies/pieces.h"
 #include "framework/build/build.h"
 #include "framework/scene/yaml/reader.h"

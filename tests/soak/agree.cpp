@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "framework/build/build.h"
 #include "framework/common/computed.h"
 
 namespace soak {

@@ -5,11 +5,12 @@
 #include <cmath>
 #include <sstream>
 
-#include "framework/analysis/equilibrium/equilibrium.h"
 #include "framework/analysis/kinematics/inverse.h"
 #include "framework/analysis/kinematics/kinematics.h"
 #include "framework/analysis/linearize/linearize.h"
 #include "framework/bodies/pieces.h"
+#include "framework/build/build.h"
+#include "framework/configuration/equilibrium.h"
 #include "framework/output/results.h"
 #include "framework/scene/yaml/reader.h"
 #include "tests/soak/agree.h"

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "framework/build/build.h"
 #include "framework/integration/constraints.h"
 #include "tests/oracles/four_bar.h"
 #include "tests/unit/rods.h"

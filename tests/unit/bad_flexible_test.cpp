@@ -1,6 +1,7 @@
 // Every way to get a flexible body in a mechanism wrong, and the one line that says where and what to do.
 #include "framework/analysis/simulate/simulate.h"
 #include "framework/bodies/pieces.h"
+#include "framework/build/build.h"
 #include "tests/unit/elastic_text.h"
 
 namespace pintle {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/build/build.h"
 #include "framework/configuration/assemble.h"
 #include "framework/integration/constraints.h"
 #include "framework/scene/yaml/reader.h"

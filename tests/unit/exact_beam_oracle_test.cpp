@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "framework/build/build.h"
 #include "tests/oracles/exact_beam.h"
 #include "tests/oracles/exact_beam_mesh.h"
 #include "tests/oracles/runge_kutta.h"

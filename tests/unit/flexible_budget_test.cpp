@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "framework/build/build.h"
 #include "framework/configuration/assemble.h"
 #include "framework/integration/integrator.h"
 #include "framework/scene/yaml/reader.h"

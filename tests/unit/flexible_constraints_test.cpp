@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string>
 
+#include "framework/build/build.h"
 #include "framework/configuration/assemble.h"
 #include "framework/scene/yaml/reader.h"
 #include "tests/contracts/moving_bodies.h"

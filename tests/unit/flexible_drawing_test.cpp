@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "framework/bodies/modes.h"
+#include "framework/bodies/modal_basis.h"
 #include "framework/scene/error.h"
 #include "framework/scene/yaml/reader.h"
 

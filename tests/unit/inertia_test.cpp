@@ -16,7 +16,7 @@
 
 #include "tests/contracts/reduction_bodies.h"
 
-#include "framework/bodies/modes.h"
+#include "framework/bodies/modal_basis.h"
 
 namespace pintle {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "framework/analysis/simulate/identity.h"
-#include "framework/output/results.h"
+#include "framework/mechanism/table.h"
 #include "framework/output/room.h"
 #include "framework/scene/yaml/reader.h"
 #include "tests/unit/program.h"

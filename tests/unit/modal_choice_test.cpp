@@ -6,6 +6,8 @@
 
 #include "framework/analysis/simulate/simulate.h"
 #include "framework/bodies/pieces.h"
+#include "framework/build/build.h"
+#include "framework/build/preliminary_run.h"
 #include "framework/scene/yaml/reader.h"
 
 namespace pintle {

@@ -10,7 +10,7 @@
 
 #include "framework/analysis/cost/price.h"
 #include "framework/analysis/cost/simpler.h"
-#include "framework/output/results.h"
+#include "framework/mechanism/table.h"
 #include "framework/scene/yaml/reader.h"
 #include "tests/unit/worn_slider_crank.h"
 

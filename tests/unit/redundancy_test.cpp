@@ -9,6 +9,7 @@
 #include <random>
 #include <string>
 
+#include "framework/build/build.h"
 #include "framework/configuration/assemble.h"
 #include "framework/integration/constraints.h"
 #include "tests/scenes/mechanisms.h"

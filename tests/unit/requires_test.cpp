@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "framework/analysis/simulate/simulate.h"
+#include "framework/build/build.h"
 #include "framework/mechanism/drawing.h"
 #include "framework/scene/yaml/reader.h"
 #include "tests/unit/stepping.h"

@@ -11,8 +11,9 @@
 #include <string>
 
 #include "framework/analysis/simulate/identity.h"
-#include "framework/integration/archive.h"
+#include "framework/build/build.h"
 #include "framework/common/sha256.h"
+#include "framework/integration/archive.h"
 #include "tests/scenes/flexible_scenes.h"
 
 namespace pintle_scenes {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/analysis/natural_modes/natural_modes.h"
 #include "framework/component/eigen/eigen_lowest.h"
 #include "framework/component/fe/assembly.h"
 #include "tests/verification/closed_forms.h"

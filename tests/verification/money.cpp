@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "framework/analysis/natural_modes/natural_modes.h"
 #include "tests/verification/page.h"
 
 namespace verification {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "framework/analysis/static_case/static_case.h"
-#include "framework/bodies/modes.h"
+#include "framework/bodies/modal_basis.h"
 #include "framework/scene/yaml/reader.h"
 #include "tests/paper/plot.h"
 

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "framework/analysis/natural_modes/natural_modes.h"
 #include "meshes/mesh.h"
 #include "tests/verification/page.h"
 

@@ -13,8 +13,8 @@
 #include "framework/build/method.h"
 #include "framework/common/computed.h"
 #include "framework/mechanism/drawing.h"
+#include "framework/mechanism/table.h"
 #include "framework/mechanism/trajectory.h"
-#include "framework/output/results.h"
 
 namespace pintle {
 

@@ -9,6 +9,7 @@
 
 #include "framework/analysis/simulate/guarded.h"
 #include "framework/common/worse.h"
+#include "framework/scene/error.h"
 
 namespace pintle {
 

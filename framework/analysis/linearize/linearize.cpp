@@ -10,6 +10,7 @@
 
 #include "framework/analysis/linearize/quadratic_roots.h"
 #include "framework/analysis/linearize/state_space.h"
+#include "framework/scene/error.h"
 
 namespace pintle {
 

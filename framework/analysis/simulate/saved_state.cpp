@@ -12,6 +12,7 @@
 
 #include "framework/analysis/simulate/identity.h"
 #include "framework/common/sha256.h"
+#include "framework/scene/error.h"
 
 namespace pintle {
 

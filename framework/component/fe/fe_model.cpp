@@ -104,4 +104,16 @@ Eigen::VectorXd independent_load(const FeModel& model, const Eigen::VectorXd& no
   return model.L.transpose() * nodal_load;
 }
 
+double extent(const FeModel& model) {
+  return (model.x.rowwise().maxCoeff() - model.x.rowwise().minCoeff()).norm();
+}
+
+Eigen::MatrixX3d scaled_rigid_motions(const FeModel& model) {
+  const Eigen::Vector2d middle = (model.x.rowwise().maxCoeff() + model.x.rowwise().minCoeff()) / 2;
+  Eigen::MatrixX3d r = rigid_motions(model);
+  r.col(2) += middle.y() * r.col(0) - middle.x() * r.col(1);
+  if (const double size = extent(model); size > 0) r.col(2) /= size;
+  return r;
+}
+
 }  // namespace pintle

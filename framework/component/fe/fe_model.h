@@ -130,4 +130,10 @@ Eigen::MatrixX3d rigid_motions(const FeModel&);
 Eigen::MatrixXd nodal(const FeModel&, const Eigen::MatrixXd& independent);
 Eigen::VectorXd independent_load(const FeModel&, const Eigen::VectorXd& nodal_load);
 
+/// Length of the diagonal of the box around the nodes [m].
+double extent(const FeModel&);
+
+/// Rigid motions, n × 3, of like size: rotation about the middle of the nodes, scaled by 1/extent.
+Eigen::MatrixX3d scaled_rigid_motions(const FeModel&);
+
 }  // namespace pintle

@@ -1,7 +1,6 @@
 #include "framework/component/fe/statics.h"
 
 #include "framework/component/eigen/factor.h"
-#include "framework/component/reduction/reduction.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

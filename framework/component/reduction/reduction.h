@@ -21,12 +21,6 @@ Eigen::MatrixXd tied(const Component&, const FrameTie&, const Eigen::MatrixXd& V
 /// @throws std::invalid_argument  a port does not exist or is named twice
 std::vector<int> port_freedoms(const FeModel&, const std::vector<int>& ports);
 
-/// Length of the diagonal of the box around the nodes [m].
-double extent(const FeModel&);
-
-/// Rigid motions, n × 3, of like size: rotation about the middle of the nodes, scaled by 1/extent.
-Eigen::MatrixX3d scaled_rigid_motions(const FeModel&);
-
 /// Modes as `keep` wants them.
 struct Modes {
   Eigen::MatrixXd shapes;  ///< n × k, ΦᵀMΦ = I

@@ -8,8 +8,8 @@
 #include <deque>
 #include <numbers>
 
+#include "framework/common/nearest.h"
 #include "framework/scene/units/spelling.h"
-#include "framework/scene/yaml/nearest.h"
 
 // muParser orders the operations; what it calculates with are indices of terms of a Formula, so
 // that calculating builds the formula. Dimensions are judged and derivatives prepared there.

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "framework/scene/error.h"
-#include "framework/scene/yaml/text_file.h"
+#include "framework/scene/text_file.h"
 
 namespace pintle {
 

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "framework/scene/yaml/nearest.h"
+#include "framework/common/nearest.h"
 
 namespace pintle {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "framework/scene/yaml/nearest.h"
+#include "framework/common/nearest.h"
 
 namespace pintle {
 

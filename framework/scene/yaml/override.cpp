@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
+#include "framework/common/nearest.h"
 #include "framework/scene/yaml/keys.h"
-#include "framework/scene/yaml/nearest.h"
 
 namespace pintle {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <map>
 
-#include "framework/scene/yaml/nearest.h"
+#include "framework/common/nearest.h"
+#include "framework/scene/text_file.h"
 #include "framework/scene/yaml/override.h"
 #include "framework/scene/yaml/reader_parts.h"
-#include "framework/scene/yaml/text_file.h"
 
 namespace pintle {
 

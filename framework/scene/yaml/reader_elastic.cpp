@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "framework/scene/yaml/nearest.h"
+#include "framework/common/nearest.h"
 #include "framework/scene/yaml/reader_parts.h"
 
 namespace pintle {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "files/files.h"
-#include "framework/scene/yaml/nearest.h"
+#include "framework/common/nearest.h"
 #include "framework/scene/yaml/reader_parts.h"
 
 namespace pintle {

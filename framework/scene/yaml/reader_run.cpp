@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "framework/scene/yaml/nearest.h"
+#include "framework/common/nearest.h"
 #include "framework/scene/yaml/reader_parts.h"
 
 namespace pintle {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "framework/scene/yaml/nearest.h"
+#include "framework/common/nearest.h"
 #include "framework/scene/yaml/reader_parts.h"
 
 namespace pintle {

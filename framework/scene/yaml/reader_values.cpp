@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "files/files.h"
+#include "framework/common/nearest.h"
 #include "framework/scene/units/table.h"
-#include "framework/scene/yaml/nearest.h"
 #include "framework/scene/yaml/reader_parts.h"
 
 namespace pintle {

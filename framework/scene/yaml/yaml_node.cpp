@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/scene/yaml/nearest.h"
+#include "framework/common/nearest.h"
 
 namespace pintle {
 

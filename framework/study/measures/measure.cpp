@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/scene/error.h"
 #include "framework/study/measures/columns.h"
 #include "framework/study/measures/measure_words.h"
 #include "framework/study/measures/offer.h"

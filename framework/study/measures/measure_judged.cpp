@@ -3,7 +3,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "framework/scene/yaml/nearest.h"
+#include "framework/common/nearest.h"
+#include "framework/scene/error.h"
 #include "framework/study/measures/measure.h"
 #include "framework/study/measures/measure_words.h"
 #include "framework/study/measures/offer.h"

@@ -4,9 +4,10 @@
 #include <array>
 #include <optional>
 
+#include "framework/common/nearest.h"
 #include "framework/common/words.h"
+#include "framework/scene/error.h"
 #include "framework/scene/units/expression.h"
-#include "framework/scene/yaml/nearest.h"
 #include "framework/study/measures/measure_vocabulary.h"
 #include "framework/study/measures/offer.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "framework/scene/yaml/nearest.h"
+#include "framework/common/nearest.h"
 
 namespace pintle {
 

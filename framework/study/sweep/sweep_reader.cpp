@@ -7,7 +7,7 @@
 #include "files/files.h"
 #include "framework/common/fingerprint.h"
 #include "framework/common/text.h"
-#include "framework/scene/yaml/text_file.h"
+#include "framework/scene/text_file.h"
 #include "framework/study/sweep/sweep.h"
 
 namespace pintle {

@@ -2,8 +2,8 @@
 #include <array>
 #include <map>
 
+#include "framework/common/nearest.h"
 #include "framework/scene/yaml/keys.h"
-#include "framework/scene/yaml/nearest.h"
 #include "framework/scene/yaml/override.h"
 #include "framework/study/tradeoff/refinement.h"
 #include "framework/study/tradeoff/tradeoff.h"

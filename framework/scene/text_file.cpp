@@ -1,4 +1,4 @@
-#include "framework/scene/yaml/text_file.h"
+#include "framework/scene/text_file.h"
 
 #include "files/files.h"
 #include "framework/scene/error.h"

@@ -25,23 +25,6 @@ struct LoadHistory {
   Eigen::MatrixXd factor;  ///< (4 + 3·ports) × times
 };
 
-/// A short run with every body rigid.
-struct RigidRun {
-  std::string trouble;  ///< why there is none, or why it ended early; in words
-  double until = 0;     ///< reached [s]
-  long steps = 0;
-  double seconds = 0;   ///< of computing
-  std::vector<LoadHistory> bodies;  ///< one a body of the scene; empty unless it has modes
-  bool usable() const { return steps > 0; }
-};
-
-/// The scene, its bodies of elements rigid, over `run.until` or, where nothing but motors that turn
-/// evenly and forces that do not change drive it, over ten turns; no longer than a bounded number of
-/// steps. Cannot fail for mechanical reasons: `trouble` says what went wrong.
-/// @param elements  one a body of the scene, nullptr for those that are not made of elements
-/// @throws SceneError  as build
-RigidRun rigid_run(const Scene&, const std::vector<const ElasticBody*>& elements);
-
 /// What a driver imposes: turns per second, or the frequency that its acceleration has most of.
 struct Imposed {
   std::string driver;

@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
-#include "framework/analysis/equilibrium/equilibrium.h"
+#include "framework/configuration/equilibrium.h"
 #include "framework/dynamics/equations/tangent.h"
 #include "framework/integration/constraints.h"
 

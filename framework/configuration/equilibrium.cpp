@@ -1,4 +1,4 @@
-#include "framework/analysis/equilibrium/equilibrium.h"
+#include "framework/configuration/equilibrium.h"
 
 #include <algorithm>
 #include <cmath>

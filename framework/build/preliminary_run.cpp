@@ -1,15 +1,14 @@
-#include "framework/bodies/excitation.h"
+#include "framework/build/preliminary_run.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include <unsupported/Eigen/FFT>
-
+#include "framework/bodies/elastic_body.h"
 #include "framework/bodies/grips.h"
-#include "framework/bodies/modes.h"
+#include "framework/bodies/modal_basis.h"
+#include "framework/build/build.h"
 #include "framework/common/computed.h"
-#include "framework/component/fe/loads.h"
 #include "framework/component/reduction/inertia.h"
 #include "framework/component/reduction/modal_model.h"
 #include "framework/configuration/assemble.h"
@@ -21,16 +20,12 @@ namespace {
 
 using Eigen::Index;
 using Eigen::Vector2d;
-using Eigen::VectorXd;
-
-constexpr double two_pi = 2 * std::numbers::pi;
 
 constexpr long most_steps = 20'000;
 constexpr double most_numbers = 1e7;  ///< kept of all bodies together: 80 MB
 constexpr int turns_seen = 10;        ///< of the slowest motor
 constexpr int steps_a_turn = 64;      ///< at least, of the fastest driver
 constexpr double least_tolerance = 1e-6;
-constexpr Index law_samples = 4096;
 
 /// The body as a rigid one with the same points, so that all names keep their meaning.
 SceneBody rigid_twin(const ElasticBody& e) {
@@ -113,23 +108,6 @@ void march(const Scene& twin, const Model& model, const Assembly& assembly, cons
 
 }  // namespace
 
-Eigen::MatrixXd loads_on(const ElasticBody& e) {
-  const FeModel& model = e.model;
-  const RigidFields f = rigid_fields(model);
-  const RigidInertia inertia = rigid_inertia(model, e.M);
-  const Vector2d c = inertia.c / inertia.m;
-  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(model.n(), inertia_loads + 3 * static_cast<Index>(model.ports.size()));
-  loads.col(0) = independent_load(model, e.M * f.T.col(0));
-  loads.col(1) = independent_load(model, e.M * f.T.col(1));
-  loads.col(2) = independent_load(model, e.M * f.R) + c.y() * loads.col(0) - c.x() * loads.col(1);
-  loads.col(3) = independent_load(model, e.M * f.x) - c.x() * loads.col(0) - c.y() * loads.col(1);
-  for (std::size_t p = 0; p < model.ports.size(); ++p)
-    for (Index k = 0; k < 3; ++k)
-      if (const int freedom = model.ports[p].freedom[k]; freedom >= 0)
-        loads(freedom, inertia_loads + 3 * static_cast<Index>(p) + k) = 1;
-  return loads;
-}
-
 RigidRun rigid_run(const Scene& scene, const std::vector<const ElasticBody*>& elements) {
   RigidRun run;
   const double begin = computed();
@@ -154,40 +132,18 @@ RigidRun rigid_run(const Scene& scene, const std::vector<const ElasticBody*>& el
   return run;
 }
 
-VectorXd power_spectrum(const VectorXd& samples) {
-  const Index n = samples.size();
-  VectorXd windowed = samples.array() - samples.mean();
-  for (Index i = 0; i < n; ++i)  // Hann: what leaks falls off fast
-    windowed[i] *= 1 - std::cos(two_pi * static_cast<double>(i) / static_cast<double>(n));
-  Eigen::VectorXcd transform(n);
-  Eigen::FFT<double> fft;
-  fft.fwd(transform, windowed);
-  return transform.head(n / 2 + 1).cwiseAbs2();
-}
-
-std::vector<Imposed> imposed_frequencies(const Scene& scene) {
-  std::vector<Imposed> all;
-  const double until = scene.run.until;
-  for (const SceneDriver& d : scene.drivers) {
-    VectorXd acceleration(law_samples);
-    double fastest = 0;
-    for (Index i = 0; i < law_samples; ++i) {
-      const Jet law = d.law.at(until * static_cast<double>(i) / static_cast<double>(law_samples));
-      acceleration[i] = law.accel;
-      fastest = std::max(fastest, std::abs(law.rate));
-    }
-    Imposed out{d.name, 0, false, false};
-    // What is left of an even law is rounding of its rate.
-    out.even = acceleration.lpNorm<Eigen::Infinity>() * until <= 1e-6 * fastest;
-    if (!out.even) {
-      Index most = 0;
-      power_spectrum(acceleration).maxCoeff(&most);
-      out.frequency = static_cast<double>(std::max<Index>(1, most)) / until;
-    }
-    if (d.kind == DriverKind::angle && fastest / two_pi > out.frequency) out.frequency = fastest / two_pi, out.turns = true;
-    all.push_back(out);
+ModalChoice choose_modes(const Scene& scene, const ElasticBody& e) {
+  if (!scene.has_run) return choose_by_rule(scene, e, "the scene has no `run`");
+  std::vector<ElasticBody> made;
+  made.reserve(scene.bodies.size());
+  std::vector<const ElasticBody*> elements;
+  std::size_t own = 0;
+  for (const SceneBody& b : scene.bodies) {
+    if (&b == e.scene) own = elements.size();
+    elements.push_back(&b == e.scene ? &e : b.elastic ? &made.emplace_back(elastic_body(scene, b)) : nullptr);
   }
-  return all;
+  const RigidRun run = rigid_run(scene, elements);
+  return run.usable() ? choose_modes(scene, e, run.bodies[own]) : choose_by_rule(scene, e, run.trouble);
 }
 
 }  // namespace pintle

@@ -1,4 +1,4 @@
-#include "framework/scene/yaml/nearest.h"
+#include "framework/common/nearest.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/bodies/flexible_report.h"
+#include "framework/bodies/grips.h"
+#include "framework/drawing/flexible_drawing.h"
+#include "framework/dynamics/model/system.h"
+#include "framework/integration/integrator.h"
+
+namespace pintle {
+
+/// Overlap, over the journal's radius, beyond which no contact law of ours means anything.
+inline constexpr double too_deep = 0.1;
+
+/// A point whose motion is recorded.
+struct RecordedPoint {
+  std::string name;  ///< "coupler.M"
+  Marker marker;
+};
+/// A point of a flexible body whose stress is recorded.
+struct RecordedStress {
+  std::string name;
+  int body;
+  StressProbe probe;
+};
+
+/// What stays of the rigid run that modes and doubts were judged by.
+struct Rehearsal {
+  double until = 0, seconds = 0;  ///< reached, and of computing [s]
+  long steps = 0;
+  std::string trouble;  ///< why there was none, or why it ended early
+};
+
+/// A scene made ready to run. Nothing here is of finite-element size but `drawings`, which there are only
+/// if frames are asked for.
+struct Model {
+  System system;
+  Scheme scheme;
+  std::vector<RecordedPoint> points;
+  std::vector<RecordedStress> stresses;
+  std::vector<FlexibleDrawing> drawings;               ///< of flexible bodies, in their order
+  std::vector<std::string> clearances;                 ///< how each is modelled, in words
+  std::vector<std::string> warnings;                   ///< what makes the model doubtful, in words
+  std::vector<std::vector<Eigen::Vector2d>> outlines;  ///< points of each body, named or joined, for drawing [m]
+  std::vector<std::pair<int, int>> pin_joints;         ///< joint, marker: where a joint is drawn
+  std::vector<FlexibleReport> flexible;                ///< of flexible bodies, in their order
+  std::vector<BendingProbe> bending;                   ///< likewise
+  std::vector<StiffeningProbe> stiffening;             ///< likewise
+  std::vector<std::pair<int, Eigen::VectorXd>> bent;   ///< bodies that start bent, and their modal coordinates
+  std::vector<Grip> grips;                             ///< on flexible bodies
+  BuiltOrder order;
+  std::optional<Rehearsal> rehearsal;                  ///< the rigid run, if there was one
+};
+
+}  // namespace pintle
