@@ -9,9 +9,9 @@
 #include "app/run_end.h"
 #include "framework/analysis/kinematics/inverse.h"
 #include "framework/analysis/kinematics/kinematics.h"
-#include "framework/bodies/pieces.h"
+#include "framework/bodies/segments.h"
 #include "framework/build/build.h"
-#include "framework/build/stand_in.h"
+#include "framework/build/inertia_defaults.h"
 #include "framework/common/text.h"
 #include "framework/output/results.h"
 

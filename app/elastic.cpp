@@ -10,7 +10,7 @@
 #include "app/run_end.h"
 #include "framework/analysis/natural_modes/natural_modes.h"
 #include "framework/analysis/static_case/static_case.h"
-#include "framework/bodies/file_doubts.h"
+#include "framework/bodies/mesh_file_warnings.h"
 #include "framework/common/text.h"
 #include "framework/drawing/body_drawing.h"
 #include "framework/output/results.h"
@@ -63,7 +63,7 @@ ElasticBody made(const Options& options, const Scene& scene, const std::string& 
   const SceneBody& body = elastic_of(scene, name);
   say(options, "meshing and assembling " + body.name);
   ElasticBody e = elastic_body(scene, body);
-  if (const std::string doubt = size_doubt(scene, e); !doubt.empty()) e.warnings.push_back(doubt);
+  if (const std::string warning = size_warning(scene, e); !warning.empty()) e.warnings.push_back(warning);
   say(options, std::to_string(e.mesh.x.cols()) + " nodes, " + std::to_string(e.model.n()) + " freedoms: computing");
   return e;
 }

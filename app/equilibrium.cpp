@@ -6,9 +6,9 @@
 
 #include "app/options.h"
 #include "app/run_end.h"
-#include "framework/bodies/pieces.h"
+#include "framework/bodies/segments.h"
 #include "framework/build/build.h"
-#include "framework/build/stand_in.h"
+#include "framework/build/inertia_defaults.h"
 #include "framework/configuration/equilibrium.h"
 #include "framework/output/results.h"
 

@@ -8,7 +8,7 @@
 #include "app/options.h"
 #include "app/run_end.h"
 #include "framework/analysis/linearize/linearize.h"
-#include "framework/bodies/pieces.h"
+#include "framework/bodies/segments.h"
 #include "framework/build/build.h"
 #include "framework/configuration/assemble.h"
 #include "framework/configuration/equilibrium.h"

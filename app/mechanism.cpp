@@ -7,12 +7,12 @@
 #include <sstream>
 
 #include "app/options.h"
-#include "app/price_text.h"
+#include "app/cost_text.h"
 #include "app/progress.h"
 #include "app/run_end.h"
 #include "framework/analysis/simulate/identity.h"
-#include "framework/bodies/pieces.h"
-#include "framework/common/computed.h"
+#include "framework/bodies/segments.h"
+#include "framework/common/processor_time.h"
 #include "framework/common/text.h"
 #include "framework/output/results.h"
 #include "framework/output/room.h"
@@ -74,8 +74,8 @@ void print_choice(const FlexibleReport& r) {
 void print_estimates(const Model& model) {
   for (const FlexibleReport& r : model.flexible)
     if (r.choice) print_choice(r);
-  if (!model.rehearsal) return;
-  const Rehearsal& run = *model.rehearsal;
+  if (!model.preliminary_run) return;
+  const PreliminaryRun& run = *model.preliminary_run;
   std::cout << "  rigid run: " << (run.steps > 0 ? number(run.until, 4) + " s in " + std::to_string(run.steps) + " steps, took " + number(run.seconds, 3) + " s" : "none")
             << (run.trouble.empty() ? "" : "; " + run.trouble) << "\n";
   for (const FlexibleReport& r : model.flexible)
@@ -89,7 +89,7 @@ void print_redundancy(const System& s, const Assembly& a) {
   for (const Redundancy& r : a.redundant) {
     std::string others;
     for (int k : r.implied_by) others += (others.empty() ? "\"" : ", \"") + s.joint_names[static_cast<std::size_t>(k)] + "\"";
-    std::cout << "  redundant" << (r.lasting ? "" : " in this pose only") << ": " << row_text(s, r.joint, r.row)
+    std::cout << "  redundant" << (r.permanent ? "" : " in this pose only") << ": " << row_text(s, r.joint, r.row)
               << (others.empty() ? " holds nothing that moves" : " is implied by " + others) << "\n";
   }
   if (a.redundant.empty()) return;
@@ -125,7 +125,7 @@ void print_check(const Scene& scene, const Model& model, const Assembly& a) {
   }
   print_redundancy(s, a);
   for (const std::string& w : model.warnings) std::cout << "  warning: " << w << "\n";
-  for (const std::string& w : doubts(model, a)) std::cout << "  warning: " << w << "\n";
+  for (const std::string& w : warnings_of(model, a)) std::cout << "  warning: " << w << "\n";
 }
 
 void print_run(const Scene& scene, const Model& model, const Run& run, const fs::path& out) {
@@ -184,7 +184,7 @@ Scene runnable(const Options& options) {
 void foresee_room(const Options& options, const Scene& scene, Model& model) {
   const fs::path out = results_directory(options);
   try {
-    for (std::string& doubt : judge_room(out, room_needed(scene, model), room_at(out))) model.warnings.push_back(std::move(doubt));
+    for (std::string& warning : validate_room(out, room_needed(scene, model), room_at(out))) model.warnings.push_back(std::move(warning));
   } catch (const std::runtime_error& impossible) {
     model.warnings.push_back(impossible.what());
   }
@@ -194,17 +194,17 @@ void foresee_room(const Options& options, const Scene& scene, Model& model) {
 
 int check(const Options& options) {
   const Scene scene = with_pieces(runnable(options));
-  const double begin = computed();
-  Model model = build_and_rehearse(scene);
-  const double built = computed() - begin - (model.rehearsal ? model.rehearsal->seconds : 0);
+  const double begin = processor_time();
+  Model model = build_with_preliminary_run(scene);
+  const double built = processor_time() - begin - (model.preliminary_run ? model.preliminary_run->seconds : 0);
   const Assembly assembly = assemble(scene, model);
   foresee_room(options, scene, model);
-  const Price cost = price(scene, model, assembly);
+  const CostEstimate cost = estimate_cost(scene, model, assembly);
   if (options.json) {
     std::cout << check_json(scene, model, assembly, cost);
   } else {
     print_check(scene, model, assembly);
-    print_price(cost, built);
+    print_cost(cost, built);
   }
   const std::string& trouble = cost.run.trial.trouble;
   if (!trouble.empty()) std::cerr << scene.file << ": the run fails: " << trouble << "\n";
@@ -285,7 +285,7 @@ int run(const Options& options) {
   Model model = build(scene);
   const Assembly assembly = assemble(scene, model);
   const std::optional<SavedState> from = saved_state(options, scene, model, assembly);
-  for (std::string& doubt : judge_room(out, room_needed(scene, model, from ? from->t : 0), room_at(out))) model.warnings.push_back(std::move(doubt));
+  for (std::string& warning : validate_room(out, room_needed(scene, model, from ? from->t : 0), room_at(out))) model.warnings.push_back(std::move(warning));
 
   now_doing("running the scene");
   Progress progress(scene.run.until, options.quiet);

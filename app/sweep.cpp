@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "app/fellows.h"
+#include "app/communicator.h"
 #include "app/options.h"
 #include "app/progress.h"
 #include "framework/analysis/simulate/simulate.h"
@@ -99,11 +99,11 @@ bool none_ran(const SweepEnd& end) {
   return !end.rows.empty() && std::ranges::none_of(end.rows, ran);
 }
 
-int carry_out(const Sweep& sweep, const Options& options, Fellows* together, bool leads) {
+int carry_out(const Sweep& sweep, const Options& options, Communicator* together, bool leads) {
   const fs::path out = options.out.empty() ? fs::path("runs") / (fs::path(options.scene).stem().string() + "-sweep") : fs::path(options.out);
   SweepSettings settings;
   settings.threads = options.threads > 0 ? options.threads : together ? 1 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  settings.fellows = together;
+  settings.communicator = together;
   SweepEnd end;
   now_doing("running the cases");
   {
@@ -128,15 +128,15 @@ int carry_out(const Sweep& sweep, const Options& options, Fellows* together, boo
 }  // namespace
 
 int sweep(const Options& options) {
-  const std::unique_ptr<Fellows> together = fellows();
+  const std::unique_ptr<Communicator> together = communicator();
   const bool leads = !together || together->rank() == 0;
   Sweep what;
   try {
     what = read_sweep(options.scene, overrides(options));
   } catch (...) {
     // What stops one process mostly stops all: one of them says so.
-    if (together && leads) refuse_all(*together);
-    else if (together && refused(*together)) return ok;
+    if (together && leads) reject_all(*together);
+    else if (together && rejected(*together)) return ok;
     else if (together) stay_away(*together);
     throw;
   }

@@ -17,7 +17,7 @@
 #include "framework/output/results.h"
 #include "framework/scene/text_file.h"
 #include "framework/scene/yaml/yaml_node.h"
-#include "framework/study/tradeoff/wanted.h"
+#include "framework/study/tradeoff/share_and_duration.h"
 
 namespace pintle::app {
 
@@ -76,7 +76,7 @@ Asked understood(const Options& options) {
     judge(asked.measures, common_scene(asked.scene));
     asked.plan = suggested_plan(asked.scene);
   }
-  judge_measures(asked.scene, asked.plan, asked.measures);
+  validate_measures(asked.scene, asked.plan, asked.measures);
   wanted("--error", options.wanted_error, asked.plan.error, read_share);
   wanted("--time", options.wanted_time, asked.plan.time, read_duration);
   wanted("--budget", options.budget, asked.plan.budget, read_duration);

@@ -62,7 +62,7 @@ Problem ideal_slider_crank(bool quick) {
 }
 
 /// The clearance oracle's run; its impacts and how well it knows its end are added up.
-Start clearance_start(double speed, int& impacts, double& doubt) {
+Start clearance_start(double speed, int& impacts, double& warning) {
   SliderCrank o;
   o.clearance = 5e-4, o.restitution = 0.9, o.until = 0.02, o.outputs = 1, o.speed = speed;
   pintle_oracle::Params params = pintle_scenes::oracle(o);
@@ -76,7 +76,7 @@ Start clearance_start(double speed, int& impacts, double& doubt) {
   pintle_oracle::State end, check;
   impacts += by_hand(1e-13, end).impacts;
   by_hand(1e-12, check);
-  doubt = std::max(doubt, std::abs(end.y[0] - check.y[0]));
+  warning = std::max(warning, std::abs(end.y[0] - check.y[0]));
   Start start;
   start.scene = [o](double tolerance) {
     SliderCrank q = o;
@@ -97,9 +97,9 @@ Start clearance_start(double speed, int& impacts, double& doubt) {
 Problem clearance_slider_crank() {
   constexpr int starts = 8;
   int impacts = 0;
-  double doubt = 0;
+  double warning = 0;
   Problem p;
-  for (int i = 0; i < starts; ++i) p.starts.push_back(clearance_start(150 + 0.5 * (i - 0.5 * (starts - 1)), impacts, doubt));
+  for (int i = 0; i < starts; ++i) p.starts.push_back(clearance_start(150 + 0.5 * (i - 0.5 * (starts - 1)), impacts, warning));
   p.name = "clearance", p.title = "Slider-crank, clearance";
   p.text =
       printed("The same with a clearance of 0.5 mm at the gudgeon pin, K = 6.61e10 N/m^1.5, e = 0.9, no friction, journal in the "
@@ -107,7 +107,7 @@ Problem clearance_slider_crank() {
         "error of one run at one tolerance may fall by a factor of ten by luck, so times are means and errors root mean squares over them. "
         "Error as before. References: the oracle with the contact (tests/oracles/slider_crank_clearance.cpp) at 1e-13; at 1e-12 it "
         "differs by %.0e rad at most.",
-        impacts / starts, starts, doubt);
+        impacts / starts, starts, warning);
   p.tolerances = decades(4, 11);
   return p;
 }

@@ -24,7 +24,7 @@ Trust& settings() {
   return trust;
 }
 
-void judge_kind(const struct stat& s) {
+void validate_kind(const struct stat& s) {
   if (S_ISDIR(s.st_mode)) throw FileRefused("is a directory; name a file in it");
   if (!S_ISREG(s.st_mode)) throw FileRefused("is not an ordinary file; write its contents to one");
 }
@@ -39,7 +39,7 @@ class File {
       if (errno == ENOENT || errno == ENOTDIR) throw FileRefused("there is no such file; check the path");
       throw FileRefused(std::string("cannot be read (") + std::strerror(errno) + "); check its permissions");
     }
-    judge_kind(s);
+    validate_kind(s);
     number_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
     if (number_ < 0) throw FileRefused(std::string("cannot be read (") + std::strerror(errno) + "); check its permissions");
     if (::fstat(number_, &s) != 0 || !S_ISREG(s.st_mode)) {

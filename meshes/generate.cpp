@@ -16,19 +16,19 @@ using Eigen::Vector2d;
 
 Mesh line_mesh(std::span<const Vector2d> corners, std::span<const int> cells) {
   const std::size_t parts = corners.empty() ? 0 : corners.size() - 1;
-  if (parts < 1) refuse("line mesh: ", corners.size(), " corner(s); an axis needs two or more");
+  if (parts < 1) reject("line mesh: ", corners.size(), " corner(s); an axis needs two or more");
   if (cells.size() != 1 && cells.size() != parts)
-    refuse("line mesh: ", cells.size(), " numbers of cells for ", parts,
+    reject("line mesh: ", cells.size(), " numbers of cells for ", parts,
            " pieces; give one for all or one a piece");
   std::vector<Vector2d> x{corners[0]};
   for (std::size_t p = 0; p < parts; ++p) {
     const Vector2d a = corners[p], b = corners[p + 1];
     const int n = cells[cells.size() == 1 ? 0 : p];
-    if (n < 1) refuse("line mesh: ", n, " cells on piece ", p + 1, "; a piece needs one or more");
+    if (n < 1) reject("line mesh: ", n, " cells on piece ", p + 1, "; a piece needs one or more");
     if (!a.allFinite() || !b.allFinite())
-      refuse("line mesh: a corner of piece ", p + 1, " is not finite");
+      reject("line mesh: a corner of piece ", p + 1, " is not finite");
     if (a == b)
-      refuse("line mesh: corners ", p + 1, " and ", p + 2, " are both at (", a.x(), ", ", a.y(),
+      reject("line mesh: corners ", p + 1, " and ", p + 2, " are both at (", a.x(), ", ", a.y(),
              ") m; a piece needs a length: leave one out");
     for (int k = 1; k < n; ++k) x.push_back(a + (b - a) * (static_cast<double>(k) / n));
     x.push_back(b);
@@ -50,15 +50,15 @@ Mesh line_mesh(std::span<const Vector2d> corners, std::span<const int> cells) {
 
 Mesh grid_mesh(std::span<const Vector2d, 4> corners, int nx, int ny, CellShape shape) {
   if (nx < 1 || ny < 1)
-    refuse("grid mesh: ", nx, " by ", ny, " cells; there must be one or more each way");
+    reject("grid mesh: ", nx, " by ", ny, " cells; there must be one or more each way");
   if (corners_of(shape) == 2)
-    refuse("grid mesh: cells of shape ", name_of(shape),
+    reject("grid mesh: cells of shape ", name_of(shape),
            "; a grid is made of triangles or quadrilaterals");
   const std::array<Vector2d, 4> c{corners[0], corners[1], corners[2], corners[3]};
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector2d a = c[(i + 1) % 4] - c[i], b = c[(i + 2) % 4] - c[(i + 1) % 4];
     if (!(a.x() * b.y() - a.y() * b.x() > 1e-12 * a.norm() * b.norm()))
-      refuse("grid mesh: no left turn at corner ", (i + 1) % 4 + 1, ", (", c[(i + 1) % 4].x(), ", ",
+      reject("grid mesh: no left turn at corner ", (i + 1) % 4 + 1, ", (", c[(i + 1) % 4].x(), ", ",
              c[(i + 1) % 4].y(),
              ") m; the four corners must go counter-clockwise round a convex shape");
   }

@@ -25,38 +25,38 @@ constexpr std::size_t most_bytes = std::size_t{100} << 20;  // of a script
 
 void judge(const std::string& name, const MeshOptions& o, double scale) {
   if (corners_of(o.shape) == 2)
-    refuse(name, ": cells of shape ", name_of(o.shape),
+    reject(name, ": cells of shape ", name_of(o.shape),
            "; a plane body is made of triangles or quadrilaterals");
   const auto not_negative = [&](const char* what, double value) {
     if (!(value >= 0) || !std::isfinite(value))
-      refuse(name, ": ", what, " = ", value, " m, must be positive, or 0 to have it chosen");
+      reject(name, ": ", what, " = ", value, " m, must be positive, or 0 to have it chosen");
   };
   not_negative("size", o.size);
   not_negative("hole_size", o.hole_size);
   if (!(scale > 0) || !std::isfinite(scale))
-    refuse(name, ": scale = ", scale, ", must be positive: m per unit of the file");
+    reject(name, ": scale = ", scale, ", must be positive: m per unit of the file");
   for (const Vector2d& p : o.points)
-    if (!p.allFinite()) refuse(name, ": the point (", p.x(), ", ", p.y(), ") is not finite");
+    if (!p.allFinite()) reject(name, ": the point (", p.x(), ", ", p.y(), ") is not finite");
 }
 
 // What a file of each kind begins with. Gmsh goes by the words it finds: what has the name of a mesh and none of its
 // words would be run as a script.
-void judge_head(const std::string& name, const std::string& kind, const std::string& text) {
-  const auto fail = [&](const char* what) { refuse(name, ": is no ", kind, " file: ", what, "; write it again, or correct its ending"); };
+void validate_head(const std::string& name, const std::string& kind, const std::string& text) {
+  const auto fail = [&](const char* what) { reject(name, ": is no ", kind, " file: ", what, "; write it again, or correct its ending"); };
   const std::string_view head = text;
   if (kind == ".msh" && !head.starts_with("$MeshFormat")) fail("it does not begin with $MeshFormat");
   if (kind == ".brep" && head.find("CASCADE Topology") == head.npos) fail("it does not begin with CASCADE Topology");
   if ((kind == ".step" || kind == ".stp") && head.find("ISO-10303-21") == head.npos) fail("it does not begin with ISO-10303-21");
   // Gmsh passes over the last line of a script without a word if it does not end.
   if (kind == ".geo" && !text.empty() && text.back() != '\n')
-    refuse(name, ": the last line has no end, and Gmsh would leave it out; end the file with a new line");
+    reject(name, ": the last line has no end, and Gmsh would leave it out; end the file with a new line");
 }
 
 // Gmsh runs what stands in FILE.opt whenever it reads FILE.
-void judge_options(const std::string& name) {
+void validate_options(const std::string& name) {
   std::error_code error;
   if (fs::exists(fs::symlink_status(name + ".opt", error)))
-    refuse(name, ": beside it stands ", fs::path(name + ".opt").filename().string(),
+    reject(name, ": beside it stands ", fs::path(name + ".opt").filename().string(),
            ", a script that Gmsh would run; write what is needed of it into a .geo, and remove it");
 }
 
@@ -90,14 +90,14 @@ Mesh read_geometry(const fs::path& path, const MeshOptions& o, double scale, con
   const std::string name = path.string(), kind = path.extension().string();
   judge(name, o, scale);
   if (kind != ".geo" && kind != ".step" && kind != ".stp" && kind != ".brep" && kind != ".msh")
-    refuse(name, ": \"", kind,
+    reject(name, ": \"", kind,
            "\" is no kind of drawing known here; .geo, .step, .stp, .brep and .msh are");
   try {
-    judge_head(name, kind, kind == ".geo" ? read_file(path, most_bytes) : read_head(path, 4096));
+    validate_head(name, kind, kind == ".geo" ? read_file(path, most_bytes) : read_head(path, 4096));
   } catch (const FileRefused& e) {
     throw std::runtime_error(name + ": " + e.what());
   }
-  judge_options(name);
+  validate_options(name);
   MesherTask task = task_for(o);
   task.file = name, task.scale = scale;
   task.folders = strings(readable_folders(folder.empty() ? path.parent_path() : folder));

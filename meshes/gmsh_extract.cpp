@@ -70,7 +70,7 @@ struct Extract {
     for (size_t i = 0; i < order.size(); ++i) {
       const double* p = &x[3 * order[i]];
       if (std::abs(p[2]) > 1e-6 * std::max(1e-3, std::hypot(p[0], p[1])))
-        refuse(name, ": node ", numbers[order[i]], " is at z = ", p[2],
+        reject(name, ": node ", numbers[order[i]], " is at z = ", p[2],
                "; a body's mesh lies in the plane z = 0");
       mesh.x.col(static_cast<Eigen::Index>(i)) << scale * p[0], scale * p[1];
       sorted.push_back(numbers[order[i]]);
@@ -87,13 +87,13 @@ struct Extract {
     for (size_t k = 0; k < types.size(); ++k) {
       const auto shape = shape_of(types[k]);
       if (!shape)
-        refuse(name, ": cell ", numbers[k].at(0), " is of Gmsh's type ", types[k],
+        reject(name, ": cell ", numbers[k].at(0), " is of Gmsh's type ", types[k],
                "; lines, triangles and quadrilaterals of first and second order can be used: mesh "
                "with order 1 or 2");
       Cells block{*shape, {}, {}};
       for (const size_t n : numbers[k]) block.numbers.push_back(static_cast<long>(n));
       for (const size_t n : nodes[k]) {
-        if (column(n) < 0) refuse(name, ": a cell names node ", n, ", which is not there");
+        if (column(n) < 0) reject(name, ": a cell names node ", n, ", which is not there");
         block.nodes.push_back(column(n));
       }
       out.push_back(std::move(block));

@@ -39,7 +39,7 @@ void sample(const std::string& name, int curve, bool forward, Contour& contour) 
   model::getCurvature(1, curve, t, curvature);
   for (size_t i = 0; i < t.size(); ++i) {
     if (std::abs(x[3 * i + 2]) > 1e-6 * std::max(1e-3, std::hypot(x[3 * i], x[3 * i + 1])))
-      refuse(name, ": not plane: curve ", curve, " passes (", x[3 * i], ", ", x[3 * i + 1], ", ",
+      reject(name, ": not plane: curve ", curve, " passes (", x[3 * i], ", ", x[3 * i + 1], ", ",
              x[3 * i + 2], "); a body lies in the plane z = 0: draw, or move, its face there");
     contour.points.emplace_back(x[3 * i], x[3 * i + 1]);
     contour.curvature.push_back(std::isfinite(curvature[i]) ? curvature[i] : 0);
@@ -112,7 +112,7 @@ Figure gmsh_figure(const std::string& name, const Tags& surfaces) {
   model::getBoundary(faces, boundary, true, false);
   f.contours = contours_of(name, tags(boundary));
   if (f.contours.empty() || !(f.contours[0].area() > 0))
-    refuse(name,
+    reject(name,
            ": its surfaces have no outline in the plane z = 0; draw a face bounded by curves");
   Vector2d low = f.contours[0].points[0], high = low;
   for (const Vector2d& p : f.contours[0].points) low = low.cwiseMin(p), high = high.cwiseMax(p);
@@ -145,7 +145,7 @@ std::vector<Pinned> gmsh_pin(const Figure& f, const std::vector<Vector2d>& point
     }
     for (size_t k = 0; k < f.contours.size(); ++k)
       if (inside(f.contours[k], at) != (k == 0))
-        refuse(f.name, ": the point (", p.x(), ", ", p.y(), ") m ",
+        reject(f.name, ": the point (", p.x(), ", ", p.y(), ") m ",
                k == 0 ? "lies outside the outline" : "lies in a hole",
                ", where no node can be; put it on the material, or name the hole and couple the "
                "point to its rim");

@@ -75,7 +75,7 @@ void snap(const std::string& name, Mesh& mesh, const std::vector<Vector2d>& poin
   for (const Vector2d& p : points) {
     const int node = nearest_node(mesh, p, 1e-6 * span);
     if (node < 0)
-      refuse(
+      reject(
           name, ": no node could be put at the point (", p.x(), ", ", p.y(),
           ") m; another point or a corner is too near for cells of this size: make `size` smaller");
     mesh.x.col(node) = p;
@@ -153,11 +153,11 @@ Mesh gmsh_geometry(const fs::path& path, const MeshOptions& o, double scale) {
     gmsh::vectorpair solids;
     model::getEntities(solids, 3);
     if (!solids.empty())
-      refuse(name,
+      reject(name,
              ": there is a solid in it; a body is plane: keep only the face in the plane z = 0");
     if (kind == ".msh") return gmsh_extract(name, scale);
     if (gmsh_body(2).empty())
-      refuse(name,
+      reject(name,
              ": there is no surface in it; draw one bounded by curves (Plane Surface in a .geo, a "
              "face in a .step)");
     // The drawing may have set options of its own; what is asked for here comes first.

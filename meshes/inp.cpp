@@ -61,8 +61,8 @@ using SetKind = InpDeck::SetKind;
 constexpr std::size_t most_members = 200'000'000, most_depth = 1000;  // of all sets; of sets within sets
 
 struct Builder {
-  const InpDeck& deck;
-  NumberIndex node_index{deck.node_numbers}, element_index{deck.element_numbers};
+  const InpDeck& queue;
+  NumberIndex node_index{queue.node_numbers}, element_index{queue.element_numbers};
   std::map<std::pair<std::string, SetKind>, std::size_t> set_index{};
   struct Members {
     std::vector<int> places{};
@@ -70,16 +70,16 @@ struct Builder {
   };
   std::map<std::size_t, Members> of_set{};  // by its number
   std::size_t total = 0, depth = 0;        // members of them all; sets that are being gathered
-  std::vector<std::size_t> seen = std::vector<std::size_t>(std::max(deck.elements.size(), deck.x.size()));
+  std::vector<std::size_t> seen = std::vector<std::size_t>(std::max(queue.elements.size(), queue.x.size()));
   std::size_t round = 0;  // seen[p] == round: p is among the members gathered now
   std::map<std::string, std::size_t> group_index{};
   std::vector<int> nodes{};  // of all elements, looked up
 
   InpPlace place_of_element(int e) const {
-    return deck.elements[static_cast<std::size_t>(e)].place;
+    return queue.elements[static_cast<std::size_t>(e)].place;
   }
   const InpDeck::Element& element(int e) const {
-    return deck.elements[static_cast<std::size_t>(e)];
+    return queue.elements[static_cast<std::size_t>(e)];
   }
   int corner(const InpDeck::Element& e, int k) const {
     return nodes[e.first + static_cast<std::size_t>(k)];
@@ -88,31 +88,31 @@ struct Builder {
 
   void check_numbers() {
     if (const auto [a, b] = node_index.twice(); b >= 0)
-      deck.text.refuse(
-          deck.node_places[static_cast<std::size_t>(b)], "node ",
-          deck.node_numbers[static_cast<std::size_t>(b)], " is defined again, first on line ",
-          deck.node_places[static_cast<std::size_t>(a)].line, "; a number belongs to one node");
+      queue.text.reject(
+          queue.node_places[static_cast<std::size_t>(b)], "node ",
+          queue.node_numbers[static_cast<std::size_t>(b)], " is defined again, first on line ",
+          queue.node_places[static_cast<std::size_t>(a)].line, "; a number belongs to one node");
     if (const auto [a, b] = element_index.twice(); b >= 0)
-      deck.text.refuse(place_of_element(b), "element ",
-                       deck.element_numbers[static_cast<std::size_t>(b)],
+      queue.text.reject(place_of_element(b), "element ",
+                       queue.element_numbers[static_cast<std::size_t>(b)],
                        " is defined again, first on line ", place_of_element(a).line,
                        "; a number belongs to one element");
   }
 
   void look_up_nodes() {
-    nodes.reserve(deck.element_nodes.size());
-    for (std::size_t e = 0; e < deck.elements.size(); ++e) {
-      const InpDeck::Element& el = deck.elements[e];
+    nodes.reserve(queue.element_nodes.size());
+    for (std::size_t e = 0; e < queue.elements.size(); ++e) {
+      const InpDeck::Element& el = queue.elements[e];
       const std::size_t end = el.first + static_cast<std::size_t>(nodes_of(el.kind.shape));
       for (std::size_t k = el.first; k < end; ++k) {
-        const int node = node_index.find(deck.element_nodes[k]);
+        const int node = node_index.find(queue.element_nodes[k]);
         if (node < 0)
-          deck.text.refuse(el.place, "element ", deck.element_numbers[e], " names node ",
-                           deck.element_nodes[k], ", which no *NODE defines");
+          queue.text.reject(el.place, "element ", queue.element_numbers[e], " names node ",
+                           queue.element_nodes[k], ", which no *NODE defines");
         if (std::find(nodes.begin() + static_cast<std::ptrdiff_t>(el.first), nodes.end(), node) !=
             nodes.end())
-          deck.text.refuse(el.place, "element ", deck.element_numbers[e], " names node ",
-                           deck.element_nodes[k],
+          queue.text.reject(el.place, "element ", queue.element_numbers[e], " names node ",
+                           queue.element_nodes[k],
                            " twice; collapsed elements are not read: take a triangle");
         nodes.push_back(node);
       }
@@ -124,21 +124,21 @@ struct Builder {
   void middle_last(std::size_t first) {
     const auto miss = [&](std::size_t middle, std::size_t a, std::size_t b) {
       const auto i = [&](std::size_t k) { return static_cast<std::size_t>(nodes[first + k]); };
-      return std::hypot(deck.x[i(middle)] - (deck.x[i(a)] + deck.x[i(b)]) / 2,
-                        deck.y[i(middle)] - (deck.y[i(a)] + deck.y[i(b)]) / 2);
+      return std::hypot(queue.x[i(middle)] - (queue.x[i(a)] + queue.x[i(b)]) / 2,
+                        queue.y[i(middle)] - (queue.y[i(a)] + queue.y[i(b)]) / 2);
     };
     if (miss(1, 0, 2) < miss(2, 0, 1)) std::swap(nodes[first + 1], nodes[first + 2]);
   }
 
   Mesh cells(double scale) const {
     Mesh mesh;
-    mesh.x.resize(2, static_cast<Eigen::Index>(deck.x.size()));
-    for (std::size_t i = 0; i < deck.x.size(); ++i)
-      mesh.x.col(static_cast<Eigen::Index>(i)) << scale * deck.x[i], scale * deck.y[i];
-    mesh.node_numbers = deck.node_numbers;
-    const bool plane = std::any_of(deck.elements.begin(), deck.elements.end(), is_plane);
-    for (std::size_t e = 0; e < deck.elements.size(); ++e) {
-      const InpDeck::Element& el = deck.elements[e];
+    mesh.x.resize(2, static_cast<Eigen::Index>(queue.x.size()));
+    for (std::size_t i = 0; i < queue.x.size(); ++i)
+      mesh.x.col(static_cast<Eigen::Index>(i)) << scale * queue.x[i], scale * queue.y[i];
+    mesh.node_numbers = queue.node_numbers;
+    const bool plane = std::any_of(queue.elements.begin(), queue.elements.end(), is_plane);
+    for (std::size_t e = 0; e < queue.elements.size(); ++e) {
+      const InpDeck::Element& el = queue.elements[e];
       if (is_plane(el) != plane) continue;
       auto block = std::find_if(mesh.cells.begin(), mesh.cells.end(),
                                 [&](const Cells& c) { return c.shape == el.kind.shape; });
@@ -146,7 +146,7 @@ struct Builder {
         block = mesh.cells.insert(mesh.cells.end(), Cells{el.kind.shape, {}, {}});
       const auto first = nodes.begin() + static_cast<std::ptrdiff_t>(el.first);
       block->nodes.insert(block->nodes.end(), first, first + nodes_of(el.kind.shape));
-      block->numbers.push_back(deck.element_numbers[e]);
+      block->numbers.push_back(queue.element_numbers[e]);
     }
     return mesh;
   }
@@ -154,7 +154,7 @@ struct Builder {
   std::size_t set_of(const InpDeck::Item& item, SetKind kind, const std::string& name) const {
     const auto found = set_index.find({upper(name), kind});
     if (found == set_index.end())
-      deck.text.refuse(item.place, "there is no ", kind == SetKind::node ? "node" : "element",
+      queue.text.reject(item.place, "there is no ", kind == SetKind::node ? "node" : "element",
                        " set \"", name, "\"; define it, or correct the name");
     return found->second;
   }
@@ -162,22 +162,22 @@ struct Builder {
   // The places of a set's members, in the order of naming, those of the sets it names among them; each once.
   const std::vector<int>& members(std::size_t s) {
     const auto [known, is_new] = of_set.try_emplace(s);
-    const InpDeck::Set& set = deck.sets[s];
+    const InpDeck::Set& set = queue.sets[s];
     Members& m = known->second;
     if (is_new) {
       if (++depth > most_depth)
-        deck.text.refuse(set.place, "the set \"", set.name, "\" is named by sets that are named by sets, more than ", most_depth,
+        queue.text.reject(set.place, "the set \"", set.name, "\" is named by sets that are named by sets, more than ", most_depth,
                          " times over; name it directly");
       for (const InpDeck::Item& item : set.items) add_members(item, set, m.places);
       drop_repeated(m.places);
       m.whole = true;
       --depth;
       if ((total += m.places.size()) > most_members)
-        deck.text.refuse(set.place, "the sets up to \"", set.name, "\" have more than ", most_members,
+        queue.text.reject(set.place, "the sets up to \"", set.name, "\" have more than ", most_members,
                          " members; leave sets out that are not needed");
     }
     if (!m.whole)
-      deck.text.refuse(set.place, "the set \"", set.name, "\" contains itself; leave that out");
+      queue.text.reject(set.place, "the set \"", set.name, "\" contains itself; leave that out");
     return m.places;
   }
 
@@ -196,7 +196,7 @@ struct Builder {
     } else {
       const int at = index.find(item.number);
       if (at < 0)
-        deck.text.refuse(item.place, "the set \"", set.name, "\" names ",
+        queue.text.reject(item.place, "the set \"", set.name, "\" names ",
                          node ? "node " : "element ", item.number, ", which is not defined");
       out.push_back(at);
     }
@@ -216,7 +216,7 @@ struct Builder {
     if (item.label[0] == 'E' && e.kind.shell) side = number - 1;
     if (item.label[0] == 'S') side = e.kind.shell ? number - 3 : number - 1;
     if (side < 0 || side >= corners)
-      deck.text.refuse(item.place, "\"", item.label, "\" is no side of ",
+      queue.text.reject(item.place, "\"", item.label, "\" is no side of ",
                        e.kind.shell ? "a shell" : "an element", " with ", corners,
                        " corners; its sides are ", e.kind.shell ? "E1" : "S1", " to ",
                        e.kind.shell ? "E" : "S", corners,
@@ -236,7 +236,7 @@ struct Builder {
         if (!item.name.empty()) return members(set_of(item, SetKind::element, item.name));
         const int e = element_index.find(item.number);
         if (e < 0)
-          deck.text.refuse(item.place, "the surface \"", set.name, "\" names element ", item.number,
+          queue.text.reject(item.place, "the surface \"", set.name, "\" names element ", item.number,
                            ", which is not defined");
         return std::vector<int>{e};
       }();
@@ -254,7 +254,7 @@ struct Builder {
   // Sides of all plane elements, the lower corner first, sorted.
   std::vector<std::pair<int, int>> plane_sides() const {
     std::vector<std::pair<int, int>> sides;
-    for (const InpDeck::Element& e : deck.elements)
+    for (const InpDeck::Element& e : queue.elements)
       for (int k = 0, n = corners_of(e.kind.shape); is_plane(e) && k < n; ++k) sides.emplace_back(std::minmax(corner(e, k), corner(e, (k + 1) % n)));
     std::sort(sides.begin(), sides.end());
     return sides;
@@ -262,7 +262,7 @@ struct Builder {
 
   /// @pre groups() has run
   InpElements of_elements() {
-    const bool lines = !std::all_of(deck.elements.begin(), deck.elements.end(), is_plane);
+    const bool lines = !std::all_of(queue.elements.begin(), queue.elements.end(), is_plane);
     return {[this](const std::string& name) {
               const auto found = set_index.find({upper(name), SetKind::element});
               return found == set_index.end() ? std::vector<int>{} : members(found->second);
@@ -279,10 +279,10 @@ struct Builder {
   }
 
   void groups(Mesh& mesh, const Rim& rim) {
-    for (std::size_t s = 0; s < deck.sets.size(); ++s)
-      set_index[{upper(deck.sets[s].name), deck.sets[s].kind}] = s;
-    for (std::size_t s = 0; s < deck.sets.size(); ++s) {
-      const InpDeck::Set& set = deck.sets[s];
+    for (std::size_t s = 0; s < queue.sets.size(); ++s)
+      set_index[{upper(queue.sets[s].name), queue.sets[s].kind}] = s;
+    for (std::size_t s = 0; s < queue.sets.size(); ++s) {
+      const InpDeck::Set& set = queue.sets[s];
       Group& group = group_named(mesh, set.name);
       if (set.kind == SetKind::surface) {
         rim.add_to(group, surface_sides(set, rim));
@@ -309,18 +309,18 @@ Mesh read_inp(const std::filesystem::path& path, double scale, const std::filesy
   if (!(scale > 0) || !std::isfinite(scale))
     throw std::invalid_argument(path.string() + ": scale = " + std::to_string(scale) +
                                 ", must be positive: m per unit of the file");
-  const InpDeck deck = read_inp_deck(path, folder.empty() ? path.parent_path() : folder);
-  if (deck.elements.empty())
+  const InpDeck queue = read_inp_deck(path, folder.empty() ? path.parent_path() : folder);
+  if (queue.elements.empty())
     throw std::invalid_argument(
         path.string() + ": no *ELEMENT in it; it needs plane elements or beams between its nodes");
-  Builder builder{deck};
+  Builder builder{queue};
   builder.check_numbers();
   builder.look_up_nodes();
   Mesh mesh = builder.cells(scale);
   if (mesh.plane()) orient(mesh);  // a cell that runs the other way would look like a hole
   const Rim rim(mesh);
   builder.groups(mesh, rim);
-  InpClaims said = inp_claims(deck, builder.of_elements());
+  InpClaims said = inp_claims(queue, builder.of_elements());
   if (claims) *claims = std::move(said);
   name_loops(mesh, rim);
   drop_unused_nodes(mesh);

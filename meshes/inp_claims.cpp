@@ -60,7 +60,7 @@ const std::vector<Keyword>& keywords() {
 }
 
 struct Reading {
-  const InpDeck& deck;
+  const InpDeck& queue;
   const InpElements& elements;
   InpClaims claims{};
   std::map<Meaning, std::vector<std::string>> seen{};  ///< "*CLOAD of line 12", each keyword once
@@ -70,7 +70,7 @@ struct Reading {
   const std::string& file(InpPlace p) const { return name_[static_cast<std::size_t>(p.file)]; }
   std::string where(InpPlace p) const { return file(p) + ":" + std::to_string(p.line); }
 
-  explicit Reading(const InpDeck& d, const InpElements& e) : deck(d), elements(e) {
+  explicit Reading(const InpDeck& d, const InpElements& e) : queue(d), elements(e) {
     for (const auto& path : d.text.files) name_.push_back(path.filename().string());
   }
 
@@ -87,9 +87,9 @@ struct Reading {
     });
   }
 
-  [[noreturn]] void refuse_part(const InpCard& card) const {
+  [[noreturn]] void reject_part(const InpCard& card) const {
     const bool ties = card.keyword == "TIE" || card.keyword == "EQUATION" || card.keyword == "MPC" || card.keyword.starts_with("EMBEDDED");
-    deck.text.refuse(card.place, "*", card.keyword, ties ? " ties nodes to each other, which is not read, and the body would come apart there: mesh the parts with shared nodes"
+    queue.text.reject(card.place, "*", card.keyword, ties ? " ties nodes to each other, which is not read, and the body would come apart there: mesh the parts with shared nodes"
                                                          : " makes another body than its plane elements alone, which is not read: describe it in the scene (lumps, "
                                                            "joints, forces, points of holes) and leave it out here");
   }
@@ -97,7 +97,7 @@ struct Reading {
   std::vector<double> numbers(const InpDeck::Other& other) const {
     std::vector<double> out;
     if (other.first == other.last) return out;
-    std::string_view rest = deck.text.lines[other.first].text, field;
+    std::string_view rest = queue.text.lines[other.first].text, field;
     for (double value = 0; next_field(rest, field) && to_number(field, value);) out.push_back(value);
     return out;
   }
@@ -115,7 +115,7 @@ struct Reading {
     const std::vector<int> members = set ? elements.of_set(*set) : std::vector<int>{};
     const bool lines = !members.empty() && std::all_of(members.begin(), members.end(), [&](int e) { return !plane(e); });
     if (lines && has_plane())
-      deck.text.refuse(card.place, "*", card.keyword, " makes the ", members.size(), " line elements of \"", *set,
+      queue.text.reject(card.place, "*", card.keyword, " makes the ", members.size(), " line elements of \"", *set,
                        "\" bars or beams of their own beside the plane elements; only plane elements are read of such a file: leave "
                        "them out, mesh them as plane elements, or make them bodies of the scene");
     const bool thick = card.keyword == "SOLID SECTION" || card.keyword == "SHELL SECTION" || card.keyword == "MEMBRANE SECTION";
@@ -123,9 +123,9 @@ struct Reading {
     if (const std::vector<double> data = numbers(other); !data.empty()) claims.thickness.push_back({data[0], where(card.place)});
   }
 
-  bool plane(int e) const { return corners_of(deck.elements[static_cast<std::size_t>(e)].kind.shape) > 2; }
+  bool plane(int e) const { return corners_of(queue.elements[static_cast<std::size_t>(e)].kind.shape) > 2; }
   bool has_plane() const {
-    return std::any_of(deck.elements.begin(), deck.elements.end(), [](const InpDeck::Element& e) { return corners_of(e.kind.shape) > 2; });
+    return std::any_of(queue.elements.begin(), queue.elements.end(), [](const InpDeck::Element& e) { return corners_of(e.kind.shape) > 2; });
   }
 
   void seen_once(Meaning what, const std::string& keyword, InpPlace place) {
@@ -135,7 +135,7 @@ struct Reading {
   // The material that the sections name, or the only one.
   void materials() {
     std::string current;
-    for (const InpDeck::Other& other : deck.others) {
+    for (const InpDeck::Other& other : queue.others) {
       const InpCard& card = other.card;
       if (card.keyword == "MATERIAL") current = card.find("NAME") ? upper(*card.find("NAME")) : "";
       if (card.keyword != "ELASTIC" || (!section_of.empty() && !section_of.contains(current))) continue;
@@ -158,13 +158,13 @@ struct Reading {
 
   void strain() {
     const InpDeck::Element *strained = nullptr, *stressed = nullptr;
-    for (const InpDeck::Element& e : deck.elements) {
+    for (const InpDeck::Element& e : queue.elements) {
       if (corners_of(e.kind.shape) < 3) continue;
       const InpDeck::Element*& first = e.kind.strain ? strained : stressed;
       if (!first) first = &e;
     }
     if (strained && stressed)
-      deck.text.refuse(strained->place, "this element is of plane strain (CPE), but that of line ", stressed->place.line,
+      queue.text.reject(strained->place, "this element is of plane strain (CPE), but that of line ", stressed->place.line,
                        " is not; a body is of one kind: name them all CPS or all CPE");
     if (strained) claims.strain = where(strained->place);
   }
@@ -172,10 +172,10 @@ struct Reading {
   void lines() {
     if (!has_plane()) return;
     int count = 0, first = -1;
-    for (std::size_t e = 0; e < deck.elements.size(); ++e)
+    for (std::size_t e = 0; e < queue.elements.size(); ++e)
       if (!plane(static_cast<int>(e)) && !elements.along_side(static_cast<int>(e)) && count++ == 0) first = static_cast<int>(e);
     if (count > 0)
-      say(where(deck.elements[static_cast<std::size_t>(first)].place) + ": element " + std::to_string(deck.element_numbers[static_cast<std::size_t>(first)]) +
+      say(where(queue.elements[static_cast<std::size_t>(first)].place) + ": element " + std::to_string(queue.element_numbers[static_cast<std::size_t>(first)]) +
           " is a line along no side of a plane element and is left out" + (count > 1 ? ", and so are " + std::to_string(count - 1) + " more" : "") +
           "; bars and beams belong into a body of their own");
   }
@@ -190,10 +190,10 @@ struct Reading {
 
   void cards() {
     std::vector<std::string> unknown;
-    for (const InpDeck::Other& other : deck.others) {
+    for (const InpDeck::Other& other : queue.others) {
       const InpCard& card = other.card;
       const Meaning what = meaning(card);
-      if (what == Meaning::part) refuse_part(card);
+      if (what == Meaning::part) reject_part(card);
       if (what == Meaning::model && card.keyword.ends_with("SECTION")) section(other);
       if (what != Meaning::none && what != Meaning::model) seen_once(what, "*" + card.keyword, card.place);
       if (!known(card) && named.insert("*" + card.keyword).second) unknown.push_back("*" + card.keyword + " (" + where(card.place) + ")");
@@ -211,8 +211,8 @@ struct Reading {
 
 }  // namespace
 
-InpClaims inp_claims(const InpDeck& deck, const InpElements& elements) {
-  Reading reading(deck, elements);
+InpClaims inp_claims(const InpDeck& queue, const InpElements& elements) {
+  Reading reading(queue, elements);
   reading.strain();
   reading.cards();
   reading.materials();

@@ -13,7 +13,7 @@ namespace {
 constexpr std::array generators{"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"};
 
 struct Parser {
-  InpDeck& deck;
+  InpDeck& queue;
   const std::vector<InpText::Line>& lines;
   std::size_t at = 0;
   std::map<std::pair<std::string, InpDeck::SetKind>, std::size_t> index;
@@ -23,23 +23,23 @@ struct Parser {
   bool data() const { return at < lines.size() && !lines[at].text.starts_with('*'); }
 
   InpDeck::Set& set(const std::string& name, InpDeck::SetKind kind, InpPlace place) {
-    if (name.empty()) deck.text.refuse(place, "a set without a name; give it one");
-    const auto [found, is_new] = index.try_emplace({upper(name), kind}, deck.sets.size());
-    if (is_new) deck.sets.push_back({name, kind, {}, place});
-    return deck.sets[found->second];
+    if (name.empty()) queue.text.reject(place, "a set without a name; give it one");
+    const auto [found, is_new] = index.try_emplace({upper(name), kind}, queue.sets.size());
+    if (is_new) queue.sets.push_back({name, kind, {}, place});
+    return queue.sets[found->second];
   }
 
   const std::string& required(const InpCard& card, const char* name) {
     const std::string* value = card.find(name);
     if (!value || value->empty())
-      deck.text.refuse(card.place, "*", card.keyword, " without ", name, "=; add it");
+      queue.text.reject(card.place, "*", card.keyword, " without ", name, "=; add it");
     return *value;
   }
 
   long whole(std::string_view field, InpPlace place, const char* what) {
     long value = 0;
     if (!to_number(field, value) || value < 1)
-      deck.text.refuse(place, "\"", field, "\" is no ", what,
+      queue.text.reject(place, "\"", field, "\" is no ", what,
                        "; a whole number from 1 belongs here");
     return value;
   }
@@ -47,7 +47,7 @@ struct Parser {
   void nodes(const InpCard& card) {
     for (const char* unread : {"INPUT", "SYSTEM"})
       if (const std::string* value = card.find(unread); value && *value != "R")
-        deck.text.refuse(card.place, "*NODE with ", unread, "=", *value,
+        queue.text.reject(card.place, "*NODE with ", unread, "=", *value,
                          " is not read; write the nodes here, in rectangular coordinates");
     const std::string* name = card.find("NSET");
     for (; data(); ++at) {
@@ -59,14 +59,14 @@ struct Parser {
       for (double& value : x) {
         if (!next_field(rest, field)) break;
         if (!field.empty() && (!to_number(field, value) || !std::isfinite(value)))
-          deck.text.refuse(place, "node ", number, ": \"", field, "\" is no coordinate");
+          queue.text.reject(place, "node ", number, ": \"", field, "\" is no coordinate");
       }
       if (std::abs(x[2]) > 1e-6 * std::max({1e-6, std::abs(x[0]), std::abs(x[1])}))
-        deck.text.refuse(place, "node ", number, " is at z = ", x[2],
+        queue.text.reject(place, "node ", number, " is at z = ", x[2],
                          "; the mesh must lie in the plane z = 0");
-      deck.node_numbers.push_back(number);
-      deck.node_places.push_back(place);
-      deck.x.push_back(x[0]), deck.y.push_back(x[1]);
+      queue.node_numbers.push_back(number);
+      queue.node_places.push_back(place);
+      queue.x.push_back(x[0]), queue.y.push_back(x[1]);
       if (name)
         set(*name, InpDeck::SetKind::node, card.place)
             .items.push_back({number, {}, place, 0, 0, {}});
@@ -77,7 +77,7 @@ struct Parser {
     const std::string type = upper(required(card, "TYPE"));
     std::string reason;
     const std::optional<InpKind> kind = inp_kind(type, reason);
-    if (!kind) deck.text.refuse(card.place, "element type ", type, " ", reason);
+    if (!kind) queue.text.reject(card.place, "element type ", type, " ", reason);
     const int n = nodes_of(kind->shape);
     const std::string* name = card.find("ELSET");
     while (data()) {
@@ -85,24 +85,24 @@ struct Parser {
       std::string_view rest = lines[at].text, field;
       next_field(rest, field);
       const long number = whole(field, place, "element number");
-      const std::size_t first = deck.element_nodes.size();
+      const std::size_t first = queue.element_nodes.size();
       for (int k = 0; k < n;) {
         if (next_field(rest, field)) {
-          deck.element_nodes.push_back(whole(field, lines[at].place, "node number"));
+          queue.element_nodes.push_back(whole(field, lines[at].place, "node number"));
           ++k;
         } else if (++at; !data()) {
-          deck.text.refuse(place, "element ", number, " of type ", type, " has ", k,
+          queue.text.reject(place, "element ", number, " of type ", type, " has ", k,
                            " nodes, must have ", n);
         } else {
           rest = lines[at].text;
         }
       }
       if (next_field(rest, field))
-        deck.text.refuse(place, "element ", number, " of type ", type, " has more than its ", n,
+        queue.text.reject(place, "element ", number, " of type ", type, " has more than its ", n,
                          " nodes");
       ++at;
-      deck.element_numbers.push_back(number);
-      deck.elements.push_back({*kind, first, place});
+      queue.element_numbers.push_back(number);
+      queue.elements.push_back({*kind, first, place});
       if (name)
         set(*name, InpDeck::SetKind::element, card.place)
             .items.push_back({number, {}, place, 0, 0, {}});
@@ -116,7 +116,7 @@ struct Parser {
     std::size_t k = 0;
     for (; k < 3 && next_field(rest, field); ++k) range[k] = whole(field, place, "number");
     if (k < 2 || range[1] < range[0])
-      deck.text.refuse(place, "GENERATE needs first, last and step, last not before first");
+      queue.text.reject(place, "GENERATE needs first, last and step, last not before first");
     s.items.push_back({range[0], {}, place, range[1], range[2], {}});
   }
 
@@ -164,17 +164,17 @@ struct Parser {
   void other(const InpCard& card) {
     const std::size_t first = at;
     while (data()) ++at;
-    deck.others.push_back({card, first, at});
+    queue.others.push_back({card, first, at});
   }
 
   // One part, standing where it was drawn.
   void part_card(const InpCard& card, bool& seen) {
     if (seen)
-      deck.text.refuse(card.place, "a second *", card.keyword, " after that of line ", part.line,
+      queue.text.reject(card.place, "a second *", card.keyword, " after that of line ", part.line,
                        "; a body is one part: write each to a file of its own");
     seen = true, part = card.place;
     if (card.keyword == "INSTANCE" && data())
-      deck.text.refuse(lines[at].place,
+      queue.text.reject(lines[at].place,
                        "this *INSTANCE is moved or turned; a body's axes are its part's: "
                        "leave the line out and place the body in the scene");
   }
@@ -191,7 +191,7 @@ struct Parser {
       const InpCard card = inp_card(joined, place);
       const std::string& key = card.keyword;
       if (std::find(generators.begin(), generators.end(), key) != generators.end())
-        deck.text.refuse(place, "*", key, " is not read; write nodes and elements out");
+        queue.text.reject(place, "*", key, " is not read; write nodes and elements out");
       if (key == "NODE")
         nodes(card);
       else if (key == "ELEMENT")
@@ -264,10 +264,10 @@ std::optional<InpKind> inp_kind(const std::string& type, std::string& reason) {
 }
 
 InpDeck read_inp_deck(const std::filesystem::path& path, const std::filesystem::path& folder) {
-  InpDeck deck;
-  deck.text = read_inp_text(path, folder);
-  Parser{deck, deck.text.lines, 0, {}, {}}.run();
-  return deck;
+  InpDeck queue;
+  queue.text = read_inp_text(path, folder);
+  Parser{queue, queue.text.lines, 0, {}, {}}.run();
+  return queue;
 }
 
 }  // namespace pintle

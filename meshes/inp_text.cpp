@@ -53,7 +53,7 @@ struct Reader {
       if (text.empty() || text.starts_with("**")) continue;
       // What is no input file is not shown.
       if (!std::exchange(begun, true) && !may_begin(text))
-        out.refuse({file, number}, "is no input file of CalculiX or Abaqus: it begins with neither a card (*NODE) nor numbers");
+        out.reject({file, number}, "is no input file of CalculiX or Abaqus: it begins with neither a card (*NODE) nor numbers");
       if (text[0] == '*' && upper(text.substr(0, 8)) == "*INCLUDE")
         include(text, {file, number});
       else
@@ -66,20 +66,20 @@ struct Reader {
     const InpCard card = inp_card(text, place);
     const std::string* input = card.find("INPUT");
     if (!input || input->empty())
-      out.refuse(place, "*INCLUDE names no file; write *INCLUDE, INPUT=file");
+      out.reject(place, "*INCLUDE names no file; write *INCLUDE, INPUT=file");
     const fs::path beside = out.files[static_cast<std::size_t>(place.file)].parent_path();
     fs::path path;
     try {
       path = contained_file(*input, beside, folder);
     } catch (const FileRefused& e) {
-      out.refuse(place, "*INCLUDE of ", e.what());
+      out.reject(place, "*INCLUDE of ", e.what());
     }
     if (std::find(open.begin(), open.end(), fs::weakly_canonical(path)) != open.end())
-      out.refuse(place, "*INCLUDE of ", *input, ", which is just being read; leave it out");
+      out.reject(place, "*INCLUDE of ", *input, ", which is just being read; leave it out");
     if (!fs::exists(path))
-      out.refuse(place, "*INCLUDE of ", *input, ": there is no file ", path.string());
+      out.reject(place, "*INCLUDE of ", *input, ": there is no file ", path.string());
     if (out.files.size() >= most_files)
-      out.refuse(place, "*INCLUDE of ", *input, ": more than ", most_files, " files are included; put them together");
+      out.reject(place, "*INCLUDE of ", *input, ": more than ", most_files, " files are included; put them together");
     read(path);
   }
 };

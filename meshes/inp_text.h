@@ -28,7 +28,7 @@ struct InpText {
 
   /// @throws std::invalid_argument  "file:line: " and the parts
   template <class... Parts>
-  [[noreturn]] void refuse(InpPlace at, const Parts&... parts) const {
+  [[noreturn]] void reject(InpPlace at, const Parts&... parts) const {
     std::ostringstream text;
     (text << ... << parts);
     fail(at, text.str());

@@ -15,22 +15,22 @@ using std::numbers::pi;
 
 void positive(const char* link, const char* what, double value) {
   if (!(value > 0) || !std::isfinite(value))
-    refuse(link, ": ", what, " = ", value, " m, must be positive");
+    reject(link, ": ", what, " = ", value, " m, must be positive");
 }
 
-void judge_eye(const char* link, const char* which, const Eye& eye) {
+void validate_eye(const char* link, const char* which, const Eye& eye) {
   const std::string name = std::string(which) + " ";
   positive(link, (name + "bore").c_str(), eye.bore);
   positive(link, (name + "outer").c_str(), eye.outer);
   if (!(eye.bore < eye.outer))
-    refuse(link, ": ", name, "bore = ", eye.bore,
+    reject(link, ": ", name, "bore = ", eye.bore,
            " m leaves no material inside outer = ", eye.outer, " m; the bore must be smaller");
 }
 
-void judge_apart(const char* link, const char* a, const char* b, double distance, double outer_a,
+void validate_apart(const char* link, const char* a, const char* b, double distance, double outer_a,
                  double outer_b) {
   if (!(distance > (outer_a + outer_b) / 2))
-    refuse(link, ": ", a, " and ", b, " overlap: their centres are ", distance,
+    reject(link, ": ", a, " and ", b, " overlap: their centres are ", distance,
            " m apart, their outer radii together are ", (outer_a + outer_b) / 2,
            " m; move them apart or make them smaller");
 }
@@ -76,19 +76,19 @@ struct Judge {
     positive("disc", "diameter", l.diameter);
     positive("disc", "bore", l.bore);
     if (!(l.bore < l.diameter))
-      refuse("disc: bore = ", l.bore, " m leaves no material inside diameter = ", l.diameter,
+      reject("disc: bore = ", l.bore, " m leaves no material inside diameter = ", l.diameter,
              " m; the bore must be smaller");
   }
   void operator()(const EyeBar& l) const {
     const char* link = "bar with two eyes";
     positive(link, "length", l.length);
     positive(link, "width", l.width);
-    judge_eye(link, "first eye", l.first);
-    judge_eye(link, "second eye", l.second);
-    judge_apart(link, "the first eye", "the second", l.length, l.first.outer, l.second.outer);
+    validate_eye(link, "first eye", l.first);
+    validate_eye(link, "second eye", l.second);
+    validate_apart(link, "the first eye", "the second", l.length, l.first.outer, l.second.outer);
     for (const Eye& eye : {l.first, l.second})
       if (l.width > eye.outer)
-        refuse(link, ": width = ", l.width,
+        reject(link, ": width = ", l.width,
                " m, must be at most the outer diameter of either eye, ", eye.outer,
                " m; for a plain plate with holes bring a drawing");
   }
@@ -96,12 +96,12 @@ struct Judge {
     const char* link = "triangle with three eyes";
     constexpr std::array names{"eye 1", "eye 2", "eye 3"};
     for (std::size_t i = 0; i < 3; ++i) {
-      if (!l.center[i].allFinite()) refuse(link, ": the centre of ", names[i], " is not finite");
-      judge_eye(link, names[i], l.eye[i]);
+      if (!l.center[i].allFinite()) reject(link, ": the centre of ", names[i], " is not finite");
+      validate_eye(link, names[i], l.eye[i]);
     }
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
-      judge_apart(link, names[i], names[j], (l.center[i] - l.center[j]).norm(), l.eye[i].outer,
+      validate_apart(link, names[i], names[j], (l.center[i] - l.center[j]).norm(), l.eye[i].outer,
                   l.eye[j].outer);
     }
     const auto order = turn_order(l);
@@ -112,7 +112,7 @@ struct Judge {
           sweep(angle_of(tangent_normal(l, before, at)), angle_of(tangent_normal(l, at, after)));
       turn += arc;
       if (arc < 1e-3 || arc > 2 * pi - 1e-3 || turn > 2 * pi + 1e-6)
-        refuse(link, ": an eye does not reach the outline round the other two (centres (",
+        reject(link, ": an eye does not reach the outline round the other two (centres (",
                l.center[0].x(), ", ", l.center[0].y(), "), (", l.center[1].x(), ", ",
                l.center[1].y(), "), (", l.center[2].x(), ", ", l.center[2].y(),
                ") m); move it outwards, make it larger, or bring a drawing");

@@ -21,7 +21,7 @@ constexpr double rounding = 1e-9;   // of a length of the link
 constexpr double narrowest = 0.25;  // of the size asked for
 constexpr double sides_round_hole = 24, sides_round_arc = 12;
 
-[[noreturn]] void refuse(const Vector2d& p, const char* where) {
+[[noreturn]] void reject(const Vector2d& p, const char* where) {
   std::ostringstream text;
   text << "link: the point (" << p.x() << ", " << p.y() << ") m lies " << where
        << ", where no node can be; put it on the material, or name the hole and couple the point "
@@ -48,12 +48,12 @@ std::optional<Mesh> bar(double length, double left, double right, const MeshOpti
     return std::nullopt;  // fields would be long and thin
   const auto half_width = [=](double x) { return (left + (right - left) * x / length) / 2; };
   const double size = o.size > 0 ? o.size : std::sqrt(length * (left + right) / 2) / 10;
-  judge_count(length * (left + right) / 2 / (size * size), size);
+  validate_count(length * (left + right) / 2 / (size * size), size);
   std::vector<double> through_u, through_v{0};
   for (const Vector2d& p : o.points) {
     if (p.x() < -rounding * length || p.x() > length * (1 + rounding) ||
         std::abs(p.y()) > half_width(p.x()) + rounding * length)
-      refuse(p, "outside the outline");
+      reject(p, "outside the outline");
     through_u.push_back(std::clamp(p.x(), 0.0, length));
     through_v.push_back(std::clamp(p.y() / half_width(p.x()), -1.0, 1.0));
   }
@@ -96,14 +96,14 @@ std::optional<Mesh> disc(double inner, double outer, const MeshOptions& o) {
   const double size = o.size > 0 ? o.size : std::sqrt(pi * (outer * outer - inner * inner)) / 10;
   const double hole =
       o.hole_size > 0 ? o.hole_size : std::min(size, 2 * pi * inner / sides_round_hole);
-  judge_count(2 * pi * inner / hole * (outer - inner) / size, std::min(hole, size));
+  validate_count(2 * pi * inner / hole * (outer - inner) / size, std::min(hole, size));
   const double step = std::min({hole / inner, size / outer, 2 * pi / sides_round_arc});
   std::vector<double> through_u, through_v;
   double start = 0;
   for (const Vector2d& p : o.points) {
     const double r = p.norm();
-    if (r > outer * (1 + rounding)) refuse(p, "outside the outline");
-    if (r < inner * (1 - rounding)) refuse(p, "in the hole");
+    if (r > outer * (1 + rounding)) reject(p, "outside the outline");
+    if (r < inner * (1 - rounding)) reject(p, "in the hole");
     const double u = -std::atan2(p.y(), p.x());
     if (through_u.empty()) start = u;
     double turned = std::fmod(u - start + 4 * pi, 2 * pi);

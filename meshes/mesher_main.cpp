@@ -73,7 +73,7 @@ Mesh made(const MesherTask& task) {
   if (!task.at.empty() && chdir(task.at.c_str()) != 0) throw std::runtime_error(task.at + ": is no folder any more");
   const bool script = task.file.ends_with(".geo");
   if (!(script && task.unconfined) && !shut_in(task.folders) && script)
-    refuse(task.file,
+    reject(task.file,
            ": a .geo file is a program, and this system has no means to shut it in (Landlock and seccomp of Linux); if you know where "
            "the drawing comes from, allow it by --trust-geo, else take a .step, .brep or .msh file");
   return task.link ? gmsh_link(*task.link, task.options) : gmsh_geometry(task.file, task.options, task.scale);

@@ -7,7 +7,7 @@ namespace pintle {
 
 /// Throws std::invalid_argument with the parts put together as a stream would print them.
 template <class... Parts>
-[[noreturn]] void refuse(const Parts&... parts) {
+[[noreturn]] void reject(const Parts&... parts) {
   std::ostringstream text;
   (text << ... << parts);
   throw std::invalid_argument(text.str());

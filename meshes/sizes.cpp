@@ -56,7 +56,7 @@ bool inside(const Contour& contour, const Vector2d& p) {
   return in;
 }
 
-void judge_count(double cells, double size) {
+void validate_count(double cells, double size) {
   if (cells <= most_cells) return;
   std::ostringstream text;
   text << "cells of size " << size << " would be about " << cells << ", more than " << most_cells
@@ -69,10 +69,10 @@ SizeField size_field(const std::vector<Contour>& contours, double size, double h
   double area = 0;
   for (std::size_t k = 0; k < contours.size(); ++k) area += (k == 0 ? 1 : -1) * contours[k].area();
   field.largest = size > 0 ? size : std::sqrt(area) / 10;
-  judge_count(area / (field.largest * field.largest), field.largest);
+  validate_count(area / (field.largest * field.largest), field.largest);
   for (std::size_t k = 0; k < contours.size(); ++k) {
     const Contour& c = contours[k];
-    if (k > 0 && hole_size > 0) judge_count(c.length() / hole_size / SizeField::growth, hole_size);
+    if (k > 0 && hole_size > 0) validate_count(c.length() / hole_size / SizeField::growth, hole_size);
     const double of_hole = hole_size > 0 ? hole_size : c.length() / sides_round_hole;
     std::size_t last =
         c.points.size();  // that became a source; those much nearer than a cell add nothing

@@ -35,7 +35,7 @@ bool inside(const Contour&, const Eigen::Vector2d& p);
 /// What a mesh is allowed to become before it is taken for a slip of the pen.
 inline constexpr double most_cells = 2e7;
 /// @throws std::invalid_argument  more than that
-void judge_count(double cells, double size);
+void validate_count(double cells, double size);
 
 /// @param contours   the outline first, then the holes
 /// @param size       0: a tenth of the square root of the area

@@ -181,7 +181,7 @@ struct Check {
       found.faults.push_back(told(hanging.front()) + " and is no node of that cell: the side opens under load" + in_all(hanging.size()) +
                              "; mesh so that cells meet side to side");
     else if (!near.empty())
-      found.doubts.push_back(told(near.front()) + " to a thousandth of its length and is not joined to it" + in_all(near.size()) +
+      found.warnings_of.push_back(told(near.front()) + " to a thousandth of its length and is not joined to it" + in_all(near.size()) +
                              "; if the cells are to hold together there, mesh so that they meet side to side");
     slits(pairs);
   }
@@ -213,7 +213,7 @@ struct Check {
       text = "sides of " + cell(p.cell) + " and " + cell(q.cell) + " lie on each other near " + place(at(p.a)) + ", from nodes " + nodes(p.a, p.b) +
              " and from nodes " + nodes(q.a, q.b) + ", and are not joined: the body is slit there";
     }
-    found.doubts.push_back(text + in_all(std::max(pairs.size(), shut.size())) + "; merge nodes that lie at one place unless a crack is meant");
+    found.warnings_of.push_back(text + in_all(std::max(pairs.size(), shut.size())) + "; merge nodes that lie at one place unless a crack is meant");
   }
 
   // Where more than two sides of the rim end in one corner, cells turn about it.
@@ -225,7 +225,7 @@ struct Check {
     for (std::size_t n = 0; n < ends.size(); ++n)
       if (ends[n] > 2 && count++ == 0) first = static_cast<int>(n);
     if (count > 0)
-      found.doubts.push_back("at node " + node(first) + ", " + place(at(first)) + ", cells meet by that node alone and turn about it as about a hinge" + in_all(count) +
+      found.warnings_of.push_back("at node " + node(first) + ", " + place(at(first)) + ", cells meet by that node alone and turn about it as about a hinge" + in_all(count) +
                              "; join them along a side");
   }
 

@@ -13,7 +13,7 @@ namespace pintle {
 /// Each entry names cells, nodes and the place, and says what to do.
 struct Soundness {
   std::vector<std::string> faults;  ///< another body than meant: cells twice, overlaps, nodes on a side that it lacks
-  std::vector<std::string> doubts;  ///< may be meant: slits, cells that meet at one node alone
+  std::vector<std::string> warnings_of;  ///< may be meant: slits, cells that meet at one node alone
 };
 /// Lengths are compared with those of the sides at hand: what is nearer than 1e-6 of a side lies on it, what is nearer than 1e-3 of it
 /// is doubted. Overlaps are found where a tenth of a cell or more lies under another. @pre cells run counter-clockwise and are not inverted

@@ -39,7 +39,7 @@ struct Places {
       if ((vector(points[passed[k]].at) - vector(points[point].at)).norm() > near) continue;
       const bool other = named && passed[k] != point;
       if (other && named_here[k])
-        refuse("its beam passes ", points[passed[k]].name, " and ", points[point].name, ", which both lie at ", shown(vector(points[point].at)),
+        reject("its beam passes ", points[passed[k]].name, " and ", points[point].name, ", which both lie at ", shown(vector(points[point].at)),
                "; to join it there write one of the names in both places of through, to leave it open move one of the points a little");
       if (named) passed[k] = point, named_here[k] = true;
       return static_cast<int>(k);
@@ -101,7 +101,7 @@ bool BeamAxis::returns() const {
 }
 
 BeamAxis beam_axis(const Scene& scene, const SceneBody& body, const SceneBeam& beam) {
-  if (beam.through.size() < 2) refuse("its beam runs through fewer than two points; name two");
+  if (beam.through.size() < 2) reject("its beam runs through fewer than two points; name two");
   std::vector<std::size_t> through;
   double length = 0;
   for (const std::string& name : beam.through) {
@@ -136,7 +136,7 @@ BeamAxis beam_axis(const Scene& scene, const SceneBody& body, const SceneBeam& b
   for (std::size_t i = 0; i + 1 < axis.node.size(); ++i) {
     const auto [twin, is_new] = run.try_emplace(std::minmax(axis.node[i], axis.node[i + 1]), i);
     if (!is_new && axis.node[i] != axis.node[i + 1])
-      refuse("its beam runs twice between ", axis.name[i], " and ", axis.name[i + 1],
+      reject("its beam runs twice between ", axis.name[i], " and ", axis.name[i + 1],
              ", so that the material there would count twice; draw each stretch once, and branches as bodies of their own welded to this one");
   }
   return axis;

@@ -5,7 +5,7 @@
 #include "files/files.h"
 #include "framework/bodies/beam_mesh.h"
 #include "framework/bodies/elastic_parts.h"
-#include "framework/bodies/file_doubts.h"
+#include "framework/bodies/mesh_file_warnings.h"
 #include "framework/bodies/in_body.h"
 #include "meshes/generate.h"
 #include "meshes/gmsh.h"
@@ -44,7 +44,7 @@ Mesh plate_mesh(const Scene& scene, const SceneBody& body, const ScenePlate& pla
   if (kind_of(path) != ".inp") return read_geometry(path, options, file.scale, folder);
   InpClaims claims;
   Mesh mesh = read_inp(path, file.scale, folder, &claims);
-  judge_claims(claims, plate, warnings);
+  validate_claims(claims, plate, warnings);
   warnings.insert(warnings.end(), claims.warnings.begin(), claims.warnings.end());
   return mesh;
 }
@@ -71,7 +71,7 @@ Mesh mesh_of(const Scene& scene, const SceneBody& body, std::vector<std::string>
     Mesh mesh;
     if (const SceneBeam* beam = beam_of(body)) {
       const BeamAxis axis = beam_axis(scene, body, *beam);
-      for (std::string& doubt : crossings(axis)) warnings.push_back(std::move(doubt));
+      for (std::string& warning : crossings(axis)) warnings.push_back(std::move(warning));
       mesh = beam_mesh(axis, *beam);
     } else {
       mesh = plate_mesh(scene, body, plate_of(body), warnings);

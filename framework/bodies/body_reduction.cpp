@@ -40,7 +40,7 @@ FlexInertia about(const Vector2d& centre, FlexInertia f) {
 FlexInertia invariants(const ElasticBody& e, const Reduction& r) {
   const RigidInertia inertia = rigid_inertia(e.model, e.M);
   FlexInertia flex = flex_inertia(e.model, e.M, skew_mass_of(e), r.modes);
-  if (e.scene->elastic->stiffening != Stiffening::none) flex.second = inertia_foreshortening(component_of(e), e.M, r.tie, r.modes);
+  if (e.scene->elastic->stiffening != Stiffening::none) flex.second = inertia_foreshortening(component_of(e), e.M, r.conditions, r.modes);
   return about(inertia.c / inertia.m, std::move(flex));
 }
 
@@ -58,7 +58,7 @@ struct Judged {
 CoveredCompliance covered(const Judged& b) {
   const ElasticBody& e = b.e;
   const MatrixXd loads = b.loads.rightCols(3 * static_cast<Index>(e.model.ports.size()));
-  const VectorXd full = loads.cwiseProduct(b.response.under(b.r.tie, loads)).colwise().sum();
+  const VectorXd full = loads.cwiseProduct(b.response.under(b.r.conditions, loads)).colwise().sum();
   const VectorXd kept = (b.r.modes.ports * b.r.modes.omega.cwiseInverse().asDiagonal()).rowwise().squaredNorm();
   double greatest[2] = {0, 0};  // of forces, of couples
   for (Index i = 0; i < full.size(); ++i) greatest[i % 3 == 2] = std::max(greatest[i % 3 == 2], full[i]);
@@ -88,15 +88,15 @@ std::vector<FreeCompliance> when_free(const Judged& b) {
     free.row(1) -= d.x() / J * b.r.inertia.h;
     const MatrixXd loads = b.loads.middleCols<2>(inertia_loads + 3 * Index{p});
     FreeCompliance& at = out[static_cast<std::size_t>(p)];
-    at.full = loads.cwiseProduct(b.response.under({FrameTie::mean_axes}, loads)).colwise().sum();
+    at.full = loads.cwiseProduct(b.response.under({ReferenceConditions::mean_axes}, loads)).colwise().sum();
     at.kept = (free * b.r.modes.omega.cwiseInverse().asDiagonal()).rowwise().squaredNorm();
   }
   return out;
 }
 
 /// A tie that holds the body by its interface alone: the chord of the two ports farthest apart, or one that turns.
-std::optional<FrameTie> hold_by(const ElasticBody& e, const std::vector<int>& interface) {
-  FrameTie chord{FrameTie::chord};
+std::optional<ReferenceConditions> hold_by(const ElasticBody& e, const std::vector<int>& interface) {
+  ReferenceConditions chord{ReferenceConditions::chord};
   double farthest = 1e-6 * (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm();
   const auto place = [&](int p) { return e.model.ports[static_cast<std::size_t>(p)].x; };
   for (const int a : interface)
@@ -104,20 +104,20 @@ std::optional<FrameTie> hold_by(const ElasticBody& e, const std::vector<int>& in
       if (const double apart = (place(b) - place(a)).norm(); a < b && apart > farthest) farthest = apart, chord.a = a, chord.b = b;
   if (chord.a >= 0) return chord;
   for (const int a : interface)
-    if (e.model.ports[static_cast<std::size_t>(a)].freedom[2] >= 0) return FrameTie{FrameTie::tangent, a};
+    if (e.model.ports[static_cast<std::size_t>(a)].freedom[2] >= 0) return ReferenceConditions{ReferenceConditions::tangent, a};
   return {};
 }
 
 /// Static shapes meet loads at the interface exactly; what inertia does to the body beyond and between is left to the modes.
 CoveredInertia inertia_covered(const Judged& b) {
   CoveredInertia out;
-  const std::optional<FrameTie> hold = hold_by(b.e, b.interface);
+  const std::optional<ReferenceConditions> hold = hold_by(b.e, b.interface);
   if (b.e.scene->elastic->modes->method != SceneModes::Method::craig_bampton || !hold) return out;
   constexpr Index translations = 2;
   const MatrixXd loads = b.loads.leftCols<translations>();
   const VectorXd full = loads.cwiseProduct(b.response.under(*hold, loads)).colwise().sum();
   // φ brought to the hold is φ − R(BR)⁻¹Bφ: work on it is that on φ less (Rᵀf)ᵀ(BR)⁻¹Bφ.
-  const MatrixXd B = tie_rows(b.c, *hold), R = rigid_motions(b.e.model);
+  const MatrixXd B = reference_condition_rows(b.c, *hold), R = rigid_motions(b.e.model);
   MatrixXd B_phi = MatrixXd::Zero(3, b.r.modes.omega.size());
   for (Index p = 0; p < static_cast<Index>(b.e.model.ports.size()); ++p)
     if (p == hold->a || p == hold->b)
@@ -138,7 +138,7 @@ std::vector<MatrixXd> by_load(const Judged& b) {
   for (const int port : b.interface)
     for (Index k = 0; k < 3; ++k)
       if (b.e.model.ports[static_cast<std::size_t>(port)].freedom[k] >= 0) used.push_back(inertia_loads + 3 * Index{port} + k);
-  std::vector<MatrixXd> F = foreshortening_of_response(b.c, lowest_of(b.r.modes, count), b.response.under(b.r.tie, b.loads(Eigen::all, used)));
+  std::vector<MatrixXd> F = foreshortening_of_response(b.c, lowest_of(b.r.modes, count), b.response.under(b.r.conditions, b.loads(Eigen::all, used)));
   std::vector<MatrixXd> out(static_cast<std::size_t>(b.loads.cols()), MatrixXd::Zero(count, count));
   for (std::size_t i = 0; i < used.size(); ++i) out[static_cast<std::size_t>(used[i])] = std::move(F[i]);
   return out;
@@ -150,12 +150,12 @@ Reduction reduction_of(const Scene& scene, const ElasticBody& e, std::optional<i
   Reduction r;
   const SceneElastic& said = *e.scene->elastic;
   if (!said.modes) return r;
-  r.tie = tie_of(scene, e);
+  r.conditions = reference_conditions_of(scene, e);
   r.modes = reduce(scene, e, chosen);
   if (r.modes.omega.size() == 0) return r;
   in_body(scene, *e.scene, [&] {
     r.inertia = invariants(e, r);
-    if (said.stiffening != Stiffening::none) r.second = port_foreshortening(component_of(e), r.tie, r.modes);
+    if (said.stiffening != Stiffening::none) r.second = port_foreshortening(component_of(e), r.conditions, r.modes);
     const Component c = component_of(e);
     const Judged judged{e, r, loads_on(e), c, StaticResponse(c), interface_of(scene, e)};
     r.compliance = covered(judged);

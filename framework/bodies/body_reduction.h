@@ -29,7 +29,7 @@ struct CoveredInertia {
 
 /// What a body of elements is reduced to: all of a flexible body that is dear to find. Neither its name nor its damping is in it.
 struct Reduction {
-  FrameTie tie;
+  ReferenceConditions conditions;
   ModalModel modes;     ///< no shapes: rigid, and what follows is empty
   FlexInertia inertia;  ///< about the mass centre, without damping
   std::vector<std::array<Eigen::MatrixXd, 2>> second;  ///< foreshortening at each port, if it stiffens

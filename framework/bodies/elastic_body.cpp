@@ -38,14 +38,14 @@ void judge(const MeshQuality& q, std::vector<std::string>& warnings) {
 }
 
 /// Cells that overlap or do not hold together are another body than the one meant.
-void judge_soundness(const Mesh& mesh, std::vector<std::string>& warnings) {
+void validate_soundness(const Mesh& mesh, std::vector<std::string>& warnings) {
   const Soundness s = soundness(mesh);
   if (!s.faults.empty()) throw std::invalid_argument("its mesh is no single sheet: " + s.faults.front());
-  warnings.insert(warnings.end(), s.doubts.begin(), s.doubts.end());
+  warnings.insert(warnings.end(), s.warnings_of.begin(), s.warnings_of.end());
 }
 
 /// Elements of few freedoms whose strain cannot keep its volume at every point and still bend.
-void judge_locking(const ScenePlate& plate, const Mesh& mesh, std::vector<std::string>& warnings) {
+void validate_locking(const ScenePlate& plate, const Mesh& mesh, std::vector<std::string>& warnings) {
   constexpr double nearly = 0.48;
   const auto* solid = std::get_if<Isotropic>(&plate.material.material.elastic);
   if (!solid || plate.state != PlaneState::strain || solid->poisson < nearly) return;
@@ -58,7 +58,7 @@ void judge_locking(const ScenePlate& plate, const Mesh& mesh, std::vector<std::s
 }
 
 /// Rounding of the stretch, which is so much stiffer, in the bending of a slender beam (docs/theory/elements.md).
-void judge_slenderness(const FeModel& model, std::vector<std::string>& warnings) {
+void validate_slenderness(const FeModel& model, std::vector<std::string>& warnings) {
   constexpr double too_much = 0.01;
   double length = 0, stretch = 0, bending = std::numeric_limits<double>::infinity();
   int elements = 0;
@@ -174,7 +174,7 @@ bool is_outline(const Mesh& mesh, const std::vector<Cells>& sides) {
 }
 
 /// A point coupled to a part of a rim stands in the middle of that part, not of the hole.
-void judge_rim(const Scene& scene, const Mesh& mesh, const ScenePoint& p, const RimPort& port, const std::vector<Cells>& sides,
+void validate_rim(const Scene& scene, const Mesh& mesh, const ScenePoint& p, const RimPort& port, const std::vector<Cells>& sides,
                std::vector<std::string>& warnings) {
   constexpr double bent = 10 * std::numbers::pi / 180, round = 45 * std::numbers::pi / 180, on_circle = 0.02;
   const RimShape rim = rim_shape(mesh, sides);
@@ -210,7 +210,7 @@ RimPort rim_port(const Scene& scene, const Mesh& mesh, const ScenePoint& p, std:
     length += port.weights[i];
   }
   port.x /= length;
-  judge_rim(scene, mesh, p, port, rim.sides, warnings);
+  validate_rim(scene, mesh, p, port, rim.sides, warnings);
   return port;
 }
 
@@ -271,12 +271,12 @@ ElasticBody elastic_body(const Scene& scene, const SceneBody& body) {
     if (e.mesh.plane()) {
       e.quality = quality(e.mesh);
       judge(e.quality, e.warnings);
-      judge_soundness(e.mesh, e.warnings);
-      judge_locking(plate_of(body), e.mesh, e.warnings);
+      validate_soundness(e.mesh, e.warnings);
+      validate_locking(plate_of(body), e.mesh, e.warnings);
       e.thickness = plate_of(body).thickness;
     }
     e.model = fe_model(e.mesh.x, blocks_of(body, e.mesh, e.fibres), lumps_of(scene, body, e.mesh));
-    judge_slenderness(e.model, e.warnings);
+    validate_slenderness(e.model, e.warnings);
     add_ports(scene, body, e.mesh, e.model, e.warnings);
     const Assembler assembler(e.model);
     e.K = assembler.stiffness();

@@ -82,20 +82,20 @@ std::string changed(double change) {
   return std::string(change > 0 ? "raise" : "lower") + " its first frequency by " + percent(std::abs(change));
 }
 
-void doubt_frequency(const FlexibleReport& r, const std::vector<Imposed>& imposed, std::vector<std::string>& out) {
+void warn_of_frequency(const FlexibleReport& r, const std::vector<Imposed>& imposed, std::vector<std::string>& out) {
   for (const Imposed& i : imposed)
     if (i.frequency > r.highest)
       out.push_back("modes of \"" + r.body + "\" reach " + shown_number(r.highest) + " Hz, but driver \"" + i.driver + "\" " +
                     (i.turns ? "turns at " : "moves with ") + shown_number(i.frequency) + " Hz; keep more");
 }
 
-void doubt_linearity(const Scene& scene, const FlexibleReport& r, std::vector<std::string>& out) {
+void warn_of_linearity(const Scene& scene, const FlexibleReport& r, std::vector<std::string>& out) {
   const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const SceneBody& b) { return b.name == r.body; });
   const Stiffening now = body->elastic->stiffening;
   const MotionEstimate& m = *r.motion;
-  if (const std::string doubt = stiffening_doubt(r.body, now, {m.spin, m.by_rotation, m.by_all_loads}); !doubt.empty()) out.push_back(doubt);
-  const std::string doubt = deflection_doubt(r.body, m.deflection, m.slope, "would bend");
-  if (!doubt.empty()) out.push_back(doubt + (now == Stiffening::none ? "" : " (estimated without its stiffening; a run tells)"));
+  if (const std::string warning = stiffening_warning(r.body, now, {m.spin, m.by_rotation, m.by_all_loads}); !warning.empty()) out.push_back(warning);
+  const std::string warning = deflection_warning(r.body, m.deflection, m.slope, "would bend");
+  if (!warning.empty()) out.push_back(warning + (now == Stiffening::none ? "" : " (estimated without its stiffening; a run tells)"));
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ FlexibleReport flexible_report(const MechanismBody& b) {
   r.least_damping = flex.zeta.minCoeff();
   r.most_damping = flex.zeta.maxCoeff();
   for (Index i = 0; i < flex.omega.size(); ++i) r.frequencies.push_back(flex.omega[i] / two_pi), r.damping.push_back(flex.zeta[i]);
-  if (b.tie.kind != FrameTie::mean_axes) {
+  if (b.conditions.kind != ReferenceConditions::mean_axes) {
     const Eigen::Vector3d sum = effective_mass(b.elastic.model, b.elastic.M, b.modes).rowwise().sum();
     r.mass = Eigen::Vector3d(sum[0] / b.body.m, sum[1] / b.body.m, sum[2] / b.body.J);
   }
@@ -203,29 +203,29 @@ double given_spin(const Scene& scene, const std::string& body) {
   return spin;
 }
 
-std::string spin_doubt(const std::string& body, double spin, double change) {
+std::string spin_warning(const std::string& body, double spin, double change) {
   if (!(std::abs(change) > stiffening_matters)) return "";
   return "at " + shown_number(spin) + " rad/s the loads of inertia on \"" + body + "\" " + changed(change) + "; add stiffening: rotation";
 }
 
-std::string stiffening_doubt(const std::string& body, Stiffening now, const FrequencyChange& c) {
+std::string stiffening_warning(const std::string& body, Stiffening now, const FrequencyChange& c) {
   const bool by_points = std::abs(c.by_all_loads - c.by_rotation) > stiffening_matters;
-  if (now == Stiffening::none && !by_points) return spin_doubt(body, c.spin, c.by_all_loads);
+  if (now == Stiffening::none && !by_points) return spin_warning(body, c.spin, c.by_all_loads);
   if (now == Stiffening::axial || !by_points) return "";
   return "the loads on \"" + body + "\" and its points " + changed(c.by_all_loads) + "; add stiffening: axial";
 }
 
-std::string deflection_doubt(const std::string& body, double deflection, double slope, const std::string& when) {
+std::string deflection_warning(const std::string& body, double deflection, double slope, const std::string& when) {
   if (!(deflection > large_deflection || slope > large_slope)) return "";
   return "\"" + body + "\" " + when + " by " + percent(deflection) + " of its size, its slope " + shown_number(slope) +
          " rad, within one frame, where deformation is taken as small (up to " + percent(large_deflection) + " and " + shown_number(large_slope) +
          " rad); cut a beam into pieces";
 }
 
-std::vector<std::string> doubts(const Scene& scene, const FlexibleReport& r, const std::vector<Imposed>& imposed) {
+std::vector<std::string> warnings_of(const Scene& scene, const FlexibleReport& r, const std::vector<Imposed>& imposed) {
   std::vector<std::string> out;
-  doubt_frequency(r, imposed, out);
-  if (r.motion) doubt_linearity(scene, r, out);
+  warn_of_frequency(r, imposed, out);
+  if (r.motion) warn_of_linearity(scene, r, out);
   return out;
 }
 

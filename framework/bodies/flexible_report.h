@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/bodies/grips.h"
+#include "framework/bodies/attachments.h"
 #include "framework/bodies/mechanism_body.h"
 #include "framework/bodies/modal_choice.h"
 
@@ -83,12 +83,12 @@ double stiffened_by_spin(const Scene&, const MechanismBody&, double spin);
 double given_spin(const Scene&, const std::string& body);
 
 /// The advice on such a change for a body that stiffens as `now`; empty if that counts all that matters.
-std::string stiffening_doubt(const std::string& body, Stiffening now, const FrequencyChange&);
+std::string stiffening_warning(const std::string& body, Stiffening now, const FrequencyChange&);
 /// What makes the choice of modes or the linear body doubtful, in words.
-std::vector<std::string> doubts(const Scene&, const FlexibleReport&, const std::vector<Imposed>&);
+std::vector<std::string> warnings_of(const Scene&, const FlexibleReport&, const std::vector<Imposed>&);
 /// The advice on a spin by whose loads the first frequency changes so; empty if it hardly does.
-std::string spin_doubt(const std::string& body, double spin, double change);
+std::string spin_warning(const std::string& body, double spin, double change);
 /// The advice on a deflection or slope, empty if both are small; `when`: "bends" or "would bend".
-std::string deflection_doubt(const std::string& body, double deflection, double slope, const std::string& when);
+std::string deflection_warning(const std::string& body, double deflection, double slope, const std::string& when);
 
 }  // namespace pintle

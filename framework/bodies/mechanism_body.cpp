@@ -19,7 +19,7 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 // The shapes must leave the frame some inertia: M − BBᵀ > 0, against the rigid body's.
-void judge_frame(const MechanismBody& b) {
+void validate_frame(const MechanismBody& b) {
   Eigen::Matrix3Xd B(3, b.body.modes());
   B << b.body.flex->S, b.body.flex->h;
   const Eigen::Vector3d size(1 / std::sqrt(b.body.m), 1 / std::sqrt(b.body.m), 1 / std::sqrt(b.body.J));
@@ -43,31 +43,31 @@ void warn_of_damping(MechanismBody& b) {
 
 }  // namespace
 
-void judge_inertia(const Scene& scene, const ElasticBody& e) {
+void validate_inertia(const Scene& scene, const ElasticBody& e) {
   const RigidInertia inertia = rigid_inertia(e.model, e.M);
   if (!(inertia.J - inertia.c.squaredNorm() / inertia.m > 0))
     throw SceneError(scene.file, e.scene->place, "it has no moment of inertia about its mass centre; give it more elements or rotary inertia");
 }
 
 MechanismBody mechanism_body(const Scene& scene, ElasticBody elastic, Reduction r) {
-  MechanismBody b{std::move(elastic), r.tie, std::move(r.modes), {}, Vector2d::Zero(), std::move(r.second), std::move(r.compliance),
+  MechanismBody b{std::move(elastic), r.conditions, std::move(r.modes), {}, Vector2d::Zero(), std::move(r.second), std::move(r.compliance),
                   std::move(r.when_free), r.inertia_covered, std::move(r.by_load), {}};
   const SceneBody& body = *b.elastic.scene;
   for (const std::string& w : b.elastic.warnings) b.warnings.push_back("\"" + body.name + "\": " + w);
   const RigidInertia inertia = rigid_inertia(b.elastic.model, b.elastic.M);
   b.centre = inertia.c / inertia.m;
   b.body = {body.name, inertia.m, inertia.J - inertia.c.squaredNorm() / inertia.m, -b.centre};
-  judge_inertia(scene, b.elastic);
+  validate_inertia(scene, b.elastic);
   if (b.modes.omega.size() == 0) return b;
   b.body.flex = std::move(r.inertia);
   b.body.flex->zeta = damping_of(scene, body, b.modes.omega, b.modes.omega);
-  in_body(scene, body, [&] { judge_frame(b); });
+  in_body(scene, body, [&] { validate_frame(b); });
   warn_of_damping(b);
   return b;
 }
 
 MechanismBody mechanism_body(const Scene& scene, ElasticBody elastic, std::optional<int> chosen) {
-  judge_inertia(scene, elastic);
+  validate_inertia(scene, elastic);
   Reduction r = reduction_of(scene, elastic, chosen);
   return mechanism_body(scene, std::move(elastic), std::move(r));
 }

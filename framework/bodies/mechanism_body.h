@@ -15,7 +15,7 @@ namespace pintle {
 /// if not. Of finite-element size; gone once the mechanism is built, unless it is drawn.
 struct MechanismBody {
   ElasticBody elastic;
-  FrameTie tie;
+  ReferenceConditions conditions;
   ModalModel modes;            ///< no shapes: rigid
   Body body;                   ///< mass, inertia, invariants about the mass centre
   Eigen::Vector2d centre;      ///< of mass, undeformed, body axes [m]
@@ -28,7 +28,7 @@ struct MechanismBody {
 };
 
 /// @throws SceneError  the body has no moment of inertia about its mass centre
-void judge_inertia(const Scene&, const ElasticBody&);
+void validate_inertia(const Scene&, const ElasticBody&);
 
 /// @throws SceneError  as damping_of; no moment of inertia; shapes that leave the frame none
 MechanismBody mechanism_body(const Scene&, ElasticBody, Reduction);

@@ -41,15 +41,15 @@ auto in_modes(const Scene& scene, const SceneModes& modes, Work work) {
   }
 }
 
-void judge(const Scene& scene, const ElasticBody& e, const FrameTie& tie) {
+void judge(const Scene& scene, const ElasticBody& e, const ReferenceConditions& conditions) {
   const SceneModes& modes = *e.scene->elastic->modes;
-  const Port& a = e.model.ports[static_cast<std::size_t>(tie.a)];
-  if (tie.kind == FrameTie::tangent && a.freedom[2] < 0)
+  const Port& a = e.model.ports[static_cast<std::size_t>(conditions.a)];
+  if (conditions.kind == ReferenceConditions::tangent && a.freedom[2] < 0)
     throw SceneError(scene.file, modes.place, "the frame is tangent at " + a.name + ", a point of " + (e.plate() ? "a plate" : "a bar") +
                                                   ", which has no direction; take " + (e.plate() ? "the middle of a hole, " : "") +
                                                   "a chord through two points, or mean axes");
-  if (tie.kind == FrameTie::tangent) return;
-  const Port& b = e.model.ports[static_cast<std::size_t>(tie.b)];
+  if (conditions.kind == ReferenceConditions::tangent) return;
+  const Port& b = e.model.ports[static_cast<std::size_t>(conditions.b)];
   const double size = (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm();
   if ((b.x - a.x).norm() <= 1e-9 * size)
     throw SceneError(scene.file, modes.place, "the frame's chord runs from " + a.name + " to " + b.name + ", which lie at the same place, " + shown(a.x) +
@@ -111,10 +111,10 @@ Sparse skew_mass_of(const ElasticBody& e) {
   return G;
 }
 
-FrameTie tie_of(const Scene& scene, const ElasticBody& e) {
+ReferenceConditions reference_conditions_of(const Scene& scene, const ElasticBody& e) {
   const SceneModes& modes = *e.scene->elastic->modes;
   using Frame = SceneModes::Frame;
-  if (modes.frame == Frame::mean_axes) return {FrameTie::mean_axes};
+  if (modes.frame == Frame::mean_axes) return {ReferenceConditions::mean_axes};
   const std::size_t needed = modes.frame == Frame::tangent ? 1 : 2;
   if (e.model.ports.size() < needed)
     throw SceneError(scene.file, modes.place, "the frame needs " + std::string(needed == 1 ? "a point" : "two points") + " of the body; add " + (needed == 1 ? "it" : "them") + " under points");
@@ -124,9 +124,9 @@ FrameTie tie_of(const Scene& scene, const ElasticBody& e) {
   if (a.empty()) a = e.scene->points.front().name;
   if (b.empty()) b = e.scene->points.back().name;
   const int first = named_port(scene, e, a, modes.place);
-  const FrameTie tie = modes.frame == Frame::tangent ? FrameTie{FrameTie::tangent, first} : FrameTie{FrameTie::chord, first, named_port(scene, e, b, modes.place)};
-  judge(scene, e, tie);
-  return tie;
+  const ReferenceConditions conditions = modes.frame == Frame::tangent ? ReferenceConditions{ReferenceConditions::tangent, first} : ReferenceConditions{ReferenceConditions::chord, first, named_port(scene, e, b, modes.place)};
+  judge(scene, e, conditions);
+  return conditions;
 }
 
 std::string title_of(const SceneModes& m) {
@@ -169,16 +169,16 @@ Eigen::VectorXd damping_of(const Scene& scene, const SceneBody& body, const Eige
 
 ModalModel reduce(const Scene& scene, const ElasticBody& e, std::optional<int> chosen) {
   const SceneModes& m = *e.scene->elastic->modes;
-  const FrameTie tie = tie_of(scene, e);
+  const ReferenceConditions conditions = reference_conditions_of(scene, e);
   const Keep keep = keep_of(m.keep, chosen);
   return in_modes(scene, m, [&] {
     const Component c = component_of(e);
     switch (m.method) {
-      case SceneModes::Method::craig_bampton: return craig_bampton(c, interface_of(scene, e), tie, keep);
-      case SceneModes::Method::free: return free_modes(c, interface_of(scene, e), tie, keep);
+      case SceneModes::Method::craig_bampton: return craig_bampton(c, interface_of(scene, e), conditions, keep);
+      case SceneModes::Method::free: return free_modes(c, interface_of(scene, e), conditions, keep);
       case SceneModes::Method::normal: break;
     }
-    return normal_modes(c, tie, keep);
+    return normal_modes(c, conditions, keep);
   });
 }
 

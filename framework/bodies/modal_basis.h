@@ -15,7 +15,7 @@ Sparse skew_mass_of(const ElasticBody&);
 int port_of(const ElasticBody&, const std::string& point);
 /// The frame that the body's `modes` ask for. @pre it has them
 /// @throws SceneError  a point is not there, cannot turn (tangent), or two coincide (chord)
-FrameTie tie_of(const Scene&, const ElasticBody&);
+ReferenceConditions reference_conditions_of(const Scene&, const ElasticBody&);
 /// "Craig-Bampton, chord frame"
 std::string title_of(const SceneModes&);
 

@@ -27,7 +27,7 @@ constexpr Index spectrum_samples = 8192;
 /// The lowest of the modes of which `keep` counts, and the static shapes that stay whatever is kept;
 /// all brought to one tie.
 struct Candidates {
-  FrameTie tie;
+  ReferenceConditions conditions;
   ModalModel modes, fixed;
 };
 
@@ -44,16 +44,16 @@ ModalModel lowest(const Component& c, Index count, Modes modes) {
 Candidates candidates_of(const Scene& scene, const ElasticBody& e, const Component& c, int most) {
   const Method method = e.scene->elastic->modes->method;
   const std::vector<int> ports = interface_of(scene, e);
-  Candidates out{tie_of(scene, e), {}, {}};
+  Candidates out{reference_conditions_of(scene, e), {}, {}};
   const Keep none{0, {}, {}, false};
-  if (method == Method::free) out.tie = {FrameTie::mean_axes};  // where free modes are at home
-  const FrameTie& tie = out.tie;
+  if (method == Method::free) out.conditions = {ReferenceConditions::mean_axes};  // where free modes are at home
+  const ReferenceConditions& conditions = out.conditions;
   if (method == Method::craig_bampton) {
-    out.modes = lowest(c, most, [&](const Keep& k) { return fixed_interface_modes(c, ports, tie, k); });
-    out.fixed = craig_bampton(c, ports, tie, none);
+    out.modes = lowest(c, most, [&](const Keep& k) { return fixed_interface_modes(c, ports, conditions, k); });
+    out.fixed = craig_bampton(c, ports, conditions, none);
   } else {
-    out.modes = lowest(c, most, [&](const Keep& k) { return normal_modes(c, tie, k); });
-    if (method == Method::free) out.fixed = free_modes(c, ports, tie, none);
+    out.modes = lowest(c, most, [&](const Keep& k) { return normal_modes(c, conditions, k); });
+    if (method == Method::free) out.fixed = free_modes(c, ports, conditions, none);
   }
   if (out.fixed.omega.size() == 0) {
     out.fixed.shapes.resize(e.model.N(), 0);
@@ -122,7 +122,7 @@ Reduced reduced(const Scene& scene, const ElasticBody& e) {
   const Candidates candidates = candidates_of(scene, e, c, considered_modes);
   const ModalModel &D = candidates.fixed, &modes = candidates.modes;
   const Index d = D.omega.size(), n = modes.omega.size();
-  const MatrixXd loads = loads_on(e), U = static_response(c, candidates.tie, loads);
+  const MatrixXd loads = loads_on(e), U = static_response(c, candidates.conditions, loads);
   const Watched watched(e);
   Reduced r{modes.omega, damping(scene, e, modes.omega), d, MatrixXd::Zero(d + n, d + n), {}, {}, loads.transpose() * U, watched.of(e.model, U)};
   r.gram.diagonal() << D.omega.cwiseAbs2(), modes.omega.cwiseAbs2();

@@ -10,15 +10,15 @@
 
 #include "framework/bodies/body_store.h"
 #include "framework/bodies/elastic_parts.h"
-#include "framework/bodies/file_doubts.h"
-#include "framework/bodies/holding.h"
+#include "framework/bodies/mesh_file_warnings.h"
+#include "framework/bodies/holding_warnings.h"
 #include "framework/bodies/mechanism_body.h"
 #include "framework/bodies/modal_basis.h"
 #include "framework/build/clearance.h"
 #include "framework/build/laws.h"
-#include "framework/build/method.h"
+#include "framework/build/choose_method.h"
 #include "framework/build/preliminary_run.h"
-#include "framework/build/shape_doubts.h"
+#include "framework/build/shape_warnings.h"
 #include "framework/common/nearest.h"
 
 namespace pintle {
@@ -35,7 +35,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 /// What is needed to turn names into markers.
 class Builder {
  public:
-  Builder(const Scene& scene, bool rehearse, BodyStore* store) : scene_(scene), rehearse_(rehearse), store_(store) {}
+  Builder(const Scene& scene, bool preliminary, BodyStore* store) : scene_(scene), preliminary_(preliminary), store_(store) {}
 
   Model build() {
     model_.system.gravity = vector(scene_.gravity);
@@ -45,17 +45,17 @@ class Builder {
     for (const SceneJoint& j : scene_.joints) add(j);
     for (const SceneDriver& d : scene_.drivers) add(d);
     for (const SceneLoad& l : scene_.loads) add(l);
-    judge_starts();
-    judge_output();
+    validate_starts();
+    validate_output();
     record();
     keep_drawings();
     report();
     model_.system.length = size();
     for (const SceneJoint& j : scene_.joints)
-      if (const std::string doubt = j.clearance ? rounding_doubt(scene_, j, model_.system.length) : ""; !doubt.empty())
-        model_.warnings.push_back(doubt);
-    model_.clearances = settle_clearances(scene_, model_.system, model_.warnings);
-    for (std::string& doubt : contact_doubts(scene_, model_.system, model_.order, elements_)) model_.warnings.push_back(std::move(doubt));
+      if (const std::string warning = j.clearance ? rounding_warning(scene_, j, model_.system.length) : ""; !warning.empty())
+        model_.warnings.push_back(warning);
+    model_.clearances = complete_clearances(scene_, model_.system, model_.warnings);
+    for (std::string& warning : contact_warnings(scene_, model_.system, model_.order, elements_)) model_.warnings.push_back(std::move(warning));
     scheme();
     return std::move(model_);
   }
@@ -85,7 +85,7 @@ class Builder {
       model_.warnings.insert(model_.warnings.end(), made.warnings.begin(), made.warnings.end());
       for (const Port& p : made.elastic.model.ports) outline.push_back(p.x - made.centre);
     } else {
-      judge_mass(b);
+      validate_mass(b);
       model_.system.bodies.push_back({b.name, b.mass, b.inertia, -vector(b.center)});
       for (const ScenePoint& p : b.points) outline.push_back(vector(p.at) - vector(b.center));
     }
@@ -93,7 +93,7 @@ class Builder {
   }
 
   /// A rigid body moves by its mass and inertia; a scene may leave them out where nothing asks for them.
-  void judge_mass(const SceneBody& b) const {
+  void validate_mass(const SceneBody& b) const {
     std::string missing;
     if (b.mass == 0) missing = "mass: 0.3 kg";
     if (b.inertia == 0) missing += (missing.empty() ? "" : ", and ") + std::string("inertia: 1e-4 kg m^2");
@@ -115,15 +115,15 @@ class Builder {
       if (const auto* beam = std::get_if<SceneBeam>(&b.elastic->shape); beam && beam->pieces > 1)
         wrong(b.place, "it is to be cut into pieces; build what with_pieces makes of the scene");
       all[i] = &meshed_[i].emplace(store_ ? store_->elastic(scene_, b) : elastic_body(scene_, b));
-      if (const std::string doubt = size_doubt(scene_, *all[i]); !doubt.empty()) meshed_[i]->warnings.push_back(doubt);
-      judge_inertia(scene_, *all[i]);
+      if (const std::string warning = size_warning(scene_, *all[i]); !warning.empty()) meshed_[i]->warnings.push_back(warning);
+      validate_inertia(scene_, *all[i]);
       flexible = flexible || b.elastic->modes;
       automatic = automatic || (b.elastic->modes && b.elastic->modes->keep.automatic);
     }
-    if (!automatic && !(rehearse_ && flexible)) return;
+    if (!automatic && !(preliminary_ && flexible)) return;
     if (scene_.has_run) run_ = rigid_run(scene_, all);
     else run_.trouble = "the scene has no `run`";
-    model_.rehearsal = {run_.until, run_.seconds, run_.steps, run_.trouble};
+    model_.preliminary_run = {run_.until, run_.seconds, run_.steps, run_.trouble};
     for (std::size_t i = 0; i < n; ++i)
       if (all[i] && scene_.bodies[i].elastic->modes && scene_.bodies[i].elastic->modes->keep.automatic)
         choices_[i] = run_.usable() ? choose_modes(scene_, *all[i], run_.bodies[i]) : choose_by_rule(scene_, *all[i], run_.trouble);
@@ -145,10 +145,10 @@ class Builder {
       model_.bending.push_back(bending_probe(*elements_[i], static_cast<int>(i)));
       StiffeningProbe& probe = model_.stiffening.emplace_back(stiffening_probe(*elements_[i], static_cast<int>(i)));
       if (run_.usable()) r.motion = motion_estimate(*elements_[i], run_.bodies[i]), probe.judged = true;
-      const std::vector<std::string> found = doubts(scene_, r, imposed);
+      const std::vector<std::string> found = warnings_of(scene_, r, imposed);
       model_.warnings.insert(model_.warnings.end(), found.begin(), found.end());
-      if (!r.motion) probe.judged = doubt_spin(*elements_[i]) || probe.judged;
-      if (const std::string doubt = stiff_parts_doubt(*elements_[i]); !doubt.empty()) model_.warnings.push_back(doubt);
+      if (!r.motion) probe.judged = warn_of_spin(*elements_[i]) || probe.judged;
+      if (const std::string warning = stiff_parts_warning(*elements_[i]); !warning.empty()) model_.warnings.push_back(warning);
     }
     if (!model_.stiffening.empty()) find_grips();
     const std::vector<std::string> held = holding_warnings(scene_, elements_);
@@ -156,19 +156,19 @@ class Builder {
   }
 
   /// Without a rigid run: a body whose spin is given. @returns whether it is doubted
-  bool doubt_spin(const MechanismBody& b) {
+  bool warn_of_spin(const MechanismBody& b) {
     if (b.elastic.scene->elastic->stiffening != Stiffening::none) return false;
     const double spin = given_spin(scene_, b.body.name);
     if (!(spin > 0)) return false;
-    const std::string doubt = spin_doubt(b.body.name, spin, stiffened_by_spin(scene_, b, spin));
-    if (!doubt.empty()) model_.warnings.push_back(doubt);
-    return !doubt.empty();
+    const std::string warning = spin_warning(b.body.name, spin, stiffened_by_spin(scene_, b, spin));
+    if (!warning.empty()) model_.warnings.push_back(warning);
+    return !warning.empty();
   }
 
   void find_grips() {
     std::vector<const ElasticBody*> flexible;
     for (const auto& made : elements_) flexible.push_back(made && made->body.flex ? &made->elastic : nullptr);
-    model_.grips = grips_of(scene_, model_.order, flexible);
+    model_.attachments = attachments_of(scene_, model_.order, flexible);
   }
 
   int body(const PointRef& ref) const {
@@ -316,7 +316,7 @@ class Builder {
     model_.system.force_names.push_back(l.name);
   }
 
-  void judge_starts() {
+  void validate_starts() {
     for (const StartBody& s : scene_.start_bodies)
       if (!index_.count(s.body)) {
         std::vector<std::string> known;
@@ -380,7 +380,7 @@ class Builder {
       if (made && made->body.flex) model_.drawings.emplace_back(made->elastic, made->modes, made->centre);
   }
 
-  void judge_output() const {
+  void validate_output() const {
     constexpr double most = 1e7;
     if (scene_.output.every > 0 && scene_.run.until / scene_.output.every > most)
       wrong(scene_.output.place, "`every` asks for more than ten million rows; make it longer, or run.until shorter");
@@ -412,7 +412,7 @@ class Builder {
   }
 
   const Scene& scene_;
-  bool rehearse_;
+  bool preliminary_;
   BodyStore* store_;
   Model model_;
   std::map<std::string, int> index_;
@@ -428,6 +428,6 @@ class Builder {
 
 Model build(const Scene& scene) { return Builder(scene, false, nullptr).build(); }
 Model build(const Scene& scene, BodyStore& store) { return Builder(scene, false, &store).build(); }
-Model build_and_rehearse(const Scene& scene) { return Builder(scene, true, nullptr).build(); }
+Model build_with_preliminary_run(const Scene& scene) { return Builder(scene, true, nullptr).build(); }
 
 }  // namespace pintle

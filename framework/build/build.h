@@ -16,6 +16,6 @@ Model build(const Scene&);
 Model build(const Scene&, BodyStore&);
 /// The same, with a rigid run for every scene with flexible bodies, which estimates how they bend and
 /// stiffen and adds to the warnings: for `pintle check`.
-Model build_and_rehearse(const Scene&);
+Model build_with_preliminary_run(const Scene&);
 
 }  // namespace pintle

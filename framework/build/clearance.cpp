@@ -102,7 +102,7 @@ ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
   if (c.model == ClearanceModel::contact) {
     pair.normal = law_of(scene, c);
   } else {
-    if (!(c.stiffness && c.damping)) law_of(scene, c);  // judged now, asked for what is missing by settle_clearances
+    if (!(c.stiffness && c.damping)) law_of(scene, c);  // judged now, asked for what is missing by complete_clearances
     if ((c.stiffness && !(*c.stiffness > 0)) || (c.damping && !(*c.damping >= 0)))
       wrong(c.place, "stiffness must be above 0 and damping not below");
     pair.normal = {.k = c.stiffness.value_or(0), .n = 1, .chi = 0, .d = c.damping.value_or(0)};
@@ -114,7 +114,7 @@ ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
   return pair;
 }
 
-std::vector<std::string> settle_clearances(const Scene& scene, System& system, std::vector<std::string>& warnings) {
+std::vector<std::string> complete_clearances(const Scene& scene, System& system, std::vector<std::string>& warnings) {
   std::vector<const SceneJoint*> joints;
   bool open = false;
   for (const SceneJoint& j : scene.joints)
@@ -151,7 +151,7 @@ double contact_stiffness(const SceneClearance& c) {
                          c.normal.radii == RadiusConvention::internal);
 }
 
-std::string rounding_doubt(const Scene& scene, const SceneJoint& j, double length) {
+std::string rounding_warning(const Scene& scene, const SceneJoint& j, double length) {
   constexpr double few = 1e-6, most = 1e-3;
   const double lost = std::numeric_limits<double>::epsilon() * length / j.clearance->radial;
   if (lost <= few) return "";

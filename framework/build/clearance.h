@@ -10,7 +10,7 @@
 namespace pintle {
 
 /// A clearance joint's gap and laws; its markers and, of a massless link, its joint are left to fill in, of a spring and
-/// damper what the scene does not give (settle_clearances).
+/// damper what the scene does not give (complete_clearances).
 /// @throws SceneError  another kind of joint; radii, restitution, law or stiffness that cannot be
 ContactPair contact_of(const Scene&, const SceneJoint&);
 
@@ -19,7 +19,7 @@ ContactPair contact_of(const Scene&, const SceneJoint&);
 /// @param warnings  gets what a model leaves out of the scene and a result would miss
 /// @returns  how each clearance joint is modelled, in words
 /// @throws AssemblyError  as assemble, where a spring and damper have to be found
-std::vector<std::string> settle_clearances(const Scene&, System& system, std::vector<std::string>& warnings);
+std::vector<std::string> complete_clearances(const Scene&, System& system, std::vector<std::string>& warnings);
 
 /// Contact stiffness as the scene's words give it [N/mⁿ].
 double contact_stiffness(const SceneClearance&);
@@ -27,6 +27,6 @@ double contact_stiffness(const SceneClearance&);
 /// Where rounding of places in a mechanism of this length [m] is more than a millionth of a radial clearance: a
 /// warning that says so; else empty.
 /// @throws SceneError  it is more than a thousandth
-std::string rounding_doubt(const Scene&, const SceneJoint&, double length);
+std::string rounding_warning(const Scene&, const SceneJoint&, double length);
 
 }  // namespace pintle

@@ -26,7 +26,7 @@ bool stands_still(const Law& law, double until) {
 }
 
 /// A jump of what a driver imposes, or of its speed, is an impact, whose energy no equation here books.
-void judge_jumps(const Scene& scene, const SceneDriver& d, const LawScale& scale) {
+void validate_jumps(const Scene& scene, const SceneDriver& d, const LawScale& scale) {
   for (const LawBreak& b : scale.breaks) {
     const bool place = value_jumps(b);
     if (!place && !speed_jumps(b, scale.fastest)) continue;
@@ -65,7 +65,7 @@ void follow_laws(const Scene& scene, Scheme& scheme) {
   const auto see = [&](const Law& law, const SceneDriver* driver) {
     if (stands_still(law, run.until)) return;
     LawScale scale = scale_of(law.at, run.until);
-    if (driver) judge_jumps(scene, *driver, scale);
+    if (driver) validate_jumps(scene, *driver, scale);
     known = known && scale.known;
     for (const LawBreak& b : scale.breaks) scheme.changes.push_back({b.before, b.after, driver ? accelerates_anew(b) : value_jumps(b)});
     if (scale.pieces.size() > 1) scheme.pieces.push_back(std::move(scale.pieces));

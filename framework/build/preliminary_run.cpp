@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "framework/bodies/elastic_body.h"
-#include "framework/bodies/grips.h"
+#include "framework/bodies/attachments.h"
 #include "framework/bodies/modal_basis.h"
 #include "framework/build/build.h"
-#include "framework/common/computed.h"
+#include "framework/common/processor_time.h"
 #include "framework/component/reduction/inertia.h"
 #include "framework/component/reduction/modal_model.h"
 #include "framework/configuration/assemble.h"
@@ -53,11 +53,11 @@ Scene rigid_twin(const Scene& scene, const std::vector<const ElasticBody*>& elem
 }
 
 /// One column of every history at the present state.
-void keep(const System& system, const std::vector<Grip>& grips, const State& state, const Equations& eq, Index column,
+void keep(const System& system, const std::vector<Attachment>& attachments, const State& state, const Equations& eq, Index column,
           std::vector<LoadHistory>& bodies) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b].factor.size() == 0) continue;
-    loads_now(system, grips, state, eq, b, bodies[b].factor.col(column));
+    loads_now(system, attachments, state, eq, b, bodies[b].factor.col(column));
     bodies[b].t.push_back(state.t);
   }
 }
@@ -89,7 +89,7 @@ Scheme scheme_of(const Model& model, double span, const std::vector<Imposed>& im
   return scheme;
 }
 
-void march(const Scene& twin, const Model& model, const Assembly& assembly, const std::vector<Grip>& grips,
+void march(const Scene& twin, const Model& model, const Assembly& assembly, const std::vector<Attachment>& attachments,
            const std::vector<Imposed>& imposed, RigidRun& run) {
   double rows = 1;
   for (const LoadHistory& h : run.bodies) rows += static_cast<double>(h.factor.rows());
@@ -97,9 +97,9 @@ void march(const Scene& twin, const Model& model, const Assembly& assembly, cons
   for (LoadHistory& h : run.bodies) h.factor.conservativeResize(Eigen::NoChange, h.factor.rows() > 0 ? most + 1 : 0);
   const double span = span_of(twin, imposed);
   Integrator integrator(model.system, scheme_of(model, span, imposed), assembly.start);
-  if (integrator.failure().empty()) keep(model.system, grips, integrator.state(), integrator.equations(), 0, run.bodies);
+  if (integrator.failure().empty()) keep(model.system, attachments, integrator.state(), integrator.equations(), 0, run.bodies);
   while (integrator.failure().empty() && run.steps < most && integrator.state().t < span && integrator.advance(span))
-    keep(model.system, grips, integrator.state(), integrator.equations(), ++run.steps, run.bodies);
+    keep(model.system, attachments, integrator.state(), integrator.equations(), ++run.steps, run.bodies);
   run.until = integrator.state().t;
   run.trouble = integrator.failure();
   for (LoadHistory& h : run.bodies)
@@ -110,7 +110,7 @@ void march(const Scene& twin, const Model& model, const Assembly& assembly, cons
 
 RigidRun rigid_run(const Scene& scene, const std::vector<const ElasticBody*>& elements) {
   RigidRun run;
-  const double begin = computed();
+  const double begin = processor_time();
   run.bodies.resize(scene.bodies.size());
   for (std::size_t b = 0; b < elements.size(); ++b)
     if (elements[b] && elements[b]->scene->elastic->modes)
@@ -123,12 +123,12 @@ RigidRun rigid_run(const Scene& scene, const std::vector<const ElasticBody*>& el
       const Redundancy& r = assembly.redundant.front();
       run.trouble = "with every body rigid, " + row_text(model.system, r.joint, r.row) + " repeats what other joints hold";
     } else {
-      march(twin, model, assembly, grips_of(scene, model.order, elements), imposed_frequencies(scene), run);
+      march(twin, model, assembly, attachments_of(scene, model.order, elements), imposed_frequencies(scene), run);
     }
   } catch (const AssemblyError& error) {
     run.trouble = error.what();
   }
-  run.seconds = computed() - begin;
+  run.seconds = processor_time() - begin;
   return run;
 }
 

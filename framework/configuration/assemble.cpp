@@ -284,14 +284,14 @@ const std::string& last_driver(const System& system, const std::vector<Redundanc
 
 }  // namespace
 
-std::vector<std::string> doubts(const Model& model, const Assembly& assembly) {
+std::vector<std::string> warnings_of(const Model& model, const Assembly& assembly) {
   const System& system = model.system;
   std::vector<std::string> out;
   std::string singular;
   bool any = false;
   for (const Redundancy& r : assembly.redundant) {
-    any = any || r.lasting;
-    if (!r.lasting) singular += (singular.empty() ? "" : ", ") + row_text(system, r.joint, r.row);
+    any = any || r.permanent;
+    if (!r.permanent) singular += (singular.empty() ? "" : ", ") + row_text(system, r.joint, r.row);
   }
   if (any)
     out.push_back("redundant joints: how they share these forces does not follow from the motion and is settled by convention (least norm): " +
@@ -315,14 +315,14 @@ Assembly assembled(const Scene& scene, const System& system, const Bent& bent) {
   out.start.t = 0;
   out.start.y = r.y;
   out.start.impact_rate.assign(system.contacts.size(), 0.0);
-  RowReport rows = judge_rows(system, 0, r.y);
+  RowReport rows = validate_rows(system, 0, r.y);
   out.rank = rows.rank;
   out.redundant = std::move(rows.redundant);
   out.shared = std::move(rows.shared);
   if (!out.redundant.empty())
-    if (const std::string quarrel = contradiction(system, 0, r.y, scene.run.until); !quarrel.empty())
+    if (const std::string conflict = contradiction(system, 0, r.y, scene.run.until); !conflict.empty())
       throw AssemblyError(scene.file, named_place(scene, last_driver(system, out.redundant)),
-                          quarrel + "; leave one of them out, or let it follow the other");
+                          conflict + "; leave one of them out, or let it follow the other");
   return out;
 }
 

@@ -29,6 +29,6 @@ Assembly assemble(const Scene&, const Model&);
 Assembly assemble(const Scene&, const System&);
 
 /// What of an assembly makes a run's numbers doubtful, in words: joint forces shared out by convention, a start in a singular pose.
-std::vector<std::string> doubts(const Model&, const Assembly&);
+std::vector<std::string> warnings_of(const Model&, const Assembly&);
 
 }  // namespace pintle

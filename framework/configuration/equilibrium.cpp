@@ -297,7 +297,7 @@ void warn(const Model& model, const Equations& eq, Equilibrium& out) {
     double deflection = 0;
     for (Index i = 0; i + 1 < u.size(); i += 2) deflection = std::max(deflection, u.segment<2>(i).norm() / p.size);
     const double slope = p.slope.rows() > 0 ? (p.slope * eta).lpNorm<Eigen::Infinity>() : 0;
-    if (const std::string doubt = deflection_doubt(p.body, deflection, slope, "bends"); !doubt.empty()) out.warnings.push_back(doubt);
+    if (const std::string warning = deflection_warning(p.body, deflection, slope, "bends"); !warning.empty()) out.warnings.push_back(warning);
   }
 }
 
@@ -321,7 +321,7 @@ Equilibrium find_equilibrium(const Scene&, const Model& model, const Assembly& a
   const System& system = model.system;
   Equilibrium out;
   out.warnings = model.warnings;
-  for (const std::string& doubt : doubts(model, assembly)) out.warnings.push_back(doubt);
+  for (const std::string& warning : warnings_of(model, assembly)) out.warnings.push_back(warning);
   out.table = trajectory_table(model);
   out.state = assembly.start;
   double reached = 0;

@@ -92,14 +92,14 @@ MatrixXd basis(const std::vector<Dependence>& all, Index rows) {
   return Eigen::HouseholderQR<MatrixXd>(N).householderQ() * MatrixXd::Identity(N.rows(), N.cols());
 }
 
-/// Which of the dependences to leave out, as many as there are more of them than of `lasting` ones, so that the others
+/// Which of the dependences to leave out, as many as there are more of them than of `permanent` ones, so that the others
 /// span what is nearest to those: null spaces are compared, whose rows and weights change with the pose.
-std::vector<bool> left_out(const std::vector<Dependence>& all, const std::vector<Dependence>& lasting, Index rows) {
-  std::vector<bool> out(all.size(), lasting.empty());
-  if (lasting.empty() || lasting.size() >= all.size()) return out;
+std::vector<bool> left_out(const std::vector<Dependence>& all, const std::vector<Dependence>& permanent, Index rows) {
+  std::vector<bool> out(all.size(), permanent.empty());
+  if (permanent.empty() || permanent.size() >= all.size()) return out;
   const MatrixXd Q = basis(all, rows);
-  const Eigen::JacobiSVD<MatrixXd> svd(Q.transpose() * basis(lasting, rows), Eigen::ComputeFullU);
-  const auto more = static_cast<Index>(all.size() - lasting.size());
+  const Eigen::JacobiSVD<MatrixXd> svd(Q.transpose() * basis(permanent, rows), Eigen::ComputeFullU);
+  const auto more = static_cast<Index>(all.size() - permanent.size());
   MatrixXd apart(more, Q.cols());
   for (Index k = 0; k < Q.cols(); ++k) {
     VectorXd N = VectorXd::Zero(rows);
@@ -113,7 +113,7 @@ std::vector<bool> left_out(const std::vector<Dependence>& all, const std::vector
 
 /// The dependences of a pose: those that hold near it too, and those that hold at it alone.
 struct Judged {
-  std::vector<Dependence> lasting, singular;
+  std::vector<Dependence> permanent, singular;
   std::vector<std::vector<Dependence>> near;  ///< all at poses nearby
 };
 
@@ -124,7 +124,7 @@ Judged judged(const System& system, double t, const VectorXd& y, const std::vect
   const auto fewest = std::min_element(out.near.begin(), out.near.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
   std::vector<bool> alone(here.size(), false);
   if (fewest != out.near.end()) alone = left_out(here, *fewest, system.n_rows());
-  for (std::size_t k = 0; k < here.size(); ++k) (alone[k] ? out.singular : out.lasting).push_back(here[k]);
+  for (std::size_t k = 0; k < here.size(); ++k) (alone[k] ? out.singular : out.permanent).push_back(here[k]);
   return out;
 }
 
@@ -182,7 +182,7 @@ bool alike(const std::vector<Driven>& a, const std::vector<Driven>& b) {
 }
 
 /// When laws combined with constant weights leave what they held at t; over by how much.
-std::optional<std::pair<double, double>> first_quarrel(const std::vector<Driven>& drivers, double t, double until) {
+std::optional<std::pair<double, double>> first_contradiction(const std::vector<Driven>& drivers, double t, double until) {
   constexpr int samples = 2000;
   constexpr double position = 1e-9, speed = 1e-7;
   double fastest = 0;
@@ -203,7 +203,7 @@ std::optional<std::pair<double, double>> first_quarrel(const std::vector<Driven>
 }
 
 /// Nᵀ of the accelerations that the rows ask while coordinates go on at their speeds; 0 if they agree, scaled.
-double quarrel_of_accelerations(const System& system, double t, const VectorXd& y, const Dependence& d) {
+double contradiction_of_accelerations(const System& system, double t, const VectorXd& y, const Dependence& d) {
   const Index n = system.n();
   const VectorXd s = y.segment(n, n);
   double rate = s.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>();
@@ -227,11 +227,11 @@ double quarrel_of_accelerations(const System& system, double t, const VectorXd& 
 }
 
 /// Joints that repeat each other and do not quite fit: C = 0 is missed by more than rounding.
-std::string misfit(const System& system, double t, const VectorXd& y, const std::vector<Dependence>& lasting) {
+std::string misfit(const System& system, double t, const VectorXd& y, const std::vector<Dependence>& permanent) {
   constexpr double rounding = 2e-12;
   Equations eq(system);
   pose(system, t, y, eq);
-  for (const Dependence& d : lasting) {
+  for (const Dependence& d : permanent) {
     int worst = d.N.front().first;
     for (const auto& [row, weight] : d.N)
       if (std::abs(eq.C[row]) * system.row_scale[row] > std::abs(eq.C[worst]) * system.row_scale[worst]) worst = row;
@@ -249,7 +249,7 @@ std::string misfit(const System& system, double t, const VectorXd& y, const std:
 
 }  // namespace
 
-RowReport judge_rows(const System& system, double t, const VectorXd& y) {
+RowReport validate_rows(const System& system, double t, const VectorXd& y) {
   RowReport out;
   const RowSpace space = row_space_at(system, t, y);
   out.rank = space.rank;
@@ -262,7 +262,7 @@ RowReport judge_rows(const System& system, double t, const VectorXd& y) {
   for (const Dependence& d : space.dependences) {
     const int last = d.N.back().first, joint = joint_of(system, last);
     Redundancy r{joint, last - system.row_begin[at(joint)], {}};
-    r.lasting = ends_among(all.lasting, d);
+    r.permanent = ends_among(all.permanent, d);
     share(d);
     for (const auto& [row, weight] : d.N) {
       const int k = joint_of(system, row);
@@ -296,12 +296,12 @@ std::string contradiction(const System& system, double t, const VectorXd& y, dou
   const std::vector<Dependence> here = row_space_at(system, t, y).dependences;
   if (std::none_of(here.begin(), here.end(), [&](const Dependence& d) { return !names_in(system, d, true).empty(); })) return "";
   const Judged all = judged(system, t, y, here);
-  for (const Dependence& d : all.lasting) {
+  for (const Dependence& d : all.permanent) {
     const std::vector<std::string> names = names_in(system, d, true);
     if (names.empty()) continue;
     const std::string who = names.size() > 1 ? "the drivers " + listed(names) + " contradict each other"
                                              : "the driver " + listed(names) + " moves what " + listed(names_in(system, d, false)) + " hold";
-    if (quarrel_of_accelerations(system, t, y, d) > 1e-5) return who + ": at t = " + number(t) + " s they ask different accelerations of one freedom";
+    if (contradiction_of_accelerations(system, t, y, d) > 1e-5) return who + ": at t = " + number(t) + " s they ask different accelerations of one freedom";
     const std::vector<Driven> drivers = driven_by(system, d);
     const bool constant = std::all_of(all.near.begin(), all.near.end(), [&](const std::vector<Dependence>& there) {
       return std::any_of(there.begin(), there.end(), [&](const Dependence& e) {
@@ -309,8 +309,8 @@ std::string contradiction(const System& system, double t, const VectorXd& y, dou
       });
     });
     if (constant)
-      if (const auto quarrel = first_quarrel(drivers, t, until))
-        return who + ": from t = " + number(quarrel->first) + " s on, apart by " + number(quarrel->second) + " there";
+      if (const auto conflict = first_contradiction(drivers, t, until))
+        return who + ": from t = " + number(conflict->first) + " s on, apart by " + number(conflict->second) + " there";
   }
   return "";
 }
@@ -318,12 +318,12 @@ std::string contradiction(const System& system, double t, const VectorXd& y, dou
 std::string explain_pose(const System& system, double t, const VectorXd& y) {
   constexpr double close = 1e-3;  // what of a row is left so near to a dead centre that no step goes on
   const RowSpace space = row_space_at(system, t, y);
-  const std::string quarrel = contradiction(system, t, y, t + 1e-2 * std::max(t, 1.0));
-  if (!quarrel.empty()) return quarrel;
-  const std::vector<Dependence> lasting = judged(system, t, y, space.dependences).lasting;
-  if (const std::string open = misfit(system, t, y, lasting); !open.empty()) return open;
+  const std::string conflict = contradiction(system, t, y, t + 1e-2 * std::max(t, 1.0));
+  if (!conflict.empty()) return conflict;
+  const std::vector<Dependence> permanent = judged(system, t, y, space.dependences).permanent;
+  if (const std::string open = misfit(system, t, y, permanent); !open.empty()) return open;
   const std::vector<Dependence> nearly = row_space_at(system, t, y, close).dependences;
-  const std::vector<bool> alone = left_out(nearly, lasting, system.n_rows());
+  const std::vector<bool> alone = left_out(nearly, permanent, system.n_rows());
   for (std::size_t k = 0; k < nearly.size(); ++k) {
     if (!alone[k]) continue;
     const Dependence& d = nearly[k];
@@ -335,7 +335,7 @@ std::string explain_pose(const System& system, double t, const VectorXd& y) {
     return "a dead centre: the driver " + listed(drivers) + " cannot move past " + number((*law_of(joint))(t).value) +
            (std::holds_alternative<AngleDriver>(joint) ? " rad" : " m") + (others.empty() ? "" : ", where " + others + " hold against it");
   }
-  for (const Dependence& d : lasting)
+  for (const Dependence& d : permanent)
     if (const auto drivers = names_in(system, d, true); drivers.size() > 1)
       return "the drivers " + listed(drivers) + " act on one freedom and do not agree";
   return "";

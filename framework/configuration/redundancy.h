@@ -11,7 +11,7 @@ namespace pintle {
 struct Redundancy {
   int joint, row;
   std::vector<int> implied_by;  ///< joints whose rows combine to it
-  bool lasting = true;          ///< false: at this pose only, a singular one
+  bool permanent = true;          ///< false: at this pose only, a singular one
 };
 
 /// What a pose says of the joints, by rows.
@@ -24,7 +24,7 @@ struct RowReport {
 /// Judges the rows at a pose y and, where some are redundant, at poses reached from it by small motions that the
 /// joints allow (drivers let go). As many rows as are redundant there too are lastingly so, those whose null vectors are
 /// nearest to the ones there; a force is shared if it is at any of these poses.
-RowReport judge_rows(const System&, double t, const Eigen::VectorXd& y);
+RowReport validate_rows(const System&, double t, const Eigen::VectorXd& y);
 
 /// The dependences that hold at a pose and not near it: it is singular, motions branch there.
 std::vector<Dependence> singular_dependences(const System&, double t, const Eigen::VectorXd& y);

@@ -116,14 +116,14 @@ StressProbe beam_probe(const ElasticBody& body, const ModalModel& modes, int nod
 
 /// @throws SceneError  as stress_probe
 const Port& material_port(const Scene& scene, const ElasticBody& body, const PointRef& ref) {
-  const auto refuse = [&](const std::string& what) {
+  const auto reject = [&](const std::string& what) {
     throw SceneError(scene.file, ref.place,
                      what + ", where there is no stress to tell; name a point of the material");
   };
-  if (ref.point.empty()) refuse("\"" + ref.body + "\" alone is the origin of its axes");
+  if (ref.point.empty()) reject("\"" + ref.body + "\" alone is the origin of its axes");
   const ScenePoint& point = point_of(scene, *body.scene, ref.point, ref.place);
   if (!point.hole.empty())
-    refuse("\"" + ref.body + "." + ref.point + "\" is the middle of the hole \"" + point.hole +
+    reject("\"" + ref.body + "." + ref.point + "\" is the middle of the hole \"" + point.hole +
            "\"");
   return *body.model.port(ref.point);
 }

@@ -56,9 +56,9 @@ Alpha::Alpha(const System& system, const Equations& eq, double rho, double toler
 
 void Alpha::evaluate_at(const System& system, const State& state, const VectorXd& dy, const VectorXd& lambda, Equations& eq) {
   pose(system, state.t, state.y, eq);
-  weigh(system, state.y, eq);
+  update_mass(system, state.y, eq);
   speed(system, state.t, state.y, eq);
-  load(system, state, eq);
+  apply_forces(system, state, eq);
   eq.a = dy.segment(system.n(), system.n());
   eq.lambda = lambda;
   ++eq.evaluations;
@@ -92,7 +92,7 @@ void Alpha::interpolate_between(const System& system, const Step& step, double t
   dv_ = out.y.head(n) - work_;
   out.y.head(n) = work_;
   pose(system, t, out.y, eq);
-  weigh(system, out.y, eq);
+  update_mass(system, out.y, eq);
   mu_.setZero();
   visit_jacobian(eq, [&](int row, int column, double value) { mu_[row] += value * dv_[column]; });
   dp_.setZero();

@@ -42,7 +42,7 @@ class Alpha {
   /// Evaluates at a state inside the step or at its end, v̇ and λ between those of the ends; changes no state.
   void evaluate_between(const System&, const Step&, const State&, Equations&);
   /// Newton judges lengths by this, speeds by that. [m], [m/s]
-  void judge_by(double length, double speed) { length_ = length, speed_ = speed; }
+  void validate_by(double length, double speed) { length_ = length, speed_ = speed; }
 
   static constexpr int order = 2;
   const std::string& trouble() const { return trouble_; }

@@ -72,7 +72,7 @@ bool Integrator::settle(Instant& node) { return alpha_ ? alpha_->settle(system_,
 
 bool Integrator::attempt(double h) {
   if (!alpha_) return stages_->attempt(system_, h, step_, eq_);
-  alpha_->judge_by(fine_length_, std::max({fastest_, fastest_speed(step_.from.state.y), slowest_speed * fine_length_ / h}));
+  alpha_->validate_by(fine_length_, std::max({fastest_, fastest_speed(step_.from.state.y), slowest_speed * fine_length_ / h}));
   return alpha_->attempt(system_, h, step_, eq_);
 }
 
@@ -191,7 +191,7 @@ bool Integrator::step_to(double h_left) {
       h_ = h * (std::isnan(error) ? 0.2 : std::max(0.2, 0.9 * std::pow(error, -1 / order)));
       continue;
     }
-    if (!last && !at_fork_ && tries < 3 && at_fork()) {  // momentum carries past what no step should start from
+    if (!last && !at_singular_configuration_ && tries < 3 && at_singular_configuration()) {  // momentum carries past what no step should start from
       ++counts_.rejected;
       h_ = 0.8 * h;
       continue;
@@ -309,7 +309,7 @@ bool Integrator::advance(double until) {
   }
   after_known_ = contact < 0;
   if (stages_) stages_->refresh(system_, eq_);
-  at_fork_ = at_fork();
+  at_singular_configuration_ = at_singular_configuration();
 
   const auto& y = step_.to.state.y;
   fastest_ = std::max(fastest_, fastest_speed(y));
@@ -321,9 +321,9 @@ bool Integrator::advance(double until) {
 }
 
 // So near a pose where motions branch that accelerations there are known to few digits.
-bool Integrator::at_fork() const {
+bool Integrator::at_singular_configuration() const {
   constexpr double few = 1e-9;  // pivots fall with the square of the distance
-  return stages_ && (eq_.schur.lost() > eq_.lasting || (eq_.lasting == 0 && eq_.schur.least() < few));
+  return stages_ && (eq_.schur.lost() > eq_.permanent || (eq_.permanent == 0 && eq_.schur.least() < few));
 }
 
 // Stages of a pair of high order stray far from the motion, too far where branches meet.
@@ -358,7 +358,7 @@ bool Integrator::sample(double t, State& out) {
     sampler_->follow(system_, *alpha_, scheme_.rho, scheme_.tolerance);
   else
     sampler_->follow(system_, *stages_);
-  return sampler_->sample(system_, step_, t, eq_.lasting, out);
+  return sampler_->sample(system_, step_, t, eq_.permanent, out);
 }
 
 }  // namespace pintle

@@ -107,7 +107,7 @@ class Integrator {
   bool attempt(double h);
   bool watch_stiffness();
   bool fall_back();
-  bool at_fork() const;
+  bool at_singular_configuration() const;
   std::string trouble() const;
   double fastest_speed(const Eigen::VectorXd& y) const;
   struct Touch {
@@ -156,7 +156,7 @@ class Integrator {
   double worst_position_ = 0, worst_velocity_ = 0;
   int held_by_stability_ = 0;
   double last_tenth_ = 0;  ///< when the last tenth of the steps allowed began [s]
-  bool fallen_back_ = false, at_fork_ = false;
+  bool fallen_back_ = false, at_singular_configuration_ = false;
   std::string switched_;
 };
 

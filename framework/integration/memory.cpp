@@ -12,7 +12,7 @@ template <class A>
 void Integrator::archive(A& x) {
   x(PINTLE_MEMBERS(step_.from, step_.to, step_.h, h_, h_open_, h_closed_, error_before_, fastest_, energy_, open_impact_, loss_at_begin_, after_,
                    after_known_, impacts_, counts_, failure_, events_here_, worst_position_, worst_velocity_, held_by_stability_, last_tenth_,
-                   fallen_back_, at_fork_, switched_, scheme_.max_step, eq_.lasting, eq_.evaluations, eq_.factorizations));
+                   fallen_back_, at_singular_configuration_, switched_, scheme_.max_step, eq_.permanent, eq_.evaluations, eq_.factorizations));
   bool implicit = alpha_.has_value();
   const auto name = [](const Tableau* t) { return t ? std::string(t->name) : std::string(); };
   std::string pair = name(stages_ ? &stages_->tableau() : nullptr), fallback = name(scheme_.fallback);
@@ -67,7 +67,7 @@ const char* Integrator::fault_of_loaded() const {
   }
   for (const Impact& i : impacts_)
     if (i.contact < 0 || i.contact >= static_cast<int>(contacts)) return "an impact is of no contact";
-  if (!(step_.h >= 0) || !(h_ >= 0) || !(error_before_ > 0) || eq_.lasting < 0 || eq_.lasting > rows) return "its step is none";
+  if (!(step_.h >= 0) || !(h_ >= 0) || !(error_before_ > 0) || eq_.permanent < 0 || eq_.permanent > rows) return "its step is none";
   return nullptr;
 }
 

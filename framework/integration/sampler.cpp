@@ -17,8 +17,8 @@ void Sampler::follow(const System& system, Alpha& steps, double rho, double tole
   of_steps_ = &steps;
 }
 
-bool Sampler::sample(const System& system, const Step& step, double t, int lasting, State& out) {
-  eq_.lasting = lasting;
+bool Sampler::sample(const System& system, const Step& step, double t, int permanent, State& out) {
+  eq_.permanent = permanent;
   return alpha_ ? sample_implicit(system, step, t, out) : sample_explicit(system, step, t, out);
 }
 

@@ -17,7 +17,7 @@ class Sampler {
   void follow(const System&, const Stages&);
   void follow(const System&, Alpha&, double rho, double tolerance);
   /// As Integrator::sample. @param lasting  rows that others imply, as the steps have found: Equations::lasting
-  bool sample(const System&, const Step&, double t, int lasting, State& out);
+  bool sample(const System&, const Step&, double t, int permanent, State& out);
   /// Evaluated at the state of the last sample.
   const Equations& equations() const { return eq_; }
 

@@ -38,15 +38,15 @@ Stages::Stages(const System& system, const Tableau& tableau, Constraints constra
 
 bool Stages::evaluate_stage(const System& system, State& state, Equations& eq, Eigen::VectorXd& dy) {
   if (constraints_ == Constraints::projection || system.n_rows() == 0) {
-    if (eq.lasting == 0) {
+    if (eq.permanent == 0) {
       const bool found = evaluate(system, state, eq, dy);
       if (!eq.schur.weak()) {
-        watch(eq);
+        monitor(eq);
         return found;
       }
     }
     if (!project(system, state.t, state.y, eq)) {  // dependent rows agree only where C = 0 and Ċ = 0
-      weak_ = weak_ || eq.lasting == 0;
+      weak_ = weak_ || eq.permanent == 0;
       return false;
     }
   } else if (!partition_.correct(system, state.t, state.y, eq)) {
@@ -55,18 +55,18 @@ bool Stages::evaluate_stage(const System& system, State& state, Equations& eq, E
   accelerate(system, state, eq);
   fill_derivative(system, state.y, eq, dy);
   if (constraints_ == Constraints::projection) {
-    weak_ = weak_ || eq.lasting == 0;
-    watch(eq);
+    weak_ = weak_ || eq.permanent == 0;
+    monitor(eq);
   }
   return eq.regular;
 }
 
 // Of rows that are redundant in every pose the pivots tell nothing: which of them are small depends on their order, and changes
 // where the rows lie along the axes. Then only what is lost beside them counts.
-void Stages::watch(const Equations& eq) {
+void Stages::monitor(const Equations& eq) {
   constexpr double few = 1e-5;
-  weak_ = weak_ || eq.schur.lost() > eq.lasting || (eq.lasting == 0 && eq.schur.least() < few);
-  if (eq.lasting > 0) return;
+  weak_ = weak_ || eq.schur.lost() > eq.permanent || (eq.permanent == 0 && eq.schur.least() < few);
+  if (eq.permanent > 0) return;
   least_ = std::min(least_, eq.schur.least());
   most_ = std::max(most_, eq.schur.least());
 }
@@ -111,7 +111,7 @@ bool Stages::reach(const System& system, const Instant& from_node, double h, Ins
   to.y = from.y;
   add_combination(h, tableau_.b, k_, to.y);  // a closing stage has no weight
   if (!to.y.allFinite() || !settle(system, to_node, eq)) return false;
-  watch(eq);
+  monitor(eq);
   if (tableau_.closes) k_.back() = to_node.dy;
   return to_node.dy.allFinite();
 }

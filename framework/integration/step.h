@@ -85,7 +85,7 @@ class Stages {
 
  private:
   bool evaluate_stage(const System&, State&, Equations&, Eigen::VectorXd& dy);
-  void watch(const Equations&);
+  void monitor(const Equations&);
 
   const Tableau& tableau_;
   Constraints constraints_;

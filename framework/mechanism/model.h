@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "framework/bodies/flexible_report.h"
-#include "framework/bodies/grips.h"
+#include "framework/bodies/attachments.h"
 #include "framework/drawing/flexible_drawing.h"
 #include "framework/dynamics/model/system.h"
 #include "framework/integration/integrator.h"
@@ -29,7 +29,7 @@ struct RecordedStress {
 };
 
 /// What stays of the rigid run that modes and doubts were judged by.
-struct Rehearsal {
+struct PreliminaryRun {
   double until = 0, seconds = 0;  ///< reached, and of computing [s]
   long steps = 0;
   std::string trouble;  ///< why there was none, or why it ended early
@@ -51,9 +51,9 @@ struct Model {
   std::vector<BendingProbe> bending;                   ///< likewise
   std::vector<StiffeningProbe> stiffening;             ///< likewise
   std::vector<std::pair<int, Eigen::VectorXd>> bent;   ///< bodies that start bent, and their modal coordinates
-  std::vector<Grip> grips;                             ///< on flexible bodies
+  std::vector<Attachment> attachments;                             ///< on flexible bodies
   BuiltOrder order;
-  std::optional<Rehearsal> rehearsal;                  ///< the rigid run, if there was one
+  std::optional<PreliminaryRun> preliminary_run;                  ///< the rigid run, if there was one
 };
 
 }  // namespace pintle

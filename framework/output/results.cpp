@@ -27,7 +27,7 @@ Json assembly_json(const System& system, const Assembly& a) {
     redundant.push_back({{"joint", system.joint_names[static_cast<std::size_t>(r.joint)]},
                          {"row", row_name(system.joints[static_cast<std::size_t>(r.joint)], r.row)},
                          {"implied by", others},
-                         {"lasting", r.lasting}});
+                         {"lasting", r.permanent}});
   }
   Json shared = Json::array();
   for (std::size_t k = 0; k < system.joints.size() && !a.redundant.empty(); ++k)
@@ -77,9 +77,9 @@ Json flexible_json(const Model& model) {
   return all;
 }
 
-Json rehearsal_json(const Model& model) {
-  if (!model.rehearsal) return nullptr;
-  const Rehearsal& r = *model.rehearsal;
+Json preliminary_run_json(const Model& model) {
+  if (!model.preliminary_run) return nullptr;
+  const PreliminaryRun& r = *model.preliminary_run;
   return {{"reached [s]", r.until}, {"steps", r.steps}, {"time [s]", r.seconds}, {"trouble", r.trouble}};
 }
 
@@ -123,7 +123,7 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
       {"model", assembly_json(system, assembly)},
       {"method", method_json(model.scheme, run.switched)},
       {"flexible bodies", flexible_json(model)},
-      {"rigid run", rehearsal_json(model)},
+      {"rigid run", preliminary_run_json(model)},
       {"contacts", contacts},
       {"energy at start [J]", energies_json(run.first)},
       {"energy at end [J]", energies_json(run.last)},
@@ -146,15 +146,15 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
   return json_text(out) + "\n";
 }
 
-std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly, const Price& price) {
+std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly, const CostEstimate& price) {
   std::vector<std::string> warnings = model.warnings;
-  for (std::string& w : doubts(model, assembly)) warnings.push_back(std::move(w));
+  for (std::string& w : warnings_of(model, assembly)) warnings.push_back(std::move(w));
   const Json out = {{"title", scene.title}, {"file", scene.file}, {"model", assembly_json(model.system, assembly)},
                     {"method", method_json(model.scheme, "")},
                     {"clearances", model.clearances},
                     {"flexible bodies", flexible_json(model)},
-                    {"rigid run", rehearsal_json(model)},
-                    {"price", Json::parse(price_json(price))},
+                    {"rigid run", preliminary_run_json(model)},
+                    {"price", Json::parse(cost_json(price))},
                     {"warnings", warnings},
                     {"scene", scene_json(scene)}};
   return json_text(out) + "\n";

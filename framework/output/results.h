@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/analysis/cost/price.h"
+#include "framework/analysis/cost/cost_estimate.h"
 #include "framework/analysis/simulate/simulate.h"
 #include "framework/output/results_directory.h"
 
@@ -17,6 +17,6 @@ void write_results(const std::filesystem::path& directory, const Scene&, const M
 /// What run.json holds, as text.
 std::string run_json(const Scene&, const Model&, const Assembly&, const Run&);
 /// What `pintle check --json` prints.
-std::string check_json(const Scene&, const Model&, const Assembly&, const Price&);
+std::string check_json(const Scene&, const Model&, const Assembly&, const CostEstimate&);
 
 }  // namespace pintle

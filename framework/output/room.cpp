@@ -60,7 +60,7 @@ Room room_at(const std::filesystem::path& directory) {
   return out;
 }
 
-std::vector<std::string> judge_room(const std::filesystem::path& directory, const RoomNeeded& needed, const Room& room) {
+std::vector<std::string> validate_room(const std::filesystem::path& directory, const RoomNeeded& needed, const Room& room) {
   const std::string at = directory.string() + ": ", remedy = "write fewer rows (output.every) or frames";
   if (needed.least > room.on_disk)
     throw std::runtime_error(at + "the results need at least " + megabytes(needed.least) + ", and the disk has " + megabytes(room.on_disk) + " left; make room, name another place with --out, or " + remedy);

@@ -24,6 +24,6 @@ struct Room {
 Room room_at(const std::filesystem::path& directory);
 
 /// @returns what is doubtful, in words   @throws std::runtime_error  what is needed at least is more than there is
-std::vector<std::string> judge_room(const std::filesystem::path& directory, const RoomNeeded&, const Room&);
+std::vector<std::string> validate_room(const std::filesystem::path& directory, const RoomNeeded&, const Room&);
 
 }  // namespace pintle

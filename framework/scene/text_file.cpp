@@ -46,8 +46,8 @@ std::string read_text_file(const fs::path& path, std::size_t most_bytes, const s
   std::string text;
   try {
     text = read_file(path, most_bytes);
-  } catch (const FileRefused& refused) {
-    fail(refused.what());
+  } catch (const FileRefused& rejected) {
+    fail(rejected.what());
   }
   if (const int line = line_not_text(text); line > 0)
     fail("is not text (a zero byte, or bytes that are not UTF-8); is it the right file?", line);

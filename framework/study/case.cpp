@@ -8,7 +8,7 @@
 #include <new>
 #include <optional>
 
-#include "framework/bodies/pieces.h"
+#include "framework/bodies/segments.h"
 #include "framework/build/build.h"
 #include "framework/scene/text_file.h"
 #include "meshes/limits.h"
@@ -62,7 +62,7 @@ void measure(const CaseSource& source, const std::vector<Measure>& measures, con
 }
 
 /// @throws SceneError  a measure that neither the case nor the study's scene can have
-void judge_words(const CaseSource& source, const std::vector<Measure>& measures, const Scene& scene) {
+void validate_words(const CaseSource& source, const std::vector<Measure>& measures, const Scene& scene) {
   std::optional<Scene> common;
   for (const Measure& m : measures) {
     try {
@@ -86,7 +86,7 @@ void run_in(Outcome& out, const CaseSource& source, const Overrides& overrides, 
   all.insert(all.end(), overrides.begin(), overrides.end());
   Scene scene = with_pieces(read_scene_text(source.text, source.file.string(), all, source.file.parent_path()));
   require_run(scene);
-  judge_words(source, measures, scene);
+  validate_words(source, measures, scene);
   prepare(scene, measures);
   if (limits.time_alone) scene.output.every = scene.run.until;
   const Model model = limits.bodies ? build(scene, *limits.bodies) : build(scene);

@@ -49,7 +49,7 @@ void without_unit(Measure& m, const std::string& unit) {
                                         "; leave the unit out, the table puts it behind the name");
 }
 
-void judge_names(std::vector<Measure>& measures, const Scene& scene, const Node& node) {
+void validate_names(std::vector<Measure>& measures, const Scene& scene, const Node& node) {
   for (Measure& m : measures) without_unit(m, measured_unit(m, scene));
   for (std::size_t i = 0; i < measures.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
@@ -62,7 +62,7 @@ std::string first_in(const Node& scene, const char* group, const char* otherwise
   return scene.at(group).keys().front();
 }
 
-[[noreturn]] void refuse_scene(const Node& root, const std::filesystem::path& path) {
+[[noreturn]] void reject_scene(const Node& root, const std::filesystem::path& path) {
   const std::string parameter = first_in(root, "parameters", "run.tolerance");
   const std::string value = parameter == "run.tolerance" ? "1e-6" : override_text(root.at("parameters").at(parameter).yaml());
   const std::string example = "{scene: " + path.filename().string() + ", measure: {peak: peak force at " + first_in(root, "joints", "JOINT") +
@@ -79,7 +79,7 @@ StudyFile read_study(const std::filesystem::path& path) {
   file.tree = parse_yaml(read_text_file(path, most_bytes), path.string());
   const Node root = file.root();
   if (root.is_nothing()) root.fail("is empty; docs/studies.md shows what to write");
-  if (root.is_map() && root.has("bodies") && !root.has("scene")) refuse_scene(root, path);
+  if (root.is_map() && root.has("bodies") && !root.has("scene")) reject_scene(root, path);
   check_keys(root, "study");
   if (root.has("title")) file.study.title = root.at("title").text("a line of text");
   const Node scene = root.at("scene");
@@ -93,7 +93,7 @@ StudyFile read_study(const std::filesystem::path& path) {
   const Scene common = common_scene(file.study.scene);
   require_run(common);
   judge(file.study.measures, common);
-  judge_names(file.study.measures, common, root.at("measure"));
+  validate_names(file.study.measures, common, root.at("measure"));
   return file;
 }
 

@@ -26,7 +26,7 @@ constexpr double on_constraints = 1e-12;         // scaled, as for the explicit 
 Step march(const Case& k, double rho, double span, int n, VectorXd* errors = nullptr) {
   Equations eq(k.system);
   Alpha alpha(k.system, eq, rho, 0);
-  alpha.judge_by(k.system.length, 1);
+  alpha.validate_by(k.system.length, 1);
   Step step;
   step.to.state = k.start;
   step.to.dy.setZero(k.system.n_y());
@@ -110,7 +110,7 @@ TEST(Alpha, LedgerOfALinearSystemClosesToRoundingAtAnyStep) {
       const Case k = oscillator(z / 0.01);
       Equations eq(k.system);
       Alpha alpha(k.system, eq, rho, 0);
-      alpha.judge_by(k.system.length, 0.7 * z / 0.01);
+      alpha.validate_by(k.system.length, 0.7 * z / 0.01);
       Step step;
       step.to.state = k.start;
       step.to.dy.setZero(k.system.n_y());

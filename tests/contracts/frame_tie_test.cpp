@@ -46,51 +46,51 @@ const NamedBody bodies[] = {
 
 struct NamedTie {
   const char* name;
-  FrameTie tie;
+  ReferenceConditions conditions;
 };
 const NamedTie ties[] = {
-    {"Tangent", {FrameTie::tangent, 0, -1}},
-    {"TangentAtB", {FrameTie::tangent, 1, -1}},
-    {"Chord", {FrameTie::chord, 0, 1}},
-    {"MeanAxes", {FrameTie::mean_axes}},
+    {"Tangent", {ReferenceConditions::tangent, 0, -1}},
+    {"TangentAtB", {ReferenceConditions::tangent, 1, -1}},
+    {"Chord", {ReferenceConditions::chord, 0, 1}},
+    {"MeanAxes", {ReferenceConditions::mean_axes}},
 };
 
 enum class Promise { true_modes, static_at_ports };
 struct Way {
   const char* name;
-  ModalModel (*reduce)(const Component&, const FrameTie&);
+  ModalModel (*reduce)(const Component&, const ReferenceConditions&);
   Promise promise;
 };
 const std::vector<int> both{0, 1};
 const Way ways[] = {
     {"NormalModes",
-     [](const Component& c, const FrameTie& t) { return normal_modes(c, t, {.count = 7}); },
+     [](const Component& c, const ReferenceConditions& t) { return normal_modes(c, t, {.count = 7}); },
      Promise::true_modes},
     {"AllModes",
-     [](const Component& c, const FrameTie& t) { return normal_modes(c, t, {.all = true}); },
+     [](const Component& c, const ReferenceConditions& t) { return normal_modes(c, t, {.all = true}); },
      Promise::true_modes},
     {"CraigBampton",
-     [](const Component& c, const FrameTie& t) { return craig_bampton(c, both, t, {.count = 5}); },
+     [](const Component& c, const ReferenceConditions& t) { return craig_bampton(c, both, t, {.count = 5}); },
      Promise::static_at_ports},
     {"StaticShapesAlone",
-     [](const Component& c, const FrameTie& t) { return craig_bampton(c, both, t, {.count = 0}); },
+     [](const Component& c, const ReferenceConditions& t) { return craig_bampton(c, both, t, {.count = 0}); },
      Promise::static_at_ports},
     {"FreeModes",
-     [](const Component& c, const FrameTie& t) { return free_modes(c, both, t, {.count = 5}); },
+     [](const Component& c, const ReferenceConditions& t) { return free_modes(c, both, t, {.count = 5}); },
      Promise::static_at_ports},
     {"AttachmentShapesAlone",
-     [](const Component& c, const FrameTie& t) { return free_modes(c, both, t, {.count = 0}); },
+     [](const Component& c, const ReferenceConditions& t) { return free_modes(c, both, t, {.count = 0}); },
      Promise::static_at_ports},
 };
 
 struct Case {
   NamedBody body;
-  NamedTie tie;
+  NamedTie conditions;
   Way way;
-  bool possible() const { return tie.tie.kind != FrameTie::tangent || body.make().turns(); }
+  bool possible() const { return conditions.conditions.kind != ReferenceConditions::tangent || body.make().turns(); }
 };
 void PrintTo(const Case& at, std::ostream* out) {
-  *out << at.body.name << at.tie.name << at.way.name;
+  *out << at.body.name << at.conditions.name << at.way.name;
 }
 std::string case_name(const testing::TestParamInfo<Case>& info) {
   return testing::PrintToString(info.param);
@@ -100,9 +100,9 @@ std::string case_name(const testing::TestParamInfo<Case>& info) {
 std::vector<Case> cases(std::vector<Promise> promises) {
   std::vector<Case> all;
   for (const NamedBody& body : bodies)
-    for (const NamedTie& tie : ties)
+    for (const NamedTie& conditions : ties)
       for (const Way& way : ways)
-        if (Case at{body, tie, way}; std::ranges::count(promises, way.promise) && at.possible())
+        if (Case at{body, conditions, way}; std::ranges::count(promises, way.promise) && at.possible())
           all.push_back(at);
   return all;
 }
@@ -110,11 +110,11 @@ std::vector<Case> cases(std::vector<Promise> promises) {
 class FrameTieExam : public testing::TestWithParam<Case> {
  protected:
   const SampleBody body = GetParam().body.make();
-  const FrameTie tie = GetParam().tie.tie;
+  const ReferenceConditions conditions = GetParam().conditions.conditions;
   const Way way = GetParam().way;
   const Component c = component(body.model);
 
-  ModalModel reduced() const { return way.reduce(c, tie); }
+  ModalModel reduced() const { return way.reduce(c, conditions); }
 };
 class TrueModes : public FrameTieExam {};
 class StaticAtPorts : public FrameTieExam {};
@@ -155,9 +155,9 @@ TEST_P(FrameTieExam, EveryShapeMeetsTheTie) {
   for (Eigen::Index k = 0; k < m.omega.size(); ++k) {
     const VectorXd phi = m.shapes.col(k);
     VectorXd violation;
-    if (tie.kind == FrameTie::tangent) {
-      violation = port_motion(body, tie.a, phi);
-    } else if (tie.kind == FrameTie::chord) {
+    if (conditions.kind == ReferenceConditions::tangent) {
+      violation = port_motion(body, conditions.a, phi);
+    } else if (conditions.kind == ReferenceConditions::chord) {
       const Eigen::Vector2d along = body.model.ports[1].x - body.model.ports[0].x;
       const Eigen::Vector2d across = Eigen::Vector2d(-along.y(), along.x()).normalized();
       violation.resize(3);
@@ -175,7 +175,7 @@ TEST_P(FrameTieExam, EveryShapeMeetsTheTie) {
 }
 
 TEST_P(FrameTieExam, TieRowsVanishOnEveryShapeAndOnNoRigidMotion) {
-  const MatrixXd B = tie_rows(c, tie);
+  const MatrixXd B = reference_condition_rows(c, conditions);
   ASSERT_EQ(B.rows(), 3);
   ASSERT_EQ(B.cols(), body.model.n());
   const MatrixXd rigid = rigid_motions(body.model);
@@ -281,18 +281,18 @@ TEST_P(Gauge, EveryTieSpansTheSameMotionsUpToRigidOnes) {
   const SampleBody body = std::get<0>(GetParam()).make();
   const Component c = component(body.model);
   const MatrixXd metric = nodal_matrices(body.model).M.llt().matrixU();
-  const auto span = [&](const FrameTie& tie) {
-    const ModalModel m = way.reduce(c, tie);
+  const auto span = [&](const ReferenceConditions& conditions) {
+    const ModalModel m = way.reduce(c, conditions);
     MatrixXd all(body.model.N(), 3 + m.omega.size());
     all << rigid_nodal(body.model), m.shapes;
     return MatrixXd(metric * all);
   };
-  const MatrixXd reference = span({FrameTie::mean_axes});
+  const MatrixXd reference = span({ReferenceConditions::mean_axes});
   const Eigen::HouseholderQR<MatrixXd> qr(reference);
   const MatrixXd Q = qr.householderQ() * MatrixXd::Identity(reference.rows(), reference.cols());
-  for (const auto& [name, tie] : ties) {
-    if (tie.kind == FrameTie::tangent && !body.turns()) continue;
-    const MatrixXd other = span(tie);
+  for (const auto& [name, conditions] : ties) {
+    if (conditions.kind == ReferenceConditions::tangent && !body.turns()) continue;
+    const MatrixXd other = span(conditions);
     ASSERT_EQ(other.cols(), reference.cols()) << name;
     const MatrixXd outside = other - Q * (Q.transpose() * other);
     EXPECT_LT((outside.colwise().norm().cwiseQuotient(other.colwise().norm())).maxCoeff(), 1e-7)
@@ -304,7 +304,7 @@ TEST(TangentTie, IsRefusedWhereThePortCannotTurn) {
   const SampleBody body = plate_on_nodes();
   const Component c = component(body.model);
   try {
-    tie_rows(c, {FrameTie::tangent, 0, -1});
+    reference_condition_rows(c, {ReferenceConditions::tangent, 0, -1});
     FAIL() << "accepted";
   } catch (const std::invalid_argument& e) {
     EXPECT_NE(std::string(e.what()).find("\"A\" cannot turn"), std::string::npos) << e.what();
@@ -315,13 +315,13 @@ TEST(TangentTie, IsRefusedWhereThePortCannotTurn) {
 // Roots βL of Euler–Bernoulli beams; ω = (βL)² √(EI/ρA)/L².
 
 struct Spectrum {
-  FrameTie tie;
+  ReferenceConditions conditions;
   double root[3];
 };
 const Spectrum spectra[] = {
-    {{FrameTie::tangent, 0, -1}, {1.8751040687, 4.6940911330, 7.8547574382}},
-    {{FrameTie::chord, 0, 1}, {M_PI, 2 * M_PI, 3 * M_PI}},
-    {{FrameTie::mean_axes}, {4.7300407449, 7.8532046241, 10.9956078380}},
+    {{ReferenceConditions::tangent, 0, -1}, {1.8751040687, 4.6940911330, 7.8547574382}},
+    {{ReferenceConditions::chord, 0, 1}, {M_PI, 2 * M_PI, 3 * M_PI}},
+    {{ReferenceConditions::mean_axes}, {4.7300407449, 7.8532046241, 10.9956078380}},
 };
 
 TEST(ClassicalSpectrum, OfABeamComesOutUnderEachTie) {
@@ -331,12 +331,12 @@ TEST(ClassicalSpectrum, OfABeamComesOutUnderEachTie) {
   const BeamEuler strip = euler_strip();
   const double length = 0.5;
   for (const Spectrum& s : spectra) {
-    const ModalModel m = normal_modes(c, s.tie, {.count = 3});
+    const ModalModel m = normal_modes(c, s.conditions, {.count = 3});
     for (int k = 0; k < 3; ++k) {
       const double exact = std::pow(s.root[k] / length, 2) * std::sqrt(strip.EI / strip.rhoA);
       // A cubic beam's frequency is too high by (βh)⁴/1440 to first order.
       const double bound = std::pow(s.root[k] / elements, 4) / 1440;
-      EXPECT_NEAR(m.omega[k] / exact - 1, bound, 0.1 * bound + 1e-9) << s.tie.kind << " mode " << k;
+      EXPECT_NEAR(m.omega[k] / exact - 1, bound, 0.1 * bound + 1e-9) << s.conditions.kind << " mode " << k;
     }
   }
 }
@@ -353,12 +353,12 @@ TEST(ClassicalSpectrum, OfASlenderMeshedBarComesOutUnderEachTie) {
   const Component c = component(model);
   const double wave = std::sqrt(2e11 / 7800 / 12) * height;
   for (const Spectrum& s : spectra) {
-    const ModalModel m = normal_modes(c, s.tie, {.count = 3});
+    const ModalModel m = normal_modes(c, s.conditions, {.count = 3});
     for (int k = 0; k < 3; ++k) {
       const double exact = std::pow(s.root[k] / length, 2) * wave;
       const double shear = std::pow(s.root[k] * height / length, 2) / 24 * 3.4;
-      EXPECT_LT(std::abs(m.omega[k] / exact - 1), 3 * shear + 2e-5) << s.tie.kind << " mode " << k;
-      EXPECT_LT(m.omega[k], exact * (1 + 2e-5)) << s.tie.kind << " mode " << k;
+      EXPECT_LT(std::abs(m.omega[k] / exact - 1), 3 * shear + 2e-5) << s.conditions.kind << " mode " << k;
+      EXPECT_LT(m.omega[k], exact * (1 + 2e-5)) << s.conditions.kind << " mode " << k;
     }
   }
 }
@@ -370,10 +370,10 @@ TEST(ClassicalSpectrum, OfABeamComesOutOfCraigBamptonAtEachTie) {
   const BeamEuler strip = euler_strip();
   const double quoted[] = {4e-7, 5e-7, 3e-5};  // DESIGN.md §12, to one digit
   for (int i = 0; i < 3; ++i) {
-    const ModalModel m = craig_bampton(c, both, spectra[i].tie, {.count = 8});
+    const ModalModel m = craig_bampton(c, both, spectra[i].conditions, {.count = 8});
     ASSERT_EQ(m.omega.size(), 11);
     const double exact = std::pow(spectra[i].root[0] / 0.5, 2) * std::sqrt(strip.EI / strip.rhoA);
-    EXPECT_LT(std::abs(m.omega[0] / exact - 1), 1.15 * quoted[i]) << spectra[i].tie.kind;
+    EXPECT_LT(std::abs(m.omega[0] / exact - 1), 1.15 * quoted[i]) << spectra[i].conditions.kind;
     EXPECT_GT(m.omega[0], exact) << "a Rayleigh–Ritz value lies above the true one";
   }
 }

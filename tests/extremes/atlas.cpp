@@ -5,7 +5,7 @@
 #include <ctime>
 #include <stdexcept>
 
-#include "framework/bodies/pieces.h"
+#include "framework/bodies/segments.h"
 #include "framework/build/build.h"
 #include "framework/scene/error.h"
 #include "framework/scene/yaml/reader.h"
@@ -22,7 +22,7 @@ const char* word(End e) {
       return "warned";
     case End::stopped:
       return "stopped";
-    case End::refused:
+    case End::rejected:
       return "refused";
   }
   return "";
@@ -66,15 +66,15 @@ std::string trouble_of(const Run& run, double until) {
 }
 
 /// By this process so far [s]: others on the machine do not count.
-double computed() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 void carry_out(Attempt& a, double seconds) {
   try {
     a.model = build(*a.scene);
     const Assembly assembly = assemble(*a.scene, *a.model);
-    const double latest = computed() + seconds;
+    const double latest = processor_time() + seconds;
     Listeners listeners;
-    listeners.progress = [&](double) { return computed() < latest; };
+    listeners.progress = [&](double) { return processor_time() < latest; };
     a.run = simulate(*a.scene, *a.model, assembly, listeners);
   } catch (const SceneError& e) {
     a.said = e.what();
@@ -109,7 +109,7 @@ Attempt attempt(Scene scene, double seconds) {
   } catch (const std::exception& e) {
     a.trouble = std::string("an exception: ") + e.what();
   }
-  if (a.end == End::refused && a.said.empty() && a.trouble.empty()) a.trouble = "refused without a message";
+  if (a.end == End::rejected && a.said.empty() && a.trouble.empty()) a.trouble = "refused without a message";
   return a;
 }
 
@@ -147,7 +147,7 @@ Finding worst(const std::vector<Finding>& all) {
 
 std::string Row::wrong() const {
   if (!found.trouble.empty()) return found.trouble;
-  if (found.end == End::refused && !what->or_refused.empty() && found.said.find(what->or_refused) != std::string::npos) return "";
+  if (found.end == End::rejected && !what->or_refused.empty() && found.said.find(what->or_refused) != std::string::npos) return "";
   if (found.end != what->end)
     return std::string(word(found.end)) + ", not " + word(what->end) + (found.said.empty() ? "" : ": " + found.said);
   if (found.said.find(what->says) == std::string::npos) return "does not say \"" + what->says + "\" but \"" + found.said + "\"";

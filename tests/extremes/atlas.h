@@ -20,13 +20,13 @@ enum class End {
   finished,  ///< Status::finished and no warning
   warned,    ///< Status::finished, with a warning
   stopped,   ///< any other Status, with a reason
-  refused    ///< a SceneError or AssemblyError, before the run
+  rejected    ///< a SceneError or AssemblyError, before the run
 };
 const char* word(End);
 
 /// A scene read, built, assembled and run; throws nothing.
 struct Attempt {
-  End end = End::refused;
+  End end = End::rejected;
   std::string said;     ///< reason, message or first warning; else empty
   std::string trouble;  ///< what must never be: see End. Empty: sound
   std::optional<pintle::Scene> scene;

@@ -111,18 +111,18 @@ Axis radial_clearance() {
                             return ended(attempt(slider_crank(c, 1e-4, 1e-8)));
                           }});
   };
-  past(-1e-6, "-1 um", End::refused, "radial");
-  past(0, "0", End::refused, "radial");
-  past(1e-30, "1e-30 m", End::refused, "last digit");
-  past(1e-18, "1e-18 m", End::refused, "last digit");
-  past(1e-16, "1e-16 m", End::refused, "rounded");
-  past(1e-14, "1e-14 m", End::refused, "rounded");
+  past(-1e-6, "-1 um", End::rejected, "radial");
+  past(0, "0", End::rejected, "radial");
+  past(1e-30, "1e-30 m", End::rejected, "last digit");
+  past(1e-18, "1e-18 m", End::rejected, "last digit");
+  past(1e-16, "1e-16 m", End::rejected, "rounded");
+  past(1e-14, "1e-14 m", End::rejected, "rounded");
   for (const auto& [c, label] : {std::pair{1e-12, "1 pm"}, std::pair{1e-11, "10 pm"}})
     axis.cases.push_back({.value = c, .label = label, .what = "impacts", .end = End::warned, .says = "rounded", .run = [c = c] {
                             return as_minimal_coordinates(c);
                           }});
-  past(bearing_radius, "the bearing's radius", End::refused, "bearing radius");
-  past(2 * bearing_radius, "twice the bearing's radius", End::refused, "bearing radius");
+  past(bearing_radius, "the bearing's radius", End::rejected, "bearing radius");
+  past(2 * bearing_radius, "twice the bearing's radius", End::rejected, "bearing radius");
   return axis;
 }
 
@@ -173,7 +173,7 @@ Axis contact_stiffness_axis() {
                               return bounce(std::pow(10.0, decade), 0.1, method);
                             }});
   for (const auto& [value, label] : std::vector<std::pair<double, std::string>>{{-1, "-1"}, {0, "0"}, {1e300, "1e300 * 1e300"}})
-    axis.cases.push_back({.value = value, .label = label, .end = End::refused, .says = "stiffness", .run = [label = label] {
+    axis.cases.push_back({.value = value, .label = label, .end = End::rejected, .says = "stiffness", .run = [label = label] {
                             return ended(attempt(text(Puck{.law = "hertz: {stiffness: " + label + "}", .velocity = {0.1, 0}})));
                           }});
   return axis;

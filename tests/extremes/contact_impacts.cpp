@@ -174,7 +174,7 @@ Axis deep_start() {
       axis.cases.push_back({.value = d,
                             .label = printed("%g m", d),
                             .what = loss ? "with loss" : "without loss",
-                            .end = d > 0.9e-3 ? End::refused : End::finished,
+                            .end = d > 0.9e-3 ? End::rejected : End::finished,
                             .says = d > 0.9e-3 ? "tenth of its radius" : "",
                             .run = [=] { return from_within(d, loss); }});
   return axis;

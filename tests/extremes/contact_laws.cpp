@@ -72,26 +72,26 @@ Axis restitution_axis() {
   const auto add = [&](double e, const std::string& label, const std::string& law, const std::function<Finding()>& run) {
     axis.cases.push_back({.value = e, .label = label, .what = law, .run = run});
   };
-  const auto refuse = [&](double e, const std::string& label, const std::string& law) {
+  const auto reject = [&](double e, const std::string& label, const std::string& law) {
     axis.cases.push_back(
-        {.value = e, .label = label, .what = law, .end = End::refused, .says = "restitution", .run = [=] {
+        {.value = e, .label = label, .what = law, .end = End::rejected, .says = "restitution", .run = [=] {
            return ended(attempt(text(Puck{.law = law + ": {restitution: " + label + ", stiffness: 1e10}", .velocity = {approach, 0}})));
          }});
   };
   for (const auto& [e, label] : std::vector<std::pair<double, std::string>>{{0, "0"}, {1e-6, "1e-6"}, {0.5, "0.5"}, {1, "1"}}) {
     for (const LossLaw& law : laws())
       if (e == 0 && law.pole)
-        refuse(e, label, law.name);
+        reject(e, label, law.name);
       else
         add(e, label, law.name, [e = e, &law] { return bounce_of(law, e); });
     if (e == 0)
-      refuse(e, label, "exact");
+      reject(e, label, "exact");
     else
       add(e, label, "exact", [e = e] { return bounce_exact(e); });
   }
   add(1, "1", "hertz", [] { return bounce("hertz: {stiffness: 1e10}", 1, contact_time(0, 1)); });
-  refuse(-1e-6, "-1e-6", "hunt-crossley");
-  refuse(1 + 1e-6, "1.000001", "hunt-crossley");
+  reject(-1e-6, "-1e-6", "hunt-crossley");
+  reject(1 + 1e-6, "1.000001", "hunt-crossley");
   return axis;
 }
 
@@ -181,7 +181,7 @@ Axis friction_coefficient() {
     axis.cases.push_back({.value = mu, .label = printed("%g", mu), .run = [=] {
                             return stopping({.mu = mu, .until = mu > 0 ? std::min(1.0, 1.2 * stopping_time(mu)) : 1});
                           }});
-  axis.cases.push_back({.value = -0.1, .label = "-0.1", .end = End::refused, .says = "coefficient", .run = [] {
+  axis.cases.push_back({.value = -0.1, .label = "-0.1", .end = End::rejected, .says = "coefficient", .run = [] {
                           return ended(attempt(text(Brake{.mu = -0.1})));
                         }});
   return axis;
@@ -204,14 +204,14 @@ Axis friction_onset() {
                             .says = too_fine ? "max steps reached" : "",
                             .run = [=] { return stopping({.v0 = share * v1, .v1 = v1, .until = 1.2 * stopping_time(0.5)}); }});
     }
-  const auto refuse = [&](double v0, double v1, const std::string& label, const std::string& what) {
-    axis.cases.push_back({.value = v1, .label = label, .what = what, .end = End::refused, .says = "ambrosio.v", .run = [=] {
+  const auto reject = [&](double v0, double v1, const std::string& label, const std::string& what) {
+    axis.cases.push_back({.value = v1, .label = label, .what = what, .end = End::rejected, .says = "ambrosio.v", .run = [=] {
                             return ended(attempt(text(Brake{.v0 = v0, .v1 = v1})));
                           }});
   };
-  refuse(1e-2, 1e-2, "0.01 m/s", "v0 = v1");
-  refuse(0, 0, "0 m/s", "v0 = 0");
-  refuse(-1e-3, 1e-2, "0.01 m/s", "v0 = -1 mm/s");
+  reject(1e-2, 1e-2, "0.01 m/s", "v0 = v1");
+  reject(0, 0, "0 m/s", "v0 = 0");
+  reject(-1e-3, 1e-2, "0.01 m/s", "v0 = -1 mm/s");
   return axis;
 }
 

@@ -62,7 +62,7 @@ Finding judged(const std::string& scene_text, Judge judge) {
     if (!body.warnings.empty()) out.end = End::warned, out.said = body.warnings.front();
     return out;
   } catch (const pintle::SceneError& e) {
-    return {End::refused, e.what(), "", 0, -1};
+    return {End::rejected, e.what(), "", 0, -1};
   }
 }
 
@@ -103,7 +103,7 @@ Axis slenderness() {
   }
   for (const double s : {1e1, 1e2, 1e3, 1e4})
     add(s, "Euler, askew", [=] { return frequency_of({.end = "[0.6, 0.8]", .height = 1 / s, .theory = "euler, rotary inertia: false"}, 1e-6 + rounding(s)); });
-  axis.cases.push_back({1e5, "1e+05", "Euler, askew", End::refused, unheld, [] { return frequency_of({.end = "[0.6, 0.8]", .height = 1e-5}, 1); }});
+  axis.cases.push_back({1e5, "1e+05", "Euler, askew", End::rejected, unheld, [] { return frequency_of({.end = "[0.6, 0.8]", .height = 1e-5}, 1); }});
   for (const double s : {1e2, 1e4, 1e5, 1e6}) add(s, "run", [=] { return deflection_of({.height = 1 / s}, 1e-4 + rounding(s)); });
   return axis;
 }
@@ -132,7 +132,7 @@ static: {loads: {pull: {traction: [0, 1e3], on: right}}}
                               });
                             }});
     }
-  axis.cases.push_back(past(0.5, "0.5", "", End::refused, "must be greater than -1 and less than 0.5", R"(bodies:
+  axis.cases.push_back(past(0.5, "0.5", "", End::rejected, "must be greater than -1 and less than 0.5", R"(bodies:
   link:
     plate: {grid: {corners: [[0, 0], [1, 0], [1, 0.1], [0, 0.1]], cells: [4, 1]}, thickness: 1, plane: strain, young: 1e9, poisson: 0.5, density: 1000}
 run: {until: 1}
@@ -152,9 +152,9 @@ Axis modes_kept() {
   axis.cases.push_back({60, "all", "beside the static shapes", End::finished, "", [] {
                           return deflection_of({.modes = "{frame: {tangent: A}, craig-bampton: {keep: all}}"}, 1e-4);
                         }});
-  axis.cases.push_back(past(0, "0", "natural", End::refused, "at least 1", text(Cantilever{.modes = "{frame: {tangent: A}, count: 0}"})));
-  axis.cases.push_back(past(1000, "1000", "natural", End::refused, "ask for no more than these", text(Cantilever{.modes = "{frame: {tangent: A}, count: 1000}"})));
-  axis.cases.push_back(past(0, "0", "below 1e-3 Hz", End::refused, "", text(Cantilever{.modes = "{frame: mean axes, below: 1e-3 Hz}"})));
+  axis.cases.push_back(past(0, "0", "natural", End::rejected, "at least 1", text(Cantilever{.modes = "{frame: {tangent: A}, count: 0}"})));
+  axis.cases.push_back(past(1000, "1000", "natural", End::rejected, "ask for no more than these", text(Cantilever{.modes = "{frame: {tangent: A}, count: 1000}"})));
+  axis.cases.push_back(past(0, "0", "below 1e-3 Hz", End::rejected, "", text(Cantilever{.modes = "{frame: mean axes, below: 1e-3 Hz}"})));
   return axis;
 }
 
@@ -236,8 +236,8 @@ Axis modal_damping() {
                             }
                             return measured(a, off, 1e-4);
                           }});
-  axis.cases.push_back(past(1.5, "1.5", "as a ratio", End::refused, "must lie between 0 and 1", text(Cantilever{.damping = "{ratios: 1.5}"})));
-  axis.cases.push_back(past(-0.1, "-0.1", "as a ratio", End::refused, "must lie between 0 and 1", text(Cantilever{.damping = "{ratios: -0.1}"})));
+  axis.cases.push_back(past(1.5, "1.5", "as a ratio", End::rejected, "must lie between 0 and 1", text(Cantilever{.damping = "{ratios: 1.5}"})));
+  axis.cases.push_back(past(-0.1, "-0.1", "as a ratio", End::rejected, "must lie between 0 and 1", text(Cantilever{.damping = "{ratios: -0.1}"})));
   return axis;
 }
 

@@ -147,7 +147,7 @@ Axis dead_centres() {
   const FourBar deltoid = placed({.a = 0.3, .b = 0.5, .c = 0.5, .d = 0.3, .angle = 1, .driven = false, .until = 3, .method = "dopri5"});
   axis.cases.push_back(past(2, "deltoid", "free, folds", End::stopped, "a singular pose", text(deltoid)));
   FourBar apart_bars{.a = 0.1, .b = 0.1, .c = 0.1, .d = 0.6};
-  axis.cases.push_back(past(3, "too short", "", End::refused, "cannot close", text(apart_bars)));
+  axis.cases.push_back(past(3, "too short", "", End::rejected, "cannot close", text(apart_bars)));
   return axis;
 }
 
@@ -179,8 +179,8 @@ run: {until: 0.1}
   axis.cases.push_back(past(1e-12, "1e-12", "", End::stopped, "J unexplained", scene(1e-12)));
   axis.cases.push_back(past(-1e-12, "-1e-12", "flat", End::stopped, "", scene(-1e-12)));
   axis.cases.push_back(past(0, "0", "flat", End::stopped, "", scene(0)));
-  axis.cases.push_back(past(-1e-9, "-1e-09", "", End::refused, "cannot close", scene(-1e-9)));
-  axis.cases.push_back(past(-1e-2, "-0.01", "", End::refused, "cannot close", scene(-1e-2)));
+  axis.cases.push_back(past(-1e-9, "-1e-09", "", End::rejected, "cannot close", scene(-1e-9)));
+  axis.cases.push_back(past(-1e-2, "-0.01", "", End::rejected, "cannot close", scene(-1e-2)));
   return axis;
 }
 

@@ -88,8 +88,8 @@ Axis tolerance_axis() {
     }
   axis.cases.push_back(past(1e-2, "1e-2", "dopri5", End::stopped, "tighten run.tolerance", text(Rod{.tolerance = "1e-2", .method = "dopri5"})));
   for (const char* tolerance : {"1e-15", "1e-300"})
-    axis.cases.push_back(past(std::stod(tolerance), tolerance, "", End::refused, "not below 1e-14", text(Rod{.tolerance = tolerance})));
-  axis.cases.push_back(past(1, "1", "", End::refused, "must lie between 0 and 1", text(Rod{.tolerance = "1"})));
+    axis.cases.push_back(past(std::stod(tolerance), tolerance, "", End::rejected, "not below 1e-14", text(Rod{.tolerance = tolerance})));
+  axis.cases.push_back(past(1, "1", "", End::rejected, "must lie between 0 and 1", text(Rod{.tolerance = "1"})));
   return axis;
 }
 
@@ -150,9 +150,9 @@ Axis output_interval() {
   for (const double every : {1e-5, 1e-3, 0.3, 2.0})
     axis.cases.push_back({every, printed("%g s", every), "", End::finished, "", [every] { return as_a_pendulum({.every = every}, 1e-6); }});
   for (const double every : {1e-300, 1e-12})
-    axis.cases.push_back(past(every, printed("%g s", every), "", End::refused, "ten million rows", text(Rod{.every = every})));
+    axis.cases.push_back(past(every, printed("%g s", every), "", End::rejected, "ten million rows", text(Rod{.every = every})));
   for (const double every : {2.5, 1e300})
-    axis.cases.push_back(past(every, printed("%g s", every), "", End::refused, "longer than the run", text(Rod{.every = every})));
+    axis.cases.push_back(past(every, printed("%g s", every), "", End::rejected, "longer than the run", text(Rod{.every = every})));
   return axis;
 }
 

@@ -103,7 +103,7 @@ void judge(const ExactBeam& b) {
 }
 
 /// The start must move with what holds the ends.
-void judge_start(const BeamMesh& m) {
+void validate_start(const BeamMesh& m) {
   for (int end = 0; end < 2; ++end) {
     const BeamEnd& e = end == 0 ? m.beam.a : m.beam.b;
     if (e.hold == Hold::free) continue;
@@ -220,7 +220,7 @@ BeamMesh build(const ExactBeam& beam, const BeamStart& start) {
              .Te = {},
              .first = {},
              .rest = {start(0), start(beam.length)}};
-  judge_start(m);
+  validate_start(m);
   add_freedoms(m);
   add_mass(m);
   m.Mz = m.T.transpose() * m.M * m.T;

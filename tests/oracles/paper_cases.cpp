@@ -13,7 +13,7 @@ using namespace pintle_oracle;
 namespace {
 
 constexpr double tolerances[] = {1e-9, 1e-10, 1e-11, 1e-12};
-constexpr double lasting = 1e-3;  // a contact longer than this is called continuous [s]
+constexpr double permanent = 1e-3;  // a contact longer than this is called continuous [s]
 
 struct Result {
   double tolerance, energy_start, energy, stored, hysteresis, friction, shown, drive, ledger;
@@ -43,7 +43,7 @@ Result run(const Params& p, double t_end, double tolerance, Method method = Meth
   r.ledger = after.ledger - before.ledger;
   r.settled = -1;
   for (std::size_t i = 0; i < r.impacts.size() && r.settled < 0; ++i)
-    if (r.impacts[i].end - r.impacts[i].begin > lasting) r.settled = static_cast<int>(i);
+    if (r.impacts[i].end - r.impacts[i].begin > permanent) r.settled = static_cast<int>(i);
   return r;
 }
 

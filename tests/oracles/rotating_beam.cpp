@@ -115,11 +115,11 @@ double mean_turn(double s) {
 
 }  // namespace
 
-RotatingBeam without_stiffening(RotatingBeam beam, BeamFrameTie tie) {
+RotatingBeam without_stiffening(RotatingBeam beam, BeamFrameTie conditions) {
   const double w2 = beam.w * beam.w, hub = beam.hub;
   beam.lacking = [=](double s) { return w2 * (hub * (1 - s) + (1 - s * s) / 2); };
-  if (tie == BeamFrameTie::chord) beam.lean_tip = 1;
-  if (tie == BeamFrameTie::mean_axes) beam.lean = mean_turn;
+  if (conditions == BeamFrameTie::chord) beam.lean_tip = 1;
+  if (conditions == BeamFrameTie::mean_axes) beam.lean = mean_turn;
   return beam;
 }
 

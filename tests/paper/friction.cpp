@@ -11,16 +11,16 @@
 namespace paper {
 
 /// Means over a run's first `until` seconds, weighted by the normal force.
-struct Grip {
+struct Attachment {
   double correction = 0;  ///< c_d
   double speed = 0;       ///< |sliding| [m/s]
   double middle = 0;      ///< share between v0 and v1
   double rest = 0;        ///< share below v0
 };
-Grip grip(const Run& r, double mu, double until) {
+Attachment attachment(const Run& r, double mu, double until) {
   const Vector t = column(r, "t [s]"), n = column(r, pin + "normal [N]"),
                s = column(r, pin + "sliding [m/s]"), T = column(r, pin + "friction [N]");
-  Grip g;
+  Attachment g;
   double all = 0;
   for (std::size_t i = 0; i < t.size() && t[i] <= until; ++i) {
     const double speed = std::abs(s[i]);
@@ -42,7 +42,7 @@ void figure9(Page& page) {
   const std::array<const char*, 2> names{"surfaces", "place of contact"};
   std::array<std::vector<Curve>, 2> energy_curves, sliding;
   std::array<std::string, 2> losses;
-  std::string parts, grips, books, hits;
+  std::string parts, attachments, books, hits;
   for (std::size_t d = 0; d < 2; ++d)
     for (const char* e : {"0.9", "0.8"})
       for (const char* mu : mus) {
@@ -60,15 +60,15 @@ void figure9(Page& page) {
         losses[d] += printed(" %zu |\n", r.impacts.size());
         if (m > 0) {
           parts += printed("| %s | %s | %s |", names[d], e, mu);
-          grips += printed("| %s | %s | %s |", names[d], e, mu);
+          attachments += printed("| %s | %s | %s |", names[d], e, mu);
           for (const double t : {10e-3, 20e-3, 100e-3}) {
             const double h = ledger_at(r, lost_h, t);
             parts += printed(" %.3f + %.3f = %.3f |", h, gone(r, t) - h, gone(r, t));
-            const Grip g = grip(r, m, t);
-            grips += printed(" %.2f, %.3f, %.3f |", g.correction, m * g.correction, g.speed);
+            const Attachment g = attachment(r, m, t);
+            attachments += printed(" %.2f, %.3f, %.3f |", g.correction, m * g.correction, g.speed);
           }
-          const Grip g = grip(r, m, 0.1);
-          parts += "\n", grips += printed(" %.1f %%, %.1f %% |\n", 100 * g.rest, 100 * g.middle);
+          const Attachment g = attachment(r, m, 0.1);
+          parts += "\n", attachments += printed(" %.1f %%, %.1f %% |\n", 100 * g.rest, 100 * g.middle);
         }
         if (d == 0 && e[2] == '9' && m > 0) {
           const Vector t = column(r, "t [s]"), slide = column(r, pin + "sliding [m/s]"),
@@ -162,7 +162,7 @@ void figure9(Page& page) {
          "between v₀ and v₁:\n\n"
          "| speed of the | e | μ | 10 ms | 20 ms | 100 ms | below v₀, between (100 ms) "
          "|\n|---|---|---|---|---|---|---|\n"
-      << grips
+      << attachments
       << "\nThe sliding speed does fall as μ grows, and c_d with it: a little with the speed of "
          "the surfaces, strongly with the speed of the place of contact. But the product μ c_d "
          "grows throughout, with either. "

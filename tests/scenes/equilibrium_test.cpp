@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "framework/build/build.h"
-#include "framework/build/stand_in.h"
+#include "framework/build/inertia_defaults.h"
 #include "tests/scenes/flexible_scenes.h"
 
 namespace pintle_scenes {

@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "framework/bodies/elastic_body.h"
+#include "framework/build/build.h"
 #include "framework/component/fe/assembly.h"
 #include "tests/oracles/flexible_slider_crank.h"
 #include "tests/scenes/flexible_scenes.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/bodies/pieces.h"
+#include "framework/bodies/segments.h"
 #include "framework/scene/yaml/reader.h"
 
 namespace pintle_scenes {

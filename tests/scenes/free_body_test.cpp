@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "framework/bodies/mechanism_body.h"
+#include "framework/build/build.h"
 #include "framework/component/fe/fe_model.h"
 #include "framework/dynamics/model/flexible.h"
 #include "tests/scenes/flexible_scenes.h"

@@ -5,8 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/analysis/simulate/books.h"
-#include "framework/build/method.h"
+#include "framework/analysis/simulate/energy_balance.h"
+#include "framework/build/build.h"
+#include "framework/build/choose_method.h"
 #include "framework/scene/error.h"
 #include "framework/scene/yaml/reader.h"
 #include "tests/scenes/flexible_scenes.h"
@@ -186,7 +187,7 @@ pintle::Run judged(const char* method, double tolerance, double unexplained, dou
   const pintle::Model model = pintle::build(s);
   pintle::Run r;
   r.worst_unexplained = unexplained, r.energy_in_play = in_play;
-  pintle::judge_books(s, model, !model.scheme.tableau, floor, r);
+  pintle::check_energy_balance(s, model, !model.scheme.tableau, floor, r);
   return r;
 }
 
@@ -280,7 +281,7 @@ TEST(Auto, ChoosesTheSameForTheSameSceneAndRunsToItsEnd) {
 }
 
 TEST(Method, RefusesConstraintsThatItCannotKeep) {
-  const auto refused = [](const char* method, const char* constraints) {
+  const auto rejected = [](const char* method, const char* constraints) {
     pintle::Scene s = scene(SliderCrank{.clearance = 0});
     s.run.method = method, s.run.constraints = constraints;
     try {
@@ -290,10 +291,10 @@ TEST(Method, RefusesConstraintsThatItCannotKeep) {
     }
     return std::string();
   };
-  EXPECT_NE(refused("generalized-alpha", "partitioning").find("partitioning"), std::string::npos);
-  EXPECT_NE(refused("generalized-alpha", "index 3").find("take projection"), std::string::npos);
-  EXPECT_NE(refused("dopri6", "projection").find("Did you mean"), std::string::npos) << refused("dopri6", "projection");
-  EXPECT_EQ(refused("auto", "partitioning"), "");
+  EXPECT_NE(rejected("generalized-alpha", "partitioning").find("partitioning"), std::string::npos);
+  EXPECT_NE(rejected("generalized-alpha", "index 3").find("take projection"), std::string::npos);
+  EXPECT_NE(rejected("dopri6", "projection").find("Did you mean"), std::string::npos) << rejected("dopri6", "projection");
+  EXPECT_EQ(rejected("auto", "partitioning"), "");
 }
 
 TEST(Method, ConstraintsAtIndexThreeAreRefusedWithTheRemedy) {

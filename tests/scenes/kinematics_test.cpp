@@ -8,7 +8,7 @@
 
 #include "framework/analysis/kinematics/inverse.h"
 #include "framework/build/build.h"
-#include "framework/build/stand_in.h"
+#include "framework/build/inertia_defaults.h"
 #include "tests/scenes/mechanisms.h"
 
 namespace pintle_scenes {

@@ -16,10 +16,10 @@ namespace pintle {
 
 namespace fs = std::filesystem;
 
-inline TradePoint point(double time, double error, double doubt = 0) {
+inline TradePoint point(double time, double error, double warning = 0) {
   TradePoint p;
   p.status = "finished", p.usable = true;
-  p.time = time, p.error = error, p.doubt = doubt;
+  p.time = time, p.error = error, p.warning = warning;
   return p;
 }
 
@@ -33,7 +33,7 @@ inline double number_of(const Overrides& set, const std::string& path, double ot
 inline FidelityAxis axis(const std::string& name, const std::string& path, const std::vector<std::string>& values) {
   FidelityAxis a{.name = name, .values = {}};
   for (const std::string& v : values) a.values.push_back({v, {{path, v}}});
-  judge_axis(a);
+  validate_axis(a);
   return a;
 }
 

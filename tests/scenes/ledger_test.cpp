@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "framework/build/build.h"
 #include "tests/scenes/mechanisms.h"
 
 namespace pintle_scenes {

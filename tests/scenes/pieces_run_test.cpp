@@ -42,7 +42,7 @@ ExactBeam exact(double EA = 1e4) {
 /// The same as body `rod`, ends A and B, middle M.
 struct Rod {
   int pieces = 1;
-  std::string stiffening = "none", tie = "chord";
+  std::string stiffening = "none", conditions = "chord";
   double EA = 1e4;
   double x = 0;  ///< of A at the start
 };
@@ -58,7 +58,7 @@ std::string text(const Rod& rod) {
     << ", shear factor: 0.75}}\n"
        "    points: {A: [0, 0], M: [0.5, 0], B: [1, 0]}\n"
        "    modes: {frame: "
-    << rod.tie
+    << rod.conditions
     << ", craig-bampton: {count: 0}}\n"
        "    stiffening: "
     << rod.stiffening

@@ -147,7 +147,7 @@ TEST(ParallelogramChain, GoesOnFromAFlatStartAsItsSpeedsSay) {
     expect_angle(w, "crank0", expected_parallelograms(n, 2, 0, 3));
     expect_angle(w, numbered("crank", n), expected_parallelograms(n, 2, 0, 3));
     EXPECT_EQ(static_cast<int>(w.assembly.redundant.size()), n);
-    for (const Redundancy& r : w.assembly.redundant) EXPECT_FALSE(r.lasting);
+    for (const Redundancy& r : w.assembly.redundant) EXPECT_FALSE(r.permanent);
   }
 }
 
@@ -217,7 +217,7 @@ TEST(DoublyHingedDoor, SwingsAsAPendulumAndSharesItsWeight) {
     expect_angle(w, "door", angle_at(2, 0.3 + 0.5, g, 0, 1));
     EXPECT_EQ(w.assembly.rank, 2);
     ASSERT_EQ(w.assembly.redundant.size(), 2u);
-    for (const Redundancy& r : w.assembly.redundant) EXPECT_TRUE(r.lasting && r.joint == 1);
+    for (const Redundancy& r : w.assembly.redundant) EXPECT_TRUE(r.permanent && r.joint == 1);
     for (const bool shared : w.assembly.shared) EXPECT_TRUE(shared);
     const auto lower = w.column("lower.fy on door [N]"), upper = w.column("upper.fy on door [N]");
     // At the start: θ̈ = −g/0.8, the centre's acceleration downwards 0.5 θ̈.
@@ -234,10 +234,10 @@ TEST(ParallelCranks, MoveThoughOverconstrainedAndPassTheirFlatPoses) {
       const Whole w = run(parallel_cranks(n, angle, 4, 3));
       const double expected = angle_at(3, n / 3.0 + 1, g * (n / 2.0 + 1), angle, 4);
       for (int i = 0; i < n; ++i) expect_angle(w, numbered("crank", i), expected);
-      int lasting = 0;
-      for (const Redundancy& r : w.assembly.redundant) lasting += r.lasting ? 1 : 0;
+      int permanent = 0;
+      for (const Redundancy& r : w.assembly.redundant) permanent += r.permanent ? 1 : 0;
       EXPECT_EQ(static_cast<int>(w.assembly.redundant.size()), angle == 0 ? n - 1 : n - 2);
-      EXPECT_EQ(lasting, n - 2);
+      EXPECT_EQ(permanent, n - 2);
     }
 }
 
@@ -268,9 +268,9 @@ TEST(ParallelCranks, AreLastinglyRedundantInPosesAlongTheAxes) {
         const Model model = build(s);
         const Assembly a = assemble(s, model);
         ASSERT_EQ(static_cast<int>(a.redundant.size()), n - 2);
-        for (const Redundancy& r : a.redundant) EXPECT_TRUE(r.lasting) << row_text(model.system, r.joint, r.row) << " " << angle << " " << turn;
+        for (const Redundancy& r : a.redundant) EXPECT_TRUE(r.permanent) << row_text(model.system, r.joint, r.row) << " " << angle << " " << turn;
         for (std::size_t row = 0; row < a.shared.size(); ++row) EXPECT_TRUE(a.shared[row]) << row << " " << angle << " " << turn;
-        for (const std::string& doubt : doubts(model, a)) EXPECT_FALSE(says(doubt, "singular")) << doubt;
+        for (const std::string& warning : warnings_of(model, a)) EXPECT_FALSE(says(warning, "singular")) << warning;
       }
 }
 
@@ -326,7 +326,7 @@ TEST(EllipticTrammel, MovesWithAnExtraLink) {
   expect_angle(w, "crank", angle_at(3, 1.0 / 3 + 1 + 1.0 / 3, 1.5 * g, angle, 1));
   EXPECT_NEAR(w.last("rod.angle [rad]"), -w.last("crank.angle [rad]"), 1e-9);
   ASSERT_EQ(w.assembly.redundant.size(), 1u);
-  EXPECT_TRUE(w.assembly.redundant[0].lasting);
+  EXPECT_TRUE(w.assembly.redundant[0].permanent);
 }
 
 TEST(TwoDrivers, ThatAgreeRunAndBearTheWeightTogether) {

@@ -56,13 +56,13 @@ TEST(RotatingCantilever, IndependentModelHasThePublishedFrequencies) {
 /// Its beam on a hub of any inertia, driven.
 struct Blade {
   double w = 0, hub = 0;
-  std::string tie = "tangent", keep = "craig-bampton: {count: 8}", stiffening = "rotation";
+  std::string conditions = "tangent", keep = "craig-bampton: {count: 8}", stiffening = "rotation";
   int elements = 80;
   double EA = 1e6;
 };
-std::string frame(const std::string& tie) {
-  if (tie == "tangent") return "{tangent: A}";
-  return tie == "chord" ? "{chord: [A, B]}" : tie;
+std::string frame(const std::string& conditions) {
+  if (conditions == "tangent") return "{tangent: A}";
+  return conditions == "chord" ? "{chord: [A, B]}" : conditions;
 }
 std::string text(const Blade& b) {
   std::ostringstream s;
@@ -80,7 +80,7 @@ std::string text(const Blade& b) {
     << ", poisson: 0, density: 1}\n"
        "    points: {A: [0, 0], B: [1, 0]}\n"
        "    modes: {frame: "
-    << frame(b.tie) << ", " << b.keep
+    << frame(b.conditions) << ", " << b.keep
     << "}\n"
        "    stiffening: "
     << b.stiffening
@@ -125,10 +125,10 @@ const std::vector<std::pair<std::string, std::string>> complete_stiffening = {
     {"mean axes", "axial"}};
 
 TEST(RotatingCantilever, HasThePublishedFrequenciesUnderEveryTie) {
-  for (const auto& [tie, stiffening] : complete_stiffening)
+  for (const auto& [conditions, stiffening] : complete_stiffening)
     for (const Published& spin : spins) {
-      SCOPED_TRACE(tie + ", " + stiffening + ", " + std::to_string(spin.w));
-      const Blade blade{.w = spin.w, .tie = tie, .stiffening = stiffening};
+      SCOPED_TRACE(conditions + ", " + stiffening + ", " + std::to_string(spin.w));
+      const Blade blade{.w = spin.w, .conditions = conditions, .stiffening = stiffening};
       const VectorXd f = frequencies(spun(blade).motion);
       // Bending alone: chord² = flap² − w². The pull's error is relative to flap².
       const double tolerance = 2 * (mesh(blade.elements) + published);
@@ -140,12 +140,12 @@ TEST(RotatingCantilever, HasThePublishedFrequenciesUnderEveryTie) {
 }
 
 TEST(RotatingCantilever, OnAHubOfItsOwnLengthAgreesWithTheIndependentModel) {
-  for (const auto& [tie, stiffening] : complete_stiffening)
+  for (const auto& [conditions, stiffening] : complete_stiffening)
     for (const double w : {2.0, 10.0}) {
-      SCOPED_TRACE(tie + ", " + stiffening + ", " + std::to_string(w));
+      SCOPED_TRACE(conditions + ", " + stiffening + ", " + std::to_string(w));
       const Blade blade{.w = w,
                         .hub = 1,
-                        .tie = tie,
+                        .conditions = conditions,
                         .keep = "craig-bampton: {count: 20}",
                         .stiffening = stiffening};
       const VectorXd f = frequencies(spun(blade).motion),
@@ -160,7 +160,7 @@ TEST(RotatingCantilever, ConvergesWithOrderTwoInTheMesh) {
   std::vector<double> errors;
   for (const int n : {10, 20, 40}) {
     const Blade blade{
-        .w = 10, .hub = 1, .tie = "chord", .keep = "craig-bampton: {count: 20}", .elements = n};
+        .w = 10, .hub = 1, .conditions = "chord", .keep = "craig-bampton: {count: 20}", .elements = n};
     const double f = frequencies(spun(blade).motion)[1];
     errors.push_back(std::abs(f * f - want));
   }
@@ -211,14 +211,14 @@ TEST(RotatingCantilever, WithoutStiffeningIsAsSoftAsItsTieMakesIt) {
   const std::pair<std::string, BeamFrameTie> ties[] = {{"tangent", BeamFrameTie::tangent},
                                                        {"chord", BeamFrameTie::chord},
                                                        {"mean axes", BeamFrameTie::mean_axes}};
-  for (const auto& [tie, modelled] : ties)
+  for (const auto& [conditions, modelled] : ties)
     for (const double w : {2.0, 6.0, 10.0})
       for (const double hub : {0.0, 1.0}) {
-        SCOPED_TRACE(tie + ", " + std::to_string(w) + ", " + std::to_string(hub));
+        SCOPED_TRACE(conditions + ", " + std::to_string(w) + ", " + std::to_string(hub));
         const VectorXd want = squares(without_stiffening({w, hub}, modelled));
         const Blade blade{.w = w,
                           .hub = hub,
-                          .tie = tie,
+                          .conditions = conditions,
                           .keep = "keep: all",
                           .stiffening = "none",
                           .elements = 20};
@@ -236,7 +236,7 @@ TEST(RotatingCantilever, WithoutStiffeningIsAsSoftAsItsTieMakesIt) {
 TEST(RotatingCantilever, UnderMeanAxesStiffensWithoutThePullOfItsRootUnlessAxial) {
   for (const double w : {2.0, 6.0, 10.0}) {
     const VectorXd want = squares(without_pull_of_clamp(RotatingBeam{w}));
-    const Blade blade{.w = w, .tie = "mean axes", .stiffening = "rotation"};
+    const Blade blade{.w = w, .conditions = "mean axes", .stiffening = "rotation"};
     const VectorXd f = frequencies(spun(blade).motion);
     for (int k = 0; k < 2; ++k)
       EXPECT_NEAR(f[k] * f[k], want[k], 2 * mesh(blade.elements) * (want[k] + 2 * w * w)) << w;
@@ -247,28 +247,28 @@ TEST(RotatingCantilever, UnderMeanAxesStiffensWithoutThePullOfItsRootUnlessAxial
 // Without stiffening EA u″ + w² (s + u) = 0: 1 + u = tan(k)/k, k = w/√EA, at the tip. With it the
 // strain is Green's, EA (u′ + ½u′²)(1 + u′) = N: u = k²/3 + (2/15 − 1/5) k⁴ …
 TEST(RotatingCantilever, StretchesAsItsClosedForm) {
-  for (const std::string tie : {"tangent", "chord", "mean axes"})
+  for (const std::string conditions : {"tangent", "chord", "mean axes"})
     for (const double w : {1.0, 20.0}) {
       Blade blade{
-          .w = w, .tie = tie, .keep = "keep: all", .stiffening = "none", .elements = 20, .EA = 1e4};
+          .w = w, .conditions = conditions, .keep = "keep: all", .stiffening = "none", .elements = 20, .EA = 1e4};
       const double k = w / std::sqrt(blade.EA), small = w * w / (3 * blade.EA);
       const auto reach = [&] {
         const Steady s = spun(blade);
         return place_of(s.model, s.state, "blade.B").norm() - 1;
       };
       EXPECT_NEAR(reach(), std::tan(k) / k - 1, (k * k * mesh(blade.elements) + difference) * small)
-          << tie << w;
+          << conditions << w;
       blade.stiffening = "axial";
       EXPECT_NEAR(reach(), small - std::pow(k, 4) / 15,
                   (std::pow(k, 4) + k * k * mesh(blade.elements) + difference) * small)
-          << tie << w;
+          << conditions << w;
     }
 }
 
 // ---- column ----
 
 /// A beam of EI = ρA = L = 1 hinged at both ends, one sliding, pushed there by P.
-std::string column(double P, const std::string& tie, const std::string& stiffening,
+std::string column(double P, const std::string& conditions, const std::string& stiffening,
                    int pieces = 1) {
   std::ostringstream s;
   s.precision(17);
@@ -280,7 +280,7 @@ std::string column(double P, const std::string& tie, const std::string& stiffeni
        "           section: {area: 1, second moment: 1e-6}, young: 1e6, poisson: 0, density: 1}\n"
        "    points: {A: [0, 0], B: [1, 0]}\n"
        "    modes: {frame: "
-    << frame(tie)
+    << frame(conditions)
     << ", keep: all}\n"
        "    stiffening: "
     << stiffening
@@ -299,24 +299,24 @@ const double column_error = 2 * std::pow(pi / 16, 4) / 720 + 1e-4;
 
 TEST(Column, LoadAlongItChangesTheSquareOfItsFrequencyInProportion) {
   const double euler = pi * pi;
-  for (const std::string tie : {"chord", "tangent", "mean axes"})
+  for (const std::string conditions : {"chord", "tangent", "mean axes"})
     for (const double share : {-2.0, 0.0, 0.5, 0.95}) {
-      const VectorXd f = frequencies(Steady(column(share * euler, tie, "axial")).motion);
+      const VectorXd f = frequencies(Steady(column(share * euler, conditions, "axial")).motion);
       EXPECT_NEAR(f[0] * f[0], std::pow(pi, 4) * (1 - share),
                   column_error * std::pow(pi, 4) * (1 + std::abs(share)))
-          << tie << share;
+          << conditions << share;
       EXPECT_NEAR(f[1] * f[1], std::pow(2 * pi, 4) * (1 - share / 4),
                   column_error * std::pow(2 * pi, 4))
-          << tie << share;
+          << conditions << share;
     }
 }
 
 TEST(Column, BeyondEulersLoadGrows) {
-  for (const std::string tie : {"chord", "tangent", "mean axes"})
+  for (const std::string conditions : {"chord", "tangent", "mean axes"})
     for (const double share : {1.05, 1.5}) {
-      const double g = growth(Steady(column(share * pi * pi, tie, "axial")).motion);
+      const double g = growth(Steady(column(share * pi * pi, conditions, "axial")).motion);
       EXPECT_NEAR(g * g, std::pow(pi, 4) * (share - 1), column_error * std::pow(pi, 4))
-          << tie << share;
+          << conditions << share;
     }
 }
 

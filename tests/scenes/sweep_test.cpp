@@ -437,7 +437,7 @@ class Post {
   std::vector<std::vector<Letter>> boxes_;
   std::mutex mutex_;
 };
-class Played : public Fellows {
+class Played : public Communicator {
  public:
   Played(Post& post, int rank) : post_(post), rank_(rank) {}
   int rank() const override { return rank_; }
@@ -471,8 +471,8 @@ TEST(Sweep, ProcessesShareTheCasesAndEachIsRunOnce) {
     SweepEnd end;
     for (int rank = size - 1; rank >= 0; --rank)
       processes.emplace_back([&, rank] {
-        Played fellows(post, rank);
-        const SweepEnd mine = run_sweep(sweep, out, {rank == 1 ? 2 : 1, &fellows, {}});
+        Played communicator(post, rank);
+        const SweepEnd mine = run_sweep(sweep, out, {rank == 1 ? 2 : 1, &communicator, {}});
         if (rank == 0) end = mine;
       });
     for (std::thread& p : processes) p.join();
@@ -495,8 +495,8 @@ TEST(Sweep, ProcessesWithoutThreadsShareTheCasesToo) {
   Post post(2);
   SweepEnd ends[2];
   const auto play = [&](int rank) {
-    Played fellows(post, rank);
-    ends[rank] = run_sweep(sweep, folder / "out", {1, &fellows, {}});
+    Played communicator(post, rank);
+    ends[rank] = run_sweep(sweep, folder / "out", {1, &communicator, {}});
   };
   const ScarceThreads scarce(1);  // for the second process; neither has one for its cases
   std::thread second(play, 1);
@@ -515,8 +515,8 @@ TEST(Sweep, OneProcessThatIsStoppedStopsAll) {
   SweepEnd end;
   for (int rank = 0; rank < 3; ++rank)
     processes.emplace_back([&, rank] {
-      Played fellows(post, rank);
-      const SweepEnd mine = run_sweep(sweep, folder / "out", {1, &fellows, [rank](const SweepCount&) { return rank != 2; }});
+      Played communicator(post, rank);
+      const SweepEnd mine = run_sweep(sweep, folder / "out", {1, &communicator, [rank](const SweepCount&) { return rank != 2; }});
       if (rank == 0) end = mine;
     });
   for (std::thread& p : processes) p.join();

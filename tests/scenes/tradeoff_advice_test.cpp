@@ -16,7 +16,7 @@ bool says(const TradeReport& r, const std::string& words) {
   return all_said(r).find(words) != std::string::npos;
 }
 
-std::string refused(const fs::path& study) {
+std::string rejected(const fs::path& study) {
   try {
     read_tradeoff(read_study(study));
   } catch (const SceneError& e) {
@@ -38,7 +38,7 @@ TEST(TradeAdvice, AnErrorIsShownOrExcludedOnlyBeyondTheDoubt) {
   EXPECT_EQ(verdict(point(1, 0.012, 0.005), 0.01), Verdict::unknown);
   EXPECT_EQ(verdict(point(1, 0.02, 0.005), 0.01), Verdict::misses);
   TradePoint two = point(1, 0.009, 0.008);  // the largest error and the largest doubt are of different quantities
-  two.errors = {0.009, 0.001}, two.doubts = {0, 0.008};
+  two.errors = {0.009, 0.001}, two.warnings_of = {0, 0.008};
   EXPECT_EQ(verdict(two, 0.01), Verdict::meets);
 }
 
@@ -64,7 +64,7 @@ TEST(TradeAdvice, OfAReferenceThatIsKnownBadlyNothingIsRecommendedAndNoSettingIs
   TradePlan plan = known_plan();
   plan.error = 0.01;
   const TradeReport r = run_tradeoff(plan, one, never_still);
-  ASSERT_GT(r.doubt(), 0.1);
+  ASSERT_GT(r.warning(), 0.1);
   EXPECT_FALSE(r.recommended || r.cheapest);
   EXPECT_EQ(r.said[0].find("Nothing is recommended: the reference knows value to"), 0U) << r.said[0];
   EXPECT_TRUE(says(r, "an error of 1 % is wanted") && says(r, "What would help"));
@@ -201,7 +201,7 @@ TEST(TradeAdvice, WithinABudgetTheReferenceBeginsWithWhatIsCheapAndStandsForTheE
   ASSERT_EQ(r.trouble, "");
   EXPECT_TRUE(r.of[0].converged) << r.of[0].words;
   EXPECT_GE(r.of[0].error, std::abs(r.of[0].value - 2));
-  EXPECT_LE(r.of[0].doubt(), plan.error / 3) << r.of[0].words;
+  EXPECT_LE(r.of[0].warning(), plan.error / 3) << r.of[0].words;
 }
 
 TEST(TradeAdvice, EverySettingIsReadBeforeAnythingRuns) {
@@ -209,7 +209,7 @@ TEST(TradeAdvice, EverySettingIsReadBeforeAnythingRuns) {
   write(folder.path / "p.yaml", pendulum);
   const auto said = [&](const std::string& axes) {
     write(folder.path / "s.yaml", "scene: p.yaml\nmeasure: {a: energy lost}\ntradeoff:\n  axes:\n" + axes);
-    return refused(folder.path / "s.yaml");
+    return rejected(folder.path / "s.yaml");
   };
   EXPECT_NE(said("    t: {run.tolerance: [1e-3, 1e-4]}\n    s:\n      a: {run.tolerence: 1e-3}\n")
                 .find("s.yaml:7: tradeoff.axes.s: run.tolerence: unknown key \"tolerence\". Did you mean \"tolerance\""),
@@ -233,10 +233,10 @@ TEST(TradeAdvice, AStudyOfASweepAndAMeasureThatNothingCanHaveAreRefused) {
   const Folder folder;
   write(folder.path / "p.yaml", pendulum);
   write(folder.path / "sweep.yaml", "scene: p.yaml\nmeasure: {a: energy lost}\nsweep: {grid: {half: [0.1 m, 0.2 m]}}\n");
-  EXPECT_NE(refused(folder.path / "sweep.yaml").find("has a sweep and no tradeoff; run it by pintle sweep"), std::string::npos);
+  EXPECT_NE(rejected(folder.path / "sweep.yaml").find("has a sweep and no tradeoff; run it by pintle sweep"), std::string::npos);
   write(folder.path / "stress.yaml",
         "scene: p.yaml\nmeasure: {s: peak stress at rod.O}\ntradeoff: {axes: {t: {run.tolerance: [1e-3, 1e-4]}}}\n");
-  EXPECT_NE(refused(folder.path / "stress.yaml").find("\"rod\" is rigid"), std::string::npos) << refused(folder.path / "stress.yaml");
+  EXPECT_NE(rejected(folder.path / "stress.yaml").find("\"rod\" is rigid"), std::string::npos) << rejected(folder.path / "stress.yaml");
 }
 
 }  // namespace

@@ -95,9 +95,9 @@ TEST(Tradeoff, ASettingThatIsRefusedIsARowWithItsReason) {
     if (number_of(set, "bodies.rod.beam.elements", 4) == 2) o = Outcome{}, o.status = "refused", o.reason = "two, is never, right";
     return o;
   });
-  int refused = 0;
-  for (const TradePoint& p : r.points) refused += p.status == "refused" && !p.usable && p.reason == "two, is never, right";
-  EXPECT_EQ(refused, 3);
+  int rejected = 0;
+  for (const TradePoint& p : r.points) rejected += p.status == "refused" && !p.usable && p.reason == "two, is never, right";
+  EXPECT_EQ(rejected, 3);
   EXPECT_TRUE(r.recommended);
   const std::string csv = tradeoff_csv(r);
   EXPECT_EQ(std::ranges::count(csv, '\n'), 14);
@@ -185,14 +185,14 @@ TEST(Tradeoff, OfAPendulumTheReferenceAndEveryErrorAreHonestAgainstTheClosedForm
   EXPECT_FALSE(q.chaotic);
   EXPECT_TRUE(q.converged) << q.words;
   EXPECT_LE(std::abs(q.value - there), q.error) << q.words;
-  int refused = 0, usable = 0;
+  int rejected = 0, usable = 0;
   for (const TradePoint& p : r.points) {
-    refused += p.status == "refused";
+    rejected += p.status == "refused";
     if (!p.usable) continue;
     ++usable;
-    EXPECT_NEAR(p.errors[0], std::abs(p.values[0] - there) / std::abs(there), p.doubts[0]) << setting_text(plan, p);
+    EXPECT_NEAR(p.errors[0], std::abs(p.values[0] - there) / std::abs(there), p.warnings_of[0]) << setting_text(plan, p);
   }
-  EXPECT_EQ(refused, 3) << "partitioning with an implicit scheme";
+  EXPECT_EQ(rejected, 3) << "partitioning with an implicit scheme";
   EXPECT_EQ(usable, 10);
 }
 

@@ -117,7 +117,7 @@ class Undisturbed : public testing::TestWithParam<Case> {
   Integrator integrator() const { return Integrator(model_.system, model_.scheme, start_); }
   bool advance(Integrator& run) const { return run.state().t < scene_.run.until && run.advance(scene_.run.until); }
 
-  void judge_exam(const Integrator& run) const {
+  void validate_exam(const Integrator& run) const {
     using enum Case::Must;
     const Case::Must must = GetParam().must;
     if (must == strike) {
@@ -163,7 +163,7 @@ TEST_P(Undisturbed, StepsAreTheSameWithAndWithoutReadings) {
     ASSERT_TRUE(alone.failure().empty()) << alone.failure();
     ASSERT_EQ(alone.save(), read.save()) << "step " << k << ", t = " << alone.state().t;
   }
-  judge_exam(alone);
+  validate_exam(alone);
 }
 
 TEST_P(Undisturbed, AReadingDoesNotDependOnThoseBefore) {
@@ -185,7 +185,7 @@ TEST_P(Undisturbed, EveryStepIsARestartPoint) {
     saved.push_back(run.save());
   }
   ASSERT_GT(saved.size(), 20u);
-  judge_exam(run);
+  validate_exam(run);
   for (std::size_t k = 0; k + 1 < saved.size(); ++k) {
     Integrator next = integrator();
     next.load(saved[k]);

@@ -13,8 +13,8 @@
 #include "framework/analysis/natural_modes/natural_modes.h"
 #include "framework/bodies/beam_mesh.h"
 #include "framework/bodies/elastic_parts.h"
-#include "framework/bodies/file_doubts.h"
-#include "framework/bodies/pieces.h"
+#include "framework/bodies/mesh_file_warnings.h"
+#include "framework/bodies/segments.h"
 #include "framework/build/build.h"
 #include "framework/scene/yaml/reader.h"
 #include "meshes/gmsh.h"
@@ -136,7 +136,7 @@ class PlateFile : public testing::Test {
     std::ofstream(folder / "part.inp") << inp;
     return "bodies:\n  part:\n    plate: {file: part.inp, thickness: 5 mm, " + steel + more + "}\n" + points + rest;
   }
-  std::string refused(const std::string& inp, const std::string& more = "", const std::string& points = "") const { return refusal(plate(inp, more, points), folder); }
+  std::string rejected(const std::string& inp, const std::string& more = "", const std::string& points = "") const { return refusal(plate(inp, more, points), folder); }
   std::string warned(const std::string& inp, const std::string& more = "", const std::string& points = "") const { return warnings(plate(inp, more, points), folder); }
   std::filesystem::path folder;
 };
@@ -144,18 +144,18 @@ class PlateFile : public testing::Test {
 const std::string two_cells = "*NODE\n1,0,0\n2,1,0\n3,2,0\n4,0,1\n5,1,1\n6,2,1\n*ELEMENT, TYPE=CPS4, ELSET=all\n1,1,2,5,4\n2,2,3,6,5\n";
 
 TEST_F(PlateFile, WithAFaultyMeshIsRefusedWithTheCells) {
-  EXPECT_EQ(refused(two_cells), "");
+  EXPECT_EQ(rejected(two_cells), "");
   EXPECT_EQ(warned(two_cells), "");
-  expect_words(refused(two_cells + "7,2,3,6,5\n"), {"test.yaml:2", "bodies.part", "cells 2 and 7", "twice"});
+  expect_words(rejected(two_cells + "7,2,3,6,5\n"), {"test.yaml:2", "bodies.part", "cells 2 and 7", "twice"});
   expect_words(warned("*NODE\n1,0,0\n2,1,0\n3,2,0\n4,0,1\n5,1,1\n6,2,1\n7,1,1\n*ELEMENT, TYPE=CPS4\n1,1,2,5,4\n2,2,3,6,7\n"), {"from nodes 2 and 5 and from nodes 7 and 2", "slit", "merge", "at node 2", "hinge"});
-  expect_words(refused("*NODE\n1,0,0\n2,1,0\n3,2,0\n4,0,1\n5,1,1\n6,2,1\n7,1,1\n8,1,0\n*ELEMENT, TYPE=CPS4\n1,1,2,5,4\n2,8,3,6,7\n"), {"2 pieces", "merge nodes"});
+  expect_words(rejected("*NODE\n1,0,0\n2,1,0\n3,2,0\n4,0,1\n5,1,1\n6,2,1\n7,1,1\n8,1,0\n*ELEMENT, TYPE=CPS4\n1,1,2,5,4\n2,8,3,6,7\n"), {"2 pieces", "merge nodes"});
 }
 
 TEST_F(PlateFile, CardsThatMakeAnotherBodyAreRefusedByLine) {
   for (const char* card : {"*EQUATION\n2\n1,1,1.,3,1,-1.\n", "*TIE, NAME=t\na,b\n", "*MPC\nBEAM,1,2\n", "*RIGID BODY, ELSET=all, REF NODE=1\n", "*EMBEDDED ELEMENT\nall\n",
                            "*SPRING, ELSET=s\n\n100.\n"}) {
     const std::string word = std::string(card).substr(0, std::string(card).find_first_of(",\n"));
-    expect_words(refused(two_cells + card), {"part.inp:11: ", word.c_str(), "not read"});
+    expect_words(rejected(two_cells + card), {"part.inp:11: ", word.c_str(), "not read"});
   }
 }
 
@@ -182,34 +182,34 @@ TEST_F(PlateFile, MaterialAndThicknessThatContradictTheSceneAreWarnedOf) {
 TEST_F(PlateFile, OfPlaneStrainMustBeAskedFor) {
   std::string strain = two_cells;
   strain.replace(strain.find("CPS4"), 4, "CPE4");
-  expect_words(refused(strain), {"part.inp:9", "plane strain", "plane: strain"});
-  EXPECT_EQ(refused(strain, ", plane: strain"), "");
+  expect_words(rejected(strain), {"part.inp:9", "plane strain", "plane: strain"});
+  EXPECT_EQ(rejected(strain, ", plane: strain"), "");
   EXPECT_EQ(warned(strain, ", plane: strain"), "");
   expect_words(warned(strain, ", plane: stress"), {"part.inp:9", "computed in plane stress"});
-  expect_words(refused(two_cells + "*NODE\n7,3,0\n*ELEMENT,TYPE=CPE3\n9,3,7,6\n"), {"part.inp:14", "plane strain", "line 9"});
+  expect_words(rejected(two_cells + "*NODE\n7,3,0\n*ELEMENT,TYPE=CPE3\n9,3,7,6\n"), {"part.inp:14", "plane strain", "line 9"});
 }
 
 TEST_F(PlateFile, LinesWithASectionBesideCellsAreRefusedAndEdgesAreNot) {
   const std::string edge = two_cells + "*ELEMENT, TYPE=B31, ELSET=rib\n11,1,2\n12,2,3\n";
   EXPECT_EQ(warned(edge), "");
-  expect_words(refused(edge + "*BEAM SECTION, ELSET=rib, SECTION=RECT, MATERIAL=m\n1,1\n"), {"part.inp:14", "2 line elements", "\"rib\""});
+  expect_words(rejected(edge + "*BEAM SECTION, ELSET=rib, SECTION=RECT, MATERIAL=m\n1,1\n"), {"part.inp:14", "2 line elements", "\"rib\""});
   expect_words(warned(two_cells + "*NODE\n9,5,5\n*ELEMENT, TYPE=T2D2\n21,6,9\n"), {"part.inp:14", "element 21", "left out"});
 }
 
 TEST_F(PlateFile, ReadInMetresThatMeansMillimetresIsWarnedOf) {
   const std::string big = "*NODE\n1,0,0\n2,200,0\n3,200,20\n4,0,20\n*ELEMENT, TYPE=CPS4\n1,1,2,3,4\n";
-  const auto doubt = [&](const std::string& inp, const std::string& more, const std::string& rest) {
+  const auto warning = [&](const std::string& inp, const std::string& more, const std::string& rest) {
     const Scene scene = read_scene_text(plate(inp, more, "", rest), (folder / "test.yaml").string(), {}, folder);
-    return size_doubt(scene, elastic_body(scene, scene.bodies[0]));
+    return size_warning(scene, elastic_body(scene, scene.bodies[0]));
   };
-  expect_words(doubt(big, "", ""), {"201 m across", "unit: mm"});
-  EXPECT_EQ(doubt(big, ", unit: mm", ""), "");
-  EXPECT_EQ(doubt(big, ", unit: m", ""), "");
-  EXPECT_EQ(doubt(two_cells, "", ""), "");
+  expect_words(warning(big, "", ""), {"201 m across", "unit: mm"});
+  EXPECT_EQ(warning(big, ", unit: mm", ""), "");
+  EXPECT_EQ(warning(big, ", unit: m", ""), "");
+  EXPECT_EQ(warning(two_cells, "", ""), "");
   const std::string crank = "  crank:\n    rigid: {mass: 1, inertia: 1e-6}\n    points: {A: [0, 0], B: [2 mm, 0]}\n";
-  expect_words(doubt(two_cells, "", crank), {"2.236 m across", "a thousand times the rest", "unit: mm"});
-  EXPECT_EQ(doubt(two_cells, ", unit: m", crank), "");
-  expect_words(refused(big, "", "    points: {A: [0, 0], B: [200 mm, 0]}\n"), {"points.B", "thousand times", "unit: mm"});
+  expect_words(warning(two_cells, "", crank), {"2.236 m across", "a thousand times the rest", "unit: mm"});
+  EXPECT_EQ(warning(two_cells, ", unit: m", crank), "");
+  expect_words(rejected(big, "", "    points: {A: [0, 0], B: [200 mm, 0]}\n"), {"points.B", "thousand times", "unit: mm"});
 }
 
 /// A ring of n by 1 four-node cells, radii 10 and 20 mm; `half` names the inner nodes of the first n/2 + 1.
@@ -228,7 +228,7 @@ std::string ring(int n) {
 TEST_F(PlateFile, HalfARimIsNoHole) {
   const auto point = [](const std::string& name) { return "    points: {P: {hole: " + name + ", coupling: rigid}}\n"; };
   EXPECT_EQ(warned(ring(40), ", unit: mm", point("whole")), "");
-  expect_words(refused(ring(40), ", unit: mm", point("half")), {"points.P", "\"half\" covers 180 of 360 deg", "radius 0.01 m", "whole rim"});
+  expect_words(rejected(ring(40), ", unit: mm", point("half")), {"points.P", "\"half\" covers 180 of 360 deg", "radius 0.01 m", "whole rim"});
   expect_words(warned(ring(40), ", unit: mm", point("tenth")), {"covers 36 of 360 deg", "middle of that arc"});
 }
 

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "framework/build/build.h"
-#include "framework/common/computed.h"
+#include "framework/common/processor_time.h"
 
 namespace soak {
 
@@ -31,11 +31,11 @@ struct End {
 
 /// Where a run ends; nothing if it does not, or takes too long.
 std::optional<End> end_of(const System& system, const Scheme& scheme, const State& start, double until, double seconds) {
-  const double begin = computed();  // not by the clock of a machine that has other things to do
+  const double begin = processor_time();  // not by the clock of a machine that has other things to do
   Integrator run(system, scheme, start);
   End out;
   while (run.failure().empty() && run.state().t < until) {
-    if (computed() - begin > seconds || !run.advance(until)) return std::nullopt;
+    if (processor_time() - begin > seconds || !run.advance(until)) return std::nullopt;
     out.fastest = std::max(out.fastest, fastest_rate(system, run.state().y));
     out.implicit = out.implicit || run.implicit();
   }

@@ -8,7 +8,7 @@
 #include "framework/analysis/kinematics/inverse.h"
 #include "framework/analysis/kinematics/kinematics.h"
 #include "framework/analysis/linearize/linearize.h"
-#include "framework/bodies/pieces.h"
+#include "framework/bodies/segments.h"
 #include "framework/build/build.h"
 #include "framework/configuration/equilibrium.h"
 #include "framework/output/results.h"
@@ -126,7 +126,7 @@ double may_part(const Scene& scene) {
   return implicit ? std::max(1e-8, scene.run.tolerance) : 1e-8;
 }
 
-Verdict judge_run(const Scene& scene, const Model& model, const Assembly& assembly, bool twice, double seconds) {
+Verdict validate_run(const Scene& scene, const Model& model, const Assembly& assembly, bool twice, double seconds) {
   using clock = std::chrono::steady_clock;
   const auto begin = clock::now();
   bool late = false;
@@ -181,7 +181,7 @@ Listeners stop_after(double seconds) {
   return listeners;
 }
 
-Verdict judge_statics(const Scene& scene, const Model& model, const Assembly& assembly) {
+Verdict validate_statics(const Scene& scene, const Model& model, const Assembly& assembly) {
   const Equilibrium e = find_equilibrium(scene, model, assembly);
   if (!e.found) return e.reason.empty() ? bad("no reason", "") : Verdict{true, "not found: " + kind_of(e.reason), e.reason, 0, 0};
   if (const std::string where = unfinite(e.table); !where.empty()) return bad("a number that is not finite", where);
@@ -192,7 +192,7 @@ Verdict judge_statics(const Scene& scene, const Model& model, const Assembly& as
 }
 
 /// Of kinematics and inverse dynamics.
-Verdict judge_driven(const Scene& scene, const Model& model, const Run& run) {
+Verdict validate_driven(const Scene& scene, const Model& model, const Run& run) {
   if (const std::string where = unfinite(run.trajectory); !where.empty())
     return bad("a number that is not finite", where + "; status " + status_text(run.status) + " " + run.reason);
   if (run.status != Status::finished && run.reason.empty()) return bad("no reason", status_text(run.status));
@@ -204,7 +204,7 @@ Verdict judge_driven(const Scene& scene, const Model& model, const Run& run) {
   return v;
 }
 
-Verdict judge_linear(const Scene& scene, const Linearization& l) {
+Verdict validate_linear(const Scene& scene, const Linearization& l) {
   for (const auto* m : {&l.space.A, &l.space.B, &l.space.C, &l.space.D})
     if (!m->allFinite()) return bad("a matrix that is not finite", "");
   int roots = 0;
@@ -226,15 +226,15 @@ Verdict judge(const std::string& text, Question question, bool twice, double sec
     const Assembly assembly = assemble(scene, model);
     switch (question) {
       case Question::run:
-        return judge_run(scene, model, assembly, twice, seconds);
+        return validate_run(scene, model, assembly, twice, seconds);
       case Question::statics:
-        return judge_statics(scene, model, assembly);
+        return validate_statics(scene, model, assembly);
       case Question::kinematics:
-        return judge_driven(scene, model, kinematics(scene, model, assembly, stop_after(seconds)));
+        return validate_driven(scene, model, kinematics(scene, model, assembly, stop_after(seconds)));
       case Question::inverse:
-        return judge_driven(scene, model, inverse(scene, model, assembly, stop_after(seconds)).run);
+        return validate_driven(scene, model, inverse(scene, model, assembly, stop_after(seconds)).run);
       case Question::linearize:
-        return judge_linear(scene, linearize(scene, model, assembly.start));
+        return validate_linear(scene, linearize(scene, model, assembly.start));
       case Question::agree:
         return agreement(scene, model, assembly, seconds);
     }

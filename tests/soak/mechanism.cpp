@@ -20,7 +20,7 @@ constexpr double pi = std::numbers::pi;
 constexpr int ground = -1;
 
 /// A point of a body as a scene names it, and where it is.
-struct Grip {
+struct Attachment {
   int body;
   std::string text;
   Vector2d r;
@@ -64,35 +64,35 @@ class Drawing {
   int bodies() const { return static_cast<int>(drawn_.links.size()); }
 
   /// A new point of a body that is not a beam, at a place in the world.
-  Grip grip(int body, const Vector2d& r, double direction) {
+  Attachment attachment(int body, const Vector2d& r, double direction) {
     Link& l = link(body);
     l.points.push_back({"p" + std::to_string(l.points.size()), Eigen::Rotation2Dd(-l.angle) * (r - l.r), direction - l.angle});
     return {body, l.name + "." + l.points.back().name, r, direction};
   }
-  Grip grip(int body, std::size_t point) {
+  Attachment attachment(int body, std::size_t point) {
     const Link& l = link(body);
     const Point& p = l.points[point];
     return {body, l.name + "." + p.name, l.r + Eigen::Rotation2Dd(l.angle) * p.at, l.angle + p.angle};
   }
   /// Some point of a body, new or of a beam one of those it has.
-  Grip some(int body) {
+  Attachment some(int body) {
     Link& l = link(body);
-    if (l.beam) return grip(body, static_cast<std::size_t>(chance_.below(static_cast<int>(l.points.size()))));
-    return grip(body, body == ground ? near(Vector2d::Zero()) : near(l.r), turn());
+    if (l.beam) return attachment(body, static_cast<std::size_t>(chance_.below(static_cast<int>(l.points.size()))));
+    return attachment(body, body == ground ? near(Vector2d::Zero()) : near(l.r), turn());
   }
   /// Point of a body at a place, if it can have one there.
   bool can_grip(int body, const Vector2d& r) {
     if (!link(body).beam) return true;
     for (std::size_t i = 0; i < link(body).points.size(); ++i)
-      if ((grip(body, i).r - r).norm() < 1e-12 * drawn_.size) return true;
+      if ((attachment(body, i).r - r).norm() < 1e-12 * drawn_.size) return true;
     return false;
   }
-  Grip at(int body, const Vector2d& r, double direction) {
-    if (!link(body).beam) return grip(body, r, direction);
+  Attachment at(int body, const Vector2d& r, double direction) {
+    if (!link(body).beam) return attachment(body, r, direction);
     std::size_t best = 0;
     for (std::size_t i = 1; i < link(body).points.size(); ++i)
-      if ((grip(body, i).r - r).norm() < (grip(body, best).r - r).norm()) best = i;
-    return grip(body, best);
+      if ((attachment(body, i).r - r).norm() < (attachment(body, best).r - r).norm()) best = i;
+    return attachment(body, best);
   }
 
   /// A body with a point at r; its origin at `origin` unless it is a beam, which begins or ends at r.
@@ -118,7 +118,7 @@ class Drawing {
 
   std::string name(const char* what) { return what + std::to_string(++named_); }
 
-  void clearance(const Grip& a, const Grip& b) {
+  void clearance(const Attachment& a, const Attachment& b) {
     const double radius = drawn_.size * chance_.between(0.02, 0.2), gap = radius * chance_.decades(-4, -1);
     const auto& laws = pintle::impact_factors();
     const auto& law = laws[static_cast<std::size_t>(chance_.below(static_cast<int>(laws.size())))];
@@ -147,7 +147,7 @@ class Drawing {
     }
   }
 
-  void join(const char* kind, const Grip& a, const Grip& b, const std::string& more, int rows) {
+  void join(const char* kind, const Attachment& a, const Attachment& b, const std::string& more, int rows) {
     drawn_.joints.push_back(name(kind) + ": {" + kind + ": [" + a.text + ", " + b.text + "]" + more + "}");
     freedoms_ -= rows;
   }
@@ -160,29 +160,29 @@ class Drawing {
 
   /// Hangs a new body on another.
   void hang(int parent) {
-    const Grip a = some(parent);
+    const Attachment a = some(parent);
     const double slide = turn(), pick = chance_.unit();
     freedoms_ += 3;
     if (pick < 0.52) {
       const int b = add_body(a.r, near(a.r));
       join("revolute", a, at(b, a.r, turn()), "", 2);
-      turning_.push_back({a, grip(b, link(b).points.size() - 1)});
+      turning_.push_back({a, attachment(b, link(b).points.size() - 1)});
     } else if (pick < 0.66) {
       const int b = add_body(a.r, near(a.r));
       clearance(a, at(b, a.r, turn()));
     } else if (pick < 0.72) {
       const int b = add_body(a.r, near(a.r));
-      const Grip g = at(b, a.r, turn());
+      const Attachment g = at(b, a.r, turn());
       join("weld", a, g, keyed("angle", g.direction - a.direction), 3);
     } else if (pick < 0.82) {
       const Vector2d r = a.r + reach() * along(slide);
       const int b = add_body(r, near(r));
-      const Grip g = at(b, r, turn());
+      const Attachment g = at(b, r, turn());
       join("distance", a, g, keyed("length", (g.r - a.r).norm()), 1);
     } else {
       const Vector2d r = a.r + drawn_.size * chance_.either_way(1) * along(a.direction);
       const int b = add_body(r, near(r));
-      const Grip g = at(b, r, turn());
+      const Attachment g = at(b, r, turn());
       if (pick < 0.92)
         join("prismatic", a, g, keyed("angle", g.direction - a.direction), 2);
       else
@@ -194,7 +194,7 @@ class Drawing {
   void loop() {
     const int a = chance_.one_in(3) ? ground : chance_.below(bodies()), b = chance_.below(bodies());
     if (a == b) return;
-    const Grip g = some(a);
+    const Attachment g = some(a);
     const double pick = chance_.unit();
     const bool may_overconstrain = chance_.one_in(8);
     const auto fits = [&](int rows) { return freedoms_ >= rows + 1 || may_overconstrain; };
@@ -204,7 +204,7 @@ class Drawing {
       else
         join("revolute", g, at(b, g.r, turn()), "", 2);
     } else if (pick < 0.75 && fits(1)) {
-      const Grip h = some(b);
+      const Attachment h = some(b);
       if (const double d = (h.r - g.r).norm(); d > 0.01 * drawn_.size) join("distance", g, h, keyed("length", d), 1);
     } else if (fits(1)) {
       const Vector2d r = g.r + drawn_.size * chance_.either_way(1) * along(g.direction);
@@ -232,28 +232,28 @@ class Drawing {
     const double crank = reach(), pitch = chance_.one_in(3) ? crank : reach(), base = turn(),
                  open = chance_.one_in(2) ? 0.0 : chance_.either_way(pi);
     const Vector2d up = crank * along(base + open);
-    Grip before{};
+    Attachment before{};
     for (int i = 0; i <= cells; ++i) {
       const Vector2d foot = i * pitch * along(base);
       const int b = add_body(foot, foot + 0.5 * up);
       Link& l = link(b);
       if (l.beam) l.r = foot, l.angle = base + open, l.length = crank, l.points[1].at.x() = crank / 2, l.points[2].at.x() = crank;
       freedoms_ += 3;
-      const Grip a = grip(ground, foot, turn()), f = at(b, foot, turn());
+      const Attachment a = attachment(ground, foot, turn()), f = at(b, foot, turn());
       join("revolute", a, f, "", 2);
       turning_.push_back({a, f});
-      const Grip top = at(b, foot + up, turn());
+      const Attachment top = at(b, foot + up, turn());
       if (i > 0) {
         const bool bends = drawn_.flexible;
         drawn_.flexible = false;
         const int rod = add_body(before.r, 0.5 * (before.r + top.r));
         drawn_.flexible = bends;
         freedoms_ += 3;
-        join("revolute", before, grip(rod, before.r, 0), "", 2);
+        join("revolute", before, attachment(rod, before.r, 0), "", 2);
         if (chance_.one_in(6))
-          clearance(top, grip(rod, top.r, 0));
+          clearance(top, attachment(rod, top.r, 0));
         else
-          join("revolute", top, grip(rod, top.r, 0), "", 2);
+          join("revolute", top, attachment(rod, top.r, 0), "", 2);
       }
       before = top;
     }
@@ -275,11 +275,11 @@ class Drawing {
       l.r = elbow, l.length = rod, l.angle = std::atan2(x * axis.y() - elbow.y(), x * axis.x() - elbow.x()), l.points[1].at.x() = rod / 2,
       l.points[2].at.x() = rod;
     freedoms_ += 9;
-    const Grip o = grip(ground, {0, 0}, base), crank_o = grip(shaft, {0, 0}, base + angle);
+    const Attachment o = attachment(ground, {0, 0}, base), crank_o = attachment(shaft, {0, 0}, base + angle);
     join("revolute", o, crank_o, "", 2);
     turning_.push_back({o, crank_o});
-    join("revolute", grip(shaft, elbow, 0), at(coupler, elbow, 0), "", 2);
-    const Grip end = at(coupler, x * axis, 0), pin = grip(slider, x * axis, base);
+    join("revolute", attachment(shaft, elbow, 0), at(coupler, elbow, 0), "", 2);
+    const Attachment end = at(coupler, x * axis, 0), pin = attachment(slider, x * axis, base);
     if (chance_.one_in(3))
       clearance(end, pin);
     else
@@ -329,7 +329,7 @@ class Drawing {
       --freedoms_;
     }
     if (!chance_.one_in(6) || bodies() < 2 || freedoms_ < 1) return;
-    const Grip a = some(chance_.one_in(2) ? ground : 0), b = some(bodies() - 1);
+    const Attachment a = some(chance_.one_in(2) ? ground : 0), b = some(bodies() - 1);
     const double d = (a.r - b.r).norm();
     if (d < 0.1 * drawn_.size) return;
     std::ostringstream s;
@@ -346,7 +346,7 @@ class Drawing {
     const int b = chance_.below(bodies());
     int a = chance_.one_in(2) ? ground : chance_.below(bodies());
     if (a == b) a = ground;
-    const Grip g = some(b);
+    const Attachment g = some(b);
     std::ostringstream s;
     s.precision(17);
     const double stiffness = chance_.decades(-1, chance_.one_in(6) ? 9 : 3) / drawn_.size,
@@ -360,13 +360,13 @@ class Drawing {
         s << "{torque: " << law(0, drawn_.size * chance_.decades(-1, 2), pace()) << ", on: " << g.text << "}";
         break;
       case 2: {
-        const Grip h = some(a);
+        const Attachment h = some(a);
         s << "{spring: [" << h.text << ", " << g.text << "], stiffness: " << stiffness << ", damping: " << damping
           << ", free length: " << (chance_.one_in(4) ? 0 : (h.r - g.r).norm() * chance_.between(0.5, 1.5)) << "}";
         break;
       }
       default: {
-        const Grip h = some(a);
+        const Attachment h = some(a);
         s << "{torsion spring: [" << h.text << ", " << g.text << "], stiffness: " << stiffness * drawn_.size * drawn_.size
           << ", damping: " << damping * drawn_.size * drawn_.size << ", free angle: " << g.direction - h.direction + chance_.either_way(0.5)
           << "}";
@@ -377,7 +377,7 @@ class Drawing {
 
   Chance chance_;
   Drawn drawn_;
-  std::vector<std::pair<Grip, Grip>> turning_;  ///< pairs whose angle a driver may impose
+  std::vector<std::pair<Attachment, Attachment>> turning_;  ///< pairs whose angle a driver may impose
   int freedoms_ = 0, named_ = 0;
 };
 

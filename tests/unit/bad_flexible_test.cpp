@@ -1,6 +1,6 @@
 // Every way to get a flexible body in a mechanism wrong, and the one line that says where and what to do.
 #include "framework/analysis/simulate/simulate.h"
-#include "framework/bodies/pieces.h"
+#include "framework/bodies/segments.h"
 #include "framework/build/build.h"
 #include "tests/unit/elastic_text.h"
 

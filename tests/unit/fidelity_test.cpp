@@ -6,7 +6,7 @@
 
 #include "framework/study/tradeoff/convergence.h"
 #include "framework/study/tradeoff/refinement.h"
-#include "framework/study/tradeoff/wanted.h"
+#include "framework/study/tradeoff/share_and_duration.h"
 
 namespace pintle {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 FidelityAxis axis(const std::string& name, const std::string& path, const std::vector<std::string>& values) {
   FidelityAxis a{.name = name, .values = {}};
   for (const std::string& v : values) a.values.push_back({v, {{path, v}}});
-  judge_axis(a);
+  validate_axis(a);
   return a;
 }
 
@@ -51,11 +51,11 @@ TEST(Fidelity, ALaddersErrorIsNotLessThanTheTrueOne) {
     std::vector<double> v;
     double size = 1e-3;
     for (int i = 0; i < 4; ++i, size /= fall) v.push_back(1 + size * (uniform() < 0.5 ? -1 : 1) * (0.3 + 0.7 * uniform()));
-    honest += judge_ladder(v, 10, 1).error >= std::abs(v.back() - 1);
+    honest += validate_ladder(v, 10, 1).error >= std::abs(v.back() - 1);
   }
   EXPECT_GE(honest, 0.97 * all);
-  EXPECT_FALSE(judge_ladder({1, 2, 1.5, 2.5}, 10, 1).falling);
-  EXPECT_GE(judge_ladder({1, 2, 1.5, 2.5}, 10, 1).error, 1.0);
+  EXPECT_FALSE(validate_ladder({1, 2, 1.5, 2.5}, 10, 1).falling);
+  EXPECT_GE(validate_ladder({1, 2, 1.5, 2.5}, 10, 1).error, 1.0);
 }
 
 TEST(Fidelity, SharesAndTimesOfComputingAreRead) {

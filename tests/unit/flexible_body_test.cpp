@@ -86,10 +86,10 @@ constexpr int part = 1;  // its index; body 0 is rigid
 
 // Forces of nothing make markers of its points.
 System make_system(const Case& c) {
-  const auto& [shape, tie, stiffening] = c;
+  const auto& [shape, conditions, stiffening] = c;
   std::string text =
       "gravity: [1.5, -9.8]\nbodies:\n  rigid: {rigid: {mass: 2, inertia: 0.3}}\n  part:\n";
-  text += std::string(shape.text) + tie.text + "}\n    stiffening: " + stiffening +
+  text += std::string(shape.text) + conditions.text + "}\n    stiffening: " + stiffening +
           "\n    damping: {ratios: [0.02, 0.1, 0]}\nforces:\n";
   for (const char* point : shape.points)
     text +=

@@ -37,30 +37,30 @@ constexpr double published = 1.3e-5;
 // EI = ρA = L = 1. Stretch is a thousand times faster than bending, so that the lowest eight shapes
 // are bending alone.
 const BeamEuler unit_beam{.EA = 1e6, .EI = 1, .rhoA = 1};
-const FrameTie tangent{FrameTie::tangent, 0}, chord{FrameTie::chord, 0, 1};
-const FrameTie mean_axes{FrameTie::mean_axes};
+const ReferenceConditions tangent{ReferenceConditions::tangent, 0}, chord{ReferenceConditions::chord, 0, 1};
+const ReferenceConditions mean_axes{ReferenceConditions::mean_axes};
 
 /// A body with its matrices and shapes.
 struct Reduced {
-  Reduced(FeModel made, FrameTie with, const Keep& keep = {.count = 8})
-      : model(std::move(made)), tie(with), modes(normal_modes(c, tie, keep)) {}
+  Reduced(FeModel made, ReferenceConditions with, const Keep& keep = {.count = 8})
+      : model(std::move(made)), conditions(with), modes(normal_modes(c, conditions, keep)) {}
   Reduced(const Reduced&) = delete;  // c refers to the model
   FeModel model;
   Component c = component(model);
   Sparse M = Assembler(model).mass();
-  FrameTie tie;
+  ReferenceConditions conditions;
   ModalModel modes;
 
-  Foreshortening inertia() const { return inertia_foreshortening(c, M, tie, modes); }
+  Foreshortening inertia() const { return inertia_foreshortening(c, M, conditions, modes); }
   std::array<MatrixXd, 2> at(int port) const {
-    return port_foreshortening(c, tie, modes)[static_cast<std::size_t>(port)];
+    return port_foreshortening(c, conditions, modes)[static_cast<std::size_t>(port)];
   }
   MatrixXd stiffness() const { return modes.omega.cwiseAbs2().asDiagonal(); }
 };
-Reduced beam(int elements, FrameTie tie, const Keep& keep = {.count = 8}, Vector2d to = {1, 0}) {
+Reduced beam(int elements, ReferenceConditions conditions, const Keep& keep = {.count = 8}, Vector2d to = {1, 0}) {
   FeModel model = chain(unit_beam, elements, {0, 0}, to);
   add_ports(model, {{"A", 0}, {"B", elements}, {"M", elements / 2}}, {});
-  return {std::move(model), tie, keep};
+  return {std::move(model), conditions, keep};
 }
 
 VectorXd eigenvalues(const MatrixXd& A) {
@@ -199,8 +199,8 @@ TEST(ClampedBeam, DoesNotMoveAcrossAtSecondOrder) {
 }
 
 TEST(TiedPort, StaysWhereItIs) {
-  for (const FrameTie& tie : {tangent, chord}) {
-    const Reduced body = beam(20, tie);
+  for (const ReferenceConditions& conditions : {tangent, chord}) {
+    const Reduced body = beam(20, conditions);
     const double size = size_of(body.at(1)[0]);
     for (const MatrixXd& F : body.at(0)) EXPECT_LT(size_of(F), through_statics * size);
   }
@@ -271,8 +271,8 @@ TEST(FreeBeam, KeepsItsMassCentre) {
 void for_any_body(const std::function<void(const SampleBody&, const Reduced&)>& claim) {
   for (const SampleBody& body : {timoshenko_bracket(), plate_on_edges(Coupling::rigid),
                                  plate_on_edges(Coupling::average), plate_on_nodes()})
-    for (const FrameTie& tie : {tangent, chord, mean_axes})
-      if (tie.kind != FrameTie::tangent || body.turns()) claim(body, {body.model, tie});
+    for (const ReferenceConditions& conditions : {tangent, chord, mean_axes})
+      if (conditions.kind != ReferenceConditions::tangent || body.turns()) claim(body, {body.model, conditions});
 }
 
 TEST(Foreshortening, OfInertiaIsThatOfItsPointsOfMass) {
@@ -284,7 +284,7 @@ TEST(Foreshortening, OfInertiaIsThatOfItsPointsOfMass) {
     M.insert(at, at) = M.insert(at + 1, at + 1) = m;
     const auto [x, y] = reduced.at(1);
     const Vector2d place = body.model.ports[1].x;
-    const Foreshortening F = inertia_foreshortening(reduced.c, M, reduced.tie, reduced.modes);
+    const Foreshortening F = inertia_foreshortening(reduced.c, M, reduced.conditions, reduced.modes);
     const double size = through_statics * m * (size_of(x) + size_of(y));
     EXPECT_LT(size_of(F.S[0] - m * x), size);
     EXPECT_LT(size_of(F.S[1] - m * y), size);
@@ -299,7 +299,7 @@ TEST(Foreshortening, IsLinearInTheLoadAndSymmetric) {
     MatrixXd loads(body.c.model.n(), 3);
     for (double& f : loads.reshaped()) f = static_cast<double>(random()) / 2147483648.0 - 1;
     loads.col(2) = 3 * loads.col(0) - 7 * loads.col(1);
-    const std::vector<MatrixXd> F = foreshortening(body.c, body.tie, body.modes, loads);
+    const std::vector<MatrixXd> F = foreshortening(body.c, body.conditions, body.modes, loads);
     EXPECT_LT(size_of(F[2] - (3 * F[0] - 7 * F[1])), through_statics * size_of(F[2]));
     for (const MatrixXd& f : F) EXPECT_EQ(f, f.transpose());
   });
@@ -332,7 +332,7 @@ TEST(Foreshortening, IsTheWorkOnTheDisplacementOfLeastEnergy) {
       const VectorXd v = nodal(body.model, VectorXd::Unit(n, i));
       g[i] += a.dot(assembler.geometric_stiffness(v) * b);
     }
-    const MatrixXd B = tie_rows(reduced.c, reduced.tie), K = reduced.c.K;
+    const MatrixXd B = reference_condition_rows(reduced.c, reduced.conditions), K = reduced.c.K;
     const double scale = size_of(K) / size_of(B);
     MatrixXd A = MatrixXd::Zero(n + 3, n + 3);
     A << K, scale * B.transpose(), scale * B, MatrixXd::Zero(3, 3);
@@ -341,7 +341,7 @@ TEST(Foreshortening, IsTheWorkOnTheDisplacementOfLeastEnergy) {
     const VectorXd psi = A.fullPivLu().solve(right).head(n);
 
     const MatrixXd loads = MatrixXd::Identity(n, n);
-    const std::vector<MatrixXd> F = foreshortening(reduced.c, reduced.tie, reduced.modes, loads);
+    const std::vector<MatrixXd> F = foreshortening(reduced.c, reduced.conditions, reduced.modes, loads);
     for (int i = 0; i < n; ++i)
       EXPECT_NEAR(F[static_cast<std::size_t>(i)](0, 1), psi[i], through_statics * size_of(psi));
   });
@@ -353,11 +353,11 @@ TEST(Foreshortening, OfABodyWithoutShapesIsEmpty) {
 
 TEST(Foreshortening, SaysWhatItRefuses) {
   const Reduced body = beam(4, mean_axes);
-  const auto rows = [&] { foreshortening(body.c, body.tie, body.modes, MatrixXd::Zero(7, 1)); };
+  const auto rows = [&] { foreshortening(body.c, body.conditions, body.modes, MatrixXd::Zero(7, 1)); };
   EXPECT_TRUE(says(refusal(rows), "loads of 7 rows, must be 15"));
-  const FrameTie nowhere{FrameTie::tangent, 9};
-  const auto tie = [&] { inertia_foreshortening(body.c, body.M, nowhere, body.modes); };
-  EXPECT_TRUE(says(refusal(tie), "name one of them"));
+  const ReferenceConditions nowhere{ReferenceConditions::tangent, 9};
+  const auto conditions = [&] { inertia_foreshortening(body.c, body.M, nowhere, body.modes); };
+  EXPECT_TRUE(says(refusal(conditions), "name one of them"));
 
   Eigen::Matrix2Xd x(2, 4);
   x << 0, 1, 2, 3, 0, 0, 0, 0;

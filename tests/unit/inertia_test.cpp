@@ -209,13 +209,13 @@ SampleBody plate_of(CellShape cells, const char* element = "") {
 struct Subject {
   const char* name;
   SampleBody (*make)();
-  FrameTie tie;
+  ReferenceConditions conditions;
   MassKind kind = MassKind::consistent;
 };
 void PrintTo(const Subject& s, std::ostream* out) {
   *out << s.name;
 }
-constexpr FrameTie chord{FrameTie::chord, 0, 1}, tangent{FrameTie::tangent, 0, -1}, mean{};
+constexpr ReferenceConditions chord{ReferenceConditions::chord, 0, 1}, tangent{ReferenceConditions::tangent, 0, -1}, mean{};
 using enum CellShape;
 const Subject subjects[] = {
     {"EulerBeamTangent", [] { return euler_beam(6); }, tangent},
@@ -224,7 +224,7 @@ const Subject subjects[] = {
     {"TimoshenkoBracketLumped", timoshenko_bracket, tangent, MassKind::lumped},
     {"PlateOnRigidEdgesTangent",
      [] { return plate_on_edges(Coupling::rigid); },
-     {FrameTie::tangent, 1, -1}},
+     {ReferenceConditions::tangent, 1, -1}},
     {"PlateOnAveragedEdgesMeanAxes", [] { return plate_on_edges(Coupling::average); }, mean},
     {"PlateOnEdgesLumped", [] { return plate_on_edges(Coupling::rigid); }, chord, MassKind::lumped},
     {"PlateOnNodesChord", plate_on_nodes, chord},
@@ -260,7 +260,7 @@ class Inertia : public testing::TestWithParam<Subject> {
   const MassKind kind = GetParam().kind;
   const Sparse M = Assembler(body.model).mass(kind), G = skew_mass(body.model, M, kind);
   const ModalModel modes = craig_bampton(component(body.model, kind == MassKind::lumped), {0, 1},
-                                         GetParam().tie, {.count = 3});
+                                         GetParam().conditions, {.count = 3});
   const RigidInertia rigid = rigid_inertia(body.model, M);
   const FlexInertia flex = flex_inertia(body.model, M, G, modes);
   const std::vector<Particle> material = particles(body.model, modes.shapes, kind);

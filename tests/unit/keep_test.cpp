@@ -19,8 +19,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-const FrameTie clamped{FrameTie::tangent, 0, -1}, pinned{FrameTie::chord, 0, 1},
-    floating{FrameTie::mean_axes};
+const ReferenceConditions clamped{ReferenceConditions::tangent, 0, -1}, pinned{ReferenceConditions::chord, 0, 1},
+    floating{ReferenceConditions::mean_axes};
 const std::vector<int> both{0, 1};
 
 // ---- how many -----------------------------------------------------------------------------------
@@ -28,9 +28,9 @@ const std::vector<int> both{0, 1};
 TEST(Keep, ByCountGivesThatManyModes) {
   const SampleBody body = euler_beam();
   const Component c = component(body.model);
-  for (const FrameTie& tie : {clamped, pinned, floating}) {
-    EXPECT_EQ(normal_modes(c, tie, {.count = 5}).omega.size(), 5);
-    EXPECT_EQ(normal_modes(c, tie, {.count = 5}).sturm, 5) << "none missed";
+  for (const ReferenceConditions& conditions : {clamped, pinned, floating}) {
+    EXPECT_EQ(normal_modes(c, conditions, {.count = 5}).omega.size(), 5);
+    EXPECT_EQ(normal_modes(c, conditions, {.count = 5}).sturm, 5) << "none missed";
   }
 }
 
@@ -48,12 +48,12 @@ TEST(Keep, NoModesAtAllIsARigidBody) {
 TEST(Keep, BelowAFrequencyGivesAllModesBelowIt) {
   const SampleBody body = plate_on_edges(Coupling::rigid);
   const Component c = component(body.model);
-  for (const FrameTie& tie : {clamped, floating}) {
-    const VectorXd all = normal_modes(c, tie, {.all = true}).omega / (2 * M_PI);
-    const ModalModel m = normal_modes(c, tie, {.below = (all[5] + all[6]) / 2});
+  for (const ReferenceConditions& conditions : {clamped, floating}) {
+    const VectorXd all = normal_modes(c, conditions, {.all = true}).omega / (2 * M_PI);
+    const ModalModel m = normal_modes(c, conditions, {.below = (all[5] + all[6]) / 2});
     ASSERT_EQ(m.omega.size(), 6);
     EXPECT_LT((m.omega / (2 * M_PI) - all.head(6)).cwiseAbs().maxCoeff(), 1e-8 * all[5]);
-    EXPECT_EQ(normal_modes(c, tie, {.below = all[0] / 2}).omega.size(), 0);
+    EXPECT_EQ(normal_modes(c, conditions, {.below = all[0] / 2}).omega.size(), 0);
   }
 }
 
@@ -199,13 +199,13 @@ TEST(Refused, PortsThatAreNotThereOrNamedTwice) {
   expect_refused([&] { free_modes(c, {1, 1}, clamped, {.count = 1}); }, {"\"B\"", "once"});
   expect_refused(
       [&] {
-        normal_modes(c, {FrameTie::tangent, -1, -1}, {.count = 1});
+        normal_modes(c, {ReferenceConditions::tangent, -1, -1}, {.count = 1});
       },
       {"port a = -1", "has 2 ports"});
-  expect_refused([&] { normal_modes(c, {FrameTie::chord, 0, 5}, {.count = 1}); }, {"port b = 5"});
+  expect_refused([&] { normal_modes(c, {ReferenceConditions::chord, 0, 5}, {.count = 1}); }, {"port b = 5"});
   expect_refused(
       [&] {
-        normal_modes(c, {FrameTie::chord, 1, 1}, {.count = 1});
+        normal_modes(c, {ReferenceConditions::chord, 1, 1}, {.count = 1});
       },
       {"coincide", "tangent"});
 }

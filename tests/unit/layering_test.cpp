@@ -91,7 +91,7 @@ const std::vector<Foreign> foreign{
     {"SuiteSparseQR", {"framework/configuration/row_space.cpp"}},
     {"gmsh.h", {"meshes/gmsh_"}},
     {"Spectra/", {"tests/", "benchmarks/"}},
-    {"mpi.h", {"app/fellows.cpp"}},
+    {"mpi.h", {"app/communicator.cpp"}},
     {"CLI/", {"app/"}},
     {"nlohmann/", {"framework/scene/", "framework/analysis/", "framework/output/", "framework/study/", "app/", "tests/", "benchmarks/"}},
     {"valijson/", {"tests/"}},

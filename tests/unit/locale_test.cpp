@@ -28,7 +28,7 @@ class CommaLocale {
 };
 
 struct Written {
-  std::string filled_in, trajectory, state, warning, refused;
+  std::string filled_in, trajectory, state, warning, rejected;
   double restarted = 0;
 };
 
@@ -49,11 +49,11 @@ Written written(const std::filesystem::path& folder) {
   out.trajectory = csv(run.trajectory);
   { std::ofstream(folder / "s.state", std::ios::binary) << out.state; }
   out.restarted = read_state(folder / "s.state", scene, model, assembly).t;
-  out.warning = judge_room("out", {1, 5e9, 1, 1}, {1.5e9, 1e12}).at(0);
+  out.warning = validate_room("out", {1, 5e9, 1, 1}, {1.5e9, 1e12}).at(0);
   try {
     read_scene_text(text, "scene.yaml", {{"run.until", "12345.5 m"}}, folder);
   } catch (const SceneError& e) {
-    out.refused = e.what();
+    out.rejected = e.what();
   }
   return out;
 }
@@ -72,17 +72,17 @@ TEST(Locale, NumbersAreWrittenAndReadWithAPointWhateverTheLocale) {
   EXPECT_EQ(other.state, classic.state);
   EXPECT_EQ(other.restarted, classic.restarted);
   EXPECT_EQ(other.warning, classic.warning);
-  EXPECT_EQ(other.refused, classic.refused);
+  EXPECT_EQ(other.rejected, classic.rejected);
 }
 
 TEST(Room, WhatCannotFitIsRefusedAndWhatMayNotIsWarnedOf) {
   const double infinite = INFINITY;
-  EXPECT_TRUE(judge_room("out", {1e6, 2e6, 1e6, 1e6}, {infinite, infinite}).empty());
-  EXPECT_TRUE(judge_room("out", {1e6, 2e6, 1e6, 1e6}, {2e6, 1e6}).empty());
-  EXPECT_EQ(judge_room("out", {1e6, 2e6, 1e6, 1e6}, {1.5e6, infinite}).size(), 1U);
-  EXPECT_EQ(judge_room("out", {1e6, 2e6, 0.5e6, 1e6}, {infinite, 0.7e6}).size(), 1U);
-  EXPECT_THROW(judge_room("out", {1e6, 2e6, 1e6, 1e6}, {0.9e6, infinite}), std::runtime_error);
-  EXPECT_THROW(judge_room("out", {1e6, 2e6, 1e6, 1e6}, {infinite, 0.9e6}), std::runtime_error);
+  EXPECT_TRUE(validate_room("out", {1e6, 2e6, 1e6, 1e6}, {infinite, infinite}).empty());
+  EXPECT_TRUE(validate_room("out", {1e6, 2e6, 1e6, 1e6}, {2e6, 1e6}).empty());
+  EXPECT_EQ(validate_room("out", {1e6, 2e6, 1e6, 1e6}, {1.5e6, infinite}).size(), 1U);
+  EXPECT_EQ(validate_room("out", {1e6, 2e6, 0.5e6, 1e6}, {infinite, 0.7e6}).size(), 1U);
+  EXPECT_THROW(validate_room("out", {1e6, 2e6, 1e6, 1e6}, {0.9e6, infinite}), std::runtime_error);
+  EXPECT_THROW(validate_room("out", {1e6, 2e6, 1e6, 1e6}, {infinite, 0.9e6}), std::runtime_error);
 }
 
 // What is said to be needed at least is never more than what is written.

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "framework/analysis/simulate/simulate.h"
-#include "framework/bodies/pieces.h"
+#include "framework/bodies/segments.h"
 #include "framework/build/build.h"
 #include "framework/build/preliminary_run.h"
 #include "framework/scene/yaml/reader.h"
@@ -30,7 +30,7 @@ const double EI = 200e9 * 0.01 * 8e-6 / 12, rhoA = 8000 * 2e-4;
 double cantilever(double beta) { return beta * beta * std::sqrt(EI / rhoA); }  // [rad/s], L = 1 m
 
 Model built(const std::string& text) { return build(with_pieces(read_scene_text(text, "test.yaml"))); }
-Model rehearsed(const std::string& text) { return build_and_rehearse(with_pieces(read_scene_text(text, "test.yaml"))); }
+Model rehearsed(const std::string& text) { return build_with_preliminary_run(with_pieces(read_scene_text(text, "test.yaml"))); }
 
 Run ran(const std::string& text) {
   const Scene scene = read_scene_text(text, "test.yaml");
@@ -180,7 +180,7 @@ TEST(ModalChoice, FallsBackOnARuleWhereTheRigidMechanismIsOverconstrained) {
                                 "joints: {a: {revolute: [ground, rod.A]}, b: {revolute: [ground.C, rod.B]}}\nrun: {until: 1}\n"));
   EXPECT_EQ(model.flexible[0].choice->count, without_a_run);
   EXPECT_NE(model.flexible[0].choice->reason.find("by rule"), std::string::npos);
-  EXPECT_NE(model.rehearsal->trouble.find("\"b\" (x) repeats"), std::string::npos);
+  EXPECT_NE(model.preliminary_run->trouble.find("\"b\" (x) repeats"), std::string::npos);
 }
 
 TEST(ModalChoice, IsMadeForEachPiece) {
@@ -213,22 +213,22 @@ TEST(FlexibleReport, CoversEverythingWithACompleteBasis) {
   }
 }
 
-TEST(Rehearsal, IsForCheckAndForChoosingAlone) {
+TEST(PreliminaryRun, IsForCheckAndForChoosingAlone) {
   const std::string text = clamped("{frame: {tangent: A}, count: 2}", "run: {until: 1}\n");
-  EXPECT_FALSE(built(text).rehearsal);
-  EXPECT_TRUE(rehearsed(text).rehearsal);
-  EXPECT_TRUE(built(clamped("{frame: {tangent: A}, keep: auto}", "run: {until: 1}\n")).rehearsal);
-  EXPECT_FALSE(rehearsed("bodies: {b: {rigid: {mass: 1, inertia: 1}}}\nrun: {until: 1}\n").rehearsal);
+  EXPECT_FALSE(built(text).preliminary_run);
+  EXPECT_TRUE(rehearsed(text).preliminary_run);
+  EXPECT_TRUE(built(clamped("{frame: {tangent: A}, keep: auto}", "run: {until: 1}\n")).preliminary_run);
+  EXPECT_FALSE(rehearsed("bodies: {b: {rigid: {mass: 1, inertia: 1}}}\nrun: {until: 1}\n").preliminary_run);
 }
 
-TEST(Rehearsal, EstimatesTheDeflectionOfASuddenWeight) {
+TEST(PreliminaryRun, EstimatesTheDeflectionOfASuddenWeight) {
   const Model model = rehearsed("gravity: [0, -9.81]\n" + clamped("{frame: {tangent: A}, count: 4}", "run: {until: 1}\n"));
   const double still = rhoA * 9.81 / (8 * EI);
   // Twice the static deflection in the first mode, which has 97 % of it; others beat with it.
   EXPECT_NEAR(model.flexible[0].motion->deflection / (2 * still), 1, 0.05);
 }
 
-TEST(Rehearsal, TellsTheFrequencyThatAForceExcites) {
+TEST(PreliminaryRun, TellsTheFrequencyThatAForceExcites) {
   const Model model = rehearsed(clamped("{frame: {tangent: A}, count: 4}", "forces: {p: {force: [0, \"10 N*sin(2*pi*40/s*t)\"], at: rod.B}}\nrun: {until: 1 s}\n"));
   EXPECT_NEAR(model.flexible[0].motion->excited_up_to, 40, 2);  // a window's width
 }

@@ -25,8 +25,8 @@ constexpr double rounding = 1e-12;
 // Through K⁻¹ or M⁻¹: rounding times a condition of 1e4 to 1e6.
 constexpr double through_inverse = 1e-9;
 
-const FrameTie clamped{FrameTie::tangent, 0, -1}, pinned{FrameTie::chord, 0, 1},
-    floating{FrameTie::mean_axes};
+const ReferenceConditions clamped{ReferenceConditions::tangent, 0, -1}, pinned{ReferenceConditions::chord, 0, 1},
+    floating{ReferenceConditions::mean_axes};
 const std::vector<int> both{0, 1};
 
 // ---- Craig–Bampton ------------------------------------------------------------------------------
@@ -60,11 +60,11 @@ TEST(CraigBampton, OfOneTurningPortWithoutModesIsRigid) {
 TEST(CraigBampton, WhereTheInterfaceIsTheWholeBodyIsExact) {
   const SampleBody body = euler_beam(1);
   const Component c = component(body.model);
-  for (const FrameTie& tie : {clamped, pinned, floating}) {
-    const VectorXd reduced = craig_bampton(c, both, tie, {.count = 0}).omega;
-    const VectorXd all = normal_modes(c, tie, {.all = true}).omega;
+  for (const ReferenceConditions& conditions : {clamped, pinned, floating}) {
+    const VectorXd reduced = craig_bampton(c, both, conditions, {.count = 0}).omega;
+    const VectorXd all = normal_modes(c, conditions, {.all = true}).omega;
     ASSERT_EQ(reduced.size(), 3);
-    EXPECT_EQ(craig_bampton(c, both, tie, {.below = 1e9}).omega, reduced) << "no mode is left";
+    EXPECT_EQ(craig_bampton(c, both, conditions, {.below = 1e9}).omega, reduced) << "no mode is left";
     EXPECT_LT((reduced - all).cwiseAbs().maxCoeff(), through_inverse * all[2]);
   }
 }
@@ -176,14 +176,14 @@ TEST(EffectiveMass, SumsToTheMassThatIsNotHeld) {
     const SampleBody body = make();
     const Component c = component(body.model);
     const Sparse M = Assembler(body.model).mass();
-    for (const FrameTie& tie : {clamped, pinned}) {
+    for (const ReferenceConditions& conditions : {clamped, pinned}) {
       const Vector3d sum =
-          effective_mass(body.model, M, normal_modes(c, tie, {.all = true})).rowwise().sum();
+          effective_mass(body.model, M, normal_modes(c, conditions, {.all = true})).rowwise().sum();
       const RigidInertia r = rigid_inertia(body.model, M);
       const Eigen::Vector2d centre = r.c / r.m;
       MatrixXd rigid = rigid_motions(body.model);
       rigid.col(2) += centre.y() * rigid.col(0) - centre.x() * rigid.col(1);
-      const MatrixXd B = tie_rows(c, tie), dense = c.M;
+      const MatrixXd B = reference_condition_rows(c, conditions), dense = c.M;
       const MatrixXd held = (B * dense.llt().solve(B.transpose())).inverse();
       const MatrixXd Br = B * rigid;
       const MatrixXd expected = rigid.transpose() * dense * rigid - Br.transpose() * held * Br;

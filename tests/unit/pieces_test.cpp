@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "framework/bodies/elastic_body.h"
-#include "framework/bodies/pieces.h"
+#include "framework/bodies/segments.h"
 #include "framework/component/reduction/modal_model.h"
 #include "tests/unit/scene_text.h"
 
@@ -57,7 +57,7 @@ std::string cut_with(const std::string& from, const std::string& to) {
 Scene pieces_of(const std::string& text) {
   return with_pieces(read_scene_text(text, "scene.yaml"));
 }
-std::string refused(const std::string& text) {
+std::string rejected(const std::string& text) {
   try {
     pieces_of(text);
   } catch (const SceneError& error) {
@@ -334,7 +334,7 @@ TEST(BadPieces, AreRefusedWithPlaceAndRemedy) {
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.to);
-    const std::string said = refused(cut_with(c.from, c.to));
+    const std::string said = rejected(cut_with(c.from, c.to));
     EXPECT_TRUE(said.starts_with(c.place)) << said;
     expect_says(said, c.says);
   }
@@ -357,10 +357,10 @@ TEST(BadPieces, WithoutAPointAtTheOriginMustBeMetAtAPoint) {
   std::string off = cut_with("{A: [0, 0], K: [3, 0], B: [3, 4], M: {at: [2, 0]",
                              "{A: [0, 1], K: [3, 1], B: [3, 5], M: {at: [2, 1]");
   off.replace(off.find("[3, 0.5]"), 8, "[3, 1.5]");
-  EXPECT_EQ(refused(off), "accepted");
+  EXPECT_EQ(rejected(off), "accepted");
   const auto said = [&](const std::string& from, const std::string& to) {
     std::string text = off;
-    return refused(text.replace(text.find(from), from.size(), to));
+    return rejected(text.replace(text.find(from), from.size(), to));
   };
   const Names remedy{"the origin of its axes", "name one of its points: A, K, B, M or Q"};
   const auto expect = [&](const std::string& message, const std::string& place) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/analysis/cost/price.h"
+#include "framework/analysis/cost/cost_estimate.h"
 #include "framework/analysis/cost/simpler.h"
 #include "framework/mechanism/table.h"
 #include "framework/scene/yaml/reader.h"
@@ -30,12 +30,12 @@ constexpr double thorough = 20;  // seconds of trials that all runs here end wel
 // Steps are guessed from a part of the run; impacts and turning cranks do not come evenly.
 constexpr double within = 2;
 
-TEST(Price, OfAShortRunIsCountedToTheStep) {
+TEST(CostEstimate, OfAShortRunIsCountedToTheStep) {
   for (const char* file : {"pendulum.yaml", "four_bar_spring.yaml"}) {
     SCOPED_TRACE(file);
     Case c(file);
     c.scene.output.frames = 0;
-    const Price p = price(c.scene, c.model, c.assembly, thorough);
+    const CostEstimate p = estimate_cost(c.scene, c.model, c.assembly, thorough);
     const pintle::Run run = c.run();
     EXPECT_TRUE(p.run.trial.whole);
     EXPECT_EQ(p.run.trial.steps, run.counts.steps);
@@ -49,14 +49,14 @@ TEST(Price, OfAShortRunIsCountedToTheStep) {
   }
 }
 
-TEST(Price, OfALongRunIsToldFromAPartOfItWithinAFactorOfTwo) {
+TEST(CostEstimate, OfALongRunIsToldFromAPartOfItWithinAFactorOfTwo) {
   const std::pair<const char*, double> cases[] = {
       {"slider_crank_clearance.yaml", 0.03}, {"paper/fig12_flexible.yaml", 0.2}, {"paper/table2_100.yaml", 0.03}};
   for (const auto& [file, seconds] : cases) {
     SCOPED_TRACE(file);
     Case c(file);
     c.scene.output.frames = 0;
-    const Price p = price(c.scene, c.model, c.assembly, seconds);
+    const CostEstimate p = estimate_cost(c.scene, c.model, c.assembly, seconds);
     ASSERT_FALSE(p.run.trial.whole) << "nothing was guessed";
     ASSERT_LT(p.run.trial.reached, 0.8 * c.scene.run.until) << "little was guessed";
     const double steps = static_cast<double>(c.run().counts.steps);
@@ -68,10 +68,10 @@ TEST(Price, OfALongRunIsToldFromAPartOfItWithinAFactorOfTwo) {
   }
 }
 
-TEST(Price, HasTheSameCountsEachTime) {
+TEST(CostEstimate, HasTheSameCountsEachTime) {
   Case c("slider_crank_clearance.yaml");
   c.scene.output.frames = 0;
-  const Price one = price(c.scene, c.model, c.assembly, 0.02), two = price(c.scene, c.model, c.assembly, 0.02);
+  const CostEstimate one = estimate_cost(c.scene, c.model, c.assembly, 0.02), two = estimate_cost(c.scene, c.model, c.assembly, 0.02);
   ASSERT_FALSE(one.run.trial.by_clock || two.run.trial.by_clock);
   EXPECT_EQ(one.run.trial.steps, two.run.trial.steps);
   EXPECT_EQ(one.run.trial.evaluations, two.run.trial.evaluations);
@@ -79,7 +79,7 @@ TEST(Price, HasTheSameCountsEachTime) {
   EXPECT_EQ(one.run.steps.likely, two.run.steps.likely);
 }
 
-TEST(Price, StepsThatComeEvenlyAreSureAndOthersGiveARange) {
+TEST(CostEstimate, StepsThatComeEvenlyAreSureAndOthersGiveARange) {
   std::vector<double> even, fading;
   for (int i = 1; i <= 400; ++i) even.push_back(0.001 * i);
   const Estimate sure = steps_of_run(even, 4);
@@ -93,12 +93,12 @@ TEST(Price, StepsThatComeEvenlyAreSureAndOthersGiveARange) {
   EXPECT_EQ(steps_of_run(even, 0.4).likely, 400);
 }
 
-TEST(Price, SaysWhyARunThatStopsCannotBeTold) {
+TEST(CostEstimate, SaysWhyARunThatStopsCannotBeTold) {
   Case c("pendulum.yaml");
   c.scene.output.frames = 0;
   c.scene.run.max_steps = 10;
   c.model = build(c.scene);
-  const Price p = price(c.scene, c.model, c.assembly);
+  const CostEstimate p = estimate_cost(c.scene, c.model, c.assembly);
   EXPECT_NE(certainty(p).find("max steps reached"), std::string::npos) << certainty(p);
 }
 
@@ -109,17 +109,17 @@ std::vector<std::string> names(const std::vector<Saving>& of) {
   return out;
 }
 
-TEST(Price, OffersWhatTheSceneHasAndNothingElse) {
+TEST(CostEstimate, OffersWhatTheSceneHasAndNothingElse) {
   Case c("pendulum.yaml");
   c.scene.output.frames = 0;
-  const Price plain = price(c.scene, c.model, c.assembly);
+  const CostEstimate plain = estimate_cost(c.scene, c.model, c.assembly);
   EXPECT_EQ(names(plain.simpler), (std::vector<std::string>{"a tenth of the rows written", "tolerance 1e-09 instead of 1e-11"}));
   EXPECT_EQ(plain.terms, (std::vector<std::string>{"constant inertia of 1 rigid body", "gravity", "1 joint"}));
   EXPECT_EQ(plain.largest_rate, 0);
 
   Case worn("paper/table3_case3.yaml");
   worn.scene.output.frames = 0;
-  const Price p = price(worn.scene, worn.model, worn.assembly, 0.2);
+  const CostEstimate p = estimate_cost(worn.scene, worn.model, worn.assembly, 0.2);
   EXPECT_TRUE(p.untried.empty());
   const std::vector<std::string> offered = names(p.simpler);
   for (const char* what : {"ideal", "rigid", "half its shapes", "no friction", "tolerance"})

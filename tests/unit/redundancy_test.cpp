@@ -105,7 +105,7 @@ TEST(Redundancy, OfABarBetweenTwoWallsIsAlongItAlone) {
   const Judged j = judge(s);
   ASSERT_EQ(j.assembly.redundant.size(), 1u);
   EXPECT_EQ(row_text(j.model.system, j.assembly.redundant[0].joint, j.assembly.redundant[0].row), "\"right\" (x)");
-  EXPECT_TRUE(j.assembly.redundant[0].lasting);
+  EXPECT_TRUE(j.assembly.redundant[0].permanent);
   EXPECT_EQ(rows_text(j.model.system, j.assembly.shared), "\"left\" x; \"right\" x");
   EXPECT_EQ(rows_text(j.model.system, j.assembly.shared, false), "\"left\" y; \"right\" y");
 }
@@ -120,9 +120,9 @@ TEST(Redundancy, OfAFlatParallelogramIsOfThisPoseOnly) {
     const Judged j = judge(s);
     ASSERT_EQ(j.assembly.redundant.size(), angle == 0 ? 1u : 0u);
     if (angle != 0) continue;
-    EXPECT_FALSE(j.assembly.redundant[0].lasting);
-    ASSERT_EQ(doubts(j.model, j.assembly).size(), 1u);
-    EXPECT_NE(doubts(j.model, j.assembly)[0].find("singular pose"), std::string::npos);
+    EXPECT_FALSE(j.assembly.redundant[0].permanent);
+    ASSERT_EQ(warnings_of(j.model, j.assembly).size(), 1u);
+    EXPECT_NE(warnings_of(j.model, j.assembly)[0].find("singular pose"), std::string::npos);
   }
 }
 
@@ -142,7 +142,7 @@ TEST(Redundancy, OfManyParallelCranksIsCountedToTheLast) {
   const Judged j = judge(s);
   EXPECT_EQ(j.assembly.rank, 3 * (n + 1) - 1);
   EXPECT_EQ(static_cast<int>(j.assembly.redundant.size()), n - 2);
-  for (const Redundancy& r : j.assembly.redundant) EXPECT_TRUE(r.lasting);
+  for (const Redundancy& r : j.assembly.redundant) EXPECT_TRUE(r.permanent);
 }
 
 // Given the speed of one crank of a flat parallelogram the other one turns alike, or against it: s on a branch.

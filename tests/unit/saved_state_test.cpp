@@ -132,13 +132,13 @@ TEST(SavedState, AForgedOneNeverReadsOutOfBounds) {
     const Ran ran(striking(method));
     const std::string whole = unsealed(ran.text());
     const std::size_t memory = whole.find("\nmemory ");
-    int refused = 0, taken = 0;
+    int rejected = 0, taken = 0;
     for (std::size_t i = 0; i < whole.size(); i += i < memory ? 1 : 3)
       for (const int flip : {1, 0x80, 0xff}) {
         std::string text = whole;
         text[i] = static_cast<char>(text[i] ^ flip);
         if (!refusal(ran, sealed(text)).empty()) {
-          ++refused;
+          ++rejected;
           continue;
         }
         ++taken;
@@ -146,7 +146,7 @@ TEST(SavedState, AForgedOneNeverReadsOutOfBounds) {
         run.load(ran.read(sealed(text)).memory);
         for (int k = 0; k < 2 && run.advance(1); ++k) continue;
       }
-    EXPECT_GT(refused, 100) << method;
+    EXPECT_GT(rejected, 100) << method;
     EXPECT_GT(taken, 100) << method;
   }
 }

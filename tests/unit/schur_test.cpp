@@ -111,7 +111,7 @@ struct Solved {
     pose(c.system, 0, c.state.y, eq);
     factor(c.system, c.state.y, eq);
     speed(c.system, 0, c.state.y, eq);
-    load(c.system, c.state, eq);
+    apply_forces(c.system, c.state, eq);
     // S λ = Cq M⁻¹ f − γ for a given γ, Cq a = γ, here of any consistent kind: γ = Cq a₀.
     Cq = dense_jacobian(c.system, eq);
     VectorXd M(c.system.n());

@@ -156,22 +156,22 @@ void expect_refusal(const std::function<void()>& act, const std::string& words) 
 }
 
 TEST(Section, ImpossibleSizesAreRefusedByName) {
-  const auto refuse = [](const SectionShape& s, const std::string& words, double nu = 0.3) {
+  const auto reject = [](const SectionShape& s, const std::string& words, double nu = 0.3) {
     expect_refusal([&] { section(s, ShearFactor::cowper, nu); }, words);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  refuse(RectangleSection{0, 1}, "rectangle section: height = 0");
-  refuse(RectangleSection{1, nan}, "rectangle section: width = nan");
-  refuse(CircleSection{-1}, "circle section: diameter = -1");
-  refuse(TubeSection{1, 0}, "tube section: inner = 0");
-  refuse(TubeSection{1, 1}, "tube section: inner = 1, must be below outer");
-  refuse(ISection{1, 0.2, 0.3, 0.1}, "I section: web = 0.3");
-  refuse(ISection{1, 0.2, 0.1, 0.5}, "I section: flange = 0.5");
-  refuse(GivenSection{-1, 1, 0, {}}, "given section: area = -1");
-  refuse(GivenSection{1, 0, 0, {}}, "given section: second_moment = 0");
-  refuse(GivenSection{1, 1, 0.1, {}}, "at most area·fibre²");
-  refuse(GivenSection{1, 1, 2, -1.0}, "given section: shear_factor = -1");
-  refuse(CircleSection{1}, "circle section: poisson = -1", -1);
+  reject(RectangleSection{0, 1}, "rectangle section: height = 0");
+  reject(RectangleSection{1, nan}, "rectangle section: width = nan");
+  reject(CircleSection{-1}, "circle section: diameter = -1");
+  reject(TubeSection{1, 0}, "tube section: inner = 0");
+  reject(TubeSection{1, 1}, "tube section: inner = 1, must be below outer");
+  reject(ISection{1, 0.2, 0.3, 0.1}, "I section: web = 0.3");
+  reject(ISection{1, 0.2, 0.1, 0.5}, "I section: flange = 0.5");
+  reject(GivenSection{-1, 1, 0, {}}, "given section: area = -1");
+  reject(GivenSection{1, 0, 0, {}}, "given section: second_moment = 0");
+  reject(GivenSection{1, 1, 0.1, {}}, "at most area·fibre²");
+  reject(GivenSection{1, 1, 2, -1.0}, "given section: shear_factor = -1");
+  reject(CircleSection{1}, "circle section: poisson = -1", -1);
   expect_refusal(
       [] {
         between(CircleSection{1}, TubeSection{2, 1}, 0.5);
@@ -276,26 +276,26 @@ TEST(Material, ABeamFeelsTheModuliAlongItsAxis) {
 }
 
 TEST(Material, WhatIsNoStableSolidIsRefusedByName) {
-  const auto refuse = [](const Material& m, const std::string& words) {
+  const auto reject = [](const Material& m, const std::string& words) {
     expect_refusal([&] { plane_material(m, PlaneState::strain); }, words);
   };
-  refuse({Isotropic{-1, 0.3}, 1}, "material: young = -1");
-  refuse({Isotropic{1, 0.5}, 1}, "material: poisson = 0.5");
-  refuse({Isotropic{1, -1}, 1}, "material: poisson = -1");
-  refuse({Isotropic{1, 0.3}, -7800}, "material: density = -7800");
+  reject({Isotropic{-1, 0.3}, 1}, "material: young = -1");
+  reject({Isotropic{1, 0.5}, 1}, "material: poisson = 0.5");
+  reject({Isotropic{1, -1}, 1}, "material: poisson = -1");
+  reject({Isotropic{1, 0.3}, -7800}, "material: density = -7800");
   const auto changed = [](auto change) {
     Orthotropic m = spruce;
     change(m);
     return Material{m, 1};
   };
-  refuse(changed([](Orthotropic& m) { m.young_1 = 0; }), "young_1 = 0");
-  refuse(changed([](Orthotropic& m) { m.young_2 = -1; }), "young_2 = -1");
-  refuse(changed([](Orthotropic& m) { m.shear_12 = 0; }), "shear_12 = 0");
-  refuse(changed([](Orthotropic& m) { m.poisson_12 = 4; }), "poisson_12 = 4");
-  refuse(changed([](Orthotropic& m) { m.young_3.reset(), m.poisson_23.reset(); }),
+  reject(changed([](Orthotropic& m) { m.young_1 = 0; }), "young_1 = 0");
+  reject(changed([](Orthotropic& m) { m.young_2 = -1; }), "young_2 = -1");
+  reject(changed([](Orthotropic& m) { m.shear_12 = 0; }), "shear_12 = 0");
+  reject(changed([](Orthotropic& m) { m.poisson_12 = 4; }), "poisson_12 = 4");
+  reject(changed([](Orthotropic& m) { m.young_3.reset(), m.poisson_23.reset(); }),
          "lacks young_3 poisson_23");
-  refuse(changed([](Orthotropic& m) { m.poisson_23 = 1.5; }), "poisson_23 = 1.5");
-  refuse(changed([](Orthotropic& m) { m.poisson_12 = 3.4, m.poisson_13 = 2; }), "poisson_12 = 3.4");
+  reject(changed([](Orthotropic& m) { m.poisson_23 = 1.5; }), "poisson_23 = 1.5");
+  reject(changed([](Orthotropic& m) { m.poisson_12 = 3.4, m.poisson_13 = 2; }), "poisson_12 = 3.4");
   Orthotropic flat = spruce;
   flat.young_3.reset();
   EXPECT_NO_THROW(plane_material({flat, 1}, PlaneState::stress));

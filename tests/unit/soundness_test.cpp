@@ -51,10 +51,10 @@ std::string fault(const Mesh& mesh) {
   const Soundness s = soundness(mesh);
   return s.faults.empty() ? "" : s.faults.front();
 }
-std::string doubt(const Mesh& mesh) {
+std::string warning(const Mesh& mesh) {
   const Soundness s = soundness(mesh);
   EXPECT_TRUE(s.faults.empty()) << s.faults.front();
-  return s.doubts.empty() ? "" : s.doubts.front();
+  return s.warnings_of.empty() ? "" : s.warnings_of.front();
 }
 void expect_words(const std::string& text, std::initializer_list<const char*> words) {
   for (const char* word : words) EXPECT_NE(text.find(word), std::string::npos) << "\"" << text << "\" lacks " << word;
@@ -62,7 +62,7 @@ void expect_words(const std::string& text, std::initializer_list<const char*> wo
 void expect_sound(const Mesh& mesh, const std::string& what) {
   const Soundness s = soundness(mesh);
   EXPECT_TRUE(s.faults.empty()) << what << ": " << s.faults.front();
-  EXPECT_TRUE(s.doubts.empty()) << what << ": " << s.doubts.front();
+  EXPECT_TRUE(s.warnings_of.empty()) << what << ": " << s.warnings_of.front();
 }
 
 TEST(Soundness, GridsAndLinksOfEveryShapeAreSound) {
@@ -94,7 +94,7 @@ TEST(Soundness, NarrowGapsAreNoSlits) {
   Mesh c = together(grid(4, 1, CellShape::quadrilateral4, {0, 0}, {4, 1}), grid(4, 1, CellShape::quadrilateral4, {0, 1.01}, {4, 2}), false);
   c = together(c, grid(1, 1, CellShape::quadrilateral4, {4, 0}, {5, 1}), true);
   EXPECT_TRUE(soundness(c).faults.empty());
-  EXPECT_TRUE(soundness(c).doubts.empty());
+  EXPECT_TRUE(soundness(c).warnings_of.empty());
 }
 
 TEST(Unsound, CellsThatStandTwiceAreNamedByTheirNumbers) {
@@ -153,7 +153,7 @@ TEST(Unsound, QuadraticBesideLinearCellsCrack) {
 TEST(Unsound, UnmergedNodesAreASlitThatIsDoubted) {
   for (const CellShape shape : plane_shapes) {
     Mesh mesh = together(grid(2, 2, shape, {0, 0}, {2, 2}), grid(2, 2, shape, {2, 0}, {4, 2}), false);
-    expect_words(doubt(mesh), {"lie on each other", "slit", "merge"});
+    expect_words(warning(mesh), {"lie on each other", "slit", "merge"});
     std::vector<int> piece;
     ASSERT_EQ(pieces(mesh, piece), 2);
     const auto pair = unjoined(mesh, piece);
@@ -165,7 +165,7 @@ TEST(Unsound, UnmergedNodesAreASlitThatIsDoubted) {
 TEST(Unsound, CellsThatMeetAtOneNodeAreAHinge) {
   for (const CellShape shape : plane_shapes) {
     const Mesh mesh = together(grid(2, 2, shape, {0, 0}, {2, 2}), grid(2, 2, shape, {2, 2}, {4, 4}), true);
-    expect_words(doubt(mesh), {"by that node alone", "(2, 2) m", "hinge"});
+    expect_words(warning(mesh), {"by that node alone", "(2, 2) m", "hinge"});
   }
 }
 

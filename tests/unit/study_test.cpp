@@ -129,19 +129,19 @@ TEST(Study, MeasureThatOnlyAFlexibleBodyHasIsRefusedWhereNoCaseHasOne) {
     std::vector<Measure> measures(1);
     measures[0].name = measures[0].words = words;
     measures[0].place = {7, "measure.it"}, measures[0].file = "study.yaml";
-    const auto refused = [&](const std::vector<std::string>& varied) {
+    const auto rejected = [&](const std::vector<std::string>& varied) {
       try {
-        judge_flexible(measures, scene, varied);
+        validate_flexible(measures, scene, varied);
       } catch (const SceneError& error) {
         return std::string(error.what());
       }
       return std::string("accepted");
     };
-    expect_says(refused({"clearance", "bodies.slider.rigid.mass"}),
+    expect_says(rejected({"clearance", "bodies.slider.rigid.mass"}),
                 {"study.yaml:7: measure.it: ", "\"coupler\" is rigid in every case", "every body of the scene is rigid"});
-    for (const char* path : {"bodies", "bodies.coupler", "bodies.coupler.modes"}) EXPECT_EQ(refused({path}), "accepted") << path;
+    for (const char* path : {"bodies", "bodies.coupler", "bodies.coupler.modes"}) EXPECT_EQ(rejected({path}), "accepted") << path;
   }
-  EXPECT_NO_THROW(judge_flexible({{"x", "x of coupler.B at 1 ms"}, {"f", "peak force at gudgeon pin"}}, scene, {}));
+  EXPECT_NO_THROW(validate_flexible({{"x", "x of coupler.B at 1 ms"}, {"f", "peak force at gudgeon pin"}}, scene, {}));
 }
 
 TEST(Case, EndsWithAStatusAndAReasonInOneLine) {
@@ -229,9 +229,9 @@ std::vector<Outcome> run_all(const std::vector<Overrides>& cases, int threads) {
   const auto work = [&] {
     for (std::size_t k = next++; k < cases.size(); k = next++) out[k] = run_case(source, cases[k], some_measures(), keep);
   };
-  std::vector<std::thread> crew;
-  for (int i = 0; i < threads; ++i) crew.emplace_back(work);
-  for (std::thread& t : crew) t.join();
+  std::vector<std::thread> workers;
+  for (int i = 0; i < threads; ++i) workers.emplace_back(work);
+  for (std::thread& t : workers) t.join();
   return out;
 }
 

@@ -34,9 +34,9 @@ TEST(TangentBudget, EvaluationDoesNotAllocate) {
     state.impact_rate = {1};
     const Eigen::VectorXd a = draw.matrix(s.n(), 1, 5), lambda = draw.matrix(s.n_rows(), 1, 5);
     pose(s, state.t, state.y, eq);
-    weigh(s, state.y, eq);
+    update_mass(s, state.y, eq);
     speed(s, state.t, state.y, eq);
-    load(s, state, eq);
+    apply_forces(s, state, eq);
     ASSERT_GT(eq.contact[0].normal.force, 0);
     Tangent tangent(s);
     std::vector<double> values(tangent.places().size());

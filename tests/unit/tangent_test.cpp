@@ -112,9 +112,9 @@ State make_state(const System& system, Draw& draw, Equations& eq) {
 
 void prepare(const System& system, const State& s, Equations& eq) {
   pose(system, s.t, s.y, eq);
-  weigh(system, s.y, eq);
+  update_mass(system, s.y, eq);
   speed(system, s.t, s.y, eq);
-  load(system, s, eq);
+  apply_forces(system, s, eq);
 }
 
 /// A state of a system with accelerations and multipliers, at random.

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <utility>
 
-#include "framework/build/method.h"
+#include "framework/build/choose_method.h"
 #include "framework/configuration/assemble.h"
 
 namespace pintle {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "framework/analysis/kinematics/kinematics.h"
-#include "framework/analysis/simulate/guarded.h"
+#include "framework/analysis/simulate/end_short.h"
 #include "framework/common/worse.h"
 #include "framework/dynamics/newton/kkt.h"
 #include "framework/scene/error.h"
@@ -29,8 +29,8 @@ class Forces {
     if (!motion_.advance(t)) return false;
     Equations& eq = motion_.equations();
     const State& state = motion_.state();
-    weigh(system_, state.y, eq);
-    load(system_, state, eq);
+    update_mass(system_, state.y, eq);
+    apply_forces(system_, state, eq);
     eq.a = motion_.acceleration();
     f_.setZero();
     add_mass_times(system_, eq, eq.a, f_);
@@ -114,7 +114,7 @@ void solve_by_algebra(const Scene& scene, const Model& model, const Assembly& as
   using clock = std::chrono::steady_clock;
   Run& run = out.run;
   run.warnings = model.warnings;
-  for (const std::string& doubt : doubts(model, assembly)) run.warnings.push_back(doubt);
+  for (const std::string& warning : warnings_of(model, assembly)) run.warnings.push_back(warning);
   Forces forces(model.system, assembly.start);
   follow(scene, model, forces.motion(), [&](double t) { return forces.advance(t); }, listeners, run);
   const auto begin = clock::now();

@@ -7,7 +7,7 @@
 
 #include <Eigen/SVD>
 
-#include "framework/analysis/simulate/guarded.h"
+#include "framework/analysis/simulate/end_short.h"
 #include "framework/common/worse.h"
 #include "framework/scene/error.h"
 

@@ -70,8 +70,8 @@ Assembly steady_start(const Model& model, const Assembly& assembly) {
   for (int i = 0; i < most; ++i) {
     pose(system, 0, state.y, eq);
     if (!frames.fill(state.y, eq, a)) return assembly;
-    weigh(system, state.y, eq);
-    load(system, state, eq);
+    update_mass(system, state.y, eq);
+    apply_forces(system, state, eq);
     r = eq.f;
     add_mass_times(system, eq, -a, r);
     const double most_force = r.cwiseProduct(system.scale).lpNorm<Eigen::Infinity>();

@@ -74,7 +74,7 @@ ModesReport modes_of(const Scene& scene, const ElasticBody& e, int count) {
     r.natural.title = "free";
     for (const NamedSupport& s : supports) r.natural.title = (&s == &supports.front() ? "held at " : r.natural.title + ", ") + s.at;
     if (supports.empty()) {
-      r.natural.modes = normal_modes(c, {FrameTie::mean_axes}, {count, {}, {}, false});
+      r.natural.modes = normal_modes(c, {ReferenceConditions::mean_axes}, {count, {}, {}, false});
       r.rigid = 3;
     } else {
       r.natural.modes = held_modes(e, c, together(supports), count, r.rigid);

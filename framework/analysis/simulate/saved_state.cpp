@@ -60,14 +60,14 @@ std::string state_text(const std::string& identity, const SavedState& state) {
 }
 
 SavedState state_of(const std::string& text, const std::string& source, const Scene& scene, const Model& model, const Assembly& assembly) {
-  const auto refuse = [&](const std::string& why) { return SceneError(source + ": " + why); };
-  if (!text.starts_with(kind)) throw refuse("is no saved state; name a file states/NNNNN.state of a run");
-  if (!text.starts_with(first_line)) throw refuse("was saved by another version of pintle; run the scene from its start");
+  const auto reject = [&](const std::string& why) { return SceneError(source + ": " + why); };
+  if (!text.starts_with(kind)) throw reject("is no saved state; name a file states/NNNNN.state of a run");
+  if (!text.starts_with(first_line)) throw reject("was saved by another version of pintle; run the scene from its start");
   if (text.size() < first_line.size() + last_line || text.compare(text.size() - last_line, last_word.size(), last_word) != 0)
-    throw refuse("is not whole: its last line must be its checksum; take another saved state");
+    throw reject("is not whole: its last line must be its checksum; take another saved state");
   const std::string said = text.substr(0, text.size() - last_line);
   if (text.substr(text.size() - last_line) != std::string(last_word) + sha256(said) + "\n")
-    throw refuse("is damaged: its checksum is not that of its contents; take another saved state");
+    throw reject("is damaged: its checksum is not that of its contents; take another saved state");
 
   std::istringstream in(said);
   in.imbue(std::locale::classic());
@@ -76,18 +76,18 @@ SavedState state_of(const std::string& text, const std::string& source, const Sc
   std::size_t size = 0;
   std::getline(in, word);
   in >> word >> version;
-  if (version != PINTLE_VERSION) throw refuse("was saved by pintle " + version + ", this is " + PINTLE_VERSION + "; run the scene from its start");
+  if (version != PINTLE_VERSION) throw reject("was saved by pintle " + version + ", this is " + PINTLE_VERSION + "; run the scene from its start");
   bool finite = true;
   const bool read = in >> word >> of_scene >> word >> word >> word >> word && each_number(state, [&](double& x) {
     const bool good = read_hex(in, x);
     finite = finite && std::isfinite(x);
     return good;
   }) && in >> word >> size && in.get() == '\n' && size == said.size() - static_cast<std::size_t>(in.tellg());
-  if (!read) throw refuse("cannot be understood; take another saved state");
+  if (!read) throw reject("cannot be understood; take another saved state");
   if (!finite || state.t < 0 || state.energy_in_play < 0)
-    throw refuse("holds books that are no energies; take an earlier state, or run the scene from its start");
+    throw reject("holds books that are no energies; take an earlier state, or run the scene from its start");
   if (of_scene != identity(scene, model, assembly))
-    throw refuse("belongs to another scene, or to this one before it, a table, a mesh or a drawing was changed (only title, run.until and output may "
+    throw reject("belongs to another scene, or to this one before it, a table, a mesh or a drawing was changed (only title, run.until and output may "
                  "change), or to another machine; restore the scene, its files and its --set values, or run it from its start");
   state.memory = said.substr(said.size() - size);
   try {
@@ -95,7 +95,7 @@ SavedState state_of(const std::string& text, const std::string& source, const Sc
     trial.load(state.memory);
     if (trial.state().t != state.t) throw std::invalid_argument("it is of another time than it says");
   } catch (const std::invalid_argument& why) {
-    throw refuse(std::string("cannot be gone on from: ") + why.what() + "; take another saved state, or run the scene from its start");
+    throw reject(std::string("cannot be gone on from: ") + why.what() + "; take another saved state, or run the scene from its start");
   }
   return state;
 }

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "framework/analysis/simulate/books.h"
-#include "framework/analysis/simulate/guarded.h"
+#include "framework/analysis/simulate/energy_balance.h"
+#include "framework/analysis/simulate/end_short.h"
 #include "framework/analysis/simulate/slow_contact.h"
-#include "framework/analysis/simulate/watch.h"
+#include "framework/analysis/simulate/deflection_monitor.h"
 #include "framework/common/worse.h"
 
 namespace pintle {
@@ -196,7 +196,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   const double until = scene.run.until;
   Run run;
   run.warnings = model.warnings;
-  for (std::string& w : doubts(model, assembly)) run.warnings.push_back(std::move(w));
+  for (std::string& w : warnings_of(model, assembly)) run.warnings.push_back(std::move(w));
   run.trajectory = trajectory_table(model);
   run.ledger = ledger_table(system);
   Clock outputs(scene.output.every > 0 ? scene.output.every : until / 1000, until);
@@ -208,7 +208,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   Integrator integrator(system, model.scheme, assembly.start);
   State sampled;
   double last_row = from ? from->t : 0, asked = 0;
-  Watch watch(model);
+  DeflectionMonitor monitor(model);
   RowFigures figures(system, run);
   SlowContacts slow(system);
   bool started = false;
@@ -246,7 +246,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
     while (outputs.due(integrator.state().t)) {
       if (!integrator.sample(asked = outputs.next(), sampled)) return false;
       book(sampled);
-      watch.see(sampled, integrator.sampled());
+      monitor.see(sampled, integrator.sampled());
       add_row(sampled);
       outputs.tick();
     }
@@ -279,9 +279,9 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
       going = integrator.advance(until);
       if (going && !system.contacts.empty()) slow.see(system, integrator.last(), integrator.equations());
       going = going && report();
-      if (going && !watch.hopeless().empty()) {
+      if (going && !monitor.beyond_limits().empty()) {
         run.status = Status::failed;
-        run.reason = watch.hopeless();
+        run.reason = monitor.beyond_limits();
         break;
       }
       if (going && states.due(integrator.state().t)) {
@@ -297,7 +297,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
     integrator.sample(at.t, sampled);
     std::string why = run.reason.empty() || !at.y.allFinite() ? "" : explain_pose(system, at.t, at.y);
     if (why.empty() && !run.reason.empty()) why = explain_numbers(system, integrator);
-    if (why.empty() && !run.reason.empty()) why = watch.worst_doubt();
+    if (why.empty() && !run.reason.empty()) why = monitor.worst_warning();
     if (!why.empty()) run.reason += "; " + why;
     if (run.reason.empty() && !countable) run.reason = "the energy at the start is beyond what a double holds; check masses, speeds and units";
     if (run.reason.empty()) {
@@ -327,13 +327,13 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
     run.warnings.push_back("by generalised-alpha the joint forces that are not unique take on a part that does no work and may grow (" +
                            rows_text(system, assembly.shared, true) + "); the motion is right; for these forces take method: dopri5");
   slow.warn(system, run.energy_in_play, run.warnings);
-  watch.warn(run.warnings);
+  monitor.warn(run.warnings);
   run.counts = integrator.counts();
   run.switched = integrator.switched();
   run.worst_position = integrator.worst_position();
   run.worst_velocity = integrator.worst_velocity();
   run.seconds = std::chrono::duration<double>(clock::now() - begin - spent_listening).count();
-  judge_books(scene, model, integrator.implicit(), rounding_energy(system, integrator.state(), until), run);
+  check_energy_balance(scene, model, integrator.implicit(), rounding_energy(system, integrator.state(), until), run);
   return run;
 }
 

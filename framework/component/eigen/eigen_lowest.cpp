@@ -12,7 +12,7 @@
 #include "framework/component/eigen/pencil.h"
 #include "framework/component/eigen/starting_loads.h"
 #include "framework/component/eigen/subspace.h"
-#include "framework/component/eigen/tall.h"
+#include "framework/component/eigen/tall_products.h"
 
 namespace pintle {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "framework/component/eigen/tall.h"
+#include "framework/component/eigen/tall_products.h"
 
 namespace pintle {
 

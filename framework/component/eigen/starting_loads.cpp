@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "framework/component/eigen/tall.h"
+#include "framework/component/eigen/tall_products.h"
 
 namespace pintle {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/component/eigen/tall.h"
+#include "framework/component/eigen/tall_products.h"
 
 namespace pintle {
 

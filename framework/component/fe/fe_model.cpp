@@ -15,14 +15,14 @@ struct NodeSizes {
   void operator()(const Block<E>& block) const {
     const std::size_t count = block.nodes.size() / E::nodes;
     if (block.nodes.size() != count * E::nodes)
-      refuse("elements of ", E::nodes, " nodes: ", block.nodes.size(),
+      reject("elements of ", E::nodes, " nodes: ", block.nodes.size(),
              " node numbers are not a multiple of it; give each element all its nodes");
     if (block.properties.size() != 1 && block.properties.size() != count)
-      refuse("elements: ", block.properties.size(), " properties for ", count,
+      reject("elements: ", block.properties.size(), " properties for ", count,
              " elements; give one for all or one each");
     for (const int node : block.nodes) {
       if (node < 0 || static_cast<std::size_t>(node) >= size.size())
-        refuse("element: node ", node, " is not there; nodes run from 0 to ", size.size(), " − 1");
+        reject("element: node ", node, " is not there; nodes run from 0 to ", size.size(), " − 1");
       int& s = size[static_cast<std::size_t>(node)];
       s = std::max(s, E::dofs_per_node);
     }
@@ -46,20 +46,20 @@ FeModel fe_model(Eigen::Matrix2Xd x, std::vector<AnyBlock> blocks, std::vector<L
   for (std::size_t i = 0; i < size.size(); ++i) {
     if (size[i] == 0) {
       const Eigen::Vector2d at = x.col(static_cast<Eigen::Index>(i));
-      refuse("node ", i, " at (", at.x(), ", ", at.y(),
+      reject("node ", i, " at (", at.x(), ", ", at.y(),
              ") belongs to no element; drop it from the mesh");
     }
     model.begin.push_back(model.begin.back() + size[i]);
   }
   for (const Lump& lump : lumps) {
     if (lump.node < 0 || static_cast<std::size_t>(lump.node) >= size.size())
-      refuse("point mass: node ", lump.node, " is not there; nodes run from 0 to ", size.size(),
+      reject("point mass: node ", lump.node, " is not there; nodes run from 0 to ", size.size(),
              " − 1");
     if (!(lump.mass.m >= 0 && lump.mass.J >= 0))
-      refuse("point mass at node ", lump.node, ": m = ", lump.mass.m, " kg, J = ", lump.mass.J,
+      reject("point mass at node ", lump.node, ": m = ", lump.mass.m, " kg, J = ", lump.mass.J,
              " kg m²; neither may be negative");
     if (lump.mass.J > 0 && size[static_cast<std::size_t>(lump.node)] < 3)
-      refuse("point mass at node ", lump.node, ": J = ", lump.mass.J,
+      reject("point mass at node ", lump.node, ": J = ", lump.mass.J,
              " kg m² but the node has no rotation; leave J out or spread the mass over two nodes");
   }
   model.x = std::move(x);

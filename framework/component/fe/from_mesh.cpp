@@ -65,15 +65,15 @@ const std::vector<std::string>& element_names() {
 
 std::vector<AnyBlock> plane_blocks(const Mesh& mesh, const PlaneProperties& p,
                                    std::string_view element) {
-  if (!(p.density > 0)) refuse("density ", p.density, " kg/m³, must be > 0");
-  if (!(p.thickness > 0)) refuse("thickness ", p.thickness, " m, must be > 0");
+  if (!(p.density > 0)) reject("density ", p.density, " kg/m³, must be > 0");
+  if (!(p.thickness > 0)) reject("thickness ", p.thickness, " m, must be > 0");
   const auto by_name =
       std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.name == element; });
   const Kind* named = by_name == kinds.end() ? nullptr : &*by_name;
   if (!element.empty() && !named) {
     std::string known;
     for (const Kind& kind : kinds) known += (known.empty() ? "" : ", ") + kind.name;
-    refuse("element \"", element, "\" is not known; known are ", known);
+    reject("element \"", element, "\" is not known; known are ", known);
   }
   std::vector<AnyBlock> blocks;
   int first_cell = 0;
@@ -83,24 +83,24 @@ std::vector<AnyBlock> plane_blocks(const Mesh& mesh, const PlaneProperties& p,
     const auto by_shape = std::find_if(kinds.begin(), kinds.end(),
                                        [&](const Kind& k) { return k.shape == cells.shape; });
     if (by_shape == kinds.end())
-      refuse("the mesh has ", name_of(cells.shape), " cells; a plane body needs plane ones");
+      reject("the mesh has ", name_of(cells.shape), " cells; a plane body needs plane ones");
     const bool is_named = named && named->shape == cells.shape;
     if (named && !is_named && !may_stand_among(cells.shape, named->shape))
-      refuse("element \"", element, "\": the mesh has ", name_of(cells.shape), " cells; mesh with ",
+      reject("element \"", element, "\": the mesh has ", name_of(cells.shape), " cells; mesh with ",
              name_of(named->shape), " cells or name no element");
     used = used || is_named;
     blocks.push_back((is_named ? *named : *by_shape).make(cells, first_cell, p));
     first_cell += static_cast<int>(cells.size());
   }
-  if (blocks.empty()) refuse("the mesh is empty; a body needs at least one cell");
+  if (blocks.empty()) reject("the mesh is empty; a body needs at least one cell");
   if (named && !used)
-    refuse("element \"", element, "\": the mesh has no ", name_of(named->shape), " cell");
+    reject("element \"", element, "\": the mesh has no ", name_of(named->shape), " cell");
   return blocks;
 }
 
 std::vector<double> rim_weights(const Mesh& mesh, const Group& rim) {
   if (rim.sides.empty())
-    refuse("group \"", rim.name, "\" has no sides; a rim is an edge of the body, not ",
+    reject("group \"", rim.name, "\" has no sides; a rim is an edge of the body, not ",
            rim.nodes.size(), " loose nodes");
   std::vector<double> weights(rim.nodes.size(), 0);
   for (const Cells& cells : rim.sides) {
@@ -120,7 +120,7 @@ std::vector<double> rim_weights(const Mesh& mesh, const Group& rim) {
   }
   for (std::size_t i = 0; i < weights.size(); ++i)
     if (!(weights[i] > 0))
-      refuse("group \"", rim.name, "\": node ", rim.nodes[i],
+      reject("group \"", rim.name, "\": node ", rim.nodes[i],
              " is on none of its sides; leave it out of the group");
   return weights;
 }

@@ -111,7 +111,7 @@ std::string free_motions(const Eigen::MatrixX3d& held, const Vector2d& middle, d
   return name_of(slide, middle, size) + " and " + name_of(h.cross(slide), middle, size);
 }
 
-void judge_supports(const FeModel& model, const Sparse& A, const std::vector<bool>& held) {
+void validate_supports(const FeModel& model, const Sparse& A, const std::vector<bool>& held) {
   std::vector<int> part;
   const int count = parts(A, part);
   const Eigen::Matrix2Xd at = places(model);
@@ -264,7 +264,7 @@ StaticSolution solve_static(const FeModel& model, const Sparse& K, const Support
   const std::vector<int> free = free_freedoms(model, supports);
   std::vector<bool> held(static_cast<std::size_t>(model.n()), true);
   for (const int i : free) held[static_cast<std::size_t>(i)] = false;
-  judge_supports(model, A, held);
+  validate_supports(model, A, held);
 
   VectorXd u = VectorXd::Zero(model.n());
   VectorXd f = independent_load;

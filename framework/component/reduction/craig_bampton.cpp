@@ -67,25 +67,25 @@ Modes fixed_modes(const Component& c, const std::vector<int>& interior, const Ke
 }  // namespace
 
 ModalModel fixed_interface_modes(const Component& c, const std::vector<int>& ports,
-                                 const FrameTie& tie, const Keep& keep) {
+                                 const ReferenceConditions& conditions, const Keep& keep) {
   Modes fixed = fixed_modes(c, free_freedoms(c.model, {port_freedoms(c.model, ports)}), keep);
-  fixed.shapes = tied(c, tie, fixed.shapes);
-  return modal_model(c, tie, fixed);
+  fixed.shapes = meeting_conditions(c, conditions, fixed.shapes);
+  return modal_model(c, conditions, fixed);
 }
 
-ModalModel craig_bampton(const Component& c, const std::vector<int>& ports, const FrameTie& tie,
+ModalModel craig_bampton(const Component& c, const std::vector<int>& ports, const ReferenceConditions& conditions,
                          const Keep& keep) {
   const std::vector<int> interface = port_freedoms(c.model, ports);
   const Eigen::MatrixXd C = straining(c, interface);
   // All fixed-interface modes and all static shapes span what all modes under the tie span.
-  if (keep.all) return normal_modes(c, tie, keep);
+  if (keep.all) return normal_modes(c, conditions, keep);
 
   const std::vector<int> interior = free_freedoms(c.model, {interface});
   const Modes fixed = fixed_modes(c, interior, keep);
   Eigen::MatrixXd V(c.model.n(), fixed.shapes.cols() + C.cols());
   V.leftCols(fixed.shapes.cols()) = fixed.shapes;
   V.rightCols(C.cols()) = static_shapes(c, interface, interior, C);
-  return diagonalised(c, tie, V, fixed.sturm);
+  return diagonalised(c, conditions, V, fixed.sturm);
 }
 
 }  // namespace pintle

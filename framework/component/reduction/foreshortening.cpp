@@ -51,9 +51,9 @@ double virial(const RigidRim& rim, const VectorXd& f) {
 
 }  // namespace
 
-std::vector<MatrixXd> foreshortening(const Component& c, const FrameTie& tie,
+std::vector<MatrixXd> foreshortening(const Component& c, const ReferenceConditions& conditions,
                                      const ModalModel& modes, const MatrixXd& loads) {
-  return foreshortening_of_response(c, modes, static_response(c, tie, loads));
+  return foreshortening_of_response(c, modes, static_response(c, conditions, loads));
 }
 
 std::vector<MatrixXd> foreshortening_of_response(const Component& c, const ModalModel& modes,
@@ -75,7 +75,7 @@ std::vector<MatrixXd> foreshortening_of_response(const Component& c, const Modal
   return all;
 }
 
-Foreshortening inertia_foreshortening(const Component& c, const Sparse& M, const FrameTie& tie,
+Foreshortening inertia_foreshortening(const Component& c, const Sparse& M, const ReferenceConditions& conditions,
                                       const ModalModel& modes) {
   const RigidFields f = rigid_fields(c.model);
   MatrixXd loads(c.model.n(), 4);
@@ -83,18 +83,18 @@ Foreshortening inertia_foreshortening(const Component& c, const Sparse& M, const
   loads.col(1) = independent_load(c.model, M * f.T.col(1));
   loads.col(2) = independent_load(c.model, M * f.x);
   loads.col(3) = independent_load(c.model, M * f.R);
-  std::vector<MatrixXd> F = foreshortening(c, tie, modes, loads);
+  std::vector<MatrixXd> F = foreshortening(c, conditions, modes, loads);
   return {{std::move(F[0]), std::move(F[1])}, std::move(F[2]), std::move(F[3])};
 }
 
-std::vector<std::array<MatrixXd, 2>> port_foreshortening(const Component& c, const FrameTie& tie,
+std::vector<std::array<MatrixXd, 2>> port_foreshortening(const Component& c, const ReferenceConditions& conditions,
                                                          const ModalModel& modes) {
   const std::vector<Port>& ports = c.model.ports;
   MatrixXd loads = MatrixXd::Zero(c.model.n(), 2 * static_cast<Eigen::Index>(ports.size()));
   Eigen::Index column = 0;
   for (const Port& port : ports)
     for (int d = 0; d < 2; ++d) loads(port.freedom[d], column++) = 1;
-  std::vector<MatrixXd> F = foreshortening(c, tie, modes, loads);
+  std::vector<MatrixXd> F = foreshortening(c, conditions, modes, loads);
   std::vector<std::array<MatrixXd, 2>> out;
   for (std::size_t i = 0; i < ports.size(); ++i)
     out.push_back({std::move(F[2 * i]), std::move(F[2 * i + 1])});

@@ -24,13 +24,13 @@ void check(const Keep& keep) {
   const int wishes =
       keep.count.has_value() + keep.below.has_value() + keep.effective_mass.has_value() + keep.all;
   if (wishes != 1)
-    refuse("keep: ", wishes,
+    reject("keep: ", wishes,
            " rules are set; set exactly one of count, below, effective mass, all");
-  if (keep.count && *keep.count < 0) refuse("keep: count = ", *keep.count, ", must be at least 0");
+  if (keep.count && *keep.count < 0) reject("keep: count = ", *keep.count, ", must be at least 0");
   if (keep.below && !(*keep.below > 0))
-    refuse("keep: below = ", *keep.below, " Hz, must be positive");
+    reject("keep: below = ", *keep.below, " Hz, must be positive");
   if (const auto share = keep.effective_mass; share && !(*share > 0 && *share < 1))
-    refuse("keep: effective mass = ", *share, ", must lie between 0 and 1");
+    reject("keep: effective mass = ", *share, ", must lie between 0 and 1");
 }
 
 std::vector<int> freedoms_with_mass(const Sparse& M) {
@@ -70,7 +70,7 @@ Modes below(const Problem& p, double frequency) {
     try {
       return eigen_below(p.K, p.M, omega * omega);
     } catch (const std::runtime_error& e) {
-      refuse("keep: below = ", frequency, " Hz cannot be told from a mode of ", p.whose, " (", e.what(), "); take another, or a count");
+      reject("keep: below = ", frequency, " Hz cannot be told from a mode of ", p.whose, " (", e.what(), "); take another, or a count");
     }
   };
   return elastic(pairs(), p);
@@ -78,7 +78,7 @@ Modes below(const Problem& p, double frequency) {
 
 /// The columns of `carried` are Mr/‖r‖_M for the rigid motions r: shares are their products with
 /// modes, squared. All modes together reach diag(carriedᵀ M⁻¹ carried).
-void refuse_unreachable(const Problem& p, double share, const Eigen::MatrixX3d& carried) {
+void reject_unreachable(const Problem& p, double share, const Eigen::MatrixX3d& carried) {
   const std::vector<int> massive = freedoms_with_mass(p.M);
   Eigen::Vector3d reach = Eigen::Vector3d::Zero();
   if (!massive.empty()) {
@@ -90,14 +90,14 @@ void refuse_unreachable(const Problem& p, double share, const Eigen::MatrixX3d& 
     reach = part.cwiseProduct(mass.solve(part)).colwise().sum();
   }
   if (reach.minCoeff() <= share)
-    refuse("keep: effective mass = ", share, " cannot be reached: all modes of ", p.whose,
+    reject("keep: effective mass = ", share, " cannot be reached: all modes of ", p.whose,
            " together have the shares ", reach.transpose(),
            " in x, y and rotation, the rest hangs on what is held; ask for less, or refine the "
            "mesh there");
 }
 
 Modes by_effective_mass(const Problem& p, double share, const Eigen::MatrixX3d& carried) {
-  refuse_unreachable(p, share, carried);
+  reject_unreachable(p, share, carried);
   const int most = std::min(available(p), most_for_all);
   for (int count = 8;; count *= 2) {
     Modes modes = lowest(p, std::min(count, most));
@@ -109,7 +109,7 @@ Modes by_effective_mass(const Problem& p, double share, const Eigen::MatrixX3d& 
       return {modes.shapes.leftCols(k + 1), modes.lambda.head(k + 1), modes.sturm};
     }
     if (count >= most)
-      refuse("keep: effective mass = ", share, ": the first ", most, " modes of ", p.whose,
+      reject("keep: effective mass = ", share, ": the first ", most, " modes of ", p.whose,
              " have the shares ", sum.transpose(), " in x, y and rotation; ask for less");
   }
 }
@@ -121,10 +121,10 @@ Modes kept(const Problem& p, const Keep& keep, const Eigen::MatrixX3d& carried) 
   const int there = available(p);
   const int wanted = keep.all ? there : *keep.count;
   if (wanted > there)
-    refuse(wanted, " modes asked for, ", p.whose, " has ", there,
+    reject(wanted, " modes asked for, ", p.whose, " has ", there,
            "; ask for no more than these, or refine the mesh");
   if (keep.all && there > most_for_all)
-    refuse("keep: all ", there, " modes of ", p.whose, " are too many: that is refused above ",
+    reject("keep: all ", there, " modes of ", p.whose, " are too many: that is refused above ",
            most_for_all,
            " because the shapes are a dense matrix; use count, below or effective mass");
   return lowest(p, wanted);
@@ -132,7 +132,7 @@ Modes kept(const Problem& p, const Keep& keep, const Eigen::MatrixX3d& carried) 
 
 /// Mr/‖r‖_M for translations and rotation about the mass centre.
 Eigen::MatrixX3d carried_mass(const Component& c) {
-  Eigen::MatrixX3d Mr = tie_rows(c, {FrameTie::mean_axes}).transpose();
+  Eigen::MatrixX3d Mr = reference_condition_rows(c, {ReferenceConditions::mean_axes}).transpose();
   const Eigen::Matrix3d inertia = rigid_motions(c.model).transpose() * Mr;
   for (int k = 0; k < 3; ++k) Mr.col(k) /= std::sqrt(inertia(k, k));
   return Mr;
@@ -184,7 +184,7 @@ Modes held_modes(const Component& c, const Sparse& V, const Keep& keep, const st
 
 Modes elastic_modes(const Component& c, const Keep& keep) {
   if (keep.effective_mass)
-    refuse("keep: effective mass = ", *keep.effective_mass,
+    reject("keep: effective mass = ", *keep.effective_mass,
            ": modes of a free body carry no momentum, so that none has effective mass; use count "
            "or below");
   return kept({c.K, c.M, 3, "the body"}, keep, {});

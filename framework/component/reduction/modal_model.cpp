@@ -34,11 +34,11 @@ Eigen::MatrixXd at_ports(const FeModel& model, const Eigen::MatrixXd& shapes) {
   return ports;
 }
 
-Eigen::VectorXd residuals(const Component& c, const FrameTie& tie, const Modes& modes) {
+Eigen::VectorXd residuals(const Component& c, const ReferenceConditions& conditions, const Modes& modes) {
   const Eigen::MatrixXd force = c.K * modes.shapes;
   Eigen::MatrixXd rest = force - (c.M * modes.shapes) * modes.lambda.asDiagonal();
-  if (tie.kind != FrameTie::mean_axes) {
-    const Eigen::MatrixXd B = tie_rows(c, tie);
+  if (conditions.kind != ReferenceConditions::mean_axes) {
+    const Eigen::MatrixXd B = reference_condition_rows(c, conditions);
     rest -= B.transpose() * (B * rest);
   }
   return rest.colwise().norm().cwiseQuotient(force.colwise().norm()).transpose();
@@ -71,10 +71,10 @@ Eigen::MatrixXd orthonormal(const Sparse& M, const Eigen::MatrixXd& V, double sh
   return Q.leftCols(k);
 }
 
-ModalModel modal_model(const Component& c, const FrameTie& tie, const Modes& modes) {
+ModalModel modal_model(const Component& c, const ReferenceConditions& conditions, const Modes& modes) {
   ModalModel model;
   model.omega = modes.lambda.cwiseMax(0).cwiseSqrt();
-  model.residual = residuals(c, tie, modes);
+  model.residual = residuals(c, conditions, modes);
   model.shapes = nodal(c.model, modes.shapes);
   model.ports = at_ports(c.model, modes.shapes);
   model.sturm = modes.sturm;
@@ -82,24 +82,24 @@ ModalModel modal_model(const Component& c, const FrameTie& tie, const Modes& mod
   return model;
 }
 
-ModalModel diagonalised(const Component& c, const FrameTie& tie, const Eigen::MatrixXd& V,
+ModalModel diagonalised(const Component& c, const ReferenceConditions& conditions, const Eigen::MatrixXd& V,
                         std::optional<int> sturm) {
   // Scaling up what little a shape adds scales up what rounding has left of rigid motions: tied
   // again.
-  const Eigen::MatrixXd Q = tied(c, tie, orthonormal(c.M, tied(c, tie, V), least_share));
-  if (Q.cols() == 0) return modal_model(c, tie, {Q, Eigen::VectorXd(0), sturm});
+  const Eigen::MatrixXd Q = meeting_conditions(c, conditions, orthonormal(c.M, meeting_conditions(c, conditions, V), least_share));
+  if (Q.cols() == 0) return modal_model(c, conditions, {Q, Eigen::VectorXd(0), sturm});
   const Eigen::MatrixXd K = Q.transpose() * (c.K * Q), M = Q.transpose() * (c.M * Q);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> small(K, M);
-  return modal_model(c, tie, {Q * small.eigenvectors(), small.eigenvalues(), sturm});
+  return modal_model(c, conditions, {Q * small.eigenvectors(), small.eigenvalues(), sturm});
 }
 
-ModalModel normal_modes(const Component& c, const FrameTie& tie, const Keep& keep) {
-  if (tie.kind != FrameTie::mean_axes)
-    return modal_model(c, tie,
-                       held_modes(c, permitted_motions(c, tie), keep, "the body under its tie"));
+ModalModel normal_modes(const Component& c, const ReferenceConditions& conditions, const Keep& keep) {
+  if (conditions.kind != ReferenceConditions::mean_axes)
+    return modal_model(c, conditions,
+                       held_modes(c, permitted_motions(c, conditions), keep, "the body under its tie"));
   Modes modes = elastic_modes(c, keep);
-  modes.shapes = tied(c, tie, modes.shapes);
-  return modal_model(c, tie, modes);
+  modes.shapes = meeting_conditions(c, conditions, modes.shapes);
+  return modal_model(c, conditions, modes);
 }
 
 }  // namespace pintle

@@ -14,7 +14,7 @@ namespace pintle {
 /// Which three conditions tie the floating frame to the material, i.e. what "no rigid motion"
 /// means. The choice is a gauge: with the same shapes up to rigid motions it changes no motion in
 /// the world.
-struct FrameTie {
+struct ReferenceConditions {
   enum Kind {
     tangent,    ///< frame sits on port a and turns with it: shapes look clamped there
     chord,      ///< frame's line runs from port a to b: shapes look pinned at a, sliding on it at b
@@ -33,7 +33,7 @@ Component component(const FeModel&, bool lumped = false);
 /// B with B ũ = 0 where the tie holds, 3 × n, of rank 3 on rigid motions. Tangent, chord: rows are
 /// orthonormal. Mean axes: momentum along x and y and moment of momentum about the mass centre.
 /// @throws std::invalid_argument  there is no such port, it cannot turn (tangent), the two coincide
-Eigen::MatrixXd tie_rows(const Component&, const FrameTie&);
+Eigen::MatrixXd reference_condition_rows(const Component&, const ReferenceConditions&);
 
 /// How many modes are computed. Exactly one is set. None may come of it: then only static shapes
 /// are left.
@@ -71,10 +71,10 @@ struct ModalModel {
 };
 
 /// Natural modes under the tie: of the body held at its ports (tangent, chord) or of the free body.
-/// @throws std::invalid_argument  as tie_rows; `keep` contradicts itself or asks for too much:
+/// @throws std::invalid_argument  as reference_condition_rows; `keep` contradicts itself or asks for too much:
 ///         "9 modes asked for, the body has 6"
 /// @throws std::runtime_error     no convergence; parts of the body are not joined
-ModalModel normal_modes(const Component&, const FrameTie&, const Keep&);
+ModalModel normal_modes(const Component&, const ReferenceConditions&, const Keep&);
 
 /// Craig–Bampton: the static shape of each freedom of the interface ports and the lowest modes with
 /// these held (`keep` counts those), brought to the tie, then made diagonal: 3 shapes fewer than
@@ -83,14 +83,14 @@ ModalModel normal_modes(const Component&, const FrameTie&, const Keep&);
 /// Source: [CraigBampton1968].
 /// @throws as normal_modes, and std::invalid_argument  a port is named twice; with the ports held
 ///         the body can still move as a rigid one
-ModalModel craig_bampton(const Component&, const std::vector<int>& ports, const FrameTie&,
+ModalModel craig_bampton(const Component&, const std::vector<int>& ports, const ReferenceConditions&,
                          const Keep&);
 
 /// The modes that Craig–Bampton adds to static shapes, brought to the tie: natural with the ports
 /// held, so that ΦᵀMΦ = I only before they are tied, and ΦᵀKΦ = diag(ω²) always. For judging which
 /// of them a motion needs.
 /// @throws as normal_modes, and std::invalid_argument  a port is named twice
-ModalModel fixed_interface_modes(const Component&, const std::vector<int>& ports, const FrameTie&,
+ModalModel fixed_interface_modes(const Component&, const std::vector<int>& ports, const ReferenceConditions&,
                                  const Keep&);
 
 /// Modes of the free body (`keep` counts those) and, for each freedom of the ports, the residual
@@ -99,7 +99,7 @@ ModalModel fixed_interface_modes(const Component&, const std::vector<int>& ports
 /// equilibrium with other loads there or with the body's inertia, stays exact.
 /// Source: [CraigChang1977].
 /// @throws as normal_modes, and std::invalid_argument  a port is named twice
-ModalModel free_modes(const Component&, const std::vector<int>& ports, const FrameTie&,
+ModalModel free_modes(const Component&, const std::vector<int>& ports, const ReferenceConditions&,
                       const Keep&);
 
 /// J = RᵀMR: a beam section's own rotary inertia counts, which xᵀMx would miss.

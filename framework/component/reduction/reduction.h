@@ -12,10 +12,10 @@ namespace pintle {
 /// Sparse orthonormal basis of the motions that a tangent or chord tie permits, n × (n − 3): the
 /// freedoms that stay free and, at port b of a chord, the direction along it.
 /// @pre the tie is not mean_axes
-Sparse permitted_motions(const Component&, const FrameTie&);
+Sparse permitted_motions(const Component&, const ReferenceConditions&);
 
 /// V with the rigid motion added to each column that makes it meet the tie: V − R (BR)⁻¹ B V.
-Eigen::MatrixXd tied(const Component&, const FrameTie&, const Eigen::MatrixXd& V);
+Eigen::MatrixXd meeting_conditions(const Component&, const ReferenceConditions&, const Eigen::MatrixXd& V);
 
 /// Freedoms of ports, in their order.
 /// @throws std::invalid_argument  a port does not exist or is named twice
@@ -41,9 +41,9 @@ Eigen::MatrixXd orthonormal(const Sparse& M, const Eigen::MatrixXd& V, double sh
 inline constexpr double least_share = 1e-10;
 
 /// The model of given modes: n × k, M-orthonormal, K-diagonal and tied.
-ModalModel modal_model(const Component&, const FrameTie&, const Modes&);
+ModalModel modal_model(const Component&, const ReferenceConditions&, const Modes&);
 /// The model of all that V spans, brought to the tie and made diagonal (Rayleigh and Ritz).
-ModalModel diagonalised(const Component&, const FrameTie&, const Eigen::MatrixXd& V,
+ModalModel diagonalised(const Component&, const ReferenceConditions&, const Eigen::MatrixXd& V,
                         std::optional<int> sturm);
 
 }  // namespace pintle

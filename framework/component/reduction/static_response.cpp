@@ -15,8 +15,8 @@ using Eigen::MatrixXd;
 
 /// Loads with the reactions of the tie or, under mean axes, the inertia of the acceleration that
 /// they cause. The adjoint of `tied`: on any motion they do the work of f on that motion tied.
-MatrixXd in_equilibrium(const Component& c, const FrameTie& tie, const MatrixXd& loads) {
-  const MatrixXd B = tie_rows(c, tie);
+MatrixXd in_equilibrium(const Component& c, const ReferenceConditions& conditions, const MatrixXd& loads) {
+  const MatrixXd B = reference_condition_rows(c, conditions);
   const Eigen::MatrixX3d r = scaled_rigid_motions(c.model);
   const Eigen::Matrix3d rB = (B * r).transpose();
   return loads - B.transpose() * rB.fullPivLu().solve(r.transpose() * loads);
@@ -39,19 +39,19 @@ StaticResponse::StaticResponse(const Component& c)
         "resistance; join them with elements that resist");
 }
 
-MatrixXd StaticResponse::under(const FrameTie& tie, const MatrixXd& loads) const {
+MatrixXd StaticResponse::under(const ReferenceConditions& conditions, const MatrixXd& loads) const {
   if (loads.rows() != c_.model.n())
     throw std::invalid_argument("static response: loads of " + std::to_string(loads.rows()) +
                                 " rows, must be " + std::to_string(c_.model.n()) +
                                 ", one per independent freedom");
-  const MatrixXd moving_loads = in_equilibrium(c_, tie, loads)(moving_, Eigen::all);
+  const MatrixXd moving_loads = in_equilibrium(c_, conditions, loads)(moving_, Eigen::all);
   MatrixXd u = MatrixXd::Zero(loads.rows(), loads.cols());
   u(moving_, Eigen::all) = held_.solve(moving_loads);  // in equilibrium: the hold carries nothing
-  return tied(c_, tie, u);
+  return meeting_conditions(c_, conditions, u);
 }
 
-MatrixXd static_response(const Component& c, const FrameTie& tie, const MatrixXd& loads) {
-  return StaticResponse(c).under(tie, loads);
+MatrixXd static_response(const Component& c, const ReferenceConditions& conditions, const MatrixXd& loads) {
+  return StaticResponse(c).under(conditions, loads);
 }
 
 }  // namespace pintle

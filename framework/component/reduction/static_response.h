@@ -11,9 +11,9 @@ namespace pintle {
 /// held by the tie (tangent, chord) or, under mean axes, of the free body that the load accelerates.
 /// For a displacement v that meets the tie, vᵀK u = vᵀf, so that uᵀf is twice the strain energy.
 /// @param loads  independent freedoms, n × count
-/// @throws std::invalid_argument  as tie_rows; `loads` has another number of rows
+/// @throws std::invalid_argument  as reference_condition_rows; `loads` has another number of rows
 /// @throws std::runtime_error     parts of the body are not joined, or move without resistance
-Eigen::MatrixXd static_response(const Component&, const FrameTie&, const Eigen::MatrixXd& loads);
+Eigen::MatrixXd static_response(const Component&, const ReferenceConditions&, const Eigen::MatrixXd& loads);
 
 /// The same of one body under several ties, its stiffness factored once.
 class StaticResponse {
@@ -21,7 +21,7 @@ class StaticResponse {
   /// @throws std::runtime_error  as static_response
   explicit StaticResponse(const Component&);  ///< the component must outlive it
   /// @throws std::invalid_argument  as static_response
-  Eigen::MatrixXd under(const FrameTie&, const Eigen::MatrixXd& loads) const;
+  Eigen::MatrixXd under(const ReferenceConditions&, const Eigen::MatrixXd& loads) const;
 
  private:
   const Component& c_;

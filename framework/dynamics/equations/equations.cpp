@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "framework/common/worse.h"
-#include "framework/dynamics/equations/branch.h"
+#include "framework/dynamics/equations/bifurcation.h"
 
 namespace pintle {
 
@@ -165,7 +165,7 @@ void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
   add_product(eq, s, eq.Cdot);
 }
 
-void weigh(const System& system, const VectorXd& y, Equations& eq) {
+void update_mass(const System& system, const VectorXd& y, Equations& eq) {
   for (FlexibleInertia& body : eq.flexible) evaluate_inertia(system, y, eq.cos_[body.body], eq.sin_[body.body], body);
 }
 
@@ -201,7 +201,7 @@ void add_reaction(const Equations& eq, const VectorXd& x, VectorXd& out) {
 
 void factor(const System& system, const VectorXd& y, Equations& eq) {
   ++eq.factorizations;
-  weigh(system, y, eq);
+  update_mass(system, y, eq);
   eq.regular = true;
   for (FlexibleInertia& body : eq.flexible) eq.regular = eq.regular && invert(body);
   if (!eq.regular) return;
@@ -251,7 +251,7 @@ void add_weight(const System& system, Equations& eq) {
 
 }  // namespace
 
-void load(const System& system, const State& state, Equations& eq) {
+void apply_forces(const System& system, const State& state, Equations& eq) {
   eq.f.setZero();
   if (has_gravity(system)) add_weight(system, eq);
   for (FlexibleInertia& body : eq.flexible) add_forces(system, state.y, body, eq.f);
@@ -272,7 +272,7 @@ void load(const System& system, const State& state, Equations& eq) {
 }
 
 void accelerate(const System& system, const State& state, Equations& eq) {
-  load(system, state, eq);
+  apply_forces(system, state, eq);
 
   // S λ = Cq M⁻¹ f − γ,  a = M⁻¹ (f − Cqᵀ λ)
   eq.a = eq.f;
@@ -288,7 +288,7 @@ void accelerate(const System& system, const State& state, Equations& eq) {
   }
   solve_reactions(system, eq);
   ++eq.evaluations;
-  if (eq.schur.lost() > 0) eq.regular = agree(system, eq) && follow_branch(system, state, eq);
+  if (eq.schur.lost() > 0) eq.regular = agree(system, eq) && follow_bifurcation_branch(system, state, eq);
 }
 
 void fill_derivative(const System& system, const VectorXd& y, const Equations& eq, VectorXd& dy) {

@@ -71,7 +71,7 @@ struct Equations {
   std::vector<ForceEffect> force;
   bool regular = true;                ///< false: no accelerations can be had here
   bool uneven = false;                ///< inertias so unlike that λ and a need a second look
-  int lasting = 0;                    ///< rows that others imply wherever it has moved so far
+  int permanent = 0;                    ///< rows that others imply wherever it has moved so far
 
   long evaluations = 0, factorizations = 0;
 
@@ -84,11 +84,11 @@ void pose(const System&, double t, const Eigen::VectorXd& y, Equations&);
 /// Speeds of the markers, Ct, κ and Ċ. After pose.
 void speed(const System&, double t, const Eigen::VectorXd& y, Equations&);
 /// Inertia of flexible bodies. After pose.
-void weigh(const System&, const Eigen::VectorXd& y, Equations&);
+void update_mass(const System&, const Eigen::VectorXd& y, Equations&);
 /// Weighs, inverts the inertia of flexible bodies and factors S. After pose; sets `regular`.
 void factor(const System&, const Eigen::VectorXd& y, Equations&);
 /// f: gravity, what inertia does with speed, force elements, contacts. After speed and weigh.
-void load(const System&, const State&, Equations&);
+void apply_forces(const System&, const State&, Equations&);
 /// Loads, λ, a. After speed and factor. Clears `regular` where rows contradict each other, and in a
 /// singular pose that speeds do not lead out of.
 void accelerate(const System&, const State&, Equations&);

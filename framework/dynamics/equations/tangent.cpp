@@ -101,7 +101,7 @@ void Tangent::evaluate(const System& system, const State& state, const Equations
                        const VectorXd& lambda, const Weights& w, std::vector<double>& values) {
   std::fill(values.begin(), values.end(), 0.0);
   add_inertia(system, state, eq, a, w, values.data());
-  if (w.q != 0) add_turning(system, eq, lambda, w.q, values.data());
+  if (w.q != 0) add_geometric_stiffness_of_forces(system, eq, lambda, w.q, values.data());
   if (w.q != 0 || w.s != 0) add_pairs(system, state, eq, lambda, w, values.data());
 }
 
@@ -122,7 +122,7 @@ void Tangent::add_inertia(const System& system, const State& state, const Equati
 }
 
 // −Σ f·∂²p/∂q²: forces keep their place on bodies that turn and bend.
-void Tangent::add_turning(const System& system, const Equations& eq, const VectorXd& lambda, double weight,
+void Tangent::add_geometric_stiffness_of_forces(const System& system, const Equations& eq, const VectorXd& lambda, double weight,
                           double* values) const {
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
@@ -135,23 +135,23 @@ void Tangent::add_turning(const System& system, const Equations& eq, const Vecto
       bx -= rows.Lb(i, 0) * l;
       by -= rows.Lb(i, 1) * l;
     }
-    turn(system, eq, static_cast<int>(eq.ends[k][0]), ax, ay, values);
-    turn(system, eq, static_cast<int>(eq.ends[k][1]), bx, by, values);
+    add_geometric_stiffness(system, eq, static_cast<int>(eq.ends[k][0]), ax, ay, values);
+    add_geometric_stiffness(system, eq, static_cast<int>(eq.ends[k][1]), bx, by, values);
   }
   for (std::size_t k = 0; k < system.forces.size(); ++k) {
     const ForceEffect& now = eq.force[k];
-    turn(system, eq, marker_a(system.forces[k]), weight * now.on_a[0], weight * now.on_a[1], values);
-    turn(system, eq, marker_b(system.forces[k]), weight * now.on_b[0], weight * now.on_b[1], values);
+    add_geometric_stiffness(system, eq, marker_a(system.forces[k]), weight * now.on_a[0], weight * now.on_a[1], values);
+    add_geometric_stiffness(system, eq, marker_b(system.forces[k]), weight * now.on_b[0], weight * now.on_b[1], values);
   }
   for (std::size_t k = 0; k < system.contacts.size(); ++k) {
     const ContactEffect& now = eq.contact[k];
     if (now.normal.force == 0) continue;
-    turn(system, eq, system.contacts[k].journal, weight * now.on_journal[0], weight * now.on_journal[1], values);
-    turn(system, eq, system.contacts[k].bearing, weight * now.on_bearing[0], weight * now.on_bearing[1], values);
+    add_geometric_stiffness(system, eq, system.contacts[k].journal, weight * now.on_journal[0], weight * now.on_journal[1], values);
+    add_geometric_stiffness(system, eq, system.contacts[k].bearing, weight * now.on_bearing[0], weight * now.on_bearing[1], values);
   }
 }
 
-void Tangent::turn(const System& system, const Equations& eq, int marker, double fx, double fy, double* values) const {
+void Tangent::add_geometric_stiffness(const System& system, const Equations& eq, int marker, double fx, double fy, double* values) const {
   const Marker& m = system.markers[at(marker)];
   if (m.body == ground) return;
   const MarkerMotion& motion = eq.motion[at(marker)];

@@ -55,8 +55,8 @@ class Tangent {
   void lay_out(const System&);
   void link(const System&, Pair::Kind, std::size_t index, int marker_a, int marker_b, const PairReach&);
   void add_inertia(const System&, const State&, const Equations&, const Eigen::VectorXd& a, const Weights&, double* values);
-  void add_turning(const System&, const Equations&, const Eigen::VectorXd& lambda, double weight, double* values) const;
-  void turn(const System&, const Equations&, int marker, double fx, double fy, double* values) const;
+  void add_geometric_stiffness_of_forces(const System&, const Equations&, const Eigen::VectorXd& lambda, double weight, double* values) const;
+  void add_geometric_stiffness(const System&, const Equations&, int marker, double fx, double fy, double* values) const;
   void add_pairs(const System&, const State&, const Equations&, const Eigen::VectorXd& lambda, const Weights&, double* values);
   void stand(const System&, const State&, const Equations&, int marker, End&) const;
 

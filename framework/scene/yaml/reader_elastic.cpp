@@ -146,7 +146,7 @@ Stiffening read_stiffening(const Node& node) {
 }
 
 // What only a body that bends in a mechanism can be asked.
-[[noreturn]] void refuse_of_rigid(const Node& node) {
+[[noreturn]] void reject_of_rigid(const Node& node) {
   node.fail(
       "is asked of a rigid body: without modes it does not bend in a mechanism; add for example "
       "modes: {frame: chord, craig-bampton: {count: 2}}, or leave it out");
@@ -205,8 +205,8 @@ SceneElastic read_elastic(const Node& node, const SceneBody& body,
   if (node.has("damping")) out.damping = read_damping(node.at("damping"));
   if (node.has("stiffening")) out.stiffening = read_stiffening(node.at("stiffening"));
   if (out.modes) return out;
-  if (node.has("stiffening")) refuse_of_rigid(node.at("stiffening"));
-  if (beam && node.at("beam").has("pieces")) refuse_of_rigid(node.at("beam").at("pieces"));
+  if (node.has("stiffening")) reject_of_rigid(node.at("stiffening"));
+  if (beam && node.at("beam").has("pieces")) reject_of_rigid(node.at("beam").at("pieces"));
   return out;
 }
 

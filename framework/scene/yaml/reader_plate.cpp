@@ -141,8 +141,8 @@ SceneFile read_file(const Node& plate) {
   fs::path path;
   try {
     path = contained_file(file.path, fs::path(node.source().file).parent_path());
-  } catch (const FileRefused& refused) {
-    node.fail(refused.what());
+  } catch (const FileRefused& rejected) {
+    node.fail(rejected.what());
   }
   if (!fs::exists(path)) node.fail("there is no file " + path.string() + "; check the path");
   if (!drawing)
@@ -163,7 +163,7 @@ SceneFile read_file(const Node& plate) {
 }
 
 // Plane strain asks more of a material than plane stress.
-void judge_in_plane(const Node& node, const ScenePlate& plate) {
+void validate_in_plane(const Node& node, const ScenePlate& plate) {
   try {
     plane_material(plate.material.material, plate.state);
   } catch (const std::invalid_argument& error) {
@@ -200,7 +200,7 @@ ScenePlate read_plate(const Node& node, const std::vector<SceneMaterial>& materi
   Made made = read_made(node, keys, materials);
   plate.material = std::move(made.material);
   plate.mass = made.mass;
-  judge_in_plane(node, plate);
+  validate_in_plane(node, plate);
   return plate;
 }
 

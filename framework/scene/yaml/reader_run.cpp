@@ -29,7 +29,7 @@ void read_plane(const Node& group, std::string_view both, std::string_view x_key
   read_if(group, y_key, expected, y);
 }
 
-void refuse(const Node& group, std::initializer_list<std::string_view> keys, const char* message) {
+void reject(const Node& group, std::initializer_list<std::string_view> keys, const char* message) {
   for (const std::string_view key : keys)
     if (group.has(key)) group.at(key).fail(message);
 }
@@ -53,7 +53,7 @@ void read_bent(const Node& node, const SceneBody& body, StartBody& start) {
 }
 
 StartBody read_start_body(const Node& node, const SceneBody& body) {
-  refuse(node, {"eccentricity"}, "belongs to a joint with clearance, but this is a body; use at");
+  reject(node, {"eccentricity"}, "belongs to a joint with clearance, but this is a body; use at");
   StartBody start;
   start.body = node.name();
   start.place = node.place();
@@ -68,7 +68,7 @@ StartBody read_start_body(const Node& node, const SceneBody& body) {
 }
 
 StartJournal read_start_journal(const Node& node) {
-  refuse(node, {"at", "x", "y", "angle", "velocity", "vx", "vy", "deflection", "modes"},
+  reject(node, {"at", "x", "y", "angle", "velocity", "vx", "vy", "deflection", "modes"},
          "belongs to a body, but this is a joint; its journal has eccentricity and speed");
   StartJournal start;
   start.joint = node.name();

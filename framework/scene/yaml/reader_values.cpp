@@ -82,8 +82,8 @@ Law read_table_law(const Node& node, const Dimension& expected, Smoothness smoot
   std::filesystem::path path;
   try {
     path = contained_file(file, folder);
-  } catch (const FileRefused& refused) {
-    node.at("table").fail(refused.what());
+  } catch (const FileRefused& rejected) {
+    node.at("table").fail(rejected.what());
   }
   Samples samples = read_samples(path, time_unit, value_unit, node.place().key);
   must_cover(node, file, samples, until);

@@ -29,7 +29,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
                 const std::string& value) override {
-    refuse_tag(mark, tag);
+    reject_tag(mark, tag);
     if (!open_.empty() && open_.back().yaml.kind == Yaml::Kind::map && !open_.back().has_key)
       key(mark, value);
     else
@@ -58,7 +58,7 @@ class TreeBuilder : public YAML::EventHandler {
   [[noreturn]] void fail(const YAML::Mark& mark, const std::string& message) const {
     throw SceneError(file_, {mark.line + 1, {}}, message);
   }
-  void refuse_tag(const YAML::Mark& mark, const std::string& tag) const {
+  void reject_tag(const YAML::Mark& mark, const std::string& tag) const {
     if (!tag.empty() && tag != "?" && tag != "!")
       fail(mark, "the tag " + tag + " is not read; leave it out");
   }
@@ -71,7 +71,7 @@ class TreeBuilder : public YAML::EventHandler {
     map.has_key = true;
   }
   void begin(const YAML::Mark& mark, const std::string& tag, Yaml::Kind kind) {
-    refuse_tag(mark, tag);
+    reject_tag(mark, tag);
     need_plain_key(mark);
     open_.push_back({.yaml = {.kind = kind, .line = mark.line + 1}});
   }

@@ -6,7 +6,7 @@
 #include "framework/scene/error.h"
 #include "framework/study/measures/columns.h"
 #include "framework/study/measures/measure_words.h"
-#include "framework/study/measures/offer.h"
+#include "framework/study/measures/measurables.h"
 #include "framework/study/measures/signal.h"
 
 namespace pintle {

@@ -34,7 +34,7 @@ void judge(const std::vector<Measure>&, const Scene&);
 /// Judges measures of what only a flexible body has: stress, displacement, modes.
 /// @param varied  what cases of the scene set: parameters and paths. One below `bodies.BODY` may make it flexible.
 /// @throws SceneError  the body is rigid, and no case may change that
-void judge_flexible(const std::vector<Measure>&, const Scene&, const std::vector<std::string>& varied);
+void validate_flexible(const std::vector<Measure>&, const Scene&, const std::vector<std::string>& varied);
 
 /// Makes a scene put out what the measures need, so that they are what they say and not what the output interval shows of
 /// them: points and stresses recorded, 2000 rows in a window, a row at each instant. No frames. Called after with_pieces,

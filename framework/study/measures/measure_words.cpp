@@ -9,7 +9,7 @@
 #include "framework/scene/error.h"
 #include "framework/scene/units/expression.h"
 #include "framework/study/measures/measure_vocabulary.h"
-#include "framework/study/measures/offer.h"
+#include "framework/study/measures/measurables.h"
 
 namespace pintle {
 
@@ -18,7 +18,7 @@ namespace {
 class Reading {
  public:
   Reading(const Measure& measure, const Scene& scene)
-      : measure_(measure), scene_(scene), words_(measure.words), offer_(offer_of(scene)) {}
+      : measure_(measure), scene_(scene), words_(measure.words), measurables_(measurables_of(scene)) {}
 
   Asked read() {
     words_.skip_articles();
@@ -30,7 +30,7 @@ class Reading {
       fail("\"" + words_.rest() +
            "\" is nothing that can be measured; write for example peak force at JOINT, x of BODY.POINT at 0.05 s, "
            "rms torque of DRIVER after 10 ms or energy lost (docs/studies.md)." +
-           described(offer_));
+           described(measurables_));
     }
     read_time();
     judge();
@@ -76,9 +76,9 @@ class Reading {
     words_.take_any({"at", "of", "in", "on", "by"});
     if (const std::string name = words_.take_name(names); !name.empty()) return name;
     const std::string rest = words_.rest();
-    if (rest.empty()) fail(std::string("it does not say of which ") + kind + "." + described(offer_));
+    if (rest.empty()) fail(std::string("it does not say of which ") + kind + "." + described(measurables_));
     fail("\"" + rest + "\" begins with no " + kind + " of this scene." +
-         (names.empty() ? std::string(" It has none.") : did_you_mean(rest.substr(0, rest.find(" at ")), names)) + described(offer_));
+         (names.empty() ? std::string(" It has none.") : did_you_mean(rest.substr(0, rest.find(" at ")), names)) + described(measurables_));
   }
   /// A name may follow: it does if the words behind "at" are one.
   std::string may_have(const Names& names) {
@@ -94,7 +94,7 @@ class Reading {
     const std::string part = column.name;
     if (part == "work in") return is(What::work, "J", "", owner);
     if (part.starts_with(lost)) return is(What::lost, "J", part.substr(lost.size()), owner);
-    if (std::ranges::find(offer_.actors, owner) == offer_.actors.end())
+    if (std::ranges::find(measurables_.actors, owner) == measurables_.actors.end())
       for (const MotionWord& m : motion_words)
         if (part == m.part) return is(What::motion, column.unit, part == "speed" ? "spin" : part, owner);
     return is(What::column, column.unit, part, owner);
@@ -110,7 +110,7 @@ class Reading {
     for (const std::string& owner : owners)
       for (const ColumnPart& part : parts)
         if (owner + "." + part.name == found) is_column(owner, part);
-    if (words_.take("on")) need("body", offer_.bodies);
+    if (words_.take("on")) need("body", measurables_.bodies);
     const std::string unit = words_.rest();
     if (unit.starts_with("[") && unit.find(']') != std::string::npos)
       words_.back_to(words_.place() + std::min(unit.size(), unit.find(']') + 2));
@@ -121,7 +121,7 @@ class Reading {
   bool read_mode() {
     const std::size_t before = words_.place();
     Names known;
-    for (const std::string& body : offer_.bodies) known.push_back(body + ".mode");
+    for (const std::string& body : measurables_.bodies) known.push_back(body + ".mode");
     const std::string found = words_.take_name(known), number = words_.rest().substr(0, words_.rest().find(' '));
     if (!found.empty() && !number.empty() && words_.take(number) && number.find_first_not_of("0123456789") == std::string::npos) {
       words_.take("[m kg^0.5]");
@@ -132,8 +132,8 @@ class Reading {
   }
 
   bool read_column() {
-    if (read_mode() || read_column_of(offer_.points, point_columns) || read_column_of(offer_.actors, actor_columns) ||
-        read_column_of(offer_.bodies, body_columns))
+    if (read_mode() || read_column_of(measurables_.points, point_columns) || read_column_of(measurables_.actors, actor_columns) ||
+        read_column_of(measurables_.bodies, body_columns))
       return true;
     const std::size_t before = words_.place();
     for (const ColumnPart& part : ledger_columns)
@@ -161,25 +161,25 @@ class Reading {
                               {"contact force", ""},
                               {"driving force", ""},
                               {"force", ""}})
-      if (words_.take(c.words)) return is(What::force, "N", c.part, need("joint, driver or force", offer_.actors));
+      if (words_.take(c.words)) return is(What::force, "N", c.part, need("joint, driver or force", measurables_.actors));
     if (!words_.take_any({"driving torque", "torque", "moment", "couple"}).empty())
-      return is(What::torque, "N m", "", need("joint, driver or force", offer_.actors));
+      return is(What::torque, "N m", "", need("joint, driver or force", measurables_.actors));
     return false;
   }
 
   bool read_contact() {
-    if (words_.take("eccentricity")) return is(What::eccentricity, "m", "", need("joint", offer_.joints));
-    if (!words_.take_any({"depth", "penetration"}).empty()) return is(What::depth, "m", "", need("joint", offer_.joints));
+    if (words_.take("eccentricity")) return is(What::eccentricity, "m", "", need("joint", measurables_.joints));
+    if (!words_.take_any({"depth", "penetration"}).empty()) return is(What::depth, "m", "", need("joint", measurables_.joints));
     if (!words_.take_any({"number of impacts", "number of contacts", "impacts", "impact count", "count of impacts"}).empty())
-      return is(What::impacts, "", "", may_have(offer_.joints));
+      return is(What::impacts, "", "", may_have(measurables_.joints));
     if (!words_.take_any({"longest free flight", "longest flight"}).empty() ||
         (asked_.statistic != Statistic::none && !words_.take_any({"free flight"}).empty())) {
       if (asked_.statistic != Statistic::none && asked_.statistic != Statistic::greatest && asked_.statistic != Statistic::peak)
         fail("of free flights the longest alone is known; write longest free flight");
       asked_.statistic = Statistic::none;
-      return is(What::free_flight, "s", "", may_have(offer_.joints));
+      return is(What::free_flight, "s", "", may_have(measurables_.joints));
     }
-    if (!words_.take_any({"time in contact", "contact time"}).empty()) return is(What::contact_time, "s", "", may_have(offer_.joints));
+    if (!words_.take_any({"time in contact", "contact time"}).empty()) return is(What::contact_time, "s", "", may_have(measurables_.joints));
     return false;
   }
 
@@ -204,8 +204,8 @@ class Reading {
 
   bool read_lost() {
     if (!words_.take_any({"work done", "work put in", "work in", "work"}).empty()) {
-      Names workers = offer_.drivers;
-      workers.insert(workers.end(), offer_.loads.begin(), offer_.loads.end());
+      Names workers = measurables_.drivers;
+      workers.insert(workers.end(), measurables_.loads.begin(), measurables_.loads.end());
       return is(What::work, "J", "", words_.take_any({"of", "by", "in"}).empty() ? "" : need("driver or force", workers));
     }
     if (words_.take("scheme.lost to numerical dissipation")) return is(What::lost, "J", "numerical dissipation");
@@ -213,8 +213,8 @@ class Reading {
             .take_any({"energy lost", "lost energy", "energy loss", "energy dissipated", "dissipated energy", "loss of energy", "losses"})
             .empty())
       return false;
-    Names losers = offer_.actors;
-    losers.insert(losers.end(), offer_.bodies.begin(), offer_.bodies.end());
+    Names losers = measurables_.actors;
+    losers.insert(losers.end(), measurables_.bodies.begin(), measurables_.bodies.end());
     is(What::lost, "J");
     asked_.owner = may_have(losers);
     if (!words_.take_any({"to", "by"}).empty()) asked_.part = read_account();
@@ -229,16 +229,16 @@ class Reading {
   }
 
   bool read_elastic() {
-    if (!words_.take_any({"von mises stress", "stress"}).empty()) return is(What::stress, "Pa", "", need("point", offer_.points));
+    if (!words_.take_any({"von mises stress", "stress"}).empty()) return is(What::stress, "Pa", "", need("point", measurables_.points));
     if (!words_.take_any({"elastic displacement", "displacement"}).empty())
-      return is(What::displacement, "m", "", need("point", offer_.points));
-    if (words_.take("deflection")) return is(What::deflection, "m", "", need("body", offer_.bodies));
+      return is(What::displacement, "m", "", need("point", measurables_.points));
+    if (words_.take("deflection")) return is(What::deflection, "m", "", need("body", measurables_.bodies));
     return false;
   }
 
   bool read_motion() {
-    Names all = offer_.bodies;
-    all.insert(all.end(), offer_.points.begin(), offer_.points.end());
+    Names all = measurables_.bodies;
+    all.insert(all.end(), measurables_.points.begin(), measurables_.points.end());
     if (words_.take("distance between") || words_.take("distance from")) {
       is(What::distance, "m", "", need("body or point", all));
       words_.take_any({"and", "to"});
@@ -248,10 +248,10 @@ class Reading {
     for (const MotionWord& m : motion_words)
       if (words_.take(m.words)) {
         const auto among = [&](const auto& parts) { return std::ranges::find(parts, std::string_view(m.part)) != parts.end(); };
-        const std::string owner = among(of_bodies_alone)   ? need("body", offer_.bodies)
-                                  : among(of_points_alone) ? need("point", offer_.points)
+        const std::string owner = among(of_bodies_alone)   ? need("body", measurables_.bodies)
+                                  : among(of_points_alone) ? need("point", measurables_.points)
                                                            : need("body or point", all);
-        const bool body = std::ranges::find(offer_.bodies, owner) != offer_.bodies.end();
+        const bool body = std::ranges::find(measurables_.bodies, owner) != measurables_.bodies.end();
         const bool turning = body && m.part == std::string_view("speed");
         return is(What::motion, turning ? "rad/s" : m.unit, turning ? "spin" : m.part, owner);
       }
@@ -298,7 +298,7 @@ class Reading {
       fail("\"" + rest +
            "\" is not understood; after what is measured may stand a time: at 0.05 s, after 10 ms, before 1 s, from 10 ms to 20 ms, in "
            "the last 5 ms." +
-           described(offer_));
+           described(measurables_));
     if (how.starts_with("at")) return instant(time(rest));
     if (how == "between" ? read_window(rest, "and") : how == "from" && (read_window(rest, "to") || read_window(rest, "until"))) return;
     if (how == "between") fail("a window has two times; write between 10 ms and 20 ms");
@@ -330,7 +330,7 @@ class Reading {
   const Measure& measure_;
   const Scene& scene_;
   Words words_;
-  Offer offer_;
+  Measurables measurables_;
   Asked asked_;
 };
 

@@ -76,7 +76,7 @@ std::string remedy(const fs::path& path) {
 
 /// @returns false: there is none yet, as its process was killed while it wrote the first line
 /// @throws OtherStudy, SceneError
-bool judge_heading(const fs::path& path, const std::string& text, std::uint64_t study) {
+bool validate_heading(const fs::path& path, const std::string& text, std::uint64_t study) {
   const std::string ours = heading(study);
   const std::size_t end = text.find('\n');
   if (end == std::string::npos && text.size() <= ours.size() && text.substr(0, text.find('\0')) == ours.substr(0, std::min(text.size(), text.find('\0'))))
@@ -160,7 +160,7 @@ Journal::Journal(const fs::path& path, std::uint64_t study, std::vector<std::str
       throw std::runtime_error(path.string() + ": another process works on this sweep; wait for it, or end it. (If many were started at once as one "
                                                "MPI job, they do not see each other: start them by mpirun, or by srun --mpi=pmix.)");
     const std::string text = contents(path);
-    const bool begun = judge_heading(path, text, study);
+    const bool begun = validate_heading(path, text, study);
     size_ = begun ? static_cast<std::int64_t>(text.rfind('\n') + 1) : 0;
     if (notes && size_ < static_cast<std::int64_t>(text.size())) notes->push_back(torn(path, text));
     if (::ftruncate(file_, size_) != 0) throw std::runtime_error(path.string() + ": cannot be written (" + std::strerror(errno) + ")");
@@ -211,7 +211,7 @@ std::vector<Row> read_journals(const fs::path& folder, std::uint64_t study, std:
     if (!is_journal(path)) continue;
     const std::string text = contents(path);
     if (notes && !text.ends_with('\n') && !text.empty()) notes->push_back(torn(path, text));
-    if (!judge_heading(path, text, study)) continue;
+    if (!validate_heading(path, text, study)) continue;
     std::size_t line = 2;
     for (std::size_t begin = text.find('\n') + 1, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1, ++line) {
       std::optional<Row> row = row_of(std::string_view(text).substr(begin, end - begin));

@@ -131,7 +131,7 @@ Cases grid(const Node& section) {
 }
 
 /// Before the values are made: a few lines could ask for more than any memory.
-void judge_size(const Node& section, std::size_t cases, std::size_t names) {
+void validate_size(const Node& section, std::size_t cases, std::size_t names) {
   constexpr std::size_t most_values = 20'000'000;
   if (cases > most_values / std::max<std::size_t>(1, names))
     section.fail("has more than " + std::to_string(most_values) + " values, of " + std::to_string(names) + " names together; take fewer cases");
@@ -140,7 +140,7 @@ void judge_size(const Node& section, std::size_t cases, std::size_t names) {
 Cases columns(const Node& section) {
   Cases cases;
   for (const Node& column : named(section)) {
-    judge_size(section, value_count(column), named(section).size());
+    validate_size(section, value_count(column), named(section).size());
     const Texts texts = values(column);
     if (cases.names.empty()) cases.values.resize(texts.size());
     if (texts.size() != cases.size())
@@ -181,7 +181,7 @@ Cases sampled(const Node& section, bool latin) {
   if (n > most_cases) section.at("count").fail("is more than " + std::to_string(most_cases) + " cases; take fewer");
   const auto seed = static_cast<std::uint64_t>(section.has("seed") ? section.at("seed").count(0) : 1);
 
-  judge_size(section, n, entries.size());
+  validate_size(section, n, entries.size());
   Cases cases;
   cases.values.resize(n);
   for (const Node& entry : entries) {

@@ -9,7 +9,7 @@
 
 #include "files/files.h"
 #include "framework/common/text.h"
-#include "framework/study/sweep/crew.h"
+#include "framework/study/sweep/worker_pool.h"
 
 namespace pintle {
 
@@ -21,7 +21,7 @@ using clock = std::chrono::steady_clock;
 /// What the processes say to each other: the first number of a message.
 enum Word : std::int64_t {
   go,      ///< 0 to all: the folder is ready
-  refuse,  ///< 0 to all: there is nothing to do
+  reject,  ///< 0 to all: there is nothing to do
   ask,     ///< to 0: idle threads; then what was done since
   deal,    ///< 0 to one: whether that was all there is; then numbers of cases
   leave,   ///< to 0: whether it was stopped; then what was done since
@@ -33,24 +33,24 @@ using Message = std::vector<std::int64_t>;
 constexpr auto nap = std::chrono::milliseconds(2);  // next to the 50 ms of a portion
 constexpr std::size_t most_dealt = 400;  // fits a message that is sent without waiting for its receiver
 
-void report(Message& to, const Crew::Tally& since) {
+void report(Message& to, const WorkerPool::Tally& since) {
   to.insert(to.end(), {static_cast<std::int64_t>(since.done), static_cast<std::int64_t>(since.trouble),
                        static_cast<std::int64_t>(since.busy * 1e6)});
 }
 
-void send_all(Fellows& fellows, Word word) {
-  for (int k = 1; k < fellows.size(); ++k) fellows.send(k, Message{word});
+void send_all(Communicator& communicator, Word word) {
+  for (int k = 1; k < communicator.size(); ++k) communicator.send(k, Message{word});
 }
 
-Message next_message(Fellows& fellows, int& from) {
+Message next_message(Communicator& communicator, int& from) {
   Message said;
-  while (!fellows.receive(from, said)) std::this_thread::sleep_for(nap);
+  while (!communicator.receive(from, said)) std::this_thread::sleep_for(nap);
   return said;
 }
 
-void take_leave(Fellows& fellows, const Message& last) {
-  fellows.send(0, last);
-  for (int from = 0; next_message(fellows, from)[0] != bye;) {}
+void take_leave(Communicator& communicator, const Message& last) {
+  communicator.send(0, last);
+  for (int from = 0; next_message(communicator, from)[0] != bye;) {}
 }
 
 /// Cases to hand out at once: as many as last some 50 ms, so that short ones do not wait for messages, but few
@@ -66,26 +66,26 @@ std::size_t portion(std::size_t left, std::size_t workers, std::size_t idle, con
 class Leader {
  public:
   Leader(const Sweep& sweep, Journal& journal, const SweepSettings& settings, const std::vector<std::size_t>& numbers, SweepEnd& end)
-      : settings_(settings), end_(end), present_(settings.fellows ? settings.fellows->size() - 1 : 0), crew_(sweep, journal, 0, settings.threads) {
-    crew_.deck().add(numbers);
-    if (present_ == 0) crew_.deck().close();
+      : settings_(settings), end_(end), present_(settings.communicator ? settings.communicator->size() - 1 : 0), workers_(sweep, journal, 0, settings.threads) {
+    workers_.queue().add(numbers);
+    if (present_ == 0) workers_.queue().close();
   }
 
   void lead() {
-    end_.workers += crew_.workers() - settings_.threads;
-    end_.shortage = crew_.shortage();
-    while (!crew_.home() || present_ > 0) {
+    end_.workers += workers_.workers() - settings_.threads;
+    end_.shortage = workers_.shortage();
+    while (!workers_.home() || present_ > 0) {
       while (present_ > 0 && listen()) {}
       look();
       tell();
-      crew_.work_here([this] { tell(); });
-      if (crew_.troubled()) stop();
-      if (crew_.deck().left() == 0) crew_.deck().close();
+      workers_.work_here([this] { tell(); });
+      if (workers_.troubled()) stop();
+      if (workers_.queue().left() == 0) workers_.queue().close();
       if (present_ > 0) std::this_thread::sleep_for(nap);
-      else crew_.wait(std::chrono::milliseconds(100));
+      else workers_.wait(std::chrono::milliseconds(100));
     }
     look();
-    crew_.finish();
+    workers_.finish();
   }
 
  private:
@@ -96,36 +96,36 @@ class Leader {
   }
 
   void look() {
-    count(crew_.tally());
+    count(workers_.tally());
     end_.count.seconds = std::chrono::duration<double>(clock::now() - begin_).count();
   }
 
-  void count(const Crew::Tally& more) {
+  void count(const WorkerPool::Tally& more) {
     end_.count.done += more.done, end_.count.trouble += more.trouble, end_.count.busy += more.busy;
   }
 
   void stop() {
-    crew_.stop();
-    if (settings_.fellows && !halted_) send_all(*settings_.fellows, halt);
+    workers_.stop();
+    if (settings_.communicator && !halted_) send_all(*settings_.communicator, halt);
     halted_ = true;
   }
 
   bool listen() {
     int from = 0;
     Message said;
-    if (!settings_.fellows->receive(from, said)) return false;
+    if (!settings_.communicator->receive(from, said)) return false;
     count({static_cast<std::size_t>(said[2]), static_cast<std::size_t>(said[3]), 1e-6 * static_cast<double>(said[4])});
     if (said[0] == leave) {
       --present_;
       if (said[1] != 0) stop();
-      settings_.fellows->send(from, Message{bye});
+      settings_.communicator->send(from, Message{bye});
       return true;
     }
-    const std::vector<std::size_t> some = crew_.deck().draw_some(
-        portion(crew_.deck().left(), static_cast<std::size_t>(end_.workers), static_cast<std::size_t>(said[1]), end_.count));
-    Message answer{deal, crew_.deck().left() == 0};
+    const std::vector<std::size_t> some = workers_.queue().draw_some(
+        portion(workers_.queue().left(), static_cast<std::size_t>(end_.workers), static_cast<std::size_t>(said[1]), end_.count));
+    Message answer{deal, workers_.queue().left() == 0};
     for (std::size_t k : some) answer.push_back(static_cast<std::int64_t>(k));
-    settings_.fellows->send(from, answer);
+    settings_.communicator->send(from, answer);
     return true;
   }
 
@@ -134,38 +134,38 @@ class Leader {
   int present_;  ///< fellows that have not left
   bool halted_ = false;
   clock::time_point begin_ = clock::now(), told_{};
-  Crew crew_;
+  WorkerPool workers_;
 };
 
 /// One of the other processes: asks for cases when its last one has been drawn, so that more are there when that is done.
 class Follower {
  public:
   Follower(const Sweep& sweep, Journal& journal, const SweepSettings& settings)
-      : settings_(settings), fellows_(*settings.fellows), crew_(sweep, journal, fellows_.rank(), settings.threads) {}
+      : settings_(settings), communicator_(*settings.communicator), workers_(sweep, journal, communicator_.rank(), settings.threads) {}
 
   /// @returns its words of leave
   Message follow() {
-    while (!crew_.home() || asked_) {
+    while (!workers_.home() || asked_) {
       Message said;
-      if (int from = 0; fellows_.receive(from, said)) hear(said);
+      if (int from = 0; communicator_.receive(from, said)) hear(said);
       look_up();
-      crew_.work_here([this] { look_up(); });
-      if (crew_.troubled()) stop();
+      workers_.work_here([this] { look_up(); });
+      if (workers_.troubled()) stop();
       if (wants()) {
-        Message question{ask, crew_.idle()};
-        report(question, crew_.tally());
-        fellows_.send(0, question);
+        Message question{ask, workers_.idle()};
+        report(question, workers_.tally());
+        communicator_.send(0, question);
         asked_ = true;
       }
       if (asked_) std::this_thread::sleep_for(nap / 2);
-      else crew_.wait(std::chrono::milliseconds(20));
+      else workers_.wait(std::chrono::milliseconds(20));
     }
-    crew_.finish();
+    workers_.finish();
     Message last{leave, stopped_};
-    report(last, crew_.tally());
+    report(last, workers_.tally());
     return last;
   }
-  const std::string& shortage() const { return crew_.shortage(); }
+  const std::string& shortage() const { return workers_.shortage(); }
 
  private:
   void look_up() {
@@ -174,11 +174,11 @@ class Follower {
 
   void stop() {
     stopped_ = true;
-    crew_.stop();
+    workers_.stop();
   }
 
   bool wants() {
-    return !asked_ && !stopped_ && !crew_.deck().closed() && crew_.deck().left() == 0 && (!told_to_wait_ || crew_.idle() > 0);
+    return !asked_ && !stopped_ && !workers_.queue().closed() && workers_.queue().left() == 0 && (!told_to_wait_ || workers_.idle() > 0);
   }
 
   void hear(const Message& said) {
@@ -186,34 +186,34 @@ class Follower {
     asked_ = false;
     const std::vector<std::size_t> numbers(said.begin() + 2, said.end());
     told_to_wait_ = numbers.empty();
-    if (!stopped_) crew_.deck().add(numbers);
-    if (said[1] != 0) crew_.deck().close();
+    if (!stopped_) workers_.queue().add(numbers);
+    if (said[1] != 0) workers_.queue().close();
   }
 
   const SweepSettings& settings_;
-  Fellows& fellows_;
+  Communicator& communicator_;
   bool asked_ = false, told_to_wait_ = false, stopped_ = false;
-  Crew crew_;
+  WorkerPool workers_;
 };
 
 SweepEnd run_as_follower(const Sweep& sweep, const fs::path& folder, const SweepSettings& settings) {
-  Fellows& fellows = *settings.fellows;
-  if (refused(fellows)) return {};
+  Communicator& communicator = *settings.communicator;
+  if (rejected(communicator)) return {};
   Message last{leave, 1, 0, 0, 0};
   SweepEnd end;
   std::exception_ptr trouble;
   try {
     if (!fs::exists(journal_path(folder, 0)))
-      throw std::runtime_error(folder.string() + ": process " + std::to_string(fellows.rank()) +
+      throw std::runtime_error(folder.string() + ": process " + std::to_string(communicator.rank()) +
                                " does not see it; name a directory with --out that all machines share");
-    Journal journal(journal_path(folder, fellows.rank()), sweep.print);
+    Journal journal(journal_path(folder, communicator.rank()), sweep.print);
     Follower follower(sweep, journal, settings);
     last = follower.follow();
     end.shortage = follower.shortage();
   } catch (...) {
     trouble = std::current_exception();
   }
-  take_leave(fellows, last);  // after the journal is closed: process 0 reads it then
+  take_leave(communicator, last);  // after the journal is closed: process 0 reads it then
   if (trouble) std::rethrow_exception(trouble);
   return end;
 }
@@ -269,25 +269,25 @@ void write_tables(const Sweep& sweep, const fs::path& folder, const SweepEnd& en
 
 }  // namespace
 
-void refuse_all(Fellows& fellows) {
-  send_all(fellows, refuse);
+void reject_all(Communicator& communicator) {
+  send_all(communicator, reject);
 }
 
-bool refused(Fellows& fellows) {
+bool rejected(Communicator& communicator) {
   int from = 0;
-  return next_message(fellows, from)[0] == refuse;
+  return next_message(communicator, from)[0] == reject;
 }
 
-void stay_away(Fellows& fellows) {
-  take_leave(fellows, {leave, 1, 0, 0, 0});
+void stay_away(Communicator& communicator) {
+  take_leave(communicator, {leave, 1, 0, 0, 0});
 }
 
 SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettings& settings) {
-  Fellows* fellows = settings.fellows;
-  if (fellows && fellows->rank() > 0) return run_as_follower(sweep, folder, settings);
+  Communicator* communicator = settings.communicator;
+  if (communicator && communicator->rank() > 0) return run_as_follower(sweep, folder, settings);
 
   SweepEnd end;
-  end.workers = settings.threads * (fellows ? fellows->size() : 1);
+  end.workers = settings.threads * (communicator ? communicator->size() : 1);
   std::optional<Journal> journal;
   std::vector<std::size_t> numbers;
   try {
@@ -308,12 +308,12 @@ SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettin
     for (std::size_t k = 1; k < ended.size(); ++k)
       if (!ended[k]) numbers.push_back(k);
   } catch (...) {
-    if (fellows) refuse_all(*fellows);
+    if (communicator) reject_all(*communicator);
     throw;
   }
   end.count.cases = sweep.cases.size();
   end.count.before = sweep.cases.size() - numbers.size();
-  if (fellows) send_all(*fellows, go);
+  if (communicator) send_all(*communicator, go);
   {
     Leader leader(sweep, *journal, settings, numbers, end);
     leader.lead();

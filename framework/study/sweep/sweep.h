@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "framework/study/study.h"
-#include "framework/study/sweep/fellows.h"
+#include "framework/study/sweep/communicator.h"
 #include "framework/study/sweep/journal.h"
 #include "framework/study/sweep/sampling.h"
 
@@ -41,7 +41,7 @@ struct SweepCount {
 
 struct SweepSettings {
   int threads = 1;             ///< of this process
-  Fellows* fellows = nullptr;  ///< or none
+  Communicator* communicator = nullptr;  ///< or none
   std::function<bool(const SweepCount&)> progress = {};  ///< some ten times a second; false: stop, keep what has ended
 };
 
@@ -66,9 +66,9 @@ SweepEnd run_sweep(const Sweep&, const std::filesystem::path& folder, const Swee
 
 /// For a process that cannot come to run_sweep. Process 0 tells its fellows that there is nothing to do; another hears
 /// what process 0 has said (true: that), and if the sweep goes on, leaves it, which stops all.
-void refuse_all(Fellows&);
-bool refused(Fellows&);
-void stay_away(Fellows&);
+void reject_all(Communicator&);
+bool rejected(Communicator&);
+void stay_away(Communicator&);
 
 /// sweep.csv: a row per case. @pre rows in the order of their numbers
 std::string sweep_csv(const Sweep&, const std::vector<Row>& rows);

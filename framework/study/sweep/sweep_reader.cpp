@@ -48,8 +48,8 @@ class Trial {
   explicit Trial(const Sweep& sweep) : sweep_(sweep) {}
 
   void judge() const {
-    for (std::size_t i = 0; i < sweep_.cases.names.size(); ++i) judge_name(i), judge_units(i);
-    judge_all();
+    for (std::size_t i = 0; i < sweep_.cases.names.size(); ++i) validate_name(i), validate_units(i);
+    validate_all();
   }
 
  private:
@@ -83,7 +83,7 @@ class Trial {
   }
 
   /// A name none of whose values can be read, for the value's sake: mistyped.
-  void judge_name(std::size_t i) const {
+  void validate_name(std::size_t i) const {
     std::vector<std::size_t> with;
     for (std::size_t k = 0; k < sweep_.cases.size(); ++k)
       if (sweep_.cases.values[k][i]) with.push_back(k);
@@ -98,7 +98,7 @@ class Trial {
   }
 
   /// A value that the reader would take without its unit, beside values in units of another kind.
-  void judge_units(std::size_t i) const {
+  void validate_units(std::size_t i) const {
     std::map<std::string, std::size_t> kinds;  // and the first case that has it
     std::set<std::string, std::less<>> seen;
     for (std::size_t k = 0; k < sweep_.cases.size(); ++k) {
@@ -115,7 +115,7 @@ class Trial {
   }
 
   /// If the scene cannot be read in any of some cases, it is the study that is wrong.
-  void judge_all() const {
+  void validate_all() const {
     const std::size_t n = std::min(most, sweep_.cases.size());
     std::string first;
     for (std::size_t k = 0; k < n; ++k) {
@@ -155,7 +155,7 @@ Sweep read_sweep(const fs::path& path, const Overrides& set) {
   Trial(out).judge();
   const Scene all_have = common_scene(out.study.scene);
   judge(out.study.measures, all_have);
-  judge_flexible(out.study.measures, all_have, out.cases.names);
+  validate_flexible(out.study.measures, all_have, out.cases.names);
   return out;
 }
 

@@ -7,7 +7,7 @@
 
 namespace pintle {
 
-Ladder judge_ladder(const std::vector<double>& values, double cap, double scale) {
+Ladder validate_ladder(const std::vector<double>& values, double cap, double scale) {
   Ladder out;
   for (std::size_t i = 0; i + 1 < values.size(); ++i) out.differences.push_back(std::abs(values[i + 1] - values[i]));
   const std::vector<double>& d = out.differences;

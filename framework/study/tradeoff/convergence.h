@@ -21,7 +21,7 @@ struct Ladder {
 /// @param scale  of the value, for what counts as rounding
 /// The error is three times what a geometric series leaves beyond the last difference (the larger of it and of what the one before it
 /// foretells), so that a lucky small difference does not make it small. Where differences do not fall it is the largest of the last two.
-Ladder judge_ladder(const std::vector<double>& values, double cap, double scale);
+Ladder validate_ladder(const std::vector<double>& values, double cap, double scale);
 
 /// Mean, standard deviation of a single value and standard error of the mean.
 struct Sample {

@@ -73,7 +73,7 @@ void sort_by_number(FidelityAxis& axis, bool descending) {
 
 }  // namespace
 
-void judge_axis(FidelityAxis& axis) {
+void validate_axis(FidelityAxis& axis) {
   axis.numerical = true;
   axis.ordered = true;
   std::string key;

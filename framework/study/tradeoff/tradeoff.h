@@ -45,12 +45,12 @@ struct TradePlan {
 TradePlan read_tradeoff(const StudyFile&);
 /// Judges measures against the scene and what the axes vary, before anything runs.
 /// @throws SceneError  a measure that no setting can have: what the scene has not, a stress where nothing bends
-void judge_measures(const CaseSource&, const TradePlan&, const std::vector<Measure>&);
+void validate_measures(const CaseSource&, const TradePlan&, const std::vector<Measure>&);
 /// Axes that the scene itself suggests: tolerances, schemes, models of its clearances, shapes of its flexible bodies.
 /// Builds the scene once. @throws SceneError  it cannot be read or built
 TradePlan suggested_plan(const CaseSource&);
 /// Sets `ordered`, `numerical`, `finest` from what the values set, and sorts tolerances.
-void judge_axis(FidelityAxis&);
+void validate_axis(FidelityAxis&);
 
 /// How a quantity's reference was found, and how far it is to be trusted.
 struct QuantityReference {
@@ -65,7 +65,7 @@ struct QuantityReference {
   double spread = 0;       ///< chaotic: standard deviation of single runs [unit of the quantity]
   double rate = 0;         ///< chaotic: growth of a disturbance [1/s]
   std::string words = {};  ///< all of this, in a sentence or two
-  double doubt() const { return error / scale > 1e-14 ? error / scale : 1e-14; }  ///< relative; rounding at the least
+  double warning() const { return error / scale > 1e-14 ? error / scale : 1e-14; }  ///< relative; rounding at the least
 };
 
 struct ReferenceLevel {
@@ -95,14 +95,14 @@ struct TradePoint {
   std::vector<double> values = {};          ///< of chaotic quantities, the ensemble's mean
   std::vector<double> spread = {};          ///< of them, standard error; else 0
   std::vector<double> errors = {};          ///< relative, as measured
-  std::vector<double> doubts = {};          ///< relative: the reference's error, with the ensemble's
+  std::vector<double> warnings_of = {};          ///< relative: the reference's error, with the ensemble's
   std::vector<double> model = {};           ///< relative error of the model at tight tolerance; NaN: not told apart
-  double error = 0, doubt = 0;              ///< of the worst quantity; no error below the doubt is claimed
+  double error = 0, warning = 0;              ///< of the worst quantity; no error below the doubt is claimed
   double surer = 0;                         ///< what the same setting errs at a finer tolerance, if that is more: less is luck, and does not count
   bool usable = false;                      ///< finished, with a value of every quantity
   bool dominated = false, front = false;
   double counted() const { return error > surer ? error : surer; }
-  double claimed() const { return counted() > doubt ? counted() : doubt; }
+  double claimed() const { return counted() > warning ? counted() : warning; }
   double at_most() const;   ///< error and doubt together, of the worst quantity
   double at_least() const;  ///< error less doubt, likewise; not below 0
 };
@@ -132,11 +132,11 @@ struct TradeReport {
   std::size_t ran() const;         ///< settings with a time and an error
   std::size_t listed() const;      ///< all settings
   /// The worst of the quantities from which something can be told, relative. @pre there is a reference
-  double doubt() const;
+  double warning() const;
   bool tells() const;              ///< some quantity is not the same in every run
 };
 /// Where no error is asked for, a reference in more doubt than this supports no recommendation.
-inline constexpr double useful_doubt = 0.1;
+inline constexpr double useful_warning = 0.1;
 
 /// Runs one case: run_case of a source, or something known in a test.
 using CaseRunner = std::function<Outcome(const Overrides&, const std::vector<Measure>&, const CaseLimits&)>;

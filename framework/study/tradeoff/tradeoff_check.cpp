@@ -58,7 +58,7 @@ std::string said_of_override(const std::string& why) {
   return at == std::string::npos ? why : why.substr(at + mark.size());
 }
 
-[[noreturn]] void refuse(const StudyFile& study, const FidelityAxis& axis, const AxisValue& value, const std::string& why) {
+[[noreturn]] void reject(const StudyFile& study, const FidelityAxis& axis, const AxisValue& value, const std::string& why) {
   int line = value.lines.empty() ? 0 : value.lines.front();
   for (std::size_t i = 0; i < value.lines.size(); ++i)
     if (said_of_override(why).starts_with(value.set[i].first)) line = value.lines[i];
@@ -67,13 +67,13 @@ std::string said_of_override(const std::string& why) {
 
 }  // namespace
 
-void judge_settings(const StudyFile& study, const TradePlan& plan) {
+void validate_settings(const StudyFile& study, const TradePlan& plan) {
   const CaseSource& source = study.study.scene;
   for (std::size_t a = 0; a < plan.axes.size(); ++a)
     for (std::size_t v = 0; v < plan.axes[a].values.size(); ++v) {
       const AxisValue& value = plan.axes[a].values[v];
       const std::string why = refusal(source, value.set);
-      if (!why.empty() && !taken_somewhere(source, plan, a, v)) refuse(study, plan.axes[a], value, why);
+      if (!why.empty() && !taken_somewhere(source, plan, a, v)) reject(study, plan.axes[a], value, why);
     }
   if (const std::string why = refusal(source, plan.reference);
       !why.empty() && !refusal(source, joined(finest(plan, false), plan.reference)).empty()) {
@@ -82,14 +82,14 @@ void judge_settings(const StudyFile& study, const TradePlan& plan) {
   }
 }
 
-void judge_measures(const CaseSource& source, const TradePlan& plan, const std::vector<Measure>& measures) {
+void validate_measures(const CaseSource& source, const TradePlan& plan, const std::vector<Measure>& measures) {
   std::vector<std::string> varied;
   for (const FidelityAxis& axis : plan.axes)
     for (const AxisValue& v : axis.values)
       for (const auto& [path, text] : v.set) varied.push_back(path);
   const Scene scene = common_scene(source);
   judge(measures, scene);
-  judge_flexible(measures, scene, varied);
+  validate_flexible(measures, scene, varied);
 }
 
 }  // namespace pintle

@@ -28,22 +28,22 @@ std::size_t knee(const std::vector<TradePoint>& points, const std::vector<std::s
 bool lowers(const TradeReport& r, std::size_t point, const AxisEffect& e) {
   const TradePoint &p = r.points[point], &to = r.points[e.point];
   if (r.plan.axes[e.axis].ordered && e.to < p.at[e.axis]) return false;
-  return e.error_factor <= less_error && to.claimed() + 0.5 * p.doubt <= p.claimed();
+  return e.error_factor <= less_error && to.claimed() + 0.5 * p.warning <= p.claimed();
 }
 
 }  // namespace
 
 double TradePoint::at_most() const {
-  double bound = errors.empty() ? counted() + doubt : surer > 0 ? surer + doubt : 0;
+  double bound = errors.empty() ? counted() + warning : surer > 0 ? surer + warning : 0;
   for (std::size_t q = 0; q < errors.size(); ++q)
-    if (!std::isnan(errors[q])) bound = std::max(bound, errors[q] + doubts[q]);
+    if (!std::isnan(errors[q])) bound = std::max(bound, errors[q] + warnings_of[q]);
   return bound;
 }
 
 double TradePoint::at_least() const {
-  double bound = (errors.empty() ? counted() : surer) - doubt;
+  double bound = (errors.empty() ? counted() : surer) - warning;
   for (std::size_t q = 0; q < errors.size(); ++q)
-    if (!std::isnan(errors[q])) bound = std::max(bound, errors[q] - doubts[q]);
+    if (!std::isnan(errors[q])) bound = std::max(bound, errors[q] - warnings_of[q]);
   return std::max(bound, 0.0);
 }
 
@@ -58,10 +58,10 @@ std::size_t TradeReport::ran() const {
 
 std::size_t TradeReport::listed() const { return points.size(); }
 
-double TradeReport::doubt() const {
+double TradeReport::warning() const {
   double worst = 0;
   for (const QuantityReference& q : reference.of)
-    if (!q.constant) worst = std::max(worst, q.doubt());
+    if (!q.constant) worst = std::max(worst, q.warning());
   return worst;
 }
 
@@ -94,7 +94,7 @@ void discount_luck(TradeReport& r) {
         const FidelityAxis& axis = r.plan.axes[a];
         if (finer.at[a] != p.at[a]) ++(axis.numerical && axis.ordered && finer.at[a] > p.at[a] ? refined : other);
       }
-      if (refined > 0 && other == 0 && finer.error > p.error + std::max(p.doubt, finer.doubt)) p.surer = std::max(p.surer, finer.error);
+      if (refined > 0 && other == 0 && finer.error > p.error + std::max(p.warning, finer.warning)) p.surer = std::max(p.surer, finer.error);
     }
   }
 }
@@ -114,7 +114,7 @@ std::vector<std::size_t> pareto_front(std::vector<TradePoint>& points) {
   double least = INFINITY;
   for (const std::size_t i : order) {
     // Better by what cannot be told is not better.
-    if (points[i].claimed() < least && (front.empty() || points[i].claimed() + 0.5 * points[i].doubt < least)) {
+    if (points[i].claimed() < least && (front.empty() || points[i].claimed() + 0.5 * points[i].warning < least)) {
       least = points[i].claimed();
       points[i].front = true;
       front.push_back(i);
@@ -161,14 +161,14 @@ std::vector<AxisEffect> free_coarsenings(const TradeReport& r, std::size_t point
 namespace {
 
 /// Errors that cannot be told from none are alike: none of these settings is the better for its smaller doubt.
-void level_doubts(std::vector<TradePoint>& points) {
-  std::vector<double> doubts;
+void level_warnings(std::vector<TradePoint>& points) {
+  std::vector<double> warnings_of;
   for (const TradePoint& p : points)
-    if (p.usable) doubts.push_back(p.doubt);
-  if (doubts.empty()) return;
-  std::ranges::nth_element(doubts, doubts.begin() + static_cast<std::ptrdiff_t>(doubts.size() / 2));
+    if (p.usable) warnings_of.push_back(p.warning);
+  if (warnings_of.empty()) return;
+  std::ranges::nth_element(warnings_of, warnings_of.begin() + static_cast<std::ptrdiff_t>(warnings_of.size() / 2));
   for (TradePoint& p : points)
-    if (p.usable) p.doubt = std::max(p.doubt, doubts[doubts.size() / 2]);
+    if (p.usable) p.warning = std::max(p.warning, warnings_of[warnings_of.size() / 2]);
 }
 
 /// What the reference supports, and nothing else.
@@ -177,7 +177,7 @@ void choose(TradeReport& r) {
   for (std::size_t i = 0; i < r.points.size(); ++i)
     if (r.points[i].usable && plan.error > 0 && verdict(r.points[i], plan.error) == Verdict::meets && (!r.cheapest || r.points[i].time < r.points[*r.cheapest].time))
       r.cheapest = i;
-  const bool known = r.doubt() <= useful_doubt;
+  const bool known = r.warning() <= useful_warning;
   for (const std::size_t i : r.front)
     if (plan.time > 0 && r.points[i].time <= plan.time && known) r.best_in_time = i;
   if (plan.error > 0) r.recommended = r.cheapest;
@@ -188,7 +188,7 @@ void choose(TradeReport& r) {
 }  // namespace
 
 void answer(TradeReport& r) {
-  level_doubts(r.points);
+  level_warnings(r.points);
   discount_luck(r);
   // The scene as it stands may be one of the combinations too: that one then stands for both.
   const bool twice = !r.points.empty() && r.points.front().usable && std::ranges::any_of(r.points.begin() + 1, r.points.end(), [&](const TradePoint& p) {

@@ -53,11 +53,11 @@ Json point_json(const TradeReport& r, std::size_t i) {
   Json axes = Json::object(), quantities = Json::object();
   for (std::size_t a = 0; a < r.plan.axes.size(); ++a) axes[r.plan.axes[a].name] = label(r, p, a);
   for (std::size_t q = 0; q < p.values.size(); ++q)
-    quantities[r.quantities[q]] = {{"value", json_number(p.values[q])}, {"error", json_number(p.errors[q])}, {"doubt", json_number(p.doubts[q])},
+    quantities[r.quantities[q]] = {{"value", json_number(p.values[q])}, {"error", json_number(p.errors[q])}, {"doubt", json_number(p.warnings_of[q])},
                                    {"error of the model", json_number(p.model[q])}};
   return {{"setting", i}, {"axes", axes}, {"set", overrides_json(p.set)}, {"status", p.status}, {"reason", p.reason}, {"role", role(r, i)},
           {"time", p.time}, {"times", p.times}, {"build", p.build}, {"steps", p.steps}, {"evaluations", p.evaluations},
-          {"quantities", quantities}, {"has the wanted error", *shown(r, p) ? Json(shown(r, p)) : Json()}, {"error", json_number(p.error)}, {"doubt", json_number(p.doubt)}};
+          {"quantities", quantities}, {"has the wanted error", *shown(r, p) ? Json(shown(r, p)) : Json()}, {"error", json_number(p.error)}, {"doubt", json_number(p.warning)}};
 }
 
 Json reference_json(const TradeReport& r) {
@@ -95,8 +95,8 @@ std::string tradeoff_csv(const TradeReport& r) {
     for (const double x : {p.time, p.least, p.most}) out += "," + (ran ? number(x) : "");
     out += "," + std::to_string(p.times.size()) + "," + (ran ? number(p.build) + "," + std::to_string(p.steps) + "," + std::to_string(p.evaluations) : ",,");
     for (std::size_t q = 0; q < r.quantities.size(); ++q)
-      out += "," + number(p.values[q]) + "," + number(p.errors[q]) + "," + number(p.doubts[q]) + "," + number(p.model[q]);
-    out += "," + (p.usable ? number(p.error) + "," + number(p.doubt) : ",") + "," + role(r, i) + "," + csv_field(p.reason) + "\n";
+      out += "," + number(p.values[q]) + "," + number(p.errors[q]) + "," + number(p.warnings_of[q]) + "," + number(p.model[q]);
+    out += "," + (p.usable ? number(p.error) + "," + number(p.warning) : ",") + "," + role(r, i) + "," + csv_field(p.reason) + "\n";
   }
   return out;
 }
@@ -121,7 +121,7 @@ std::string tradeoff_json(const TradeReport& r) {
 }
 
 std::string tradeoff_svg(const TradeReport& r) {
-  Curve all{.label = "settings", .x = {}, .y = {}, .points = true}, front{.label = "front", .x = {}, .y = {}}, doubt{.label = "told apart down to", .x = {}, .y = {}, .dashed = true};
+  Curve all{.label = "settings", .x = {}, .y = {}, .points = true}, front{.label = "front", .x = {}, .y = {}}, warning{.label = "told apart down to", .x = {}, .y = {}, .dashed = true};
   double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY, level = 0;
   for (const TradePoint& p : r.points) {
     if (!p.usable) continue;
@@ -134,8 +134,8 @@ std::string tradeoff_svg(const TradeReport& r) {
   for (const QuantityReference& q : r.reference.of) level = std::max(level, q.error / q.scale);
   if (level > 0) y0 = std::min(y0, decades(level));
   const double dx = std::max(0.06 * (x1 - x0), 0.05), dy = std::max(0.06 * (y1 - y0), 0.1);
-  if (level > 0) doubt.x = {x0 - dx, x1 + dx}, doubt.y = {decades(level), decades(level)};
-  Panel panel{.title = r.plan.title, .x_label = "time of building and running [s]", .y_label = "relative error", .curves = {all, front, doubt},
+  if (level > 0) warning.x = {x0 - dx, x1 + dx}, warning.y = {decades(level), decades(level)};
+  Panel panel{.title = r.plan.title, .x_label = "time of building and running [s]", .y_label = "relative error", .curves = {all, front, warning},
               .x_range = {x0 - dx, x1 + dx}, .y_range = {y0 - dy, y1 + dy}, .log = true};
   if (r.recommended) panel.marks.push_back({decades(r.points[*r.recommended].time), decades(r.points[*r.recommended].claimed()), "recommended"});
   if (!r.points.empty() && r.points.front().usable && r.recommended != std::size_t{0})

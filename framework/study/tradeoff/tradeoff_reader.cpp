@@ -8,7 +8,7 @@
 #include "framework/study/tradeoff/refinement.h"
 #include "framework/study/tradeoff/tradeoff.h"
 #include "framework/study/tradeoff/tradeoff_check.h"
-#include "framework/study/tradeoff/wanted.h"
+#include "framework/study/tradeoff/share_and_duration.h"
 
 namespace pintle {
 
@@ -63,7 +63,7 @@ FidelityAxis read_axis(const Node& node, const Yaml& axis) {
   for (std::size_t i = 0; i < out.values.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (out.values[i].label == out.values[k].label) node.fail("has two settings called \"" + out.values[i].label + "\"; leave one out");
-  judge_axis(out);
+  validate_axis(out);
   return out;
 }
 
@@ -105,8 +105,8 @@ TradePlan read_tradeoff(const StudyFile& study) {
     for (const Node& set : node.at("reference").entries("what the reference sets: {run.tolerance: 1e-12}"))
       plan.reference.emplace_back(set.name(), override_text(entry(entry(tree, "reference"), set.name())));
   plan.tolerance = common_scene(study.study.scene).run.tolerance;
-  judge_settings(study, plan);
-  judge_measures(study.study.scene, plan, study.study.measures);
+  validate_settings(study, plan);
+  validate_measures(study.study.scene, plan, study.study.measures);
   return plan;
 }
 

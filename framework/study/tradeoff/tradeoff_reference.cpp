@@ -43,7 +43,7 @@ class Search {
     climb_tolerances();
     if (!out_.trouble.empty()) return std::move(out_);
     for (std::size_t k = 0; k < tolerances_; ++k) out_.seconds = std::max(out_.seconds, out_.levels[k].seconds);
-    for (std::size_t q = 0; q < n_; ++q) judge_tolerances(q);
+    for (std::size_t q = 0; q < n_; ++q) validate_tolerances(q);
     find_chaos();
     refine_model();
     for (std::size_t q = 0; q < n_; ++q) describe(q);
@@ -102,7 +102,7 @@ class Search {
   bool stands() const { return out_.levels.size() > 2 && (tolerances_ == 0 ? settled(1.0 / 3) : stands_); }
 
   Ladder ladder(std::size_t q, std::size_t levels) const {
-    return judge_ladder(values(q, levels > judged ? levels - judged : 0, levels), 10, scale(q));
+    return validate_ladder(values(q, levels > judged ? levels - judged : 0, levels), 10, scale(q));
   }
 
   bool settled(double share) const {
@@ -155,7 +155,7 @@ class Search {
     return a && b && parting(*a, *b).chaotic();
   }
 
-  void judge_tolerances(std::size_t q) {
+  void validate_tolerances(std::size_t q) {
     QuantityReference& r = out_.of[q];
     ladder_.push_back(ladder(q, tolerances_));
     const Ladder& l = ladder_.back();
@@ -298,7 +298,7 @@ class Search {
     }
     std::vector<double> v{out_.levels[tolerances_ - 1].values[q]};
     for (std::size_t k = tolerances_; k < out_.levels.size(); ++k) v.push_back(out_.levels[k].values[q]);
-    const Ladder l = judge_ladder(v, 4, r.scale);
+    const Ladder l = validate_ladder(v, 4, r.scale);
     r.value = v.back();
     r.scale = scale(q);
     r.order = l.ratio > 0 ? std::log2(l.ratio) : 0;

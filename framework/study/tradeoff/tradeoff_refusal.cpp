@@ -10,16 +10,16 @@ namespace pintle {
 namespace {
 
 void say_remedy(const TradeReport& r, std::vector<std::string>& said) {
-  const double asked = r.plan.error > 0 ? r.plan.error : useful_doubt;
+  const double asked = r.plan.error > 0 ? r.plan.error : useful_warning;
   std::string s, fine;
   bool chaotic = false;
   double ensembles = 0;
   for (std::size_t q = 0; q < r.quantities.size(); ++q) {
     const QuantityReference& x = r.reference.of[q];
-    if (!x.constant && x.doubt() <= asked) fine += (fine.empty() ? "" : ", ") + r.quantities[q];
-    if (x.doubt() <= asked || !x.chaotic) continue;
+    if (!x.constant && x.warning() <= asked) fine += (fine.empty() ? "" : ", ") + r.quantities[q];
+    if (x.warning() <= asked || !x.chaotic) continue;
     chaotic = true;
-    ensembles = std::max(ensembles, std::ceil(r.plan.ensemble * std::pow(1.5 * x.doubt() / asked, 2)));
+    ensembles = std::max(ensembles, std::ceil(r.plan.ensemble * std::pow(1.5 * x.warning() / asked, 2)));
   }
   if (r.reference.short_of_time && r.plan.budget > 0) s = "more time: --budget " + duration_text(4 * r.plan.budget);
   if (chaotic && ensembles <= 100000)
@@ -39,11 +39,11 @@ void say_remedy(const TradeReport& r, std::vector<std::string>& said) {
 }  // namespace
 
 void say_unknown(const TradeReport& r, std::vector<std::string>& said) {
-  const double asked = r.plan.error > 0 ? r.plan.error : useful_doubt;
+  const double asked = r.plan.error > 0 ? r.plan.error : useful_warning;
   std::string s;
   for (std::size_t q = 0; q < r.quantities.size(); ++q)
-    if (const QuantityReference& x = r.reference.of[q]; !x.constant && x.doubt() > asked)
-      s += (s.empty() ? "" : ", ") + r.quantities[q] + " to " + percent_text(x.doubt());
+    if (const QuantityReference& x = r.reference.of[q]; !x.constant && x.warning() > asked)
+      s += (s.empty() ? "" : ", ") + r.quantities[q] + " to " + percent_text(x.warning());
   said.push_back(
       "Nothing is recommended: the reference knows " + s + " only, and " +
       (r.plan.error > 0 ? "an error of " + percent_text(asked) + " is wanted" : "worse than " + percent_text(asked) + " supports no advice") + ".");
@@ -76,7 +76,7 @@ void say_none_meets(const TradeReport& r, std::vector<std::string>& said) {
     said.push_back(printed("The %zu most accurate cannot be told apart: each errs by at most %s.", best.size(), percent_text(most).c_str()));
   if (!open.empty())
     said.push_back(printed("Of %s it is not known, as the reference itself may err by %s.", settings_text(open.size()).c_str(),
-                           percent_text(r.doubt()).c_str()));
+                           percent_text(r.warning()).c_str()));
   said.push_back(std::string("What would help: ") +
                  (r.cut ? "more time, --budget " + duration_text(4 * r.plan.budget) + ", for the settings that did not run; or " : "") +
                  "axes that reach further, finer values than these.");

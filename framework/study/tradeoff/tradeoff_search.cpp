@@ -97,7 +97,7 @@ class Trade {
     for (TradePoint& p : points()) {
       p.values.assign(measures_.size(), NAN);
       p.spread.assign(measures_.size(), 0);
-      p.errors = p.doubts = p.model = p.values;
+      p.errors = p.warnings_of = p.model = p.values;
     }
   }
 
@@ -161,18 +161,18 @@ class Trade {
   }
 
   void judge(TradePoint& p) {
-    p.error = p.doubt = 0;
+    p.error = p.warning = 0;
     for (std::size_t q = 0; q < measures_.size(); ++q) {
       const QuantityReference& r = out_.reference.of[q];
       if (r.constant) {
-        p.errors[q] = p.doubts[q] = 0;
+        p.errors[q] = p.warnings_of[q] = 0;
         continue;
       }
       p.errors[q] = std::abs(p.values[q] - r.value) / r.scale;
-      p.doubts[q] = std::hypot(r.error, p.spread[q]) / r.scale;
+      p.warnings_of[q] = std::hypot(r.error, p.spread[q]) / r.scale;
       if (std::isnan(p.errors[q])) continue;
       p.error = std::max(p.error, p.errors[q]);
-      p.doubt = std::max(p.doubt, p.doubts[q]);
+      p.warning = std::max(p.warning, p.warnings_of[q]);
     }
   }
 
@@ -226,7 +226,7 @@ class Trade {
 
   bool clearly_dominated(double time, double error) const {
     return std::ranges::any_of(out_.points, [&](const TradePoint& p) {
-      return p.usable && clearly * p.time < time && (clearly * p.claimed() < error || (p.claimed() <= error && error <= p.doubt));
+      return p.usable && clearly * p.time < time && (clearly * p.claimed() < error || (p.claimed() <= error && error <= p.warning));
     });
   }
 

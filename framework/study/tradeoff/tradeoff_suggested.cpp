@@ -19,7 +19,7 @@ const Yaml* entry(const Yaml* map, std::string_view key) {
 FidelityAxis listed_axis(const std::string& name, const std::string& path, const std::vector<std::string>& values) {
   FidelityAxis axis{.name = name, .values = {}};
   for (const std::string& v : values) axis.values.push_back({v, {{path, v}}});
-  judge_axis(axis);
+  validate_axis(axis);
   return axis;
 }
 
@@ -73,7 +73,7 @@ FidelityAxis modes_axis(const Yaml& scene, const std::string& body, int shapes) 
   FidelityAxis axis{.name = body, .values = {{"rigid", rigid(scene, body)}}};
   for (int n = 1; n < modes_kept(modes, shapes) && n <= 64; n *= 2) axis.values.push_back({n == 1 ? "1 mode" : std::to_string(n) + " modes", {{path, override_text(with_count(modes, n))}}});
   axis.values.push_back({"as written, " + std::to_string(shapes) + (shapes == 1 ? " shape" : " shapes"), {{path, override_text(modes)}}});
-  judge_axis(axis);
+  validate_axis(axis);
   return axis;
 }
 

@@ -11,9 +11,9 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-std::string error_cell(double error, double doubt) {
+std::string error_cell(double error, double warning) {
   if (std::isnan(error)) return "–";
-  return error > doubt ? printed(error < 0.995 ? "%.2g ± %.1g" : "%.0f ± %.1g", 100 * error, 100 * doubt) : printed("< %.1g", 100 * doubt);
+  return error > warning ? printed(error < 0.995 ? "%.2g ± %.1g" : "%.0f ± %.1g", 100 * error, 100 * warning) : printed("< %.1g", 100 * warning);
 }
 
 Row heading(const TradeReport& r) {
@@ -31,7 +31,7 @@ Row cells(const TradeReport& r, std::size_t i) {
   for (std::size_t a = 0; a < r.plan.axes.size(); ++a) out.push_back(p.at.empty() ? (a == 0 ? "as it stands" : "") : r.plan.axes[a].values[p.at[a]].label);
   out.push_back(time_text(p.time));
   out.push_back(p.times.size() > 1 ? printed("%.2g to %.2g", p.least / p.time, p.most / p.time) : "1 run");
-  for (std::size_t q = 0; q < r.quantities.size(); ++q) out.push_back(r.reference.of[q].constant ? "–" : error_cell(p.errors[q], p.doubts[q]));
+  for (std::size_t q = 0; q < r.quantities.size(); ++q) out.push_back(r.reference.of[q].constant ? "–" : error_cell(p.errors[q], p.warnings_of[q]));
   double model = NAN;
   for (const double m : p.model) model = std::isnan(model) ? m : std::max(model, m);
   out.push_back(std::isnan(model) ? "–" : printed(model < 0.995 ? "%.2g" : "%.0f", 100 * model));

@@ -27,7 +27,7 @@ std::string stopped(std::string s) {
 
 /// Is the reference good enough to judge settings by?
 bool known(const TradeReport& r) {
-  return r.doubt() <= (r.plan.error > 0 ? r.plan.error : useful_doubt);
+  return r.warning() <= (r.plan.error > 0 ? r.plan.error : useful_warning);
 }
 
 void say_stopped(const TradeReport& r, std::vector<std::string>& said) {
@@ -118,7 +118,7 @@ void say_bottleneck(const TradeReport& r, std::vector<std::string>& said) {
     for (std::size_t v = 0; v < axis.values.size(); ++v) finer += v != p.at[a] && (!axis.ordered || v > p.at[a]);
     for (const AxisEffect& e : all)
       if (e.axis == a && (!axis.ordered || e.to > p.at[a]))
-        ++ran, change = std::max(change, std::abs(r.points[e.point].counted() - p.counted()) - std::max(r.points[e.point].doubt, p.doubt));
+        ++ran, change = std::max(change, std::abs(r.points[e.point].counted() - p.counted()) - std::max(r.points[e.point].warning, p.warning));
     if (finer == 0 || (first && first->axis == a)) continue;
     if (ran == 0 && waits(r, at, a))
       untried += (untried.empty() ? "" : ", ") + axis.name;
@@ -129,11 +129,11 @@ void say_bottleneck(const TradeReport& r, std::vector<std::string>& said) {
   if (first)
     s = "To err less, refine " + r.plan.axes[first->axis].name + " first: " + step_text(r, at, *first) + " takes the error from " + error_text(p) +
         " to " + error_text(r.points[first->point]) + " for " + times_text(first->time_factor);
-  else if (p.counted() <= p.doubt)
-    s = "It errs by less than the reference can tell, " + percent_text(p.doubt) + ": no refinement could be seen to help";
+  else if (p.counted() <= p.warning)
+    s = "It errs by less than the reference can tell, " + percent_text(p.warning) + ": no refinement could be seen to help";
   else if (!all.empty())
     s = "No axis refined alone lowers its error by more than a fifth";
-  if (!idle.empty() && p.counted() > p.doubt) s += (s.empty() ? "Finer " : "; ") + idle + " changes nothing";
+  if (!idle.empty() && p.counted() > p.warning) s += (s.empty() ? "Finer " : "; ") + idle + " changes nothing";
   if (!untried.empty()) s += (s.empty() ? "Whether finer values help did not run: " : "; not tried beside it: ") + untried;
   if (!s.empty()) said.push_back(s + ".");
 }
@@ -154,11 +154,11 @@ void say_luck(const TradeReport& r, std::vector<std::string>& said) {
   std::size_t lucky = 0;
   const TradePoint* most = nullptr;
   for (const TradePoint& p : r.points)
-    if (p.usable && p.surer > p.error && ++lucky && (!most || p.surer / std::max(p.error, p.doubt) > most->surer / std::max(most->error, most->doubt))) most = &p;
+    if (p.usable && p.surer > p.error && ++lucky && (!most || p.surer / std::max(p.error, p.warning) > most->surer / std::max(most->error, most->warning))) most = &p;
   if (!most) return;
   said.push_back(settings_text(lucky) + (lucky == 1 ? " errs" : " err") +
                  " less than the same at a finer tolerance, errors of computing and of the model cancelling by luck, and count as that: " +
-                 setting_text(r.plan, *most) + " gives " + percent_text(std::max(most->error, most->doubt)) + " and counts as " + percent_text(most->surer) + ".");
+                 setting_text(r.plan, *most) + " gives " + percent_text(std::max(most->error, most->warning)) + " and counts as " + percent_text(most->surer) + ".");
 }
 
 /// What the finest setting spends for nothing.
@@ -177,7 +177,7 @@ void say_free(const TradeReport& r, std::vector<std::string>& said) {
 
 /// What the models err by themselves, each at the best of the other axes.
 void say_models(const TradeReport& r, std::vector<std::string>& said) {
-  const double doubt = r.doubt();
+  const double warning = r.warning();
   for (std::size_t a = 0; a < r.plan.axes.size(); ++a) {
     const FidelityAxis& axis = r.plan.axes[a];
     std::string s;
@@ -189,7 +189,7 @@ void say_models(const TradeReport& r, std::vector<std::string>& said) {
           least = std::min(least, *std::ranges::max_element(p.model));
       if (!std::isfinite(least)) continue;
       s += (s.empty() ? "" : ", ") + axis.values[v].label + " " +
-           (least <= doubt ? "nothing that can be told (below " + percent_text(doubt) + ")" : percent_text(least));
+           (least <= warning ? "nothing that can be told (below " + percent_text(warning) + ")" : percent_text(least));
       ++known;
     }
     if (known > 1) said.push_back("However exactly computed, the models of " + axis.name + " err by: " + s + ".");
@@ -250,7 +250,7 @@ void say_unusable(const TradeReport& r, std::vector<std::string>& said) {
 
 std::string priced(const TradeReport& r, std::size_t point) {
   const TradePoint& p = r.points[point];
-  return time_text(p.time) + " with an error " + (p.counted() > p.doubt ? "of " : "") + error_text(p);
+  return time_text(p.time) + " with an error " + (p.counted() > p.warning ? "of " : "") + error_text(p);
 }
 
 std::string settings_text(std::size_t n) {
@@ -279,7 +279,7 @@ std::string time_text(double s) {
 
 std::string error_text(const TradePoint& p) {
   if (std::isnan(p.error)) return "unknown";
-  return p.counted() > p.doubt ? percent_text(p.counted()) : "below " + percent_text(p.doubt);
+  return p.counted() > p.warning ? percent_text(p.counted()) : "below " + percent_text(p.warning);
 }
 
 std::string setting_text(const TradePlan& plan, const TradePoint& p) {

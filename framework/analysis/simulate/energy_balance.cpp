@@ -1,0 +1,76 @@
+#include "framework/analysis/simulate/energy_balance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace pintle {
+
+namespace {
+
+std::string number_text(double x, int digits) {
+  std::ostringstream s;
+  s.precision(digits);
+  s << x;
+  return s.str();
+}
+
+/// Sliding that does no work of its force leaves its own energy open, which says nothing of the other rows.
+bool books_agree_with_model(const System& system) {
+  return std::none_of(system.contacts.begin(), system.contacts.end(),
+                      [](const ContactPair& c) { return c.friction && c.sliding == Sliding::geometric; });
+}
+
+// Errors of a run go where its energy goes: each row may be off by what is unexplained, by what the scheme itself took, and by
+// the tolerance of the energy in play.
+void warn_of_small_rows(const System& system, const Scheme& scheme, Run& run) {
+  constexpr double doubtful = 0.05, noticed = 1e-6;  // of a row, of the energy in play: less is a force that does no work
+  if (run.greatest_integrals.size() != system.integrals.size() || !books_agree_with_model(system)) return;
+  double warning = std::abs(run.worst_unexplained) + scheme.tolerance * run.energy_in_play;
+  for (std::size_t i = 0; i < system.integrals.size(); ++i)
+    if (system.integrals[i].account == Account::scheme) warning += run.greatest_integrals[i];
+  std::size_t worst = 0, more = 0;
+  double least = 0;
+  for (std::size_t i = 0; i < system.integrals.size(); ++i) {
+    const double size = run.greatest_integrals[i];
+    if (system.integrals[i].account == Account::scheme || size <= std::max(noticed * run.energy_in_play, run.ledger_floor) || warning <= doubtful * size) continue;
+    if (more++ == 0 || size < least) worst = i, least = size;
+  }
+  if (more == 0) return;
+  const std::string known = warning < least ? " is known to about " + number_text(100 * warning / least, 1) + " %" : " is not known";
+  run.warnings.push_back("\"" + integral_name(system, system.integrals[worst]) + "\"" +
+                         (more > 1 ? " (and " + std::to_string(more - 1) + " more of the ledger)" : "") + known + ": at most " +
+                         number_text(least, 3) + " J, where the books of this run are good to " + number_text(warning, 2) +
+                         " J; tighten run.tolerance");
+}
+
+}  // namespace
+
+// A step errs by c(hω)³, which is the tolerance at most; the scheme, of second order, then moves up to (hω)² of the energy between
+// what is stored and what is booked. Twice that, for parts that give theirs to each other.
+double left_by_scheme(const Scheme& scheme) {
+  constexpr double most = 0.025;  // books that leave more open are none
+  return std::min(most, 2 * std::pow(scheme.tolerance / AlphaWeights(scheme.rho).error, 2.0 / 3));
+}
+
+void check_energy_balance(const Scene& scene, const Model& model, bool implicit, double floor, Run& run) {
+  run.ledger_bound = scene.run.ledger_bound;
+  run.ledger_floor = floor;
+  const bool tighter = run.ledger_bound < RunOptions{}.ledger_bound;  // than the default: asked for, and held
+  if (implicit && !tighter) run.ledger_bound = std::max(run.ledger_bound, left_by_scheme(model.scheme));
+  if (run.status != Status::finished) return;
+  const double open = std::abs(run.worst_unexplained), allowed = run.ledger_bound * run.energy_in_play;
+  const std::string found = "the ledger leaves " + number_text(run.worst_unexplained, 3) + " J unexplained, " +
+                            number_text(open / run.energy_in_play, 3) + " of the energy in play";
+  if (!(open <= allowed + floor)) {
+    run.status = Status::ledger_over_bound;
+    run.reason = found + "; bound " + number_text(run.ledger_bound, 3) + " (tighten run.tolerance, or raise run.ledger bound)";
+    return;
+  }
+  if (open > allowed)
+    run.warnings.push_back(found + ", over the bound of " + number_text(run.ledger_bound, 3) + ": it passes because rounding alone may leave " +
+                           number_text(floor, 2) + " J in a mechanism of this mass and size; energies as small as that are not known");
+  warn_of_small_rows(model.system, model.scheme, run);
+}
+
+}  // namespace pintle

@@ -1,0 +1,75 @@
+#include "framework/bodies/attachments.h"
+
+#include <Eigen/Geometry>
+
+#include "framework/bodies/modal_basis.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Index;
+
+Wrench wrench(const System& system, const Equations& eq, const Attachment& g) {
+  if (g.of == Attachment::contact) {
+    const ContactEffect now = clearance_effect(system, eq, g.k);
+    return g.first ? now.on_journal : now.on_bearing;
+  }
+  if (g.of == Attachment::force) return g.first ? eq.force[g.k].on_a : eq.force[g.k].on_b;
+  const int row = system.row_begin[g.k], m = system.row_begin[g.k + 1] - row;
+  const auto& L = g.first ? eq.rows[g.k].La : eq.rows[g.k].Lb;
+  return -L.topRows(m).transpose() * eq.lambda.segment(row, m);
+}
+
+}  // namespace
+
+std::vector<Attachment> attachments_of(const Scene& scene, const BuiltOrder& order, const std::vector<const ElasticBody*>& elements) {
+  std::vector<Attachment> all;
+  const auto add = [&](Attachment::Of of, int k, bool first, const PointRef& ref) {
+    for (std::size_t b = 0; b < elements.size(); ++b) {
+      if (scene.bodies[b].name != ref.body || !elements[b]) continue;
+      if (const int port = port_of(*elements[b], ref.point); port >= 0)
+        all.push_back({of, static_cast<std::size_t>(k), first, b, inertia_loads + 3 * Index{port}});
+    }
+  };
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    const SceneJoint& j = scene.joints[i];
+    const Attachment::Of of = j.clearance ? Attachment::contact : Attachment::joint;
+    const bool a_bears = j.clearance && j.clearance->bearing != j.b.body;
+    add(of, order.joints[i], !a_bears, j.a);
+    add(of, order.joints[i], a_bears, j.b);
+  }
+  for (std::size_t i = 0; i < scene.drivers.size(); ++i) {
+    add(Attachment::joint, order.drivers[i], true, scene.drivers[i].a);
+    add(Attachment::joint, order.drivers[i], false, scene.drivers[i].b);
+  }
+  for (std::size_t i = 0; i < scene.loads.size(); ++i)
+    std::visit([&](const auto& what) {
+      if constexpr (requires { what.at; }) {
+        add(Attachment::force, order.loads[i], false, what.at);
+      } else {
+        add(Attachment::force, order.loads[i], true, what.a);
+        add(Attachment::force, order.loads[i], false, what.b);
+      }
+    }, scene.loads[i].what);
+  return all;
+}
+
+void loads_now(const System& system, const std::vector<Attachment>& attachments, const State& state, const Equations& eq, std::size_t b,
+               Eigen::Ref<Eigen::VectorXd> out) {
+  const Index i = 3 * static_cast<Index>(b);
+  const Eigen::Rotation2Dd to_body(-state.y[i + 2]);
+  const double spin = state.y[system.n() + i + 2];
+  out.setZero();
+  out.head<2>() = to_body * (system.gravity - eq.a.segment<2>(i));
+  out[2] = -eq.a[i + 2];
+  out[3] = spin * spin;
+  for (const Attachment& g : attachments) {
+    if (g.body != b) continue;
+    const Wrench w = wrench(system, eq, g);
+    out.segment<2>(g.row) += to_body * w.head<2>();
+    out[g.row + 2] += w[2];
+  }
+}
+
+}  // namespace pintle

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "framework/bodies/elastic_body.h"
+#include "framework/bodies/load_history.h"
+#include "framework/dynamics/equations/equations.h"
+
+/// Where joints, drivers and forces take hold of bodies of elements, and what they put on them.
+namespace pintle {
+
+/// Where the things of a scene have come to stand in its system.
+struct BuiltOrder {
+  std::vector<int> joints;   ///< of each joint of the scene: into System::joints, of one with clearance into System::contacts
+  std::vector<int> drivers;  ///< into System::joints
+  std::vector<int> loads;    ///< into System::forces
+};
+
+/// Where something acts on a body of elements: its wrench is the k-th of joints, contacts or forces.
+struct Attachment {
+  enum Of { joint, contact, force } of;
+  std::size_t k;
+  bool first;  ///< on a, or the journal
+  std::size_t body;
+  Eigen::Index row;  ///< of the load history
+};
+
+/// All grips on the bodies that `elements` has, one a body of the scene, nullptr for others.
+std::vector<Attachment> attachments_of(const Scene&, const BuiltOrder&, const std::vector<const ElasticBody*>& elements);
+
+/// How much of each of `loads_on` acts on body b in an evaluated state: a column of its LoadHistory, whose size `out` has.
+void loads_now(const System&, const std::vector<Attachment>&, const State&, const Equations&, std::size_t b, Eigen::Ref<Eigen::VectorXd> out);
+
+}  // namespace pintle

@@ -1,0 +1,83 @@
+#include "framework/bodies/mesh_file_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/bodies/elastic_parts.h"
+#include "meshes/refuse.h"
+
+namespace pintle {
+
+namespace {
+
+constexpr double same = 1e-3;       ///< relative: numbers of a file are written with three digits or more
+constexpr double very_large = 20;   ///< of a body [m]
+
+bool near(double a, double b) { return std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b)); }
+
+/// Whether two moduli are one in different units: a power of ten apart, or pounds per square inch.
+bool same_modulus(double file, double pascal) {
+  if (!(file > 0)) return false;
+  const double ten = std::pow(10, std::round(std::log10(pascal / file)));
+  return near(file * ten, pascal) || std::abs(file * 6894.757 - pascal) <= 1e-2 * pascal;
+}
+
+/// The greatest distance between two points that are said of one thing other than `but`, or from its origin [m].
+double rest_of_scene(const Scene& scene, const SceneBody& but) {
+  double size = 0;
+  const auto add = [&](const std::vector<ScenePoint>& points) {
+    for (const ScenePoint& p : points)
+      if (p.hole.empty()) size = std::max(size, std::hypot(p.at[0], p.at[1]));
+  };
+  add(scene.ground);
+  for (const SceneBody& b : scene.bodies)
+    if (b.name != but.name) add(b.points);
+  return size;
+}
+
+}  // namespace
+
+void validate_claims(const InpClaims& claims, const ScenePlate& plate, std::vector<std::string>& warnings) {
+  if (!claims.strain.empty() && plate.state == PlaneState::stress) {
+    if (!plate.state_given)
+      reject(claims.strain, ": the file's elements are of plane strain (CPE), the plate is of plane stress unless it says otherwise; add plane: strain, or "
+                            "plane: stress to compute it so all the same");
+    warnings.push_back(claims.strain + ": the file's elements are of plane strain (CPE); computed in plane stress, as the scene says");
+  }
+  const double scale = std::get<SceneFile>(plate.shape).scale;
+  for (const InpClaims::Value& t : claims.thickness) {
+    if (near(t.value * scale, plate.thickness)) continue;
+    warnings.push_back(t.where + ": the file says thickness " + shown_number(t.value) + ", which is " + shown_number(t.value * scale) +
+                       " m in its unit, the scene " + shown_number(plate.thickness) + " m; computed with that of the scene");
+    break;
+  }
+  const Isotropic* solid = std::get_if<Isotropic>(&plate.material.material.elastic);
+  if (!claims.directional.empty() && solid)
+    warnings.push_back(claims.directional + ": the file's material is not isotropic, that of the scene is; computed with that of the scene");
+  if (!solid) return;
+  for (const InpClaims::Value& E : claims.young) {
+    if (same_modulus(E.value, solid->young)) continue;
+    warnings.push_back(E.where + ": the file says Young's modulus " + shown_number(E.value) + ", the scene " + shown_number(solid->young) +
+                       " Pa, which is the same in no unit of stress; computed with that of the scene");
+    break;
+  }
+  for (const InpClaims::Value& nu : claims.poisson) {
+    if (near(nu.value, solid->poisson)) continue;
+    warnings.push_back(nu.where + ": the file says Poisson's ratio " + shown_number(nu.value) + ", the scene " + shown_number(solid->poisson) +
+                       "; computed with that of the scene");
+    break;
+  }
+}
+
+std::string size_warning(const Scene& scene, const ElasticBody& e) {
+  if (!e.plate()) return "";
+  const auto* file = std::get_if<SceneFile>(&plate_of(*e.scene).shape);
+  if (!file || file->unit_given || kind_of(file->path) == ".step" || kind_of(file->path) == ".stp") return "";
+  const double size = (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm(), rest = rest_of_scene(scene, *e.scene);
+  const bool off = rest > 0 && size > 300 * rest && size < 3000 * rest;  // a thousand, with room for a link longer than the others
+  if (!(size > very_large) && !off) return "";
+  return "it is " + shown_number(size) + " m across" + (off ? ", about a thousand times the rest of the scene (" + shown_number(rest) + " m)" : "") +
+         ": " + file->path + " is read in m because the scene gives no unit; if it is in mm, add unit: mm, else unit: m";
+}
+
+}  // namespace pintle

@@ -1,0 +1,198 @@
+#include "framework/build/choose_method.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "framework/common/nearest.h"
+#include "framework/scene/error.h"
+
+namespace pintle {
+
+namespace {
+
+// Rows and frames are read between the steps: of dopri5 by dense output, brought onto the joints by one evaluation; of verner87,
+// whose steps are too long for that, by a step of its own.
+const Tableau* automatic_explicit(const Scene& scene, const Spectrum& s, const Demand& d) {
+  constexpr double fine = 1e-6, brief = 0.05, taken = 0.4;  // of the demand, by a smooth motion
+  constexpr double read = 1000;  // as a run writes by default: what this one writes must not change its motion
+  const Tableau *low = find_tableau("dopri5"), *high = find_tableau("verner87");
+  const double steps = taken * scene.run.until * std::max(d.stability, d.accuracy), long_steps = taken * scene.run.until * d.high;
+  const bool by_contacts = s.fastest.rate < brief * s.strike;  // impacts are brief, and what is smooth goes on
+  const bool dearer = high->stages() * (long_steps + read) > (low->stages() - 1) * steps + read;
+  return scene.run.tolerance > fine || by_contacts || dearer ? low : high;
+}
+constexpr double rate_reached = 1.0, decay_reached = 3.3;  // of dopri5 along the axes
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+std::string short_number(double x) {
+  std::ostringstream s;
+  s.precision(2);
+  s << x;
+  return s.str();
+}
+
+/// What a unit force, along the direction that gives most, or a unit couple on a marker speeds up. [1/kg], [1/(kg m²)]
+struct Mobility {
+  double force = 0, couple = 0;
+};
+Mobility mobility(const System& system, int marker) {
+  const Marker& m = system.markers[at(marker)];
+  if (m.body == ground) return {};
+  const Body& b = system.bodies[at(m.body)];
+  return {1 / b.m + m.x_BP.squaredNorm() / b.J + m.shape.rowwise().squaredNorm().sum(), 1 / b.J + m.slope.squaredNorm()};
+}
+
+class Parts {
+ public:
+  explicit Parts(const System& system) : system_(system) {}
+
+  void see(const Force& force, const std::string& name) {
+    if (const auto* s = std::get_if<Spring>(&force)) {
+      const double w = mobility(system_, s->a).force + mobility(system_, s->b).force;
+      see({std::sqrt(s->k * w), s->c * w, "the spring \"" + name + "\""});
+    } else if (const auto* t = std::get_if<TorsionSpring>(&force)) {
+      const double w = mobility(system_, t->a).couple + mobility(system_, t->b).couple;
+      see({std::sqrt(t->k * w), t->c * w, "the spring \"" + name + "\""});
+    }
+  }
+  void see(const Body& body) {
+    for (int i = 0; i < body.modes(); ++i) {
+      const double omega = body.flex->omega[i];
+      see({omega, 2 * body.flex->zeta[i] * omega, "mode " + std::to_string(i + 1) + " of \"" + body.name + "\""});
+    }
+  }
+  // The rate at which the force of a contact changes that comes by a hundredth of the motion's speed.
+  void see(const ContactPair& pair, double motion, const std::string& name) {
+    if (pair.link >= 0) return;
+    const double w = mobility(system_, pair.journal).force + mobility(system_, pair.bearing).force;
+    const double speed = std::max(motion * system_.length * 1e-2, pair.slowest_impact), n = pair.normal.n;
+    const double depth = std::pow((n + 1) * speed * speed / (2 * pair.normal.k * w), 1 / (n + 1));
+    if (depth > 0) found.parts.push_back({speed / depth, pair.normal.d * w, "contact at \"" + name + "\""});
+    if (depth > 0 && found.parts.back().decay > found.most_damped.decay) found.most_damped = found.parts.back();
+    found.struck = true;
+    if (depth > 0) found.strike = std::max(found.strike, speed / depth);
+  }
+  Spectrum found;
+
+ private:
+  void see(const Spectrum::Part& part) {
+    found.parts.push_back(part);
+    if (part.rate > found.fastest.rate) found.fastest = part;
+    if (part.decay > found.most_damped.decay) found.most_damped = part;
+  }
+  const System& system_;
+};
+
+double fastest_of(const TimeLaw& law, double until, double per) {
+  constexpr int samples = 64;
+  double fastest = 0;
+  for (int i = 0; i <= samples; ++i) {
+    const Jet jet = law(until * i / samples);
+    fastest = std::max({fastest, std::abs(jet.rate) / per, std::sqrt(std::abs(jet.accel) / per)});
+  }
+  return std::isfinite(fastest) ? fastest : 0;
+}
+
+double motion_of(const Scene& scene, const System& system) {
+  double motion = std::sqrt(system.gravity.norm() / system.length);
+  for (const StartBody& s : scene.start_bodies)
+    motion = std::max({motion, std::abs(s.speed.value_or(0)), std::hypot(s.vx.value_or(0), s.vy.value_or(0)) / system.length});
+  for (const Joint& j : system.joints) {
+    if (const auto* d = std::get_if<AngleDriver>(&j)) motion = std::max(motion, fastest_of(d->law, scene.run.until, 1));
+    if (const auto* d = std::get_if<DistanceDriver>(&j)) motion = std::max(motion, fastest_of(d->law, scene.run.until, system.length));
+  }
+  return motion;
+}
+
+Constraints constraints_of(const Scene& scene, bool is_explicit) {
+  const std::string& c = scene.run.constraints;
+  if (c == "partitioning" && !is_explicit)
+    throw SceneError(scene.file, scene.run.place, "generalized-alpha does not take constraints: partitioning; leave it out, or take dopri5");
+  if (c != "partitioning" && c != "projection")
+    throw SceneError(scene.file, scene.run.place, "there are no constraints: " + c + "; take projection, the default, or partitioning");
+  return c == "partitioning" ? Constraints::partitioning : Constraints::projection;
+}
+
+// At one tolerance a whole run of generalised-α errs by its power ⅔, an explicit one by the tolerance itself.
+constexpr double dearer = 8;
+
+void choose(const Scene& scene, const System& system, Scheme& scheme) {
+  const Spectrum s = spectrum(scene, system);
+  const Demand d = demand(s, scene.run.tolerance);
+  const double needed = std::max(d.stability, d.accuracy);
+  const bool is_implicit = needed > dearer * d.implicit && scene.run.constraints != "partitioning";
+  if (!is_implicit) scheme.tableau = automatic_explicit(scene, s, d);
+  if (!is_implicit && scheme.tableau != find_tableau("dopri5")) scheme.fallback = find_tableau("dopri5");
+  std::string& why = scheme.reason;
+  why = name(scheme) + ", chosen because Dormand and Prince's pair needs about " + short_number(needed) + " steps a second";
+  if (d.stability > d.accuracy) {
+    const bool by_decay = s.most_damped.decay / decay_reached > s.fastest.rate / rate_reached;
+    why += ", which stability asks for because of " +
+           (by_decay ? s.most_damped.what + " (" + short_number(s.most_damped.decay) + " 1/s)"
+                     : s.fastest.what + " (" + short_number(s.fastest.rate) + " rad/s)");
+  } else {
+    why += " for its accuracy";
+  }
+  why += ", and generalised-alpha about " + short_number(d.implicit);
+  const bool can_stiffen = !s.parts.empty();
+  if (!is_implicit && can_stiffen && scene.run.constraints == "projection" && d.implicit > 0) scheme.switch_below = 0.5 / d.implicit;
+}
+
+}  // namespace
+
+Spectrum spectrum(const Scene& scene, const System& system) {
+  const double motion = motion_of(scene, system);
+  Parts parts(system);
+  for (std::size_t i = 0; i < system.forces.size(); ++i)
+    parts.see(system.forces[i], i < system.force_names.size() ? system.force_names[i] : "");
+  for (const Body& b : system.bodies) parts.see(b);
+  for (std::size_t i = 0; i < system.contacts.size(); ++i)
+    parts.see(system.contacts[i], motion, i < system.contact_names.size() ? system.contact_names[i] : "");
+  Spectrum s = std::move(parts.found);
+  s.motion = motion;
+  s.until = scene.run.until;
+  if (motion > 0) return s;
+  for (const Spectrum::Part& p : s.parts)
+    if (p.rate > 0) s.motion = s.motion > 0 ? std::min(s.motion, p.rate) : p.rate;
+  return s;
+}
+
+// A step h of order p in an oscillation of rate r whose speed is A times the motion's errs by (hr)ᵖ A about; the
+// constants are those that the schemes show on a slider-crank. Inertia bends what is elastic by a fifth of
+// (motion/r)², and lets it ring so from the start, or from an impact, until damping has brought that to the tolerance.
+Demand demand(const Spectrum& s, double tolerance) {
+  constexpr double explicit_order = 5, high_order = 8, implicit_order = 3, explicit_constant = 0.7, high_constant = 0.4, implicit_constant = 1, bent = 0.2;
+  const auto most = [&](double order) {
+    double steps = s.motion * std::pow(1 / tolerance, 1 / order);
+    for (const Spectrum::Part& p : s.parts) {
+      const double excess = bent * std::min(1.0, s.motion / std::max(p.rate, 1e-300)) / tolerance;
+      if (!(p.rate > 0) || excess <= 1) continue;
+      const double rings = s.struck || p.decay == 0 ? 1 : std::min(1.0, 2 * std::log(excess) / (p.decay * s.until));
+      steps = std::max(steps, rings * p.rate * std::pow(excess, 1 / order));
+    }
+    return steps;
+  };
+  return {std::max(s.fastest.rate / rate_reached, s.most_damped.decay / decay_reached), explicit_constant * most(explicit_order),
+          implicit_constant * most(implicit_order), high_constant * most(high_order)};
+}
+
+void choose_method(const Scene& scene, const System& system, Scheme& scheme) {
+  const RunOptions& run = scene.run;
+  scheme.rho = run.rho;
+  if (run.method == "auto") {
+    choose(scene, system, scheme);
+  } else {
+    scheme.tableau = find_tableau(run.method);
+    if (!scheme.tableau && run.method != "generalized-alpha") {
+      std::vector<std::string> known{"auto", "generalized-alpha"};
+      for (const Tableau& t : tableaus()) known.emplace_back(t.name);
+      throw SceneError(scene.file, run.place, "there is no method \"" + run.method + "\"." + did_you_mean(run.method, known));
+    }
+    scheme.reason = run.method + ", as the scene says";
+  }
+  scheme.constraints = constraints_of(scene, scheme.tableau != nullptr);
+}
+
+}  // namespace pintle

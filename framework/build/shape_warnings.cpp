@@ -1,0 +1,68 @@
+#include "framework/build/shape_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/bodies/elastic_parts.h"
+#include "framework/bodies/modal_basis.h"
+#include "framework/build/choose_method.h"
+
+namespace pintle {
+
+namespace {
+
+std::string percent(double part) { return shown_number(std::round(1000 * part) / 10) + " %"; }
+
+/// ∂f/∂δ at the depth that a hundredth of the motion's speed reaches, or at a hundredth of the clearance where nothing moves yet [N/m].
+double stiffness_of_blow(const System& system, const ContactPair& pair, double motion) {
+  double mobility = 0;  // 1/m of the two bodies there
+  for (const int marker : {pair.journal, pair.bearing}) {
+    const Marker& m = system.markers[static_cast<std::size_t>(marker)];
+    if (m.body == ground) continue;
+    const Body& b = system.bodies[static_cast<std::size_t>(m.body)];
+    mobility += 1 / b.m + m.x_BP.squaredNorm() / b.J;
+  }
+  const double speed = 1e-2 * motion * system.length, n = pair.normal.n, k = pair.normal.k;
+  const double depth = speed > 0 ? std::pow((n + 1) * speed * speed / (2 * k * mobility), 1 / (n + 1)) : 1e-2 * pair.gap.clearance();
+  return n * k * std::pow(depth, n - 1);
+}
+
+}  // namespace
+
+std::vector<std::string> contact_warnings(const Scene& scene, const System& system, const BuiltOrder& order,
+                                        const std::vector<std::optional<MechanismBody>>& bodies) {
+  constexpr double matters = 0.1;  // compliance left out beside the contact's own
+  std::vector<std::string> out;
+  if (system.contacts.empty()) return out;
+  const double motion = spectrum(scene, system).motion;
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    const SceneJoint& j = scene.joints[i];
+    if (!j.clearance || j.clearance->model == ClearanceModel::massless_link) continue;
+    const ContactPair& pair = system.contacts[static_cast<std::size_t>(order.joints[i])];
+    for (const PointRef* ref : {&j.a, &j.b})
+      for (const auto& b : bodies) {
+        if (!b || !b->body.flex || b->body.name != ref->body) continue;
+        const int port = port_of(b->elastic, ref->point);
+        if (port < 0) continue;
+        const FreeCompliance& at = b->when_free[static_cast<std::size_t>(port)];
+        const double stiffness = stiffness_of_blow(system, pair, motion);
+        for (Eigen::Index k = 0; k < 2; ++k) {
+          const double share = std::max(0.0, at.kept[k]) / at.full[k];
+          if (!(share < least_covered) || !((at.full[k] - at.kept[k]) * stiffness > matters)) continue;
+          out.push_back("\"" + j.name + "\" strikes \"" + ref->body + "\" where its shapes hold " + percent(share) +
+                        " of what it yields to a blow along its " + (k == 0 ? "x" : "y") +
+                        " axis: peak forces and hysteresis come out wrong; take craig-bampton, or keep more");
+          break;
+        }
+      }
+  }
+  return out;
+}
+
+std::string stiff_parts_warning(const MechanismBody& b) {
+  if (!(b.inertia_covered.share < least_covered)) return "";
+  return "the shapes of \"" + b.body.name + "\" hold " + percent(b.inertia_covered.share) + " of its deformation under " + b.inertia_covered.of +
+         ": parts beyond or between the points in use stay rigid; raise the count of craig-bampton to 1 or more";
+}
+
+}  // namespace pintle

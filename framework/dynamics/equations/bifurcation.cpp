@@ -1,0 +1,154 @@
+#include "framework/dynamics/equations/bifurcation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+namespace pintle {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Index = Eigen::Index;
+
+constexpr int most = 300;  ///< lost rows looked at; more can only be redundant by design
+
+void divide_by_mass(const System& system, Equations& eq, VectorXd& v) {
+  for (std::size_t b = 0; b < system.bodies.size(); ++b)
+    if (eq.flexible_of[b] < 0) v.segment<3>(3 * static_cast<Index>(b)).array() *= eq.W.segment<3>(3 * static_cast<Index>(b)).array();
+  for (FlexibleInertia& body : eq.flexible) solve(body, v.data());
+}
+
+VectorXd product(const System& system, const Equations& eq, const VectorXd& v) {
+  VectorXd out = VectorXd::Zero(system.n_rows());
+  visit_jacobian(eq, [&](int row, int column, double value) { out[row] += value * v[column]; });
+  return out;
+}
+
+VectorXd transposed(const System& system, const Equations& eq, const VectorXd& x) {
+  VectorXd out = VectorXd::Zero(system.n());
+  add_reaction(eq, x, out);
+  return out;
+}
+
+/// Combinations of rows that vanish, as many as rows are lost: what S S⁺ leaves of any vectors.
+MatrixXd null_vectors(const System& system, Equations& eq) {
+  MatrixXd N(system.n_rows(), eq.schur.lost());
+  for (Index k = 0; k < N.cols(); ++k) {
+    for (Index i = 0; i < N.rows(); ++i)
+      N(i, k) = system.row_scale[i] * std::sin(1.3 + 78.233 * static_cast<double>(i + 1) + 3.7 * static_cast<double>(k * k + k));
+    VectorXd g = transposed(system, eq, N.col(k));
+    divide_by_mass(system, eq, g);
+    VectorXd x = product(system, eq, g);
+    eq.schur.solve(x);
+    N.col(k) -= x;
+  }
+  return N;
+}
+
+/// sᵀH of each null vector, and the third derivative of Nᵀ C along s without accelerations.
+struct Bend {
+  MatrixXd G;
+  VectorXd third;
+};
+Bend bend(const System& system, const State& state, const VectorXd& way, double rate, const MatrixXd& N) {
+  const Index n = system.n();
+  const double step = 2e-4 / rate;
+  Equations eq(system);
+  Bend out{MatrixXd::Zero(N.cols(), n), VectorXd::Zero(N.cols())};
+  for (int k : {-1, 0, 1}) {
+    VectorXd y = state.y;
+    y.head(n) += k * step * way;
+    y.segment(n, n) = way;
+    pose(system, state.t + k * step, y, eq);
+    speed(system, state.t + k * step, y, eq);
+    for (Index d = 0; d < N.cols() && k != 0; ++d) out.G.row(d) += k / (2 * step) * transposed(system, eq, N.col(d)).transpose();
+    out.third += (k == 0 ? -2 : 1) / (step * step) * (N.transpose() * eq.Cdot);
+  }
+  return out;
+}
+
+/// G with its rows brought into the directions that the joints leave free, (I − M⁻¹CqᵀS⁺Cq) M⁻¹Gᵀ, and in `X` what
+/// of it the joints take up, S⁺Cq M⁻¹Gᵀ.
+MatrixXd free_part(const System& system, Equations& eq, const MatrixXd& G, MatrixXd& X) {
+  X.resize(system.n_rows(), G.rows());
+  MatrixXd out(G.cols(), G.rows());
+  for (Index d = 0; d < G.rows(); ++d) {
+    VectorXd v = G.row(d).transpose();
+    divide_by_mass(system, eq, v);
+    VectorXd x = product(system, eq, v);
+    eq.schur.solve(x);
+    VectorXd held = transposed(system, eq, x);
+    divide_by_mass(system, eq, held);
+    out.col(d) = v - held;
+    X.col(d) = x;
+  }
+  return out;
+}
+
+/// What a combination of rows would be in the metric of M⁻¹ if they did not vanish together: Σ|N| (Cq M⁻¹ Cqᵀ)^½ of each row.
+double uncancelled(const System& system, const Equations& eq, const VectorXd& N) {
+  VectorXd square = VectorXd::Zero(system.n_rows());
+  visit_jacobian(eq, [&](int row, int column, double value) {
+    square[row] += value * value * (column < system.n_rigid() ? eq.W[column] : 1);
+  });
+  return N.cwiseAbs().dot(square.cwiseSqrt());
+}
+
+}  // namespace
+
+bool follow_bifurcation_branch(const System& system, const State& state, Equations& eq) {
+  constexpr double nothing = 1e-8, rounding = 1e-5;
+  constexpr double balanced = 1e-9;  // of what forces would do without joints: rounding has no direction to go
+  const int lost = eq.schur.lost();
+  if (lost <= eq.permanent) return true;
+  if (lost > most) {
+    eq.permanent = lost;
+    return true;
+  }
+  const Index n = system.n();
+  const VectorXd s = state.y.segment(n, n);
+  const auto size = [&](const VectorXd& v) { return v.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>(); };
+  const double rate = size(s), pull = size(eq.a);
+  const auto free_pull = [&] {
+    VectorXd free = eq.f;
+    divide_by_mass(system, eq, free);
+    return size(free);
+  };
+  const bool rests = !(rate > 1e-6 * std::sqrt(pull));
+  if (rests && pull <= balanced * free_pull()) return true;
+  const MatrixXd N = null_vectors(system, eq);
+  const VectorXd way = rests ? VectorXd(eq.a / pull) : s;  // where it moves, else where it would
+  const Bend b = bend(system, state, way, rests ? 1 : rate, N);
+  MatrixXd X;
+  const MatrixXd V = free_part(system, eq, b.G, X);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> K(b.G * V);
+  // What of G is free to bend, against what M⁻¹ alone would make of it, or differences of what cancels.
+  double whole = 0;
+  for (Index d = 0; d < N.cols(); ++d)
+    whole = std::max(whole, std::pow(rounding * (rests ? 1 : rate) * uncancelled(system, eq, N.col(d)), 2));
+  for (Index d = 0; d < b.G.rows(); ++d) {
+    VectorXd v = b.G.row(d).transpose();
+    divide_by_mass(system, eq, v);
+    whole = std::max(whole, b.G.row(d).dot(v));
+  }
+  const VectorXd rest = -(b.third / 3 + b.G * eq.a);
+  int singular = 0;
+  VectorXd mu = VectorXd::Zero(rest.size());
+  for (Index k = 0; k < mu.size(); ++k)
+    if (K.eigenvalues()[k] > nothing * whole) {
+      ++singular;
+      mu += K.eigenvectors().col(k) * (K.eigenvectors().col(k).dot(rest) / K.eigenvalues()[k]);
+    }
+  if (singular == 0) eq.permanent = lost;
+  if (singular == 0) return true;
+  if (rests)  // it goes the way of its accelerations if a branch does: aᵀH a = 0
+    return (b.G * eq.a).lpNorm<Eigen::Infinity>() <= 1e-6 * (b.G.cwiseAbs() * eq.a.cwiseAbs()).lpNorm<Eigen::Infinity>();
+  eq.a += V * mu;
+  eq.lambda += X * mu;
+  return true;
+}
+
+}  // namespace pintle

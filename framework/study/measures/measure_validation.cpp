@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "framework/common/nearest.h"
+#include "framework/scene/error.h"
+#include "framework/study/measures/measure.h"
+#include "framework/study/measures/measure_words.h"
+#include "framework/study/measures/measurables.h"
+
+namespace pintle {
+
+namespace {
+
+[[noreturn]] void fail(const Measure& m, const Scene& scene, const std::string& message) {
+  Place place = m.place;
+  if (place.key.empty()) place.key = "measure \"" + m.words + "\"";
+  throw SceneError(m.file.empty() ? scene.file : m.file, place, "\"" + m.words + "\" " + message);
+}
+
+/// Of flexible bodies alone.
+bool elastic(const Asked& a) {
+  constexpr std::array<std::string_view, 11> columns{"ux", "uy", "turn", "N", "V", "M", "stress", "sx", "sy", "txy", "von Mises"};
+  if (a.what == What::stress || a.what == What::displacement || a.what == What::deflection) return true;
+  return (a.what == What::column || a.what == What::motion) &&
+         (std::ranges::find(columns, a.part) != columns.end() || a.part.starts_with("mode "));
+}
+
+/// The body that a measure is about; nullptr if it is none, or not one alone.
+const SceneBody* body_of(const Asked& a, const Scene& scene) {
+  const PointRef p = point_named(scene, a.owner);
+  return body_named(scene, p.body.empty() ? a.owner : p.body);
+}
+
+bool bends(const SceneBody& body) { return body.elastic && body.elastic->modes; }
+
+std::string those_that_bend(const Scene& scene) {
+  Names names;
+  for (const SceneBody& b : scene.bodies)
+    if (bends(b)) names.push_back(b.name);
+  return names.empty() ? "every body of the scene is rigid" : "flexible are " + listed(names, "and");
+}
+
+}  // namespace
+
+void judge(const std::vector<Measure>& measures, const Scene& scene) {
+  for (const Measure& m : measures) {
+    const Asked asked = read_measure(m, scene);
+    const double last = std::isinf(asked.to) ? asked.from : asked.to;
+    if (last > scene.run.until * (1 + 1e-9)) fail(m, scene, "lies after the end of the run; make run.until longer, or ask for an earlier time");
+  }
+}
+
+void validate_flexible(const std::vector<Measure>& measures, const Scene& scene, const std::vector<std::string>& varied) {
+  for (const Measure& m : measures) {
+    const Asked asked = read_measure(m, scene);
+    const SceneBody* body = elastic(asked) ? body_of(asked, scene) : nullptr;
+    const auto may_change = [&](const std::string& path) { return path == "bodies" || path.starts_with("bodies." + body->name); };
+    if (body && !bends(*body) && std::ranges::none_of(varied, may_change))
+      fail(m, scene, "is of a flexible body, and \"" + body->name + "\" is rigid in every case; " + those_that_bend(scene) +
+                         ". Give it modes (docs/scene.md), or ask for something else");
+  }
+}
+
+}  // namespace pintle

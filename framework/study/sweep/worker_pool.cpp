@@ -1,0 +1,129 @@
+#include "framework/study/sweep/worker_pool.h"
+
+#include <algorithm>
+#include <new>
+
+namespace pintle {
+
+WorkerPool::WorkerPool(const Sweep& sweep, Journal& journal, int rank, int threads) : sweep_(sweep), journal_(journal), rank_(rank) {
+  try {
+    start(threads);
+  } catch (const std::exception& error) {
+    shortage_ = std::to_string(threads_.size()) + " of " + std::to_string(threads) + " threads could be started (" + error.what() +
+                "), " + (threads_.empty() ? "the cases are run one by one" : "these run the cases") +
+                "; allow more processes (ulimit -u) or memory, or ask for fewer with --threads";
+  }
+}
+
+void WorkerPool::start(int threads) {
+  for (int k = 0; k < threads; ++k) {
+    ++out_;
+    try {
+      threads_.emplace_back([this, k] { work(k); });
+    } catch (...) {
+      --out_;
+      throw;
+    }
+  }
+}
+
+WorkerPool::~WorkerPool() {
+  stop();
+  for (std::thread& t : threads_)
+    if (t.joinable()) t.join();
+}
+
+bool WorkerPool::home() const {
+  return threads_.empty() ? queue_.closed() && queue_.left() == 0 : out_ == 0;
+}
+
+int WorkerPool::workers() const {
+  return std::max(1, static_cast<int>(threads_.size()));
+}
+
+int WorkerPool::idle() const {
+  return threads_.empty() ? queue_.left() == 0 : queue_.waiting();
+}
+
+bool WorkerPool::troubled() {
+  const std::lock_guard lock(mutex_);
+  return trouble_ != nullptr;
+}
+
+void WorkerPool::stop() {
+  stopped_ = true;
+  queue_.clear();
+}
+
+WorkerPool::Tally WorkerPool::tally() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(tally_, {});
+}
+
+void WorkerPool::wait(std::chrono::milliseconds most) {
+  if (threads_.empty()) return;  // nobody else brings news
+  std::unique_lock lock(mutex_);
+  news_.wait_for(lock, most, [&] { return changes_ != seen_; });
+  seen_ = changes_;
+}
+
+void WorkerPool::finish() {
+  for (std::thread& t : threads_) t.join();
+  if (trouble_) std::rethrow_exception(trouble_);
+}
+
+void WorkerPool::news() {
+  const std::lock_guard lock(mutex_);
+  ++changes_;
+  news_.notify_all();
+}
+
+void WorkerPool::work(int thread) {
+  try {
+    while (const std::optional<std::size_t> number = queue_.draw()) {
+      if (queue_.left() == 0) news();  // the only one that anyone waits for
+      run(*number, thread);
+    }
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    trouble_ = std::current_exception();
+  }
+  --out_;
+  news();
+}
+
+void WorkerPool::work_here(const std::function<void()>& poll) {
+  if (!threads_.empty() || queue_.left() == 0) return;
+  poll_ = poll;
+  try {
+    run(*queue_.draw(), 0);
+  } catch (...) {
+    trouble_ = std::current_exception();
+  }
+}
+
+void WorkerPool::run(std::size_t number, int thread) {
+  const auto begin = std::chrono::steady_clock::now();
+  CaseLimits limits = sweep_.limits;
+  limits.bodies = &bodies_;
+  limits.go_on = [this] {
+    poll_();
+    return !stopped_;
+  };
+  Outcome outcome;
+  try {
+    outcome = run_case(sweep_.study.scene, sweep_.cases.overrides(number - 1), sweep_.study.measures, limits);
+  } catch (const std::bad_alloc&) {
+    outcome.status = "failed", outcome.reason = "there was not enough memory; run fewer cases at once (--threads)";
+  }
+  if (stopped_ || outcome.status == status_text(Status::interrupted)) return;
+  Row row{number, outcome.status, outcome.reason, outcome.values, outcome.units, outcome.t_end, outcome.unexplained_share, outcome.counts.steps,
+          outcome.impacts, std::to_string(rank_) + "." + std::to_string(thread), outcome.build_seconds, outcome.run_seconds};
+  journal_.append(row);
+  const std::lock_guard lock(mutex_);
+  tally_.done += 1;
+  tally_.trouble += row.status != "finished";
+  tally_.busy += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace pintle
