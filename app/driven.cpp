@@ -12,6 +12,7 @@
 #include "framework/bodies/segments.h"
 #include "framework/build/build.h"
 #include "framework/build/inertia_defaults.h"
+#include "framework/common/file.h"
 #include "framework/common/text.h"
 #include "framework/output/results.h"
 

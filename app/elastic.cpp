@@ -11,6 +11,7 @@
 #include "framework/analysis/natural_modes/natural_modes.h"
 #include "framework/analysis/static_case/static_case.h"
 #include "framework/bodies/mesh_file_warnings.h"
+#include "framework/common/file.h"
 #include "framework/common/text.h"
 #include "framework/drawing/body_drawing.h"
 #include "framework/output/results.h"

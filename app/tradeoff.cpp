@@ -13,6 +13,7 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/run_end.h"
+#include "framework/common/file.h"
 #include "framework/common/text.h"
 #include "framework/output/results.h"
 #include "framework/scene/text_file.h"

@@ -11,6 +11,7 @@
 
 #include "framework/bodies/elastic_parts.h"
 #include "framework/bodies/in_body.h"
+#include "framework/common/text.h"
 #include "framework/component/fe/assembly.h"
 #include "framework/component/fe/from_mesh.h"
 #include "meshes/rim_shape.h"
@@ -189,7 +190,7 @@ void validate_rim(const Scene& scene, const Mesh& mesh, const ScenePoint& p, con
   }
   const double grain = 1e-9 * rim.radius;
   const Vector2d center = (rim.center / grain).array().round() * grain;
-  const std::string part = name + " covers " + shown_number(rim.angle * 180 / std::numbers::pi) + " of 360 deg of a circle of radius " + shown_number(rim.radius) +
+  const std::string part = name + " covers " + number_text(rim.angle * 180 / std::numbers::pi) + " of 360 deg of a circle of radius " + number_text(rim.radius) +
                            " m about " + shown(center) + ", but its ";
   if (rim.open == 1 && rim.angle >= round)
     throw SceneError(scene.file, p.place, part + "point would stand at " + shown(port.x) + ", the middle of that arc; give the whole rim the name");

@@ -5,18 +5,13 @@
 #include <sstream>
 
 #include "framework/common/nearest.h"
+#include "framework/common/text.h"
 
 namespace pintle {
 
 std::string shown(const Eigen::Vector2d& p) {
   std::ostringstream s;
   s << std::setprecision(6) << "(" << p.x() << ", " << p.y() << ") m";
-  return s.str();
-}
-
-std::string shown_number(double x) {
-  std::ostringstream s;
-  s << std::setprecision(4) << x;
   return s.str();
 }
 

@@ -10,7 +10,6 @@ namespace pintle {
 
 inline Eigen::Vector2d vector(const Pair& p) { return {p[0], p[1]}; }
 std::string shown(const Eigen::Vector2d&);  ///< "(0.1, 0) m"
-std::string shown_number(double);           ///< "0.1", four digits
 
 inline const SceneBeam* beam_of(const SceneBody& body) { return std::get_if<SceneBeam>(&body.elastic->shape); }
 inline const ScenePlate& plate_of(const SceneBody& body) { return std::get<ScenePlate>(body.elastic->shape); }

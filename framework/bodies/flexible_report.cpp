@@ -8,6 +8,7 @@
 
 #include "framework/bodies/elastic_parts.h"
 #include "framework/bodies/modal_basis.h"
+#include "framework/common/text.h"
 
 namespace pintle {
 
@@ -74,7 +75,7 @@ int pivot(const Scene& scene, const ElasticBody& e) {
 }
 
 std::string percent(double part) {
-  return shown_number(std::round(1000 * part) / 10) + " %";
+  return number_text(std::round(1000 * part) / 10) + " %";
 }
 
 std::string changed(double change) {
@@ -85,8 +86,8 @@ std::string changed(double change) {
 void warn_of_frequency(const FlexibleReport& r, const std::vector<Imposed>& imposed, std::vector<std::string>& out) {
   for (const Imposed& i : imposed)
     if (i.frequency > r.highest)
-      out.push_back("modes of \"" + r.body + "\" reach " + shown_number(r.highest) + " Hz, but driver \"" + i.driver + "\" " +
-                    (i.turns ? "turns at " : "moves with ") + shown_number(i.frequency) + " Hz; keep more");
+      out.push_back("modes of \"" + r.body + "\" reach " + number_text(r.highest) + " Hz, but driver \"" + i.driver + "\" " +
+                    (i.turns ? "turns at " : "moves with ") + number_text(i.frequency) + " Hz; keep more");
 }
 
 void warn_of_linearity(const Scene& scene, const FlexibleReport& r, std::vector<std::string>& out) {
@@ -205,7 +206,7 @@ double given_spin(const Scene& scene, const std::string& body) {
 
 std::string spin_warning(const std::string& body, double spin, double change) {
   if (!(std::abs(change) > stiffening_matters)) return "";
-  return "at " + shown_number(spin) + " rad/s the loads of inertia on \"" + body + "\" " + changed(change) + "; add stiffening: rotation";
+  return "at " + number_text(spin) + " rad/s the loads of inertia on \"" + body + "\" " + changed(change) + "; add stiffening: rotation";
 }
 
 std::string stiffening_warning(const std::string& body, Stiffening now, const FrequencyChange& c) {
@@ -217,8 +218,8 @@ std::string stiffening_warning(const std::string& body, Stiffening now, const Fr
 
 std::string deflection_warning(const std::string& body, double deflection, double slope, const std::string& when) {
   if (!(deflection > large_deflection || slope > large_slope)) return "";
-  return "\"" + body + "\" " + when + " by " + percent(deflection) + " of its size, its slope " + shown_number(slope) +
-         " rad, within one frame, where deformation is taken as small (up to " + percent(large_deflection) + " and " + shown_number(large_slope) +
+  return "\"" + body + "\" " + when + " by " + percent(deflection) + " of its size, its slope " + number_text(slope) +
+         " rad, within one frame, where deformation is taken as small (up to " + percent(large_deflection) + " and " + number_text(large_slope) +
          " rad); cut a beam into pieces";
 }
 

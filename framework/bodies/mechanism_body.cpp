@@ -10,6 +10,7 @@
 #include "framework/bodies/in_body.h"
 #include "framework/bodies/modal_basis.h"
 #include "framework/common/nearest.h"
+#include "framework/common/text.h"
 
 namespace pintle {
 
@@ -36,7 +37,7 @@ void warn_of_damping(MechanismBody& b) {
     if (f.zeta[i] > 1) {
       b.warnings.push_back("\"" + b.body.name + "\": damping makes the shapes from " + std::to_string(i + 1) + " on (" +
                            std::to_string(std::lround(f.omega[i] / (2 * std::numbers::pi))) + " Hz) over-critical, the ratio there is " +
-                           shown_number(f.zeta[i]));
+                           number_text(f.zeta[i]));
       return;
     }
 }

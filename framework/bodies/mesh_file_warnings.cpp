@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "framework/bodies/elastic_parts.h"
+#include "framework/common/text.h"
 #include "meshes/refuse.h"
 
 namespace pintle {
@@ -47,8 +48,8 @@ void validate_claims(const InpClaims& claims, const ScenePlate& plate, std::vect
   const double scale = std::get<SceneFile>(plate.shape).scale;
   for (const InpClaims::Value& t : claims.thickness) {
     if (near(t.value * scale, plate.thickness)) continue;
-    warnings.push_back(t.where + ": the file says thickness " + shown_number(t.value) + ", which is " + shown_number(t.value * scale) +
-                       " m in its unit, the scene " + shown_number(plate.thickness) + " m; computed with that of the scene");
+    warnings.push_back(t.where + ": the file says thickness " + number_text(t.value) + ", which is " + number_text(t.value * scale) +
+                       " m in its unit, the scene " + number_text(plate.thickness) + " m; computed with that of the scene");
     break;
   }
   const Isotropic* solid = std::get_if<Isotropic>(&plate.material.material.elastic);
@@ -57,13 +58,13 @@ void validate_claims(const InpClaims& claims, const ScenePlate& plate, std::vect
   if (!solid) return;
   for (const InpClaims::Value& E : claims.young) {
     if (same_modulus(E.value, solid->young)) continue;
-    warnings.push_back(E.where + ": the file says Young's modulus " + shown_number(E.value) + ", the scene " + shown_number(solid->young) +
+    warnings.push_back(E.where + ": the file says Young's modulus " + number_text(E.value) + ", the scene " + number_text(solid->young) +
                        " Pa, which is the same in no unit of stress; computed with that of the scene");
     break;
   }
   for (const InpClaims::Value& nu : claims.poisson) {
     if (near(nu.value, solid->poisson)) continue;
-    warnings.push_back(nu.where + ": the file says Poisson's ratio " + shown_number(nu.value) + ", the scene " + shown_number(solid->poisson) +
+    warnings.push_back(nu.where + ": the file says Poisson's ratio " + number_text(nu.value) + ", the scene " + number_text(solid->poisson) +
                        "; computed with that of the scene");
     break;
   }
@@ -76,7 +77,7 @@ std::string size_warning(const Scene& scene, const ElasticBody& e) {
   const double size = (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm(), rest = rest_of_scene(scene, *e.scene);
   const bool off = rest > 0 && size > 300 * rest && size < 3000 * rest;  // a thousand, with room for a link longer than the others
   if (!(size > very_large) && !off) return "";
-  return "it is " + shown_number(size) + " m across" + (off ? ", about a thousand times the rest of the scene (" + shown_number(rest) + " m)" : "") +
+  return "it is " + number_text(size) + " m across" + (off ? ", about a thousand times the rest of the scene (" + number_text(rest) + " m)" : "") +
          ": " + file->path + " is read in m because the scene gives no unit; if it is in mm, add unit: mm, else unit: m";
 }
 

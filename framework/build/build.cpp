@@ -20,6 +20,7 @@
 #include "framework/build/preliminary_run.h"
 #include "framework/build/shape_warnings.h"
 #include "framework/common/nearest.h"
+#include "framework/common/text.h"
 
 namespace pintle {
 
@@ -27,7 +28,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-std::string quoted(const std::string& s) { return "\"" + s + "\""; }
 std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
   return "." + did_you_mean(word, known);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "framework/common/index.h"
 #include "framework/common/nearest.h"
 #include "framework/scene/error.h"
 
@@ -24,7 +25,6 @@ const Tableau* automatic_explicit(const Scene& scene, const Spectrum& s, const D
 }
 constexpr double rate_reached = 1.0, decay_reached = 3.3;  // of dopri5 along the axes
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::string short_number(double x) {
   std::ostringstream s;

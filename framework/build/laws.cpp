@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "framework/common/text.h"
 #include "framework/scene/error.h"
 #include "framework/scene/units/law_scale.h"
 
@@ -12,13 +13,6 @@ namespace pintle {
 namespace {
 
 constexpr double steps_through_laws = 1000;  // of a run whose laws are not known
-
-std::string number(double x) {
-  std::ostringstream s;
-  s.precision(9);
-  s << x;
-  return s.str();
-}
 
 bool stands_still(const Law& law, double until) {
   const Jet first = law.at(0), last = law.at(until);
@@ -31,11 +25,11 @@ void validate_jumps(const Scene& scene, const SceneDriver& d, const LawScale& sc
     const bool place = value_jumps(b);
     if (!place && !speed_jumps(b, scale.fastest)) continue;
     const auto [from, to] = place ? std::pair(b.left.value, b.right.value) : std::pair(b.left.rate, b.right.rate);
-    const std::string unit = std::string(d.kind == DriverKind::angle ? "rad" : "m") + (place ? "" : "/s"), when = number(b.after);
+    const std::string unit = std::string(d.kind == DriverKind::angle ? "rad" : "m") + (place ? "" : "/s"), when = number_text(b.after, 9);
     throw SceneError(scene.file, d.place,
                      "the " + std::string(place ? "value" : "speed") + " of its law " + d.law.text + " jumps at t = " + when + " s, from " +
-                         number(from) + " to " + number(to) + " " + unit + ": that is an impact; let it change over some time, for example with step(t, " +
-                         when + " s, " + number(b.after + 0.01 * scene.run.until) + " s)");
+                         number_text(from, 9) + " to " + number_text(to, 9) + " " + unit + ": that is an impact; let it change over some time, for example with step(t, " +
+                         when + " s, " + number_text(b.after + 0.01 * scene.run.until, 9) + " s)");
   }
 }
 

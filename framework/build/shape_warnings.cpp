@@ -6,12 +6,13 @@
 #include "framework/bodies/elastic_parts.h"
 #include "framework/bodies/modal_basis.h"
 #include "framework/build/choose_method.h"
+#include "framework/common/text.h"
 
 namespace pintle {
 
 namespace {
 
-std::string percent(double part) { return shown_number(std::round(1000 * part) / 10) + " %"; }
+std::string percent(double part) { return number_text(std::round(1000 * part) / 10) + " %"; }
 
 /// ∂f/∂δ at the depth that a hundredth of the motion's speed reaches, or at a hundredth of the clearance where nothing moves yet [N/m].
 double stiffness_of_blow(const System& system, const ContactPair& pair, double motion) {

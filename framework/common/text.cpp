@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 namespace pintle {
 
@@ -12,6 +13,15 @@ std::string csv_field(const std::string& s) {
   out += '"';
   return out;
 }
+
+std::string number_text(double x, int digits) {
+  std::ostringstream s;
+  s.precision(digits);
+  s << x;
+  return s.str();
+}
+
+std::string quoted(const std::string& s) { return "\"" + s + "\""; }
 
 void append_number(std::string& out, double x) {
   if (std::isnan(x)) return;

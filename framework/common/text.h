@@ -2,12 +2,14 @@
 
 #include <string>
 
-#include "framework/common/file.h"
-
 namespace pintle {
 
 /// A field of a CSV file, in quotes where it must be.
 std::string csv_field(const std::string&);
+/// A number for messages, with this many significant digits: "0.1".
+std::string number_text(double, int digits = 4);
+/// In double quotes.
+std::string quoted(const std::string&);
 /// The shortest decimal that reads back as x; nothing for NaN, which is an empty field.
 void append_number(std::string& out, double x);
 

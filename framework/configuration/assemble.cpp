@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 
+#include "framework/common/index.h"
 #include "framework/configuration/closure.h"
 #include "framework/configuration/equilibrium.h"
 #include "framework/configuration/ideal_pin.h"
@@ -23,7 +24,6 @@ using Eigen::VectorXd;
 using Index = Eigen::Index;
 using Sparse = Eigen::SparseMatrix<double>;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Where the scene says something of this name.
 Place place_of(const Scene& scene, const std::string& name) {

@@ -9,6 +9,7 @@
 #include <Eigen/SparseCore>
 
 #include "eigen_layout.h"
+#include "framework/common/index.h"
 #include "framework/configuration/row_space.h"
 #include "framework/scene/scene.h"
 
@@ -128,7 +129,6 @@ class Closure {
   }
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   Index first(std::size_t contact) const { return system_.n_rows() + 2 * static_cast<Index>(contact); }
   Index first_pin() const { return first(offset_.size()); }
   Eigen::Vector2d arm(const VectorXd& y, const Pin& pin) const {

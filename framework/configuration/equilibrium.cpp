@@ -6,6 +6,8 @@
 #include <optional>
 #include <sstream>
 
+#include "framework/common/index.h"
+#include "framework/common/text.h"
 #include "framework/dynamics/newton/kkt.h"
 
 namespace pintle {
@@ -15,14 +17,6 @@ namespace {
 using Eigen::VectorXd;
 using Index = Eigen::Index;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-std::string number_text(double x) {
-  std::ostringstream s;
-  s.precision(4);
-  s << x;
-  return s.str();
-}
 
 /// Drivers held where their laws are at t.
 void hold_drivers(const System& from, double t, System& held) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/common/index.h"
 #include "framework/configuration/assemble.h"
 #include "framework/integration/integrator.h"
 
@@ -13,7 +14,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Clearances without constraint rows; no force acts in them before they close.
 System opened(const System& system) {

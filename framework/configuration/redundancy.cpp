@@ -8,6 +8,8 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include "framework/common/index.h"
+#include "framework/common/text.h"
 #include "framework/configuration/least_step.h"
 
 namespace pintle {
@@ -19,7 +21,6 @@ using Eigen::VectorXd;
 using Index = Eigen::Index;
 using Sparse = Eigen::SparseMatrix<double>;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 int joint_of(const System& system, int row) {
   const auto next = std::upper_bound(system.row_begin.begin(), system.row_begin.end(), row);
@@ -128,8 +129,6 @@ Judged judged(const System& system, double t, const VectorXd& y, const std::vect
   return out;
 }
 
-std::string quoted(const std::string& name) { return "\"" + name + "\""; }
-
 /// "a", "b" and "c"
 std::string listed(const std::vector<std::string>& names) {
   std::string out;
@@ -152,13 +151,6 @@ const TimeLaw* law_of(const Joint& joint) {
   if (const auto* j = std::get_if<AngleDriver>(&joint)) return &j->law;
   if (const auto* j = std::get_if<DistanceDriver>(&joint)) return &j->law;
   return nullptr;
-}
-
-std::string number(double x) {
-  std::ostringstream s;
-  s.precision(4);
-  s << x;
-  return s.str();
 }
 
 struct Driven {
@@ -301,7 +293,7 @@ std::string contradiction(const System& system, double t, const VectorXd& y, dou
     if (names.empty()) continue;
     const std::string who = names.size() > 1 ? "the drivers " + listed(names) + " contradict each other"
                                              : "the driver " + listed(names) + " moves what " + listed(names_in(system, d, false)) + " hold";
-    if (contradiction_of_accelerations(system, t, y, d) > 1e-5) return who + ": at t = " + number(t) + " s they ask different accelerations of one freedom";
+    if (contradiction_of_accelerations(system, t, y, d) > 1e-5) return who + ": at t = " + number_text(t) + " s they ask different accelerations of one freedom";
     const std::vector<Driven> drivers = driven_by(system, d);
     const bool constant = std::all_of(all.near.begin(), all.near.end(), [&](const std::vector<Dependence>& there) {
       return std::any_of(there.begin(), there.end(), [&](const Dependence& e) {
@@ -310,7 +302,7 @@ std::string contradiction(const System& system, double t, const VectorXd& y, dou
     });
     if (constant)
       if (const auto conflict = first_contradiction(drivers, t, until))
-        return who + ": from t = " + number(conflict->first) + " s on, apart by " + number(conflict->second) + " there";
+        return who + ": from t = " + number_text(conflict->first) + " s on, apart by " + number_text(conflict->second) + " there";
   }
   return "";
 }
@@ -332,7 +324,7 @@ std::string explain_pose(const System& system, double t, const VectorXd& y) {
     if (drivers.empty()) return "a singular pose: the rows of " + others + " have become dependent on each other there";
     const auto driver = std::find(system.joint_names.begin(), system.joint_names.end(), drivers.front()) - system.joint_names.begin();
     const Joint& joint = system.joints[static_cast<std::size_t>(driver)];
-    return "a dead centre: the driver " + listed(drivers) + " cannot move past " + number((*law_of(joint))(t).value) +
+    return "a dead centre: the driver " + listed(drivers) + " cannot move past " + number_text((*law_of(joint))(t).value) +
            (std::holds_alternative<AngleDriver>(joint) ? " rad" : " m") + (others.empty() ? "" : ", where " + others + " hold against it");
   }
   for (const Dependence& d : permanent)

@@ -9,6 +9,8 @@
 
 #include <Eigen/SparseCore>
 
+#include "framework/common/index.h"
+
 namespace pintle {
 
 namespace {
@@ -20,7 +22,6 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double weightless = 1e-6;  ///< of the largest weight of a dependence
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// diag(row_scale) Cq diag(scale)
 Sparse scaled_jacobian(const System& system, const Equations& eq) {

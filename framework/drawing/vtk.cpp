@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "framework/common/file.h"
 #include "framework/common/file_names.h"
 #include "framework/common/text.h"
 #include "framework/drawing/vtk_encoder.h"

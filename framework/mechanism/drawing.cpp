@@ -6,12 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/common/index.h"
+
 namespace pintle {
 
 namespace {
 
 using Eigen::Vector2d;
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<Vector2d> circle(const Vector2d& center, double radius, int points = 48) {
   std::vector<Vector2d> out;

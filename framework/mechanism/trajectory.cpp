@@ -5,11 +5,11 @@
 #include <Eigen/Geometry>
 
 #include "elements/plane.h"
+#include "framework/common/index.h"
 
 namespace pintle {
 
 namespace {
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::string body_name(const System& system, int marker) {
   const int body = system.markers[at(marker)].body;

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "framework/common/file.h"
 #include "framework/common/text.h"
 #include "framework/configuration/equilibrium.h"
 #include "framework/scene/yaml/json_text.h"

@@ -5,6 +5,7 @@
 
 #include "framework/analysis/kinematics/inverse.h"
 #include "framework/analysis/kinematics/kinematics.h"
+#include "framework/common/file.h"
 #include "framework/common/file_names.h"
 #include "framework/common/text.h"
 #include "framework/output/results.h"

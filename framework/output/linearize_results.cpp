@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/analysis/linearize/linearize.h"
+#include "framework/common/file.h"
 #include "framework/common/text.h"
 #include "framework/scene/yaml/json_text.h"
 

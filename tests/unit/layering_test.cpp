@@ -47,7 +47,7 @@ const std::vector<Layer> layers{
     {"framework/bodies/", {"files/", "meshes/", "framework/common/", "framework/scene/", "framework/component/", "framework/dynamics/"}},
     {"framework/drawing/", {"elements/", "meshes/", "framework/common/", "framework/component/", "framework/bodies/"}},
     {"framework/mechanism/", {"elements/", "framework/common/", "framework/dynamics/", "framework/integration/", "framework/bodies/", "framework/drawing/"}},
-    {"framework/configuration/", {"framework/scene/", "framework/dynamics/", "framework/integration/", "framework/mechanism/"}},
+    {"framework/configuration/", {"framework/common/", "framework/scene/", "framework/dynamics/", "framework/integration/", "framework/mechanism/"}},
     {"framework/build/", {"framework/common/", "framework/scene/", "framework/component/", "framework/dynamics/model/",
                           "framework/integration/", "framework/bodies/", "framework/mechanism/", "framework/configuration/"}},
 

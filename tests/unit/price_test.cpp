@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "framework/analysis/cost/cost_estimate.h"
+#include "framework/analysis/simulate/simulate.h"
 #include "framework/analysis/cost/simpler.h"
 #include "framework/mechanism/table.h"
 #include "framework/scene/yaml/reader.h"

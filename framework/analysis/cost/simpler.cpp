@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "framework/build/choose_method.h"
+#include "framework/common/index.h"
 #include "framework/configuration/assemble.h"
 
 namespace pintle {
@@ -15,7 +16,6 @@ namespace {
 
 using Eigen::Index;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Keeps the first n shapes of a body, none for a rigid one.
 void keep_shapes(System& system, int body, int n) {

@@ -8,6 +8,7 @@
 #include <Eigen/SVD>
 
 #include "framework/analysis/simulate/end_short.h"
+#include "framework/common/text.h"
 #include "framework/common/worse.h"
 #include "framework/scene/error.h"
 
@@ -17,13 +18,6 @@ namespace {
 
 using Eigen::VectorXd;
 using Index = Eigen::Index;
-
-std::string number_text(double x) {
-  std::ostringstream s;
-  s.precision(6);
-  s << x;
-  return s.str();
-}
 
 std::string listed(const std::vector<std::string>& all) {
   std::string out;
@@ -61,7 +55,7 @@ std::vector<double> frame_times(const Scene& scene) {
 DrivenMotion::DrivenMotion(const System& system, State start)
     : system_(system), eq_(system), state_(std::move(start)), a_(VectorXd::Zero(system.n())), gamma_(VectorXd::Zero(system.n_rows())) {
   state_.impact_rate.resize(system.contacts.size(), 0.0);
-  if (!settle(state_, a_)) failure_ = "t = " + number_text(state_.t) + " s: " + why();
+  if (!settle(state_, a_)) failure_ = "t = " + number_text(state_.t, 6) + " s: " + why();
 }
 
 bool DrivenMotion::settle(State& state, VectorXd& a) {
@@ -131,7 +125,7 @@ bool DrivenMotion::advance(double t) {
     ++rejected_;
     h_ = h / 3;
     if (h_ < 1e-11 * std::max(std::abs(t), left)) {
-      failure_ = "t = " + number_text(state_.t) + " s: " + why();
+      failure_ = "t = " + number_text(state_.t, 6) + " s: " + why();
       settle(state_, a_);
       return false;
     }
@@ -157,7 +151,7 @@ std::string DrivenMotion::why() {
       if (v.segment<3>(static_cast<Index>(3 * b)).norm() > 0.1) moving.push_back(system_.bodies[b].name);
     std::string at_pose;
     for (std::size_t b = 0; b < system_.bodies.size() && b < 4; ++b)
-      at_pose += (b ? ", " : "") + system_.bodies[b].name + " " + number_text(state_.y[static_cast<Index>(3 * b) + 2]) + " rad";
+      at_pose += (b ? ", " : "") + system_.bodies[b].name + " " + number_text(state_.y[static_cast<Index>(3 * b) + 2], 6) + " rad";
     if (svd.singularValues()[last] > 1e-3 * svd.singularValues()[0])
       return "nothing near the angles " + at_pose + " does what the law of " + listed(asking) +
              " says: drivers fight, a law jumps, or a length is out of reach; correct the law";

@@ -10,6 +10,7 @@
 
 #include "framework/analysis/linearize/quadratic_roots.h"
 #include "framework/analysis/linearize/state_space.h"
+#include "framework/common/index.h"
 #include "framework/scene/error.h"
 
 namespace pintle {
@@ -22,7 +23,6 @@ using Complex = std::complex<double>;
 
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 std::string text(double x, int digits = 4) {
   std::ostringstream s;

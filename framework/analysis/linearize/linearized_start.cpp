@@ -5,6 +5,7 @@
 #include "framework/analysis/kinematics/inverse.h"
 #include "framework/analysis/linearize/linearize.h"
 #include "framework/bodies/elastic_parts.h"
+#include "framework/common/text.h"
 
 namespace pintle {
 
@@ -61,10 +62,10 @@ LinearizedStart linearized_start(const Scene& scene, const Model& model, const A
   if (!(left > nothing)) return out;
   const State there = steady_start(model, assembly).start;
   if (steady(system, there)) {
-    out.note = "flexible bodies are bent as they stay in steady rotation, \"" + body + "\" by " + shown_number(100 * left) + " % of its size";
+    out.note = "flexible bodies are bent as they stay in steady rotation, \"" + body + "\" by " + number_text(100 * left) + " % of its size";
     out.state = there;
   } else {
-    out.note = "flexible bodies start undeformed, where nothing balances what bends them (\"" + body + "\" by some " + shown_number(100 * left) +
+    out.note = "flexible bodies start undeformed, where nothing balances what bends them (\"" + body + "\" by some " + number_text(100 * left) +
                " % of its size): the roots lack that; linearize at a later time with --at, where damping has brought them to rest, or keep the spin by a driver" +
                (scene.has_run ? "" : " (needs `run`)");
   }

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "framework/common/index.h"
 #include "framework/mechanism/trajectory.h"
 
 namespace pintle {
@@ -13,7 +14,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Generalised forces of the loads' inputs, a column each.
 MatrixXd load_inputs(const System& system, const Equations& eq, std::vector<std::string>& names) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/bodies/elastic_parts.h"
+#include "framework/common/text.h"
 
 namespace pintle {
 
@@ -56,7 +57,7 @@ std::string DeflectionMonitor::beyond_limits() const {
   for (std::size_t k = 0; k < bent_.size(); ++k) {
     if (!(bent_[k].deflection > greatest_deflection)) continue;
     const std::string why = warning_of_loads(k);
-    return "t = " + shown_number(t_) + " s: " + deflection_warning(model_.bending[k].body, bent_[k].deflection, bent_[k].slope, "bent") +
+    return "t = " + number_text(t_) + " s: " + deflection_warning(model_.bending[k].body, bent_[k].deflection, bent_[k].slope, "bent") +
            (why.empty() ? "" : "; " + why);
   }
   return "";

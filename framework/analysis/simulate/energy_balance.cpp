@@ -4,16 +4,11 @@
 #include <cmath>
 #include <sstream>
 
+#include "framework/common/text.h"
+
 namespace pintle {
 
 namespace {
-
-std::string number_text(double x, int digits) {
-  std::ostringstream s;
-  s.precision(digits);
-  s << x;
-  return s.str();
-}
 
 /// Sliding that does no work of its force leaves its own energy open, which says nothing of the other rows.
 bool books_agree_with_model(const System& system) {

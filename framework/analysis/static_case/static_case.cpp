@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/bodies/in_body.h"
+#include "framework/common/file.h"
 #include "framework/common/text.h"
 #include "framework/component/reduction/modal_model.h"
 #include "framework/drawing/body_drawing.h"

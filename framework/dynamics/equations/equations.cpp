@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/common/index.h"
 #include "framework/common/worse.h"
 #include "framework/dynamics/equations/bifurcation.h"
 
@@ -15,7 +16,6 @@ using Modal = Eigen::Map<const VectorXd>;
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // v ← M⁻¹ v
 void multiply_inverse_mass(const System& system, Equations& eq, VectorXd& v) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "framework/common/index.h"
 #include "framework/dynamics/equations/equations.h"
 
 namespace pintle {
@@ -11,7 +12,6 @@ using Eigen::VectorXd;
 using Index = Eigen::Index;
 
 namespace {
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 Equations::Equations(const System& system)

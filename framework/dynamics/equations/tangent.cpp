@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "framework/common/index.h"
+
 namespace pintle {
 
 using Eigen::Index;
@@ -14,7 +16,6 @@ using Block = Eigen::Map<Eigen::MatrixXd>;
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 int size_of(const System& system, int body) { return 3 + system.bodies[at(body)].modes(); }
 

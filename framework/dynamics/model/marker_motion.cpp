@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "framework/common/index.h"
+
 namespace pintle {
 
 namespace {
@@ -11,7 +13,6 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 using Modal = Eigen::Map<const VectorXd>;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Displacement per modal coordinate i where the body is, body axes; takes off x what the square of η_i was counted twice.
 Vector2d shape_at(const Marker& marker, Index i, const Modal& eta, Vector2d& x) {

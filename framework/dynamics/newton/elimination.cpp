@@ -4,13 +4,13 @@
 #include <cstddef>
 #include <numeric>
 
+#include "framework/common/index.h"
 #include "framework/dynamics/solvers/sparse_ldl.h"
 
 namespace pintle {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Body of each coordinate.
 std::vector<int> bodies_of(const System& system) {

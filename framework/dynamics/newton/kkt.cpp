@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "framework/common/binary.h"
+#include "framework/common/index.h"
 #include "framework/dynamics/newton/elimination.h"
 #include "framework/dynamics/solvers/dependent_rows.h"
 #include "framework/dynamics/solvers/sparse_lu.h"
@@ -19,7 +20,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr int retry = 16;  // factorizations with the shift before one is tried without
 }  // namespace

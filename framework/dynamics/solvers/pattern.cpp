@@ -3,11 +3,12 @@
 #include <cstddef>
 #include <numeric>
 
+#include "framework/common/index.h"
+
 namespace pintle {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Indices of `in` ordered by key, equal keys in the order they have.
 template <class Key>

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "framework/common/index.h"
 #include "framework/dynamics/solvers/dependent_rows.h"
 #include "framework/dynamics/solvers/sparse_ldl.h"
 
@@ -15,7 +16,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // f(n), with n known to the compiler where it is small.
 template <class F>

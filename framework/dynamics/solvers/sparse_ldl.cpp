@@ -11,11 +11,12 @@ extern "C" {  // it says nothing of C++
 #include <new>
 #include <utility>
 
+#include "framework/common/index.h"
+
 namespace pintle {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 cholmod_sparse upper(Pattern& p, double* values) {
   cholmod_sparse A{};

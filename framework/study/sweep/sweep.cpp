@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "files/files.h"
+#include "framework/common/file.h"
 #include "framework/common/text.h"
 #include "framework/study/sweep/worker_pool.h"
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "framework/common/file.h"
 #include "framework/common/printed.h"
 #include "framework/common/text.h"
 #include "framework/scene/yaml/json_text.h"
