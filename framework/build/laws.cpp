@@ -6,6 +6,7 @@
 
 #include "framework/common/text.h"
 #include "framework/scene/error.h"
+#include "framework/scene/law_pole.h"
 #include "framework/scene/units/law_scale.h"
 
 namespace pintle {
@@ -33,6 +34,26 @@ void validate_jumps(const Scene& scene, const SceneDriver& d, const LawScale& sc
   }
 }
 
+/// Between the moments that the reader looks at.
+void validate_finite(const Scene& scene, const Law& law, const Place& place, const LawScale& scale, bool driver) {
+  const auto fail = [&](const char* what, double t) {
+    throw SceneError(scene.file, place, "its law " + law.text + " " + what + " at t = " + number(t) + " s; write one that stays finite from 0 to run.until, or end the run before");
+  };
+  if (!std::isnan(scale.not_finite)) fail("is not a finite number", scale.not_finite);
+  if (const auto pole = pole_of(law.at, scene.run.until, driver)) fail("grows beyond all bounds", *pole);
+}
+
+/// Calls f(law, name, place, driver or nullptr) for each law of time.
+template <class F>
+void each_law(const Scene& scene, F f) {
+  for (const SceneDriver& d : scene.drivers) f(d.law, d.name, d.place, &d);
+  for (const SceneLoad& l : scene.loads) {
+    const auto see = [&](const Law& law) { f(law, l.name, l.place, static_cast<const SceneDriver*>(nullptr)); };
+    if (const auto* force = std::get_if<SceneForce>(&l.what)) see(force->x), see(force->y);
+    if (const auto* torque = std::get_if<SceneTorque>(&l.what)) see(torque->law);
+  }
+}
+
 bool accelerates_anew(const LawBreak& b) {
   return std::abs(b.right.accel - b.left.accel) > 1e-9 * std::max(std::abs(b.left.accel), std::abs(b.right.accel));
 }
@@ -56,21 +77,39 @@ void follow_laws(const Scene& scene, Scheme& scheme) {
   if (run.max_step > 0) scheme.max_step = run.max_step;
   if (!scene.has_run) return;
   bool known = true;
-  const auto see = [&](const Law& law, const SceneDriver* driver) {
+  each_law(scene, [&](const Law& law, const std::string&, const Place& place, const SceneDriver* driver) {
     if (stands_still(law, run.until)) return;
     LawScale scale = scale_of(law.at, run.until);
+    validate_finite(scene, law, place, scale, driver != nullptr);
     if (driver) validate_jumps(scene, *driver, scale);
     known = known && scale.known;
     for (const LawBreak& b : scale.breaks) scheme.changes.push_back({b.before, b.after, driver ? accelerates_anew(b) : value_jumps(b)});
     if (scale.pieces.size() > 1) scheme.pieces.push_back(std::move(scale.pieces));
-  };
-  for (const SceneDriver& d : scene.drivers) see(d.law, &d);
-  for (const SceneLoad& l : scene.loads) {
-    if (const auto* f = std::get_if<SceneForce>(&l.what)) see(f->x, nullptr), see(f->y, nullptr);
-    if (const auto* q = std::get_if<SceneTorque>(&l.what)) see(q->law, nullptr);
-  }
+  });
   order(scheme.changes);
   if (!known && run.max_step <= 0) scheme.max_step = run.until / steps_through_laws;
+}
+
+std::string explain_laws(const Scene& scene, double t) {
+  constexpr int looks = 32;
+  constexpr double steep = 1e3;
+  std::string out;
+  each_law(scene, [&](const Law& law, const std::string& name, const Place& place, const SceneDriver*) {
+    if (!out.empty() || scale_of(law.at, scene.run.until).known) return;
+    const std::string line = place.line > 0 ? ":" + std::to_string(place.line) : std::string();
+    const std::string which = "the law" + (law.text.empty() ? "" : " " + law.text) + " of \"" + name + "\" (" + scene.file + line + ") ";
+    const Jet now = law.at(t), then = law.at(t + 1e-9 * scene.run.until);
+    double before = 0;
+    for (int i = 0; i < looks; ++i) {
+      const Jet jet = law.at(0.95 * t * i / looks);
+      before = std::max({before, std::abs(jet.value), std::abs(jet.rate) * t});
+    }
+    if (!std::isfinite(now.value + now.rate + then.value + then.rate)) out = which + "is not a finite number there; write one that is";
+    else if (std::abs(now.rate) * t > steep * before)
+      out = which + "has come to " + number(now.value) + " and changes by " + number(now.rate) +
+            " a second there: it seems to grow beyond all bounds; write one that stays finite, or end the run before (run.until)";
+  });
+  return out;
 }
 
 }  // namespace pintle

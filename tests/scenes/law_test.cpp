@@ -118,6 +118,49 @@ TEST(TimeLaws, ADriverWhoseLawJumpsInPlaceOrSpeedIsRefusedWithItsTime) {
   }
 }
 
+TEST(TimeLaws, AnyWhoseValueHasAPoleIsRefusedWithItsTime) {
+  struct Case {
+    std::string law, when;
+  };
+  for (const Case& c : std::vector<Case>{{"tan(3*t)", "t = 0.52359877"},
+                                         {"1/(t - 0.5003)", "t = 0.5003 s"},
+                                         {"7 + 1e-6/(t - 0.5003)^2", "t = 0.5003 s"},
+                                         {"1/sqrt(abs(t - 0.123))", "t = 0.123 s"},
+                                         {"1/sin(pi*(t + 0.3))", "t = 0.7 s"},
+                                         {"sqrt((t - 0.7)^2 - 1e-12)", "t = 0.699999 s"},
+                                         {"if(t > 0.4, 1/(t - 0.4003), 0)", "t = 0.4003 s"}})
+    for (const bool driver : {true, false}) {
+      const std::string message = refusal(driver ? driven(angle_law(c.law)) : pushed(torque_law(c.law)));
+      EXPECT_TRUE(says(message, c.law) && says(message, c.when) && says(message, "finite")) << c.law << ": " << message;
+      EXPECT_EQ(says(message, ":17: drivers.motor"), driver) << message;
+    }
+  for (const char* law : {"sqrt(abs(t - 0.5003))", "log(abs(t - 0.5003))"}) EXPECT_TRUE(says(refusal(driven(angle_law(law))), "0.5003")) << law;
+}
+
+TEST(TimeLaws, OnesThatStayFiniteAreNoPoles) {
+  for (const char* law : {"tan(t)", "1/(t + 1e-3)", "1/((t - 0.5)^2 + 1e-4)", "if(t < 0.4, 1/(t - 0.4 - 1e-3), -1000)", "sqrt((t - 0.5)^2)",
+                          "if(abs(t - 0.5) < 1e-3, 1000, 1/abs(t - 0.5))", "log(abs(t - 0.5003))", "t/(t + 1)", "sqrt(abs(t - 0.5003))"})
+    EXPECT_EQ(refusal(pushed(torque_law(law))), "") << law;
+  for (const char* law : {"tan(t)", "1/(t + 1e-2)", "abs(t - 0.3)^1.7", "atan(100*(t - 0.5))"}) EXPECT_EQ(refusal(driven(angle_law(law))), "") << law;
+}
+
+// The host's own functions cannot be looked into: there the run ends at the pole and names the law.
+TEST(TimeLaws, APoleThatOnlyTheRunMeetsIsNamedWithItsLine) {
+  const auto tangent = [](double t) {
+    const double x = std::tan(3 * t), slope = 3 * (1 + x * x);
+    return Jet{x, slope, 6 * x * slope};
+  };
+  Scene s = driven({tangent, "tan(3 t)", false});
+  s.run.tolerance = 1e-3;
+  const Whole w = run(s);
+  EXPECT_EQ(w.run.status, Status::failed);
+  EXPECT_TRUE(says(w.run.reason, "t = 0.523") && says(w.run.reason, "tan(3 t)") && says(w.run.reason, "\"motor\"") && says(w.run.reason, ":17)")) << w.run.reason;
+  const auto ends = [](double t) { return t < 0.6 ? Jet{t, 1, 0} : Jet{std::nan(""), 0, 0}; };
+  const Whole n = run(driven({ends, "mine", false}));
+  EXPECT_EQ(n.run.status, Status::failed);
+  EXPECT_TRUE(says(n.run.reason, "mine") && says(n.run.reason, ":17)") && says(n.run.reason, "finite")) << n.run.reason;
+}
+
 // Jumps of the acceleration are no impacts: half a turn, quickening for the first half of the time and slowing for the other.
 TEST(TimeLaws, ADriverMayJumpInAcceleration) {
   for (const std::string& method : methods) {

@@ -10,6 +10,7 @@
 #include "framework/analysis/simulate/end_short.h"
 #include "framework/analysis/simulate/slow_contact.h"
 #include "framework/analysis/simulate/deflection_monitor.h"
+#include "framework/build/laws.h"
 #include "framework/common/worse.h"
 
 namespace pintle {
@@ -295,7 +296,8 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
     run.reason = integrator.failure();
     const State& at = integrator.state();
     integrator.sample(at.t, sampled);
-    std::string why = run.reason.empty() || !at.y.allFinite() ? "" : explain_pose(system, at.t, at.y);
+    std::string why = run.reason.empty() ? "" : explain_laws(scene, at.t);
+    if (why.empty() && !run.reason.empty() && at.y.allFinite()) why = explain_pose(system, at.t, at.y);
     if (why.empty() && !run.reason.empty()) why = explain_numbers(system, integrator);
     if (why.empty() && !run.reason.empty()) why = monitor.worst_warning();
     if (!why.empty()) run.reason += "; " + why;

@@ -1,14 +1,11 @@
 #include "framework/scene/units/law_scale.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <queue>
-#include <type_traits>
 
-#include "framework/scene/units/jet.h"
-#include "framework/scene/units/range.h"
+#include "framework/scene/machine.h"
 #include "framework/scene/units/table.h"
 
 namespace pintle {
@@ -21,46 +18,6 @@ constexpr double narrowest = 1e-13;     // of the time, or of the run: no interv
 constexpr int most_intervals = 40'000;  // looked at for one law
 
 double roundings(double t, int n) { return n * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), 1e-300); }
-
-/// A formula over jets or over ranges of them, as far as wanted.
-template <class Value>
-class Machine {
- public:
-  /// The operands on the stack before instruction `count`, the last ones at the end.
-  const Value* run(const Program& program, std::size_t count, const Value& time) {
-    std::size_t top = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto& [op, value] = program.code[i];
-      if (op == Op::constant) {
-        stack_[top++] = constant(value);
-      } else if (op == Op::time) {
-        stack_[top++] = time;
-      } else if (op <= Op::smooth) {
-        stack_[top - 1] = apply(op, stack_[top - 1]);
-      } else if (op < Op::choose) {
-        --top;
-        stack_[top - 1] = apply(op, stack_[top - 1], stack_[top]);
-      } else {
-        top -= 2;
-        stack_[top - 1] = chosen(stack_[top - 1], stack_[top], stack_[top + 1]);
-      }
-    }
-    return stack_.data() + top;
-  }
-
- private:
-  static Value constant(double x) {
-    if constexpr (std::is_same_v<Value, Jet>) return {x, 0, 0};
-    else return {{x, x}, {0, 0}};
-  }
-  static Value chosen(const Value& condition, const Value& then, const Value& otherwise) {
-    if constexpr (std::is_same_v<Value, Jet>) return condition.value != 0 ? then : otherwise;
-    else return choose(condition, then, otherwise);
-  }
-  std::array<Value, Program::most_stacked> stack_;
-};
-
-RangeJet time_from(double a, double b) { return {{a, b}, {1, 1}}; }
 
 /// A function whose sign decides what a law does: the operand of an instruction, or the difference of two, less `offset`.
 struct Switch {
@@ -189,7 +146,7 @@ class Spread {
  public:
   Spread(const TimeLaw& law, double until) : first_(law(0).value), slope_((law(until).value - first_) / until) {}
   void see(const Sample& s) {
-    if (!std::isfinite(s.jet.value)) return;
+    if (!std::isfinite(s.jet.value)) return void(not_finite_ = std::isnan(not_finite_) ? s.t : std::min(not_finite_, s.t));
     const double off = s.jet.value - first_ - slope_ * s.t;
     least_ = std::min(least_, off), most_ = std::max(most_, off), size_ = std::max(size_, std::abs(s.jet.value));
     lowest_ = std::min(lowest_, s.jet.value), highest_ = std::max(highest_, s.jet.value);
@@ -198,9 +155,11 @@ class Spread {
   double seen() const { return highest_ - lowest_; }
   double little() const { return part * (most_ - least_) + known_to * size_; }
   double fastest() const { return fastest_; }
+  double not_finite() const { return not_finite_; }
 
  private:
   double first_, slope_, least_ = 0, most_ = 0, size_ = 0, fastest_ = 0;
+  double not_finite_ = std::numeric_limits<double>::quiet_NaN();
   double lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;
 };
 
@@ -328,9 +287,12 @@ LawScale of_formula(const Program& program, const TimeLaw& law, double until) {
   }
   between.emplace_back(begin, until);
   for (const auto& [a, b] : between) sampling.begin(a, b);
-  if (!sampling.refine(until)) return {};
+  const bool fine = sampling.refine(until);
+  LawScale unknown;
+  out.not_finite = unknown.not_finite = spread.not_finite();
+  if (!fine) return unknown;
   for (const auto& [a, b] : between)
-    if (!divide(law, a, b, sampling.samples(), spread.little(), until, out.pieces)) return {};
+    if (!divide(law, a, b, sampling.samples(), spread.little(), until, out.pieces)) return unknown;
   out.fastest = spread.fastest();
   out.known = true;
   return out;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "framework/common/time_law.h"
@@ -18,6 +19,7 @@ struct LawScale {
   std::vector<LawBreak> breaks;  ///< in order; ends of step(…) among them, though smooth
   std::vector<double> pieces;    ///< ends of the times in which it is as smooth as a polynomial of fifth degree, up to `until`
   double fastest = 0;            ///< greatest |rate| seen [1/s]
+  double not_finite = std::numeric_limits<double>::quiet_NaN();  ///< the first moment seen at which the value is no number [s]
 };
 
 /// Of a formula found by its parts: roots of what its conditions, abs, min, max and step compare, and bounds of its rate over
