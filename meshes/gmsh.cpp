@@ -13,6 +13,7 @@
 #include "meshes/limits.h"
 #include "meshes/link_lattice.h"
 #include "meshes/mesher.h"
+#include "meshes/msh_text.h"
 #include "meshes/refuse.h"
 
 namespace pintle {
@@ -21,7 +22,8 @@ namespace {
 
 using Eigen::Vector2d;
 namespace fs = std::filesystem;
-constexpr std::size_t most_bytes = std::size_t{100} << 20;  // of a script
+constexpr std::size_t most_bytes = std::size_t{100} << 20;      // of a script
+constexpr std::size_t most_mesh_bytes = std::size_t{1} << 30;
 
 void judge(const std::string& name, const MeshOptions& o, double scale) {
   if (corners_of(o.shape) == 2)
@@ -93,7 +95,10 @@ Mesh read_geometry(const fs::path& path, const MeshOptions& o, double scale, con
     reject(name, ": \"", kind,
            "\" is no kind of drawing known here; .geo, .step, .stp, .brep and .msh are");
   try {
-    validate_head(name, kind, kind == ".geo" ? read_file(path, most_bytes) : read_head(path, 4096));
+    const bool all = kind == ".geo" || kind == ".msh";
+    const std::string text = all ? read_file(path, kind == ".geo" ? most_bytes : most_mesh_bytes) : read_head(path, 4096);
+    validate_head(name, kind, text);
+    if (kind == ".msh") validate_msh(name, text);
   } catch (const FileRefused& e) {
     throw std::runtime_error(name + ": " + e.what());
   }

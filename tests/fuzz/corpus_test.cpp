@@ -31,6 +31,9 @@ TEST(Corpus, OfStudiesIsReadOrRefused) { replay("study", fuzz_study); }
 TEST(Corpus, OfTablesIsReadOrRefused) { replay("table", fuzz_table); }
 TEST(Corpus, OfInputFilesIsReadOrRefused) { replay("inp", fuzz_inp); }
 TEST(Corpus, OfTheMeshersAnswersIsReadOrRefused) { replay("wire", fuzz_wire); }
+TEST(Corpus, OfMeshesIsReadOrRefused) { replay("msh", fuzz_msh); }
+TEST(Corpus, OfSavedStatesIsReadOrRefused) { replay("state", fuzz_state); }
+TEST(Corpus, OfSweepJournalsIsReadOrRefused) { replay("journal", fuzz_journal); }
 
 }  // namespace
 }  // namespace pintle
