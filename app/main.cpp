@@ -13,6 +13,7 @@
 
 #include "app/options.h"
 #include "app/progress.h"
+#include "framework/run/library_threads.h"
 #include "framework/scene/error.h"
 #include "meshes/limits.h"
 
@@ -236,7 +237,10 @@ int carry_out(int argc, char** argv) {
     return app.exit(e) == 0 ? ok : bad_scene;
   }
   set_bounds(options);
-  const int exit = commands.at(app.get_subcommands().front())(options);
+  CLI::App* const command = app.get_subcommands().front();
+  const std::string name = command->get_name();
+  if (name != "modes" && name != "static" && name != "mesh") hold_library_threads();  // a run is the same on any number of cores
+  const int exit = commands.at(command)(options);
   if (std::cout.flush()) return exit;
   std::cerr << "pintle: what there was to print could not be written to standard output\n";
   return exit == ok ? trouble : exit;

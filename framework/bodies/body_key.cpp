@@ -1,15 +1,14 @@
 #include "framework/bodies/body_key.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <filesystem>
 #include <iterator>
 #include <string_view>
-#include <type_traits>
 
 #include "files/files.h"
 #include "framework/bodies/elastic_parts.h"
+#include "framework/run/value_writer.h"
 
 namespace pintle {
 
@@ -17,71 +16,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Writes values one after the other so that no two sequences of them look alike. Structures are taken apart by structured
-/// bindings: with a member more they no longer compile, and whoever adds one decides here whether it counts.
-class Writer {
+class Writer : public ValueWriter<Writer> {
  public:
-  template <class... T>
-  void add_all(const T&... values) { (add(values), ...); }
-
+  using ValueWriter::add;
+  void bytes(std::string_view some) { out_ += some; }
   std::string take() { return std::move(out_); }
-
- private:
-  template <class T>
-    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  void add(const T& value) { out_.append(reinterpret_cast<const char*>(&value), sizeof value); }
-
-  void add(const std::string& text) {
-    add(text.size());
-    out_ += text;
-  }
-
-  template <class T>
-  void add(const std::vector<T>& values) {
-    add(values.size());
-    for (const T& value : values) add(value);
-  }
-
-  template <class T, std::size_t n>
-  void add(const std::array<T, n>& values) {
-    for (const T& value : values) add(value);
-  }
-
-  template <class T>
-  void add(const std::optional<T>& value) {
-    add(value.has_value());
-    if (value) add(*value);
-  }
-
-  template <class... T>
-  void add(const std::variant<T...>& value) {
-    add(value.index());
-    std::visit([&](const auto& one) { add(one); }, value);
-  }
-
-  void add(const Eigen::Vector2d& v) { add_all(v.x(), v.y()); }
 
   void add(const ScenePoint& p) {
     const auto& [name, at, angle, place, hole, coupling] = p;
-    add_all(name, at, angle, hole, coupling);
+    add(name, at, angle, hole, coupling);
   }
 
   void add(const SceneLump& l) {
     const auto& [at, mass, inertia, place] = l;
-    add_all(at, mass, inertia);
+    add(at, mass, inertia);
   }
 
   void add(const Isotropic& m) {
     const auto& [young, poisson] = m;
-    add_all(young, poisson);
+    add(young, poisson);
   }
   void add(const Orthotropic& m) {
     const auto& [young_1, young_2, poisson_12, shear_12, angle, young_3, poisson_13, poisson_23] = m;
-    add_all(young_1, young_2, poisson_12, shear_12, angle, young_3, poisson_13, poisson_23);
+    add(young_1, young_2, poisson_12, shear_12, angle, young_3, poisson_13, poisson_23);
   }
   void add(const Material& m) {
     const auto& [elastic, density] = m;
-    add_all(elastic, density);
+    add(elastic, density);
   }
   void add(const SceneMaterial& m) {
     const auto& [name, material, place] = m;
@@ -90,7 +51,7 @@ class Writer {
 
   void add(const RectangleSection& s) {
     const auto& [height, width] = s;
-    add_all(height, width);
+    add(height, width);
   }
   void add(const CircleSection& s) {
     const auto& [diameter] = s;
@@ -98,36 +59,36 @@ class Writer {
   }
   void add(const TubeSection& s) {
     const auto& [outer, inner] = s;
-    add_all(outer, inner);
+    add(outer, inner);
   }
   void add(const ISection& s) {
     const auto& [height, width, web, flange] = s;
-    add_all(height, width, web, flange);
+    add(height, width, web, flange);
   }
   void add(const GivenSection& s) {
     const auto& [area, second_moment, fibre, shear_factor] = s;
-    add_all(area, second_moment, fibre, shear_factor);
+    add(area, second_moment, fibre, shear_factor);
   }
   void add(const SceneBeam& b) {
     const auto& [through, section, taper_to, theory, shear, rotary, bar, material, mass, elements, pieces] = b;
-    add_all(through, section, taper_to, theory, shear, rotary, bar, material, mass, elements, pieces);
+    add(through, section, taper_to, theory, shear, rotary, bar, material, mass, elements, pieces);
   }
 
   void add(const Eye& e) {
     const auto& [bore, outer] = e;
-    add_all(bore, outer);
+    add(bore, outer);
   }
   void add(const StraightBar& l) {
     const auto& [length, width] = l;
-    add_all(length, width);
+    add(length, width);
   }
   void add(const EyeBar& l) {
     const auto& [length, width, first, second] = l;
-    add_all(length, width, first, second);
+    add(length, width, first, second);
   }
   void add(const TaperedBar& l) {
     const auto& [length, width_left, width_right] = l;
-    add_all(length, width_left, width_right);
+    add(length, width_left, width_right);
   }
   void add(const Triangle& l) {
     const auto& [center, eye] = l;
@@ -136,30 +97,31 @@ class Writer {
   }
   void add(const Disc& l) {
     const auto& [diameter, bore] = l;
-    add_all(diameter, bore);
+    add(diameter, bore);
   }
   void add(const SceneFile& f) {
     const auto& [path, scale, unit_given] = f;
-    add_all(path, scale, unit_given);
+    add(path, scale, unit_given);
   }
   void add(const SceneGrid& g) {
     const auto& [corners, nx, ny] = g;
-    add_all(corners, nx, ny);
+    add(corners, nx, ny);
   }
   void add(const ScenePlate& p) {
     const auto& [shape, thickness, state, state_given, material, mass, element, size, hole_size] = p;
-    add_all(shape, thickness, state, state_given, material, mass, element, size, hole_size);
+    add(shape, thickness, state, state_given, material, mass, element, size, hole_size);
   }
 
   void add(const SceneKeep& k) {
     const auto& [automatic, count, below, effective_mass] = k;
-    add_all(automatic, count, below, effective_mass);
+    add(automatic, count, below, effective_mass);
   }
   void add(const SceneModes& m) {
     const auto& [frame, a, b, method, keep, place] = m;
-    add_all(frame, a, b, method, keep);
+    add(frame, a, b, method, keep);
   }
 
+ private:
   std::string out_;
 };
 
@@ -200,12 +162,12 @@ std::optional<std::string> elements_key(const Scene& scene, const SceneBody& bod
   const auto& [name, mass, inertia, center, points, elastic, at, angle, place] = body;
   const auto& [shape, lumped, lumps, supports, modes, damping, stiffening] = *elastic;
   Writer key;
-  key.add_all(points, shape, lumped, lumps);
+  key.add(points, shape, lumped, lumps);
   if (const auto* plate = std::get_if<ScenePlate>(&shape))
     if (const auto* file = std::get_if<SceneFile>(&plate->shape)) {
       const std::optional<std::string> text = contents(scene, *file);
       if (!text) return {};
-      key.add_all(*text);
+      key.add(*text);
     }
   return key.take();
 }
@@ -213,7 +175,7 @@ std::optional<std::string> elements_key(const Scene& scene, const SceneBody& bod
 std::string reduction_key(const SceneElastic& body, const std::vector<int>& ports, const std::optional<int>& chosen) {
   const auto& [shape, lumped, lumps, supports, modes, damping, stiffening] = body;
   Writer key;
-  key.add_all(modes, stiffening, ports, chosen);
+  key.add(modes, stiffening, ports, chosen);
   return key.take();
 }
 

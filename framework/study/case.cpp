@@ -1,7 +1,5 @@
 #include "framework/study/case.h"
 
-#include <dlfcn.h>
-
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -10,6 +8,7 @@
 
 #include "framework/bodies/segments.h"
 #include "framework/build/build.h"
+#include "framework/run/library_threads.h"
 #include "framework/scene/text_file.h"
 #include "meshes/limits.h"
 
@@ -20,26 +19,6 @@ namespace {
 using clock = std::chrono::steady_clock;
 double since(clock::time_point begin) {
   return std::chrono::duration<double>(clock::now() - begin).count();
-}
-
-/// Libraries that spread one case over threads of their own get in the way of the other cases; and what BLAS splits among
-/// threads is summed in another order, so that its bits would follow the number of cores. Both are sought at run time, for
-/// which BLAS it is, and whether CHOLMOD was built with OpenMP, is the system's choice.
-void one_thread_in_libraries() {
-  using Set = void (*)(int);
-  const auto set = [](const char* name) { return reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, name)); };
-  static const bool blas = [&] {
-    const Set threads = set("openblas_set_num_threads");
-    if (threads != nullptr) threads(1);
-    return true;
-  }();
-  thread_local const bool openmp = [&] {  // settings of each thread
-    const Set threads = set("omp_set_num_threads"), levels = set("omp_set_max_active_levels");
-    if (threads != nullptr) threads(1);
-    if (levels != nullptr) levels(0);  // CHOLMOD asks for four threads whatever their number was set to
-    return true;
-  }();
-  static_cast<void>(blas), static_cast<void>(openmp);
 }
 
 std::string one_line(std::string s) {
@@ -126,7 +105,7 @@ Scene common_scene(const CaseSource& source) {
 }
 
 Outcome run_case(const CaseSource& source, const Overrides& overrides, const std::vector<Measure>& measures, const CaseLimits& limits) {
-  one_thread_in_libraries();
+  hold_library_threads();
   Outcome out;
   out.values.assign(measures.size(), std::numeric_limits<double>::quiet_NaN());
   out.units.resize(measures.size());

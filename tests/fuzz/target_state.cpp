@@ -40,7 +40,7 @@ const Setting& setting() {
 /// The text with the identity of this scene and its own checksum, so that what is behind these is reached.
 std::string forged(const std::string& text) {
   std::string said = text.substr(0, text.rfind("\nchecksum "));
-  constexpr std::string_view word = "\nscene ";
+  constexpr std::string_view word = "\nof ";
   if (const std::size_t at = said.find(word); at != std::string::npos) {
     const std::size_t begin = at + word.size();
     said.replace(begin, std::min(said.find('\n', begin), said.size()) - begin, setting().identity);

@@ -151,6 +151,32 @@ TEST(Ending, MemoryThatRowsWouldFillDoesNotGrowWithThem) {
   EXPECT_EQ(end.code, 0) << end.complained;
 }
 
+// Shapes of a mesh come from BLAS, which sums in another order for each number of threads.
+TEST(Ending, ARunIsTheSameByAnyNumberOfThreadsAndGoesOnByAnother) {
+  const Folder folder;
+  const fs::path scene = folder.write("scene.yaml", R"(
+gravity: [0, -9.81]
+bodies:
+  arm:
+    plate: {link: {eye bar: {length: 0.3, width: 0.03, eyes: [{bore: 0.03, outer: 0.06}, {bore: 0.02, outer: 0.04}]}},
+            thickness: 5 mm, size: 12 mm, young: 207 GPa, poisson: 0.3, density: 7850}
+    modes: {frame: {tangent: O}, count: 4}
+    points: {O: {hole: eye 1, coupling: rigid}}
+joints: {bearing: {revolute: [ground, arm.O]}}
+run: {until: 1e-5, tolerance: 1e-4}
+output: {states: 5e-6}
+)");
+  const auto out = [&](const std::string& threads) { return folder.path() / ("out" + threads); };
+  for (const std::string threads : {"1", "2"}) {
+    const Ended end = run(folder.path() / "log", run_command(scene, out(threads)), {"OPENBLAS_NUM_THREADS=" + threads});
+    ASSERT_EQ(end.code, 0) << end.complained;
+    EXPECT_EQ(contents(out(threads) / "trajectory.csv"), contents(out("1") / "trajectory.csv")) << threads;
+    const std::string state = (out(threads) / "states" / "00001.state").string();
+    const Ended rest = run(folder.path() / "log", run_command(scene, folder.path() / ("rest" + threads), {"--restart", state, "--set", "run.until=2e-5"}), {"OPENBLAS_NUM_THREADS=1"});
+    EXPECT_EQ(rest.code, 0) << rest.complained;
+  }
+}
+
 TEST(Names, ASlashAtTheEndOfTheFolderIsNoPartOfItsName) {
   const Folder folder;
   for (const char* name : {"new/", "new2//", "deep/er/", "./dot/."}) {

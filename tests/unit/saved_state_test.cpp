@@ -10,6 +10,8 @@
 #include <limits>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "framework/analysis/simulate/identity.h"
 #include "framework/build/build.h"
 #include "framework/common/sha256.h"
@@ -268,9 +270,35 @@ TEST(SavedState, RefusesAChangedTable) {
   for (const int row : {500, 777, 1000}) {  // all after the state
     write(row);
     const Ran other(scene_of(driven("")));
-    EXPECT_TRUE(says(refusal(other, text), "a table")) << row << ": " << refusal(other, text);
+    EXPECT_TRUE(says(refusal(other, text), "has changed since: saved_state_motion.csv")) << row << ": " << refusal(other, text);
   }
   fs::remove(table);
+}
+
+TEST(SavedState, NamesTheEntriesOfTheSceneThatAreOthers) {
+  const auto rod = [](const std::string& mass, const std::string& tolerance) {
+    return Ran(scene_of("bodies: {rod: {rigid: {mass: " + mass + ", inertia: 0.1}, points: {O: [-0.2, 0]}}}\njoints: {hinge: {revolute: [ground, rod.O]}}\n"
+                        "run: {until: 0.1, method: dopri5, tolerance: " + tolerance + "}\n"));
+  };
+  const std::string text = rod("1", "1e-6").text();
+  const std::string mass = refusal(rod("2", "1e-6"), text), both = refusal(rod("2", "1e-7"), text);
+  EXPECT_TRUE(says(mass, "bodies.rod is another") && !says(mass, "run.tolerance")) << mass;
+  EXPECT_TRUE(says(both, "bodies.rod and run.tolerance are others") && says(both, "--set")) << both;
+}
+
+// Of a mechanism with other numbers but the same words and files, what made them is named.
+TEST(SavedState, NamesTheProgramAndTheBlasThatMadeOtherNumbers) {
+  const Ran ran(swinging());
+  const std::string here = identity(ran.scene, ran.model, ran.assembly);
+  const auto there = [&](const char* part, const std::string& value) {
+    nlohmann::json all = nlohmann::json::parse(here);
+    all["mechanism"] = "0", all[part] = value;
+    return difference(all.dump(), here);
+  };
+  EXPECT_EQ(difference(here, here), "");
+  const std::string blas = there("blas", "Cray, 7 threads"), program = there("program", "0.0.1, compiled by hand");
+  EXPECT_TRUE(says(blas, "Cray, 7 threads") && says(blas, "OPENBLAS_NUM_THREADS") && !says(blas, "another scene")) << blas;
+  EXPECT_TRUE(says(program, "0.0.1, compiled by hand") && !says(program, "BLAS is")) << program;
 }
 
 TEST(SavedState, RefusesAChangedMesh) {
@@ -288,7 +316,7 @@ TEST(SavedState, RefusesAChangedMesh) {
   all.replace(at, all.find('\n', at + 1) - at, "\n1, -0.0449, -0.015");
   std::ofstream(mesh) << all;
   const Ran other(scene_of(text(o)));
-  EXPECT_TRUE(says(refusal(other, saved), "a mesh"));
+  EXPECT_TRUE(says(refusal(other, saved), "has changed since: pintle_holed_plate_RefusesAChangedMesh.inp")) << refusal(other, saved);
 }
 
 TEST(SavedState, ARunThatGoesOnSaysWhatItHasNotSeen) {

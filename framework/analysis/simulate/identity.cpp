@@ -1,13 +1,15 @@
 #include "framework/analysis/simulate/identity.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 
 #include <nlohmann/json.hpp>
 
 #include "framework/common/sha256.h"
+#include "framework/run/library_threads.h"
+#include "framework/run/value_writer.h"
 
 namespace pintle {
 
@@ -16,52 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// Structures are taken apart by structured bindings, so that a member more does not compile until it is summed too.
-class Sum {
+class Sum : public ValueWriter<Sum> {
  public:
+  using ValueWriter::add;
+  void bytes(std::string_view some) { sum_.add(some); }
   std::string take() { return sum_.hex(); }
-
-  template <class T>
-    requires(std::is_arithmetic_v<T> || std::is_enum_v<T>)
-  void add(T x) {
-    if constexpr (std::is_floating_point_v<T>)
-      if (std::isnan(x)) x = std::numeric_limits<T>::quiet_NaN();
-    sum_.add({reinterpret_cast<const char*>(&x), sizeof x});
-  }
-  template <class... T>
-    requires(sizeof...(T) > 1)
-  void add(const T&... x) {
-    (add(x), ...);
-  }
-  void add(const std::string& text) {
-    add(text.size());
-    sum_.add(text);
-  }
-  template <class Derived>
-  void add(const Eigen::MatrixBase<Derived>& m) {
-    add(m.rows(), m.cols());
-    for (Eigen::Index j = 0; j < m.cols(); ++j)
-      for (Eigen::Index i = 0; i < m.rows(); ++i) add(m(i, j));
-  }
-  template <class T>
-  void add(const std::vector<T>& list) {
-    add(list.size());
-    for (const T& x : list) add(x);
-  }
-  template <class T, std::size_t n>
-  void add(const std::array<T, n>& list) {
-    for (const T& x : list) add(x);
-  }
-  template <class T>
-  void add(const std::optional<T>& x) {
-    add(x.has_value());
-    if (x) add(*x);
-  }
-  template <class... T>
-  void add(const std::variant<T...>& x) {
-    add(x.index());
-    std::visit([&](const auto& one) { add(one); }, x);
-  }
 
   /// Forty times a decade from a microsecond to ten days.
   void add(const TimeLaw& law) {
@@ -146,8 +107,23 @@ Json words(const Scene& scene) {
   return said;
 }
 
-/// Tables, drawings and meshes beside the scene.
-void add_files(const Json& said, const fs::path& folder, Sum& sum) {
+std::string sum_of(const Json& said) {
+  return sha256(said.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+/// Of each section, and of each of its entries: "bodies.crank".
+Json sums_of_words(const Json& said) {
+  Json out = Json::object();
+  for (const auto& [section, inside] : said.items()) {
+    if (!inside.is_object()) out[section] = sum_of(inside);
+    else
+      for (const auto& [key, item] : inside.items()) out[section + "." + key] = sum_of(item);
+  }
+  return out;
+}
+
+/// Tables, drawings and meshes beside the scene, by their names in it.
+void add_files(const Json& said, const fs::path& folder, Json& out) {
   if (said.is_string()) {
     const auto& text = said.get_ref<const std::string&>();
     std::error_code error;
@@ -158,24 +134,71 @@ void add_files(const Json& said, const fs::path& folder, Sum& sum) {
       in.read(part.data(), static_cast<std::streamsize>(part.size()));
       content.add(std::string_view(part.data(), static_cast<std::size_t>(in.gcount())));
     }
-    sum.add(content.hex());
+    out[text] = content.hex();
   } else if (said.is_structured()) {
-    for (const Json& item : said) add_files(item, folder, sum);
+    for (const Json& item : said) add_files(item, folder, out);
   }
 }
 
-}  // namespace
-
-std::string identity(const Scene& scene, const Model& model, const Assembly& assembly) {
+std::string sum_of(const Model& model, const Assembly& assembly) {
   Sum sum;
   sum.add(model.system);
   const Scheme& s = model.scheme;  // the pair and where it gives way are the saved state's
   sum.add(s.tolerance, s.constraints, s.onset_cut, s.rho, s.max_steps);
   sum.add(assembly.start.t, assembly.start.y.head(2 * model.system.n()));
-  const Json said = words(scene);
-  sum.add(said.dump(-1, ' ', false, Json::error_handler_t::replace));
-  add_files(said, fs::path(scene.file).parent_path(), sum);
   return sum.take();
+}
+
+/// The names under which two of such lists differ, one of them empty where there is none.
+std::vector<std::string> differing(const Json& one, const Json& other) {
+  std::vector<std::string> out;
+  if (!one.is_object() || !other.is_object()) return out;
+  for (const auto& [name, sum] : one.items())
+    if (!other.contains(name) || other[name] != sum) out.push_back(name);
+  for (const auto& [name, sum] : other.items())
+    if (!one.contains(name)) out.push_back(name);
+  return out;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 5;
+  std::string out;
+  for (std::size_t k = 0; k < std::min(most, names.size()); ++k) out += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
+  return out + (names.size() > most ? " and others" : "");
+}
+
+}  // namespace
+
+std::string identity(const Scene& scene, const Model& model, const Assembly& assembly) {
+  const Json said = words(scene);
+  Json files = Json::object();
+  add_files(said, fs::path(scene.file).parent_path(), files);
+  const Json all{{"scene", sums_of_words(said)}, {"files", files}, {"mechanism", sum_of(model, assembly)}, {"program", PINTLE_VERSION ", compiled by " __VERSION__},
+                 {"blas", library_text()}};
+  return all.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string difference(const std::string& saved, const std::string& now) {
+  const Json was = Json::parse(saved, nullptr, false), is = Json::parse(now);
+  const auto part = [&](const char* name) { return was.is_object() && was.contains(name) ? was[name] : Json(); };
+  const std::vector<std::string> words = differing(part("scene"), is["scene"]), files = differing(part("files"), is["files"]);
+  const std::string remedy = "; restore them and the --set values, or run the scene from its start";
+  std::string out;
+  if (!words.empty()) out = "belongs to another scene, or to this one before it was changed (only title, run.until and output may change): " + listed(words) +
+                            (words.size() > 1 ? " are others" : " is another");
+  if (!files.empty()) out += (out.empty() ? "" : ", and ") + std::string("a file that the scene names has changed since: ") + listed(files);
+  if (!out.empty()) return out + remedy;
+  if (part("mechanism") == is["mechanism"]) return "";
+  const auto other = [&](const char* name, const char* what) {
+    if (part(name) == is[name]) return;
+    out += (out.empty() ? "" : ", and ") + std::string(what) + " is " + is[name].get<std::string>() + ", there it was " + (part(name).is_string() ? part(name).get<std::string>() : "another");
+  };
+  other("program", "the program");
+  other("blas", "BLAS");
+  if (!out.empty())
+    return "holds a mechanism whose numbers have other last digits than this one's: " + out +
+           "; go on with what it was saved by (of OpenBLAS: OPENBLAS_CORETYPE, OPENBLAS_NUM_THREADS), or run the scene from its start";
+  return "belongs to another scene: the numbers of its mechanism are others, though its words and files are not; restore what was made in C++, or run the scene from its start";
 }
 
 }  // namespace pintle

@@ -5,11 +5,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <locale>
 #include <sstream>
 
+#include "files/files.h"
 #include "framework/analysis/simulate/identity.h"
 #include "framework/common/sha256.h"
 #include "framework/scene/error.h"
@@ -18,7 +17,7 @@ namespace pintle {
 
 namespace {
 
-constexpr std::string_view kind = "pintle state ", first_line = "pintle state 2\n", last_word = "\nchecksum ";
+constexpr std::string_view kind = "pintle state ", first_line = "pintle state 3\n", last_word = "\nchecksum ";
 constexpr std::size_t last_line = 75;  // of "\nchecksum ", 64 digits and "\n"
 
 std::string hex(double x) {
@@ -49,7 +48,7 @@ std::string state_text(const std::string& identity, const SavedState& state) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(17);
-  out << first_line << "version " << PINTLE_VERSION << "\nscene " << identity << "\nt " << state.t << " s\nbooks";
+  out << first_line << "version " << PINTLE_VERSION << "\nof " << identity << "\nt " << state.t << " s\nbooks";
   each_number(state, [&](double x) {
     out << ' ' << hex(x);
     return true;
@@ -78,7 +77,7 @@ SavedState state_of(const std::string& text, const std::string& source, const Sc
   in >> word >> version;
   if (version != PINTLE_VERSION) throw reject("was saved by pintle " + version + ", this is " + PINTLE_VERSION + "; run the scene from its start");
   bool finite = true;
-  const bool read = in >> word >> of_scene >> word >> word >> word >> word && each_number(state, [&](double& x) {
+  const bool read = in >> word && std::getline(in >> std::ws, of_scene) && in >> word >> word >> word >> word && each_number(state, [&](double& x) {
     const bool good = read_hex(in, x);
     finite = finite && std::isfinite(x);
     return good;
@@ -86,9 +85,7 @@ SavedState state_of(const std::string& text, const std::string& source, const Sc
   if (!read) throw reject("cannot be understood; take another saved state");
   if (!finite || state.t < 0 || state.energy_in_play < 0)
     throw reject("holds books that are no energies; take an earlier state, or run the scene from its start");
-  if (of_scene != identity(scene, model, assembly))
-    throw reject("belongs to another scene, or to this one before it, a table, a mesh or a drawing was changed (only title, run.until and output may "
-                 "change), or to another machine; restore the scene, its files and its --set values, or run it from its start");
+  if (const std::string why = difference(of_scene, identity(scene, model, assembly)); !why.empty()) throw reject(why);
   state.memory = said.substr(said.size() - size);
   try {
     Integrator trial(model.system, model.scheme, assembly.start);
@@ -102,11 +99,15 @@ SavedState state_of(const std::string& text, const std::string& source, const Sc
 
 SavedState read_state(const std::filesystem::path& file, const Scene& scene, const Model& model, const Assembly& assembly) {
   const std::string source = "--restart " + file.string();
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in.is_open() || in.bad() || text.fail()) throw SceneError(source + ": cannot be read; name a file states/NNNNN.state of a run");
-  return state_of(text.str(), source, scene, model, assembly);
+  constexpr std::size_t most_bytes = std::size_t{4} << 30;
+  std::string text;
+  try {
+    text = read_file(file, most_bytes);
+  } catch (const FileRefused& rejected) {
+    throw SceneError(source + ": " + rejected.what() + "; name a file states/NNNNN.state of a run");
+  }
+  if (text.empty()) throw SceneError(source + ": is empty; name another file states/NNNNN.state of a run");
+  return state_of(text, source, scene, model, assembly);
 }
 
 }  // namespace pintle

@@ -1,0 +1,38 @@
+#include "framework/run/library_threads.h"
+
+#include <dlfcn.h>
+
+namespace pintle {
+
+namespace {
+
+/// Sought at run time: which BLAS it is, and whether CHOLMOD was built with OpenMP, is the system's choice.
+template <class Function>
+Function* sought(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+}
+
+}  // namespace
+
+void hold_library_threads() {
+  static const bool blas = [] {
+    if (auto* set = sought<void(int)>("openblas_set_num_threads")) set(1);
+    return true;
+  }();
+  thread_local const bool openmp = [] {  // settings of each thread
+    if (auto* set = sought<void(int)>("omp_set_num_threads")) set(1);
+    if (auto* set = sought<void(int)>("omp_set_max_active_levels")) set(0);  // CHOLMOD asks for four threads whatever their number was set to
+    return true;
+  }();
+  static_cast<void>(blas), static_cast<void>(openmp);
+}
+
+std::string library_text() {
+  auto* const core = sought<char*()>("openblas_get_corename");
+  auto* const threads = sought<int()>("openblas_get_num_threads");
+  if (!core || !threads) return "unknown";
+  const int n = threads();
+  return std::string(core()) + ", " + std::to_string(n) + (n == 1 ? " thread" : " threads");
+}
+
+}  // namespace pintle
