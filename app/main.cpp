@@ -117,14 +117,19 @@ CLI::Validator whole(int least, int most) {
       "");
 }
 
+/// Of files and folders: `--out ""` is no default but a variable of a script that was never set.
+CLI::Validator named() {
+  return CLI::Validator([](const std::string& path) { return path.empty() ? std::string("is empty; name a file or folder, or leave the option out") : std::string(); }, "");
+}
+
 /// What sweeps and trade-offs share: a study, overrides, the way results go.
 void add_study_options(CLI::App& command, Options& options, const std::string& study, const std::string& all, const std::string& out) {
-  command.add_option("study", options.scene, study)->required()->type_name("FILE.yaml");
+  command.add_option("study", options.scene, study)->required()->check(named())->type_name("FILE.yaml");
   command.add_option("--set", options.set, "override a parameter or key of the scene in all " + all + "; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME|PATH=VALUE");
   command.add_flag("--json", options.json, "print JSON instead of text");
-  command.add_option("-o,--out", options.out, out)->type_name("DIR");
+  command.add_option("-o,--out", options.out, out)->check(named())->type_name("DIR");
   command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
 }
 
@@ -153,7 +158,7 @@ void add_tradeoff_options(CLI::App& command, Options& options) {
   command.add_option("--time", options.wanted_time, "the time of a run that is wanted, e.g. 0.5s: the most accurate setting within it is named")->type_name("TIME");
   command.add_option("--budget", options.budget, "of computing, e.g. 10min: then what is clearly dominated is not run (default: of a scene 1min, of a study as it says)")->type_name("TIME");
   command.add_option("--repeats", options.repeats, "timed runs of each setting (default 5)")->type_name("N")->check(whole(1, 1000));
-  command.add_option("--markdown", options.markdown, "write the report there as well, its picture beside it")->type_name("FILE.md");
+  command.add_option("--markdown", options.markdown, "write the report there as well, its picture beside it")->check(named())->type_name("FILE.md");
   command.footer(what_tradeoff_writes);
 }
 
@@ -168,7 +173,7 @@ void add_linearize_options(CLI::App& command, Options& options) {
 
 /// What a scene may reach and cost, which no scene can say: SECURITY.md.
 void add_bounds(CLI::App& command, Options& options) {
-  command.add_option("--allow-path", options.allowed, "let the scene read files in this folder and below it, beside its own; may be repeated")->allow_extra_args(false)->type_name("DIR");
+  command.add_option("--allow-path", options.allowed, "let the scene read files in this folder and below it, beside its own; may be repeated")->allow_extra_args(false)->check(named())->type_name("DIR");
   command.add_flag("--trust-geo", options.trust_geo, "let drawings (.geo) do all that they ask for, shell commands included");
   command.add_option("--mesh-time", options.mesh_time, "time that the mesh of one body may take (default 600 s)")->type_name("TIME");
   command.add_option("--mesh-memory", options.mesh_memory, "memory that it may take, in GB (default 8)")->type_name("GB")->check(CLI::Range(0.1, 1e6));
@@ -179,7 +184,7 @@ void add_options(CLI::App& command, Options& options) {
   add_bounds(command, options);
   if (name == "sweep") return add_sweep_options(command, options);
   if (name == "tradeoff") return add_tradeoff_options(command, options);
-  command.add_option("scene", options.scene, "scene file (YAML)")->required()->type_name("SCENE.yaml");
+  command.add_option("scene", options.scene, "scene file (YAML)")->required()->check(named())->type_name("SCENE.yaml");
   command.add_option("--set", options.set, "override a parameter of the scene, e.g. --set clearance=0.1mm, or any key by its path, e.g. --set run.tolerance=1e-6, "
                                                "--set \"joints.pin.clearance=null\" (null takes it away); may be repeated")
       ->allow_extra_args(false)
@@ -187,9 +192,9 @@ void add_options(CLI::App& command, Options& options) {
   command.add_flag("--json", options.json, "print JSON instead of text");
   if (name == "check") return;
   const std::string folder = name == "run" ? "runs/SCENE" : "runs/SCENE-" + name;
-  command.add_option("-o,--out", options.out, "directory for the results; it must not exist (default: " + folder + ", numbered)")->type_name("DIR");
+  command.add_option("-o,--out", options.out, "directory for the results; it must not exist (default: " + folder + ", numbered)")->check(named())->type_name("DIR");
   command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
-  if (name == "run") command.add_option("--restart", options.restart, "go on from a saved state of this scene, states/NNNNN.state of a run")->type_name("FILE.state");
+  if (name == "run") command.add_option("--restart", options.restart, "go on from a saved state of this scene, states/NNNNN.state of a run")->check(named())->type_name("FILE.state");
   if (name == "run") command.footer(what_it_writes);
   if (name == "run") return;
   if (name == "linearize") return add_linearize_options(command, options);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 #include <new>
+#include <stdexcept>
 
 #include "app/progress.h"
 #include "framework/common/file.h"
@@ -29,6 +30,16 @@ std::string reason() {
 void require_place(const fs::path& out) {
   now_doing("looking at the place for the results");
   require_writable(out);
+}
+
+void require_file_place(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status there = fs::status(file, error);
+  if (fs::exists(there) && !fs::is_regular_file(there))
+    throw std::runtime_error(file.string() + ": " + (fs::is_directory(there) ? "is a directory" : "is not an ordinary file") + "; name a file to write");
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, error)) throw std::runtime_error(file.string() + ": cannot be written, as there is no folder " + folder.string() + "; make it, or name another");
+  fs::remove(make_unique_folder(folder / ".pintle"), error);
 }
 
 void tell_leftovers(const Options& options, const fs::path& out) {

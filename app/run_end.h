@@ -12,6 +12,9 @@ namespace pintle::app {
 /// To be called before anything is computed. @throws FileError  results cannot be written there
 void require_place(const std::filesystem::path& out);
 
+/// The same of a file that is written over if it is there. @throws std::runtime_error
+void require_file_place(const std::filesystem::path& file);
+
 /// What other runs left beside `out`, for who waits at the terminal.
 void tell_leftovers(const Options&, const std::filesystem::path& out);
 

@@ -113,6 +113,9 @@ int tradeoff(const Options& options) {
   const Asked asked = understood(options);
   const fs::path out = results_directory(options, "-tradeoff");
   require_place(out);
+  const fs::path page = options.markdown, picture = fs::path(page).replace_extension(".svg");
+  for (const fs::path& file : {page, picture})
+    if (!page.empty()) require_file_place(file);
   now_doing("running the settings");
   TradeReport report;
   {
@@ -134,7 +137,6 @@ int tradeoff(const Options& options) {
   }
   write_whole(options, out, [&](const fs::path& folder) { write_tradeoff(folder, out, asked.scene, report); });
   if (!options.markdown.empty()) {
-    const fs::path page = options.markdown, picture = fs::path(page).replace_extension(".svg");
     write_synced(picture, tradeoff_svg(report));
     write_synced(page, tradeoff_markdown(report, picture.filename().string()));
   }

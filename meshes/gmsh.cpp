@@ -10,6 +10,7 @@
 
 #include "files/files.h"
 #include "files/trust.h"
+#include "meshes/geo_words.h"
 #include "meshes/limits.h"
 #include "meshes/link_lattice.h"
 #include "meshes/mesher.h"
@@ -94,9 +95,10 @@ Mesh read_geometry(const fs::path& path, const MeshOptions& o, double scale, con
   if (kind != ".geo" && kind != ".step" && kind != ".stp" && kind != ".brep" && kind != ".msh")
     reject(name, ": \"", kind,
            "\" is no kind of drawing known here; .geo, .step, .stp, .brep and .msh are");
+  std::string text;
   try {
     const bool all = kind == ".geo" || kind == ".msh";
-    const std::string text = all ? read_file(path, kind == ".geo" ? most_bytes : most_mesh_bytes) : read_head(path, 4096);
+    text = all ? read_file(path, kind == ".geo" ? most_bytes : most_mesh_bytes) : read_head(path, 4096);
     validate_head(name, kind, text);
     if (kind == ".msh") validate_msh(name, text);
   } catch (const FileRefused& e) {
@@ -105,9 +107,15 @@ Mesh read_geometry(const fs::path& path, const MeshOptions& o, double scale, con
   validate_options(name);
   MesherTask task = task_for(o);
   task.file = name, task.scale = scale;
-  task.folders = strings(readable_folders(folder.empty() ? path.parent_path() : folder));
+  const fs::path read_from = folder.empty() ? path.parent_path() : folder;
+  task.folders = strings(readable_folders(read_from));
   task.unconfined = trust().geo;
-  return mesh_elsewhere(task);
+  if (kind != ".geo") return mesh_elsewhere(task);
+  try {
+    return mesh_elsewhere(task);
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error(with_line_of_script(path, text, e.what(), read_from));
+  }
 }
 
 }  // namespace pintle

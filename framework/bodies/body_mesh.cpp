@@ -26,6 +26,14 @@ CellShape shape_of(const std::string& element) {
   return element == "quadrilateral9" ? CellShape::quadrilateral9 : CellShape::quadrilateral8;
 }
 
+/// What is complained of about a drawing or mesh belongs to the key that names it.
+template <class Work>
+Mesh in_file(const Scene& scene, const SceneBody& body, Work&& work) {
+  SceneBody named;
+  named.place = {body.place.line, body.place.key.empty() ? "" : body.place.key + ".plate.file"};
+  return in_body(scene, named, std::forward<Work>(work));
+}
+
 Mesh plate_mesh(const Scene& scene, const SceneBody& body, const ScenePlate& plate, std::vector<std::string>& warnings) {
   if (const auto* grid = std::get_if<SceneGrid>(&plate.shape)) {
     std::array<Vector2d, 4> corners;
@@ -41,9 +49,9 @@ Mesh plate_mesh(const Scene& scene, const SceneBody& body, const ScenePlate& pla
   if (const auto* link = std::get_if<Link>(&plate.shape)) return mesh_link(*link, options);
   const SceneFile& file = std::get<SceneFile>(plate.shape);
   const fs::path folder = fs::path(scene.file).parent_path(), path = contained_file(file.path, folder);
-  if (kind_of(path) != ".inp") return read_geometry(path, options, file.scale, folder);
+  if (kind_of(path) != ".inp") return in_file(scene, body, [&] { return read_geometry(path, options, file.scale, folder); });
   InpClaims claims;
-  Mesh mesh = read_inp(path, file.scale, folder, &claims);
+  Mesh mesh = in_file(scene, body, [&] { return read_inp(path, file.scale, folder, &claims); });
   validate_claims(claims, plate, warnings);
   warnings.insert(warnings.end(), claims.warnings.begin(), claims.warnings.end());
   return mesh;

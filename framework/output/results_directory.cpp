@@ -60,7 +60,10 @@ void require_writable(const fs::path& directory) {
   const fs::path final = without_slash(directory);
   require_new(final);
   require_short_names(final);
-  const fs::path probe = make_unique_folder(nearest_that_exists(final) / ".pintle");
+  const fs::path above = nearest_that_exists(final);
+  std::error_code error;
+  if (!fs::is_directory(above, error)) throw FileError(final, ENOTDIR, "cannot be made");
+  const fs::path probe = make_unique_folder(above / ".pintle");
   ::rmdir(probe.c_str());
 }
 

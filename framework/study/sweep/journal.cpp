@@ -11,8 +11,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <functional>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -20,6 +20,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "files/files.h"
 #include "framework/common/fingerprint.h"
 #include "framework/scene/error.h"
 
@@ -91,11 +92,11 @@ bool validate_heading(const fs::path& path, const std::string& text, std::uint64
 }
 
 std::string contents(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream s;
-  s << in.rdbuf();
-  if (!in.is_open() || in.bad()) throw std::runtime_error(path.string() + ": cannot be read; check its permissions");
-  return s.str();
+  try {
+    return read_file(path, std::numeric_limits<std::size_t>::max());
+  } catch (const FileRefused& rejected) {
+    throw SceneError(path.string() + ": " + rejected.what() + "; " + remedy(path));
+  }
 }
 
 double now() {
@@ -153,6 +154,9 @@ std::optional<Row> row_of(std::string_view line) try {
 }
 
 Journal::Journal(const fs::path& path, std::uint64_t study, std::vector<std::string>* notes) : path_(path) {
+  std::error_code error;
+  if (const fs::file_status there = fs::status(path, error); fs::exists(there) && !fs::is_regular_file(there))
+    throw SceneError(path.string() + ": is not an ordinary file; " + remedy(path));
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) throw std::runtime_error(path.string() + ": cannot be written (" + std::strerror(errno) + "); name another place with --out");
   try {
