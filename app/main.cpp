@@ -241,6 +241,7 @@ int carry_out(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? ok : bad_scene;
   }
+  now_doing("reading the input");
   set_bounds(options);
   CLI::App* const command = app.get_subcommands().front();
   const std::string name = command->get_name();
@@ -273,6 +274,7 @@ void say_there_was_no_memory() {
 
 int main(int argc, char** argv) {
   leave_failed_writes_to_us();
+  end_on_signals();
   std::set_terminate(end_without_memory);
   try {
     return carry_out(argc, argv);

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstring>
 #include <iomanip>
 #include <iostream>
 
@@ -15,6 +16,29 @@ namespace {
 volatile std::sig_atomic_t asked_by = 0;
 const char* activity = "starting";
 std::string kept, kept_note;  // made beforehand: there may be no memory when they are wanted
+
+const char* stop_words(int signal) {
+  switch (signal) {
+    case SIGTERM: return "stopped by SIGTERM, a request to end the program";
+    case SIGHUP: return "stopped by SIGHUP: its terminal or session ended";
+    default: return "stopped by the user (Ctrl-C)";
+  }
+}
+
+/// Of what a signal handler may call.
+void say(const char* words) {
+  for (std::size_t left = std::strlen(words); left > 0;) {
+    const ssize_t n = ::write(STDERR_FILENO, words, left);
+    if (n <= 0) return;
+    words += n, left -= static_cast<std::size_t>(n);
+  }
+}
+
+extern "C" void end_at_once(int signal) {
+  say("pintle: "), say(stop_words(signal)), say(" while "), say(activity), say("; there are no results yet\n");
+  constexpr int stopped = 6;
+  ::_exit(stopped);
+}
 
 extern "C" void ask_to_stop(int signal) {
   if (asked_by == 0) {
@@ -53,11 +77,16 @@ void heed_signals() {
 
 bool asked_to_stop() { return asked_by != 0; }
 
-std::string stopped_by() {
-  switch (asked_by) {
-    case SIGTERM: return "stopped by SIGTERM, a request to end the program";
-    case SIGHUP: return "stopped by SIGHUP: its terminal or session ended";
-    default: return "stopped by the user (Ctrl-C)";
+std::string stopped_by() { return stop_words(asked_by); }
+
+void end_on_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler == SIG_IGN) continue;  // nohup, or a background job of a script
+    struct sigaction ends {};
+    ends.sa_handler = end_at_once;
+    ::sigaction(signal, &ends, nullptr);
   }
 }
 

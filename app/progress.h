@@ -8,6 +8,10 @@ namespace pintle::app {
 /// At the start of the program: a write that fails by a broken pipe or the limit of a file's size is an error of that write.
 void leave_failed_writes_to_us();
 
+/// At the start of the program: Ctrl-C, a request to terminate and the end of the terminal end it with a word and exit code 6.
+/// What the caller had ignored stays ignored.
+void end_on_signals();
+
 /// From now on, Ctrl-C, a request to terminate and the end of the terminal do not end the program but are asked for by
 /// asked_to_stop; the second of them ends it. What the caller had ignored (nohup) stays ignored.
 void heed_signals();

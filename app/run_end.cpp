@@ -30,6 +30,7 @@ std::string reason() {
 void require_place(const fs::path& out) {
   now_doing("looking at the place for the results");
   require_writable(out);
+  now_doing("computing");
 }
 
 void require_file_place(const fs::path& file) {

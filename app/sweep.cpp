@@ -114,8 +114,12 @@ int carry_out(const Sweep& sweep, const Options& options, Communicator* together
   for (const std::string& note : end.notes) std::cerr << "note: " << note << "\n";
   if (!end.shortage.empty()) std::cerr << "warning: " << end.shortage << "\n";
   if (!leads) return ok;
+  if (const auto n = std::ranges::count_if(end.rows, lacked_memory); n > 0)
+    std::cerr << "warning: " << n << (n == 1 ? " case" : " cases") << " lacked memory; the same command, with fewer --threads, runs "
+              << (n == 1 ? "it" : "them") << " again\n";
   if (options.json) std::cout << sweep_json(sweep, end);
   else if (!options.quiet) print(sweep, end, out);
+  if (!end.whole && (options.quiet || options.json)) std::cerr << sweep.study.file << ": " << (asked_to_stop() ? stopped_by() : "stopped") << "; the same command goes on from here\n";
   if (!end.whole) return stopped;
   if (none_ran(end)) {
     std::cerr << sweep.study.file << ": none of " << end.rows.size() << " cases ran to its end; case " << end.rows.front().number << ": "

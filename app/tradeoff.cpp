@@ -145,6 +145,7 @@ int tradeoff(const Options& options) {
     std::cout << tradeoff_text(report);
     print_rows(std::cout, {{"spent", number(report.seconds, 3) + " s"}, {"results", out.string() + (report.recommended ? ", ready to run: " + (out / "recommended.yaml").string() : "; no recommended.yaml, as nothing is recommended")}});
   }
+  if (report.stopped) std::cerr << options.scene << ": " << stopped_by() << "; what was measured until then is in " << out.string() << "\n";
   if (report.stopped) return stopped;
   return report.recommended ? ok : run_failed;
 }

@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <iterator>
 #include <limits>
+#include <locale>
+#include <sstream>
 #include <stdexcept>
 
-#include "framework/common/text.h"
 #include "framework/mechanism/trajectory.h"
 #include "framework/output/results_directory.h"
 
@@ -19,11 +22,19 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-std::string megabytes(double bytes) {
-  std::string out;
-  append_number(out, bytes < 1e7 ? std::ceil(bytes / 1e4) / 100 : std::ceil(bytes / 1e6));
-  return out + " MB";
+/// Three digits, rounded up of what is needed, down of what is there.
+std::string size_text(double bytes, double (*round)(double)) {
+  static constexpr const char* units[] = {" bytes", " kB", " MB", " GB", " TB"};
+  std::size_t unit = 0;
+  for (; bytes >= 1000 && unit + 1 < std::size(units); ++unit) bytes /= 1000;
+  const double digit = unit == 0 || bytes >= 100 ? 1 : bytes >= 10 ? 0.1 : 0.01;
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << std::fixed << std::setprecision(digit == 1 ? 0 : digit == 0.1 ? 1 : 2) << round(bytes / digit) * digit << units[unit];
+  return out.str();
 }
+std::string needs(double bytes) { return size_text(bytes, std::ceil); }
+std::string has(double bytes) { return size_text(bytes, std::floor); }
 
 double times(double from, double until, double interval) { return interval > 0 ? std::ceil((until - from) / interval - 1e-9) + 1 : 0; }
 
@@ -63,14 +74,14 @@ Room room_at(const std::filesystem::path& directory) {
 std::vector<std::string> validate_room(const std::filesystem::path& directory, const RoomNeeded& needed, const Room& room) {
   const std::string at = directory.string() + ": ", remedy = "write fewer rows (output.every) or frames";
   if (needed.least > room.on_disk)
-    throw std::runtime_error(at + "the results need at least " + megabytes(needed.least) + ", and the disk has " + megabytes(room.on_disk) + " left; make room, name another place with --out, or " + remedy);
+    throw std::runtime_error(at + "the results need at least " + needs(needed.least) + ", and the disk has " + has(room.on_disk) + " left; make room, name another place with --out, or " + remedy);
   if (needed.file_least > room.in_a_file)
-    throw std::runtime_error(at + "trajectory.csv needs at least " + megabytes(needed.file_least) + ", and a file may have " + megabytes(room.in_a_file) + "; raise the limit (ulimit -f), or " + remedy);
+    throw std::runtime_error(at + "trajectory.csv needs at least " + needs(needed.file_least) + ", and a file may have " + has(room.in_a_file) + "; raise the limit (ulimit -f), or " + remedy);
   std::vector<std::string> out;
   if (needed.likely > room.on_disk)
-    out.push_back("the results may need " + megabytes(needed.likely) + ", and the disk of " + directory.string() + " has " + megabytes(room.on_disk) + " left; make room, name another place with --out, or " + remedy);
+    out.push_back("the results may need " + needs(needed.likely) + ", and the disk of " + directory.string() + " has " + has(room.on_disk) + " left; make room, name another place with --out, or " + remedy);
   if (needed.file_likely > room.in_a_file)
-    out.push_back("trajectory.csv may need " + megabytes(needed.file_likely) + ", and a file may have " + megabytes(room.in_a_file) + "; raise the limit (ulimit -f), or " + remedy);
+    out.push_back("trajectory.csv may need " + needs(needed.file_likely) + ", and a file may have " + has(room.in_a_file) + "; raise the limit (ulimit -f), or " + remedy);
   return out;
 }
 

@@ -130,6 +130,43 @@ TEST(Ending, ALimitThatTheRowsMustPassRefusesTheRunBeforeItIsComputed) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 2) << "the two logs alone";
 }
 
+// A file system of 400 kB, where this process may mount one for itself.
+TEST(Ending, ADiskThatFillsKeepsItsRowsAndStatesAndSaysWhere) {
+  const Folder folder;
+  const fs::path disk = folder.path() / "disk", kept = folder.path() / "kept", log = folder.path() / "log";
+  fs::create_directory(disk);
+  const std::string mount = "mount -t tmpfs -o size=400k none '" + disk.string() + "'";
+  if (run(log, {"/usr/bin/unshare", "-rm", "/bin/sh", "-c", mount}).code != 0) GTEST_SKIP() << "no file system can be mounted here";
+  // The clearances of the example make a row of some 750 bytes every 3 us; a state every 100 us.
+  const Ended end = run(log, {"/usr/bin/unshare", "-rm", "/bin/bash", "-c", mount + " && { \"$@\"; code=$?; cp -r '" + disk.string() + "' '" + kept.string() + "'; exit $code; }", "bash",
+                              PINTLE_PROGRAM, "run", example, "-o", (disk / "out").string(), "--set", "run.until=9 ms", "--set", "output.every=3 us",
+                              "--set", "output.states=100 us", "--set", "output.frames=null"});
+  EXPECT_EQ(end.code, 1) << end.complained;
+  EXPECT_NE(end.complained.find((disk / "out.part-").string()), std::string::npos) << end.complained;
+  EXPECT_NE(end.complained.find("make room"), std::string::npos) << end.complained;
+  ASSERT_EQ(std::distance(fs::directory_iterator(kept), fs::directory_iterator()), 1);
+  const fs::path staging = fs::directory_iterator(kept)->path();
+  EXPECT_EQ(report_in(staging)["status"], "results not written");
+  const auto rows_until = [&](const char* table) {
+    const std::string text = contents(staging / table);
+    EXPECT_TRUE(whole_rows(text)) << table;
+    return std::stod(text.substr(text.rfind('\n', text.size() - 2) + 1));
+  };
+  // No saved state is later than the rows, and of the disk little is left.
+  double last_state = 0;
+  std::uintmax_t used = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(staging))
+    if (entry.is_regular_file()) used += entry.file_size();
+  for (const auto& entry : fs::directory_iterator(staging / "states")) {
+    const std::string text = contents(entry.path());
+    last_state = std::max(last_state, std::stod(text.substr(text.find("\nt ") + 3)));
+  }
+  EXPECT_GT(last_state, 0);
+  EXPECT_GE(rows_until("trajectory.csv"), last_state - 3e-6);
+  EXPECT_GE(rows_until("ledger.csv"), last_state - 3e-6);
+  EXPECT_GT(used, 250'000U);
+}
+
 TEST(Ending, AReaderThatGoesAwayIsAnErrorAndNoSignal) {
   const Folder folder;
   const fs::path log = folder.path() / "log", out = folder.path() / "out";

@@ -85,6 +85,14 @@ TEST(Room, WhatCannotFitIsRefusedAndWhatMayNotIsWarnedOf) {
   EXPECT_THROW(validate_room("out", {1e6, 2e6, 1e6, 1e6}, {infinite, 0.9e6}), std::runtime_error);
 }
 
+TEST(Room, SizesAreSaidInThreeDigitsAndTheirUnit) {
+  const auto said = [](double needed, double there) { return validate_room("out", {0, needed, 0, 0}, {there, INFINITY}).at(0); };
+  for (const auto& [needed, there, text] : {std::tuple(1234567.0, 200'100.0, "may need 1.24 MB, and the disk of out has 200 kB"),
+                                            std::tuple(5e9, 123'456'789.0, "may need 5.00 GB, and the disk of out has 123 MB"),
+                                            std::tuple(98'760.0, 0.0, "may need 98.8 kB, and the disk of out has 0 bytes")})
+    EXPECT_NE(said(needed, there).find(text), std::string::npos) << said(needed, there);
+}
+
 // What is said to be needed at least is never more than what is written.
 TEST(Room, TheLeastIsABoundFromBelow) {
   const Scene scene = read_scene(PINTLE_SOURCE_DIR "/examples/slider_crank_clearance.yaml", {{"run.until", "1 ms"}, {"output.frames", "null"}});

@@ -21,6 +21,7 @@
 #include <nlohmann/json.hpp>
 
 #include "files/files.h"
+#include "framework/analysis/simulate/simulate.h"
 #include "framework/common/fingerprint.h"
 #include "framework/scene/error.h"
 
@@ -127,6 +128,8 @@ bool is_journal(const fs::path& path) {
 
 }  // namespace
 
+bool lacked_memory(const Row& row) { return row.status == status_text(Status::out_of_memory); }
+
 std::string line_of(const Row& r) {
   Json values = Json::array();
   for (double x : r.values) values.push_back(exact(x));
@@ -224,7 +227,8 @@ std::vector<Row> read_journals(const fs::path& folder, std::uint64_t study, std:
         throw SceneError(where + ": is damaged: its checksum, or what it holds, is not that of a case; remove this line, which runs its case again, or " + remedy(path));
       if (row->number < 1 || row->number > cases)
         throw SceneError(where + ": is of case " + std::to_string(row->number) + ", where the study has " + std::to_string(cases) + "; " + remedy(path));
-      rows.emplace(row->number, std::move(*row));
+      const std::size_t number = row->number;
+      if (const auto [at, fresh] = rows.try_emplace(number, *row); !fresh && lacked_memory(at->second)) at->second = std::move(*row);
     }
   }
   std::vector<Row> out;

@@ -27,6 +27,9 @@ struct Row {
   double build_seconds = 0, run_seconds = 0;
 };
 
+/// Its process lacked memory, which says nothing of the case: it is run again when the sweep goes on.
+bool lacked_memory(const Row&);
+
 /// One line: a checksum and the row; numbers come back to the bit.
 std::string line_of(const Row&);
 /// @returns nothing if the line is torn or changed, or does not hold what line_of writes
@@ -65,7 +68,7 @@ class Journal {
 /// The file of process `rank` in a sweep's folder.
 std::filesystem::path journal_path(const std::filesystem::path& folder, int rank);
 
-/// All journals in the folder, rows in the order of their numbers, each number once. A last line torn by a kill is left out.
+/// All journals in the folder, rows in the order of their numbers, each number once: the first, or that after one that lacked memory. A last line torn by a kill is left out.
 /// @param cases  of the study  @param notes  takes what was left out, if not null
 /// @throws OtherStudy          one belongs to another study
 /// @throws SceneError          one is damaged otherwise, or holds a case that the study has not: naming file and line

@@ -305,7 +305,7 @@ SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettin
     write_synced(folder / "study.yaml", sweep.text);
     write_synced(folder / "scene.yaml", sweep.study.scene.text);
     std::vector<bool> ended(sweep.cases.size() + 1, false);
-    for (const Row& row : read_journals(folder, sweep.print, sweep.cases.size(), &end.notes)) ended[row.number] = true;
+    for (const Row& row : read_journals(folder, sweep.print, sweep.cases.size(), &end.notes)) ended[row.number] = !lacked_memory(row);
     for (std::size_t k = 1; k < ended.size(); ++k)
       if (!ended[k]) numbers.push_back(k);
   } catch (...) {

@@ -114,7 +114,7 @@ void WorkerPool::run(std::size_t number, int thread) {
   try {
     outcome = run_case(sweep_.study.scene, sweep_.cases.overrides(number - 1), sweep_.study.measures, limits);
   } catch (const std::bad_alloc&) {
-    outcome.status = "failed", outcome.reason = "there was not enough memory; run fewer cases at once (--threads)";
+    outcome.status = status_text(Status::out_of_memory), outcome.reason = "there was not enough memory; run fewer cases at once (--threads)";
   }
   if (stopped_ || outcome.status == status_text(Status::interrupted)) return;
   Row row{number, outcome.status, outcome.reason, outcome.values, outcome.units, outcome.t_end, outcome.unexplained_share, outcome.counts.steps,
