@@ -80,10 +80,7 @@ class Worker {
 
   bool usable() const { return line_ >= 0 && owner_ == getpid(); }
 
-  bool send(const std::string& words) const {
-    const std::uint64_t length = words.size();
-    return send(&length, sizeof length) && send(words.data(), words.size());
-  }
+  bool send(const std::string& words) const { return send_message(line_, words); }
   /// @returns false  the line has ended   @throws MeshingStopped
   bool receive(std::string& words, std::uint64_t most, clock::time_point until, bool (*stop)()) {
     std::uint64_t length = 0;
@@ -129,16 +126,6 @@ class Worker {
     variables.push_back(nullptr);
     char* arguments[]{program_.data(), nullptr};
     return posix_spawn(&process_, program_.c_str(), &s.files, &s.how, arguments, variables.data());
-  }
-
-  bool send(const void* data, std::size_t size) const {
-    for (const char* at = static_cast<const char*>(data); size > 0;) {
-      const ssize_t n = ::send(line_, at, size, MSG_NOSIGNAL);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return false;
-      at += n, size -= static_cast<std::size_t>(n);
-    }
-    return true;
   }
 
   bool receive(void* data, std::size_t size, clock::time_point until, bool (*stop)()) {

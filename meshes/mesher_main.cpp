@@ -36,19 +36,6 @@ bool receive(void* data, std::size_t size) {
   }
   return true;
 }
-bool send(const void* data, std::size_t size) {
-  for (const char* at = static_cast<const char*>(data); size > 0;) {
-    const ssize_t n = ::send(line, at, size, MSG_NOSIGNAL);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    at += n, size -= static_cast<std::size_t>(n);
-  }
-  return true;
-}
-bool say(const std::string& words) {
-  const std::uint64_t length = words.size();
-  return send(&length, sizeof length) && send(words.data(), words.size());
-}
 std::string answer(Answer kind, const std::string& words) { return static_cast<char>(kind) + words; }
 
 void limit_memory(double bytes) {
@@ -119,7 +106,7 @@ int serve() {
   sigemptyset(&child), sigaddset(&child, SIGCHLD);
   sigprocmask(SIG_BLOCK, &child, &awake);  // but while waiting for one
   const pid_t self = getpid();
-  if (!say(PINTLE_VERSION)) return 1;
+  if (!send_message(line, PINTLE_VERSION)) return 1;
   for (std::uint64_t length = 0; receive(&length, sizeof length);) {
     std::string words(static_cast<std::size_t>(length), '\0');
     if (!receive(words.data(), words.size())) return 1;
@@ -128,7 +115,7 @@ int serve() {
     if (worker == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != self) _exit(1);
-      _exit(say(worked_on(words)) ? done : 1);
+      _exit(send_message(line, worked_on(words)) ? done : 1);
     }
     if (const int code = outcome(worker, awake); code != done) return code;
   }

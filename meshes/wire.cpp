@@ -1,5 +1,9 @@
 #include "meshes/wire.h"
 
+#include <sys/socket.h>
+
+#include <cerrno>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -179,6 +183,25 @@ Mesh unpacked_mesh(std::string_view bytes) {
   judge(mesh.cells, count);
   for (const Group& g : mesh.groups) judge(g.nodes, count), judge(g.sides, count);
   return mesh;
+}
+
+namespace {
+
+bool send_all(int socket, const void* data, std::size_t size) {
+  for (const char* at = static_cast<const char*>(data); size > 0;) {
+    const ssize_t n = ::send(socket, at, size, MSG_NOSIGNAL);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    at += n, size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+}  // namespace
+
+bool send_message(int socket, const std::string& words) {
+  const std::uint64_t length = words.size();
+  return send_all(socket, &length, sizeof length) && send_all(socket, words.data(), words.size());
 }
 
 }  // namespace pintle

@@ -15,4 +15,7 @@ MesherTask unpacked_task(std::string_view);
 /// @throws std::runtime_error  the bytes end too early, or cells and groups name nodes that there are not
 Mesh unpacked_mesh(std::string_view);
 
+/// A message over a socket: its length and its bytes. @returns false: the other end is gone
+bool send_message(int socket, const std::string&);
+
 }  // namespace pintle

@@ -75,7 +75,7 @@ TEST_F(Bounds, NoCommandRunsWhatADrawingOrAMeshAsksFor) {
     plate(file);
     for (const char* const command : {"check", "run", "mesh", "modes", "linearize"}) {
       const string said = pintle(string(command) + " plate.yaml");
-      says(said, "plate.yaml:1: bodies.arm: ");
+      says(said, "plate.yaml:1: bodies.arm.plate.file: ");
       says(said, file);
       says(said, "exit 2");
     }

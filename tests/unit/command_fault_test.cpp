@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/four_bar_text.h"
 #include "tests/unit/program.h"
 
 namespace {
@@ -19,19 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace pintle_test;
 
-const char* const four_bar = R"(
-gravity: [0, -9.81]
-ground: {points: {O: [0, 0], C: [0.3, 0]}}
-bodies:
-  crank: {rigid: {mass: 0.3, inertia: 1e-4}, points: {O: [-50 mm, 0], A: [50 mm, 0]}, pose: {at: [0.05, 0]}}
-  coupler: {rigid: {mass: 0.5, inertia: 1e-2}, points: {A: [-150 mm, 0], B: [150 mm, 0]}, pose: {at: [0.25, 0.05], angle: 40 deg}}
-  rocker: {rigid: {mass: 0.4, inertia: 5e-3}, points: {B: [0, 0.1], C: [0, -0.1]}, pose: {at: [0.3, 0.1]}}
-joints:
-  main bearing: {revolute: [ground.O, crank.O]}
-  crank pin: {revolute: [crank.A, coupler.A]}
-  rocker pin: {revolute: [coupler.B, rocker.B]}
-  rocker bearing: {revolute: [ground.C, rocker.C]}
-drivers: {motor: {angle: [ground, crank], law: 10 deg + 10 rad/s*t}}
+const std::string driven_four_bar = four_bar + R"(drivers: {motor: {angle: [ground, crank], law: 10 deg + 10 rad/s*t}}
 run: {until: 0.01}
 output: {frames: 3}
 )";
@@ -58,7 +47,7 @@ const Command commands[]{{"kinematics", "scene.yaml", {}}, {"inverse", "scene.ya
 class Commands : public testing::TestWithParam<Command> {
  protected:
   void SetUp() override {
-    folder_.write("scene.yaml", four_bar), folder_.write("plate.yaml", plate), folder_.write("study.yaml", study);
+    folder_.write("scene.yaml", driven_four_bar), folder_.write("plate.yaml", plate), folder_.write("study.yaml", study);
   }
   bool sweeps() const { return GetParam().verb == std::string("sweep"); }
   fs::path results() const { return folder_.path() / "results"; }

@@ -46,23 +46,21 @@ struct Contained : testing::Test {
   std::string said_of_mesh(const std::string& name) const {
     return said("{bodies: {a: {plate: {file: \"" + name + "\", thickness: 1 mm, young: 1 GPa, poisson: 0.3, density: 1}}}}");
   }
-  std::string said(const std::string& text) const {
-    write(scene() / "scene.yaml", text);
+  template <class Read>
+  std::string said(const std::string& name, const std::string& text, Read read) const {
+    write(scene() / name, text);
     try {
-      read_scene(scene() / "scene.yaml");
+      read(scene() / name);
     } catch (const std::exception& e) {
       return e.what();
     }
     return "accepted";
   }
+  std::string said(const std::string& text) const {
+    return said("scene.yaml", text, [](const fs::path& path) { read_scene(path); });
+  }
   std::string said_of_inp(const std::string& text) const {
-    write(scene() / "deck.inp", text);
-    try {
-      read_inp(scene() / "deck.inp");
-    } catch (const std::exception& e) {
-      return e.what();
-    }
-    return "accepted";
+    return said("deck.inp", text, [](const fs::path& path) { read_inp(path); });
   }
   fs::path folder;
 };

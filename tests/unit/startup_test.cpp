@@ -3,40 +3,22 @@
 
 #include <gtest/gtest.h>
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
 
-extern char** environ;
+#include "tests/unit/four_bar_text.h"
+#include "tests/unit/program.h"
 
 namespace {
 
 namespace fs = std::filesystem;
+using namespace pintle_test;
 
-constexpr std::string_view four_bar = R"(
-gravity: [0, -9.81]
-ground: {points: {O: [0, 0], C: [0.3, 0]}}
-bodies:
-  crank: {rigid: {mass: 0.3, inertia: 1e-4}, points: {O: [-50 mm, 0], A: [50 mm, 0]}, pose: {at: [0.05, 0]}}
-  coupler: {rigid: {mass: 0.5, inertia: 1e-2}, points: {A: [-150 mm, 0], B: [150 mm, 0]}, pose: {at: [0.25, 0.05], angle: 40 deg}}
-  rocker: {rigid: {mass: 0.4, inertia: 5e-3}, points: {B: [0, 0.1], C: [0, -0.1]}, pose: {at: [0.3, 0.1]}}
-joints:
-  main bearing: {revolute: [ground.O, crank.O]}
-  crank pin: {revolute: [crank.A, coupler.A]}
-  rocker pin: {revolute: [coupler.B, rocker.B]}
-  rocker bearing: {revolute: [ground.C, rocker.C]}
-start: {crank: {angle: 10 deg, speed: 10 rad/s}}
+const std::string started_four_bar = four_bar + R"(start: {crank: {angle: 10 deg, speed: 10 rad/s}}
 run: {until: 1e-6}
 )";
 constexpr std::string_view every_step = "output: {every: 1e-6}\n";
@@ -55,46 +37,29 @@ output: {every: 1e-6}
 /// A folder of its own with a scene in it, gone afterwards.
 class Place {
  public:
-  explicit Place(std::string_view scene) {
-    std::string name = (fs::temp_directory_path() / "pintle_startup_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    std::ofstream(folder_ / "scene.yaml") << scene;
-  }
-  ~Place() { fs::remove_all(folder_); }
+  explicit Place(std::string_view scene) { folder_.write("scene.yaml", std::string(scene)); }
   /// Runs the scene, with `extra` before the environment. @returns its exit code   @param ms  from start to end
   int run(const std::string& extra, double* ms = nullptr) const {
     using clock = std::chrono::steady_clock;
-    fs::remove_all(folder_ / "out");
-    std::string program = PINTLE_PROGRAM, verb = "run", scene = (folder_ / "scene.yaml").string(), quiet = "-q", option = "-o",
-                out = (folder_ / "out").string(), own = extra;
-    char* arguments[] = {program.data(), verb.data(), scene.data(), quiet.data(), option.data(), out.data(), nullptr};
-    std::vector<char*> environment;
-    if (!own.empty()) environment.push_back(own.data());
-    std::string log = "LD_DEBUG_OUTPUT=" + (folder_ / "loader").string();
-    environment.push_back(log.data());
-    for (char** e = environ; *e != nullptr; ++e) environment.push_back(*e);
-    environment.push_back(nullptr);
+    const fs::path out = folder_.path() / "out";
+    fs::remove_all(out);
+    Words environment{"LD_DEBUG_OUTPUT=" + (folder_.path() / "loader").string()};
+    if (!extra.empty()) environment.push_back(extra);
     const auto begin = clock::now();
-    pid_t child = 0;
-    int status = 0;
-    if (posix_spawn(&child, program.c_str(), nullptr, nullptr, arguments, environment.data()) != 0) return -1;
-    if (waitpid(child, &status, 0) != child) return -1;
+    const Ended end = pintle_test::run(folder_.path() / "log", {PINTLE_PROGRAM, "run", (folder_.path() / "scene.yaml").string(), "-q", "-o", out.string()}, environment);
     if (ms) *ms = std::chrono::duration<double, std::milli>(clock::now() - begin).count();
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return end.code;
   }
   /// What the loader said of all that it loaded.
   std::string loaded() const {
     std::string all;
-    for (const auto& entry : fs::directory_iterator(folder_)) {
-      if (!entry.path().filename().string().starts_with("loader")) continue;
-      std::ifstream in(entry.path());
-      all.append(std::istreambuf_iterator<char>(in), {});
-    }
+    for (const auto& entry : fs::directory_iterator(folder_.path()))
+      if (entry.path().filename().string().starts_with("loader")) all += contents(entry.path());
     return all;
   }
 
  private:
-  fs::path folder_;
+  Folder folder_;
 };
 
 std::string loaded_by(const std::string& scene) {
@@ -106,13 +71,13 @@ std::string loaded_by(const std::string& scene) {
 bool holds(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
 TEST(StartUp, ARigidSceneLoadsNeitherGmshNorVtk) {
-  const std::string loaded = loaded_by(std::string(four_bar) + std::string(every_step));
+  const std::string loaded = loaded_by(started_four_bar + std::string(every_step));
   ASSERT_TRUE(holds(loaded, "libyaml-cpp")) << "the loader says nothing: this test sees nothing";
   for (const char* heavy : {"libgmsh", "libTK", "libvtk", "libpintle_", "pintle-mesher", "libfltk"}) EXPECT_FALSE(holds(loaded, heavy)) << heavy;
 }
 
 TEST(StartUp, VtkIsLoadedByFramesAlone) {
-  const std::string loaded = loaded_by(std::string(four_bar) + std::string(two_frames));
+  const std::string loaded = loaded_by(started_four_bar + std::string(two_frames));
   EXPECT_TRUE(holds(loaded, "libpintle_vtk") && holds(loaded, "libvtkIOXML"));
   EXPECT_FALSE(holds(loaded, "libgmsh"));
 }
@@ -130,7 +95,7 @@ TEST(StartUp, ARigidFourBarIsReadSteppedAndWrittenWithinFiftyMilliseconds) {
   GTEST_SKIP() << "not the program that people run";
 #endif
   constexpr double bound = 50;
-  const Place place(std::string(four_bar) + std::string(every_step));
+  const Place place(started_four_bar + std::string(every_step));
   double least = 1e9;
   for (int i = 0; i < 40 && least >= bound; ++i) {
     double ms = 0;
@@ -142,17 +107,16 @@ TEST(StartUp, ARigidFourBarIsReadSteppedAndWrittenWithinFiftyMilliseconds) {
 
 // --- exit codes: nothing done is not 0 ---
 
-/// The program's exit code for `verb` on files written to a folder; `said` ← what it printed to standard error.
-int exit_code(const std::string& verb, const std::vector<std::pair<std::string, std::string>>& files, std::string& said) {
-  std::string folder = (fs::temp_directory_path() / "pintle_exit_XXXXXX").string();
-  mkdtemp(folder.data());
-  for (const auto& [name, text] : files) std::ofstream(fs::path(folder) / name) << text;
-  const std::string command = "cd " + folder + " && " + PINTLE_PROGRAM + " " + verb + " " + files.front().first + " > out 2> said";
-  const int status = std::system(command.c_str());
-  std::ifstream in(fs::path(folder) / "said");
-  said.assign(std::istreambuf_iterator<char>(in), {});
-  fs::remove_all(folder);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+/// The program's exit code for `verb` on the first of the files, written to a folder; `said` ← what it printed to standard error.
+int exit_code(const Words& verb, const std::vector<std::pair<std::string, std::string>>& files, std::string& said) {
+  const Folder folder;
+  for (const auto& [name, text] : files) folder.write(name, text);
+  Words command{"/usr/bin/env", "-C", folder.path().string(), PINTLE_PROGRAM};
+  command.insert(command.end(), verb.begin(), verb.end());
+  command.push_back(files.front().first);
+  const Ended end = run(folder.path() / "log", command);
+  said = end.complained;
+  return end.code;
 }
 
 // A ram that pushes a slider farther than crank and rod reach: after 0.1 s no pose is left.
@@ -173,19 +137,19 @@ run: {until: 1, method: dopri5}
 
 TEST(ExitCodes, CheckOfARunThatFailsWhenTriedOutIsFour) {
   std::string said;
-  EXPECT_EQ(exit_code("check", {{"scene.yaml", out_of_reach}}, said), 4);
+  EXPECT_EQ(exit_code({"check"}, {{"scene.yaml", out_of_reach}}, said), 4);
   EXPECT_TRUE(holds(said, "the run fails") && holds(said, "t = 0.1 s")) << said;
-  EXPECT_EQ(exit_code("check --json", {{"scene.yaml", out_of_reach}}, said), 4);
-  EXPECT_EQ(exit_code("check", {{"scene.yaml", std::string(four_bar)}}, said), 0);
+  EXPECT_EQ(exit_code({"check", "--json"}, {{"scene.yaml", out_of_reach}}, said), 4);
+  EXPECT_EQ(exit_code({"check"}, {{"scene.yaml", started_four_bar}}, said), 0);
   EXPECT_EQ(said, "");
 }
 
 TEST(ExitCodes, ASweepOfWhichNoCaseRanIsFour) {
   const std::string study = "scene: scene.yaml\nmeasure: {turned: energy lost}\nsweep: {grid: {run.tolerance: [1e-6, 1e-7]}}\n";
   std::string said;
-  EXPECT_EQ(exit_code("sweep -q", {{"study.yaml", study}, {"scene.yaml", out_of_reach}}, said), 4);
+  EXPECT_EQ(exit_code({"sweep", "-q"}, {{"study.yaml", study}, {"scene.yaml", out_of_reach}}, said), 4);
   EXPECT_TRUE(holds(said, "none of 2 cases ran") && holds(said, "failed")) << said;
-  EXPECT_EQ(exit_code("sweep -q", {{"study.yaml", study}, {"scene.yaml", std::string(four_bar)}}, said), 0);
+  EXPECT_EQ(exit_code({"sweep", "-q"}, {{"study.yaml", study}, {"scene.yaml", started_four_bar}}, said), 0);
 }
 
 }  // namespace
