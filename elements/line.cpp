@@ -197,7 +197,7 @@ template <LineElement E>
 Square<E> geometric_stiffness(const E& e, const Coords<E>& x, const Stress<E>& s) {
   return integrate(e, x, [&](const Field<E>& f, double xi) -> Square<E> {
     const double N = (1 - xi) * s(0, 0) + xi * s(0, 1), V = (1 - xi) * s(1, 0) + xi * s(1, 1);
-    return N * (f.du.transpose() * f.du + f.dw.transpose() * f.dw) -
+    return N * f.dw.transpose() * f.dw -
            V * (f.du.transpose() * f.theta + f.theta.transpose() * f.du);
   });
 }

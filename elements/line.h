@@ -65,8 +65,8 @@ ShapeMatrix<E> shape(const E&, const Coords<E>&, const Eigen::Vector2d& xi);
 /// still has its fixed-end forces, which `line_load` puts on the nodes, to be taken off.
 template <LineElement E>
 Stress<E> stress(const E&, const Coords<E>&, const Freedoms<E>&);
-/// Of N and V, linear between the ends: ½ uᵀK_g u = ∫ ½N(u′² + w′²) − V u′θ ds. So a rigid rotation
-/// turns the end forces: K_g R = Z·(K u) for the stress of u. M does no work to second order.
+/// Of N and V, linear between the ends: ½ uᵀK_g u = ∫ ½N w′² − V u′θ ds. So a rigid rotation
+/// turns the end forces: K_g R = Z·(K u) for the stress of u. M and pure stretch do no such work.
 template <LineElement E>
 Square<E> geometric_stiffness(const E&, const Coords<E>&, const Stress<E>&);
 

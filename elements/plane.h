@@ -86,7 +86,7 @@ ShapeMatrix<E> shape(const E&, const Coords<E>& x, const Eigen::Vector2d& xi);
 /// [σx σy τxy σz] at the integration points [Pa], strain of the incompatible modes included.
 template <PlaneElementType E>
 Stress<E> stress(const E&, const Coords<E>& x, const Freedoms<E>& u);
-/// Of in-plane stress s at the integration points; σz and incompatible modes do not enter.
+/// Of in-plane s: ½uᵀK_g u = t ∫ s : ½(HᵀH − ε²) dA, H = ∇u, ε = sym H; σz, incompatible modes left out.
 template <PlaneElementType E>
 Square<E> geometric_stiffness(const E&, const Coords<E>& x, const Stress<E>& s);
 

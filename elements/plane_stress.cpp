@@ -54,23 +54,23 @@ Stress<E> stress(const E& e, const Coords<E>& x, const Freedoms<E>& u) {
   return out;
 }
 
+// With ω the rotation, H = ε + ωZ:  s : (HᵀH − ε²) = ω (ω tr s + (sx − sy) γ + 2τ (εy − εx)).
 template <PlaneElementType E>
 Square<E> geometric_stiffness(const E& e, const Coords<E>& x, const Stress<E>& s) {
   const PointGradients<E> at = point_gradients<E>(x);
-  Eigen::Matrix<double, E::nodes, E::nodes> k = decltype(k)::Zero();
+  Square<E> half = Square<E>::Zero();
   for (int p = 0; p < E::points; ++p) {
-    const Eigen::Matrix<double, E::nodes, 2> g = at.g[p].template topRows<E::nodes>();
-    Eigen::Matrix2d sigma;
-    sigma << s(0, p), s(2, p), s(2, p), s(1, p);
-    const Eigen::Matrix<double, E::nodes, 2> gs = g * (sigma * (at.area[p] * e.p.thickness));
-    for (int j = 0; j < E::nodes; ++j)
-      for (int i = 0; i <= j; ++i) k(i, j) += gs(i, 0) * g(j, 0) + gs(i, 1) * g(j, 1);
+    const double sx = s(0, p), sy = s(1, p), tau = s(2, p);
+    Freedoms<E> rotation, rest;  // ω, and the second factor
+    for (int i = 0; i < E::nodes; ++i) {
+      const double dx = at.g[p](i, 0), dy = at.g[p](i, 1);
+      rotation.template segment<2>(2 * i) << -dy / 2, dx / 2;
+      rest.template segment<2>(2 * i) << (sx - sy) * dy - 2 * tau * dx, (sx - sy) * dx + 2 * tau * dy;
+    }
+    rest += (sx + sy) * rotation;
+    half += (at.area[p] * e.p.thickness / 2) * rotation * rest.transpose();
   }
-  Square<E> K = Square<E>::Zero();
-  for (int j = 0; j < E::nodes; ++j)
-    for (int i = 0; i < E::nodes; ++i)
-      K(2 * i, 2 * j) = K(2 * i + 1, 2 * j + 1) = i <= j ? k(i, j) : k(j, i);
-  return K;
+  return half + half.transpose();
 }
 
 template <PlaneElementType E>

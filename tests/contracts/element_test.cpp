@@ -283,21 +283,23 @@ MatrixXd random_stress(Draw& draw, const Sample& s) {
   return s.stuff.EA * f;
 }
 
-/// What a stress does on the quadratic part of strain at one point, as the headers say it: Green's
-/// strain in a plane, ½N(u′² + w′²) − V u′θ along a line, N and V linear between its ends.
+/// What a stress does on the quadratic part of strain at one point, as the headers say it: Biot's
+/// strain in a plane, ½N w′² − V u′θ along a line, N and V linear between its ends.
 double second_order_work(const Sample& s, const Point& at, const MatrixXd& f, Eigen::Index point,
                          const VectorXd& u) {
   if (!s.is.line()) {
     Matrix2d slope, sigma;
     slope << at.slope[0] * u, at.slope[1] * u;
     sigma << f(0, point), f(2, point), f(2, point), f(1, point);
-    return sigma.cwiseProduct(slope.transpose() * slope).sum() / 2;
+    const Matrix2d strain = (slope + slope.transpose()) / 2;
+    return sigma.cwiseProduct(slope.transpose() * slope - strain * strain).sum() / 2;
   }
   const double xi = at.xi.x();
   const Vector2d t = (s.here.x.col(1) - s.here.x.col(0)).normalized(), slope = at.slope[0] * u;
   const double N = (1 - xi) * f(0, 0) + xi * f(0, 1), V = (1 - xi) * f(1, 0) + xi * f(1, 1);
   const double theta = s.is.turns() ? s.here.rotation(xi).dot(u) : 0;
-  return N * slope.squaredNorm() / 2 - V * t.dot(slope) * theta;
+  const double across = t.x() * slope.y() - t.y() * slope.x();
+  return N * across * across / 2 - V * t.dot(slope) * theta;
 }
 
 // The work is quadratic in u, so W(u + v) − W(u) − W(v) is its second derivative without error.
@@ -327,6 +329,21 @@ TEST_P(ElementContract, GeometricStiffnessIsSymmetricAndLinearInStress) {
     const MatrixXd F = s.here.geometric_stiffness(f), H = s.here.geometric_stiffness(g);
     EXPECT_LT(apart(s, F, F.transpose()), rounding);
     EXPECT_LT(apart(s, 2 * F - 3 * H, s.here.geometric_stiffness(2 * f - 3 * g)), 10 * rounding);
+  }
+}
+
+// A straight bar that is stretched comes no shorter, whatever stress it is under: its length is what its
+// displacement says. So it is with every homogeneous strain without rotation.
+TEST_P(ElementContract, StretchWithoutRotationHasNothingOfSecondOrder) {
+  for (const Sample& s : curved()) {
+    const MatrixXd f = random_stress(draw_, s), K_g = s.here.geometric_stiffness(f);
+    Matrix2d strain;
+    const Vector2d t = (s.here.x.col(1) - s.here.x.col(0)).normalized();
+    strain << 0.7, 0.3, 0.3, -0.4;
+    if (s.is.line()) strain = t * t.transpose();
+    VectorXd u = VectorXd::Zero(s.is.dofs());
+    for (int i = 0; i < s.is.nodes; ++i) u.segment<2>(i * s.is.dofs_per_node) = strain * (s.here.x.col(i) - s.here.x.col(0));
+    EXPECT_LT(std::abs(u.dot(K_g * u)), 10 * rounding * largest(scaled(s, K_g)) * s.size * s.size);
   }
 }
 
