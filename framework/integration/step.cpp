@@ -124,16 +124,28 @@ bool Stages::attempt(const System& system, double h, Step& step, Equations& eq) 
   return step.error.allFinite();
 }
 
-// Dormand and Prince's pair has an interpolant of fourth order without further stages: the cubic and x²(1 − x)² h Σ dᵢkᵢ
-// [HairerNorsettWanner1993, II.6]. Of the cubic alone the integrals would err by h⁴ inside a step and by h⁶ at its end.
+namespace {
+
+// d of the interpolant of fourth order  cubic + x²(1 − x)² h Σ dᵢkᵢ  that a pair of order five has without further stages, k₇ the
+// derivative at the step's end: Σd, Σdc, Σdc², ΣdAc vanish, Σdc³ = 1/4, Σdc Ac = 1/8, ΣdAc² = 1/12, ΣdAAc = 1/24. Dormand and
+// Prince's are those of [HairerNorsettWanner1993, II.6]; Fehlberg's leave one free, which is 0.
+const std::array<double, 7>* quartic_of(const Tableau& tableau) {
+  static constexpr std::array<double, 7> dopri5{-12715105075.0 / 11282082432,  0, 87487479700.0 / 32700410799, -10690763975.0 / 1880347072,
+                                                701980252875.0 / 199316789632, -1453857185.0 / 822651844,      69997945.0 / 29380423};
+  static constexpr std::array<double, 7> rkf45{-13.0 / 18, 0, 1664.0 / 855, -2197.0 / 342, 27.0 / 10, 0, 5.0 / 2};
+  return tableau.name == "dopri5" ? &dopri5 : tableau.name == "rkf45" ? &rkf45 : nullptr;
+}
+
+}  // namespace
+
+// Of the cubic alone the integrals would err by h⁴ inside a step and by h⁶ at its end.
 void Stages::refine_integrals(const System& system, const Step& step, State& out) const {
-  static constexpr std::array<double, 7> d{-12715105075.0 / 11282082432,  0, 87487479700.0 / 32700410799, -10690763975.0 / 1880347072,
-                                           701980252875.0 / 199316789632, -1453857185.0 / 822651844,      69997945.0 / 29380423};
-  if (tableau_.name != "dopri5") return;
+  const std::array<double, 7>* d = quartic_of(tableau_);
+  if (d == nullptr) return;
   const double x = (out.t - step.from.state.t) / step.h, bend = step.h * x * x * (1 - x) * (1 - x);
   const Index nz = system.n_z();
-  for (std::size_t i = 0; i < d.size(); ++i)
-    if (d[i] != 0) out.y.tail(nz) += (bend * d[i]) * k_[i].tail(nz);
+  for (std::size_t i = 0; i < d->size(); ++i)
+    if ((*d)[i] != 0) out.y.tail(nz) += (bend * (*d)[i]) * (i + 1 < d->size() ? k_[i] : step.dy_end()).tail(nz);
 }
 
 double Stages::stiffness(const System& system, const Step& step) const {

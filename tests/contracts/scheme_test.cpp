@@ -204,13 +204,16 @@ TEST_P(SchemeContract, DenseOutputHasTheOrderOfItsPolynomials) {
   expect_order(4, h, z);
 }
 
-TEST(LedgerInsideSteps, OfDopri5HasFifthOrder) {
+class LedgerInsideSteps : public testing::TestWithParam<const char*> {};
+class QuarticInsideSteps : public testing::TestWithParam<const char*> {};
+
+TEST_P(QuarticInsideSteps, HasFifthOrder) {
   const Case k = link::make();
   const std::vector<double> h{0.06, 0.03, 0.015};
   std::vector<double> error;
   for (const double span : h) {
     Equations eq(k.system);
-    Stages stages(k.system, *find_tableau("dopri5"), Constraints::projection);
+    Stages stages(k.system, *find_tableau(GetParam()), Constraints::projection);
     Step step;
     step.to.state = k.start;
     step.to.dy.setZero(k.system.n_y());
@@ -228,12 +231,14 @@ TEST(LedgerInsideSteps, OfDopri5HasFifthOrder) {
   }
   expect_order(5, h, error);
 }
+INSTANTIATE_TEST_SUITE_P(Each, QuarticInsideSteps, testing::Values("dopri5", "rkf45"), [](const auto& each) { return std::string(each.param); });
 
 // The cubic through the powers at both ends alone errs by a hundred times as much inside as at the ends, and more at finer tolerances.
-TEST(LedgerInsideSteps, OfDopri5ErrsNoMoreThanAtTheirEnds) {
+TEST_P(LedgerInsideSteps, ErrsNoMoreThanAtTheirEnds) {
   const Case k = link::make();
-  for (const double tolerance : {1e-6, 1e-8}) {
-    Integrator run(k.system, {.tableau = find_tableau("dopri5"), .tolerance = tolerance}, k.start);
+  const std::string method = GetParam();
+  for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+    Integrator run(k.system, {.tableau = find_tableau(method), .tolerance = tolerance}, k.start);  // none: generalised-alpha
     State sample;
     double inside = 0, at_ends = 0;
     const auto off = [&](const State& state) {
@@ -251,6 +256,8 @@ TEST(LedgerInsideSteps, OfDopri5ErrsNoMoreThanAtTheirEnds) {
     EXPECT_LT(inside, 10 * at_ends) << tolerance;
   }
 }
+INSTANTIATE_TEST_SUITE_P(Each, LedgerInsideSteps, testing::Values("dopri5", "rkf45", "verner87", "generalized_alpha"),
+                         [](const auto& each) { return std::string(each.param); });
 
 TEST_P(SchemeContract, DenseOutputMeetsBothEnds) {
   const Case k = crank::make();
