@@ -13,7 +13,7 @@
 
 #include "app/options.h"
 #include "app/progress.h"
-#include "framework/run/library_threads.h"
+#include "framework/common/library_threads.h"
 #include "framework/scene/error.h"
 #include "meshes/limits.h"
 

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "meshes/lattice.h"
-#include "meshes/refuse.h"
+#include "meshes/reject.h"
 
 namespace pintle {
 

@@ -15,7 +15,7 @@
 #include "meshes/link_lattice.h"
 #include "meshes/mesher.h"
 #include "meshes/msh_text.h"
-#include "meshes/refuse.h"
+#include "meshes/reject.h"
 
 namespace pintle {
 

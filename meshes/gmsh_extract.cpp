@@ -11,7 +11,7 @@
 
 #include "meshes/gmsh_figure.h"
 #include "meshes/quality.h"
-#include "meshes/refuse.h"
+#include "meshes/reject.h"
 #include "meshes/rim.h"
 
 namespace pintle {

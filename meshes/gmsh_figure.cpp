@@ -1,6 +1,6 @@
 #include "meshes/gmsh_figure.h"
 
-#include "meshes/refuse.h"
+#include "meshes/reject.h"
 
 #include <gmsh.h>
 

@@ -12,7 +12,7 @@
 #include "meshes/gmsh_figure.h"
 #include "meshes/gmsh_session.h"
 #include "meshes/quality.h"
-#include "meshes/refuse.h"
+#include "meshes/reject.h"
 #include "meshes/sizes.h"
 
 namespace pintle {

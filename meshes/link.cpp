@@ -1,6 +1,6 @@
 #include "meshes/link.h"
 
-#include "meshes/refuse.h"
+#include "meshes/reject.h"
 
 #include <array>
 #include <cmath>

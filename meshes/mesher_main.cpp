@@ -18,7 +18,7 @@
 
 #include "meshes/confine.h"
 #include "meshes/gmsh_mesher.h"
-#include "meshes/refuse.h"
+#include "meshes/reject.h"
 #include "meshes/wire.h"
 
 namespace pintle {

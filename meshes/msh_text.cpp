@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "meshes/refuse.h"
+#include "meshes/reject.h"
 
 namespace pintle {
 

@@ -8,7 +8,7 @@
 
 #include "framework/bodies/elastic_parts.h"
 #include "meshes/generate.h"
-#include "meshes/refuse.h"
+#include "meshes/reject.h"
 #include "meshes/squares.h"
 
 namespace pintle {

@@ -8,7 +8,7 @@
 
 #include "files/files.h"
 #include "framework/bodies/elastic_parts.h"
-#include "framework/run/value_writer.h"
+#include "framework/common/value_writer.h"
 
 namespace pintle {
 

@@ -5,7 +5,7 @@
 
 #include "framework/bodies/elastic_parts.h"
 #include "framework/common/text.h"
-#include "meshes/refuse.h"
+#include "meshes/reject.h"
 
 namespace pintle {
 

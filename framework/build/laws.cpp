@@ -6,7 +6,7 @@
 
 #include "framework/common/text.h"
 #include "framework/scene/error.h"
-#include "framework/scene/law_pole.h"
+#include "framework/scene/units/law_pole.h"
 #include "framework/scene/units/law_scale.h"
 
 namespace pintle {

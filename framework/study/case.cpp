@@ -8,7 +8,7 @@
 
 #include "framework/bodies/segments.h"
 #include "framework/build/build.h"
-#include "framework/run/library_threads.h"
+#include "framework/common/library_threads.h"
 #include "framework/scene/text_file.h"
 #include "meshes/limits.h"
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/common/sha256.h"
-#include "framework/run/library_threads.h"
-#include "framework/run/value_writer.h"
+#include "framework/common/library_threads.h"
+#include "framework/common/value_writer.h"
 
 namespace pintle {
 

@@ -1,6 +1,6 @@
 #include "framework/component/fe/fe_model.h"
 
-#include "meshes/refuse.h"
+#include "meshes/reject.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "framework/component/fe/from_mesh.h"
 
-#include "meshes/refuse.h"
+#include "meshes/reject.h"
 
 #include <algorithm>
 #include <array>

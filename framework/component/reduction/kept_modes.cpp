@@ -8,7 +8,7 @@
 #include "framework/component/eigen/factor.h"
 #include "framework/component/fe/assembly.h"
 #include "framework/component/reduction/reduction.h"
-#include "meshes/refuse.h"
+#include "meshes/reject.h"
 
 namespace pintle {
 namespace {

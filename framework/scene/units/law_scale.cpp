@@ -5,7 +5,7 @@
 #include <limits>
 #include <queue>
 
-#include "framework/scene/machine.h"
+#include "framework/scene/units/machine.h"
 #include "framework/scene/units/table.h"
 
 namespace pintle {

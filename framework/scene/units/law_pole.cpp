@@ -1,10 +1,10 @@
-#include "framework/scene/law_pole.h"
+#include "framework/scene/units/law_pole.h"
 
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "framework/scene/machine.h"
+#include "framework/scene/units/machine.h"
 
 namespace pintle {
 

@@ -1,4 +1,4 @@
-#include "framework/run/library_threads.h"
+#include "framework/common/library_threads.h"
 
 #include <dlfcn.h>
 
