@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "framework/common/file.h"
 #include "framework/common/printed.h"
 #include "framework/common/text.h"
 #include "framework/scene/units/expression.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "framework/analysis/simulate/identity.h"
+#include "framework/analysis/simulate/simulate.h"
 #include "framework/mechanism/table.h"
 #include "framework/output/room.h"
 #include "framework/scene/yaml/reader.h"
