@@ -37,7 +37,7 @@ void validate_jumps(const Scene& scene, const SceneDriver& d, const LawScale& sc
 /// Between the moments that the reader looks at.
 void validate_finite(const Scene& scene, const Law& law, const Place& place, const LawScale& scale, bool driver) {
   const auto fail = [&](const char* what, double t) {
-    throw SceneError(scene.file, place, "its law " + law.text + " " + what + " at t = " + number(t) + " s; write one that stays finite from 0 to run.until, or end the run before");
+    throw SceneError(scene.file, place, "its law " + law.text + " " + what + " at t = " + number_text(t, 9) + " s; write one that stays finite from 0 to run.until, or end the run before");
   };
   if (!std::isnan(scale.not_finite)) fail("is not a finite number", scale.not_finite);
   if (const auto pole = pole_of(law.at, scene.run.until, driver)) fail("grows beyond all bounds", *pole);
@@ -106,7 +106,7 @@ std::string explain_laws(const Scene& scene, double t) {
     }
     if (!std::isfinite(now.value + now.rate + then.value + then.rate)) out = which + "is not a finite number there; write one that is";
     else if (std::abs(now.rate) * t > steep * before)
-      out = which + "has come to " + number(now.value) + " and changes by " + number(now.rate) +
+      out = which + "has come to " + number_text(now.value, 9) + " and changes by " + number_text(now.rate, 9) +
             " a second there: it seems to grow beyond all bounds; write one that stays finite, or end the run before (run.until)";
   });
   return out;

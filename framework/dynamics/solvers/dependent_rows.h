@@ -67,12 +67,8 @@ class Refinement {
     left_over_ = size > 0 ? left_.tail(m).cwiseProduct(unit_.tail(m)).lpNorm<Eigen::Infinity>() / size : 0;
   }
 
-  /// Of the last solve: residual of the rows of multipliers over b, largest entries.
-  double left_over() const { return left_over_; }
-
- private:
-  // Rounding of residuals, over the shift, stays in the multipliers as a part that does no work: P z, P = (shifted⁻¹ shift)³ up to the
-  // cube of the shift over what resists. The shift is as the inverse squares of the units, so what is left is of least norm.
+  /// Rounding of residuals, over the shift, stays in the multipliers as a part that does no work: P z, P = (shifted⁻¹ shift)³ up to the
+  /// cube of the shift over what resists. The shift is as the inverse squares of the units, so what is left is of least norm.
   template <class Solve>
   void take_null_part(Eigen::VectorXd& z, Solve solve, const Eigen::VectorXd& shifts_made) {
     const Eigen::Index m = z.size() - rows_;
@@ -85,6 +81,10 @@ class Refinement {
     z.tail(m) -= last_.tail(m);
   }
 
+  /// Of the last solve: residual of the rows of multipliers over b, largest entries.
+  double left_over() const { return left_over_; }
+
+ private:
   double norm(const Eigen::VectorXd& v) const { return v.cwiseProduct(unit_).lpNorm<Eigen::Infinity>(); }
 
   Eigen::VectorXd unit_, b_, left_, before_, last_;

@@ -7,11 +7,12 @@
 #include <optional>
 
 #include "framework/common/index.h"
-#include "framework/dynamics/solvers/dependent_rows.h"
+#include "framework/dynamics/solvers/rank_ldl.h"
 #include "framework/dynamics/solvers/sparse_ldl.h"
 
 namespace pintle {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -74,12 +75,56 @@ void solve_ldl(N n, const double* S, const double* inverse, const int* rows, dou
 
 struct Schur::Data {
   explicit Data(const VectorXd& row_scale)
-      : unit(row_scale), shift(VectorXd::Zero(row_scale.size())), S_ii(shift), refine(row_scale, 0) {}
+      : unit(row_scale), shift(VectorXd::Zero(row_scale.size())), S_ii(shift), refine(row_scale, 0), given(shift) {}
 
-  VectorXd unit, shift, S_ii;
+  /// r ← what of it dependent rows can meet, by least squares. @returns what that takes away over r, largest entries
+  double make_consistent(VectorXd& r) {
+    r.array() *= unit.array();
+    const double size = largest(r);
+    given = r;
+    take_null_vectors(r);
+    given -= r;
+    const double left = largest(given);
+    r.array() /= unit.array();
+    return size > 0 ? left / size : 0;
+  }
+  /// μ ← that of least norm
+  void take_null_part(VectorXd& mu) {
+    mu.array() /= unit.array();
+    take_null_vectors(mu);
+    mu.array() *= unit.array();
+  }
+
+  VectorXd unit;
+
+  // sparse: the shift
+  VectorXd shift, S_ii;
   std::vector<double> whole;  ///< S without the shift, not factored
   dependent_rows::Refinement refine;
   std::optional<SparseLdl> sparse;
+
+  // dense: the rank
+  std::vector<RankLdl> parts;
+  MatrixXd N;     ///< null vectors over the units, orthonormal, a column each
+  VectorXd work, given;
+  double left_over = 0;
+
+  void orthonormalize(Eigen::Index k) {
+    auto v = N.col(k);
+    v.array() /= unit.array();
+    for (int twice = 0; twice < 2; ++twice)
+      for (Eigen::Index j = 0; j < k; ++j) v -= N.col(j).dot(v) * N.col(j);
+    v.normalize();
+  }
+
+ private:
+  static double largest(const VectorXd& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0; }
+  void take_null_vectors(VectorXd& v) {
+    for (int twice = 0; twice < 2; ++twice) {
+      work.noalias() = N.transpose() * v;
+      v.noalias() -= N * work;
+    }
+  }
 };
 
 Schur::~Schur() = default;
@@ -124,7 +169,7 @@ Schur::Schur(const System& system) : n_(system.n_rows()), data_(std::make_unique
   std::vector<int> where;
   if (n_ <= dense_rows) {
     where = divide(places);
-    data_->whole = values_;
+    data_->parts.resize(parts_.size());
   } else {
     for (int i = 0; i < n_; ++i) places.push_back({i, i});
     data_->sparse.emplace(n_, places, where);
@@ -177,7 +222,10 @@ std::vector<int> Schur::divide(const std::vector<Pattern::Place>& places) {
   return where;
 }
 
-double Schur::inconsistency() const { return dependent() ? data_->refine.left_over() : 0; }
+double Schur::inconsistency() const {
+  if (!dependent()) return 0;
+  return sparse() ? data_->refine.left_over() : data_->left_over;
+}
 bool Schur::sparse() const { return data_->sparse.has_value(); }
 
 const char* Schur::solver() const {
@@ -205,16 +253,64 @@ void Schur::sum(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta)
   for (const ModalTerm& t : modal_terms_) values_[at(t.to)] += B_eta[at(t.i)].row(t.r).dot(B_eta[at(t.j)].row(t.c));
 }
 
-bool Schur::factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta) {
+bool Schur::factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta, double least) {
   sum(B, B_eta);
   lost_ = 0;
   if (sparse()) least_ = data_->sparse->factor(values_);
-  if (sparse() ? least_ > dependent_rows::lost : factor_dense(dependent_rows::lost)) {
+  const bool independent = sparse() ? least_ > least : factor_dense(least);
+  if (independent && (least_ > few || smallest_quotient() > least)) {
     kept_ = least_;
     return true;
   }
-  if (!sparse()) sum(B, B_eta);  // the factor took its place
-  return factor_shifted();
+  if (sparse()) return factor_shifted();
+  sum(B, B_eta);  // the factor took its place
+  return factor_by_rank(least);
+}
+
+// How little a combination of rows is, vᵀSv / Σ S_ii v_i², for the one that the smallest pivot stands for. Rounding may leave far more
+// of a pivot than of this, where its row is but a small part of the combination.
+double Schur::smallest_quotient() const {
+  if (sparse()) return data_->sparse->smallest_quotient(values_);
+  std::array<double, dense_rows> v, diagonal;
+  double smallest = 1;
+  for (const Part& p : parts_) {
+    const double *L = values_.data() + p.at, *inverse = inverse_.data() + p.begin;
+    for (int j = 0; j < p.n; ++j) {
+      double& S_jj = diagonal[at(j)] = 1 / inverse[j];
+      for (int k = 0; k < j; ++k) S_jj += L[j * p.n + k] * L[j * p.n + k] / inverse[k];
+      if (1 > few * S_jj * inverse[j]) continue;
+      double weight = S_jj;
+      for (int k = j - 1; k >= 0; --k) {  // Lᵀ v = e_j
+        v[at(k)] = -L[j * p.n + k];
+        for (int i = k + 1; i < j; ++i) v[at(k)] -= L[i * p.n + k] * v[at(i)];
+        weight += diagonal[at(k)] * v[at(k)] * v[at(k)];
+      }
+      smallest = std::min(smallest, 1 / (inverse[j] * weight));
+    }
+  }
+  return smallest;
+}
+
+// Independent rows serve for all, and null vectors bring what they give to the least norm.
+bool Schur::factor_by_rank(double least) {
+  Data& d = *data_;
+  kept_ = 1;
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const Part& p = parts_[k];
+    if (!d.parts[k].factor(p.n, &values_[at(p.at)], least)) return false;
+    lost_ += d.parts[k].lost();
+    kept_ = std::min(kept_, d.parts[k].kept());
+  }
+  if (d.N.cols() != lost_) d.N.resize(n_, lost_), d.work.resize(lost_);
+  d.N.setZero();
+  Eigen::Index column = 0;
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+    for (int i = 0; i < d.parts[k].lost(); ++i) {
+      d.parts[k].null_vector(i, &order_[at(parts_[k].begin)], d.N.col(column).data());
+      d.orthonormalize(column++);
+    }
+  least_ = lost_ > 0 ? 0 : kept_;
+  return true;
 }
 
 bool Schur::factor_shifted() {
@@ -225,18 +321,9 @@ bool Schur::factor_shifted() {
   if (!(d.S_ii.array() > 0).all()) return false;
   dependent_rows::shifts(d.S_ii, d.unit, d.shift);
   for (int i = 0; i < n_; ++i) entry(i) += d.shift[i];
-  if (!(d.sparse ? d.sparse->factor(values_) > 0 : factor_dense(0))) return false;
+  if (!(d.sparse->factor(values_) > 0)) return false;
   kept_ = 1;
-  if (d.sparse) {
-    lost_ = d.sparse->below(values_, dependent_rows::held_up, kept_);
-  } else {
-    for (int k = 0; k < n_; ++k) {
-      const double ratio = 1 / (inverse_[at(k)] * d.S_ii[order_[at(k)]]);
-      if (ratio < dependent_rows::held_up) ++lost_;
-      else kept_ = std::min(kept_, ratio);
-    }
-  }
-  lost_ = std::max(lost_, 1);
+  lost_ = std::max(d.sparse->below(values_, dependent_rows::held_up, kept_), 1);
   least_ = 0;
   return true;
 }
@@ -260,30 +347,30 @@ void Schur::solve_factored(VectorXd& mu) {
     solve_dense(mu.data());
 }
 
-// out −= S x, of dependent rows
-void Schur::subtract_product(const VectorXd& x, VectorXd& out) const {
-  if (sparse()) {
-    data_->sparse->subtract_product(data_->whole, x.data(), out.data());
-    return;
-  }
-  for (const Part& p : parts_) {
-    const double* S = data_->whole.data() + p.at;
-    const int* rows = order_.data() + p.begin;
-    for (int i = 0; i < p.n; ++i) {
-      for (int j = 0; j < i; ++j) {
-        out[rows[i]] -= S[i * p.n + j] * x[rows[j]];
-        out[rows[j]] -= S[i * p.n + j] * x[rows[i]];
-      }
-      out[rows[i]] -= S[i * p.n + i] * x[rows[i]];
-    }
-  }
+void Schur::solve_by_rank(VectorXd& mu) {
+  Data& d = *data_;
+  d.left_over = d.make_consistent(mu);
+  for (std::size_t k = 0; k < parts_.size(); ++k) d.parts[k].solve(&order_[at(parts_[k].begin)], mu.data());
+  d.take_null_part(mu);
 }
 
 void Schur::solve(VectorXd& mu) {
+  Data& d = *data_;
   if (!dependent())
     solve_factored(mu);
+  else if (!sparse())
+    solve_by_rank(mu);
   else
-    data_->refine(mu, [&](VectorXd& v) { solve_factored(v); }, [&](const VectorXd& x, VectorXd& out) { subtract_product(x, out); }, &data_->shift);
+    d.refine(mu, [&](VectorXd& v) { solve_factored(v); },
+             [&](const VectorXd& x, VectorXd& out) { d.sparse->subtract_product(d.whole, x.data(), out.data()); }, &d.shift);
+}
+
+void Schur::take_null_part(VectorXd& mu) {
+  if (!dependent()) return;
+  if (sparse())
+    data_->refine.take_null_part(mu, [&](VectorXd& v) { solve_factored(v); }, data_->shift);
+  else
+    data_->take_null_part(mu);
 }
 
 }  // namespace pintle

@@ -8,6 +8,7 @@
 #include "eigen_layout.h"
 #include "framework/dynamics/model/flexible.h"
 #include "framework/dynamics/model/system.h"
+#include "framework/dynamics/solvers/dependent_rows.h"
 #include "framework/dynamics/solvers/pattern.h"
 
 namespace pintle {
@@ -28,10 +29,10 @@ class Schur {
   /// One side of each joint: B = L J, m × 3 in a 3 × 3 block; index 2·joint + (0 for a, 1 for b).
   using Block = ConstraintRows::Block;
 
-  /// Sums and factors S. Sides on flexible bodies are given in the metric of M⁻¹ (to_metric). No allocation
+  /// Sums and factors S; pivots not above `least` count as lost. Sides on flexible bodies are given in the metric of M⁻¹ (to_metric). No allocation
   /// when dense or thin (SparseLdl), but at the first dependent rows of a sparse one.
   /// @returns false if S is not finite, or a row has no entries; dependent rows are allowed for
-  bool factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta);
+  bool factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta, double least = dependent_rows::lost);
   /// μ ← S⁻¹ μ; of dependent rows the least norm, rows in metres counted over the mechanism's length, of
   /// what misses r by the least sum of squares. @pre factor returned true
   void solve(Eigen::VectorXd& mu);
@@ -40,7 +41,11 @@ class Schur {
   int lost() const { return lost_; }            ///< how many pivots they left nothing of
   double least() const { return least_; }       ///< pivot over the entry it came from, the smallest
   double kept() const { return kept_; }         ///< the same of those that are not lost: small near a singular pose
-  bool weak() const { return least_ < 1e-5; }  ///< dependent, not far from it, or of very unlike inertias
+  bool weak() const { return least_ < few; }   ///< dependent, not far from it, or of very unlike inertias
+  /// Rows beside `permanent` redundant ones are dependent or not far from it, where that can be told.
+  bool near_singular(int permanent) const { return lost_ > permanent || ((lost_ == 0 || !sparse()) && kept_ < few); }
+  /// Takes from μ, of the last factorization's pose, the part that does no work: Cqᵀμ stays. Of independent rows nothing.
+  void take_null_part(Eigen::VectorXd& mu);
   /// Of the last solve: what S μ misses r by, over r, largest entries, rows in metres over the mechanism's
   /// length; 0 of independent rows. Well above rounding: the rows contradict each other.
   double inconsistency() const;
@@ -66,10 +71,14 @@ class Schur {
   std::vector<int> divide(const std::vector<Pattern::Place>& places);
   void sum(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta);
   bool factor_shifted();
+  bool factor_by_rank(double least);
   bool factor_dense(double least);
+  double smallest_quotient() const;
   void solve_dense(double* mu) const;
   void solve_factored(Eigen::VectorXd& mu);
-  void subtract_product(const Eigen::VectorXd& x, Eigen::VectorXd& out) const;
+  void solve_by_rank(Eigen::VectorXd& mu);
+
+  static constexpr double few = 1e-5;  ///< of a pivot
 
   int n_;
   int lost_ = 0;

@@ -156,6 +156,17 @@ struct SparseLdl::Data {
     std::copy_n(static_cast<const double*>(result->x), n, x.data());
   }
 
+  // x, in the order of elimination
+  void solve() {
+    if (blocks) {
+      solve_blocks();
+      return;
+    }
+    ldl_lsolve(n, x.data(), begin.data(), row.data(), L.data());
+    ldl_dsolve(n, x.data(), D.data());
+    ldl_ltsolve(n, x.data(), begin.data(), row.data(), L.data());
+  }
+
   int n;
   cholmod_common common;
   Pattern pattern;  ///< upper triangle, permuted
@@ -230,16 +241,26 @@ int SparseLdl::below(const std::vector<double>& values, double ratio, double& le
   return count;
 }
 
+double SparseLdl::smallest_quotient(const std::vector<double>& values) {
+  Data& d = *data_;
+  int weakest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  d.each_pivot([&](int k, double pivot) {
+    const double ratio = pivot / d.diagonal_entry(values.data(), k);
+    if (ratio < least) least = ratio, weakest = k;
+  });
+  std::fill(d.x.begin(), d.x.end(), 0.0);
+  d.x[at(weakest)] = 1;
+  d.solve();
+  double weight = 0;
+  for (int k = 0; k < d.n; ++k) weight += d.diagonal_entry(values.data(), k) * d.x[at(k)] * d.x[at(k)];
+  return d.x[at(weakest)] / weight;
+}
+
 void SparseLdl::solve(double* x) {
   Data& d = *data_;
   for (int k = 0; k < d.n; ++k) d.x[at(k)] = x[d.order[at(k)]];
-  if (d.blocks) {
-    d.solve_blocks();
-  } else {
-    ldl_lsolve(d.n, d.x.data(), d.begin.data(), d.row.data(), d.L.data());
-    ldl_dsolve(d.n, d.x.data(), d.D.data());
-    ldl_ltsolve(d.n, d.x.data(), d.begin.data(), d.row.data(), d.L.data());
-  }
+  d.solve();
   for (int k = 0; k < d.n; ++k) x[d.order[at(k)]] = d.x[at(k)];
 }
 

@@ -31,6 +31,8 @@ class SparseLdl {
   /// Pivots below `ratio` of the diagonal entry they came from; `least` ← the smallest ratio of the others, if less.
   /// @pre as solve; values as factored
   int below(const std::vector<double>& values, double ratio, double& least) const;
+  /// xᵀSx / Σ S_ii x_i² of x = S⁻¹e for the row of the smallest pivot. @pre as solve; values as factored
+  double smallest_quotient(const std::vector<double>& values);
   void solve(double* x);            ///< x ← S⁻¹ x. @pre factor returned a positive number
   /// out −= S x
   void subtract_product(const std::vector<double>& values, const double* x, double* out) const;
