@@ -287,6 +287,14 @@ bool Alpha::attempt(const System& system, double h, Step& step, Equations& eq) {
   return to.state.y.allFinite() && to.dy.allFinite() && step.error.allFinite();
 }
 
+// What forces of dependent rows share is not settled by the step: taken on from one to the next, it would grow without bound.
+void Alpha::share_out(const System& system, Instant& to, Equations& eq) {
+  factor(system, to.state.y, eq);
+  if (!eq.regular) return;
+  eq.schur.take_null_part(to.memory.lambda);
+  eq.lambda = to.memory.lambda;
+}
+
 void Alpha::remember(const System& system, double h, const Instant& from, Instant& to, Equations& eq) {
   const Index n = system.n();
   fill_derivative(system, to.state.y, eq, to.dy);
@@ -303,6 +311,7 @@ void Alpha::remember(const System& system, double h, const Instant& from, Instan
   memory.a = ((1 - f) * v1 + f * v0 - m * work_) / (1 - m);
   memory.h = h;
   memory.lambda_before = from.memory.lambda;
+  if (eq.permanent > 0 || (lent_ ? *lent_ : kkt_).dependent()) share_out(system, to, eq);
   forces_of(system, eq, memory);
   for (Index i = 2 * n; i < system.n_y(); ++i) to.state.y[i] = from.state.y[i] + h / 2 * (from.dy[i] + to.dy[i]);
 }

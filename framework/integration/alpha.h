@@ -74,6 +74,7 @@ class Alpha {
   void solve(Eigen::VectorXd& x, Eigen::VectorXd& y) { (lent_ ? *lent_ : kkt_).solve(x, y); }
   double judge(const System&, const Weights&, const State&) const;
   void forces_of(const System&, const Equations&, Memory&);
+  void share_out(const System&, Instant& to, Equations&);
   void remember(const System&, double h, const Instant& from, Instant& to, Equations&);
   void estimate(const System&, Step&, Equations&);
   void filter(const System&, Eigen::Ref<Eigen::VectorXd>, int times, Equations&);

@@ -325,9 +325,6 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   if (from) warn_of_gap(system, model, *from, run);
   warn_of_depth(system, run);
   warn_of_pushing(system, run);
-  if (integrator.implicit() && !assembly.redundant.empty())
-    run.warnings.push_back("by generalised-alpha the joint forces that are not unique take on a part that does no work and may grow (" +
-                           rows_text(system, assembly.shared, true) + "); the motion is right; for these forces take method: dopri5");
   slow.warn(system, run.energy_in_play, run.warnings);
   monitor.warn(run.warnings);
   run.counts = integrator.counts();
