@@ -14,6 +14,7 @@ using Index = Eigen::Index;
 namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+constexpr double fork = 1e-9;           // a pivot at which no step should start
 constexpr double slowest_speed = 1e-6;  // over the finest length and the step: slower is rest
 
 std::string number_text(double x) {
@@ -182,18 +183,18 @@ bool Integrator::step_to(double h_left) {
     }
     if (!done) {
       ++counts_.rejected;
-      h_ = h / 4;
+      h_ = h * (passes_fork() ? 0.7 : 0.25);
+      continue;
+    }
+    if (!last && !at_singular_configuration_ && tries < 3 && (at_singular_configuration() || passes_fork())) {  // momentum carries past what no step should start from
+      ++counts_.rejected;
+      h_ = 0.8 * h;
       continue;
     }
     const double error = worse(1e-10, scaled_error());
     if (!(error <= 1)) {
       ++counts_.rejected;
-      h_ = h * (std::isnan(error) ? 0.2 : std::max(0.2, 0.9 * std::pow(error, -1 / order)));
-      continue;
-    }
-    if (!last && !at_singular_configuration_ && tries < 3 && at_singular_configuration()) {  // momentum carries past what no step should start from
-      ++counts_.rejected;
-      h_ = 0.8 * h;
+      h_ = h * (std::isnan(error) ? 0.2 : std::max(passes_fork() ? 0.7 : 0.2, 0.9 * std::pow(error, -1 / order)));
       continue;
     }
     const double grow = 0.9 * std::pow(error, -0.7 / order) * std::pow(error_before_, 0.4 / order);
@@ -320,10 +321,22 @@ bool Integrator::advance(double until) {
   return true;
 }
 
-// So near a pose where motions branch that accelerations there are known to few digits.
+// Accelerations at a distance u of a pose where motions branch are known to ω² ε/u³, ε the rounding of places, and of that a step brings
+// the part hω into the motion: the pivot, which falls as u², that leaves the tolerance.
+double Integrator::fork_pivot() const {
+  constexpr double rounding = 1e-16;
+  const double turn = step_.h * fastest_rate(system_, step_.to.state.y);
+  return std::max(fork, std::pow(turn * turn * rounding / scheme_.tolerance, 2.0 / 3));
+}
 bool Integrator::at_singular_configuration() const {
-  constexpr double few = 1e-9;  // pivots fall with the square of the distance
-  return stages_ && (eq_.schur.lost() > eq_.permanent || (eq_.permanent == 0 && eq_.schur.least() < few));
+  if (!stages_) return false;
+  const Schur& S = eq_.schur;
+  return S.lost() > eq_.permanent || (S.near_singular(eq_.permanent) && S.kept() < fork);
+}
+// A stage came nearer than that, and much nearer than the step's end: so it is the pose, not bodies of unlike inertias.
+bool Integrator::passes_fork() const {
+  constexpr double nearer = 0.1;
+  return stages_ && stages_->closest() < std::min(fork_pivot(), nearer * eq_.schur.kept());
 }
 
 // Stages of a pair of high order stray far from the motion, too far where branches meet.

@@ -107,7 +107,9 @@ class Integrator {
   bool attempt(double h);
   bool watch_stiffness();
   bool fall_back();
+  double fork_pivot() const;
   bool at_singular_configuration() const;
+  bool passes_fork() const;
   std::string trouble() const;
   double fastest_speed(const Eigen::VectorXd& y) const;
   struct Touch {

@@ -61,14 +61,15 @@ bool Stages::evaluate_stage(const System& system, State& state, Equations& eq, E
   return eq.regular;
 }
 
-// Of rows that are redundant in every pose the pivots tell nothing: which of them are small depends on their order, and changes
-// where the rows lie along the axes. Then only what is lost beside them counts.
+// What is lost beside rows that are redundant in every pose, and small pivots, mark a singular pose. Of large systems with such rows the
+// pivots tell nothing: which of them are small depends on their order.
 void Stages::monitor(const Equations& eq) {
-  constexpr double few = 1e-5;
-  weak_ = weak_ || eq.schur.lost() > eq.permanent || (eq.permanent == 0 && eq.schur.least() < few);
-  if (eq.permanent > 0) return;
-  least_ = std::min(least_, eq.schur.least());
-  most_ = std::max(most_, eq.schur.least());
+  weak_ = weak_ || eq.schur.near_singular(eq.permanent);
+  if (eq.schur.lost() > eq.permanent)
+    least_ = 0;
+  else if (eq.permanent == 0 || !eq.schur.sparse())
+    least_ = std::min(least_, eq.schur.kept());
+  if (eq.permanent == 0) most_ = std::max(most_, eq.schur.least());
 }
 
 bool Stages::settle(const System& system, Instant& node, Equations& eq) {
@@ -121,6 +122,9 @@ bool Stages::attempt(const System& system, double h, Step& step, Equations& eq) 
   if (!reach(system, step.from, h, step.to, eq)) return false;
   step.error.setZero(system.n_y());
   add_combination(h, tableau_.e, k_, step.error);
+  // What of the error the joints do not allow the projection took away; near a singular pose stages know it to few digits.
+  if (weak_ && constraints_ == Constraints::projection)
+    for (const int begin : {0, system.n()}) keep_allowed(system, eq, step.error.data() + begin);
   return step.error.allFinite();
 }
 

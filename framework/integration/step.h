@@ -74,6 +74,8 @@ class Stages {
   /// A stage since the last `reach` began stood at or near a pose where rows are dependent, or there is one among the long steps
   /// of a pair of high order: a pivot falls with the square of the distance.
   bool near_singular() const { return weak_ || (tableau_.order > 5 && least_ < 0.1 * most_); }
+  /// Smallest pivot of the last attempt's stages; 0: one stood in a singular pose.
+  double closest() const { return least_; }
   /// h times the fastest rate that the last attempt met, by the change from its last inner stage to its end
   /// [HairerWanner1996, IV.2]; 0 unless both stand at one instant.
   double stiffness(const System&, const Step&) const;

@@ -205,8 +205,11 @@ void factor(const System& system, const VectorXd& y, Equations& eq) {
   eq.regular = true;
   for (FlexibleInertia& body : eq.flexible) eq.regular = eq.regular && invert(body);
   if (!eq.regular) return;
+  // Off C = 0 redundant rows seem to be independent, by pivots as the square of what they are off.
+  constexpr double times = 100;
+  const double off = eq.permanent > 0 ? std::min(position_violation(system, eq), 1e-4) : 0, least = std::max(dependent_rows::lost, times * off * off);
   if (eq.flexible.empty()) {
-    eq.regular = eq.schur.factor(eq.B, eq.B_eta_hat);
+    eq.regular = eq.schur.factor(eq.B, eq.B_eta_hat, least);
     return;
   }
   for (const Equations::Side& side : eq.sides) {  // Cq M⁻¹ Cqᵀ = B̂ B̂ᵀ + B̂_η B̂_ηᵀ
@@ -220,7 +223,7 @@ void factor(const System& system, const VectorXd& y, Equations& eq) {
       eq.B_hat[side.block] = B_hat;
     }
   }
-  eq.regular = eq.schur.factor(eq.B_hat, eq.B_eta_hat);
+  eq.regular = eq.schur.factor(eq.B_hat, eq.B_eta_hat, least);
 }
 
 void add_wrench(const System& system, const Equations& eq, int marker, const Wrench& w, VectorXd& v) {
@@ -366,6 +369,13 @@ bool project(const System& system, double t, VectorXd& y, Equations& eq) {
     return largest(eq.g.cwiseQuotient(system.scale));
   };
   return onto_constraints(system, t, y, eq, factored, subtract);
+}
+
+void keep_allowed(const System& system, Equations& eq, double* v) {
+  eq.mu.setZero();
+  add_product(eq, v, eq.mu);
+  eq.schur.solve(eq.mu);
+  subtract_reaction(system, eq, eq.mu, v);
 }
 
 }  // namespace pintle

@@ -114,8 +114,8 @@ double angle_rounding(const System&, const Eigen::VectorXd& y);
 /// `subtract(violation, x)` needs to take a violation out of x, the coordinates or the speeds in y; it
 /// returns the largest change over its scale. `factor` returns false at a pose where that cannot be had.
 /// Leaves pose and speed at the corrected state. Near a singular pose, where motions branch and a small
-/// violation asks for a large correction, it does not jump to another branch: it fails where Newton's
-/// method does not contract fast, and leaves the speeds alone rather than turn them.
+/// violation asks for a large correction, it goes on to rounding, which comes back as large, and does not jump to another
+/// branch: it fails where Newton's method does not contract fast, and leaves the speeds alone rather than turn them.
 /// @returns false if it does not converge
 template <class Factor, class Subtract>
 bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equations& eq, Factor factor,
@@ -124,22 +124,29 @@ bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equati
   const double known = angle_rounding(system, y), enough = std::max(1e-13, known), good = std::max(1e-11, std::min(8 * known, still_good));
   constexpr double contracts = 0.1;              // a jump between branches leaves a quarter of the violation at the least
   constexpr double amplified = 1e3, turns = 1e-6;  // times the violation; of the fastest speed
+  constexpr double digits = 1e-15;
   constexpr int most = 8;
   double worst = 0;
+  bool near = false, last = false;
   for (int i = 0; i < most; ++i) {
     pose(system, t, y, eq);
     if (!factor()) return false;
     const double before = worst;
     worst = position_violation(system, eq);
-    if (worst <= enough || (i > 0 && worst <= good && worst > 0.1 * before)) break;
-    if (i > 0 && eq.schur.weak() && worst > contracts * before) return false;
+    near = eq.schur.near_singular(eq.permanent);
+    if (worst <= enough || (i > 0 && worst <= good && worst > 0.1 * before)) {
+      if (last || !near || worst <= std::max(digits, known)) break;
+      last = true;
+    } else if (i > 0 && eq.schur.weak() && worst > contracts * before) {
+      return false;
+    }
     subtract(eq.C, y.data());
   }
   if (!(worst <= good)) return false;
   speed(system, t, y, eq);
   for (int i = 0; i < 2; ++i) {
     const double violation = velocity_violation(system, y, eq);  // over the fastest speed
-    if (violation <= 1e-13) break;
+    if (violation <= (near ? digits : 1e-13)) break;
     const double fastest = fastest_rate(system, y);
     const double change = subtract(eq.Cdot, y.data() + system.n());
     if (eq.schur.weak() && change > turns * fastest && change > amplified * violation * fastest) {
@@ -155,6 +162,9 @@ bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equati
 /// Moves q, then s, to C = 0 and Ċ = 0 by the shortest way in the metric of M; leaves pose, speed and
 /// factor as for the corrected state. @returns false if it does not converge
 bool project(const System&, double t, Eigen::VectorXd& y, Equations&);
+
+/// v ← the part of n coordinates or speeds that the joints allow: less the shortest way, in the metric of M, to Cq v = 0. After factor.
+void keep_allowed(const System&, Equations&, double* v);
 
 /// put(column of q, [∂r_x, ∂r_y, ∂angle]) for each coordinate that moves a marker. After pose.
 template <class Put>
