@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -10,80 +9,12 @@
 #include "framework/analysis/linearize/linearize.h"
 #include "framework/build/build.h"
 #include "framework/configuration/equilibrium.h"
-#include "tests/scenes/mechanisms.h"
+#include "tests/scenes/parallel_links.h"
 
 namespace pintle_scenes {
 namespace {
 
 using namespace pintle;
-
-constexpr double g = 9.81, rod_inertia = 1.0 / 12;  // every link: 1 m, 1 kg, uniform
-
-// θ of  inertia θ̈ = −weight cos θ  at time t, by many small classical steps: error below 1e-10.
-double angle_at(double t, double inertia, double weight, double angle, double speed) {
-  constexpr int steps = 40000;
-  const double h = t / steps;
-  const auto accel = [&](double x) { return -weight / inertia * std::cos(x); };
-  for (int i = 0; i < steps; ++i) {
-    const double k1 = accel(angle), k2 = accel(angle + h / 2 * speed), k3 = accel(angle + h / 2 * speed + h * h / 4 * k1),
-                 k4 = accel(angle + h * speed + h * h / 2 * k2);
-    angle += h * speed + h * h / 6 * (k1 + k2 + k3);
-    speed += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-  }
-  return angle;
-}
-
-SceneBody link(const std::string& name, double x, double y, double angle) {
-  SceneBody b = body(name, 1, rod_inertia, {point("A", -0.5), point("B", 0.5)});
-  b.at = {x + 0.5 * std::cos(angle), y + 0.5 * std::sin(angle)}, b.angle = angle;
-  return b;
-}
-std::string numbered(const char* name, int i) { return name + std::to_string(i); }
-void finish(Scene& s, double until) {
-  s.gravity = {0, -g};
-  s.run.until = until, s.run.method = "dopri5", s.run.tolerance = 1e-9;
-  s.output.every = until / 20;
-}
-
-// n parallelograms in a row on n + 1 cranks, the IFToMM library's N four-bar mechanism: all cranks turn alike. As they
-// lie flat, each parallelogram could fold.
-Scene parallelograms(int n, double angle, double speed, double until) {
-  Scene s;
-  for (int i = 0; i <= n; ++i) {
-    s.ground.push_back(point(numbered("G", i), i));
-    s.bodies.push_back(link(numbered("crank", i), i, 0, angle));
-    s.joints.push_back(joint(numbered("base", i), JointKind::revolute, numbered("ground.G", i), numbered("crank", i) + ".A"));
-    s.start_bodies.push_back(start_angle(numbered("crank", i), angle, speed));
-  }
-  for (int i = 0; i < n; ++i) {
-    s.bodies.push_back(link(numbered("bar", i), i + std::cos(angle), std::sin(angle), 0));
-    s.joints.push_back(joint(numbered("left", i), JointKind::revolute, numbered("crank", i) + ".B", numbered("bar", i) + ".A"));
-    s.joints.push_back(joint(numbered("right", i), JointKind::revolute, numbered("crank", i + 1) + ".B", numbered("bar", i) + ".B"));
-  }
-  finish(s, until);
-  return s;
-}
-double expected_parallelograms(int n, double t, double angle, double speed) {
-  return angle_at(t, (n + 1) / 3.0 + n, g * ((n + 1) / 2.0 + n), angle, speed);
-}
-
-// One bar, of 1 kg, on n ≥ 3 equal cranks 1 m apart: it moves, though all but two cranks are redundant.
-Scene parallel_cranks(int n, double angle, double speed, double until) {
-  Scene s;
-  SceneBody bar = body("bar", 1, rod_inertia * n * n, {});
-  bar.at = {(n - 1) / 2.0 + std::cos(angle), std::sin(angle)};
-  for (int i = 0; i < n; ++i) {
-    s.ground.push_back(point(numbered("G", i), i));
-    bar.points.push_back(point(numbered("P", i), i - (n - 1) / 2.0));
-    s.bodies.push_back(link(numbered("crank", i), i, 0, angle));
-    s.joints.push_back(joint(numbered("base", i), JointKind::revolute, numbered("ground.G", i), numbered("crank", i) + ".A"));
-    s.joints.push_back(joint(numbered("top", i), JointKind::revolute, numbered("crank", i) + ".B", numbered("bar.P", i)));
-    s.start_bodies.push_back(start_angle(numbered("crank", i), angle, speed));
-  }
-  s.bodies.push_back(bar);
-  finish(s, until);
-  return s;
-}
 
 // Crank and rod of equal length: with the crank upright, the slider is at the pivot and could stay there.
 Scene equal_slider_crank(double angle) {
@@ -293,97 +224,6 @@ TEST(ParallelCranks, AreLinearizedWhereTheyRest) {
       EXPECT_NEAR(stiffness * (1.2 - angle), weight * std::cos(angle), 1e-9);
       EXPECT_NEAR(lin.modes[0].root.imag(), std::sqrt((stiffness - weight * std::sin(angle)) / (n / 3.0 + 1)), 1e-8);
     }
-}
-
-// Which forces of a body's columns in a table end in [N].
-std::vector<std::size_t> force_columns(const Whole& w) {
-  std::vector<std::size_t> out;
-  const auto& header = w.run.trajectory.header;
-  for (std::size_t i = 0; i < header.size(); ++i)
-    if (header[i].ends_with(" [N]")) out.push_back(i);
-  return out;
-}
-
-// Shares that no motion settles are those of least norm in every step, so both methods give the same forces along a run through flat
-// poses, to what the implicit one follows the motion to: its tolerance^⅔, some tens of times as speeds grow.
-TEST(ParallelCranks, HaveTheSameForcesByGeneralisedAlphaAsByAnExplicitPair) {
-  for (const int n : {3, 13})  // 13: more rows than are dense
-    for (const double tolerance : {1e-5, 1e-6}) {
-      SCOPED_TRACE(std::to_string(n) + " cranks at " + std::to_string(tolerance));
-      Scene s = parallel_cranks(n, 0.4, 4, 3);
-      s.output.every = 0.03;
-      const Whole by_pair = run(s);
-      s.run.method = "generalized-alpha", s.run.tolerance = tolerance;
-      const Whole implicit = run(s);
-      ASSERT_EQ(implicit.run.status, Status::finished) << implicit.run.reason;
-      for (const std::string& warning : implicit.run.warnings) EXPECT_FALSE(says(warning, "generalised-alpha")) << warning;
-      const auto &a = implicit.run.trajectory, &b = by_pair.run.trajectory;
-      ASSERT_EQ(a.data.size(), b.data.size());
-      double peak = 0, apart = 0;
-      for (std::size_t row = 0; row < b.data.size(); row += b.columns())
-        for (const std::size_t c : force_columns(by_pair)) {
-          peak = std::max(peak, std::abs(b.data[row + c]));
-          apart = std::max(apart, std::abs(a.data[row + c] - b.data[row + c]));
-        }
-      EXPECT_LT(apart, 100 * std::pow(tolerance, 2.0 / 3) * peak);
-    }
-}
-
-// At rest the bar's weight is shared alike: the least norm of forces whose sum is g.
-TEST(ParallelCranks, AtRestShareTheWeightAlikeByGeneralisedAlpha) {
-  for (const int n : {3, 13}) {
-    Scene s = parallel_cranks(n, -M_PI / 2, 0, 1);
-    s.run.method = "generalized-alpha", s.run.tolerance = 1e-6;
-    const Whole w = run(s);
-    for (int i = 0; i < n; ++i) {
-      EXPECT_NEAR(w.last(numbered("top", i) + ".fy on bar [N]"), g / n, 1e-6 * g);
-      EXPECT_NEAR(w.last(numbered("base", i) + ".fy on " + numbered("crank", i) + " [N]"), g / n + g, 1e-6 * g);
-    }
-  }
-}
-
-// The lasting redundancy is seen beside rows that are nearly dependent, at any distance from the flat pose: forces tend to those in it, for
-// each radian by no more than all weights and inertia forces together.
-TEST(ParallelCranks, HaveForcesThatTendToThoseOfTheFlatPose) {
-  for (const double speed : {1.0, 5.0}) {
-    Eigen::VectorXd flat;
-    for (double u : {0.0, 0.05, 0.03, 0.02, 0.0112, 0.008, 0.005, 0.0037, 0.003, 0.002, 0.0015, 0.001}) {
-      const Scene s = parallel_cranks(3, std::asin(u), speed, 1);
-      const Model model = build(s);
-      State at = assemble(s, model).start;
-      Equations eq(model.system);
-      ASSERT_TRUE(project(model.system, 0, at.y, eq)) << u;
-      accelerate(model.system, at, eq);
-      if (u == 0) flat = eq.lambda;
-      EXPECT_EQ(eq.schur.lost(), u == 0 ? 2 : 1) << u;
-      // ω² ε/u⁴ of a mass is what rounding of places leaves in forces.
-      const double known = 1e-15 * speed * speed / std::pow(std::max(u, 1e-3), 4), load = 4 * (g + speed * speed);
-      EXPECT_LT((eq.lambda - flat).lpNorm<Eigen::Infinity>(), load * u + known + 1e-9 * load) << u << " " << speed;
-    }
-  }
-}
-
-// Flat poses are crossed the better the tighter the tolerance, without a stall. What is left at the tightest: a stage at a distance u from
-// the pose knows accelerations out of the branch to ω² ε/u³, of which a step brings hω into the motion; with u some hundredths of the step,
-// hω = 0.02, that is 1e-8, and the motion's own sensitivity makes ten times that of it.
-TEST(FlatPoses, AreCrossedTheBetterTheTighterTheTolerance) {
-  struct Pair {
-    const char* method;
-    double tightest;
-  };
-  constexpr double floor = 1e-7, until = 3, angle = 0.4, speed = 4;
-  for (const Pair& pair : {Pair{"dopri5", 1e-12}, Pair{"rkf45", 1e-12}, Pair{"verner87", 1e-11}})
-    for (const bool cranks : {true, false})
-      for (double tolerance = 1e-6; tolerance > 0.5 * pair.tightest; tolerance /= 10) {
-        SCOPED_TRACE(std::string(pair.method) + (cranks ? ", cranks, " : ", parallelograms, ") + std::to_string(std::log10(tolerance)));
-        Scene s = cranks ? parallel_cranks(3, angle, speed, until) : parallelograms(2, angle, speed, until);
-        s.run.method = pair.method, s.run.tolerance = tolerance;
-        const Whole w = run(s);
-        ASSERT_NE(w.run.status, Status::failed) << w.run.reason;
-        const double expected = cranks ? angle_at(until, 2, g * 2.5, angle, speed) : expected_parallelograms(2, until, angle, speed);
-        EXPECT_NEAR(w.last("crank0.angle [rad]"), expected, 100 * tolerance + floor);
-        EXPECT_LT(w.run.counts.steps, 3000 * std::pow(1e-12 / tolerance, 0.1));
-      }
 }
 
 // A crank too long by less than `check` shows, by more than a run can close.
