@@ -21,6 +21,7 @@
 #include "framework/build/shape_warnings.h"
 #include "framework/common/nearest.h"
 #include "framework/common/text.h"
+#include "framework/component/fe/statics.h"
 
 namespace pintle {
 
@@ -371,6 +372,27 @@ class Builder {
         wrong(p.place, quoted(p.body) + " has no stress, " + (made && made->elastic.scene->elastic->modes
                            ? "its `modes` keep no shape; keep more" : "it is rigid; make it a beam or plate with `modes`"));
       model_.stresses.push_back({p.body + "." + p.point, b, stress_probe(scene_, made->elastic, made->modes, p)});
+    }
+    warn_of_lacking_pull();
+  }
+
+  /// Of beams of which a section force is recorded while no shape stretches: N is rounding, and its part of the stress is lacking.
+  void warn_of_lacking_pull() {
+    constexpr double rounding = 1e-8;  // of the stress of bending at the radius of gyration
+    std::set<int> told;
+    for (const RecordedStress& s : model_.stresses) {
+      if (!s.probe.beam || !told.insert(s.body).second) continue;
+      const MechanismBody& made = *elements_[static_cast<std::size_t>(s.body)];
+      double stretch = 0, bend = 0;
+      for (Eigen::Index i = 0; i < made.modes.shapes.cols(); ++i) {
+        const StressField field = stress_field(made.elastic.model, made.modes.shapes.col(i), made.elastic.fibres);
+        stretch = std::max(stretch, field.section_forces.row(0).cwiseAbs().maxCoeff() / s.probe.A);
+        bend = std::max(bend, field.section_forces.row(2).cwiseAbs().maxCoeff() / std::sqrt(s.probe.A * s.probe.I));
+      }
+      if (stretch > rounding * bend) continue;
+      const std::string& name = model_.system.bodies[static_cast<std::size_t>(s.body)].name;
+      model_.warnings.push_back("no shape of \"" + name + "\" stretches: its section force N is recorded as nothing, and the stress is that of bending alone; "
+                                "take craig-bampton where joints or forces hold two points of it, or keep more shapes");
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "framework/bodies/elastic_parts.h"
 #include "framework/bodies/modal_basis.h"
@@ -63,7 +64,8 @@ std::vector<std::string> contact_warnings(const Scene& scene, const System& syst
 std::string stiff_parts_warning(const MechanismBody& b) {
   if (!(b.inertia_covered.share < least_covered)) return "";
   return "the shapes of \"" + b.body.name + "\" hold " + percent(b.inertia_covered.share) + " of its deformation under " + b.inertia_covered.of +
-         ": parts beyond or between the points in use stay rigid; raise the count of craig-bampton to 1 or more";
+         ": parts beyond or between the points in use stay rigid; raise the count of craig-bampton until its shapes, which now end at " +
+         shown_number(std::round(b.modes.omega.maxCoeff() / (2 * std::numbers::pi))) + " Hz, move these parts so";
 }
 
 }  // namespace pintle

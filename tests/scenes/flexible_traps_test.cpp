@@ -1,5 +1,6 @@
 // What a run says of a flexible body that its model does not do justice to, what stands in for what a scene leaves out, and
 // bodies that start bent. Numbers are closed forms of uniform beams.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -160,9 +161,30 @@ TEST(FlexibleTraps, AFreeEndThatStaticShapesLeaveRigidIsDoubted) {
   const std::string words = "the shapes of \"beam\" hold ";
   const std::vector<std::string> warnings = build(scene_of(overhung(a, 0))).warnings;
   EXPECT_NEAR(said(warnings, words), 100 * (span - 1. / 720) / (span + beyond), last_digit + 0.05);
-  EXPECT_TRUE(warns(warnings, "raise the count of craig-bampton to 1 or more"));
+  EXPECT_TRUE(warns(warnings, "raise the count of craig-bampton until its shapes, which now end at "));
   EXPECT_FALSE(warns(build(scene_of(overhung(a, 1))).warnings, words));
   EXPECT_FALSE(warns(build(scene_of(overhung(1e-3, 0))).warnings, words));
+}
+
+// Bending comes first, so that one shape does nothing for an overhang that is pulled. The remedy must not name a count that cannot help.
+TEST(FlexibleTraps, ARigidOverhangAlongItsAxisIsNotSaidToBeMendedByOneShape) {
+  const std::string words = "of its deformation under acceleration along x";
+  const std::vector<std::string> warnings = build(scene_of(overhung(10, 3))).warnings;
+  EXPECT_TRUE(warns(warnings, words));
+  EXPECT_FALSE(warns(warnings, "to 1 or more"));
+  EXPECT_TRUE(warns(warnings, "raise the count of craig-bampton until"));
+  EXPECT_FALSE(warns(build(scene_of(overhung(10, 40))).warnings, words));
+}
+
+TEST(FlexibleTraps, ARecordedStressWithoutAShapeThatStretchesIsDoubtedOnce) {
+  const std::string words = "no shape of \"beam\" stretches: its section force N is recorded as nothing";
+  const auto warnings_of = [&](const std::string& modes, const std::string& output) {
+    const std::vector<std::string> all = build(scene_of(unit_beam(modes) + "joints: {foot: {revolute: [ground, beam.A]}, head: {slot: [ground, beam.B]}}\nrun: {until: 1}\n" + output)).warnings;
+    return std::count_if(all.begin(), all.end(), [&](const std::string& w) { return w.find(words) != std::string::npos; });
+  };
+  EXPECT_EQ(warnings_of("{frame: {chord: [A, B]}, count: 3}", "output: {stress: [beam.A, beam.B]}\n"), 1);
+  EXPECT_EQ(warnings_of("{frame: {chord: [A, B]}, count: 3}", ""), 0);
+  EXPECT_EQ(warnings_of("{frame: {chord: [A, B]}, craig-bampton: {count: 2}}", "output: {stress: [beam.A, beam.B]}\n"), 0);
 }
 
 // ---- what is recorded ----
