@@ -174,8 +174,8 @@ Axis deep_start() {
       axis.cases.push_back({.value = d,
                             .label = printed("%g m", d),
                             .what = loss ? "with loss" : "without loss",
-                            .end = d > 0.9e-3 ? End::rejected : End::finished,
-                            .says = d > 0.9e-3 ? "tenth of its radius" : "",
+                            .end = d > 0.9e-3 ? End::rejected : d < 1e-15 ? End::warned : End::finished,  // warned: a hundredth of the depth is rounding
+                            .says = d > 0.9e-3 ? "tenth of its radius" : d < 1e-15 ? "rounding alone may leave" : "",
                             .run = [=] { return from_within(d, loss); }});
   return axis;
 }
