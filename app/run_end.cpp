@@ -49,7 +49,7 @@ void tell_leftovers(const Options& options, const fs::path& out) {
   constexpr std::size_t most = 3;
   std::cerr << "  note: " << all.size() << (all.size() == 1 ? " folder" : " folders") << " of runs that were ended, or still go, with the same --out:";
   for (std::size_t k = 0; k < std::min(most, all.size()); ++k) std::cerr << " " << all[k].string();
-  std::cerr << (all.size() > most ? " …" : "") << "; look at what they hold and remove them\n";
+  std::cerr << (all.size() > most ? " …" : "") << "; rename what is worth keeping and remove the rest\n";
 }
 
 void write_whole(const Options& options, const fs::path& out, const std::function<void(const fs::path&)>& write) {
