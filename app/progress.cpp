@@ -51,7 +51,7 @@ extern "C" void ask_to_stop(int signal) {
   ::raise(signal);
 }
 
-void heed(int signal) {
+void handle(int signal) {
   struct sigaction before {};
   ::sigaction(signal, nullptr, &before);
   if (signal == SIGHUP && before.sa_handler == SIG_IGN) return;  // nohup
@@ -69,7 +69,7 @@ void leave_failed_writes_to_us() {
 }
 
 void heed_signals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) heed(signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) handle(signal);
   MesherLimits limits = mesher_limits();
   limits.stop = asked_to_stop;
   set_mesher_limits(limits);

@@ -130,7 +130,7 @@ constexpr std::string_view outward[]{"Include", "Merge", "Open", "File", "Env", 
                                      "Cpu", "Memory", "Exists", "Define", "Get", "SetNumber", "SetString", "Current", "Path", "DirName",
                                      "Executable", "MPI", "General", "Solver", "External"};
 
-/// Whether a drawing may depend on more than its own text. Told generously: if so, it is only made anew.
+/// Whether a drawing may depend on more than its own text. Told generously: if so, it is only made again.
 bool looks_beyond(const std::string& kind, const std::string& text) {
   const auto has = [&](std::string_view word) { return text.find(word) != std::string::npos; };
   if (kind == ".geo") return std::any_of(std::begin(outward), std::end(outward), has);

@@ -27,7 +27,7 @@ struct CoveredInertia {
   std::string of;  ///< "acceleration along y"; empty: not judged, or nothing yields
 };
 
-/// What a body of elements is reduced to: all of a flexible body that is dear to find. Neither its name nor its damping is in it.
+/// What a body of elements is reduced to: all of a flexible body that is expensive to find. Neither its name nor its damping is in it.
 struct Reduction {
   ReferenceConditions conditions;
   ModalModel modes;     ///< no shapes: rigid, and what follows is empty

@@ -16,9 +16,9 @@ class BodyStore {
   /// @param most_bytes  of what is kept, about; what was used least recently goes
   explicit BodyStore(std::size_t most_bytes = std::size_t{256} << 20);
 
-  /// As elastic_body. A body whose drawing depends on more than itself is made anew.
+  /// As elastic_body. A body whose drawing depends on more than itself is made again.
   ElasticBody elastic(const Scene&, const SceneBody&);
-  /// As reduction_of. Of a body that is not from here it is made anew.
+  /// As reduction_of. Of a body that is not from here it is made again.
   Reduction reduction(const Scene&, const ElasticBody&, std::optional<int> chosen);
 
   long bodies_made() const { return bodies_made_; }

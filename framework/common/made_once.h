@@ -11,7 +11,7 @@
 
 namespace pintle {
 
-/// Results that are dear to make, kept for those who ask for the same again, in any thread. What was asked for least
+/// Results that are expensive to make, kept for those who ask for the same again, in any thread. What was asked for least
 /// recently goes when there is too much; who holds a result holds it on.
 template <class T>
 class MadeOnce {

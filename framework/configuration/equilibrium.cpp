@@ -341,7 +341,7 @@ Equilibrium find_equilibrium(const Scene&, const Model& model, const Assembly& a
   out.method = !has_potential(rest.held) ? "overdamped flow into Newton's method, for loads that follow have no potential"
                : way.damped()            ? "Newton's method, damped towards the overdamped flow"
                                          : "Newton's method";
-  constexpr double told = 1e-6;  // looked at anew: next to a singular pose the smallest change of pose upsets the joints' forces
+  constexpr double told = 1e-6;  // looked at again: next to a singular pose the smallest change of pose upsets the joints' forces
   const bool was_found = out.found;
   out.found = out.found && out.residual <= told;
   if (was_found && !out.found)

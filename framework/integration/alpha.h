@@ -93,7 +93,7 @@ class Alpha {
   Eigen::VectorXd start_;  ///< v̇ at a start, as the step takes it
   Eigen::VectorXd dv_, dp_, mu_, work_;
   double rate_ = 1;                      ///< contraction of Newton's iteration, as last seen
-  bool tired_ = true, factored_ = false; ///< the factor should be made anew; there is one
+  bool tired_ = true, factored_ = false; ///< the factor should be made again; there is one
   Weights kept_;                         ///< of the factor
   long iterations_ = 0;
   std::string trouble_;

@@ -21,7 +21,7 @@ class Partition {
   /// Puts the dependent part of y on C = 0, Ċ = 0, the independent part untouched.
   /// @returns false if it does not converge
   bool correct(const System&, double t, Eigen::VectorXd& y, Equations&);
-  /// The chosen set has become so ill determined that it should be chosen anew.
+  /// The chosen set has become so ill determined that it should be chosen again.
   bool worn() const { return quality_ < 0.3 * chosen_quality_; }
 
   void take_set(const Partition& other) {

@@ -102,7 +102,7 @@ double rhs(const Params&, const State&, Y& dy);
 /// Runs `state` to t_end; may be continued (a contact under way is then reported in both parts).
 /// Instants at which contact begins and ends are solved for with steps of the method itself, to
 /// rounding; contact forces act between them only. Samples come from quintic interpolation of q, q̇,
-/// q̈ across steps. Allocates nothing. `rhs` above sets its constants up anew at each call;
+/// q̈ across steps. Allocates nothing. `rhs` above sets its constants up again at each call;
 /// `simulate` does so once.
 Stats simulate(const Params&, const Options&, double t_end, State& state,
                const std::function<void(const Impact&)>& on_impact = {},

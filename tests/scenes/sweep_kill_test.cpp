@@ -113,7 +113,7 @@ class SweepKilled : public testing::Test {
     };
     ASSERT_EQ(run(command("whole")), 0) << contents(folder_ / "log");
 
-    // A machine may finish a sweep before its next kill: it is then judged and begun anew.
+    // A machine may finish a sweep before its next kill: it is then judged and begun again.
     const auto judge = [&] {
       EXPECT_EQ(journalled(folder_ / "killed").size(), static_cast<std::size_t>(cases));
       EXPECT_EQ(contents(folder_ / "killed/sweep.csv"), contents(folder_ / "whole/sweep.csv"));

@@ -24,17 +24,17 @@ namespace fs = std::filesystem;
 const fs::path data = fs::path(PINTLE_SOURCE_DIR) / "tests/data/meshes";
 
 /// A deck of its own, removed at the end.
-class TaskQueue {
+class Deck {
  public:
-  explicit TaskQueue(const std::string& text, const std::string& name = "deck.inp") {
+  explicit Deck(const std::string& text, const std::string& name = "deck.inp") {
     std::string pattern = (fs::temp_directory_path() / "pintle_inp_XXXXXX").string();
     folder_ = mkdtemp(pattern.data());
     write(name, text);
     path_ = folder_ / name;
   }
-  ~TaskQueue() { fs::remove_all(folder_); }
-  TaskQueue(const TaskQueue&) = delete;
-  TaskQueue& operator=(const TaskQueue&) = delete;
+  ~Deck() { fs::remove_all(folder_); }
+  Deck(const Deck&) = delete;
+  Deck& operator=(const Deck&) = delete;
   void write(const std::string& name, const std::string& text) {
     std::ofstream(folder_ / name) << text;
   }
@@ -132,8 +132,8 @@ TEST(InpGmsh, CurvesWrittenAsTrussesAreEdges) {
 
 TEST(InpBeams, TheMiddleNodeIsFoundWhereItLies) {
   const std::string nodes = "*NODE\n1,0\n2,1\n3,2\n";
-  const Mesh abaqus = read_inp(TaskQueue(nodes + "*ELEMENT,TYPE=B32\n1,1,2,3\n").path());
-  const Mesh gmsh = read_inp(TaskQueue(nodes + "*ELEMENT,TYPE=T3D3\n1,1,3,2\n").path());
+  const Mesh abaqus = read_inp(Deck(nodes + "*ELEMENT,TYPE=B32\n1,1,2,3\n").path());
+  const Mesh gmsh = read_inp(Deck(nodes + "*ELEMENT,TYPE=T3D3\n1,1,3,2\n").path());
   for (const Mesh& mesh : {abaqus, gmsh}) {
     ASSERT_EQ(mesh.cells.size(), 1u);
     EXPECT_EQ(mesh.cells[0].shape, CellShape::line3);
@@ -143,11 +143,11 @@ TEST(InpBeams, TheMiddleNodeIsFoundWhereItLies) {
 }
 
 TEST(InpInclude, FilesStandBesideTheOneThatNamesThem) {
-  TaskQueue queue("*INCLUDE, INPUT=part/nodes.inc\n*ELEMENT,TYPE=CPS3\n1,1,2,3\n");
-  fs::create_directory(queue.path().parent_path() / "part");
-  queue.write("part/nodes.inc", "*NODE\n1,0,0\n2,1,0\n*INCLUDE,INPUT=third.inc\n");
-  queue.write("part/third.inc", "3,0,1\n");
-  EXPECT_EQ(read_inp(queue.path()).x.cols(), 3);
+  Deck deck("*INCLUDE, INPUT=part/nodes.inc\n*ELEMENT,TYPE=CPS3\n1,1,2,3\n");
+  fs::create_directory(deck.path().parent_path() / "part");
+  deck.write("part/nodes.inc", "*NODE\n1,0,0\n2,1,0\n*INCLUDE,INPUT=third.inc\n");
+  deck.write("part/third.inc", "3,0,1\n");
+  EXPECT_EQ(read_inp(deck.path()).x.cols(), 3);
 }
 
 struct Bad {
@@ -162,9 +162,9 @@ const std::string square =
 class InpRefuses : public testing::TestWithParam<Bad> {};
 
 TEST_P(InpRefuses, WithFileAndLine) {
-  const TaskQueue queue(square + GetParam().text);
+  const Deck deck(square + GetParam().text);
   try {
-    read_inp(queue.path());
+    read_inp(deck.path());
     FAIL() << "was read";
   } catch (const std::invalid_argument& e) {
     EXPECT_NE(std::string(e.what()).find("deck.inp:" + std::string(GetParam().line) + ":"),
@@ -213,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const testing::TestParamInfo<Bad>& param) { return std::string(param.param.what); });
 
 TEST(InpRefusesWhole, NoElementNoFileNoScale) {
-  EXPECT_THROW(read_inp(TaskQueue("*NODE\n1,0,0\n").path()), std::invalid_argument);
+  EXPECT_THROW(read_inp(Deck("*NODE\n1,0,0\n").path()), std::invalid_argument);
   EXPECT_THROW(read_inp(data / "no_such_file.inp"), std::runtime_error);
   EXPECT_THROW(read_inp(data / "bracket_ccx.inp", 0), std::invalid_argument);
   EXPECT_THROW(read_inp(data / "bracket_ccx.inp", -1), std::invalid_argument);
@@ -221,7 +221,7 @@ TEST(InpRefusesWhole, NoElementNoFileNoScale) {
 
 TEST(InpNumbers, MayHaveGapsAndComeInAnyOrder) {
   const Mesh mesh = read_inp(
-      TaskQueue("*NODE\n900000000,1,1\n7,0,0\n42,1,0\n8,0,1\n"
+      Deck("*NODE\n900000000,1,1\n7,0,0\n42,1,0\n8,0,1\n"
            "*ELEMENT,TYPE=CPE4,ELSET=e\n5000000,7,42,900000000,8\n*NSET,NSET=right\n900000000,42\n")
           .path());
   EXPECT_EQ(quality(mesh).least_jacobian, 1);
@@ -237,15 +237,15 @@ constexpr const char* greatest = "9223372036854775807";
 TEST(InpNumbers, ARangeUpToTheGreatestNumberEnds) {
   for (const std::string& range : {std::string("1,") + greatest + ",9223372036854775806", std::string("2,") + greatest,
                                   std::string(greatest) + "," + greatest + "," + greatest}) {
-    const Mesh mesh = read_inp(TaskQueue(one_triangle + "*NSET,NSET=a,GENERATE\n" + range + "\n*ELSET,ELSET=e,GENERATE\n1," + greatest + "\n").path());
+    const Mesh mesh = read_inp(Deck(one_triangle + "*NSET,NSET=a,GENERATE\n" + range + "\n*ELSET,ELSET=e,GENERATE\n1," + greatest + "\n").path());
     EXPECT_EQ(numbers_of(mesh, "e"), (Numbers{1, 2, 3})) << range;
   }
-  EXPECT_EQ(numbers_of(read_inp(TaskQueue(one_triangle + "*NSET,NSET=a,GENERATE\n1," + greatest + ",2\n").path()), "a"), (Numbers{1, 3}));
+  EXPECT_EQ(numbers_of(read_inp(Deck(one_triangle + "*NSET,NSET=a,GENERATE\n1," + greatest + ",2\n").path()), "a"), (Numbers{1, 3}));
 }
 
 TEST(InpNumbers, NodesMayHaveTheGreatestNumber) {
   const std::string n = greatest;
-  const Mesh mesh = read_inp(TaskQueue("*NODE,NSET=all\n1,0,0\n2,1,0\n" + n + ",0,1\n*ELEMENT,TYPE=CPS3\n" + n + ",1,2," + n + "\n").path());
+  const Mesh mesh = read_inp(Deck("*NODE,NSET=all\n1,0,0\n2,1,0\n" + n + ",0,1\n*ELEMENT,TYPE=CPS3\n" + n + ",1,2," + n + "\n").path());
   EXPECT_EQ(numbers_of(mesh, "all").back(), std::stol(n));
 }
 
@@ -255,7 +255,7 @@ TEST(InpNumbers, OnesTooGreatAreRefusedByLine) {
                                    one_triangle + "*ELEMENT,TYPE=CPS3\n8,1,2," + number + "\n",
                                    one_triangle + "*NSET,NSET=a,GENERATE\n1," + number + "\n",
                                    one_triangle + "*NSET,NSET=a\n" + number + "\n"})
-      EXPECT_THROW(read_inp(TaskQueue(text).path()), std::invalid_argument) << text;
+      EXPECT_THROW(read_inp(Deck(text).path()), std::invalid_argument) << text;
 }
 
 TEST(InpSets, ThatNameOthersTwiceEachAreGatheredOnce) {
@@ -264,13 +264,13 @@ TEST(InpSets, ThatNameOthersTwiceEachAreGatheredOnce) {
     const std::string before = "s" + std::to_string(k - 1);
     text += "*NSET,NSET=s" + std::to_string(k) + "\n" + before + "," + before + "\n";
   }
-  EXPECT_EQ(numbers_of(read_inp(TaskQueue(text).path()), "s59"), (Numbers{1, 2}));
+  EXPECT_EQ(numbers_of(read_inp(Deck(text).path()), "s59"), (Numbers{1, 2}));
 }
 
 TEST(InpSets, NestedWithoutEndAreRefused) {
   std::string text = one_triangle;
   for (int k = 0; k < 200'000; ++k) text += "*NSET,NSET=s" + std::to_string(k) + "\ns" + std::to_string(k + 1) + "\n";
-  EXPECT_THROW(read_inp(TaskQueue(text).path()), std::invalid_argument);
+  EXPECT_THROW(read_inp(Deck(text).path()), std::invalid_argument);
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ constexpr const char* cannot = "this machine does not let a program step through
 struct Removing : testing::TestWithParam<Feature> {};
 
 // With unit/budget_test.cpp, where a step is six evaluations whatever the scene has, and with what follows, that an
-// integrator looks for contacts only where there are some: no step becomes dearer.
+// integrator looks for contacts only where there are some: no step becomes more expensive.
 TEST_P(Removing, MakesAnEvaluationCheaper) {
   Scene scene = full();
   const std::optional<long> with = instructions(scene);

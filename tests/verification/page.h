@@ -41,7 +41,7 @@ void plate_problems(Problems&);
 /// Text of the page and, if `timed`, the figure.
 std::string accuracy_for_money(Problems&, bool timed);
 
-/// Names, linear ones and their quadratic fellows.
+/// Names, linear ones and their quadratic siblings.
 const std::vector<std::string>& plane_elements();
 bool is_linear(const std::string& element);
 

@@ -12,7 +12,7 @@ namespace pintle {
 struct Simpler {
   std::string what;  ///< "\"coupler\" rigid", in the words of a scene
   System system;
-  Scheme scheme;     ///< chosen anew, as `build` would
+  Scheme scheme;     ///< chosen again, as `build` would
   State start;       ///< the model's, near the constraints of the simpler system, not on them; links that are pins now are closed
 };
 

@@ -132,7 +132,7 @@ class Leader {
 
   const SweepSettings& settings_;
   SweepEnd& end_;
-  int present_;  ///< fellows that have not left
+  int present_;  ///< other processes that have not left
   bool halted_ = false;
   clock::time_point begin_ = clock::now(), told_{};
   WorkerPool workers_;

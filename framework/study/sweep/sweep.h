@@ -29,7 +29,7 @@ struct Sweep {
 /// @throws SceneError  naming file, line, key, value and remedy
 Sweep read_sweep(const std::filesystem::path&, const Overrides& set = {});
 
-/// How far a sweep is. Cases of this process and, in process 0, of its fellows.
+/// How far a sweep is. Cases of this process and, in process 0, of the others.
 struct SweepCount {
   std::size_t cases = 0;   ///< of the study
   std::size_t before = 0;  ///< of them, ended in earlier sessions
@@ -59,12 +59,12 @@ struct SweepEnd {
 /// Runs the cases that have not ended yet, and leaves in `folder` (made, or gone on with):
 /// sweep.csv, the same to the bit whatever the number of workers and however often it was killed; timings.csv; sweep.json;
 /// study.yaml and scene.yaml, what was run; journal-N.txt. A session that was stopped leaves sweep-so-far.csv instead of the table.
-/// With fellows, all of them call it with the same study and folder; process 0 alone writes tables.
+/// With several processes, all of them call it with the same study and folder; process 0 alone writes tables.
 /// @throws SceneError          the folder holds something else, or another study
 /// @throws std::runtime_error  a file cannot be written, or another process works there
 SweepEnd run_sweep(const Sweep&, const std::filesystem::path& folder, const SweepSettings&);
 
-/// For a process that cannot come to run_sweep. Process 0 tells its fellows that there is nothing to do; another hears
+/// For a process that cannot come to run_sweep. Process 0 tells the others that there is nothing to do; another hears
 /// what process 0 has said (true: that), and if the sweep goes on, leaves it, which stops all.
 void reject_all(Communicator&);
 bool rejected(Communicator&);

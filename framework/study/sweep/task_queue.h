@@ -32,7 +32,7 @@ class TaskQueue {
     closed_ = true;
     drawn_.notify_all();
   }
-  /// Waits for one; nothing once the deck is closed and empty.
+  /// Waits for one; nothing once the task queue is closed and empty.
   std::optional<std::size_t> draw() {
     std::unique_lock lock(mutex_);
     ++waiting_;

@@ -16,7 +16,7 @@
 
 namespace pintle {
 
-/// Threads of one process that draw cases from a deck, run them and write them into a journal. If the system refuses some of
+/// Threads of one process that draw cases from a task queue, run them and write them into a journal. If the system refuses some of
 /// them, the others do the work; if it refuses all, the caller does (`work_here`).
 class WorkerPool {
  public:
@@ -35,13 +35,13 @@ class WorkerPool {
   int idle() const;          ///< of them, without a case
   /// Why there are fewer threads than asked for; empty: there are not.
   const std::string& shortage() const { return shortage_; }
-  /// Without threads: runs a case of the deck, if there is one, and calls `poll` often meanwhile.
+  /// Without threads: runs a case of the task queue, if there is one, and calls `poll` often meanwhile.
   void work_here(const std::function<void()>& poll);
   bool troubled();                         ///< a thread could not go on; finish() says why
   /// Ends the cases that are running; they are not recorded.
   void stop();
   Tally tally();                           ///< since it was asked last
-  /// Until a thread has drawn the last case of the deck or ended, at most so long.
+  /// Until a thread has drawn the last case of the task queue or ended, at most so long.
   void wait(std::chrono::milliseconds);
   /// Joins. @throws what stopped a thread
   void finish();

@@ -126,7 +126,7 @@ class Search {
     return std::clamp(t, 1e2 * tightest, 1e-6);
   }
 
-  /// Two decades below the study's finest. Where time is bounded, from loose ones on, that what is dear is run last; and no
+  /// Two decades below the study's finest. Where time is bounded, from loose ones on, that what is expensive is run last; and no
   /// further than what is asked needs before the model, which may owe more, was refined.
   void climb_tolerances() {
     const double finest = study_tolerance();

@@ -23,7 +23,7 @@ void say_remedy(const TradeReport& r, std::vector<std::string>& said) {
   }
   if (r.reference.short_of_time && r.plan.budget > 0) s = "more time: --budget " + duration_text(4 * r.plan.budget);
   if (chaotic && ensembles <= 100000)
-    s += (s.empty() ? "" : "; ") + printed("larger ensembles, ensemble: %.0f in a study, each that much dearer", ensembles);
+    s += (s.empty() ? "" : "; ") + printed("larger ensembles, ensemble: %.0f in a study, each that much more expensive", ensembles);
   if (chaotic)
     s += (s.empty() ? "" : "; ") + std::string("a mean or rms over a longer time, or a look at an earlier time, before the motions part");
   else

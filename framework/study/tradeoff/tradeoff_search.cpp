@@ -178,7 +178,7 @@ class Trade {
 
   // --- within a budget -------------------------------------------------------------------------------------------
 
-  /// Settings of all numerical axes together count as one axis here: how much dearer a tolerance is depends on the scheme.
+  /// Settings of all numerical axes together count as one axis here: how much more expensive a tolerance is depends on the scheme.
   std::vector<std::vector<std::size_t>> groups() const {
     std::vector<std::vector<std::size_t>> out;
     std::vector<std::size_t> numerical;
