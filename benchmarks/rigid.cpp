@@ -13,6 +13,7 @@
 
 #include "framework/analysis/simulate/simulate.h"
 #include "framework/build/build.h"
+#include "framework/integration/integrator.h"
 #include "tests/oracles/runge_kutta.h"
 #include "tests/oracles/slider_crank_clearance.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/integration/integrator.h"
+#include "framework/integration/scheme.h"
 #include "framework/scene/scene.h"
 
 namespace pintle {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "framework/integration/integrator.h"
+#include "framework/integration/scheme.h"
 #include "framework/scene/scene.h"
 
 namespace pintle {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "framework/common/file.h"
+#include "framework/integration/events/impact.h"
 #include "framework/mechanism/trajectory.h"
 
 namespace pintle {

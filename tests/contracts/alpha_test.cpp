@@ -12,6 +12,7 @@
 #include <Eigen/Dense>
 
 #include "framework/dynamics/equations/energy.h"
+#include "framework/integration/implicit/alpha.h"
 #include "framework/integration/integrator.h"
 #include "tests/contracts/scheme_cases.h"
 

@@ -14,9 +14,10 @@
 #include <utility>
 #include <vector>
 
+#include "framework/integration/dense_output.h"
+#include "framework/integration/explicit/stages.h"
+#include "framework/integration/explicit/tableau.h"
 #include "framework/integration/integrator.h"
-#include "framework/integration/step.h"
-#include "framework/integration/tableau.h"
 #include "tests/contracts/scheme_cases.h"
 
 namespace pintle {
@@ -192,7 +193,7 @@ TEST_P(SchemeContract, DenseOutputHasTheOrderOfItsPolynomials) {
     for (auto* worst : {&q, &s, &z}) worst->push_back(0);
     State dense;
     for (int tenth = 1; tenth < 10; ++tenth) {
-      interpolate(k.system, step, tenth * span / 10, dense);
+      interpolate_quintic(k.system, step, tenth * span / 10, dense);
       const VectorXd truth = k.truth(tenth * span / 10);
       q.back() = std::max(q.back(), std::abs(dense.y[2] - truth[0]));
       s.back() = std::max(s.back(), std::abs(dense.y[5] - truth[1]));
@@ -223,7 +224,7 @@ TEST_P(QuarticInsideSteps, HasFifthOrder) {
     error.push_back(0);
     State dense;
     for (int tenth = 1; tenth < 10; ++tenth) {
-      interpolate(k.system, step, tenth * span / 10, dense);
+      interpolate_quintic(k.system, step, tenth * span / 10, dense);
       stages.refine_integrals(k.system, step, dense);
       const VectorXd truth = k.truth(tenth * span / 10);
       error.back() = std::max({error.back(), std::abs(dense.y[6] - truth[4]), std::abs(dense.y[7] - truth[5])});
@@ -264,7 +265,7 @@ TEST_P(SchemeContract, DenseOutputMeetsBothEnds) {
   const Step step = march(k, 0.01, 3);
   State dense;
   for (const State* end : {&step.from.state, &step.to.state}) {
-    interpolate(k.system, step, end->t, dense);
+    interpolate_quintic(k.system, step, end->t, dense);
     EXPECT_LT((dense.y - end->y).norm(), 1e-12 * end->y.norm());
   }
 }

@@ -7,6 +7,7 @@
 
 #include "framework/build/build.h"
 #include "framework/build/clearance.h"
+#include "framework/integration/integrator.h"
 #include "tests/oracles/hertz_bounce.h"
 #include "tests/scenes/mechanisms.h"
 

@@ -12,6 +12,7 @@
 #include "framework/build/build.h"
 #include "framework/component/fe/fe_model.h"
 #include "framework/dynamics/model/flexible.h"
+#include "framework/integration/integrator.h"
 #include "tests/scenes/flexible_scenes.h"
 
 namespace pintle_scenes {

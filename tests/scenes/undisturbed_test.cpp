@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "framework/build/build.h"
+#include "framework/integration/integrator.h"
 #include "tests/scenes/flexible_scenes.h"
 
 namespace pintle_scenes {

@@ -7,6 +7,7 @@
 
 #include "framework/build/build.h"
 #include "framework/common/processor_time.h"
+#include "framework/integration/integrator.h"
 
 namespace soak {
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "framework/build/build.h"
-#include "framework/integration/constraints.h"
+#include "framework/dynamics/jacobian.h"
 #include "tests/oracles/four_bar.h"
 #include "tests/unit/rods.h"
 

@@ -13,7 +13,8 @@
 
 #include "framework/build/build.h"
 #include "framework/configuration/assemble.h"
-#include "framework/integration/constraints.h"
+#include "framework/dynamics/equations/equations.h"
+#include "framework/integration/integrator.h"
 #include "framework/scene/yaml/reader.h"
 #include "tests/unit/heap.h"
 #include "tests/unit/rods.h"

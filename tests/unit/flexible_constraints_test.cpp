@@ -10,6 +10,7 @@
 
 #include "framework/build/build.h"
 #include "framework/configuration/assemble.h"
+#include "framework/integration/integrator.h"
 #include "framework/scene/yaml/reader.h"
 #include "tests/contracts/moving_bodies.h"
 

@@ -9,8 +9,8 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
+#include "framework/dynamics/jacobian.h"
 #include "framework/dynamics/newton/kkt.h"
-#include "framework/integration/constraints.h"
 
 namespace pintle {
 namespace {

@@ -11,6 +11,7 @@
 #include "framework/analysis/cost/cost_estimate.h"
 #include "framework/analysis/simulate/simulate.h"
 #include "framework/analysis/cost/simpler.h"
+#include "framework/integration/integrator.h"
 #include "framework/mechanism/table.h"
 #include "framework/scene/yaml/reader.h"
 #include "tests/unit/worn_slider_crank.h"

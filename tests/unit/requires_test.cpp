@@ -11,6 +11,7 @@
 
 #include "framework/analysis/simulate/simulate.h"
 #include "framework/build/build.h"
+#include "framework/integration/integrator.h"
 #include "framework/mechanism/drawing.h"
 #include "framework/scene/yaml/reader.h"
 #include "tests/unit/stepping.h"

@@ -1,5 +1,6 @@
 // A saved state is taken where it belongs and is whole, and refused everywhere else.
 #include "framework/analysis/simulate/saved_state.h"
+#include "framework/integration/integrator.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <Eigen/QR>
 
 #include "framework/dynamics/equations/equations.h"
-#include "framework/integration/constraints.h"
+#include "framework/dynamics/jacobian.h"
 
 namespace pintle {
 namespace {

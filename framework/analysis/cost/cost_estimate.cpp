@@ -12,6 +12,7 @@
 #include "framework/analysis/cost/simpler.h"
 #include "framework/build/choose_method.h"
 #include "framework/common/processor_time.h"
+#include "framework/integration/integrator.h"
 #include "framework/mechanism/drawing.h"
 #include "framework/mechanism/table.h"
 #include "framework/mechanism/trajectory.h"
@@ -58,7 +59,7 @@ Tried try_out(Integrator& run, double until, long most_steps, double most_second
   }
   t.seconds = since(begin);
   t.reached = run.state().t;
-  t.whole = t.reached >= until;
+  t.whole = t.reached >= until || !run.ended().empty();
   if (t.whole) t.by_clock = false;
   const Counts counts = run.counts();
   t.rejected = counts.rejected, t.evaluations = counts.evaluations;

@@ -11,6 +11,7 @@
 #include "framework/analysis/linearize/quadratic_roots.h"
 #include "framework/analysis/linearize/state_space.h"
 #include "framework/common/index.h"
+#include "framework/integration/integrator.h"
 #include "framework/scene/error.h"
 
 namespace pintle {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "framework/common/text.h"
+#include "framework/integration/implicit/alpha.h"
 
 namespace pintle {
 

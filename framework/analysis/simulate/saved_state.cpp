@@ -11,6 +11,7 @@
 #include "files/files.h"
 #include "framework/analysis/simulate/identity.h"
 #include "framework/common/sha256.h"
+#include "framework/integration/integrator.h"
 #include "framework/scene/error.h"
 
 namespace pintle {

@@ -12,6 +12,7 @@
 #include "framework/analysis/simulate/deflection_monitor.h"
 #include "framework/build/laws.h"
 #include "framework/common/worse.h"
+#include "framework/integration/integrator.h"
 
 namespace pintle {
 
@@ -271,7 +272,7 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
   bool going = true;
   guarded(run, last_row, [&] {
     going = integrator.failure().empty() && countable && report();
-    while (going && integrator.state().t < until) {
+    while (going && integrator.state().t < until && integrator.ended().empty()) {
       if (listeners.progress && integrator.counts().steps % 64 == 0 && !listeners.progress(integrator.state().t)) {
         run.status = Status::interrupted;
         run.reason = "stopped by the user";
@@ -315,12 +316,14 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
       book(integrator.state());
       // Where a run ends early it has a last row too, so that its figures and its books are of one moment.
       const Equations& eq = integrator.sampled();
-      if (run.status != Status::finished && integrator.state().t > last_row && eq.a.allFinite() && eq.lambda.allFinite()) add_row(integrator.state());
+      const bool early = run.status != Status::finished || !integrator.ended().empty();
+      if (early && integrator.state().t > last_row && eq.a.allFinite() && eq.lambda.allFinite()) add_row(integrator.state());
     }
     if (listeners.state && !ended_short(run)) save();
   });
 
   run.t_end = ended_short(run) ? last_row : integrator.state().t;  // a step may have been cut short
+  if (run.reason.empty()) run.reason = integrator.ended();
   run.impacts = integrator.impacts();
   if (from) warn_of_gap(system, model, *from, run);
   warn_of_depth(system, run);

@@ -5,6 +5,9 @@
 #include "framework/analysis/simulate/saved_state.h"
 #include "framework/configuration/assemble.h"
 #include "framework/dynamics/equations/energy.h"
+#include "framework/dynamics/equations/equations.h"
+#include "framework/integration/counts.h"
+#include "framework/integration/events/impact.h"
 #include "framework/mechanism/drawing.h"
 #include "framework/mechanism/trajectory.h"
 

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/integration/integrator.h"
+#include "framework/dynamics/equations/equations.h"
+#include "framework/integration/step.h"
 
 namespace pintle {
 

@@ -1,4 +1,4 @@
-#include "framework/integration/tableau.h"
+#include "framework/integration/explicit/tableau.h"
 
 namespace pintle {
 

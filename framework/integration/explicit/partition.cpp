@@ -1,25 +1,12 @@
-#include "framework/integration/constraints.h"
+#include "framework/integration/explicit/partition.h"
 
 #include <Eigen/QR>
+
+#include "framework/dynamics/jacobian.h"
 
 namespace pintle {
 
 using Index = Eigen::Index;
-
-namespace {
-
-void fill_jacobian(const System& system, const Equations& eq, Eigen::MatrixXd& Cq) {
-  Cq.setZero(system.n_rows(), system.n());
-  visit_jacobian(eq, [&](int row, int column, double value) { Cq(row, column) = value; });
-}
-
-}  // namespace
-
-Eigen::MatrixXd dense_jacobian(const System& system, const Equations& eq) {
-  Eigen::MatrixXd Cq;
-  fill_jacobian(system, eq, Cq);
-  return Cq;
-}
 
 void Partition::assemble(const System& system, const Equations& eq) {
   fill_jacobian(system, eq, Cq_);

@@ -1,9 +1,11 @@
-#include "framework/integration/alpha.h"
+#include "framework/integration/implicit/alpha.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "framework/common/index.h"
 #include "framework/common/worse.h"
+#include "framework/integration/dense_output.h"
 
 namespace pintle {
 
@@ -11,7 +13,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 namespace {
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr double well_below = 1e-3;  // Newton's error over the step's
 constexpr double on_constraints = 1e-12, nearly = 1e-11, still_near = 1e-8;
@@ -84,7 +85,7 @@ void Alpha::evaluate_between(const System& system, const Step& step, const State
 // The cubic's bend of a stiff coordinate is h s, of which ω² makes a force that never was: it goes through the
 // iteration matrix, as steps do.
 void Alpha::interpolate_between(const System& system, const Step& step, double t, State& out, Equations& eq) {
-  interpolate(system, step, t, out);
+  interpolate_cubic(system, step, t, out);
   const Index n = system.n();
   const double x = (t - step.from.state.t) / step.h;
   if (!factored_ || !(x > 0 && x < 1)) return;

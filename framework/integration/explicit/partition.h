@@ -53,7 +53,4 @@ class Partition {
   int choices_ = 0;
 };
 
-/// Cq as a dense matrix, n_rows × n.
-Eigen::MatrixXd dense_jacobian(const System&, const Equations&);
-
 }  // namespace pintle

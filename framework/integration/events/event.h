@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "framework/dynamics/equations/equations.h"
+#include "framework/integration/members.h"
+#include "framework/integration/step.h"
+
+namespace pintle {
+
+class DenseOutput;
+class Reader;
+class Writer;
+
+/// A continuous function of the state whose zero is an event, and its rate where that is known.
+struct Guard {
+  double value;
+  double rate = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not known
+  template <class A>
+  void archive(A& x) { x(PINTLE_MEMBERS(value, rate)); }
+};
+
+enum class Direction { none, rising, falling };
+
+/// What of a guard counts now.
+struct WatchedGuard {
+  Direction direction = Direction::none;  ///< none: nothing does
+  double zero = 0;        ///< a guard nearer to zero than this is there
+  double overshoot = 0;   ///< 0: steps end where the guard is zero. Positive: they end where it is at most this far past zero
+  bool at_once = false;   ///< may follow at the instant of the event before
+  bool kink = false;      ///< a force has a kink there: a step that would pass it ends there instead
+};
+
+/// What an event's action has done.
+struct EventOutcome {
+  enum class Change { nothing, forces, jump } change = Change::forces;  ///< jump: forces jump, or the state does
+  double first_step = std::numeric_limits<double>::infinity();  ///< the next step's bound by accuracy, of methods that follow impacts [s]
+  std::string end = {};   ///< the integration ends here, and why; empty: it goes on
+};
+
+/// Events of one kind: guards with directions, and what happens where they pass zero. A group owns the modes between its
+/// events. The integrator finds the first event in a step, ends the step there and has the group act. At one instant
+/// groups act in their `order`, a group's events in that of their indices, one after another, with the equations
+/// evaluated again between them.
+class EventGroup {
+ public:
+  virtual ~EventGroup() = default;
+
+  virtual int order() const = 0;
+  virtual int size() const = 0;
+  /// For messages: contact "pin".
+  virtual std::string name(int event) const = 0;
+
+  /// Asked as a step begins: modes change in `act` only.
+  virtual WatchedGuard monitor(int event) const = 0;
+  virtual Guard guard(int event, const State&) const = 0;
+  /// The same where the equations are evaluated at the state.
+  virtual Guard guard(int event, const State&, const Equations&) const = 0;
+  /// Steps end so near the guard's zero that nothing can be gained by ending them nearer.
+  virtual bool met(int event, const Guard&) const = 0;
+
+  /// Modes as a start has them; the step ends there and begins nowhere.
+  virtual void start(Step&) = 0;
+  /// After each accepted step, before any event that ends it acts. Guards are those of the step's two ends.
+  virtual void follow(const Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) = 0;
+  /// At the step's end. May change modes and the end's state.
+  virtual EventOutcome act(int event, Step&, const Guard&) = 0;
+
+  /// Modes and what else the following steps depend on.
+  virtual void save(Writer&) const = 0;
+  virtual void load(Reader&) = 0;
+  /// What was loaded cannot be of this group, and why; nullptr if it can.
+  virtual const char* fault() const = 0;
+};
+
+/// A group of one event without modes. It comes once for each time that its guard passes zero in its direction.
+struct Event {
+  std::string name;
+  std::function<Guard(const State&)> guard;
+  Direction direction = Direction::rising;
+  std::function<EventOutcome(State&)> act;
+  double zero = 1e-12;    ///< a guard nearer to zero than this is there
+  int order = 1;          ///< at one instant lower ones come first; contacts are 0
+};
+std::unique_ptr<EventGroup> single_event(Event);
+
+}  // namespace pintle

@@ -1,0 +1,224 @@
+#include "framework/integration/events/events.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace pintle {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+double sign_of(Direction d) { return d == Direction::falling ? -1 : 1; }
+/// The event is where it becomes positive.
+Guard turned(const Guard& g, const WatchedGuard& w) { return {sign_of(w.direction) * g.value, sign_of(w.direction) * g.rate}; }
+
+// Where a guard becomes positive between two times of a step: Newton's method on the dense output, bisection where the rate is not known
+// or leads out of the bracket or, going away, back, by as little as rounding hides.
+template <class F>
+double crossing(F guard, double t0, double t1, double fine) {
+  const double f0 = guard(t0).value, f1 = guard(t1).value;
+  if (f0 >= 0) return t0;
+  double t = t0 - f0 * (t1 - t0) / (f1 - f0);
+  for (int i = 0; i < 100; ++i) {
+    const Guard now = guard(t);
+    (now.value < 0 ? t0 : t1) = t;
+    double next = t - now.value / now.rate;
+    if (!(now.rate > 0 && next >= t0 && next <= t1)) next = t0 + (t1 - t0) / 2;
+    if (std::abs(next - t) <= fine) return next;
+    t = next;
+  }
+  return t;
+}
+
+// When a guard that rises at first and falls at last is positive in between: secants of the rate lead to its summit.
+template <class F>
+std::optional<double> positive_between(F guard, double t0, double t1, double rate0, double rate1) {
+  double low = t0, high = t1;
+  for (int i = 0; i < 8; ++i) {
+    const double t = low + (high - low) * rate0 / (rate0 - rate1);
+    const Guard now = guard(t);
+    if (now.value > 0) return t;
+    if (now.value + std::max(now.rate * (high - t), now.rate * (low - t)) <= 0) break;  // nor is the summit
+    (now.rate > 0 ? low : high) = t;
+    (now.rate > 0 ? rate0 : rate1) = now.rate;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Events::Events(std::vector<std::unique_ptr<EventGroup>> groups) : groups_(std::move(groups)), wishes_(groups_.size()) {
+  std::stable_sort(groups_.begin(), groups_.end(), [](const auto& a, const auto& b) { return a->order() < b->order(); });
+  begin_.push_back(0);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    for (int i = 0; i < groups_[g]->size(); ++i) places_.push_back({g, i});
+    begin_.push_back(places_.size());
+  }
+  watched_.resize(places_.size()), from_.resize(places_.size()), to_.resize(places_.size());
+  spent_.assign(places_.size(), 0);
+}
+
+void Events::start(Step& step) {
+  for (auto& g : groups_) g->start(step);
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const WatchedGuard w = ask(k);
+    spent_[k] = w.direction != Direction::none && turned(guard(k, step.to.state), w).value > 0;
+  }
+}
+
+void Events::begin_step(const State& from) {
+  from_.swap(to_);
+  if (!known_)
+    for (std::size_t k = 0; k < places_.size(); ++k) from_[k] = guard(k, from);
+  known_ = false;
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    watched_[k] = ask(k);
+    if (spent_[k]) spent_[k] = !(turned(from_[k], watched_[k]).value < -watched_[k].zero);
+  }
+}
+
+double Events::kink_ahead(double wish) const {
+  constexpr double little = 1e-2;  // of the step wished for: so near, the step may as well pass
+  constexpr double past = 1.02;    // a contact opens faster and faster
+  double ahead = infinite;
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const WatchedGuard& w = watched_[k];
+    if (!w.kink) continue;
+    const Guard g = turned(from_[k], w);
+    if (!(g.rate > 0) || !(g.value < 0)) continue;
+    const double left = past * -g.value / g.rate;
+    if (left > little * wish) ahead = std::min(ahead, left);
+  }
+  return ahead;
+}
+
+void Events::look_at_end(const Step& step, const Equations* evaluated) {
+  for (std::size_t k = 0; k < places_.size(); ++k)
+    to_[k] = evaluated ? group(k).guard(places_[k].event, step.to.state, *evaluated) : guard(k, step.to.state);
+}
+
+// Of the events that a step may pass, the one it is farthest past, where that counts; else the last.
+std::optional<EventInStep> Events::passed_by_end(const Step& step) const {
+  std::optional<EventInStep> out;
+  double farthest = 0;
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const WatchedGuard& w = watched_[k];
+    if (w.direction == Direction::none || w.overshoot == 0) continue;
+    const double past = turned(to_[k], w).value;
+    const bool counts = std::isfinite(w.overshoot);
+    if (counts ? past > farthest : past >= 0 && farthest == 0) out = {k, w, step.to.state.t};
+    if (counts) farthest = std::max(farthest, past);
+  }
+  return out;
+}
+
+// When an event comes in the step, by dense output; nothing if it does not.
+std::optional<double> Events::passage(std::size_t at, const Step& step, const DenseOutput& motion) const {
+  const WatchedGuard& w = watched_[at];
+  const double t0 = step.from.state.t, t1 = step.to.state.t;
+  const Guard from = turned(from_[at], w), to = turned(to_[at], w);
+  const auto along = [&](double t) { return turned(guard(at, motion.at(t)), w); };
+  double begin = t0, end = t1;
+  const bool spent = spent_[at];
+  if (spent && from.rate > 0) return std::nullopt;  // it is the passage of before
+  if (!(to.value > 0)) {
+    if (!(from.rate > 0 && to.rate < 0)) return std::nullopt;
+    const std::optional<double> between = positive_between(along, t0, t1, from.rate, to.rate);
+    if (!between) return std::nullopt;
+    end = *between;
+  }
+  if (spent || (from.value > -w.zero && from.rate < 0)) {  // at zero and going away: search from where it has gone away
+    const double away = std::min(from.value, spent ? -w.zero : 0.0);
+    for (double part = 0.5; part > 1e-9 && begin == t0; part /= 2)
+      if (const double t = t0 + part * (end - t0); along(t).value < away) begin = t;
+    if (begin == t0 && (spent || from.value >= 0)) {  // it never has
+      if (spent || !w.at_once || here_ > 4) return std::nullopt;
+      end = t0;
+    }
+  } else if (from.value >= 0) {
+    end = t0;
+  }
+  constexpr double fine = 1e-9;  // finer than dense output is good for
+  return end > begin ? crossing(along, begin, end, fine * step.h) : t0;
+}
+
+std::optional<EventInStep> Events::first(const Step& step, const DenseOutput& motion, const Equations* evaluated) {
+  look_at_end(step, evaluated);
+  const std::optional<EventInStep> at_end = passed_by_end(step);
+  if (at_end && turned(to_[at_end->at], at_end->watch).value > at_end->monitor.overshoot) return at_end;  // too far past
+  std::optional<EventInStep> out;
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const WatchedGuard& w = watched_[k];
+    if (w.direction == Direction::none || w.overshoot > 0) continue;
+    if (const std::optional<double> t = passage(k, step, motion); t && (!out || *t < out->t)) out = {k, w, *t};
+  }
+  return out ? out : at_end;
+}
+
+Events::Ending Events::end_at(const EventInStep& event, Stepper& stepper, const ErrorNorm& norm, Step& step, Equations& eq) {
+  if (event.monitor.overshoot > 0)
+    return turned(to_[event.at], event.watch).value <= event.monitor.overshoot ? Ending::there : Ending::missed;
+  const double t0 = step.from.state.t, t1 = step.to.state.t, h = step.h;
+  double t = event.t;
+  if (t <= t0) {  // at once
+    step.to = step.from;
+    step.h = 0;
+    return Ending::there;
+  }
+  constexpr double last_digits = 4.5e-16;  // two of the clock's: between them zero cannot be met more nearly
+  double t_before = t0;
+  Guard now = from_[event.at];
+  for (int i = 0; i < 6 && t > t0; ++i) {
+    if (!stepper.attempt(t - t0, norm, step, eq)) return Ending::impossible;
+    const Guard before = std::exchange(now, guard(event.at, step.to.state));
+    if (group(event.at).met(places_[event.at].event, now)) return Ending::there;
+    const double rate = std::isnan(now.rate) ? (now.value - before.value) / (t - t_before) : now.rate;
+    const double next = std::clamp(t - now.value / rate, t0, t1);
+    if (std::abs(next - t) <= last_digits * std::abs(t1)) return Ending::there;
+    t_before = std::exchange(t, next);
+  }
+  if (t > t0 && std::abs(now.value) <= event.monitor.zero) return Ending::there;
+  step.h = h;
+  return Ending::missed;
+}
+
+void Events::follow(const Step& step, const DenseOutput& motion) {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const std::size_t size = begin_[g + 1] - begin_[g];
+    groups_[g]->follow(step, {from_.data() + begin_[g], size}, {to_.data() + begin_[g], size}, motion);
+  }
+}
+
+bool Events::count(const Step& step, bool ended_by_event) {
+  here_ = !ended_by_event ? 0 : step.h > 0 ? 1 : here_ + 1;
+  return here_ <= 100 + 2 * static_cast<int>(places_.size());
+}
+
+EventOutcome Events::act(const EventInStep& event, Step& step, double wish) {
+  Wishes& wishes = wishes_[places_[event.at].group];
+  (event.monitor.direction == Direction::rising ? wishes.of_rising : wishes.of_falling) = wish;
+  const EventOutcome out = group(event.at).act(places_[event.at].event, step, to_[event.at]);
+  spent_[event.at] = ask(event.at).direction == event.monitor.direction;
+  return out;
+}
+
+double Events::remembered_wish(const EventInStep& event) const {
+  const Wishes& wishes = wishes_[places_[event.at].group];
+  return event.monitor.direction == Direction::rising ? wishes.of_falling : wishes.of_rising;
+}
+
+void Events::forget_wishes() {
+  for (Wishes& w : wishes_) w = {};
+}
+
+const char* Events::fault() const {
+  if (to_.size() != places_.size() || spent_.size() != places_.size()) return "it is of another system, or has numbers that are none";
+  for (const auto& g : groups_)
+    if (const char* fault = g->fault()) return fault;
+  return nullptr;
+}
+
+}  // namespace pintle

@@ -1,0 +1,117 @@
+#include "framework/integration/events/impact_log.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/common/index.h"
+#include "framework/integration/stepper.h"
+
+namespace pintle {
+
+namespace {
+
+// Greatest f(x), 0 < x < 1, of an f with one summit: the summit of the parabola through three points, golden section
+// where that does not close in fast [Brent1973, ch. 5]. f is flat there: x to 1e-3 is f to about 1e-6 of its change.
+template <class F>
+double greatest(F f) {
+  constexpr double golden = 0.3819660112501051, enough = 1e-3;
+  struct Point {
+    double x, f;
+  };
+  double a = 0, b = 1, moved = 1, moved_before = 1;
+  Point best{0.5, f(0.5)}, second = best, third = best;
+  for (int i = 0; i < 50 && std::abs(best.x - (a + b) / 2) + (b - a) / 2 > 2 * enough; ++i) {
+    const double r = (best.x - second.x) * (best.f - third.f), q = (best.x - third.x) * (best.f - second.f);
+    double step = q == r ? 2 : -0.5 * ((best.x - third.x) * q - (best.x - second.x) * r) / (q - r);
+    const bool good = std::abs(step) < 0.5 * moved_before && best.x + step > a && best.x + step < b;
+    if (!good) step = golden * (best.x < (a + b) / 2 ? b - best.x : a - best.x);
+    if (std::abs(step) < enough) step = std::copysign(enough, step);
+    moved_before = moved, moved = std::abs(step);
+    const double x = best.x + step;
+    const Point now{x, f(x)};
+    if (now.f >= best.f) {
+      (now.x > best.x ? a : b) = best.x;
+      third = second, second = best, best = now;
+    } else {
+      (now.x > best.x ? b : a) = now.x;
+      if (now.f >= second.f || second.x == best.x)
+        third = second, second = now;
+      else if (now.f >= third.f || third.x == best.x || third.x == second.x)
+        third = now;
+    }
+  }
+  return best.f;
+}
+
+}  // namespace
+
+ImpactLog::ImpactLog(const System& system) : system_(system), open_(system.contacts.size(), -1), loss_at_begin_(system.contacts.size(), 0.0) {}
+
+double ImpactLog::loss(int contact, const State& state) const {
+  const Eigen::Index z = 2 * system_.n() + system_.contact_z[at(contact)];
+  return state.y[z] + (system_.contacts[at(contact)].friction ? state.y[z + 1] : 0);
+}
+
+void ImpactLog::begin(int contact, const Step& step, const Guard& gap, double begin, double latched) {
+  const ContactPair& pair = system_.contacts[at(contact)];
+  open_[at(contact)] = static_cast<int>(impacts_.size());
+  Impact impact{.contact = contact, .begin = begin, .approach = latched};
+  if (gap.value > 0 || pair.normal.d > 0) {
+    impact.deepest = std::max(gap.value, 0.0);  // a start inside the wall, or a force that begins with a jump
+    impact.peak_force = evaluate(pair.normal, Approach{gap.value, gap.rate, latched}).force;
+  }
+  loss_at_begin_[at(contact)] = loss(contact, step.to.state);
+  impacts_.push_back(impact);
+}
+
+void ImpactLog::end(int contact, double end, double separation) {
+  Impact& impact = impacts_[at(open_[at(contact)])];
+  impact.end = end;
+  impact.separation = separation;
+  open_[at(contact)] = -1;
+}
+
+void ImpactLog::follow(const Step& step, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput& motion) {
+  for (int c = 0; c < static_cast<int>(open_.size()); ++c)
+    if (touching(c)) follow(c, step, from[at(c)], to[at(c)], motion);
+}
+
+void ImpactLog::follow(int c, const Step& step, const Guard& from, const Guard& to, const DenseOutput& motion) {
+  Impact& impact = impacts_[at(open_[at(c)])];
+  const ContactPair& pair = system_.contacts[at(c)];
+  const double t0 = step.from.state.t, latched = step.from.state.impact_rate[at(c)];
+  const auto inside = [&](double x) { return gap_of(system_, c, motion.at(t0 + x * step.h)); };
+  const auto force = [&](const Guard& now) {
+    return now.value > 0 && latched > 0 ? evaluate(pair.normal, Approach{now.value, now.rate, latched}) : NormalForce{};
+  };
+  const NormalForce first = force(from), last = force(to);
+  impact.deepest = std::max(impact.deepest, to.value);
+  if (from.rate > 0 && to.rate < 0) impact.deepest = std::max(impact.deepest, greatest([&](double x) { return inside(x).value; }));
+  impact.peak_force = std::max(impact.peak_force, last.force);
+  const double mean = step.h > 0 ? (to.rate - from.rate) / step.h : 0;
+  const auto rising = [&](const NormalForce& f, const Guard& now) { return f.d_depth * now.rate + f.d_rate * mean > 0; };
+  if (step.h > 0 && last.force > 0 && !rising(last, to) && (first.force == 0 || rising(first, from)))
+    impact.peak_force = std::max(impact.peak_force, greatest([&](double x) { return force(inside(x)).force; }));
+  impact.lost = loss(c, step.to.state) - loss_at_begin_[at(c)];
+}
+
+const char* ImpactLog::fault() const {
+  const std::size_t contacts = system_.contacts.size();
+  if (open_.size() != contacts || loss_at_begin_.size() != contacts) return "it is of another system, or has numbers that are none";
+  for (std::size_t c = 0; c < contacts; ++c) {
+    const int open = open_[c];
+    if (open >= static_cast<int>(impacts_.size()) || open < -1 || (open >= 0 && impacts_[at(open)].contact != static_cast<int>(c)))
+      return "a contact's impact is not there";
+  }
+  for (const Impact& i : impacts_)
+    if (i.contact < 0 || i.contact >= static_cast<int>(contacts)) return "an impact is of no contact";
+  return nullptr;
+}
+
+Guard gap_of(const System& system, int contact, const State& state) {
+  const ContactPair& pair = system.contacts[at(contact)];
+  const Gap gap = evaluate(pair.gap, moving_point(system, pair.journal, state.y), moving_point(system, pair.bearing, state.y));
+  return {gap.depth, gap.rate};
+}
+
+}  // namespace pintle

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "framework/integration/events/event.h"
+#include "framework/integration/events/impact.h"
+
+namespace pintle {
+
+/// Overlap of a contact and its rate, from the coordinates and speeds alone.
+Guard gap_of(const System&, int contact, const State&);
+
+/// What each stay of a journal at its bearing's wall does: written as it begins, lasts and ends.
+class ImpactLog {
+ public:
+  explicit ImpactLog(const System&);
+
+  bool touching(int contact) const { return open_[static_cast<std::size_t>(contact)] >= 0; }
+  /// @param gap  where it begins   @param begin  moment, perhaps between the clock's   @param latched  its approach speed
+  void begin(int contact, const Step&, const Guard& gap, double begin, double latched);
+  void end(int contact, double end, double separation);
+  /// Deepest penetration, peak force and loss of the contacts that are closed during an accepted step.
+  void follow(const Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&);
+  const std::vector<Impact>& impacts() const { return impacts_; }  ///< in order of beginning
+
+  template <class A>
+  void archive(A& x) { x(PINTLE_MEMBERS(impacts_, open_, loss_at_begin_)); }
+  const char* fault() const;
+
+ private:
+  double loss(int contact, const State&) const;
+  void follow(int contact, const Step&, const Guard& from, const Guard& to, const DenseOutput&);
+
+  const System& system_;
+  std::vector<Impact> impacts_;
+  std::vector<int> open_;              ///< per contact, index into impacts_, −1 while there is none
+  std::vector<double> loss_at_begin_;  ///< per contact [J]
+};
+
+}  // namespace pintle

@@ -1,0 +1,85 @@
+#include "framework/integration/explicit/runge_kutta.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "framework/integration/archive.h"
+#include "framework/integration/dense_output.h"
+
+namespace pintle {
+
+RungeKutta::RungeKutta(const System& system, const Tableau& tableau, Constraints constraints, double tolerance)
+    : system_(system),
+      traits_{.order = tableau.error_order + 1, .implicit = false, .follows_impacts = true, .ends_evaluated = true},
+      tolerance_(tolerance),
+      stages_(system, tableau, constraints) {}
+
+// No shape's first period is stepped over.
+double RungeKutta::first_step(const Instant&, const ErrorNorm&, double) const {
+  double h = std::numeric_limits<double>::infinity();
+  for (const Body& b : system_.bodies)
+    if (b.modes() > 0) h = std::min(h, 0.3 / b.flex->omega.maxCoeff());
+  return h;
+}
+
+void RungeKutta::interpolate(const Step& step, double t, State& out) const { interpolate_quintic(system_, step, t, out); }
+
+bool RungeKutta::sample(const Step& step, double t, Equations& eq, State& out) {
+  if (!reading_) {
+    reading_ = std::make_unique<Reading>(Reading{Stages(system_, stages_.tableau(), stages_.constraints()), {}});
+    reading_->node.dy.setZero(system_.n_y());
+  }
+  auto& [stages, node] = *reading_;
+  stages.take_partition(stages_);
+  const bool inside = t < step.to.state.t;
+  const bool by_a_step = inside && stages.tableau().order > 5;  // better than dense output, whose fifth order its long steps show
+  bool found;
+  if (by_a_step) {
+    found = stages.reach(system_, step.from, t - step.from.state.t, node, eq);
+  } else {
+    if (inside) {
+      interpolate_quintic(system_, step, t, node.state);
+      stages_.refine_integrals(system_, step, node.state);
+    } else {
+      node.state = step.to.state;
+    }
+    found = stages.settle(system_, node, eq);
+  }
+  if (found) out = node.state;
+  return found;
+}
+
+namespace {
+constexpr double few = 1e-9;  // a pivot at which accelerations are known to few digits; pivots fall with the square of the distance
+}
+
+bool RungeKutta::near_singular(const Equations& eq) const {
+  const Schur& S = eq.schur;
+  return S.lost() > eq.permanent || (S.near_singular(eq.permanent) && S.kept() < few);
+}
+
+// Accelerations at a distance u of a pose where motions branch are known to ω² ε/u³, ε the rounding of places, and of that a step brings
+// the part hω into the motion: the pivot, which falls as u², that leaves the tolerance. Where the step's end is about as near it is bodies
+// of unlike inertias, not the pose.
+bool RungeKutta::strayed_near_singular(const Step& step, const Equations& eq) const {
+  constexpr double rounding = 1e-16, nearer = 0.1;
+  const double turn = step.h * fastest_rate(system_, step.to.state.y);
+  const double pivot = std::max(few, std::pow(turn * turn * rounding / tolerance_, 2.0 / 3));
+  return stages_.closest() < std::min(pivot, nearer * eq.schur.kept());
+}
+
+bool RungeKutta::at_stability_limit(const Step& step) const {
+  constexpr double edge = 0.9;
+  return stages_.stiffness(system_, step) > edge * stages_.tableau().reach;
+}
+
+void RungeKutta::save(Writer& out) const { out.whole(stages_); }
+void RungeKutta::load(Reader& in) { in.whole(stages_); }
+
+void RungeKutta::evaluate_end(const Step& step, Equations& eq) {
+  Instant end = step.to;
+  stages_.settle(system_, end, eq);
+}
+
+}  // namespace pintle

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "framework/dynamics/equations/equations.h"
+#include "framework/integration/error_norm.h"
+#include "framework/integration/scheme.h"
+#include "framework/integration/step.h"
+
+namespace pintle {
+
+class Reader;
+class Writer;
+
+/// What the control of the step needs to know of a method.
+struct StepperTraits {
+  int order;                   ///< of the error that it estimates in the step h: hᵖ
+  bool implicit;
+  bool follows_impacts;        ///< its steps follow the force of a contact closely: they end where that has a kink
+  bool ends_evaluated;         ///< `attempt` leaves contacts evaluated at the step's end
+  double least_change = 1, least_growth = 1;  ///< a next step between these parts of the last is not worth another factorization
+};
+
+/// A method of time integration as the integrator sees it: it makes steps and reads the motion inside them. It knows nothing of
+/// error control, events or switching. Chosen once, by make_stepper.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+
+  virtual std::string_view name() const = 0;
+  virtual const StepperTraits& traits() const = 0;
+
+  /// Projects a node onto the constraints and evaluates it: a start, what the method remembers of steps before is dropped.
+  /// @returns false at a singular configuration
+  virtual bool project(Instant&, Equations&) = 0;
+  /// Fills step.to and step.error from step.from and h; step.from is never changed.
+  /// @returns false where it cannot; see trouble()
+  virtual bool attempt(double h, const ErrorNorm&, Step&, Equations&) = 0;
+  /// The step was accepted; its end is in the equations.
+  virtual void accept(Equations&) = 0;
+  /// Bound of the first step after a start [s].
+  virtual double first_step(const Instant& start, const ErrorNorm&, double left) const = 0;
+
+  /// Dense output of an attempted step, not projected onto the constraints.
+  virtual void interpolate(const Step&, double t, State& out) const = 0;
+  /// The motion at t in the last accepted step, fully evaluated in the equations given, which are not those of the steps. Depends on
+  /// the step alone and changes nothing of the next ones. @returns false if it cannot be evaluated
+  virtual bool sample(const Step&, double t, Equations&, State& out) = 0;
+
+  /// A stage of the last attempt stood near a singular configuration.
+  virtual bool passed_near_singular() const = 0;
+  /// The equations are so near a singular configuration that no step should end there.
+  virtual bool near_singular(const Equations&) const = 0;
+  /// A stage of the step came much nearer to a singular configuration than its end, too near for the tolerance.
+  virtual bool strayed_near_singular(const Step&, const Equations&) const = 0;
+  /// The step is as long as stability allows.
+  virtual bool at_stability_limit(const Step&) const = 0;
+  virtual std::string trouble() const = 0;
+  virtual int partitions() const = 0;
+
+  /// What the next steps depend on besides the nodes.
+  virtual void save(Writer&) const = 0;
+  virtual void load(Reader&) = 0;
+  /// What was loaded fits the system and this node.
+  virtual bool fits(const Instant&) const = 0;
+  /// Evaluates the last step's end as the steps left it.
+  virtual void evaluate_end(const Step&, Equations&) = 0;
+};
+
+/// As scene files call it, with the settings of the scheme. @returns nullptr if there is none of that name
+std::unique_ptr<Stepper> make_stepper(std::string_view name, const System&, const Scheme&, const Equations&);
+
+/// A step's motion for those who look inside it.
+class DenseOutput {
+ public:
+  DenseOutput(const Stepper& stepper, const Step& step, State& work) : stepper_(stepper), step_(step), work_(work) {}
+  const State& at(double t) const {
+    stepper_.interpolate(step_, t, work_);
+    return work_;
+  }
+
+ private:
+  const Stepper& stepper_;
+  const Step& step_;
+  State& work_;
+};
+
+}  // namespace pintle
