@@ -65,7 +65,7 @@ std::string stiff_parts_warning(const MechanismBody& b) {
   if (!(b.inertia_covered.share < least_covered)) return "";
   return "the shapes of \"" + b.body.name + "\" hold " + percent(b.inertia_covered.share) + " of its deformation under " + b.inertia_covered.of +
          ": parts beyond or between the points in use stay rigid; raise the count of craig-bampton until its shapes, which now end at " +
-         shown_number(std::round(b.modes.omega.maxCoeff() / (2 * std::numbers::pi))) + " Hz, move these parts so";
+         number_text(std::round(b.modes.omega.maxCoeff() / (2 * std::numbers::pi))) + " Hz, move these parts so";
 }
 
 }  // namespace pintle
