@@ -7,7 +7,7 @@
 
 #include "framework/configuration/equilibrium.h"
 #include "framework/dynamics/equations/tangent.h"
-#include "framework/dynamics/jacobian.h"
+#include "framework/dynamics/equations/jacobian.h"
 
 namespace pintle {
 

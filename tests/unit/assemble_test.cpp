@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "framework/build/build.h"
-#include "framework/dynamics/jacobian.h"
+#include "framework/dynamics/equations/jacobian.h"
 #include "tests/oracles/four_bar.h"
 #include "tests/unit/rods.h"
 

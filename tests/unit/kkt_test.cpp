@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
-#include "framework/dynamics/jacobian.h"
+#include "framework/dynamics/equations/jacobian.h"
 #include "framework/dynamics/newton/kkt.h"
 
 namespace pintle {

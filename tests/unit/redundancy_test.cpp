@@ -11,7 +11,7 @@
 
 #include "framework/build/build.h"
 #include "framework/configuration/assemble.h"
-#include "framework/dynamics/jacobian.h"
+#include "framework/dynamics/equations/jacobian.h"
 #include "tests/scenes/mechanisms.h"
 
 namespace pintle_scenes {

@@ -9,7 +9,7 @@
 #include <Eigen/QR>
 
 #include "framework/dynamics/equations/equations.h"
-#include "framework/dynamics/jacobian.h"
+#include "framework/dynamics/equations/jacobian.h"
 
 namespace pintle {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <Eigen/QR>
 
-#include "framework/dynamics/jacobian.h"
+#include "framework/dynamics/equations/jacobian.h"
 
 namespace pintle {
 

@@ -1,4 +1,4 @@
-#include "framework/dynamics/jacobian.h"
+#include "framework/dynamics/equations/jacobian.h"
 
 namespace pintle {
 
