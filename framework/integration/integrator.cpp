@@ -145,7 +145,7 @@ bool Integrator::end_at_first_event(std::optional<EventInStep>& event) {
       events_.look_at_end(step_, evaluated_at_end());
       return true;
     }
-    const int most = event->monitor.overshoot > 0 ? 200 : 40;
+    const int most = event->watch.overshoot > 0 ? 200 : 40;
     if (ending == Events::Ending::impossible)
       stop("singular pose while locating an event of " + events_.name(*event));
     else if (halvings > most)

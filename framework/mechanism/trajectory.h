@@ -25,7 +25,7 @@ std::size_t first_integral(const System&);
 Wrench joint_wrench(const System&, const Equations&, int joint);
 /// The body that joint_wrench names.
 std::string joint_subject(const System&, int joint);
-/// "gudgeon pin.friction", the name of an integral
+/// "gudgeon pin.lost to friction", the name of an integral
 std::string integral_name(const System&, const Integral&);
 
 }  // namespace pintle

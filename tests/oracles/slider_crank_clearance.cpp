@@ -245,7 +245,7 @@ struct Runner {
   }
 
   /// Depth, depth's rate, force and force's rate (without the factor K) of a touching state.
-  std::array<double, 4> monitor(const Y& y, const Y& dy) const {
+  std::array<double, 4> watch(const Y& y, const Y& dy) const {
     const Geometry g = geometry(m, y);
     const Contact f = contact(m, g, y[4], s.latch);
     const double r = std::hypot(g.ex, g.ey), across = g.uy * f.nx - g.ux * f.ny;
@@ -260,7 +260,7 @@ struct Runner {
 
   /// Deepest point and greatest force, refined inside the step by interpolation.
   void track_peaks(double h) {
-    const auto a = monitor(s.y, k), b = monitor(y_new, k_new);
+    const auto a = watch(s.y, k), b = watch(y_new, k_new);
     impact.deepest = std::max(impact.deepest, b[0]);
     impact.peak_force = std::max(impact.peak_force, b[2]);
     for (const int which : {1, 3}) {
@@ -271,7 +271,7 @@ struct Runner {
         const Y y = interpolate(s.y, k, y_new, k_new, h, u);
         Y dy;
         derivative(m, y, true, s.latch, dy);
-        const auto w = monitor(y, dy);
+        const auto w = watch(y, dy);
         (w[which] > 0 ? low : high) = u;
         impact.deepest = std::max(impact.deepest, w[0]);
         impact.peak_force = std::max(impact.peak_force, w[2]);

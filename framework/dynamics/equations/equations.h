@@ -85,14 +85,14 @@ void pose(const System&, double t, const Eigen::VectorXd& y, Equations&);
 void speed(const System&, double t, const Eigen::VectorXd& y, Equations&);
 /// Inertia of flexible bodies. After pose.
 void update_mass(const System&, const Eigen::VectorXd& y, Equations&);
-/// Weighs, inverts the inertia of flexible bodies and factors S. After pose; sets `regular`.
+/// update_mass, inverts the inertia of flexible bodies and factors S. After pose; sets `regular`.
 void factor(const System&, const Eigen::VectorXd& y, Equations&);
-/// f: gravity, what inertia does with speed, force elements, contacts. After speed and weigh.
+/// f: gravity, what inertia does with speed, force elements, contacts. After speed and update_mass.
 void apply_forces(const System&, const State&, Equations&);
 /// Loads, λ, a. After speed and factor. Clears `regular` where rows contradict each other, and in a
 /// singular pose that speeds do not lead out of.
 void accelerate(const System&, const State&, Equations&);
-/// out += M v, n. After weigh.
+/// out += M v, n. After update_mass.
 void add_mass_times(const System&, const Equations&, const Eigen::VectorXd& v, Eigen::VectorXd& out);
 /// out += Cqᵀ x, x of n_rows. After pose.
 void add_reaction(const Equations&, const Eigen::VectorXd& x, Eigen::VectorXd& out);

@@ -11,9 +11,6 @@ namespace pintle {
 using Eigen::VectorXd;
 using Index = Eigen::Index;
 
-namespace {
-}  // namespace
-
 Equations::Equations(const System& system)
     : motion(system.markers.size()),
       rows(system.joints.size()),

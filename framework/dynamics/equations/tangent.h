@@ -26,7 +26,7 @@ class Tangent {
 
   using Weights = TangentWeights;
   /// values[i] ← summand i of  w.q ∂r/∂q + w.s ∂r/∂s + w.a M,  λ and a held. No allocation.
-  /// @pre pose, speed, weigh and load were done at `state`; values has places().size()
+  /// @pre pose, speed, update_mass and apply_forces were called at `state`; values has places().size()
   void evaluate(const System&, const State&, const Equations&, const Eigen::VectorXd& a, const Eigen::VectorXd& lambda,
                 const Weights& w, std::vector<double>& values);
 

@@ -19,7 +19,7 @@ ContactEvents::ContactEvents(const System& system, const Scheme& scheme)
 std::string ContactEvents::name(int contact) const { return "contact \"" + system_.contact_names[at(contact)] + "\""; }
 
 // A contact that is open waits for its onset, a closed one for its loss; a massless link for neither.
-WatchedGuard ContactEvents::monitor(int contact) const {
+WatchedGuard ContactEvents::watch(int contact) const {
   const ContactPair& pair = system_.contacts[at(contact)];
   if (pair.link >= 0) return {};
   const double zero = 1e-9 * pair.gap.clearance();

@@ -17,7 +17,7 @@ class ContactEvents final : public EventGroup {
   int order() const override { return 0; }
   int size() const override { return static_cast<int>(system_.contacts.size()); }
   std::string name(int contact) const override;
-  WatchedGuard monitor(int contact) const override;
+  WatchedGuard watch(int contact) const override;
   Guard guard(int contact, const State& state) const override { return gap_of(system_, contact, state); }
   Guard guard(int contact, const State&, const Equations&) const override;
   bool met(int contact, const Guard&) const override;

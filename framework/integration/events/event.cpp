@@ -12,7 +12,7 @@ class SingleEvent final : public EventGroup {
   int order() const override { return event_.order; }
   int size() const override { return 1; }
   std::string name(int) const override { return event_.name; }
-  WatchedGuard monitor(int) const override { return {.direction = event_.direction, .zero = event_.zero}; }
+  WatchedGuard watch(int) const override { return {.direction = event_.direction, .zero = event_.zero}; }
   Guard guard(int, const State& state) const override { return event_.guard(state); }
   Guard guard(int, const State& state, const Equations&) const override { return event_.guard(state); }
   bool met(int, const Guard& guard) const override { return std::abs(guard.value) <= event_.zero; }

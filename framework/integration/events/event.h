@@ -57,7 +57,7 @@ class EventGroup {
   virtual std::string name(int event) const = 0;
 
   /// Asked as a step begins: modes change in `act` only.
-  virtual WatchedGuard monitor(int event) const = 0;
+  virtual WatchedGuard watch(int event) const = 0;
   virtual Guard guard(int event, const State&) const = 0;
   /// The same where the equations are evaluated at the state.
   virtual Guard guard(int event, const State&, const Equations&) const = 0;

@@ -148,7 +148,7 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
 std::optional<EventInStep> Events::first(const Step& step, const DenseOutput& motion, const Equations* evaluated) {
   look_at_end(step, evaluated);
   const std::optional<EventInStep> at_end = passed_by_end(step);
-  if (at_end && turned(to_[at_end->at], at_end->watch).value > at_end->monitor.overshoot) return at_end;  // too far past
+  if (at_end && turned(to_[at_end->at], at_end->watch).value > at_end->watch.overshoot) return at_end;  // too far past
   std::optional<EventInStep> out;
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const WatchedGuard& w = watched_[k];
@@ -159,8 +159,8 @@ std::optional<EventInStep> Events::first(const Step& step, const DenseOutput& mo
 }
 
 Events::Ending Events::end_at(const EventInStep& event, Stepper& stepper, const ErrorNorm& norm, Step& step, Equations& eq) {
-  if (event.monitor.overshoot > 0)
-    return turned(to_[event.at], event.watch).value <= event.monitor.overshoot ? Ending::there : Ending::missed;
+  if (event.watch.overshoot > 0)
+    return turned(to_[event.at], event.watch).value <= event.watch.overshoot ? Ending::there : Ending::missed;
   const double t0 = step.from.state.t, t1 = step.to.state.t, h = step.h;
   double t = event.t;
   if (t <= t0) {  // at once
@@ -180,7 +180,7 @@ Events::Ending Events::end_at(const EventInStep& event, Stepper& stepper, const 
     if (std::abs(next - t) <= last_digits * std::abs(t1)) return Ending::there;
     t_before = std::exchange(t, next);
   }
-  if (t > t0 && std::abs(now.value) <= event.monitor.zero) return Ending::there;
+  if (t > t0 && std::abs(now.value) <= event.watch.zero) return Ending::there;
   step.h = h;
   return Ending::missed;
 }
@@ -199,15 +199,15 @@ bool Events::count(const Step& step, bool ended_by_event) {
 
 EventOutcome Events::act(const EventInStep& event, Step& step, double wish) {
   Wishes& wishes = wishes_[places_[event.at].group];
-  (event.monitor.direction == Direction::rising ? wishes.of_rising : wishes.of_falling) = wish;
+  (event.watch.direction == Direction::rising ? wishes.of_rising : wishes.of_falling) = wish;
   const EventOutcome out = group(event.at).act(places_[event.at].event, step, to_[event.at]);
-  spent_[event.at] = ask(event.at).direction == event.monitor.direction;
+  spent_[event.at] = ask(event.at).direction == event.watch.direction;
   return out;
 }
 
 double Events::remembered_wish(const EventInStep& event) const {
   const Wishes& wishes = wishes_[places_[event.at].group];
-  return event.monitor.direction == Direction::rising ? wishes.of_falling : wishes.of_rising;
+  return event.watch.direction == Direction::rising ? wishes.of_falling : wishes.of_rising;
 }
 
 void Events::forget_wishes() {

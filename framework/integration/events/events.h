@@ -75,7 +75,7 @@ class Events {
   };
   EventGroup& group(std::size_t at) { return *groups_[places_[at].group]; }
   const EventGroup& group(std::size_t at) const { return *groups_[places_[at].group]; }
-  WatchedGuard ask(std::size_t at) const { return group(at).monitor(places_[at].event); }
+  WatchedGuard ask(std::size_t at) const { return group(at).watch(places_[at].event); }
   Guard guard(std::size_t at, const State& state) const { return group(at).guard(places_[at].event, state); }
   std::optional<EventInStep> passed_by_end(const Step&) const;
   std::optional<double> passage(std::size_t at, const Step&, const DenseOutput&) const;

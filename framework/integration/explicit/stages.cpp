@@ -41,7 +41,7 @@ bool Stages::evaluate_stage(const System& system, State& state, Equations& eq, E
     if (eq.permanent == 0) {
       const bool found = evaluate(system, state, eq, dy);
       if (!eq.schur.weak()) {
-        monitor(eq);
+        watch(eq);
         return found;
       }
     }
@@ -56,14 +56,14 @@ bool Stages::evaluate_stage(const System& system, State& state, Equations& eq, E
   fill_derivative(system, state.y, eq, dy);
   if (constraints_ == Constraints::projection) {
     weak_ = weak_ || eq.permanent == 0;
-    monitor(eq);
+    watch(eq);
   }
   return eq.regular;
 }
 
 // What is lost beside rows that are redundant in every pose, and small pivots, mark a singular pose. Of large systems with such rows the
 // pivots tell nothing: which of them are small depends on their order.
-void Stages::monitor(const Equations& eq) {
+void Stages::watch(const Equations& eq) {
   weak_ = weak_ || eq.schur.near_singular(eq.permanent);
   if (eq.schur.lost() > eq.permanent)
     least_ = 0;
@@ -112,7 +112,7 @@ bool Stages::reach(const System& system, const Instant& from_node, double h, Ins
   to.y = from.y;
   add_combination(h, tableau_.b, k_, to.y);  // a closing stage has no weight
   if (!to.y.allFinite() || !settle(system, to_node, eq)) return false;
-  monitor(eq);
+  watch(eq);
   if (tableau_.closes) k_.back() = to_node.dy;
   return to_node.dy.allFinite();
 }

@@ -51,7 +51,7 @@ class Stages {
 
  private:
   bool evaluate_stage(const System&, State&, Equations&, Eigen::VectorXd& dy);
-  void monitor(const Equations&);
+  void watch(const Equations&);
 
   const Tableau& tableau_;
   Constraints constraints_;
