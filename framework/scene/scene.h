@@ -176,7 +176,7 @@ struct RunOptions {
   std::string method = "auto";             ///< auto | rkf45 | dopri5 | generalized-alpha
   double rho = 0.8;                        ///< of generalized-alpha: spectral radius at infinite frequency, 0 to 1
   double tolerance = 1e-8;                 ///< local error, relative
-  std::string constraints = "projection";  ///< projection | partitioning | index 3
+  std::string constraints = "projection";  ///< projection | partitioning
   std::optional<double> onset_cut;  ///< cut the step until first penetration is below this [m];
                                     ///< unset: locate the onset as an event
   double max_step = 0;              ///< [s]; 0: none
