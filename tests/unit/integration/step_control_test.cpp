@@ -32,16 +32,18 @@ TEST(StepControl, LeavesNoRestThatIsTooShortToBeAStep) {
   EXPECT_EQ(control.next(0.3).h, 0.3);
 }
 
-// With an error of (h/h₁)ᵖ the next try is at 0.9 h₁, but no shorter than a fifth.
+// With an error of (h/h₁)ᵖ the next try is at 0.9 h₁, but no shorter than the least part.
 TEST(StepControl, ARejectedStepComesToWhereTheErrorIsTheTolerance) {
   for (const int order : {3, 5, 8})
     for (const double h : {1.5, 2.0, 4.0}) {
       StepControl control = wishing(h);
-      control.rejected(h, std::pow(h, order), order);
+      control.rejected(h, std::pow(h, order), order, 0.2);
       EXPECT_NEAR(control.wish(), 0.9, 1e-15 * 8) << order << " " << h;
-      control.rejected(h, std::pow(1e3 * h, order), order);
+      control.rejected(h, std::pow(1e3 * h, order), order, 0.2);
       EXPECT_EQ(control.wish(), h * 0.2);
-      control.rejected(h, std::nan(""), order);
+      control.rejected(h, std::pow(1e3 * h, order), order, 0.7);
+      EXPECT_EQ(control.wish(), h * 0.7) << "where a stage strayed near a singular configuration";
+      control.rejected(h, std::nan(""), order, 0.2);
       EXPECT_EQ(control.wish(), h * 0.2) << "not a number is no error";
     }
 }
