@@ -58,26 +58,26 @@ const std::vector<Layer> layers{
     {"framework/build/", {"framework/common/", "framework/scene/", "framework/component/", "framework/dynamics/model/",
                           "framework/integration/", "framework/bodies/", "framework/mechanism/", "framework/configuration/"}},
 
-    {"framework/analysis/simulate/", {"framework/common/", "framework/dynamics/", "framework/integration/", "framework/bodies/",
+    {"framework/analysis/simulate/", {"files/", "framework/common/", "framework/scene/", "framework/dynamics/", "framework/integration/", "framework/bodies/",
                                       "framework/mechanism/", "framework/configuration/", "framework/build/"}},
     {"framework/analysis/kinematics/", {"framework/common/", "framework/scene/", "framework/dynamics/", "framework/configuration/", "framework/analysis/simulate/"}},
-    {"framework/analysis/linearize/", {"framework/component/eigen/", "framework/dynamics/", "framework/bodies/", "framework/mechanism/",
+    {"framework/analysis/linearize/", {"framework/common/", "framework/scene/", "framework/component/eigen/", "framework/dynamics/", "framework/integration/", "framework/bodies/", "framework/mechanism/",
                                        "framework/configuration/", "framework/analysis/kinematics/"}},
     {"framework/analysis/natural_modes/", {"framework/common/", "framework/scene/", "framework/component/", "framework/bodies/", "framework/build/"}},
     {"framework/analysis/static_case/", {"framework/common/", "framework/scene/", "framework/component/", "framework/bodies/", "framework/drawing/"}},
-    {"framework/analysis/cost/", {"framework/common/", "framework/mechanism/", "framework/configuration/", "framework/build/"}},
-    {"framework/output/", {"framework/common/", "framework/scene/", "framework/mechanism/", "framework/configuration/", "framework/build/", "framework/analysis/"}},
+    {"framework/analysis/cost/", {"framework/common/", "framework/integration/", "framework/mechanism/", "framework/configuration/", "framework/build/"}},
+    {"framework/output/", {"framework/common/", "framework/scene/", "framework/integration/", "framework/mechanism/", "framework/configuration/", "framework/build/", "framework/analysis/"}},
 
     {"framework/study/measures/", {"framework/common/", "framework/scene/", "framework/analysis/simulate/"}},
-    {"framework/study/sweep/", {"files/", "framework/common/", "framework/scene/", "framework/bodies/", "framework/study/case.h", "framework/study/study.h"}},
+    {"framework/study/sweep/", {"files/", "framework/common/", "framework/scene/", "framework/bodies/", "framework/analysis/simulate/", "framework/study/case.h", "framework/study/study.h"}},
     {"framework/study/tradeoff/", {"framework/common/", "framework/scene/", "framework/build/", "framework/analysis/simulate/", "framework/study/study.h"}},
-    {"framework/study/", {"meshes/limits.h", "framework/scene/", "framework/bodies/", "framework/study/measures/"}},
+    {"framework/study/", {"meshes/limits.h", "framework/common/", "framework/scene/", "framework/bodies/", "framework/build/", "framework/study/measures/"}},
 
     {"app/", {"files/", "elements/", "contact/", "meshes/", "framework/"}},
     {"examples/", {"elements/", "contact/", "meshes/", "framework/"}},
-    {"benchmarks/", {"elements/", "contact/", "meshes/", "framework/", "tests/oracles/", "tests/paper/plot.h", "tests/scenes/mechanisms.h"}},
     {"tests/oracles/", {}},
     {"tests/", {"files/", "elements/", "contact/", "meshes/", "framework/", "app/", "tests/"}},
+    {"benchmarks/", {"elements/", "contact/", "meshes/", "framework/", "tests/oracles/", "tests/paper/plot.h", "tests/scenes/mechanisms.h"}},
 };
 
 /// A dependency, by how its headers begin, and the only files that may know it.

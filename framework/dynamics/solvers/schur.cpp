@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -258,13 +259,15 @@ bool Schur::factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_e
   lost_ = 0;
   if (sparse()) least_ = data_->sparse->factor(values_);
   const bool independent = sparse() ? least_ > least : factor_dense(least);
-  if (independent && (least_ > few || smallest_quotient() > least)) {
+  // Of dependent rows rounding leaves so much of the quotient, of bodies 1e12 times as heavy as others more.
+  const double rounding = 4 * n_ * std::numeric_limits<double>::epsilon(), bound = least > dependent_rows::lost ? least : rounding;
+  if (independent && (least_ > few || smallest_quotient() > bound)) {
     kept_ = least_;
     return true;
   }
   if (sparse()) return factor_shifted();
   sum(B, B_eta);  // the factor took its place
-  return factor_by_rank(least);
+  return factor_by_rank(independent ? bound : least);
 }
 
 // How little a combination of rows is, vᵀSv / Σ S_ii v_i², for the one that the smallest pivot stands for. Rounding may leave far more

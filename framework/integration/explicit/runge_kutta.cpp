@@ -60,13 +60,26 @@ bool RungeKutta::near_singular(const Equations& eq) const {
 }
 
 // Accelerations at a distance u of a pose where motions branch are known to ω² ε/u³, ε the rounding of places, and of that a step brings
-// the part hω into the motion: the pivot, which falls as u², that leaves the tolerance. Where the step's end is about as near it is bodies
-// of unlike inertias, not the pose.
-bool RungeKutta::strayed_near_singular(const Step& step, const Equations& eq) const {
-  constexpr double rounding = 1e-16, nearer = 0.1;
+// the part hω into the motion: the pivot, which falls as u², that leaves the tolerance.
+double RungeKutta::pivot_known(const Step& step) const {
+  constexpr double rounding = 1e-16;
   const double turn = step.h * fastest_rate(system_, step.to.state.y);
-  const double pivot = std::max(few, std::pow(turn * turn * rounding / tolerance_, 2.0 / 3));
-  return stages_.closest() < std::min(pivot, nearer * eq.schur.kept());
+  return std::max(few, std::pow(turn * turn * rounding / tolerance_, 2.0 / 3));
+}
+
+// Where the step's end is about as near it is bodies of unlike inertias, not the pose.
+bool RungeKutta::strayed_near_singular(const Step& step, const Equations& eq) const {
+  constexpr double nearer = 0.1;
+  return stages_.closest() < std::min(pivot_known(step), nearer * eq.schur.kept());
+}
+
+// What of the error the joints do not allow the projection has taken away; so near a singular pose stages know it to few digits.
+bool RungeKutta::attempt(double h, const ErrorNorm&, Step& step, Equations& eq) {
+  constexpr double safety = 10;  // the estimate takes differences of stages
+  if (!stages_.attempt(system_, h, step, eq)) return false;
+  if (stages_.weak() && stages_.constraints() == Constraints::projection && stages_.closest() < safety * pivot_known(step))
+    for (const int begin : {0, system_.n()}) keep_allowed(system_, eq, step.error.data() + begin);
+  return step.error.allFinite();
 }
 
 bool RungeKutta::at_stability_limit(const Step& step) const {

@@ -15,7 +15,7 @@ class RungeKutta final : public Stepper {
   std::string_view name() const override { return stages_.tableau().name; }
   const StepperTraits& traits() const override { return traits_; }
   bool project(Instant& node, Equations& eq) override { return stages_.settle(system_, node, eq); }
-  bool attempt(double h, const ErrorNorm&, Step& step, Equations& eq) override { return stages_.attempt(system_, h, step, eq); }
+  bool attempt(double h, const ErrorNorm&, Step&, Equations&) override;
   void accept(Equations& eq) override { stages_.refresh(system_, eq); }
   double first_step(const Instant&, const ErrorNorm&, double left) const override;
   void interpolate(const Step&, double t, State& out) const override;
@@ -37,6 +37,8 @@ class RungeKutta final : public Stepper {
     Stages stages;
     Instant node;
   };
+
+  double pivot_known(const Step&) const;
 
   const System& system_;
   StepperTraits traits_;

@@ -122,9 +122,6 @@ bool Stages::attempt(const System& system, double h, Step& step, Equations& eq) 
   if (!reach(system, step.from, h, step.to, eq)) return false;
   step.error.setZero(system.n_y());
   add_combination(h, tableau_.e, k_, step.error);
-  // What of the error the joints do not allow the projection took away; near a singular pose stages know it to few digits.
-  if (weak_ && constraints_ == Constraints::projection)
-    for (const int begin : {0, system.n()}) keep_allowed(system, eq, step.error.data() + begin);
   return step.error.allFinite();
 }
 

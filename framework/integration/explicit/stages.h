@@ -40,6 +40,8 @@ class Stages {
   bool near_singular() const { return weak_ || (tableau_.order > 5 && least_ < 0.1 * most_); }
   /// Smallest pivot of the last attempt's stages; 0: one stood in a singular pose.
   double closest() const { return least_; }
+  /// A stage of the last attempt stood in or near a singular pose, or bodies have very unlike inertias.
+  bool weak() const { return weak_; }
   /// h times the fastest rate that the last attempt met, by the change from its last inner stage to its end
   /// [HairerWanner1996, IV.2]; 0 unless both stand at one instant.
   double stiffness(const System&, const Step&) const;

@@ -312,7 +312,7 @@ void Alpha::remember(const System& system, double h, const Instant& from, Instan
   memory.a = ((1 - f) * v1 + f * v0 - m * work_) / (1 - m);
   memory.h = h;
   memory.lambda_before = from.memory.lambda;
-  if (eq.permanent > 0 || (lent_ ? *lent_ : kkt_).dependent()) share_out(system, to, eq);
+  if (eq.permanent > 0) share_out(system, to, eq);
   forces_of(system, eq, memory);
   for (Index i = 2 * n; i < system.n_y(); ++i) to.state.y[i] = from.state.y[i] + h / 2 * (from.dy[i] + to.dy[i]);
 }
