@@ -38,12 +38,13 @@ Stages::Stages(const System& system, const Tableau& tableau, Constraints constra
 
 bool Stages::evaluate_stage(const System& system, State& state, Equations& eq, Eigen::VectorXd& dy) {
   if (constraints_ == Constraints::projection || system.n_rows() == 0) {
-    if (eq.permanent == 0) {
+    if (eq.permanent == 0 && !project_stages_) {
       const bool found = evaluate(system, state, eq, dy);
       if (!eq.schur.weak()) {
         watch(eq);
         return found;
       }
+      project_stages_ = true;
     }
     if (!project(system, state.t, state.y, eq)) {  // dependent rows agree only where C = 0 and Ċ = 0
       weak_ = weak_ || eq.permanent == 0;
@@ -92,19 +93,30 @@ void Stages::refresh(const System& system, Equations& eq) {
   if (partition_.worn() || rank_changed) partition_.choose(system, eq);
 }
 
-bool Stages::reach(const System& system, const Instant& from_node, double h, Instant& to_node, Equations& eq) {
-  weak_ = false;
-  least_ = 1, most_ = 0;
+// Stages on the constraints and stages off them do not go together: each kind meets the conditions of order, a mixture does not. Where one
+// but the first turns out to need the projection, all are made again.
+bool Stages::evaluate_inner(const System& system, const Instant& from_node, double h, Equations& eq) {
   const State& from = from_node.state;
-  const std::size_t stages = k_.size(), inner = tableau_.closes ? stages - 1 : stages;
+  const std::size_t inner = tableau_.closes ? k_.size() - 1 : k_.size();
   stage_.impact_rate = from.impact_rate;
   k_[0] = from_node.dy;
+  project_stages_ = false;
   for (std::size_t i = 1; i < inner; ++i) {
+    const bool projected = project_stages_;
     stage_.t = from.t + tableau_.c[i] * h;
     stage_.y = from.y;
     add_combination(h, tableau_.a[i], k_, stage_.y);
     if (!evaluate_stage(system, stage_, eq, k_[i])) return false;
+    if (i > 1 && project_stages_ && !projected) i = 0;
   }
+  return true;
+}
+
+bool Stages::reach(const System& system, const Instant& from_node, double h, Instant& to_node, Equations& eq) {
+  weak_ = false;
+  least_ = 1, most_ = 0;
+  const State& from = from_node.state;
+  if (!evaluate_inner(system, from_node, h, eq)) return false;
 
   State& to = to_node.state;
   to.t = from.t + h;

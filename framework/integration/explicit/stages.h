@@ -52,6 +52,7 @@ class Stages {
   bool fits(const System& system) const { return partition_.fits(system); }
 
  private:
+  bool evaluate_inner(const System&, const Instant& from, double h, Equations&);
   bool evaluate_stage(const System&, State&, Equations&, Eigen::VectorXd& dy);
   void watch(const Equations&);
 
@@ -60,6 +61,7 @@ class Stages {
   Partition partition_;
   std::vector<Eigen::VectorXd> k_;
   State stage_;
+  bool project_stages_ = false;  ///< of the last attempt: each is brought onto the constraints
   bool weak_ = false;
   double least_ = 1, most_ = 0;  ///< of the smallest pivots of the stages
 };
