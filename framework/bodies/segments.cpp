@@ -7,6 +7,7 @@
 
 #include "framework/bodies/elastic_parts.h"
 #include "framework/bodies/in_body.h"
+#include "framework/bodies/redirection.h"
 #include "framework/common/nearest.h"
 
 namespace pintle {
@@ -80,13 +81,6 @@ struct Whole {
   double tolerance = 0;        ///< [m]
   std::vector<double> points;  ///< arc length of each point of the body
   std::vector<double> cuts;    ///< from 0 to the length, one more than pieces
-};
-
-/// What becomes of it.
-struct Pieces {
-  std::vector<SceneBody> bodies;
-  std::vector<SceneJoint> welds;
-  std::map<std::string, std::string> owner;  ///< of a point: the name of its piece
 };
 
 void judge(const Scene& scene, const SceneBody& body, const SceneBeam& beam) {
@@ -265,89 +259,6 @@ bool is_cut(const SceneBody& body) {
   const auto* beam = body.elastic ? std::get_if<SceneBeam>(&body.elastic->shape) : nullptr;
   return beam && beam->pieces > 1;
 }
-
-/// Turns what names a beam or its points to the pieces.
-class Redirection {
- public:
-  Redirection(const Scene& before, const std::map<std::string, Pieces>& cuts)
-      : before_(before), cuts_(cuts) {}
-
-  void redirect(PointRef& ref) const {
-    const auto found = cuts_.find(ref.body);
-    if (found == cuts_.end()) return;
-    const SceneBody& body = *std::ranges::find(before_.bodies, ref.body, &SceneBody::name);
-    const ScenePoint& point =
-        ref.point.empty() ? at_origin(body, ref) : point_of(before_, body, ref.point, ref.place);
-    ref.body = found->second.owner.at(point.name);
-  }
-
-  void redirect(PointRef& a, PointRef& b, const Place& place) const {
-    if (a.body == b.body && cuts_.contains(a.body))
-      throw SceneError(before_.file, place,
-                       "both ends are on \"" + a.body + "\"; join two different bodies");
-    redirect(a);
-    redirect(b);
-  }
-
-  void redirect(SceneJoint& joint) const {
-    const std::string a = joint.a.body, b = joint.b.body;
-    redirect(joint.a, joint.b, joint.place);
-    if (!joint.clearance) return;
-    std::string& bearing = joint.clearance->bearing;
-    bearing = bearing == a ? joint.a.body : bearing == b ? joint.b.body : bearing;
-  }
-
-  void redirect(SceneLoad& load) const {
-    std::visit(
-        [&](auto& what) {
-          if constexpr (requires { what.at; })
-            redirect(what.at);
-          else
-            redirect(what.a, what.b, load.place);
-        },
-        load.what);
-  }
-
-  /// All pieces begin as parts of one rigid body and share its axes.
-  std::vector<StartBody> starts() const {
-    std::vector<StartBody> out;
-    for (const StartBody& start : before_.start_bodies) {
-      const auto found = cuts_.find(start.body);
-      if (found == cuts_.end()) {
-        out.push_back(start);
-        continue;
-      }
-      if (!start.deflection.empty() || !start.modes.empty())
-        throw SceneError(before_.file, start.place,
-                         "\"" + start.body +
-                             "\" is cut into pieces, and how it starts bent is not shared among them; " +
-                             "leave it out, or begin at rest by start: equilibrium");
-      for (const SceneBody& piece : found->second.bodies) {
-        out.push_back(start);
-        out.back().body = piece.name;
-      }
-    }
-    return out;
-  }
-
- private:
-  /// What a flexible body alone means: its point at the origin of its axes.
-  const ScenePoint& at_origin(const SceneBody& body, const PointRef& ref) const {
-    constexpr double near = 1e-12;  // [m]
-    std::vector<std::string> points;
-    for (const ScenePoint& p : body.points) {
-      if (vector(p.at).norm() <= near) return p;
-      points.push_back(p.name);
-    }
-    throw SceneError(before_.file, ref.place,
-                     "\"" + body.name +
-                         "\" alone is the origin of its axes, and the beam, cut into " +
-                         "pieces, has no point there; name one of its points: " + listed(points));
-  }
-
-  const Scene& before_;
-  const std::map<std::string, Pieces>& cuts_;
-};
 
 /// Names that pieces and welds need must be free.
 void validate_names(const Scene& scene, const std::map<std::string, Pieces>& cuts) {

@@ -11,17 +11,15 @@
 #include "framework/bodies/body_store.h"
 #include "framework/bodies/elastic_parts.h"
 #include "framework/bodies/mesh_file_warnings.h"
-#include "framework/bodies/holding_warnings.h"
 #include "framework/bodies/mechanism_body.h"
 #include "framework/bodies/modal_basis.h"
 #include "framework/build/clearance.h"
 #include "framework/build/laws.h"
 #include "framework/build/choose_method.h"
-#include "framework/build/preliminary_run.h"
+#include "framework/build/elastic_bodies.h"
 #include "framework/build/shape_warnings.h"
 #include "framework/common/nearest.h"
 #include "framework/common/text.h"
-#include "framework/component/fe/statics.h"
 
 namespace pintle {
 
@@ -41,7 +39,9 @@ class Builder {
   Model build() {
     model_.system.gravity = vector(scene_.gravity);
     if (scene_.bodies.empty()) throw SceneError(scene_.file, {0, "bodies"}, "there is no body; a scene needs at least one");
-    make_elements();
+    elastic_ = elastic_bodies(scene_, store_, preliminary_);
+    model_.preliminary_run = elastic_.preliminary_run;
+    elements_.resize(scene_.bodies.size());
     for (const SceneBody& b : scene_.bodies) add(b);
     for (const SceneJoint& j : scene_.joints) add(j);
     for (const SceneDriver& d : scene_.drivers) add(d);
@@ -50,7 +50,7 @@ class Builder {
     validate_output();
     record();
     keep_drawings();
-    report();
+    report_flexible(scene_, elements_, elastic_, model_);
     model_.system.length = size();
     for (const SceneJoint& j : scene_.joints)
       if (const std::string warning = j.clearance ? rounding_warning(scene_, j, model_.system.length) : ""; !warning.empty())
@@ -79,9 +79,9 @@ class Builder {
     index_[b.name] = static_cast<int>(i);
     std::vector<Vector2d> outline;
     if (b.elastic) {
-      const std::optional<int> chosen = choices_[i] ? std::optional<int>(choices_[i]->count) : std::nullopt;
-      Reduction reduction = store_ ? store_->reduction(scene_, *meshed_[i], chosen) : reduction_of(scene_, *meshed_[i], chosen);
-      const MechanismBody& made = elements_[i].emplace(mechanism_body(scene_, std::move(*meshed_[i]), std::move(reduction)));
+      const std::optional<int> chosen = elastic_.choices[i] ? std::optional<int>(elastic_.choices[i]->count) : std::nullopt;
+      Reduction reduction = store_ ? store_->reduction(scene_, *elastic_.meshed[i], chosen) : reduction_of(scene_, *elastic_.meshed[i], chosen);
+      const MechanismBody& made = elements_[i].emplace(mechanism_body(scene_, std::move(*elastic_.meshed[i]), std::move(reduction)));
       model_.system.bodies.push_back(made.body);
       model_.warnings.insert(model_.warnings.end(), made.warnings.begin(), made.warnings.end());
       for (const Port& p : made.elastic.model.ports) outline.push_back(p.x - made.centre);
@@ -102,74 +102,6 @@ class Builder {
       wrong(b.place, quoted(b.name) + " lacks what forces act on; add for example " + missing + " (only `pintle kinematics` does without, and `pintle statics` without gravity)");
     if (!(b.mass > 0)) wrong(b.place, "mass must be above 0 kg");
     if (!(b.inertia > 0)) wrong(b.place, "inertia must be above 0 kg m^2");
-  }
-
-  /// Meshes all bodies of elements, and runs them rigid where something is to be judged by that.
-  void make_elements() {
-    const std::size_t n = scene_.bodies.size();
-    meshed_.resize(n), elements_.resize(n), choices_.resize(n);
-    std::vector<const ElasticBody*> all(n, nullptr);
-    bool flexible = false, automatic = false;
-    for (std::size_t i = 0; i < n; ++i) {
-      const SceneBody& b = scene_.bodies[i];
-      if (!b.elastic) continue;
-      if (const auto* beam = std::get_if<SceneBeam>(&b.elastic->shape); beam && beam->pieces > 1)
-        wrong(b.place, "it is to be cut into pieces; build what with_pieces makes of the scene");
-      all[i] = &meshed_[i].emplace(store_ ? store_->elastic(scene_, b) : elastic_body(scene_, b));
-      if (const std::string warning = size_warning(scene_, *all[i]); !warning.empty()) meshed_[i]->warnings.push_back(warning);
-      validate_inertia(scene_, *all[i]);
-      flexible = flexible || b.elastic->modes;
-      automatic = automatic || (b.elastic->modes && b.elastic->modes->keep.automatic);
-    }
-    if (!automatic && !(preliminary_ && flexible)) return;
-    if (scene_.has_run) run_ = rigid_run(scene_, all);
-    else run_.trouble = "the scene has no `run`";
-    model_.preliminary_run = {run_.until, run_.seconds, run_.steps, run_.trouble};
-    for (std::size_t i = 0; i < n; ++i)
-      if (all[i] && scene_.bodies[i].elastic->modes && scene_.bodies[i].elastic->modes->keep.automatic)
-        choices_[i] = run_.usable() ? choose_modes(scene_, *all[i], run_.bodies[i]) : choose_by_rule(scene_, *all[i], run_.trouble);
-  }
-
-  /// What the flexible bodies have kept, and what is doubtful about it.
-  void report() {
-    std::vector<Imposed> imposed;
-    for (const Body& b : model_.system.bodies)
-      if (b.modes() > 0 && imposed.empty()) imposed = imposed_frequencies(scene_);
-    for (std::size_t i = 0; i < elements_.size(); ++i) {
-      if (!elements_[i] || !elements_[i]->elastic.scene->elastic->modes) continue;
-      if (!elements_[i]->body.flex) {
-        model_.warnings.push_back(quoted(scene_.bodies[i].name) + " stays rigid: its `modes` keep no shape; raise below, or ask for a count");
-        continue;
-      }
-      FlexibleReport& r = model_.flexible.emplace_back(flexible_report(*elements_[i]));
-      r.choice = choices_[i];
-      model_.bending.push_back(bending_probe(*elements_[i], static_cast<int>(i)));
-      StiffeningProbe& probe = model_.stiffening.emplace_back(stiffening_probe(*elements_[i], static_cast<int>(i)));
-      if (run_.usable()) r.motion = motion_estimate(*elements_[i], run_.bodies[i]), probe.judged = true;
-      const std::vector<std::string> found = warnings_of(scene_, r, imposed);
-      model_.warnings.insert(model_.warnings.end(), found.begin(), found.end());
-      if (!r.motion) probe.judged = warn_of_spin(*elements_[i]) || probe.judged;
-      if (const std::string warning = stiff_parts_warning(*elements_[i]); !warning.empty()) model_.warnings.push_back(warning);
-    }
-    if (!model_.stiffening.empty()) find_grips();
-    const std::vector<std::string> held = holding_warnings(scene_, elements_);
-    model_.warnings.insert(model_.warnings.end(), held.begin(), held.end());
-  }
-
-  /// Without a rigid run: a body whose spin is given. @returns whether it is doubted
-  bool warn_of_spin(const MechanismBody& b) {
-    if (b.elastic.scene->elastic->stiffening != Stiffening::none) return false;
-    const double spin = given_spin(scene_, b.body.name);
-    if (!(spin > 0)) return false;
-    const std::string warning = spin_warning(b.body.name, spin, stiffened_by_spin(scene_, b, spin));
-    if (!warning.empty()) model_.warnings.push_back(warning);
-    return !warning.empty();
-  }
-
-  void find_grips() {
-    std::vector<const ElasticBody*> flexible;
-    for (const auto& made : elements_) flexible.push_back(made && made->body.flex ? &made->elastic : nullptr);
-    model_.attachments = attachments_of(scene_, model_.order, flexible);
   }
 
   int body(const PointRef& ref) const {
@@ -373,27 +305,7 @@ class Builder {
                            ? "its `modes` keep no shape; keep more" : "it is rigid; make it a beam or plate with `modes`"));
       model_.stresses.push_back({p.body + "." + p.point, b, stress_probe(scene_, made->elastic, made->modes, p)});
     }
-    warn_of_lacking_pull();
-  }
-
-  /// Of beams of which a section force is recorded while no shape stretches: N is rounding, and its part of the stress is lacking.
-  void warn_of_lacking_pull() {
-    constexpr double rounding = 1e-8;  // of the stress of bending at the radius of gyration
-    std::set<int> told;
-    for (const RecordedStress& s : model_.stresses) {
-      if (!s.probe.beam || !told.insert(s.body).second) continue;
-      const MechanismBody& made = *elements_[static_cast<std::size_t>(s.body)];
-      double stretch = 0, bend = 0;
-      for (Eigen::Index i = 0; i < made.modes.shapes.cols(); ++i) {
-        const StressField field = stress_field(made.elastic.model, made.modes.shapes.col(i), made.elastic.fibres);
-        stretch = std::max(stretch, field.section_forces.row(0).cwiseAbs().maxCoeff() / s.probe.A);
-        bend = std::max(bend, field.section_forces.row(2).cwiseAbs().maxCoeff() / std::sqrt(s.probe.A * s.probe.I));
-      }
-      if (stretch > rounding * bend) continue;
-      const std::string& name = model_.system.bodies[static_cast<std::size_t>(s.body)].name;
-      model_.warnings.push_back("no shape of \"" + name + "\" stretches: its section force N is recorded as nothing, and the stress is that of bending alone; "
-                                "take craig-bampton where joints or forces hold two points of it, or keep more shapes");
-    }
+    for (std::string& warning : stress_warnings(model_.system, model_.stresses, elements_)) model_.warnings.push_back(std::move(warning));
   }
 
   void keep_drawings() {
@@ -438,9 +350,7 @@ class Builder {
   BodyStore* store_;
   Model model_;
   std::map<std::string, int> index_;
-  std::vector<std::optional<ElasticBody>> meshed_;      ///< until they are added
-  std::vector<std::optional<ModalChoice>> choices_;
-  RigidRun run_;
+  ElasticBodies elastic_;
   std::vector<std::optional<MechanismBody>> elements_;  ///< of bodies made of elements
   std::map<std::tuple<int, double, double, double, std::string>, int> markers_;
   std::set<std::string> names_;

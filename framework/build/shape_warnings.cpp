@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "framework/bodies/elastic_parts.h"
 #include "framework/bodies/modal_basis.h"
 #include "framework/build/choose_method.h"
 #include "framework/common/text.h"
+#include "framework/component/fe/statics.h"
 
 namespace pintle {
 
@@ -66,6 +68,28 @@ std::string stiff_parts_warning(const MechanismBody& b) {
   return "the shapes of \"" + b.body.name + "\" hold " + percent(b.inertia_covered.share) + " of its deformation under " + b.inertia_covered.of +
          ": parts beyond or between the points in use stay rigid; raise the count of craig-bampton until its shapes, which now end at " +
          number_text(std::round(b.modes.omega.maxCoeff() / (2 * std::numbers::pi))) + " Hz, move these parts so";
+}
+
+std::vector<std::string> stress_warnings(const System& system, const std::vector<RecordedStress>& stresses,
+                                         const std::vector<std::optional<MechanismBody>>& bodies) {
+  std::vector<std::string> out;
+  constexpr double rounding = 1e-8;  // of the stress of bending at the radius of gyration
+  std::set<int> told;
+  for (const RecordedStress& s : stresses) {
+    if (!s.probe.beam || !told.insert(s.body).second) continue;
+    const MechanismBody& made = *bodies[static_cast<std::size_t>(s.body)];
+    double stretch = 0, bend = 0;
+    for (Eigen::Index i = 0; i < made.modes.shapes.cols(); ++i) {
+      const StressField field = stress_field(made.elastic.model, made.modes.shapes.col(i), made.elastic.fibres);
+      stretch = std::max(stretch, field.section_forces.row(0).cwiseAbs().maxCoeff() / s.probe.A);
+      bend = std::max(bend, field.section_forces.row(2).cwiseAbs().maxCoeff() / std::sqrt(s.probe.A * s.probe.I));
+    }
+    if (stretch > rounding * bend) continue;
+    const std::string& name = system.bodies[static_cast<std::size_t>(s.body)].name;
+    out.push_back("no shape of \"" + name + "\" stretches: its section force N is recorded as nothing, and the stress is that of bending alone; "
+                              "take craig-bampton where joints or forces hold two points of it, or keep more shapes");
+  }
+  return out;
 }
 
 }  // namespace pintle

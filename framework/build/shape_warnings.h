@@ -6,6 +6,7 @@
 
 #include "framework/bodies/attachments.h"
 #include "framework/bodies/mechanism_body.h"
+#include "framework/mechanism/model.h"
 
 /// Where the shapes that were kept leave out what a mechanism asks of a body.
 namespace pintle {
@@ -22,5 +23,8 @@ std::vector<std::string> contact_warnings(const Scene&, const System&, const Bui
 
 /// Parts of the body that Craig–Bampton shapes leave stiff, in words; empty if there are none.
 std::string stiff_parts_warning(const MechanismBody&);
+
+/// Beams of which a section force is recorded while no shape stretches: N is rounding, and its part of the stress is lacking. Once a body.
+std::vector<std::string> stress_warnings(const System&, const std::vector<RecordedStress>&, const std::vector<std::optional<MechanismBody>>& bodies);
 
 }  // namespace pintle

@@ -14,6 +14,7 @@
 #include "framework/dynamics/equations/energy.h"
 #include "framework/integration/implicit/alpha.h"
 #include "framework/integration/integrator.h"
+#include "tests/contracts/loose_crank.h"
 #include "tests/contracts/scheme_cases.h"
 
 namespace pintle {
@@ -133,13 +134,6 @@ TEST(Alpha, LedgerOfALinearSystemClosesToRoundingAtAnyStep) {
         EXPECT_NEAR(lost, 0, 1e-11 * std::max(1.0, z) * start) << z;  // the trapezoid's rule
       }
     }
-}
-
-Integrator integrator(const Case& k, double tolerance, const char* tableau = nullptr, Constraints c = Constraints::projection) {
-  Scheme scheme;
-  scheme.tableau = tableau ? find_tableau(tableau) : nullptr;
-  scheme.tolerance = tolerance, scheme.constraints = c;
-  return Integrator(k.system, scheme, k.start);
 }
 
 // The local error is the tolerance, so the step goes with its third root and the error of a run with h².
@@ -308,25 +302,6 @@ TEST(Alpha, AnExplicitRunThatStabilityHoldsGoesOnImplicitly) {
   EXPECT_NEAR(run.state().y[2], whole.state().y[2], 10 * std::pow(1e-6, 2.0 / 3));  // as in the test of the tolerance
 }
 
-// The gudgeon pin with clearance.
-Case loose_crank() {
-  Case k = crank::make();
-  System& s = k.system;
-  const VectorXd before = k.start.y;
-  s.joints.erase(s.joints.begin() + 2);
-  ContactPair pair;
-  pair.journal = 5, pair.bearing = 4;
-  pair.gap = {0.0099, 0.01};
-  pair.normal = {6.61e10, 1.5, 0.3};
-  s.contacts = {pair};
-  s.contact_names = {"pin"};
-  number(s, true);
-  k.start.y.setZero(s.n_y());
-  k.start.y.head<18>() = before.head<18>();
-  k.start.impact_rate = {0};
-  return k;
-}
-
 TEST(Alpha, FirstImpactsComeToThoseOfTheExplicitSchemeAsTheToleranceFalls) {
   const Case k = loose_crank();
   constexpr double until = 0.02;
@@ -349,66 +324,6 @@ TEST(Alpha, FirstImpactsComeToThoseOfTheExplicitSchemeAsTheToleranceFalls) {
   // Each impact magnifies what came before by about ten: the fourth has seen three. Errors fall by 100^⅔ = 21.
   EXPECT_LT(worst[0], 1e3 * std::pow(1e-6, 2.0 / 3) * 1e-1);
   EXPECT_LT(worst[1], 0.2 * worst[0]);
-}
-
-// ---- saving and going on ------------------------------------------------------------------------
-
-void expect_same(const Integrator& a, const Integrator& b) {
-  ASSERT_EQ(a.state().t, b.state().t);
-  ASSERT_EQ(a.state().y, b.state().y);
-  ASSERT_EQ(a.impacts().size(), b.impacts().size());
-  for (std::size_t i = 0; i < a.impacts().size(); ++i) {
-    ASSERT_EQ(a.impacts()[i].begin, b.impacts()[i].begin);
-    ASSERT_EQ(a.impacts()[i].peak_force, b.impacts()[i].peak_force);
-    ASSERT_EQ(a.impacts()[i].lost, b.impacts()[i].lost);
-  }
-  ASSERT_EQ(a.counts().evaluations, b.counts().evaluations);
-}
-
-TEST(Restart, FromAnyStepGoesOnBitForBitThroughImpacts) {
-  const Case k = loose_crank();
-  for (const char* tableau : {"dopri5", "rkf45", ""})
-    for (const Constraints c : {Constraints::projection, Constraints::partitioning}) {
-      const bool implicit = std::string(tableau).empty();
-      if (implicit && c == Constraints::partitioning) continue;
-      SCOPED_TRACE(std::string(tableau) + " " + std::to_string(static_cast<int>(c)));
-      Integrator run = integrator(k, 1e-6, implicit ? nullptr : tableau, c);
-      std::vector<std::string> saved;
-      for (int i = 0; i < 800; ++i) {
-        if (i % 80 == 7) saved.push_back(run.save());
-        ASSERT_TRUE(run.advance(1)) << run.failure();
-      }
-      ASSERT_GT(run.impacts().size(), 3u) << "no impact, no exam";
-      for (std::size_t s = 0; s < saved.size(); ++s) {
-        Integrator next = integrator(k, 1e-6, implicit ? nullptr : tableau, c);
-        next.load(saved[s]);
-        EXPECT_EQ(next.save(), saved[s]);
-        for (int i = 7 + 80 * static_cast<int>(s); i < 800; ++i) ASSERT_TRUE(next.advance(1)) << next.failure();
-        expect_same(next, run);
-      }
-    }
-}
-
-// What `method: auto` takes may change with the length of the run and the rows asked for, which a restart may change.
-TEST(Restart, GoesOnWithTheExplicitPairThatWasSaved) {
-  const Case k = loose_crank();
-  Integrator run = integrator(k, 1e-6, "dopri5"), next = integrator(k, 1e-6, "verner87");
-  for (int i = 0; i < 100; ++i) ASSERT_TRUE(run.advance(1));
-  next.load(run.save());
-  EXPECT_EQ(next.switched(), "dopri5 throughout, as in the run that was saved");
-  for (int i = 0; i < 400; ++i) ASSERT_TRUE(run.advance(1) && next.advance(1));
-  expect_same(next, run);
-}
-
-TEST(Restart, RefusesWhatIsNotWholeOrOfAnotherSystem) {
-  const Case loose = loose_crank(), tight = crank::make();
-  Integrator run = integrator(loose, 1e-6), other = integrator(tight, 1e-6);
-  ASSERT_TRUE(run.advance(1));
-  const std::string saved = run.save();
-  EXPECT_THROW(run.load(saved.substr(0, saved.size() / 2)), std::invalid_argument);
-  EXPECT_THROW(run.load(saved + "x"), std::invalid_argument);
-  EXPECT_THROW(run.load(""), std::invalid_argument);
-  EXPECT_THROW(other.load(saved), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,0 +1,81 @@
+#include "framework/bodies/redirection.h"
+
+#include <algorithm>
+
+#include "framework/bodies/elastic_parts.h"
+#include "framework/common/nearest.h"
+
+namespace pintle {
+
+void Redirection::redirect(PointRef& ref) const {
+  const auto found = cuts_.find(ref.body);
+  if (found == cuts_.end()) return;
+  const SceneBody& body = *std::ranges::find(before_.bodies, ref.body, &SceneBody::name);
+  const ScenePoint& point =
+      ref.point.empty() ? at_origin(body, ref) : point_of(before_, body, ref.point, ref.place);
+  ref.body = found->second.owner.at(point.name);
+}
+
+void Redirection::redirect(PointRef& a, PointRef& b, const Place& place) const {
+  if (a.body == b.body && cuts_.contains(a.body))
+    throw SceneError(before_.file, place,
+                     "both ends are on \"" + a.body + "\"; join two different bodies");
+  redirect(a);
+  redirect(b);
+}
+
+void Redirection::redirect(SceneJoint& joint) const {
+  const std::string a = joint.a.body, b = joint.b.body;
+  redirect(joint.a, joint.b, joint.place);
+  if (!joint.clearance) return;
+  std::string& bearing = joint.clearance->bearing;
+  bearing = bearing == a ? joint.a.body : bearing == b ? joint.b.body : bearing;
+}
+
+void Redirection::redirect(SceneLoad& load) const {
+  std::visit(
+      [&](auto& what) {
+        if constexpr (requires { what.at; })
+          redirect(what.at);
+        else
+          redirect(what.a, what.b, load.place);
+      },
+      load.what);
+}
+
+std::vector<StartBody> Redirection::starts() const {
+  std::vector<StartBody> out;
+  for (const StartBody& start : before_.start_bodies) {
+    const auto found = cuts_.find(start.body);
+    if (found == cuts_.end()) {
+      out.push_back(start);
+      continue;
+    }
+    if (!start.deflection.empty() || !start.modes.empty())
+      throw SceneError(before_.file, start.place,
+                       "\"" + start.body +
+                           "\" is cut into pieces, and how it starts bent is not shared among them; " +
+                           "leave it out, or begin at rest by start: equilibrium");
+    for (const SceneBody& piece : found->second.bodies) {
+      out.push_back(start);
+      out.back().body = piece.name;
+    }
+  }
+  return out;
+}
+
+/// What a flexible body alone means: its point at the origin of its axes.
+const ScenePoint& Redirection::at_origin(const SceneBody& body, const PointRef& ref) const {
+  constexpr double near = 1e-12;  // [m]
+  std::vector<std::string> points;
+  for (const ScenePoint& p : body.points) {
+    if (vector(p.at).norm() <= near) return p;
+    points.push_back(p.name);
+  }
+  throw SceneError(before_.file, ref.place,
+                   "\"" + body.name +
+                       "\" alone is the origin of its axes, and the beam, cut into " +
+                       "pieces, has no point there; name one of its points: " + listed(points));
+}
+
+}  // namespace pintle
