@@ -14,15 +14,15 @@ namespace pintle {
 namespace fs = std::filesystem;
 
 /// A folder of its own, gone at the end.
-class Folder {
+class SweepFolder {
  public:
-  Folder() : path_(fs::temp_directory_path() / ("pintle-sweep-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" +
+  SweepFolder() : path_(fs::temp_directory_path() / ("pintle-sweep-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" +
                                                 std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "-" +
                                                 std::to_string(std::hash<std::thread::id>()(std::this_thread::get_id())))) {
     fs::remove_all(path_);
     fs::create_directories(path_);
   }
-  ~Folder() { fs::remove_all(path_); }
+  ~SweepFolder() { fs::remove_all(path_); }
   fs::path operator/(const std::string& name) const { return path_ / name; }
   void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
 

@@ -44,7 +44,7 @@ TEST(SweepJournal, ATornOrChangedLineIsNoRow) {
 }
 
 TEST(SweepJournal, ATornLastLineIsCutOffAndItsCaseIsOpenAgain) {
-  const Folder folder;
+  const SweepFolder folder;
   const fs::path path = journal_path(folder / "", 0);
   Row r = sample_row();
   {
@@ -67,7 +67,7 @@ TEST(SweepJournal, ATornLastLineIsCutOffAndItsCaseIsOpenAgain) {
 }
 
 /// A journal of the study 42 with cases 1, 2 and 3.
-std::string three_cases(const Folder& folder) {
+std::string three_cases(const SweepFolder& folder) {
   const fs::path path = journal_path(folder / "", 0);
   Journal journal(path, 42);
   Row r = sample_row();
@@ -76,7 +76,7 @@ std::string three_cases(const Folder& folder) {
 }
 void put(const fs::path& path, const std::string& text) { std::ofstream(path, std::ios::binary | std::ios::trunc) << text; }
 /// Why the journals of the folder are refused; empty: they are not.
-std::string refusal(const Folder& folder) {
+std::string refusal(const SweepFolder& folder) {
   try {
     read_journals(folder / "", 42, 10);
   } catch (const OtherStudy&) {
@@ -88,7 +88,7 @@ std::string refusal(const Folder& folder) {
 }
 
 TEST(SweepJournal, SaysWhatWasTornAndWhatWasDone) {
-  const Folder folder;
+  const SweepFolder folder;
   const fs::path path = journal_path(folder / "", 0);
   const std::string whole = three_cases(folder);
   put(path, whole.substr(0, whole.size() - 5));
@@ -106,7 +106,7 @@ TEST(SweepJournal, SaysWhatWasTornAndWhatWasDone) {
 }
 
 TEST(SweepJournal, ADamagedLineIsRefusedByItsNumber) {
-  const Folder folder;
+  const SweepFolder folder;
   const fs::path path = journal_path(folder / "", 0);
   const std::string whole = three_cases(folder);
   const std::size_t second = whole.find('\n', whole.find('\n') + 1) + 1, third = whole.find('\n', second) + 1;
@@ -124,7 +124,7 @@ TEST(SweepJournal, ADamagedLineIsRefusedByItsNumber) {
 }
 
 TEST(SweepJournal, ADamagedHeadingIsRefusedAndNothingIsDiscarded) {
-  const Folder folder;
+  const SweepFolder folder;
   const fs::path path = journal_path(folder / "", 0);
   const std::string whole = three_cases(folder);
   for (std::size_t i = 0; i < whole.find('\n') + 1; ++i) {
@@ -138,7 +138,7 @@ TEST(SweepJournal, ADamagedHeadingIsRefusedAndNothingIsDiscarded) {
 }
 
 TEST(SweepJournal, AHeadingTornByAKillBeginsAgain) {
-  const Folder folder;
+  const SweepFolder folder;
   const fs::path path = journal_path(folder / "", 0);
   const std::string whole = three_cases(folder), heading = whole.substr(0, whole.find('\n') + 1);
   for (std::size_t n = 0; n + 1 < heading.size(); ++n) {
@@ -150,7 +150,7 @@ TEST(SweepJournal, AHeadingTornByAKillBeginsAgain) {
 }
 
 TEST(SweepJournal, ACaseThatTheStudyHasNotIsRefused) {
-  const Folder folder;
+  const SweepFolder folder;
   const fs::path path = journal_path(folder / "", 0);
   const std::string whole = three_cases(folder);
   for (const std::size_t number : {std::size_t{0}, std::size_t{11}, std::size_t{1} << 40, ~std::size_t{0}}) {
@@ -181,7 +181,7 @@ TEST(SweepJournal, WhatIsSealedButNoCaseIsNoRow) {
 }
 
 TEST(SweepJournal, IsHeldByItsProcess) {
-  const Folder folder;
+  const SweepFolder folder;
   {
     Journal journal(journal_path(folder / "", 1), 42);
     EXPECT_FALSE(journals_are_free(folder / "", journal_path(folder / "", 0), 0));

@@ -33,17 +33,17 @@ sweep: {grid: {angle: {from: -90 deg, to: 80 deg, count: 9}, length: [0.1 m, -0.
 )";
 
 /// The pendulum and a study of it, written and read.
-Sweep sweep_in(const Folder& folder, const std::string& text = study) {
+Sweep sweep_in(const SweepFolder& folder, const std::string& text = study) {
   folder.write("scene.yaml", pendulum);
   folder.write("study.yaml", text);
   return read_sweep(folder / "study.yaml");
 }
-Sweep turned(const Folder& folder, const std::string& sweep) {
+Sweep turned(const SweepFolder& folder, const std::string& sweep) {
   return sweep_in(folder, "scene: scene.yaml\nmeasure: {turn: final angle of rod}\nsweep: " + sweep + "\n");
 }
 
 /// What is said of a study of the pendulum.
-std::string refusal_of(const Folder& folder, const std::string& sweep) {
+std::string refusal_of(const SweepFolder& folder, const std::string& sweep) {
   try {
     turned(folder, sweep);
   } catch (const SceneError& error) {
@@ -53,7 +53,7 @@ std::string refusal_of(const Folder& folder, const std::string& sweep) {
 }
 
 TEST(Sweep, TheTableIsTheSameToTheBitForOneAndFourThreads) {
-  const Folder folder;
+  const SweepFolder folder;
   const Sweep sweep = sweep_in(folder);
   const SweepEnd one = run_sweep(sweep, folder / "one", {1, nullptr, {}}), four = run_sweep(sweep, folder / "four", {4, nullptr, {}});
   EXPECT_TRUE(one.whole && four.whole);
@@ -64,7 +64,7 @@ TEST(Sweep, TheTableIsTheSameToTheBitForOneAndFourThreads) {
 }
 
 TEST(Sweep, ACaseThatFailsIsARowWithItsReason) {
-  const Folder folder;
+  const SweepFolder folder;
   const Sweep sweep = sweep_in(folder);
   const SweepEnd end = run_sweep(sweep, folder / "out", {2, nullptr, {}});
   for (const Row& r : end.rows) {
@@ -77,7 +77,7 @@ TEST(Sweep, ACaseThatFailsIsARowWithItsReason) {
 }
 
 TEST(Sweep, StepsMayBeLimitedForAllCases) {
-  const Folder folder;
+  const SweepFolder folder;
   const SweepEnd end = run_sweep(turned(folder, "{list: [{angle: 0 deg}], most steps: 3}"), folder / "out", {1, nullptr, {}});
   EXPECT_EQ(end.rows.at(0).status, "failed");
   EXPECT_EQ(end.rows.at(0).steps, 3);
@@ -85,7 +85,7 @@ TEST(Sweep, StepsMayBeLimitedForAllCases) {
 }
 
 TEST(Sweep, TimeMayBeLimitedForEachCase) {
-  const Folder folder;
+  const SweepFolder folder;
   const SweepEnd end = run_sweep(turned(folder, "{list: [{angle: 0 deg}], limit: 1 ns}"), folder / "out", {1, nullptr, {}});
   EXPECT_TRUE(end.whole);
   EXPECT_EQ(end.rows.at(0).status, "over its limit");
@@ -93,7 +93,7 @@ TEST(Sweep, TimeMayBeLimitedForEachCase) {
 }
 
 TEST(Sweep, StoppedItGoesOnAndNothingRunsTwice) {
-  const Folder folder;
+  const SweepFolder folder;
   const Sweep sweep = sweep_in(folder);
   run_sweep(sweep, folder / "whole", {1, nullptr, {}});
   // Three sessions of at most some cases, as if stopped by hand.
@@ -120,7 +120,7 @@ TEST(Sweep, StoppedItGoesOnAndNothingRunsTwice) {
 }
 
 TEST(Sweep, AFolderOfAnotherStudyIsRefused) {
-  const Folder folder;
+  const SweepFolder folder;
   run_sweep(turned(folder, "{list: [{angle: 0 deg}]}"), folder / "out", {1, nullptr, {}});
   const auto refusal = [&] {
     try {
@@ -140,7 +140,7 @@ TEST(Sweep, AFolderOfAnotherStudyIsRefused) {
 }
 
 TEST(Sweep, ATableThatTheSceneNamesBelongsToTheStudy) {
-  const Folder folder;
+  const SweepFolder folder;
   folder.write("push.csv", "0 0\n1 2\n");
   folder.write("scene.yaml", std::string(pendulum) + "forces: {push: {torque: {table: push.csv}, on: rod}}\n");
   folder.write("study.yaml", "scene: scene.yaml\nmeasure: {turn: final angle of rod}\nsweep: {list: [{angle: 0 deg}]}\n");
@@ -166,7 +166,7 @@ TEST(Sweep, AStudyThatIsWrongIsRefusedBeforeAnyCaseRuns) {
            {"{grid: {length: []}}", "sweep.grid.length: ", "is an empty list"},
            {"{random: {count: 3, length: []}}", "sweep.random.length: ", "is an empty list"}}) {
     SCOPED_TRACE(w.sweep);
-    const Folder folder;
+    const SweepFolder folder;
     const std::string said = refusal_of(folder, w.sweep);
     EXPECT_NE(said.find(std::string("study.yaml:3: ") + w.place), std::string::npos) << said;
     EXPECT_NE(said.find(w.says), std::string::npos) << said;
@@ -176,13 +176,13 @@ TEST(Sweep, AStudyThatIsWrongIsRefusedBeforeAnyCaseRuns) {
 TEST(Sweep, AValueThatTheSceneRefusesForItselfIsACase) {
   for (const char* sweep : {"{grid: {mass: [1 kg, -1 kg]}}", "{grid: {length: [0.1 m, 0.2 m], mass: [-1 kg, -2 kg, 1]}}",
                             "{list: [{angle: 0, mass: -1}, {angle: 1, mass: 2}]}", "{grid: {run.method: [dopri5, euler]}}"}) {
-    const Folder folder;
+    const SweepFolder folder;
     EXPECT_EQ(refusal_of(folder, sweep), "accepted") << sweep;
   }
 }
 
 TEST(Sweep, AHeaderHasTheUnitThatTheSceneTook) {
-  const Folder folder;
+  const SweepFolder folder;
   struct Column {
     std::string sweep, header;
   };
@@ -199,7 +199,7 @@ TEST(Sweep, AHeaderHasTheUnitThatTheSceneTook) {
 }
 
 TEST(Sweep, RunsItsCasesInTheThreadsThatCanBeStartedAndSaysSo) {
-  const Folder folder;
+  const SweepFolder folder;
   const Sweep sweep = sweep_in(folder);
   run_sweep(sweep, folder / "plenty", {1, nullptr, {}});
   for (int allowed : {0, 1, 3}) {
@@ -218,7 +218,7 @@ TEST(Sweep, RunsItsCasesInTheThreadsThatCanBeStartedAndSaysSo) {
 }
 
 TEST(Sweep, WithoutAThreadItCanStillBeStopped) {
-  const Folder folder;
+  const SweepFolder folder;
   const Sweep sweep = sweep_in(folder);
   const ScarceThreads scarce(0);
   EXPECT_FALSE(run_sweep(sweep, folder / "out", {2, nullptr, [](const SweepCount&) { return false; }}).whole);
@@ -260,7 +260,7 @@ class Played : public Communicator {
 };
 
 TEST(Sweep, ProcessesShareTheCasesAndEachIsRunOnce) {
-  const Folder folder;
+  const SweepFolder folder;
   const Sweep sweep = sweep_in(folder);
   run_sweep(sweep, folder / "alone", {1, nullptr, {}});
   for (int size : {1, 2, 5}) {
@@ -289,7 +289,7 @@ TEST(Sweep, ProcessesShareTheCasesAndEachIsRunOnce) {
 }
 
 TEST(Sweep, ProcessesWithoutThreadsShareTheCasesToo) {
-  const Folder folder;
+  const SweepFolder folder;
   const Sweep sweep = sweep_in(folder);
   Post post(2);
   SweepEnd ends[2];
@@ -307,7 +307,7 @@ TEST(Sweep, ProcessesWithoutThreadsShareTheCasesToo) {
 }
 
 TEST(Sweep, OneProcessThatIsStoppedStopsAll) {
-  const Folder folder;
+  const SweepFolder folder;
   const Sweep sweep = sweep_in(folder);
   Post post(3);
   std::vector<std::thread> processes;
