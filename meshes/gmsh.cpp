@@ -23,7 +23,7 @@ namespace {
 
 using Eigen::Vector2d;
 namespace fs = std::filesystem;
-constexpr std::size_t most_bytes = std::size_t{100} << 20;      // of a script
+constexpr std::size_t most_script_bytes = std::size_t{100} << 20;      // of a script
 constexpr std::size_t most_mesh_bytes = std::size_t{1} << 30;
 
 void judge(const std::string& name, const MeshOptions& o, double scale) {
@@ -98,7 +98,7 @@ Mesh read_geometry(const fs::path& path, const MeshOptions& o, double scale, con
   std::string text;
   try {
     const bool all = kind == ".geo" || kind == ".msh";
-    text = all ? read_file(path, kind == ".geo" ? most_bytes : most_mesh_bytes) : read_head(path, 4096);
+    text = all ? read_file(path, kind == ".geo" ? most_script_bytes : most_mesh_bytes) : read_head(path, 4096);
     validate_head(name, kind, text);
     if (kind == ".msh") validate_msh(name, text);
   } catch (const FileRefused& e) {

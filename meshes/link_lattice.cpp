@@ -19,9 +19,8 @@ using std::numbers::pi;
 
 constexpr double rounding = 1e-9;   // of a length of the link
 constexpr double narrowest = 0.25;  // of the size asked for
-constexpr double sides_round_hole = 24, sides_round_arc = 12;
 
-[[noreturn]] void reject(const Vector2d& p, const char* where) {
+[[noreturn]] void reject_point(const Vector2d& p, const char* where) {
   std::ostringstream text;
   text << "link: the point (" << p.x() << ", " << p.y() << ") m lies " << where
        << ", where no node can be; put it on the material, or name the hole and couple the point "
@@ -53,7 +52,7 @@ std::optional<Mesh> bar(double length, double left, double right, const MeshOpti
   for (const Vector2d& p : o.points) {
     if (p.x() < -rounding * length || p.x() > length * (1 + rounding) ||
         std::abs(p.y()) > half_width(p.x()) + rounding * length)
-      reject(p, "outside the outline");
+      reject_point(p, "outside the outline");
     through_u.push_back(std::clamp(p.x(), 0.0, length));
     through_v.push_back(std::clamp(p.y() / half_width(p.x()), -1.0, 1.0));
   }
@@ -102,8 +101,8 @@ std::optional<Mesh> disc(double inner, double outer, const MeshOptions& o) {
   double start = 0;
   for (const Vector2d& p : o.points) {
     const double r = p.norm();
-    if (r > outer * (1 + rounding)) reject(p, "outside the outline");
-    if (r < inner * (1 - rounding)) reject(p, "in the hole");
+    if (r > outer * (1 + rounding)) reject_point(p, "outside the outline");
+    if (r < inner * (1 - rounding)) reject_point(p, "in the hole");
     const double u = -std::atan2(p.y(), p.x());
     if (through_u.empty()) start = u;
     double turned = std::fmod(u - start + 4 * pi, 2 * pi);

@@ -61,9 +61,9 @@ class Worker {
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) fail(errno);
     line_ = ends[0];
     const int error = start(ends[1]);
-    close(ends[1]);
+    ::close(ends[1]);
     if (error != 0) {
-      close(line_);
+      ::close(line_);
       fail(error);
     }
     std::string version;
@@ -93,7 +93,7 @@ class Worker {
   /// Ends the process, if it has not ended, and waits for it. @returns its exit code, 128 + signal if one killed it
   int end(bool by_force = true) {
     if (line_ < 0) return 0;
-    close(std::exchange(line_, -1));
+    ::close(std::exchange(line_, -1));
     if (owner_ != getpid()) return 0;  // a fork of this program holds a copy of the line, not the process
     if (by_force) kill(process_, SIGKILL);
     int status = 0;

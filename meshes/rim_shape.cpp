@@ -12,10 +12,10 @@ namespace pintle {
 namespace {
 
 using Eigen::Vector2d;
-using Ends = std::vector<std::pair<int, int>>;
+using SideEnds = std::vector<std::pair<int, int>>;
 
-Ends ends_of(const std::vector<Cells>& sides) {
-  Ends ends;
+SideEnds side_ends(const std::vector<Cells>& sides) {
+  SideEnds ends;
   for (const Cells& c : sides) {
     const std::size_t n = static_cast<std::size_t>(nodes_of(c.shape));
     for (std::size_t s = 0; s < c.size(); ++s) ends.emplace_back(c.nodes[s * n], c.nodes[s * n + 1]);
@@ -23,7 +23,7 @@ Ends ends_of(const std::vector<Cells>& sides) {
   return ends;
 }
 
-void count_runs(const Ends& ends, RimShape& shape) {
+void count_runs(const SideEnds& ends, RimShape& shape) {
   std::map<int, int> parent, degree;  // of corners
   const auto root = [&](int i) {
     while (parent.at(i) != i) i = parent[i] = parent.at(parent.at(i));
@@ -40,7 +40,7 @@ void count_runs(const Ends& ends, RimShape& shape) {
 }
 
 // |x|² = 2 c·x + (r² − |c|²), least squares about the mean.
-void fit_circle(const Mesh& mesh, const Ends& ends, RimShape& shape) {
+void fit_circle(const Mesh& mesh, const SideEnds& ends, RimShape& shape) {
   const Eigen::Index n = static_cast<Eigen::Index>(ends.size());
   Eigen::Matrix2Xd x(2, 2 * n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -74,7 +74,7 @@ void fit_circle(const Mesh& mesh, const Ends& ends, RimShape& shape) {
 
 RimShape rim_shape(const Mesh& mesh, const std::vector<Cells>& sides) {
   RimShape shape;
-  const Ends ends = ends_of(sides);
+  const SideEnds ends = side_ends(sides);
   count_runs(ends, shape);
   fit_circle(mesh, ends, shape);
   return shape;

@@ -11,10 +11,9 @@ namespace pintle {
 using Eigen::Vector2d;
 
 namespace {
-constexpr double sides_round_hole = 24;
 // An arc of the outline: cells no longer than a twelfth of its full circle, nor shorter than a
 // fiftieth of the largest, however sharp a fillet is.
-constexpr double sides_round_arc = 12, least_share = 0.02;
+constexpr double least_share = 0.02;
 }  // namespace
 
 double SizeField::at(double x, double y) const {

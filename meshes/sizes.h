@@ -8,6 +8,9 @@
 
 namespace pintle {
 
+/// Sides round a hole, and round a full circle of the outline, unless sizes say otherwise.
+inline constexpr double sides_round_hole = 24, sides_round_arc = 12;
+
 /// How large cells are to be: `largest`, or less near places that ask for it.
 struct SizeField {
   struct Source {

@@ -17,7 +17,7 @@ namespace {
 using Box = Squares::Box;
 using Eigen::Vector2d;
 
-constexpr double rounding = 1e-6;  ///< of a side's length: nearer is there
+constexpr double nearness = 1e-6;  ///< of a side's length: nearer is there
 constexpr double doubtful = 1e-3;  ///< nearer is hardly apart
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -163,7 +163,7 @@ struct Check {
         double t = 0;
         const double gap = distance(mesh, s, at(n), t);
         if (has(s.cell, n) || gap > doubtful * length(s)) return;
-        if (gap <= rounding * length(s))
+        if (gap <= nearness * length(s))
           hanging.push_back({n, k});
         else if (beyond(s, t, at(n)))
           near.push_back({n, k});
@@ -275,7 +275,7 @@ Soundness soundness(const Mesh& mesh) {
 std::optional<std::pair<int, int>> unjoined(const Mesh& mesh, const std::vector<int>& piece) {
   if (mesh.x.cols() == 0) return {};
   const double size = (mesh.x.rowwise().maxCoeff() - mesh.x.rowwise().minCoeff()).norm();
-  const double near = rounding * size / std::sqrt(static_cast<double>(mesh.x.cols()));
+  const double near = nearness * size / std::sqrt(static_cast<double>(mesh.x.cols()));
   std::vector<Box> boxes;
   for (Eigen::Index i = 0; i < mesh.x.cols(); ++i)
     boxes.emplace_back(mesh.x.col(i).array() - near, mesh.x.col(i).array() + near);

@@ -18,9 +18,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double two_pi = 2 * std::numbers::pi;
 constexpr Index responding = 40;  ///< of the lowest shapes, in estimates
-constexpr double rounding = 1e-9;  ///< of a modal force beside its terms
+constexpr double rounding_of_force = 1e-9;  ///< of a modal force beside its terms
 
 /// Greatest turn in a nodal field of displacements, of sections and ports.
 double greatest_turn(const ElasticBody& e, const VectorXd& nodal, const VectorXd& ports) {
@@ -107,11 +106,11 @@ FlexibleReport flexible_report(const MechanismBody& b) {
   r.body = b.body.name;
   r.basis = title_of(*b.elastic.scene->elastic->modes);
   r.shapes = b.body.modes();
-  r.lowest = flex.omega.minCoeff() / two_pi;
-  r.highest = flex.omega.maxCoeff() / two_pi;
+  r.lowest = flex.omega.minCoeff() / (2 * std::numbers::pi);
+  r.highest = flex.omega.maxCoeff() / (2 * std::numbers::pi);
   r.least_damping = flex.zeta.minCoeff();
   r.most_damping = flex.zeta.maxCoeff();
-  for (Index i = 0; i < flex.omega.size(); ++i) r.frequencies.push_back(flex.omega[i] / two_pi), r.damping.push_back(flex.zeta[i]);
+  for (Index i = 0; i < flex.omega.size(); ++i) r.frequencies.push_back(flex.omega[i] / (2 * std::numbers::pi)), r.damping.push_back(flex.zeta[i]);
   if (b.conditions.kind != ReferenceConditions::mean_axes) {
     const Eigen::Vector3d sum = effective_mass(b.elastic.model, b.elastic.M, b.modes).rowwise().sum();
     r.mass = Eigen::Vector3d(sum[0] / b.body.m, sum[1] / b.body.m, sum[2] / b.body.J);
@@ -128,7 +127,7 @@ MotionEstimate motion_estimate(const MechanismBody& b, const LoadHistory& histor
   MatrixXd Q = work * history.factor;
   const MatrixXd terms = work.cwiseAbs() * history.factor.cwiseAbs();
   for (Index i = 0; i < Q.rows(); ++i)  // loads in equilibrium that leave a mode nothing but rounding
-    if (Q.row(i).lpNorm<Eigen::Infinity>() <= rounding * terms.row(i).maxCoeff()) Q.row(i).setZero();
+    if (Q.row(i).lpNorm<Eigen::Infinity>() <= rounding_of_force * terms.row(i).maxCoeff()) Q.row(i).setZero();
   const MatrixXd eta = oscillator_response(modes.omega, b.body.flex->zeta, history.t, Q);
   out.spin = std::sqrt(history.factor.row(3).maxCoeff());
   out.excited_up_to = excited_up_to(history.t, Q, modes.omega);

@@ -208,7 +208,7 @@ class Left {
   MatrixXd field_;
 };
 
-std::string percent(double part) { return number_text(std::round(1e5 * part) / 1e3) + " %"; }
+std::string fine_percent(double part) { return number_text(std::round(1e5 * part) / 1e3) + " %"; }
 
 /// The fewest that leave negligible parts beside what no candidate covers.
 std::size_t enough(const std::vector<ConsideredMode>& modes, const ModalChoice& choice) {
@@ -222,8 +222,8 @@ std::size_t enough(const std::vector<ConsideredMode>& modes, const ModalChoice& 
 void explain(ModalChoice& choice, double until) {
   const ConsideredMode& last = choice.considered[static_cast<std::size_t>(choice.count - 1)];
   choice.reason = std::to_string(choice.count) + " of the " + std::to_string(choice.considered.size()) +
-                  " lowest modes, by a rigid run of " + number_text(until) + " s: the rest leaves out " + percent(last.left_energy) +
-                  " of the greatest strain energy, " + percent(last.left_displacement) + " of the greatest displacement";
+                  " lowest modes, by a rigid run of " + number_text(until) + " s: the rest leaves out " + fine_percent(last.left_energy) +
+                  " of the greatest strain energy, " + fine_percent(last.left_displacement) + " of the greatest displacement";
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector2d;
 
 /// Distances below this part of a piece's length are rounding.
-constexpr double rounding = 1e-8;
+constexpr double rounding_of_step = 1e-8;
 
 /// The line along which a beam runs.
 struct Axis {
@@ -104,7 +104,7 @@ Whole whole_of(const Scene& scene, const SceneBody& body, const SceneBeam& beam)
   judge(scene, body, beam);
   Whole whole{scene, body, beam, axis_of(scene, body, beam), 0, {}, {}};
   const double step = whole.axis.length() / beam.pieces;
-  whole.tolerance = rounding * step;
+  whole.tolerance = rounding_of_step * step;
   for (const ScenePoint& p : body.points) {
     const auto corner = std::ranges::find(beam.through, p.name);
     if (corner != beam.through.end()) {

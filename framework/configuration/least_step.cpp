@@ -8,10 +8,11 @@
 namespace pintle {
 
 using Eigen::VectorXd;
-using Index = Eigen::Index;
-using Sparse = Eigen::SparseMatrix<double>;
 
 namespace {
+
+using Index = Eigen::Index;
+using Sparse = Eigen::SparseMatrix<double>;
 
 thread_local bool out_of_memory;
 // CHOLMOD may go on with another ordering, whose result differs in its last digits, and then forgets that it lacked memory.

@@ -9,6 +9,7 @@
 #include "framework/common/file_names.h"
 #include "framework/common/text.h"
 #include "framework/output/results.h"
+#include "framework/output/scene_json.h"
 #include "framework/scene/yaml/json_text.h"
 
 namespace pintle {
@@ -31,10 +32,6 @@ Json head(const Scene& scene, const Model& model, const Run& run) {
           {"worst scaled violation", {{"position", run.worst_position}, {"velocity", run.worst_velocity}}},
           {"counts", {{"steps", run.counts.steps}, {"rejected", run.counts.rejected}}},
           {"timings [s]", {{"computing", run.seconds}}}};
-}
-
-Json scene_json(const Scene& scene) {
-  return scene.filled_in.empty() ? Json(nullptr) : Json::parse(scene.filled_in, nullptr, false);
 }
 
 std::string effort_csv(const DriverEffort& e) {

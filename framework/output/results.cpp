@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/output/run_files.h"
+#include "framework/output/scene_json.h"
 #include "framework/scene/yaml/json_text.h"
 
 namespace pintle {
@@ -85,10 +86,6 @@ Json preliminary_run_json(const Model& model) {
 
 Json method_json(const Scheme& scheme, const std::string& switched) {
   return {{"name", name(scheme)}, {"reason", scheme.reason}, {"changed in the run", switched.empty() ? Json(nullptr) : Json(switched)}};
-}
-
-Json scene_json(const Scene& scene) {
-  return scene.filled_in.empty() ? Json(nullptr) : Json::parse(scene.filled_in, nullptr, false);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr Eigen::Index panel = 64;  // right-hand sides solved at a time: bounds CHOLMOD's copies
+constexpr Eigen::Index panel_columns = 64;  // right-hand sides solved at a time: bounds CHOLMOD's copies
 
 // CHOLMOD's view of our matrix; it reads only.
 cholmod_sparse view(const Sparse& A) {
@@ -47,28 +47,28 @@ cholmod_dense view(double* x, Eigen::Index rows, Eigen::Index columns) {
   return v;
 }
 
-// The places of a matrix's entries, column by column.
-class Places {
- public:
-  Places() = default;
-  explicit Places(const Sparse& A) {
-    row_.reserve(static_cast<std::size_t>(A.nonZeros()));
-    begin_.reserve(static_cast<std::size_t>(A.outerSize()));
-    for (int j = 0; j < A.outerSize(); ++j) {
-      begin_.push_back(row_.size());
-      for (Sparse::InnerIterator a(A, j); a; ++a) row_.push_back(static_cast<int>(a.row()));
-    }
-  }
-  bool operator==(const Places&) const = default;
-
- private:
-  std::vector<std::size_t> begin_;
-  std::vector<int> row_;
-};
-
 }  // namespace
 
 struct Factor::Data {
+  // The places of a matrix's entries, column by column.
+  class Places {
+   public:
+    Places() = default;
+    explicit Places(const Sparse& A) {
+      row_.reserve(static_cast<std::size_t>(A.nonZeros()));
+      begin_.reserve(static_cast<std::size_t>(A.outerSize()));
+      for (int j = 0; j < A.outerSize(); ++j) {
+        begin_.push_back(row_.size());
+        for (Sparse::InnerIterator a(A, j); a; ++a) row_.push_back(static_cast<int>(a.row()));
+      }
+    }
+    bool operator==(const Places&) const = default;
+
+   private:
+    std::vector<std::size_t> begin_;
+    std::vector<int> row_;
+  };
+
   cholmod_common common;
   cholmod_factor* L = nullptr;
   cholmod_dense *Y = nullptr, *E = nullptr;  // workspace of solves
@@ -128,7 +128,7 @@ void Factor::analyse(const Sparse& A) {
     throw std::invalid_argument("a matrix to factor is " + std::to_string(A.rows()) + " by " +
                                 std::to_string(A.cols()) + ", must be square");
   Data& d = *data_;
-  Places places(A);
+  Data::Places places(A);
   if (d.L && places == d.places) return;
   cholmod_sparse a = view(A);
   cholmod_free_factor(&d.L, &d.common);
@@ -158,8 +158,8 @@ Eigen::MatrixXd Factor::solve(const Eigen::MatrixXd& B) const {
 void Factor::solve_into(const Eigen::MatrixXd& B, Eigen::MatrixXd& X) const {
   Data& d = *data_;
   X.resize(B.rows(), B.cols());
-  for (Eigen::Index c = 0; c < B.cols(); c += panel) {
-    const Eigen::Index columns = std::min(panel, B.cols() - c);
+  for (Eigen::Index c = 0; c < B.cols(); c += panel_columns) {
+    const Eigen::Index columns = std::min(panel_columns, B.cols() - c);
     cholmod_dense b = view(const_cast<double*>(B.data() + c * B.rows()), B.rows(), columns);
     cholmod_dense x = view(X.data() + c * B.rows(), B.rows(), columns);
     cholmod_dense* into = &x;

@@ -15,7 +15,7 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr double one = 1, minus_one = -1;
+constexpr double plus_one = 1, minus_one = -1;
 constexpr double singular =
     1e-14;                  // a pivot below this share of the entries it came from is rounding
 constexpr int strip = 128;  // columns updated at once where the pivot block is indefinite
@@ -69,8 +69,8 @@ class Front {
     }
     if (!definite) return eliminate_indefinite(F, rows, columns);
     if (rest > 0) {
-      dtrsm_("R", "L", "T", "N", &rest, &columns, &one, F, &rows, F + columns, &rows);
-      dsyrk_("L", "N", &rest, &columns, &minus_one, F + columns, &rows, &one,
+      dtrsm_("R", "L", "T", "N", &rest, &columns, &plus_one, F, &rows, F + columns, &rows);
+      dsyrk_("L", "N", &rest, &columns, &minus_one, F + columns, &rows, &plus_one,
              F + at(columns, columns, rows), &rows);
     }
     return 0;
@@ -104,7 +104,7 @@ class Front {
       dsytrs_("L", &columns, &width, kept_.data(), &columns, pivots_.data(), turned_.data(),
               &columns, &info);
       dgemm_("N", "N", &below, &width, &columns, &minus_one, F + columns + first, &rows,
-             turned_.data(), &columns, &one, F + at(columns + first, columns + first, rows), &rows);
+             turned_.data(), &columns, &plus_one, F + at(columns + first, columns + first, rows), &rows);
     }
     return negative;
   }

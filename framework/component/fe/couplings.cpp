@@ -23,7 +23,7 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 constexpr double degenerate = 1e-9;
 
 template <class... Parts>
-[[noreturn]] void reject(const RimPort& rim, const Parts&... parts) {
+[[noreturn]] void reject_rim(const RimPort& rim, const Parts&... parts) {
   std::ostringstream words;
   words << "port \"" << rim.name << "\" at (" << rim.x.x() << ", " << rim.x.y() << "): ";
   (words << ... << parts);
@@ -37,18 +37,18 @@ struct RimShape {
 
 RimShape rim_shape(const FeModel& model, const RimPort& rim) {
   if (rim.weights.size() != rim.nodes.size())
-    reject(rim, rim.weights.size(), " weights for ", rim.nodes.size(),
+    reject_rim(rim, rim.weights.size(), " weights for ", rim.nodes.size(),
            " nodes of its rim; give one each");
   RimShape shape;
   for (std::size_t k = 0; k < rim.nodes.size(); ++k) {
     if (!(rim.weights[k] > 0))
-      reject(rim, "weight of rim node ", rim.nodes[k], " is ", rim.weights[k],
+      reject_rim(rim, "weight of rim node ", rim.nodes[k], " is ", rim.weights[k],
              ", must be > 0: the length of rim that belongs to it");
     shape.center += rim.weights[k] * model.x.col(rim.nodes[k]);
     shape.length += rim.weights[k];
   }
   if (rim.nodes.size() < 2)
-    reject(rim, "its rim has ", rim.nodes.size(),
+    reject_rim(rim, "its rim has ", rim.nodes.size(),
            " nodes, must have at least two apart; refine the mesh at the hole");
   shape.center /= shape.length;
   double reach = (shape.center - rim.x).norm();
@@ -59,7 +59,7 @@ RimShape rim_shape(const FeModel& model, const RimPort& rim) {
   }
   shape.radius = std::sqrt(shape.radius / shape.length);
   if (!(shape.radius > degenerate * reach))
-    reject(rim, "the nodes of its rim coincide and fix no rotation; refine the mesh at the hole");
+    reject_rim(rim, "the nodes of its rim coincide and fix no rotation; refine the mesh at the hole");
   return shape;
 }
 
@@ -143,11 +143,11 @@ void judge(const FeModel& model, const std::vector<NodePort>& nodes,
     names.push_back(rim.name);
     for (const int node : rim.nodes) {
       if (node < 0 || static_cast<std::size_t>(node) >= count)
-        reject(rim, "node ", node, " is not there; nodes run from 0 to ", count, " − 1");
+        reject_rim(rim, "node ", node, " is not there; nodes run from 0 to ", count, " − 1");
       const RimPort*& other = owner[static_cast<std::size_t>(node)];
-      if (other == &rim) reject(rim, "node ", node, " is twice in its rim; name it once");
+      if (other == &rim) reject_rim(rim, "node ", node, " is twice in its rim; name it once");
       if (other)
-        reject(rim, "its rim shares node ", node, " with that of port \"", other->name,
+        reject_rim(rim, "its rim shares node ", node, " with that of port \"", other->name,
                "\"; a node follows one port at most");
       other = &rim;
     }

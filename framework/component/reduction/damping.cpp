@@ -7,7 +7,7 @@
 namespace pintle {
 namespace {
 
-[[noreturn]] void reject(const char* what, double value, const char* rule) {
+[[noreturn]] void reject_damping(const char* what, double value, const char* rule) {
   std::ostringstream text;
   text << "rayleigh damping: " << what << " = " << value << ", " << rule;
   throw std::invalid_argument(text.str());
@@ -18,12 +18,12 @@ namespace {
 Rayleigh rayleigh(double omega_1, double zeta_1, double omega_2, double zeta_2) {
   for (const double omega : {omega_1, omega_2})
     if (!(omega > 0) || !std::isfinite(omega))
-      reject("frequency", omega, "must be positive (rad/s)");
+      reject_damping("frequency", omega, "must be positive (rad/s)");
   for (const double zeta : {zeta_1, zeta_2})
-    if (!(zeta >= 0) || !std::isfinite(zeta)) reject("ratio", zeta, "must not be negative");
+    if (!(zeta >= 0) || !std::isfinite(zeta)) reject_damping("ratio", zeta, "must not be negative");
   // Closer than this and rounding alone decides the coefficients.
   if (std::abs(omega_2 - omega_1) <= 1e-9 * omega_1)
-    reject("second frequency", omega_2, "must differ from the first; choose two distinct modes");
+    reject_damping("second frequency", omega_2, "must differ from the first; choose two distinct modes");
   const double spread = (omega_2 - omega_1) * (omega_2 + omega_1);
   return {2 * omega_1 * omega_2 * (zeta_1 * omega_2 - zeta_2 * omega_1) / spread,
           2 * (zeta_2 * omega_2 - zeta_1 * omega_1) / spread};

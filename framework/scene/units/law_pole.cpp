@@ -10,8 +10,8 @@ namespace pintle {
 
 namespace {
 
-constexpr double narrowest = 1e-14;     // of the run: no interval is divided further
-constexpr int most_intervals = 40'000;  // looked at for one law
+constexpr double narrowest_at_pole = 1e-14;  // of the run: no interval is divided further
+constexpr int most_looks = 40'000;           // looked at for one law
 
 bool bounded(const Range& r) { return std::isfinite(r.lo) && std::isfinite(r.hi); }
 
@@ -35,13 +35,13 @@ std::optional<double> pole_of(const TimeLaw& law, double until, bool rate) {
   if (!program || !(until > 0)) return {};
   Machine<RangeJet> ranges;
   std::vector<std::pair<double, double>> left{{0, until}};
-  for (int looks = 0; !left.empty() && looks < most_intervals; ++looks) {
+  for (int looks = 0; !left.empty() && looks < most_looks; ++looks) {
     const auto [a, b] = left.back();
     left.pop_back();
     const RangeJet all = ranges.run(*program, program->code.size(), time_from(a, b))[-1];
     if (bounded(all.value) && (!rate || bounded(all.rate))) continue;
     const double middle = a + (b - a) / 2;
-    if (b - a > narrowest * until) {
+    if (b - a > narrowest_at_pole * until) {
       left.emplace_back(middle, b);
       left.emplace_back(a, middle);
     } else if (diverges(law, middle, until, &Jet::value) || (rate && diverges(law, middle, until, &Jet::rate))) {

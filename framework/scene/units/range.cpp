@@ -10,7 +10,7 @@ namespace pintle {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Range all{-infinity, infinity}, one{1, 1}, nothing{0, 0};
+constexpr Range all{-infinity, infinity}, unity{1, 1}, nothing{0, 0};
 
 bool is_nothing(const Range& r) { return r.lo == 0 && r.hi == 0; }
 Range sound(double lo, double hi) { return {std::isnan(lo) ? -infinity : lo, std::isnan(hi) ? infinity : hi}; }
@@ -78,8 +78,8 @@ RangeJet raised(const RangeJet& x, const RangeJet& n) {
     return exponential({n.value * l.value, n.rate * l.value + n.value * l.rate});
   }
   const double p = n.value.lo;
-  if (p == 0) return {one, nothing};
-  if (p == std::floor(p)) return chain(x, whole_power(x.value, p), p == 1 ? one : Range{p, p} * whole_power(x.value, p - 1));
+  if (p == 0) return {unity, nothing};
+  if (p == std::floor(p)) return chain(x, whole_power(x.value, p), p == 1 ? unity : Range{p, p} * whole_power(x.value, p - 1));
   const Range base{std::max(x.value.lo, 0.0), std::max(x.value.hi, 0.0)};
   const auto power = [&](double e) {
     const auto f = [e](double v) { return std::pow(v, e); };
@@ -128,7 +128,7 @@ Range hull(const Range& a, const Range& b) { return {std::min(a.lo, b.lo), std::
 RangeJet apply(Op op, const RangeJet& x) {
   const Range& v = x.value;
   const Range inside{std::max(v.lo, -1.0), std::min(v.hi, 1.0)};
-  const auto steep = [&] { return v.lo > -1 && v.hi < 1 ? inverse(rising([](double u) { return std::sqrt(u); }, one - square(v))) : Range{1, infinity}; };
+  const auto steep = [&] { return v.lo > -1 && v.hi < 1 ? inverse(rising([](double u) { return std::sqrt(u); }, unity - square(v))) : Range{1, infinity}; };
   switch (op) {
     case Op::negate: return negated(x);
     case Op::sin: return chain(x, sine(v), cosine(v));
@@ -136,11 +136,11 @@ RangeJet apply(Op op, const RangeJet& x) {
     case Op::tan: {
       if (passes({2 * v.lo, 2 * v.hi}, std::numbers::pi)) return {all, all};
       const Range f = rising([](double u) { return std::tan(u); }, v);
-      return chain(x, f, one + square(f));
+      return chain(x, f, unity + square(f));
     }
     case Op::asin: return chain(x, rising([](double u) { return std::asin(u); }, inside), steep());
     case Op::acos: return chain(x, falling([](double u) { return std::acos(u); }, inside), -steep());
-    case Op::atan: return chain(x, rising([](double u) { return std::atan(u); }, v), inverse(one + square(v)));
+    case Op::atan: return chain(x, rising([](double u) { return std::atan(u); }, v), inverse(unity + square(v)));
     case Op::sqrt: {
       const Range f = rising([](double u) { return std::sqrt(std::max(u, 0.0)); }, v);
       return chain(x, f, f.lo > 0 ? Range{0.5, 0.5} * inverse(f) : Range{0.5 / f.hi, infinity});

@@ -38,25 +38,25 @@ constexpr std::array known_units{
 constexpr std::array turns{Unit{"Hz", 2 * pi, d::angular_speed},
                            Unit{"kHz", 2e3 * pi, d::angular_speed}};
 
-struct Absent {
+struct AbsentUnit {
   std::string_view name, remedy;
 };
-constexpr std::array absent{
-    Absent{"Hz", "Hz counts turns, not radians: write 50*rev/s, 3000 rpm or 50/s, as you mean it"},
-    Absent{"kHz", "Hz counts turns, not radians: write 1000*rev/s or 1000/s, as you mean it"},
-    Absent{"min", "minutes are not offered: write 60 s"},
-    Absent{"inch", "inches are not offered: write 25.4 mm"},
-    Absent{"in", "inches are not offered: write 25.4 mm"},
-    Absent{"ft", "feet are not offered: write 0.3048 m"},
-    Absent{"lb", "pounds are not offered: write 0.45359237 kg"},
-    Absent{"lbf", "pounds are not offered: write 4.4482216 N"},
-    Absent{"psi", "pounds are not offered: write 6894.7573 Pa"},
-    Absent{"ton", "write 1000 kg"},
-    Absent{"Nm", "a product of units is written with a space: N m"},
-    Absent{"Nmm", "a product of units is written with a space: N mm"},
-    Absent{"kNm", "a product of units is written with a space: kN m"},
-    Absent{"Ns", "a product of units is written with a space: N s"},
-    Absent{"kgm", "a product of units is written with a space: kg m"}};
+constexpr std::array absent_units{
+    AbsentUnit{"Hz", "Hz counts turns, not radians: write 50*rev/s, 3000 rpm or 50/s, as you mean it"},
+    AbsentUnit{"kHz", "Hz counts turns, not radians: write 1000*rev/s or 1000/s, as you mean it"},
+    AbsentUnit{"min", "minutes are not offered: write 60 s"},
+    AbsentUnit{"inch", "inches are not offered: write 25.4 mm"},
+    AbsentUnit{"in", "inches are not offered: write 25.4 mm"},
+    AbsentUnit{"ft", "feet are not offered: write 0.3048 m"},
+    AbsentUnit{"lb", "pounds are not offered: write 0.45359237 kg"},
+    AbsentUnit{"lbf", "pounds are not offered: write 4.4482216 N"},
+    AbsentUnit{"psi", "pounds are not offered: write 6894.7573 Pa"},
+    AbsentUnit{"ton", "write 1000 kg"},
+    AbsentUnit{"Nm", "a product of units is written with a space: N m"},
+    AbsentUnit{"Nmm", "a product of units is written with a space: N mm"},
+    AbsentUnit{"kNm", "a product of units is written with a space: kN m"},
+    AbsentUnit{"Ns", "a product of units is written with a space: N s"},
+    AbsentUnit{"kgm", "a product of units is written with a space: kg m"}};
 
 struct Named {
   Dimension dimension;
@@ -153,7 +153,7 @@ std::span<const Unit> frequency_units() {
 }
 
 std::string_view instead_of(std::string_view word) {
-  for (const Absent& a : absent)
+  for (const AbsentUnit& a : absent_units)
     if (a.name == word) return a.remedy;
   return {};
 }

@@ -8,7 +8,7 @@ namespace pintle {
 
 namespace {
 
-constexpr bool required = true, optional = false;
+using presence::optional, presence::required;
 
 // Groups that stand in several places.
 const std::vector<Key> orthotropic_keys{{"young", required, "[140 GPa, 10 GPa]"},

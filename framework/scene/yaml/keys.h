@@ -11,6 +11,10 @@
 /// holds docs/scene.schema.json against it.
 namespace pintle {
 
+namespace presence {
+inline constexpr bool required = true, optional = false;
+}
+
 struct Key {
   std::string name;
   bool required = false;

@@ -14,13 +14,9 @@ const std::array<KindKeys, 5> section_kinds{{{"rectangle", {}},
                                              {"i", {}},
                                              {"area", {"second moment", "fibre", "shear factor"}}}};
 
-double size(const Node& node) {
-  return node.quantity(dimension::length, rule::positive);
-}
-
 TubeSection read_tube(const Node& node) {
   const auto two = node.items(2, "two diameters [outer, inner]");
-  const TubeSection tube{size(two[0]), size(two[1])};
+  const TubeSection tube{read_size(two[0]), read_size(two[1])};
   if (tube.inner >= tube.outer)
     two[1].fail(two[1].shown() + " must be less than the outer diameter " + two[0].shown() +
                 "; the outer one comes first");
@@ -29,8 +25,8 @@ TubeSection read_tube(const Node& node) {
 
 ISection read_i(const Node& node, const std::string& keys) {
   check_keys(node, keys);
-  const ISection s{size(node.at("height")), size(node.at("width")), size(node.at("web")),
-                   size(node.at("flange"))};
+  const ISection s{read_size(node.at("height")), read_size(node.at("width")), read_size(node.at("web")),
+                   read_size(node.at("flange"))};
   if (s.web >= s.width)
     node.at("web").fail(node.at("web").shown() + " must be less than the width " +
                         node.at("width").shown() + ": flanges are wider than the web");
@@ -57,10 +53,10 @@ SectionShape read_section(const Node& node, const std::string& keys) {
   switch (which_kind(node, section_kinds)) {
     case 0: {
       const auto two = node.at("rectangle").items(2, "two sizes [height, width]");
-      return RectangleSection{size(two[0]), size(two[1])};
+      return RectangleSection{read_size(two[0]), read_size(two[1])};
     }
     case 1:
-      return CircleSection{size(node.at("circle"))};
+      return CircleSection{read_size(node.at("circle"))};
     case 2:
       return read_tube(node.at("tube"));
     case 3:

@@ -11,13 +11,13 @@ namespace {
 
 using Method = SceneModes::Method;
 
-const std::vector<std::string> keep_keys{"keep", "count", "below", "effective mass"};
+const std::vector<std::string> keep_words{"keep", "count", "below", "effective mass"};
 
 // At most one of the keys that say how many shapes stay; a count is at least `least`.
 SceneKeep read_keep(const Node& node, long least) {
   SceneKeep keep;
   std::vector<std::string> said;
-  for (const std::string& key : keep_keys)
+  for (const std::string& key : keep_words)
     if (node.has(key)) said.push_back(key);
   if (said.size() > 1)
     node.fail("says how many shapes stay by " + listed(said, "and") + " at once; keep one of them");
@@ -71,7 +71,7 @@ SceneModes read_modes(const Node& node, const SceneBody& body) {
     node.fail("is craig-bampton and free at once; keep one of them");
   for (const auto& [key, method] : methods) {
     if (!node.has(key)) continue;
-    for (const std::string& keep : keep_keys)
+    for (const std::string& keep : keep_words)
       if (node.has(keep))
         node.at(keep).fail(std::string("stands beside ") + key +
                            "; move it into its braces: " + key + ": {" + keep + ": …}");

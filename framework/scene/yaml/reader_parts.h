@@ -58,6 +58,9 @@ std::string read_own_point(const Node&, const SceneBody&);
 std::vector<double> read_quantities(const Node&, std::size_t n, const Dimension&, Rule,
                                     const std::string& remedy);
 
+/// A length above zero.
+inline double read_size(const Node& node) { return node.quantity(dimension::length, rule::positive); }
+
 /// Reads `key` into `value` if it is there.
 void read_optional(const Node& group, std::string_view key, const Dimension&, Rule, double& value);
 

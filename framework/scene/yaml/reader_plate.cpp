@@ -13,7 +13,7 @@ namespace pintle {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* keys = "bodies.*.plate";
+constexpr const char* plate_keys = "bodies.*.plate";
 
 const std::vector<std::string> common{"thickness", "plane",       "element", "material", "young",
                                       "poisson",   "orthotropic", "density", "mass"};
@@ -31,15 +31,11 @@ const std::array<KindKeys, 3> plate_kinds{{{"file", with({"size", "hole size", "
 const std::array<KindKeys, 5> link_kinds{
     {{"bar", {}}, {"eye bar", {}}, {"tapered bar", {}}, {"triangle", {}}, {"disc", {}}}};
 
-double size(const Node& node) {
-  return node.quantity(dimension::length, rule::positive);
-}
-
 // A hole and what is around it.
 std::pair<double, double> read_ring(const Node& node, std::string_view bore,
                                     std::string_view outer) {
   const Node inside = node.at(bore), outside = node.at(outer);
-  const double b = size(inside), o = size(outside);
+  const double b = read_size(inside), o = read_size(outside);
   if (b >= o)
     inside.fail(inside.shown() + " must be less than the " + std::string(outer) +
                 (outer == "outer" ? " diameter " : " ") + outside.shown());
@@ -59,17 +55,17 @@ std::vector<Eye> read_eyes(const Node& node, std::size_t n, std::string_view pat
 }
 
 Link read_shape(const Node& node, std::size_t kind) {
-  const std::string path = std::string(keys) + ".link." + link_kinds[kind].kind;
+  const std::string path = std::string(plate_keys) + ".link." + link_kinds[kind].kind;
   check_keys(node, path);
-  if (kind == 0) return StraightBar{size(node.at("length")), size(node.at("width"))};
+  if (kind == 0) return StraightBar{read_size(node.at("length")), read_size(node.at("width"))};
   if (kind == 1) {
     const auto eyes = read_eyes(node.at("eyes"), 2, path + ".eyes.*");
-    return EyeBar{size(node.at("length")), size(node.at("width")), eyes[0], eyes[1]};
+    return EyeBar{read_size(node.at("length")), read_size(node.at("width")), eyes[0], eyes[1]};
   }
   if (kind == 2) {
     const auto widths = read_quantities(node.at("widths"), 2, dimension::length, rule::positive,
                                         "two widths [left, right]");
-    return TaperedBar{size(node.at("length")), widths[0], widths[1]};
+    return TaperedBar{read_size(node.at("length")), widths[0], widths[1]};
   }
   if (kind == 4) {
     const auto [bore, diameter] = read_ring(node, "bore", "diameter");
@@ -87,7 +83,7 @@ Link read_shape(const Node& node, std::size_t kind) {
 }
 
 Link read_link(const Node& node) {
-  check_keys(node, std::string(keys) + ".link");
+  check_keys(node, std::string(plate_keys) + ".link");
   const std::size_t kind = which_kind(node, link_kinds);
   const Node shape = node.at(link_kinds[kind].kind);
   const Link link = read_shape(shape, kind);
@@ -100,7 +96,7 @@ Link read_link(const Node& node) {
 }
 
 SceneGrid read_grid(const Node& node) {
-  check_keys(node, std::string(keys) + ".grid");
+  check_keys(node, std::string(plate_keys) + ".grid");
   SceneGrid grid{};
   const Node corners = node.at("corners");
   const auto four = corners.items(4, "four corners, counter-clockwise: [[x, y], …]");
@@ -155,7 +151,7 @@ SceneFile read_file(const Node& plate) {
     if (plate.has("scale")) unit.fail("stands beside scale; keep one of them");
     if (kind == ".step" || kind == ".stp")
       unit.fail("is written in a STEP file itself; leave it out");
-    file.scale = find_unit(unit.one_of(choices(keys, "unit")))->factor;
+    file.scale = find_unit(unit.one_of(choices(plate_keys, "unit")))->factor;
   }
   read_optional(plate, "scale", dimension::number, rule::positive, file.scale);
   file.unit_given = plate.has("unit") || plate.has("scale");
@@ -177,7 +173,7 @@ void validate_in_plane(const Node& node, const ScenePlate& plate) {
 }  // namespace
 
 ScenePlate read_plate(const Node& node, const std::vector<SceneMaterial>& materials) {
-  check_keys(node, keys);
+  check_keys(node, plate_keys);
   ScenePlate plate;
   switch (which_kind(node, plate_kinds)) {
     case 0:
@@ -189,15 +185,15 @@ ScenePlate read_plate(const Node& node, const std::vector<SceneMaterial>& materi
     default:
       plate.shape = read_grid(node.at("grid"));
   }
-  plate.thickness = size(node.at("thickness"));
+  plate.thickness = read_size(node.at("thickness"));
   if (node.has("plane"))
-    plate.state = node.at("plane").one_of(choices(keys, "plane")) == "strain" ? PlaneState::strain
+    plate.state = node.at("plane").one_of(choices(plate_keys, "plane")) == "strain" ? PlaneState::strain
                                                                               : PlaneState::stress;
   plate.state_given = node.has("plane");
-  if (node.has("element")) plate.element = node.at("element").one_of(choices(keys, "element"));
+  if (node.has("element")) plate.element = node.at("element").one_of(choices(plate_keys, "element"));
   read_optional(node, "size", dimension::length, rule::positive, plate.size);
   read_optional(node, "hole size", dimension::length, rule::positive, plate.hole_size);
-  Made made = read_made(node, keys, materials);
+  Made made = read_made(node, plate_keys, materials);
   plate.material = std::move(made.material);
   plate.mass = made.mass;
   validate_in_plane(node, plate);

@@ -3,7 +3,7 @@
 namespace pintle {
 
 namespace {
-constexpr bool required = true, optional = false;
+using presence::optional, presence::required;
 }
 
 std::span<const KeyTable> study_tables() {

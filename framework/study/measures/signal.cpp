@@ -13,7 +13,7 @@ namespace pintle {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_frequency = std::numeric_limits<double>::quiet_NaN();
 
 /// The cubic with values a, b and rates da, db at the ends of an interval of length h, at s in [0, 1].
 struct Cubic {
@@ -181,12 +181,12 @@ double rms(const Signal& x) {
 
 double dominant_frequency(const Signal& x) {
   constexpr std::size_t fewest = 16;
-  if (x.t.size() < fewest) return nan;
+  if (x.t.size() < fewest) return no_frequency;
   const double h = x.t[1] - x.t[0];
   std::vector<double> y(x.y);
   while (y.size() > fewest && x.t[y.size() - 1] - x.t[y.size() - 2] < (1 - 1e-6) * h) y.pop_back();
   const auto [low, high] = std::minmax_element(y.begin(), y.end());
-  if (!(*high - *low > 1e-12 * std::max(std::abs(*high), std::abs(*low)))) return nan;
+  if (!(*high - *low > 1e-12 * std::max(std::abs(*high), std::abs(*low)))) return no_frequency;
   y = levelled(y);
   const std::vector<double> w = hann(y.size());
 
@@ -198,11 +198,11 @@ double dominant_frequency(const Signal& x) {
   Eigen::FFT<double>().fwd(spectrum, padded);
   const double length = h * static_cast<double>(y.size()), spacing = 1 / (h * static_cast<double>(size));
   const auto first = static_cast<std::size_t>(std::ceil(1.5 / length / spacing));
-  if (first >= size / 2) return nan;
+  if (first >= size / 2) return no_frequency;
   std::size_t top = first;
   for (std::size_t k = first; k <= size / 2; ++k)
     if (std::abs(spectrum[k]) > std::abs(spectrum[top])) top = k;
-  if (top == first && std::abs(spectrum[first - 1]) > std::abs(spectrum[first])) return nan;  // slower than the window can tell
+  if (top == first && std::abs(spectrum[first - 1]) > std::abs(spectrum[first])) return no_frequency;  // slower than the window can tell
 
   // Near that line, the tone that fits best: what leaks from its own negative frequency, mean and trend is part of the fit.
   const double line = static_cast<double>(top) * spacing;

@@ -235,7 +235,7 @@ void open_folder(const fs::path& folder) {
   if (error) throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another place with --out");
 }
 
-std::string contents(const fs::path& path) {
+std::string text_or_nothing(const fs::path& path) {
   constexpr std::size_t most_bytes = std::size_t{100} << 20;
   try {
     return read_file(path, most_bytes);
@@ -246,7 +246,7 @@ std::string contents(const fs::path& path) {
 
 /// Why the folder of another study is refused: what has changed since, as far as that is known.
 std::string what_differs(const Sweep& sweep, const fs::path& folder) {
-  const auto differs = [&](const char* name, const std::string& now) { return fs::exists(folder / name) && contents(folder / name) != now; };
+  const auto differs = [&](const char* name, const std::string& now) { return fs::exists(folder / name) && text_or_nothing(folder / name) != now; };
   const bool study = differs("study.yaml", sweep.text), scene = differs("scene.yaml", sweep.study.scene.text);
   const std::string was = study && scene ? "The study and its scene are not those" : study ? "The study is not the one" : "The scene is not the one";
   if (study || scene)

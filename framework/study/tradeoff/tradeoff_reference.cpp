@@ -15,7 +15,7 @@ constexpr double tightest = 1e-13;   ///< where rounding takes over
 constexpr double loosest = 1e-4;     ///< where a search begins whose time is bounded
 constexpr int most_tolerances = 6, most_refinements = 5;
 constexpr const char* chaotic_model = "a finer model moves a single chaotic run at random, so that the ensemble of the finest model of the study is the reference";
-constexpr std::size_t judged = 5;    ///< the last so many tolerances
+constexpr std::size_t judged_tolerances = 5;  ///< the last so many tolerances
 
 using Clock = std::chrono::steady_clock;
 
@@ -102,7 +102,7 @@ class Search {
   bool stands() const { return out_.levels.size() > 2 && (tolerances_ == 0 ? settled(1.0 / 3) : stands_); }
 
   Ladder ladder(std::size_t q, std::size_t levels) const {
-    return validate_ladder(values(q, levels > judged ? levels - judged : 0, levels), 10, scale(q));
+    return validate_ladder(values(q, levels > judged_tolerances ? levels - judged_tolerances : 0, levels), 10, scale(q));
   }
 
   bool settled(double share) const {
@@ -324,7 +324,7 @@ class Search {
     std::string fell;
     for (const double d : ladder_[q].differences) fell += (fell.empty() ? "" : ", ") + printed("%.1e", d / r.scale);
     s = printed("%zu tolerances from %.0e to %.0e change it %sby %s of its value", tolerances_, tolerance_of(plan_, out_.levels.front().set),
-                tolerance_of(plan_, out_.levels[tolerances_ - 1].set), tolerances_ > judged ? "in the end " : "", fell.c_str());
+                tolerance_of(plan_, out_.levels[tolerances_ - 1].set), tolerances_ > judged_tolerances ? "in the end " : "", fell.c_str());
     if (r.ratio > 0) s += printed(", falling %.1f times a decade", r.ratio);
     if (refinements_ > 0)
       s += r.order > 0 ? printed("; %zu refinements of the model show order %.1f", refinements_, r.order)
