@@ -17,7 +17,7 @@
 #include "tests/contracts/loose_crank.h"
 #include "tests/contracts/scheme_cases.h"
 
-namespace pintle {
+namespace pintle::alpha_test {
 namespace {
 
 using namespace scheme_cases;
@@ -327,4 +327,4 @@ TEST(Alpha, FirstImpactsComeToThoseOfTheExplicitSchemeAsTheToleranceFalls) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::alpha_test

@@ -12,7 +12,7 @@
 #include "framework/component/fe/fe_model.h"
 #include "tests/contracts/element_samples.h"
 
-namespace pintle {
+namespace pintle::element_test {
 namespace {
 
 // A few hundred operations on numbers of one size, relative to the largest term. Elements lie up to
@@ -396,4 +396,4 @@ TEST_P(ElementContract, ItsAnswersTurnWithItAndDoNotSeeTheOrigin) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::element_test

@@ -21,7 +21,7 @@
 #include "framework/dynamics/model/contact_pair.h"
 #include "tests/contracts/moving_bodies.h"
 
-namespace pintle {
+namespace pintle::force_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -360,4 +360,4 @@ TEST(ForceContract, EveryKindSitsTheExam) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::force_test

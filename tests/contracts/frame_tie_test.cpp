@@ -14,7 +14,7 @@
 
 #include "tests/contracts/reduction_bodies.h"
 
-namespace pintle {
+namespace pintle::frame_tie_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -379,4 +379,4 @@ TEST(ClassicalSpectrum, OfABeamComesOutOfCraigBamptonAtEachTie) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::frame_tie_test

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pintle {
+namespace pintle::friction_law_test {
 namespace {
 
 // Tolerances, relative to μN.
@@ -157,4 +157,4 @@ TEST(Ambrosio, RisesInAStraightLineBetweenItsSpeeds) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::friction_law_test

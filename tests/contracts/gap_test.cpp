@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-namespace pintle {
+namespace pintle::gap_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -334,4 +334,4 @@ TEST(JournalBearing, RollingJournalDoesNotSlip) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::gap_test

@@ -19,7 +19,7 @@
 #include "framework/dynamics/equations/equations.h"
 #include "tests/contracts/moving_bodies.h"
 
-namespace pintle {
+namespace pintle::joint_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -332,4 +332,4 @@ TEST(JointContract, EveryKindSitsTheExam) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::joint_test

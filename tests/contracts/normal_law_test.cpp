@@ -23,6 +23,9 @@ inline void PrintTo(const ImpactFactor& factor, std::ostream* out) {
   *out << factor.name;
 }
 
+}  // namespace pintle
+
+namespace pintle::normal_law_test {
 namespace {
 
 // Tolerances, all relative.
@@ -395,4 +398,4 @@ TEST(HertzImpact, DepthAndDurationAreTheClosedForms) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::normal_law_test

@@ -9,7 +9,7 @@
 
 #include "tests/contracts/plane_patch.h"
 
-namespace pintle::patch {
+namespace pintle::patch::plane_accuracy_test {
 namespace {
 
 using std::numbers::pi;
@@ -275,4 +275,4 @@ TYPED_TEST(QuadraticQuadrilateral, SixBendOnLeaningSidesToo) {
 }
 
 }  // namespace
-}  // namespace pintle::patch
+}  // namespace pintle::patch::plane_accuracy_test

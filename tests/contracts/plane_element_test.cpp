@@ -9,7 +9,7 @@
 
 #include "tests/contracts/plane_patch.h"
 
-namespace pintle::patch {
+namespace pintle::patch::plane_element_test {
 namespace {
 
 using std::numbers::pi;
@@ -295,4 +295,4 @@ TYPED_TEST(QuadraticPlane, LumpedMassIsInProportionToTheConsistentDiagonal) {
 }
 
 }  // namespace
-}  // namespace pintle::patch
+}  // namespace pintle::patch::plane_element_test

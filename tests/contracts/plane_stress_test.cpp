@@ -9,7 +9,7 @@
 
 #include "tests/contracts/plane_patch.h"
 
-namespace pintle::patch {
+namespace pintle::patch::plane_stress_test {
 namespace {
 
 using std::numbers::pi;
@@ -312,4 +312,4 @@ TEST(SideLoad, RefusesASideOfFourNodesByItsNumber) {
 }
 
 }  // namespace
-}  // namespace pintle::patch
+}  // namespace pintle::patch::plane_stress_test

@@ -7,7 +7,7 @@
 
 #include "tests/contracts/loose_crank.h"
 
-namespace pintle {
+namespace pintle::restart_test {
 namespace {
 
 using namespace scheme_cases;
@@ -71,4 +71,4 @@ TEST(Restart, RefusesWhatIsNotWholeOrOfAnotherSystem) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::restart_test

@@ -24,6 +24,9 @@ namespace pintle {
 
 inline void PrintTo(const Tableau& tableau, std::ostream* out) { *out << tableau.name; }
 
+}  // namespace pintle
+
+namespace pintle::scheme_test {
 namespace {
 
 using namespace scheme_cases;
@@ -363,4 +366,4 @@ INSTANTIATE_TEST_SUITE_P(Each, SchemeContract, testing::Combine(all, both), [](c
 });
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::scheme_test

@@ -9,7 +9,7 @@
 
 #include "tests/fuzz/targets.h"
 
-namespace pintle {
+namespace pintle::corpus_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -36,4 +36,4 @@ TEST(Corpus, OfSavedStatesIsReadOrRefused) { replay("state", fuzz_state); }
 TEST(Corpus, OfSweepJournalsIsReadOrRefused) { replay("journal", fuzz_journal); }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::corpus_test

@@ -14,7 +14,7 @@ constexpr std::uint64_t study = 1;
 constexpr std::size_t cases = 6;
 
 /// Each line with the checksum of what follows its own.
-std::string forged(std::string_view text) {
+std::string forged_journal(std::string_view text) {
   constexpr std::size_t checksum = 17;
   std::string out;
   for (std::size_t begin = 0, end; begin < text.size(); begin = end + 1) {
@@ -26,7 +26,7 @@ std::string forged(std::string_view text) {
   return out;
 }
 
-void read(std::string_view text) {
+void read_journal(std::string_view text) {
   const auto path = fuzz_folder().write("journal-0.txt", text);
   std::vector<Row> rows;
   try {
@@ -42,8 +42,8 @@ void read(std::string_view text) {
 }  // namespace
 
 void fuzz_journal(std::string_view bytes) {
-  read(bytes);
-  read(forged(bytes));
+  read_journal(bytes);
+  read_journal(forged_journal(bytes));
 }
 
 }  // namespace pintle

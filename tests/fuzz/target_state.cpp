@@ -38,7 +38,7 @@ const Setting& setting() {
 }
 
 /// The text with the identity of this scene and its own checksum, so that what is behind these is reached.
-std::string forged(const std::string& text) {
+std::string forged_state(const std::string& text) {
   std::string said = text.substr(0, text.rfind("\nchecksum "));
   constexpr std::string_view word = "\nof ";
   if (const std::size_t at = said.find(word); at != std::string::npos) {
@@ -48,7 +48,7 @@ std::string forged(const std::string& text) {
   return said + "\nchecksum " + sha256(said) + "\n";
 }
 
-void read(const std::string& text) {
+void read_state(const std::string& text) {
   const Setting& s = setting();
   const auto state = [&](const std::string& of) { return state_of(of, "x.state", s.scene, s.model, s.assembly); };
   SavedState taken;
@@ -65,8 +65,8 @@ void read(const std::string& text) {
 
 void fuzz_state(std::string_view bytes) {
   const std::string text(bytes);
-  read(text);
-  read(forged(text));
+  read_state(text);
+  read_state(forged_state(text));
 }
 
 }  // namespace pintle

@@ -79,7 +79,7 @@ double improve(const BeamMesh& m, Run& run, double h) {
   const Eigen::MatrixXd da = change.reshaped(stages, m.free).transpose();
   run.a -= da;
   const Eigen::MatrixXd dz = h * h * da * gauss.A2.transpose();
-  return std::max({size(m, dz.col(0)), size(m, dz.col(1)), size(m, dz.col(2))});
+  return std::max({size_of_step(m, dz.col(0)), size_of_step(m, dz.col(1)), size_of_step(m, dz.col(2))});
 }
 
 void advance(const BeamMesh& m, Run& run, double h) {
@@ -168,7 +168,7 @@ Places static_shape(const ExactBeam& beam, const BeamStart& start, int load_step
       const BeamVector dz =
           K.solve(m.T.transpose() * (m.load * (double(step) / load_steps) - in.force).eval());
       z += dz;
-      change = size(m, dz);
+      change = size_of_step(m, dz);
     }
     if (!(change <= newton_end))
       throw std::runtime_error("exact beam: no equilibrium at load step " + text(step) + " of " +

@@ -252,7 +252,7 @@ Internal internal(const BeamMesh& m, const BeamVector& u, bool with_tangents) {
   return sum;
 }
 
-double size(const BeamMesh& m, const BeamVector& dz) {
+double size_of_step(const BeamMesh& m, const BeamVector& dz) {
   if (!dz.allFinite()) return std::numeric_limits<double>::infinity();
   const BeamVector du = m.T * dz;
   const auto places = Eigen::Map<const Places>(du.data(), 3, m.nodes);

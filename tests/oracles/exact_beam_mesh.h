@@ -56,7 +56,7 @@ struct Internal {
 Internal internal(const BeamMesh&, const BeamVector& u, bool with_tangents);
 
 /// Greatest displacement by the length, or turn; infinite if dz is not finite.
-double size(const BeamMesh&, const BeamVector& dz);
+double size_of_step(const BeamMesh&, const BeamVector& dz);
 
 /// A value as messages print it.
 std::string text(double value);

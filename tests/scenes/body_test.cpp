@@ -13,7 +13,7 @@
 #include "framework/scene/error.h"
 #include "framework/scene/yaml/reader.h"
 
-namespace pintle {
+namespace pintle::body_test {
 namespace {
 
 const std::string steel = "young: 200 GPa, poisson: 0.3, density: 8000 kg/m^3";
@@ -250,4 +250,4 @@ TEST_F(BadFile, ThatIsNotThereOrBrokenIsNamed) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::body_test

@@ -16,7 +16,7 @@
 #include "tests/oracles/slider_crank_link.h"
 #include "tests/scenes/mechanisms.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::clearance_models_test {
 namespace {
 
 namespace po = pintle_oracle;
@@ -311,4 +311,4 @@ TEST(OneWord, SaysWhatTheModelDoesNotUse) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::clearance_models_test

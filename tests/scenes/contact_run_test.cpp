@@ -11,7 +11,7 @@
 #include "tests/oracles/hertz_bounce.h"
 #include "tests/scenes/mechanisms.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::contact_run_test {
 namespace {
 
 namespace po = pintle_oracle;
@@ -295,4 +295,4 @@ TEST(SlowContact, IsNotDoubtedWithoutHysteresisOrLoadOrAfterAnImpact) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::contact_run_test

@@ -16,7 +16,7 @@
 #include "framework/build/build.h"
 #include "framework/scene/yaml/reader.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::delivered_error_test {
 namespace {
 
 using namespace pintle;
@@ -107,4 +107,4 @@ INSTANTIATE_TEST_SUITE_P(Each, Delivered,
                          [](const auto& each) { return each.param.method == "generalized-alpha" ? std::string("alpha") : each.param.method; });
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::delivered_error_test

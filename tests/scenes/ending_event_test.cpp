@@ -7,7 +7,7 @@
 #include "framework/integration/events/event.h"
 #include "tests/scenes/mechanisms.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::ending_event_test {
 namespace {
 
 using namespace pintle;
@@ -33,4 +33,4 @@ TEST(EndingEvent, FinishesTheRunInOrderWithItsReasonAndALastRow) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::ending_event_test

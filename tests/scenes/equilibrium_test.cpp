@@ -10,7 +10,7 @@
 #include "framework/build/inertia_defaults.h"
 #include "tests/scenes/flexible_scenes.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::equilibrium_test {
 namespace {
 
 using namespace pintle;
@@ -286,4 +286,4 @@ TEST(Equilibrium, ABodyWithoutMassIsRefusedWhereGravityActs) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::equilibrium_test

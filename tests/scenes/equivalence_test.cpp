@@ -7,7 +7,7 @@
 #include "framework/build/clearance.h"
 #include "tests/scenes/mechanisms.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::equivalence_test {
 namespace {
 
 using pintle::JointKind;
@@ -229,4 +229,4 @@ TEST(Clearance, TendingToZeroTendsToTheIdealPin) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::equivalence_test

@@ -10,7 +10,7 @@
 #include "framework/dynamics/equations/equations.h"
 #include "tests/scenes/parallel_links.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::flat_pose_test {
 namespace {
 
 std::vector<std::size_t> force_columns(const Whole& w) {
@@ -104,4 +104,4 @@ TEST(FlatPoses, AreCrossedTheBetterTheTighterTheTolerance) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::flat_pose_test

@@ -14,7 +14,7 @@
 #include "tests/oracles/flexible_slider_crank.h"
 #include "tests/scenes/flexible_scenes.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::flexible_limits_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -373,4 +373,4 @@ TEST(FlexibleDamping, LedgerOfAMovingCouplerCloses) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::flexible_limits_test

@@ -16,7 +16,7 @@
 #include "framework/output/results.h"
 #include "framework/scene/yaml/reader.h"
 
-namespace pintle {
+namespace pintle::flexible_traps_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -378,4 +378,4 @@ TEST(LinearizedStart, SaysWhatBendingItLeavesOutWhereNothingIsSteady) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::flexible_traps_test

@@ -15,7 +15,7 @@
 #include "framework/integration/integrator.h"
 #include "tests/scenes/flexible_scenes.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::free_body_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -210,4 +210,4 @@ TEST(FreeBody, SpinningBeamThatStiffensKeepsMomentaAndEnergy) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::free_body_test

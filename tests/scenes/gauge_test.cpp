@@ -7,7 +7,7 @@
 
 #include "tests/scenes/flexible_scenes.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::gauge_test {
 namespace {
 
 using pintle::Status;
@@ -164,4 +164,4 @@ TEST(Gauge, TiesDifferByTheSquareOfTheDeflection) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::gauge_test

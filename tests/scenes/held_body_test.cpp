@@ -8,7 +8,7 @@
 #include "framework/build/build.h"
 #include "framework/scene/yaml/reader.h"
 
-namespace pintle {
+namespace pintle::held_body_test {
 namespace {
 
 std::string arm(const std::string& modes, const std::string& rest) {
@@ -93,4 +93,4 @@ TEST(Warning, ComesWhereRotationStiffensABodyHeldElsewhere) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::held_body_test

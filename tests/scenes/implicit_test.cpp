@@ -13,7 +13,7 @@
 #include "tests/scenes/flexible_scenes.h"
 #include "tests/scenes/mechanisms.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::implicit_test {
 namespace {
 
 namespace po = pintle_oracle;
@@ -310,4 +310,4 @@ TEST(Method, ConstraintsAtIndexThreeAreRefusedWithTheRemedy) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::implicit_test

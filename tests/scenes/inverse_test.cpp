@@ -10,7 +10,7 @@
 #include "framework/scene/units/table.h"
 #include "tests/scenes/flexible_scenes.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::inverse_test {
 namespace {
 
 using namespace pintle;
@@ -174,4 +174,4 @@ TEST(Inverse, AFlexibleArmDrivenByTheTorqueFoundLandsOnItsMotion) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::inverse_test

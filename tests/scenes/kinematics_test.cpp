@@ -11,7 +11,7 @@
 #include "framework/build/inertia_defaults.h"
 #include "tests/scenes/mechanisms.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::kinematics_test {
 namespace {
 
 using namespace pintle;
@@ -239,4 +239,4 @@ TEST(Kinematics, AStartAtRestIsLeft) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::kinematics_test

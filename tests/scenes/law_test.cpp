@@ -11,7 +11,7 @@
 #include "framework/scene/units/table.h"
 #include "tests/scenes/mechanisms.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::law_test {
 namespace {
 
 using namespace pintle;
@@ -204,4 +204,4 @@ TEST(TimeLaws, OfTheHostsOwnFunctionsNoThousandthIsPassedOver) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::law_test

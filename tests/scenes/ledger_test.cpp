@@ -11,7 +11,7 @@
 #include "framework/build/build.h"
 #include "tests/scenes/mechanisms.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::ledger_test {
 namespace {
 
 namespace po = pintle_oracle;
@@ -288,4 +288,4 @@ TEST(InterruptedRun, KeepsWhatItComputed) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::ledger_test

@@ -11,7 +11,7 @@
 #include "tests/scenes/flexible_scenes.h"
 #include "tests/scenes/mechanisms.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::linearize_rest_test {
 namespace {
 
 pintle::Linearization about_rest(const pintle::Scene& scene) {
@@ -121,4 +121,4 @@ TEST(LinearizeAtRest, PinAtRestInItsBearingHasTheContactsInstantaneousFrequencie
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::linearize_rest_test

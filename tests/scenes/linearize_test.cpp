@@ -22,7 +22,7 @@
 #include "tests/scenes/linearised.h"
 #include "tests/scenes/mechanisms.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::linearize_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -369,4 +369,4 @@ TEST(Linearize, FilesNameStatesInputsAndOutputsWithUnits) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::linearize_test

@@ -11,7 +11,7 @@
 #include "tests/oracles/slider_crank_clearance.h"
 #include "tests/unit/worn_slider_crank.h"
 
-namespace pintle {
+namespace pintle::measure_test {
 namespace {
 
 namespace po = pintle_oracle;
@@ -331,4 +331,4 @@ TEST(Measure, PreparesRowsForItsWindowAndItsInstants) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::measure_test

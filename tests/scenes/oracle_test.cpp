@@ -7,7 +7,7 @@
 
 #include "tests/scenes/mechanisms.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::oracle_test {
 namespace {
 
 namespace po = pintle_oracle;
@@ -388,4 +388,4 @@ INSTANTIATE_TEST_SUITE_P(Constraints, FourBarByDriver,
                          [](const auto& i) { return std::string(i.param); });
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::oracle_test

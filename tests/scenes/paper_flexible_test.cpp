@@ -11,7 +11,7 @@
 #include "tests/oracles/flexible_slider_crank.h"
 #include "tests/scenes/mechanisms.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::paper_flexible_test {
 namespace {
 
 namespace po = pintle_oracle;
@@ -205,4 +205,4 @@ TEST(PaperFlexible, LedgerClosesInEveryCaseButThatOfThePlaceOfContact) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::paper_flexible_test

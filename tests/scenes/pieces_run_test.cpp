@@ -13,7 +13,7 @@
 #include "tests/scenes/flexible_scenes.h"
 #include "tests/scenes/linearised.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::pieces_run_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -387,4 +387,4 @@ TEST(SpinUp, ABladeInPiecesReturnsWithoutStiffening) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::pieces_run_test

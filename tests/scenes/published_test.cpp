@@ -9,7 +9,7 @@
 
 #include "tests/scenes/mechanisms.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::published_test {
 namespace {
 
 struct Combination {
@@ -234,4 +234,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::published_test

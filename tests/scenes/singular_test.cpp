@@ -11,7 +11,7 @@
 #include "framework/configuration/equilibrium.h"
 #include "tests/scenes/parallel_links.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::singular_test {
 namespace {
 
 using namespace pintle;
@@ -306,4 +306,4 @@ TEST(TwoDrivers, ThatComeToFightStopTheRunWithBothNames) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::singular_test

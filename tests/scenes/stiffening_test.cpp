@@ -15,7 +15,7 @@
 #include "tests/scenes/flexible_scenes.h"
 #include "tests/scenes/linearised.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::stiffening_test {
 namespace {
 
 using Eigen::VectorXd;
@@ -336,4 +336,4 @@ TEST(Column, InPiecesBucklesWithoutStiffeningAndConvergesWithOrderTwo) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::stiffening_test

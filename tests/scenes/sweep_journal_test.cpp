@@ -12,7 +12,7 @@
 #include "framework/study/sweep/sweep.h"
 #include "tests/scenes/sweep_folder.h"
 
-namespace pintle {
+namespace pintle::sweep_journal_test {
 namespace {
 
 Row sample_row() {
@@ -191,4 +191,4 @@ TEST(SweepJournal, IsHeldByItsProcess) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::sweep_journal_test

@@ -15,7 +15,7 @@
 #include "tests/scenes/sweep_folder.h"
 #include "tests/unit/scarce_threads.h"
 
-namespace pintle {
+namespace pintle::sweep_test {
 namespace {
 
 constexpr const char* pendulum = R"(
@@ -326,4 +326,4 @@ TEST(Sweep, OneProcessThatIsStoppedStopsAll) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::sweep_test

@@ -3,7 +3,7 @@
 
 #include "tests/scenes/known_trade.h"
 
-namespace pintle {
+namespace pintle::tradeoff_advice_test {
 namespace {
 
 std::string all_said(const TradeReport& r) {
@@ -240,4 +240,4 @@ TEST(TradeAdvice, AStudyOfASweepAndAMeasureThatNothingCanHaveAreRefused) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::tradeoff_advice_test

@@ -14,7 +14,7 @@
 #include "framework/study/tradeoff/refinement.h"
 #include "tests/scenes/known_trade.h"
 
-namespace pintle {
+namespace pintle::tradeoff_test {
 namespace {
 
 TEST(Tradeoff, TheFrontOfATableIsWhatNothingElseBeats) {
@@ -316,4 +316,4 @@ TEST(Tradeoff, ASceneAloneSuggestsItsAxes) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::tradeoff_test

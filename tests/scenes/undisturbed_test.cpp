@@ -13,7 +13,7 @@
 #include "framework/integration/integrator.h"
 #include "tests/scenes/flexible_scenes.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::undisturbed_test {
 namespace {
 
 using namespace pintle;
@@ -228,4 +228,4 @@ TEST_P(Undisturbed, RunsEndTheSameWhateverIsWritten) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Undisturbed, testing::ValuesIn(cases()), [](const testing::TestParamInfo<Case>& c) { return c.param.name; });
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::undisturbed_test

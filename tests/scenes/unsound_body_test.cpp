@@ -20,7 +20,7 @@
 #include "meshes/gmsh.h"
 #include "meshes/rim_shape.h"
 
-namespace pintle {
+namespace pintle::unsound_body_test {
 namespace {
 
 using std::numbers::pi;
@@ -256,4 +256,4 @@ TEST_F(PlateFile, DoubtsReachTheMechanism) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::unsound_body_test

@@ -17,12 +17,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-std::string number(double x) {
-  std::ostringstream s;
-  s << x;
-  return s.str();
-}
-
 struct End {
   State state;
   double steps = 0, fastest = 0;  ///< fastest rate of the run [1/s]
@@ -68,6 +62,12 @@ double allowed(const End& e, double tolerance) {
 }
 
 }  // namespace
+
+std::string number(double x) {
+  std::ostringstream s;
+  s << x;
+  return s.str();
+}
 
 Verdict agreement(const Scene& scene, const Model& model, const Assembly& assembly, double seconds) {
   constexpr double off = 1e-7, other_directions = 10, telling = 0.05;

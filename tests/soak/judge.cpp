@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <sstream>
 
 #include "framework/analysis/kinematics/inverse.h"
 #include "framework/analysis/kinematics/kinematics.h"
@@ -51,12 +50,6 @@ std::string kind_of(const std::string& whole) {
     }
   }
   return out.substr(0, 120);
-}
-
-std::string number(double x) {
-  std::ostringstream s;
-  s << x;
-  return s.str();
 }
 
 Verdict bad(const std::string& outcome, const std::string& detail) {

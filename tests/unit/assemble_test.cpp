@@ -18,9 +18,10 @@
 #include "tests/oracles/four_bar.h"
 #include "tests/unit/rods.h"
 
-namespace pintle {
+namespace pintle::assemble_test {
 namespace {
 
+using namespace rods;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
@@ -332,4 +333,4 @@ TEST(Assemble, TwoDriversThatAgreeAreRedundantNotWrong) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::assemble_test

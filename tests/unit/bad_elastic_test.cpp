@@ -2,7 +2,7 @@
 // where and what to do.
 #include "tests/unit/elastic_text.h"
 
-namespace pintle {
+namespace pintle::bad_elastic_test {
 namespace {
 
 TEST(BadElastic, BodyIsOneThingOnly) {
@@ -301,4 +301,4 @@ TEST(BadElasticFile, IsJudgedByNameAndPlace) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::bad_elastic_test

@@ -4,7 +4,7 @@
 #include "framework/build/build.h"
 #include "tests/unit/elastic_text.h"
 
-namespace pintle {
+namespace pintle::bad_flexible_test {
 namespace {
 
 /// A beam of steel from A (0, 0) to B (1, 0) with a point M between; line 5 on: `keys`, then `rest`.
@@ -132,4 +132,4 @@ TEST(BadFlexible, BadScenesAreRefusedAlikeWhereModesAreChosen) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::bad_flexible_test

@@ -2,7 +2,7 @@
 // that says where and what to do.
 #include "tests/unit/elastic_text.h"
 
-namespace pintle {
+namespace pintle::bad_modes_test {
 namespace {
 
 TEST(BadModes, ModesAreJudged) {
@@ -266,4 +266,4 @@ TEST(BadModes, AParameterBesideANumberIsToldToMultiply) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::bad_modes_test

@@ -3,7 +3,7 @@
 
 #include "tests/unit/scene_text.h"
 
-namespace pintle {
+namespace pintle::bad_scene_test {
 namespace {
 
 // A change that spoils the scene, where the message must point, and its remedy.
@@ -302,4 +302,4 @@ TEST(BadFile, TableIsJudgedAgainstTheRun) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::bad_scene_test

@@ -9,7 +9,7 @@
 #include "elements/section.h"
 #include "tests/unit/beam_chain.h"
 
-namespace pintle {
+namespace pintle::beam_spectrum_test {
 namespace {
 
 // A slope between two meshes whose error is still three or more digits above rounding.
@@ -192,4 +192,4 @@ TEST(Beam, SpinningCantileverHasItsPublishedFlapwiseFrequencies) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::beam_spectrum_test

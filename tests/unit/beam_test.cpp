@@ -9,7 +9,7 @@
 #include "elements/section.h"
 #include "tests/unit/beam_chain.h"
 
-namespace pintle {
+namespace pintle::beam_test {
 namespace {
 
 // Solving a few elements loses a digit or two of fifteen, more for every power of the slenderness
@@ -167,4 +167,4 @@ TEST(PointMass, CarriesItsMassBothWaysItsInertiaInRotationAndNoSkewInertia) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::beam_test

@@ -16,7 +16,7 @@
 #include "framework/scene/yaml/reader.h"
 #include "framework/study/case.h"
 
-namespace pintle {
+namespace pintle::body_store_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -374,4 +374,4 @@ TEST(MadeOnce, AFailureIsForEachToMeet) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::body_store_test

@@ -19,9 +19,10 @@
 #include "tests/unit/heap.h"
 #include "tests/unit/rods.h"
 
-namespace pintle {
+namespace pintle::budget_test {
 namespace {
 
+using namespace rods;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
@@ -378,4 +379,4 @@ TEST(Schur, DenseDependentRowsDoNotAllocate) {
   EXPECT_TRUE(eq.schur.dependent());
 }
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::budget_test

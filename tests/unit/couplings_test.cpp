@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace pintle {
+namespace pintle::couplings_test {
 namespace {
 
 using Eigen::Matrix2Xd;
@@ -313,4 +313,4 @@ TEST(RimWeights, ABareSetOfNodesIsNoRim) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::couplings_test

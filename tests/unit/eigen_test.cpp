@@ -20,7 +20,7 @@
 #include "framework/component/eigen/subspace.h"
 #include "tests/unit/eigen_bodies.h"
 
-namespace pintle {
+namespace pintle::eigen_test {
 namespace {
 
 using Eigen::Index;
@@ -322,4 +322,4 @@ TEST(EigenLowest, FindsEigenvaluesRepeatedMoreOftenThanABlockIsWide) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::eigen_test

@@ -4,7 +4,7 @@
 
 #include "tests/unit/elastic_text.h"
 
-namespace pintle {
+namespace pintle::elastic_reader_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -365,4 +365,4 @@ TEST(ElasticFile, IsSoughtBesideTheSceneAndScaledByItsUnit) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::elastic_reader_test

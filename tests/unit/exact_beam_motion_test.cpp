@@ -13,7 +13,7 @@
 #include "tests/oracles/pendulum.h"
 #include "tests/unit/exact_beam_samples.h"
 
-namespace pintle_oracle {
+namespace pintle_oracle::exact_beam_motion_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -188,4 +188,4 @@ TEST(ExactBeam, ConvergedRunIsNearerToTheLimitThanItsLastChange) {
 }
 
 }  // namespace
-}  // namespace pintle_oracle
+}  // namespace pintle_oracle::exact_beam_motion_test

@@ -14,7 +14,7 @@
 #include "tests/oracles/runge_kutta.h"
 #include "tests/unit/exact_beam_samples.h"
 
-namespace pintle_oracle {
+namespace pintle_oracle::exact_beam_oracle_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -272,4 +272,4 @@ TEST(ExactBeam, SaysWhereNoEquilibriumIsFound) {
 }
 
 }  // namespace
-}  // namespace pintle_oracle
+}  // namespace pintle_oracle::exact_beam_oracle_test

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace pintle {
+namespace pintle::expression_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -294,4 +294,4 @@ TEST(Units, AllReadBackByTheirName) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::expression_test

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace pintle {
+namespace pintle::factor_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -165,4 +165,4 @@ TEST(NegativeEigenvalues, AreTheSameInABorrowedOrder) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::factor_test

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace pintle {
+namespace pintle::fe_model_test {
 namespace {
 
 using Eigen::Matrix2Xd;
@@ -255,4 +255,4 @@ TEST(Assembler, LumpedMassStoresItsDiagonalAlone) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::fe_model_test

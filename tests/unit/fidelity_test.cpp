@@ -8,7 +8,7 @@
 #include "framework/study/tradeoff/refinement.h"
 #include "framework/study/tradeoff/share_and_duration.h"
 
-namespace pintle {
+namespace pintle::fidelity_test {
 namespace {
 
 FidelityAxis axis(const std::string& name, const std::string& path, const std::vector<std::string>& values) {
@@ -70,4 +70,4 @@ TEST(Fidelity, SharesAndTimesOfComputingAreRead) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::fidelity_test

@@ -15,7 +15,7 @@
 #include "framework/scene/yaml/reader.h"
 #include "meshes/inp.h"
 
-namespace pintle {
+namespace pintle::files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -163,4 +163,4 @@ TEST_F(Contained, FilesThatIncludeTwoEachAreBounded) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::files_test

@@ -19,7 +19,7 @@
 #include "framework/scene/yaml/reader.h"
 #include "tests/contracts/moving_bodies.h"
 
-namespace pintle {
+namespace pintle::flexible_body_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -376,4 +376,4 @@ INSTANTIATE_TEST_SUITE_P(Every, FlexibleBody,
                          [](const auto& p) { return case_name(p.param); });
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::flexible_body_test

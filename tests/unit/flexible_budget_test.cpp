@@ -11,7 +11,7 @@
 #include "framework/scene/yaml/reader.h"
 #include "tests/unit/heap.h"
 
-namespace pintle {
+namespace pintle::flexible_budget_test {
 namespace {
 
 /// A slider-crank whose coupler is a plate of cells × cells/8 quadrilaterals, with four shapes.
@@ -93,4 +93,4 @@ TEST(FlexibleBudget, EvaluationsDoNotDependOnTheMesh) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::flexible_budget_test

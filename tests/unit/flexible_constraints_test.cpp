@@ -14,7 +14,7 @@
 #include "framework/scene/yaml/reader.h"
 #include "tests/contracts/moving_bodies.h"
 
-namespace pintle {
+namespace pintle::flexible_constraints_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -192,4 +192,4 @@ TEST(FlexibleSliderCrank, PartitioningAndProjectionGiveTheSameMotion) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::flexible_constraints_test

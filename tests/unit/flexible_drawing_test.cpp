@@ -11,7 +11,7 @@
 #include "framework/scene/error.h"
 #include "framework/scene/yaml/reader.h"
 
-namespace pintle {
+namespace pintle::flexible_drawing_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -274,4 +274,4 @@ TEST(StressProbe, IsRefusedWhereThereIsNoMaterial) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::flexible_drawing_test

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace pintle_oracle::flexible {
+namespace pintle_oracle::flexible::flexible_slider_crank_oracle_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -342,4 +342,4 @@ TEST(FlexibleSliderCrankOracle, FirstImpactOfAStiffCouplerIsTheRigidOnes) {
 }
 
 }  // namespace
-}  // namespace pintle_oracle::flexible
+}  // namespace pintle_oracle::flexible::flexible_slider_crank_oracle_test

@@ -17,7 +17,7 @@
 #include "tests/contracts/reduction_bodies.h"
 #include "tests/unit/beam_chain.h"
 
-namespace pintle {
+namespace pintle::foreshortening_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -370,4 +370,4 @@ TEST(Foreshortening, SaysWhatItRefuses) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::foreshortening_test

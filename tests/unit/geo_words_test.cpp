@@ -9,7 +9,7 @@
 
 #include "meshes/gmsh.h"
 
-namespace pintle {
+namespace pintle::geo_words_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -46,4 +46,4 @@ TEST(GeoFile, WhatIsWrongIsSaidWithItsLineAndARemedy) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::geo_words_test

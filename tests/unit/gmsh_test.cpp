@@ -18,7 +18,7 @@
 #include "meshes/quality.h"
 #include "tests/unit/mesh_sides.h"
 
-namespace pintle {
+namespace pintle::gmsh_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -396,4 +396,4 @@ TEST(GeometryRefused, SayingWhatAndWhy) {
             std::string::npos);
 }
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::gmsh_test

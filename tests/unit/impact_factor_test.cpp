@@ -6,7 +6,7 @@
 
 #include "contact/normal_law.h"
 
-namespace pintle {
+namespace pintle::impact_factor_test {
 namespace {
 
 // A handful of operations on numbers of one size, relative.
@@ -128,4 +128,4 @@ TEST(HertzStiffness, PutsTheTwoSolidsInSeries) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::impact_factor_test

@@ -18,7 +18,7 @@
 
 #include "framework/bodies/modal_basis.h"
 
-namespace pintle {
+namespace pintle::inertia_test {
 namespace {
 
 using Eigen::Matrix2d;
@@ -396,4 +396,4 @@ TEST(RigidInertia, CountsTheInertiaOfSections) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::inertia_test

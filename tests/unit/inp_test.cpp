@@ -16,7 +16,7 @@
 #include "meshes/quality.h"
 #include "tests/unit/mesh_sides.h"
 
-namespace pintle {
+namespace pintle::inp_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -274,4 +274,4 @@ TEST(InpSets, NestedWithoutEndAreRefused) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::inp_test

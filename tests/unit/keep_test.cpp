@@ -12,7 +12,7 @@
 #include "framework/component/reduction/modal_model.h"
 #include "tests/contracts/reduction_bodies.h"
 
-namespace pintle {
+namespace pintle::keep_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -239,4 +239,4 @@ TEST(Refused, RayleighDampingThatIsNotDetermined) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::keep_test

@@ -12,7 +12,7 @@
 #include "framework/dynamics/equations/jacobian.h"
 #include "framework/dynamics/newton/kkt.h"
 
-namespace pintle {
+namespace pintle::kkt_test {
 namespace {
 
 using Eigen::Index;
@@ -223,4 +223,4 @@ TEST(Kkt, GoesOnBitForBitFromWhatWasSaved) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::kkt_test

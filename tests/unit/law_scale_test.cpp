@@ -10,7 +10,7 @@
 #include "framework/scene/units/expression.h"
 #include "framework/scene/units/table.h"
 
-namespace pintle {
+namespace pintle::law_scale_test {
 namespace {
 
 LawScale scale(const std::string& text, double until = 1) {
@@ -134,4 +134,4 @@ TEST(LawScale, GivesUpOnWhatHasTooManyRootsToFind) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::law_scale_test

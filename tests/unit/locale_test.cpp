@@ -10,7 +10,7 @@
 #include "framework/scene/yaml/reader.h"
 #include "tests/unit/program.h"
 
-namespace pintle {
+namespace pintle::locale_test {
 namespace {
 
 struct Comma : std::numpunct<char> {
@@ -107,4 +107,4 @@ TEST(Room, TheLeastIsABoundFromBelow) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::locale_test

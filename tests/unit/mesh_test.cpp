@@ -18,7 +18,7 @@
 #include "meshes/quality.h"
 #include "meshes/rim.h"
 
-namespace pintle {
+namespace pintle::mesh_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -357,4 +357,4 @@ TEST(LinkDrawing, LoopsCloseAndArcsStayOnTheirCircles) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::mesh_test

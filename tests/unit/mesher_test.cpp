@@ -25,7 +25,7 @@
 #include "meshes/limits.h"
 #include "meshes/wire.h"
 
-namespace pintle {
+namespace pintle::mesher_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -312,4 +312,4 @@ TEST(Wire, ADamagedAnswerIsRefused) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::mesher_test

@@ -10,7 +10,7 @@
 #include "framework/build/preliminary_run.h"
 #include "framework/scene/yaml/reader.h"
 
-namespace pintle {
+namespace pintle::modal_choice_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -295,4 +295,4 @@ TEST(Doubt, OnModesThatKeepNothing) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::modal_choice_test

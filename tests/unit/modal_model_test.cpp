@@ -14,7 +14,7 @@
 
 #include "tests/contracts/reduction_bodies.h"
 
-namespace pintle {
+namespace pintle::modal_model_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -254,4 +254,4 @@ TEST(Rayleigh, IsTheDampingMatrixSeenByModes) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::modal_model_test

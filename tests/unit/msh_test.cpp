@@ -13,7 +13,7 @@
 #include "meshes/quality.h"
 #include "meshes/soundness.h"
 
-namespace pintle {
+namespace pintle::msh_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -159,4 +159,4 @@ TEST(MshFile, AGroupWithoutCellsIsNone) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::msh_test

@@ -7,7 +7,7 @@
 #include "framework/scene/yaml/override.h"
 #include "tests/unit/scene_text.h"
 
-namespace pintle {
+namespace pintle::override_test {
 namespace {
 
 Scene scene_with(const Overrides& overrides) {
@@ -136,4 +136,4 @@ TEST(Override, TextOfATreeIsReadBackToTheSameTree) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::override_test

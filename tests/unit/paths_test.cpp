@@ -50,10 +50,10 @@ class Paths : public testing::Test {
 };
 
 TEST_F(Paths, ASceneOrStudyIsAnOrdinaryFileThatSaysSomething) {
-  for (const auto& [commands, many] : {std::pair(scene_commands, std::size(scene_commands)), std::pair(study_commands, std::size(study_commands))})
+  for (const auto& [verbs, many] : {std::pair(scene_commands, std::size(scene_commands)), std::pair(study_commands, std::size(study_commands))})
     for (std::size_t k = 0; k < many; ++k) {
-      for (const std::string& path : {at("fifo"), at("folder"), at("empty"), at("none"), std::string("/dev/zero")}) expect_refused({commands[k], path}, path);
-      expect_refused({commands[k], ""}, "is empty");
+      for (const std::string& path : {at("fifo"), at("folder"), at("empty"), at("none"), std::string("/dev/zero")}) expect_refused({verbs[k], path}, path);
+      expect_refused({verbs[k], ""}, "is empty");
     }
 }
 

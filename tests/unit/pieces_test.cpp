@@ -8,7 +8,7 @@
 #include "framework/component/reduction/modal_model.h"
 #include "tests/unit/scene_text.h"
 
-namespace pintle {
+namespace pintle::pieces_test {
 namespace {
 
 // Places and sums of some ten terms near 1: rounding.
@@ -392,4 +392,4 @@ TEST(BadPieces, OfASceneMadeByHandAreJudgedToo) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::pieces_test

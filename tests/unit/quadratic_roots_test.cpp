@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pintle {
+namespace pintle::quadratic_roots_test {
 namespace {
 
 /// VᵀV, drag VᵀV and VᵀΩ²V: the roots are −drag/2 ± i√(ω² − drag²/4), whatever V is.
@@ -63,4 +63,4 @@ TEST(QuadraticRoots, MotionWithoutMassIsRefused) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::quadratic_roots_test

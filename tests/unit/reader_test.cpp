@@ -7,7 +7,7 @@
 
 #include "tests/unit/scene_text.h"
 
-namespace pintle {
+namespace pintle::reader_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -178,4 +178,4 @@ TEST(SceneFile, FindsItsTableBesideIt) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::reader_test

@@ -14,7 +14,7 @@
 #include "framework/dynamics/equations/jacobian.h"
 #include "tests/scenes/mechanisms.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::redundancy_test {
 namespace {
 
 using namespace pintle;
@@ -160,4 +160,4 @@ TEST(Assembly, InAFlatPoseTakesSpeedsOfABranch) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::redundancy_test

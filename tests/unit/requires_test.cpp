@@ -17,7 +17,7 @@
 #include "tests/unit/stepping.h"
 #include "tests/unit/worn_slider_crank.h"
 
-namespace pintle {
+namespace pintle::requires_test {
 namespace {
 
 // Everything that a mechanism can have, each once; the journal starts in the wall, so the contact is closed.
@@ -261,4 +261,4 @@ TEST(Required, FramesAreDrawnWhereTheSceneAsksForThemAlone) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::requires_test

@@ -6,7 +6,7 @@
 #include "framework/scene/scene.h"
 
 /// Scenes of uniform rods, for tests that build them without text.
-namespace pintle {
+namespace pintle::rods {
 
 /// Origin of its axes and point A at one end, B at the other; 2 kg/m.
 inline SceneBody rod(const std::string& name, double length, Pair at, double angle) {
@@ -29,4 +29,4 @@ inline SceneJoint joint(const std::string& name, JointKind kind, PointRef a, Poi
   return j;
 }
 
-}  // namespace pintle
+}  // namespace pintle::rods

@@ -10,7 +10,7 @@
 
 #include "framework/scene/units/expression.h"
 
-namespace pintle {
+namespace pintle::sampling_test {
 namespace {
 
 Cases cases(const std::string& text) {
@@ -157,4 +157,4 @@ TEST(SweepCases, WhatIsWrongIsNamedWithARemedy) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::sampling_test

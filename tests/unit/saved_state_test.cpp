@@ -19,7 +19,7 @@
 #include "framework/integration/archive.h"
 #include "tests/scenes/flexible_scenes.h"
 
-namespace pintle_scenes {
+namespace pintle_scenes::saved_state_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -345,4 +345,4 @@ TEST(SavedState, RefusesWhatCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace pintle_scenes
+}  // namespace pintle_scenes::saved_state_test

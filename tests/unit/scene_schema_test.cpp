@@ -17,7 +17,7 @@
 #include "framework/scene/yaml/keys.h"
 #include "framework/scene/yaml/reader.h"
 
-namespace pintle {
+namespace pintle::scene_schema_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -371,4 +371,4 @@ TEST(SceneSchema, RefusesWithTheReader) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::scene_schema_test

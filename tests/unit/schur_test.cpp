@@ -11,7 +11,7 @@
 #include "framework/dynamics/equations/equations.h"
 #include "framework/dynamics/equations/jacobian.h"
 
-namespace pintle {
+namespace pintle::schur_test {
 namespace {
 
 using Eigen::Index;
@@ -231,4 +231,4 @@ TEST(DependentRows, AreRefusedOnlyIfNotNumbers) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::schur_test

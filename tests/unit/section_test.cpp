@@ -14,7 +14,7 @@
 
 #include "elements/material.h"
 
-namespace pintle {
+namespace pintle::section_test {
 namespace {
 
 using Eigen::Matrix2d;
@@ -303,4 +303,4 @@ TEST(Material, WhatIsNoStableSolidIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::section_test

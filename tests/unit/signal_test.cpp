@@ -7,7 +7,7 @@
 
 #include "framework/study/measures/signal.h"
 
-namespace pintle {
+namespace pintle::signal_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -65,4 +65,4 @@ TEST(Signal, WithoutAPeriodHasNoFrequency) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::signal_test

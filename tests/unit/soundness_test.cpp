@@ -13,7 +13,7 @@
 #include "meshes/inp.h"
 #include "meshes/quality.h"
 
-namespace pintle {
+namespace pintle::soundness_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -188,4 +188,4 @@ TEST(Soundness, CoordinatesOfSixDigitsAreSound) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::soundness_test

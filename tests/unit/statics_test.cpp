@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace pintle {
+namespace pintle::statics_test {
 namespace {
 
 using Eigen::Matrix2d;
@@ -337,4 +337,4 @@ TEST(LineLoad, OnAPlateIsRefused) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::statics_test

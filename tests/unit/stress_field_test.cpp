@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace pintle {
+namespace pintle::stress_field_test {
 namespace {
 
 using Eigen::Matrix2d;
@@ -226,4 +226,4 @@ TEST(StressField, OfABeamIsItsSectionForcesAndItsOutermostFibre) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::stress_field_test

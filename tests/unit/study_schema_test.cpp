@@ -15,7 +15,7 @@
 
 #include "framework/scene/yaml/keys.h"
 
-namespace pintle {
+namespace pintle::study_schema_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -129,4 +129,4 @@ TEST(StudySchema, AcceptsAllKindsOfCasesAndRefusesWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::study_schema_test

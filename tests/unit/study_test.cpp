@@ -13,7 +13,7 @@
 #include "tests/unit/scene_text.h"
 #include "tests/unit/worn_slider_crank.h"
 
-namespace pintle {
+namespace pintle::study_test {
 namespace {
 
 const std::string knocking = worn_slider_crank + R"(start: {crank: {angle: 0 deg, speed: speed}}
@@ -248,4 +248,4 @@ TEST(Case, OutcomeDoesNotDependOnTheNumberOfThreadsToTheBit) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::study_test

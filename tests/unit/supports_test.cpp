@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace pintle {
+namespace pintle::supports_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -122,4 +122,4 @@ TEST(Supports, WhatCannotBeHeldIsRefused) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::supports_test

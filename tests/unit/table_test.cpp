@@ -9,7 +9,7 @@
 
 #include "framework/scene/error.h"
 
-namespace pintle {
+namespace pintle::table_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -169,4 +169,4 @@ TEST(Polyline, JoinsSamplesByStraightLines) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::table_test

@@ -8,7 +8,7 @@
 #include "tests/contracts/moving_bodies.h"
 #include "tests/unit/heap.h"
 
-namespace pintle {
+namespace pintle::tangent_budget_test {
 namespace {
 
 Jet steady(double) {
@@ -45,4 +45,4 @@ TEST(TangentBudget, EvaluationDoesNotAllocate) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::tangent_budget_test

@@ -18,7 +18,7 @@
 
 #include "tests/contracts/moving_bodies.h"
 
-namespace pintle {
+namespace pintle::tangent_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -370,4 +370,4 @@ TEST(TangentPattern, AGuideOnTheGroundAddsNothing) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::tangent_test

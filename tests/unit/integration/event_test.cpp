@@ -10,7 +10,7 @@
 #include "framework/integration/integrator.h"
 #include "tests/contracts/scheme_cases.h"
 
-namespace pintle {
+namespace pintle::event_test {
 namespace {
 
 using namespace scheme_cases;
@@ -227,4 +227,4 @@ TEST(Events, AreLocatedBesideAnOnsetThatIsCut) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::event_test

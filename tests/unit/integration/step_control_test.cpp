@@ -9,7 +9,7 @@
 #include "framework/integration/step_control.h"
 #include "framework/integration/stepper.h"
 
-namespace pintle {
+namespace pintle::step_control_test {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -101,4 +101,4 @@ TEST(LawChanges, AChangeIsThereUntilItIsPassed) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::step_control_test
