@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "framework/bodies/modal_basis.h"
+#include "framework/scene/joint_words.h"
 
 namespace pintle {
 
@@ -13,43 +14,45 @@ using Eigen::Index;
 Wrench wrench(const System& system, const Equations& eq, const Attachment& g) {
   if (g.of == Attachment::contact) {
     const ContactEffect now = clearance_effect(system, eq, g.k);
-    return g.first ? now.on_journal : now.on_bearing;
+    return g.end == 0 ? now.on_journal : now.on_bearing;
   }
-  if (g.of == Attachment::force) return g.first ? eq.force[g.k].on_a : eq.force[g.k].on_b;
-  const int row = system.row_begin[g.k], m = system.row_begin[g.k + 1] - row;
-  const auto& L = g.first ? eq.rows[g.k].La : eq.rows[g.k].Lb;
-  return -L.topRows(m).transpose() * eq.lambda.segment(row, m);
+  if (g.of == Attachment::force) return g.end == 0 ? eq.force[g.k].on_a : eq.force[g.k].on_b;
+  return reaction(system, eq, g.k, g.end);
 }
 
 }  // namespace
 
 std::vector<Attachment> attachments_of(const Scene& scene, const BuiltOrder& order, const std::vector<const ElasticBody*>& elements) {
   std::vector<Attachment> all;
-  const auto add = [&](Attachment::Of of, int k, bool first, const PointRef& ref) {
+  const auto add = [&](Attachment::Of of, int k, std::size_t end, const PointRef& ref) {
     for (std::size_t b = 0; b < elements.size(); ++b) {
       if (scene.bodies[b].name != ref.body || !elements[b]) continue;
       if (const int port = port_of(*elements[b], ref.point); port >= 0)
-        all.push_back({of, static_cast<std::size_t>(k), first, b, inertia_loads + 3 * Index{port}});
+        all.push_back({of, static_cast<std::size_t>(k), end, b, inertia_loads + 3 * Index{port}});
     }
   };
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     const SceneJoint& j = scene.joints[i];
-    const Attachment::Of of = j.clearance ? Attachment::contact : Attachment::joint;
-    const bool a_bears = j.clearance && j.clearance->bearing != j.b.body;
-    add(of, order.joints[i], !a_bears, j.a);
-    add(of, order.joints[i], a_bears, j.b);
+    if (j.clearance) {
+      const bool a_bears = j.clearance->bearing != j.b.body;
+      add(Attachment::contact, order.joints[i], a_bears ? 1 : 0, j.a);
+      add(Attachment::contact, order.joints[i], a_bears ? 0 : 1, j.b);
+    } else {
+      std::size_t end = 0;
+      for (const PointRef* point : points_of(j)) add(Attachment::joint, order.joints[i], end++, *point);
+    }
   }
   for (std::size_t i = 0; i < scene.drivers.size(); ++i) {
-    add(Attachment::joint, order.drivers[i], true, scene.drivers[i].a);
-    add(Attachment::joint, order.drivers[i], false, scene.drivers[i].b);
+    add(Attachment::joint, order.drivers[i], 0, scene.drivers[i].a);
+    add(Attachment::joint, order.drivers[i], 1, scene.drivers[i].b);
   }
   for (std::size_t i = 0; i < scene.loads.size(); ++i)
     std::visit([&](const auto& what) {
       if constexpr (requires { what.at; }) {
-        add(Attachment::force, order.loads[i], false, what.at);
+        add(Attachment::force, order.loads[i], 1, what.at);
       } else {
-        add(Attachment::force, order.loads[i], true, what.a);
-        add(Attachment::force, order.loads[i], false, what.b);
+        add(Attachment::force, order.loads[i], 0, what.a);
+        add(Attachment::force, order.loads[i], 1, what.b);
       }
     }, scene.loads[i].what);
   return all;

@@ -20,7 +20,7 @@ struct BuiltOrder {
 struct Attachment {
   enum Of { joint, contact, force } of;
   std::size_t k;
-  bool first;  ///< on a, or the journal
+  std::size_t end;  ///< at which of its markers: a, b, … or journal, bearing
   std::size_t body;
   Eigen::Index row;  ///< of the load history
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/bodies/modal_basis.h"
+#include "framework/scene/joint_words.h"
 
 namespace pintle {
 
@@ -16,11 +17,10 @@ struct Hold {
 std::vector<Hold> holds_on(const Scene& scene, const MechanismBody& b) {
   std::vector<Hold> holds;
   for (const SceneJoint& j : scene.joints)
-    for (const PointRef* ref : {&j.a, &j.b}) {
+    for (const PointRef* ref : points_of(j)) {
       if (ref->body != b.body.name) continue;
       if (const int port = port_of(b.elastic, ref->point); port >= 0)
-        holds.push_back({b.elastic.model.ports[static_cast<std::size_t>(port)].name,
-                         j.kind == JointKind::weld || j.kind == JointKind::prismatic});
+        holds.push_back({b.elastic.model.ports[static_cast<std::size_t>(port)].name, word_of(j).clamps});
     }
   return holds;
 }

@@ -20,6 +20,7 @@
 #include "framework/build/shape_warnings.h"
 #include "framework/common/nearest.h"
 #include "framework/common/text.h"
+#include "framework/scene/joint_words.h"
 
 namespace pintle {
 
@@ -159,9 +160,9 @@ class Builder {
     unique(j.name, "joint", j.place);
     two_bodies(j.a, j.b, j.place);
     if (j.clearance) return add_contact(j);
-    const bool turns = j.kind == JointKind::prismatic || j.kind == JointKind::weld;
-    const int a = marker(j.a, turns || j.kind == JointKind::slot ? Holds::direction : Holds::point);
-    const int b = marker(j.b, turns ? Holds::direction : Holds::point);
+    const JointWord& word = word_of(j);
+    const int a = marker(j.a, word.clamps || word.guides ? Holds::direction : Holds::point);
+    const int b = marker(j.b, word.clamps ? Holds::direction : Holds::point);
     auto& joints = model_.system.joints;
     model_.order.joints.push_back(static_cast<int>(joints.size()));
     switch (j.kind) {
@@ -176,7 +177,6 @@ class Builder {
         break;
     }
     model_.system.joint_names.push_back(j.name);
-    model_.pin_joints.emplace_back(static_cast<int>(joints.size()) - 1, b);
   }
 
   /// The joint's angle with the whole turns that its bodies' rough poses show.

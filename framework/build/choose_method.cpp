@@ -99,10 +99,8 @@ double motion_of(const Scene& scene, const System& system) {
   double motion = std::sqrt(system.gravity.norm() / system.length);
   for (const StartBody& s : scene.start_bodies)
     motion = std::max({motion, std::abs(s.speed.value_or(0)), std::hypot(s.vx.value_or(0), s.vy.value_or(0)) / system.length});
-  for (const Joint& j : system.joints) {
-    if (const auto* d = std::get_if<AngleDriver>(&j)) motion = std::max(motion, fastest_of(d->law, scene.run.until, 1));
-    if (const auto* d = std::get_if<DistanceDriver>(&j)) motion = std::max(motion, fastest_of(d->law, scene.run.until, system.length));
-  }
+  for (const Joint& j : system.joints)
+    if (const TimeLaw* law = driver_law(j)) motion = std::max(motion, fastest_of(*law, scene.run.until, is_angle_row(j, 0) ? 1 : system.length));
   return motion;
 }
 

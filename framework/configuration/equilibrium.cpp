@@ -20,11 +20,8 @@ using Index = Eigen::Index;
 
 /// Drivers held where their laws are at t.
 void hold_drivers(const System& from, double t, System& held) {
-  for (std::size_t k = 0; k < from.joints.size(); ++k) {
-    const auto hold = [t](const TimeLaw& law) { return [x = law(t).value](double) { return Jet{x, 0, 0}; }; };
-    if (const auto* angle = std::get_if<AngleDriver>(&from.joints[k])) std::get<AngleDriver>(held.joints[k]).law = hold(angle->law);
-    if (const auto* length = std::get_if<DistanceDriver>(&from.joints[k])) std::get<DistanceDriver>(held.joints[k]).law = hold(length->law);
-  }
+  for (std::size_t k = 0; k < from.joints.size(); ++k)
+    if (const TimeLaw* law = driver_law(from.joints[k])) *driver_law(held.joints[k]) = [x = (*law)(t).value](double) { return Jet{x, 0, 0}; };
 }
 
 bool has_potential(const System& system) {

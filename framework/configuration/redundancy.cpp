@@ -147,12 +147,6 @@ std::vector<std::string> names_in(const System& system, const Dependence& d, boo
   return out;
 }
 
-const TimeLaw* law_of(const Joint& joint) {
-  if (const auto* j = std::get_if<AngleDriver>(&joint)) return &j->law;
-  if (const auto* j = std::get_if<DistanceDriver>(&joint)) return &j->law;
-  return nullptr;
-}
-
 struct Driven {
   const TimeLaw* law;
   double weight;  ///< of its row, with row_scale
@@ -162,7 +156,7 @@ struct Driven {
 std::vector<Driven> driven_by(const System& system, const Dependence& d) {
   std::vector<Driven> out;
   for (const auto& [row, weight] : d.N)
-    if (const TimeLaw* law = law_of(system.joints[at(joint_of(system, row))])) out.push_back({law, weight * system.row_scale[row]});
+    if (const TimeLaw* law = driver_law(system.joints[at(joint_of(system, row))])) out.push_back({law, weight * system.row_scale[row]});
   if (!out.empty())
     for (const double last = out.back().weight; Driven & one : out) one.weight /= last;
   return out;
@@ -200,7 +194,7 @@ double contradiction_of_accelerations(const System& system, double t, const Vect
   const VectorXd s = y.segment(n, n);
   double rate = s.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>();
   for (const auto& [row, weight] : d.N)
-    if (const TimeLaw* law = law_of(system.joints[at(joint_of(system, row))]))
+    if (const TimeLaw* law = driver_law(system.joints[at(joint_of(system, row))]))
       rate = std::max(rate, std::sqrt(std::abs((*law)(t).accel) * system.row_scale[row]));
   if (rate == 0) return 0;
   const double step = 1e-4 / rate;
@@ -324,8 +318,8 @@ std::string explain_pose(const System& system, double t, const VectorXd& y) {
     if (drivers.empty()) return "a singular pose: the rows of " + others + " have become dependent on each other there";
     const auto driver = std::find(system.joint_names.begin(), system.joint_names.end(), drivers.front()) - system.joint_names.begin();
     const Joint& joint = system.joints[static_cast<std::size_t>(driver)];
-    return "a dead centre: the driver " + listed(drivers) + " cannot move past " + number_text((*law_of(joint))(t).value) +
-           (std::holds_alternative<AngleDriver>(joint) ? " rad" : " m") + (others.empty() ? "" : ", where " + others + " hold against it");
+    return "a dead centre: the driver " + listed(drivers) + " cannot move past " + number_text((*driver_law(joint))(t).value) +
+           (is_angle_row(joint, 0) ? " rad" : " m") + (others.empty() ? "" : ", where " + others + " hold against it");
   }
   for (const Dependence& d : permanent)
     if (const auto drivers = names_in(system, d, true); drivers.size() > 1)

@@ -1,5 +1,6 @@
 #include "framework/configuration/row_solver.h"
 
+#include "framework/common/index.h"
 #include "framework/configuration/least_step.h"
 
 namespace pintle {
@@ -15,11 +16,11 @@ void acceleration_side(const System& system, const Equations& eq, VectorXd& gamm
   for (std::size_t k = 0; k < system.joints.size(); ++k)
     for (int row = system.row_begin[k], i = 0; row < system.row_begin[k + 1]; ++row, ++i) {
       gamma[row] = -eq.rows[k].kappa[i];
-      for (std::size_t side = 0; side < 2; ++side) {
-        const auto& L = side == 0 ? eq.rows[k].La : eq.rows[k].Lb;
-        const int marker = side == 0 ? marker_a(system.joints[k]) : marker_b(system.joints[k]);
-        if (system.markers[static_cast<std::size_t>(marker)].body == ground) continue;
-        const MarkerMotion& m = eq.motion[static_cast<std::size_t>(marker)];
+      for (std::size_t end = at(system.end_begin[k]); end < at(system.end_begin[k + 1]); ++end) {
+        const ConstraintRows::Block& L = eq.L[end];
+        const std::size_t marker = at(system.end_marker[end]);
+        if (system.markers[marker].body == ground) continue;
+        const MarkerMotion& m = eq.motion[marker];
         gamma[row] -= L(i, 0) * m.a0.x() + L(i, 1) * m.a0.y() + L(i, 2) * m.alpha0;
       }
     }

@@ -132,21 +132,21 @@ Drawing draw(const Model& model, const Drafting& drafting, const State& state, c
     for (const Vector2d& x : drafting.links[at(b)]) line.points.emplace_back(Vector2d(q[0], q[1]) + A * x);
     out.lines.push_back(std::move(line));
   }
-  for (const auto& [joint, marker] : model.pin_joints) {
-    const MarkerMotion& m = eq.motion[at(marker)];
-    if (std::holds_alternative<Prismatic>(system.joints[at(joint)]) ||
-        std::holds_alternative<Slot>(system.joints[at(joint)])) {  // a stretch of the guiding line
-      const MarkerMotion& a = eq.motion[at(marker_a(system.joints[at(joint)]))];
-      const Vector2d foot = a.r + a.u * a.u.dot(m.r - a.r);
-      out.lines.push_back({Part::guide, bodies + joint, false,
-                           {foot - 0.5 * system.length * a.u, foot + 0.5 * system.length * a.u}});
-      if (std::holds_alternative<Slot>(system.joints[at(joint)]))
-        out.lines.push_back({Part::joint, bodies + joint, true, circle(m.r, 0.6 * drafting.pin)});
-    } else if (std::holds_alternative<Distance>(system.joints[at(joint)])) {
-      out.lines.push_back({Part::joint, bodies + joint, false,
-                           {eq.motion[at(marker_a(system.joints[at(joint)]))].r, m.r}});
-    } else {
-      out.lines.push_back({Part::joint, bodies + joint, true, circle(m.r, 0.6 * drafting.pin)});
+  for (int joint = 0; joint < joints; ++joint) {
+    if (is_link(system, joint)) continue;  // its clearance is drawn
+    const JointEnds ends = ends_of(system.joints[at(joint)]);
+    const MarkerMotion &a = eq.motion[at(ends.marker[0])], &b = eq.motion[at(ends.marker[1])];
+    const auto pin = [&] { out.lines.push_back({Part::joint, bodies + joint, true, circle(b.r, 0.6 * drafting.pin)}); };
+    const auto guide = [&] {  // a stretch of the line
+      const Vector2d foot = a.r + a.u * a.u.dot(b.r - a.r);
+      out.lines.push_back({Part::guide, bodies + joint, false, {foot - 0.5 * system.length * a.u, foot + 0.5 * system.length * a.u}});
+    };
+    switch (properties_of(system.joints[at(joint)]).symbol) {
+      case JointSymbol::none: break;
+      case JointSymbol::pin: pin(); break;
+      case JointSymbol::guide: guide(); break;
+      case JointSymbol::pin_in_guide: guide(), pin(); break;
+      case JointSymbol::rod: out.lines.push_back({Part::joint, bodies + joint, false, {a.r, b.r}}); break;
     }
   }
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {

@@ -46,7 +46,6 @@ struct Model {
   std::vector<std::string> clearances;                 ///< how each is modelled, in words
   std::vector<std::string> warnings;                   ///< what makes the model doubtful, in words
   std::vector<std::vector<Eigen::Vector2d>> outlines;  ///< points of each body, named or joined, for drawing [m]
-  std::vector<std::pair<int, int>> pin_joints;         ///< joint, marker: where a joint is drawn
   std::vector<FlexibleReport> flexible;                ///< of flexible bodies, in their order
   std::vector<BendingProbe> bending;                   ///< likewise
   std::vector<StiffeningProbe> stiffening;             ///< likewise

@@ -1,11 +1,13 @@
 #include "framework/mechanism/trajectory.h"
 
-#include <stdexcept>
+#include <array>
+#include <cmath>
 
 #include <Eigen/Geometry>
 
 #include "elements/plane.h"
 #include "framework/common/index.h"
+#include "framework/mechanism/columns.h"
 
 namespace pintle {
 
@@ -15,14 +17,12 @@ std::string body_name(const System& system, int marker) {
   const int body = system.markers[at(marker)].body;
   return body == ground ? "ground" : system.bodies[at(body)].name;
 }
-bool acts_on_b(const System& system, int joint) {
-  return system.markers[at(marker_b(system.joints[at(joint)]))].body != ground;
+/// The end whose wrench is written: b, or a where b is the ground.
+std::size_t written_end(const System& system, int joint) {
+  const int b = system.end_marker[at(system.end_begin[at(joint)] + 1)];
+  return system.markers[at(b)].body == ground ? 0 : 1;
 }
-bool has_force(const Joint& j) { return !std::holds_alternative<AngleDriver>(j); }
-bool has_couple(const Joint& j) {
-  return std::holds_alternative<AngleDriver>(j) || std::holds_alternative<Weld>(j) ||
-         std::holds_alternative<Prismatic>(j);
-}
+int written_marker(const System& system, int joint) { return system.end_marker[at(system.end_begin[at(joint)]) + written_end(system, joint)]; }
 bool is_flexible(const System& system) { return system.n() > system.n_rigid(); }
 
 /// Motion of a marker that no joint uses; of a point of a flexible body also what deformation moves it.
@@ -55,116 +55,133 @@ PointMotion motion_of(const System& system, const Marker& m, const State& state,
 bool is_turning(const Force& f) {
   return std::holds_alternative<Torque>(f) || std::holds_alternative<TorsionSpring>(f);
 }
+
+struct Now {
+  const State& state;
+  const Equations& eq;
+};
+
+// Motion of body b's origin and its modal coordinates.
+template <class Out>
+void body_columns(const System& system, std::size_t b, Out& out) {
+  const Body& body = system.bodies[b];
+  const std::size_t n = at(system.n());
+  out(body.name,
+      {{".x", "m"}, {".y", "m"}, {".angle", "rad"}, {".vx", "m/s"}, {".vy", "m/s"}, {".speed", "rad/s"}, {".ax", "m/s^2"}, {".ay", "m/s^2"}, {".alpha", "rad/s^2"}},
+      [&](const Now& now) {
+        const double *q = now.state.y.data() + 3 * b, *s = q + n, *a = now.eq.a.data() + 3 * b;
+        const Eigen::Vector2d arm = Eigen::Rotation2Dd(q[2]) * body.x_BO, turned = perp(arm);
+        return std::array{q[0] + arm.x(), q[1] + arm.y(), q[2],
+                          s[0] + s[2] * turned.x(), s[1] + s[2] * turned.y(), s[2],
+                          a[0] + a[2] * turned.x() - s[2] * s[2] * arm.x(), a[1] + a[2] * turned.y() - s[2] * s[2] * arm.y(), a[2]};
+      });
+  for (int i = 0; i < body.modes(); ++i)
+    out(body.name, {{".mode ", "m kg^0.5"}}, [&](const Now& now) { return std::array{now.state.y[system.eta_begin[b] + i]}; },
+        [i] { return std::to_string(i + 1); });
+}
+
+// What a wrench has of force and couple, on the body of a marker.
+template <class Out, class OfNow>
+void wrench_columns(const System& system, const std::string& name, bool force, bool couple, int marker, const OfNow& wrench, Out& out) {
+  const auto on = [&] { return " on " + body_name(system, marker); };
+  if (force)
+    out(name, {{".fx", "N"}, {".fy", "N"}}, [&](const Now& now) {
+      const Wrench w = wrench(now);
+      return std::array{w[0], w[1]};
+    }, on);
+  if (couple) out(name, {{".torque", "N m"}}, [&](const Now& now) { return std::array{wrench(now)[2]}; }, on);
+}
+
+template <class Out>
+void contact_columns(const System& system, std::size_t k, Out& out) {
+  const ContactPair& pair = system.contacts[k];
+  out(system.contact_names[k],
+      {{".ex", "m"}, {".ey", "m"}, {".depth", "m"}, {".rate", "m/s"}, {".sliding", "m/s"}, {".normal", "N"}, {".friction", "N"}},
+      [&](const Now& now) {
+        const ContactEffect c = clearance_effect(system, now.eq, k);
+        const double slip = pair.sliding == Sliding::geometric ? c.gap.geometric_slip : c.gap.material_slip;
+        return std::array{c.gap.e.x(), c.gap.e.y(), c.gap.depth, c.gap.rate, slip, c.normal.force, c.friction};
+      });
+  wrench_columns(system, system.contact_names[k], true, false, pair.journal,
+                 [&](const Now& now) { return clearance_effect(system, now.eq, k).on_journal; }, out);
+}
+
+template <class Out>
+void point_columns(const System& system, const RecordedPoint& p, Out& out) {
+  const auto motion = [&](const Now& now) { return motion_of(system, p.marker, now.state, now.eq); };
+  out(p.name, {{".x", "m"}, {".y", "m"}, {".vx", "m/s"}, {".vy", "m/s"}, {".ax", "m/s^2"}, {".ay", "m/s^2"}}, [&](const Now& now) {
+    const PointMotion m = motion(now);
+    return std::array{m.r.x(), m.r.y(), m.v.x(), m.v.y(), m.a.x(), m.a.y()};
+  });
+  if (p.marker.shape.size() > 0)
+    out(p.name, {{".ux", "m"}, {".uy", "m"}, {".turn", "rad"}}, [&](const Now& now) {
+      const PointMotion m = motion(now);
+      return std::array{m.u.x(), m.u.y(), m.turn};
+    });
+}
+
+template <class Out>
+void stress_columns(const System& system, const RecordedStress& s, Out& out) {
+  const auto probe = [&](const Now& now) -> Eigen::VectorXd {
+    return s.probe.rows * now.state.y.segment(system.eta_begin[at(s.body)], s.probe.rows.cols());
+  };
+  if (s.probe.beam)  // the larger of the two fibres
+    out(s.name, {{".N", "N"}, {".V", "N"}, {".M", "N m"}, {".stress", "Pa"}}, [&](const Now& now) {
+      const Eigen::VectorXd v = probe(now);
+      return std::array{v[0], v[1], v[2], std::abs(v[0]) / s.probe.A + std::abs(v[2]) * s.probe.distance / s.probe.I};
+    });
+  else
+    out(s.name, {{".sx", "Pa"}, {".sy", "Pa"}, {".txy", "Pa"}, {".von Mises", "Pa"}}, [&](const Now& now) {
+      const Eigen::VectorXd v = probe(now);
+      return std::array{v[0], v[1], v[2], von_mises(v)};
+    });
+}
+
+template <class Out>
+void trajectory_columns(const Model& model, Out out) {
+  const System& system = model.system;
+  out("", {{"t", "s"}}, [](const Now& now) { return std::array{now.state.t}; });
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) body_columns(system, b, out);
+  for (int k = 0; k < static_cast<int>(system.joints.size()); ++k) {
+    if (is_link(system, k)) continue;  // its force stands with its clearance
+    const JointProperties& of = properties_of(system.joints[at(k)]);
+    wrench_columns(system, system.joint_names[at(k)], of.force, of.couple, written_marker(system, k),
+                   [&](const Now& now) { return joint_wrench(system, now.eq, k); }, out);
+  }
+  for (std::size_t k = 0; k < system.contacts.size(); ++k) contact_columns(system, k, out);
+  for (std::size_t k = 0; k < system.forces.size(); ++k) {
+    const bool turns = is_turning(system.forces[k]);
+    wrench_columns(system, system.force_names[k], !turns, turns, marker_b(system.forces[k]), [&](const Now& now) { return now.eq.force[k].on_b; }, out);
+  }
+  for (const RecordedPoint& p : model.points) point_columns(system, p, out);
+  for (const RecordedStress& s : model.stresses) stress_columns(system, s, out);
+}
+
+struct Books {
+  const State& state;
+  const Energies& energies;
+  double unexplained;
+};
+
+template <class Out>
+void ledger_columns(const System& system, Out out) {
+  out("", {{"t", "s"}, {"kinetic", "J"}, {"gravity", "J"}, {"springs", "J"}, {"contacts", "J"}}, [](const Books& now) {
+    const Energies& e = now.energies;
+    return std::array{now.state.t, e.kinetic, e.gravity, e.springs, e.contacts};
+  });
+  if (is_flexible(system)) out("", {{"strain", "J"}}, [](const Books& now) { return std::array{now.energies.strain}; });
+  out("", {{"stored", "J"}}, [](const Books& now) { return std::array{now.energies.stored()}; });
+  for (std::size_t i = 0; i < system.integrals.size(); ++i)
+    out("", {{"", "J"}}, [&](const Books& now) { return std::array{now.state.y[2 * system.n() + static_cast<Eigen::Index>(i)]}; },
+        [&] { return integral_name(system, system.integrals[i]); });
+  out("", {{"unexplained", "J"}}, [](const Books& now) { return std::array{now.unexplained}; });
+}
+
 }  // namespace
 
-std::string joint_subject(const System& system, int joint) {
-  const Joint& j = system.joints[at(joint)];
-  return body_name(system, acts_on_b(system, joint) ? marker_b(j) : marker_a(j));
-}
+std::string joint_subject(const System& system, int joint) { return body_name(system, written_marker(system, joint)); }
 
-Wrench joint_wrench(const System& system, const Equations& eq, int joint) {
-  const int row = system.row_begin[at(joint)], m = system.row_begin[at(joint) + 1] - row;
-  const auto& L = acts_on_b(system, joint) ? eq.rows[at(joint)].Lb : eq.rows[at(joint)].La;
-  return -L.topRows(m).transpose() * eq.lambda.segment(row, m);
-}
-
-Table trajectory_table(const Model& model) {
-  const System& system = model.system;
-  Table t;
-  auto add = [&](const std::string& name, const char* unit) { t.header.push_back(name + " [" + unit + "]"); };
-  add("t", "s");
-  for (const Body& b : system.bodies) {
-    add(b.name + ".x", "m"), add(b.name + ".y", "m"), add(b.name + ".angle", "rad");
-    add(b.name + ".vx", "m/s"), add(b.name + ".vy", "m/s"), add(b.name + ".speed", "rad/s");
-    add(b.name + ".ax", "m/s^2"), add(b.name + ".ay", "m/s^2"), add(b.name + ".alpha", "rad/s^2");
-    for (int i = 1; i <= b.modes(); ++i) add(b.name + ".mode " + std::to_string(i), "m kg^0.5");
-  }
-  for (std::size_t k = 0; k < system.joints.size(); ++k) {
-    if (is_link(system, static_cast<int>(k))) continue;  // its force stands with its clearance
-    const std::string on = " on " + joint_subject(system, static_cast<int>(k));
-    if (has_force(system.joints[k])) {
-      add(system.joint_names[k] + ".fx" + on, "N");
-      add(system.joint_names[k] + ".fy" + on, "N");
-    }
-    if (has_couple(system.joints[k])) add(system.joint_names[k] + ".torque" + on, "N m");
-  }
-  for (std::size_t k = 0; k < system.contacts.size(); ++k) {
-    const std::string& name = system.contact_names[k];
-    const std::string on = " on " + body_name(system, system.contacts[k].journal);
-    add(name + ".ex", "m"), add(name + ".ey", "m"), add(name + ".depth", "m"), add(name + ".rate", "m/s");
-    add(name + ".sliding", "m/s"), add(name + ".normal", "N"), add(name + ".friction", "N");
-    add(name + ".fx" + on, "N"), add(name + ".fy" + on, "N");
-  }
-  for (std::size_t k = 0; k < system.forces.size(); ++k) {
-    const std::string on = " on " + body_name(system, marker_b(system.forces[k]));
-    if (is_turning(system.forces[k])) {
-      add(system.force_names[k] + ".torque" + on, "N m");
-    } else {
-      add(system.force_names[k] + ".fx" + on, "N");
-      add(system.force_names[k] + ".fy" + on, "N");
-    }
-  }
-  for (const RecordedPoint& p : model.points) {
-    add(p.name + ".x", "m"), add(p.name + ".y", "m"), add(p.name + ".vx", "m/s"), add(p.name + ".vy", "m/s");
-    add(p.name + ".ax", "m/s^2"), add(p.name + ".ay", "m/s^2");
-    if (p.marker.shape.size() > 0) add(p.name + ".ux", "m"), add(p.name + ".uy", "m"), add(p.name + ".turn", "rad");
-  }
-  for (const RecordedStress& s : model.stresses) {
-    if (s.probe.beam) {
-      add(s.name + ".N", "N"), add(s.name + ".V", "N"), add(s.name + ".M", "N m"), add(s.name + ".stress", "Pa");
-    } else {
-      add(s.name + ".sx", "Pa"), add(s.name + ".sy", "Pa"), add(s.name + ".txy", "Pa"), add(s.name + ".von Mises", "Pa");
-    }
-  }
-  return t;
-}
-
-void record(const Model& model, const State& state, const Equations& eq, Table& t) {
-  const System& system = model.system;
-  auto add = [&](std::initializer_list<double> values) { t.data.insert(t.data.end(), values); };
-  add({state.t});
-  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
-    const double* q = state.y.data() + 3 * b;
-    const double* s = q + system.n();
-    const double* a = eq.a.data() + 3 * b;
-    const Eigen::Vector2d arm = Eigen::Rotation2Dd(q[2]) * system.bodies[b].x_BO, turned = perp(arm);
-    add({q[0] + arm.x(), q[1] + arm.y(), q[2]});
-    add({s[0] + s[2] * turned.x(), s[1] + s[2] * turned.y(), s[2]});
-    add({a[0] + a[2] * turned.x() - s[2] * s[2] * arm.x(), a[1] + a[2] * turned.y() - s[2] * s[2] * arm.y(), a[2]});
-    for (int i = system.eta_begin[b]; i < system.eta_begin[b + 1]; ++i) add({state.y[i]});
-  }
-  for (std::size_t k = 0; k < system.joints.size(); ++k) {
-    if (is_link(system, static_cast<int>(k))) continue;
-    const Wrench w = joint_wrench(system, eq, static_cast<int>(k));
-    if (has_force(system.joints[k])) add({w[0], w[1]});
-    if (has_couple(system.joints[k])) add({w[2]});
-  }
-  for (std::size_t k = 0; k < system.contacts.size(); ++k) {
-    const ContactEffect c = clearance_effect(system, eq, k);
-    const double slip = system.contacts[k].sliding == Sliding::geometric ? c.gap.geometric_slip : c.gap.material_slip;
-    add({c.gap.e.x(), c.gap.e.y(), c.gap.depth, c.gap.rate, slip, c.normal.force, c.friction});
-    add({c.on_journal[0], c.on_journal[1]});
-  }
-  for (std::size_t k = 0; k < system.forces.size(); ++k) {
-    const Wrench& w = eq.force[k].on_b;
-    if (is_turning(system.forces[k]))
-      add({w[2]});
-    else
-      add({w[0], w[1]});
-  }
-  for (const RecordedPoint& p : model.points) {
-    const PointMotion m = motion_of(system, p.marker, state, eq);
-    add({m.r.x(), m.r.y(), m.v.x(), m.v.y(), m.a.x(), m.a.y()});
-    if (p.marker.shape.size() > 0) add({m.u.x(), m.u.y(), m.turn});
-  }
-  for (const RecordedStress& s : model.stresses) {
-    const Eigen::VectorXd v = s.probe.rows * state.y.segment(system.eta_begin[at(s.body)], s.probe.rows.cols());
-    if (s.probe.beam)  // the larger of the two fibres
-      add({v[0], v[1], v[2], std::abs(v[0]) / s.probe.A + std::abs(v[2]) * s.probe.distance / s.probe.I});
-    else
-      add({v[0], v[1], v[2], von_mises(v)});
-  }
-}
+Wrench joint_wrench(const System& system, const Equations& eq, int joint) { return reaction(system, eq, at(joint), written_end(system, joint)); }
 
 std::string integral_name(const System& system, const Integral& i) {
   switch (i.account) {
@@ -179,24 +196,24 @@ std::string integral_name(const System& system, const Integral& i) {
   return "";
 }
 
+Table trajectory_table(const Model& model) {
+  Table t;
+  trajectory_columns(model, Heading{t.header});
+  return t;
+}
+void record(const Model& model, const State& state, const Equations& eq, Table& t) {
+  trajectory_columns(model, Row<Now>{{state, eq}, t.data});
+}
+
 Table ledger_table(const System& system) {
   Table t;
-  t.header = {"t [s]", "kinetic [J]", "gravity [J]", "springs [J]", "contacts [J]"};
-  if (is_flexible(system)) t.header.push_back("strain [J]");
-  t.header.push_back("stored [J]");
-  for (const Integral& i : system.integrals) t.header.push_back(integral_name(system, i) + " [J]");
-  t.header.push_back("unexplained [J]");
+  ledger_columns(system, Heading{t.header});
   return t;
+}
+void record_ledger(const System& system, const State& state, const Energies& e, double unexplained, Table& t) {
+  ledger_columns(system, Row<Books>{{state, e, unexplained}, t.data});
 }
 
 std::size_t first_integral(const System& system) { return is_flexible(system) ? 7 : 6; }
-
-void record_ledger(const System& system, const State& state, const Energies& e, double unexplained, Table& t) {
-  t.data.insert(t.data.end(), {state.t, e.kinetic, e.gravity, e.springs, e.contacts});
-  if (is_flexible(system)) t.data.push_back(e.strain);
-  t.data.push_back(e.stored());
-  for (int i = 0; i < system.n_z(); ++i) t.data.push_back(state.y[2 * system.n() + i]);
-  t.data.push_back(unexplained);
-}
 
 }  // namespace pintle

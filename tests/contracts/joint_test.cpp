@@ -12,7 +12,6 @@
 #include <ostream>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -77,16 +76,12 @@ const Kind kinds[] = {
      }},
 };
 
-MarkerMotion at_pose(const Vector3d& p) {
+MarkerMotion moving(const Vector3d& p, const Vector3d& p_rate) {
   MarkerMotion m;
   m.r = p.head<2>();
   m.d.setZero();
   m.angle = p[2];
   m.u = {std::cos(p[2]), std::sin(p[2])};
-  return m;
-}
-MarkerMotion moving(const Vector3d& p, const Vector3d& p_rate) {
-  MarkerMotion m = at_pose(p);
   m.v = p_rate.head<2>();
   m.w = p_rate[2];
   return m;
@@ -95,101 +90,154 @@ double largest(const VectorXd& x) {
   return x.size() == 0 ? 0 : x.lpNorm<Eigen::Infinity>();
 }
 
+/// Poses or rates of a joint's markers, or what follows from them, one an end.
+using Ends = std::vector<Vector3d>;
+
+struct Evaluated {
+  ConstraintRows rows;
+  std::vector<ConstraintRows::Block> L;
+};
+
 class JointContract : public testing::TestWithParam<Kind> {
  protected:
   Joint joint_ = GetParam().make(0, 1, -0.4);
+  std::size_t n_ = static_cast<std::size_t>(ends_of(joint_).n);
   Draw draw_{7};
 
-  ConstraintRows rows_at(const MarkerMotion& a, const MarkerMotion& b, double t) const {
-    ConstraintRows r;
-    evaluate_pose(joint_, a, b, t, r);
-    evaluate_speed(joint_, a, b, t, r);
-    return r;
+  Evaluated evaluated(const Ends& poses, const Ends& rates, double t) const {
+    std::vector<MarkerMotion> markers;
+    for (std::size_t i = 0; i < n_; ++i) markers.push_back(moving(poses[i], rates[i]));
+    Evaluated out;
+    out.L.assign(n_, ConstraintRows::Block::Zero());
+    evaluate_pose(joint_, markers.data(), t, out.rows, out.L.data());
+    evaluate_speed(joint_, markers.data(), t, out.rows);
+    return out;
   }
-  Vector3d C(const Vector3d& a, const Vector3d& b, double t) const {
-    return rows_at(at_pose(a), at_pose(b), t).C;
-  }
-  // Two poses whose points are apart: a distance has no derivative where they meet.
-  std::pair<Vector3d, Vector3d> poses() {
+  Evaluated evaluated(const Ends& poses, double t) const { return evaluated(poses, Ends(n_, Vector3d::Zero()), t); }
+  // Poses of which the first two points are apart: a distance has no derivative where they meet.
+  Ends poses() {
     for (;;) {
-      std::pair<Vector3d, Vector3d> p{draw_.pose(), draw_.pose()};
-      if ((p.first - p.second).head<2>().norm() > 0.3) return p;
+      Ends p;
+      for (std::size_t i = 0; i < n_; ++i) p.push_back(draw_.pose());
+      if ((p[0] - p[1]).head<2>().norm() > 0.3) return p;
     }
+  }
+  Ends rates() {
+    Ends r;
+    for (std::size_t i = 0; i < n_; ++i) r.push_back(draw_.rates());
+    return r;
   }
 };
 
 TEST_P(JointContract, JacobiansAreDifferencesOfTheViolationOverPoses) {
   for (int n = 0; n < draws; ++n) {
-    const auto [a, b] = poses();
-    const ConstraintRows r = rows_at(at_pose(a), at_pose(b), 0.3);
-    for (int i = 0; i < 3; ++i) {
-      const Vector3d e = step * Vector3d::Unit(i);
-      const Vector3d over_a = (C(a + e, b, 0.3) - C(a - e, b, 0.3)) / (2 * step);
-      const Vector3d over_b = (C(a, b + e, 0.3) - C(a, b - e, 0.3)) / (2 * step);
-      EXPECT_LT(largest(r.La.col(i) - over_a), difference * 3) << "draw " << n << ", column " << i;
-      EXPECT_LT(largest(r.Lb.col(i) - over_b), difference * 3) << "draw " << n << ", column " << i;
-    }
+    const Ends p = poses();
+    const Evaluated here = evaluated(p, 0.3);
+    for (std::size_t end = 0; end < n_; ++end)
+      for (int i = 0; i < 3; ++i) {
+        Ends forth = p, back = p;
+        forth[end][i] += step;
+        back[end][i] -= step;
+        const Vector3d slope = (evaluated(forth, 0.3).rows.C - evaluated(back, 0.3).rows.C) / (2 * step);
+        EXPECT_LT(largest(here.L[end].col(i) - slope), difference * 3) << "draw " << n << ", end " << end << ", column " << i;
+      }
   }
 }
 
 // Along p(t) = p₀ + p₁ t + p₂ t²: the first difference of C and the first difference of Ċ.
 TEST_P(JointContract, RatesAreDifferencesAlongASmoothMotion) {
   for (int n = 0; n < draws; ++n) {
-    const auto [a0, b0] = poses();
-    const Vector3d a1 = draw_.rates(), b1 = draw_.rates(), a2 = draw_.rates(), b2 = draw_.rates();
+    const Ends p0 = poses(), p1 = rates(), p2 = rates();
     const double t0 = draw_.within(-3, 3);
-    const auto rows_after = [&, pa = a0, pb = b0](double t) {
-      return rows_at(moving(pa + a1 * t + a2 * t * t, a1 + 2 * a2 * t),
-                     moving(pb + b1 * t + b2 * t * t, b1 + 2 * b2 * t), t0 + t);
+    const auto rates_after = [&](double t) {
+      Ends out;
+      for (std::size_t i = 0; i < n_; ++i) out.emplace_back(p1[i] + 2 * p2[i] * t);
+      return out;
+    };
+    const auto after = [&](double t) {
+      Ends p;
+      for (std::size_t i = 0; i < n_; ++i) p.emplace_back(p0[i] + p1[i] * t + p2[i] * t * t);
+      return evaluated(p, rates_after(t), t0 + t);
     };
     const auto rate_after = [&](double t) -> Vector3d {
-      const ConstraintRows r = rows_after(t);
-      return r.La * (a1 + 2 * a2 * t) + r.Lb * (b1 + 2 * b2 * t) + r.Ct;
+      const Evaluated r = after(t);
+      const Ends rates = rates_after(t);
+      Vector3d out = r.rows.Ct;
+      for (std::size_t i = 0; i < n_; ++i) out += r.L[i] * rates[i];
+      return out;
     };
-    const ConstraintRows r = rows_after(0);
-    const Vector3d C_rate = (rows_after(step).C - rows_after(-step).C) / (2 * step);
+    const Evaluated r = after(0);
+    const Vector3d C_rate = (after(step).rows.C - after(-step).rows.C) / (2 * step);
     const Vector3d C_accel = (rate_after(step) - rate_after(-step)) / (2 * step);
+    Vector3d accel = r.rows.kappa;
+    for (std::size_t i = 0; i < n_; ++i) accel += 2 * r.L[i] * p2[i];
     // Rates up to 5, so terms of Ċ up to 10 and of C̈ up to 100.
     EXPECT_LT(largest(rate_after(0) - C_rate), 10 * difference) << "draw " << n;
-    EXPECT_LT(largest(2 * r.La * a2 + 2 * r.Lb * b2 + r.kappa - C_accel), 100 * difference)
-        << "draw " << n;
+    EXPECT_LT(largest(accel - C_accel), 100 * difference) << "draw " << n;
   }
 }
 
-TEST_P(JointContract, OnlyADriverDependsOnTime) {
-  const auto [a, b] = poses();
-  const ConstraintRows r = rows_at(at_pose(a), at_pose(b), 0.3);
-  EXPECT_EQ(is_driver(joint_), largest(r.Ct) > 0);
-}
+TEST_P(JointContract, OnlyADriverDependsOnTime) { EXPECT_EQ(is_driver(joint_), largest(evaluated(poses(), 0.3).rows.Ct) > 0); }
 
 TEST_P(JointContract, RowsBeyondItsOwnStayEmpty) {
-  const auto [a, b] = poses();
-  const ConstraintRows r = rows_at(moving(a, draw_.rates()), moving(b, draw_.rates()), 0.3);
-  for (int i = rows(joint_); i < 3; ++i)
-    EXPECT_EQ(std::abs(r.C[i]) + std::abs(r.Ct[i]) + std::abs(r.kappa[i]) + r.La.row(i).norm() +
-                  r.Lb.row(i).norm(),
-              0);
+  const Evaluated r = evaluated(poses(), rates(), 0.3);
+  for (int i = rows(joint_); i < 3; ++i) {
+    EXPECT_EQ(std::abs(r.rows.C[i]) + std::abs(r.rows.Ct[i]) + std::abs(r.rows.kappa[i]), 0);
+    for (const auto& L : r.L) EXPECT_EQ(L.row(i).norm(), 0);
+  }
 }
 
 // At a closed pose action equals reaction, force and moment: the joint adds no momentum.
-TEST_P(JointContract, ItsTwoWrenchesCancel) {
+TEST_P(JointContract, ItsWrenchesCancel) {
   for (int n = 0; n < draws; ++n) {
-    auto [a, b] = poses();
-    ConstraintRows r = rows_at(at_pose(a), at_pose(b), 0.3);
-    for (int i = 0; i < 30 && largest(r.C) > 0; ++i) {
-      const MatrixXd L = r.Lb.topRows(rows(joint_));
-      b -= L.transpose() * (L * L.transpose()).ldlt().solve(r.C.head(rows(joint_)));
-      r = rows_at(at_pose(a), at_pose(b), 0.3);
+    Ends p = poses();
+    Evaluated r = evaluated(p, 0.3);
+    for (int i = 0; i < 30 && largest(r.rows.C) > 0; ++i) {
+      const MatrixXd L = r.L[1].topRows(rows(joint_));
+      p[1] -= L.transpose() * (L * L.transpose()).ldlt().solve(r.rows.C.head(rows(joint_)));
+      r = evaluated(p, 0.3);
     }
-    ASSERT_LT(largest(r.C), 10 * rounding);
+    ASSERT_LT(largest(r.rows.C), 10 * rounding);
     const Vector3d lambda = draw_.rates();
-    const Vector3d on_a = -r.La.transpose() * lambda, on_b = -r.Lb.transpose() * lambda;
-    const auto moment = [](const Vector3d& p, const Vector3d& wrench) {
-      return cross(p.head<2>(), wrench.head<2>()) + wrench[2];
-    };
-    EXPECT_LT((on_a + on_b).head<2>().norm(), 10 * rounding);
-    EXPECT_LT(std::abs(moment(a, on_a) + moment(b, on_b)), 100 * rounding) << "draw " << n;
+    Vector2d force = Vector2d::Zero();
+    double moment = 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+      const Vector3d on = -r.L[i].transpose() * lambda;
+      force += on.head<2>();
+      moment += cross(p[i].head<2>(), on.head<2>()) + on[2];
+    }
+    EXPECT_LT(force.norm(), 10 * rounding);
+    EXPECT_LT(std::abs(moment), 100 * rounding) << "draw " << n;
   }
+}
+
+// What the equations may leave out: directions that no equation reads, and angles that turn nothing.
+TEST_P(JointContract, PropertiesSayWhatItReads) {
+  const JointProperties& of = properties_of(joint_);
+  bool turns = false;
+  for (int n = 0; n < draws; ++n) {
+    const Ends p = poses();
+    for (const auto& L : evaluated(p, 0.3).L) turns = turns || L.col(2).norm() > 0;
+    const Ends v = rates();
+    std::vector<MarkerMotion> markers;
+    for (std::size_t i = 0; i < n_; ++i) {
+      markers.push_back(moving(p[i], v[i]));
+      if (i > 0 || !of.direction) markers.back().u.setConstant(std::nan(""));
+    }
+    Evaluated r{{}, std::vector<ConstraintRows::Block>(n_, ConstraintRows::Block::Zero())};
+    evaluate_pose(joint_, markers.data(), 0.3, r.rows, r.L.data());
+    evaluate_speed(joint_, markers.data(), 0.3, r.rows);
+    EXPECT_TRUE(r.rows.C.allFinite() && r.rows.kappa.allFinite());
+    for (const auto& L : r.L) EXPECT_TRUE(L.allFinite());
+    const Vector3d lambda(1.2, -0.7, 0.4);
+    const WrenchTangent tangent = wrench_tangent(joint_, markers.data(), lambda.data());
+    EXPECT_TRUE(tangent.pose.allFinite());
+    for (std::size_t i = 0; i < n_; ++i)
+      for (std::size_t j = 0; j < n_; ++j)
+        EXPECT_TRUE(of.curvature.block[i][j] || tangent.pose.block(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j), 3, 3).isZero(0))
+            << i << ", " << j;
+  }
+  EXPECT_EQ(turns, of.angles);
 }
 
 // ---- the joint between bodies of every kind and the ground ------------------------------------
@@ -201,9 +249,10 @@ class JointBetween : public testing::TestWithParam<std::tuple<Kind, Carriers>> {
 
   static System make() {
     const auto [kind, carriers] = GetParam();
-    System s = two_bodies(carriers);
+    const Joint joint = kind.make(0, 1, -0.4);
+    System s = bodies_for(joint, carriers);
     s.gravity = {0.6, -9.8};
-    s.joints = {kind.make(0, 1, -0.4)};
+    s.joints = {joint};
     s.joint_names = {kind.name};
     number(s);
     return s;
@@ -290,16 +339,15 @@ TEST_P(JointBetween, ReactionDoesNoWorkUnlessDriven) {
     ASSERT_LT(largest(eq.Cdot), 100 * rounding);
 
     const Vector3d lambda = draw_.rates();
-    const ConstraintRows& r = eq.rows[0];
-    const Wrench on[] = {-r.La.transpose() * lambda, -r.Lb.transpose() * lambda};
     VectorXd f = VectorXd::Zero(n_q);
     double power = 0;
-    for (int side = 0; side < 2; ++side) {
-      const MarkerMotion& m = eq.motion[static_cast<std::size_t>(side)];
-      power += on[side].dot(Vector3d(m.v.x(), m.v.y(), m.w));
-      add_wrench(system_, eq, side, on[side], f);
+    for (std::size_t end = 0; end < eq.L.size(); ++end) {
+      const Wrench on = -eq.L[end].transpose() * lambda;
+      const MarkerMotion& m = eq.motion[end];
+      power += on.dot(Vector3d(m.v.x(), m.v.y(), m.w));
+      add_wrench(system_, eq, static_cast<int>(end), on, f);
     }
-    const double driven = lambda.dot(r.Ct);
+    const double driven = lambda.dot(eq.rows[0].Ct);
     EXPECT_NEAR(power, driven, 100 * rounding) << "draw " << n;
     EXPECT_NEAR(f.dot(s.y.segment(n_q, n_q)), driven, 100 * rounding) << "draw " << n;
     EXPECT_TRUE(is_driver(system_.joints[0]) || driven == 0);

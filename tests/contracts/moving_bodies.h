@@ -134,6 +134,18 @@ inline System two_bodies(const Carriers& carriers) {
   return s;
 }
 
+/// The same with a third, rigid body and marker 2 on it, for joints of three ends.
+inline System three_bodies(const Carriers& carriers) {
+  System s = two_bodies(carriers);
+  s.bodies.push_back({"third", 1.3, 0.11});
+  s.markers.push_back({2, {0.1, 0.35}, 1.4});
+  return s;
+}
+/// As many bodies as the joint has ends.
+inline System bodies_for(const Joint& joint, const Carriers& carriers) {
+  return ends_of(joint).n == 2 ? two_bodies(carriers) : three_bodies(carriers);
+}
+
 /// Time, poses, deformations and all speeds at random, the two markers more than 0.3 m apart.
 /// Leaves the pose in `eq`.
 inline State random_state(const System& system, Draw& draw, Equations& eq) {
@@ -142,7 +154,7 @@ inline State random_state(const System& system, Draw& draw, Equations& eq) {
   s.y.setZero(system.n_y());
   const int n_modal = system.n() - system.n_rigid();
   for (;;) {
-    for (int b = 0; b < 2; ++b) {
+    for (int b = 0; 3 * b < system.n_rigid(); ++b) {
       s.y.segment<3>(3 * b) = draw.pose();
       s.y.segment<3>(system.n() + 3 * b) = draw.rates();
     }

@@ -44,7 +44,7 @@ Chain chain(int links, bool twice) {
   s.force_names.assign(s.forces.size(), "spring");
   number(s);
   for (std::size_t k = 1; k < s.joints.size(); ++k)
-    if (marker_a(s.joints[k]) == marker_a(s.joints[k - 1]))
+    if (ends_of(s.joints[k]).marker == ends_of(s.joints[k - 1]).marker)
       for (int row = s.row_begin[k]; row < s.row_begin[k + 1]; ++row) c.repeated.push_back(row);
   c.y.setZero(s.n_y());
   Eigen::Vector2d end(0, 0);

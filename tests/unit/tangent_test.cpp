@@ -83,7 +83,7 @@ const std::vector<Kind> kinds{
 };
 
 System make_system(const Kind& kind, const Carriers& carriers) {
-  System s = two_bodies(carriers);
+  System s = kind.joints.empty() ? two_bodies(carriers) : bodies_for(kind.joints.front(), carriers);
   s.gravity = {0.6, -9.8};
   s.joints = kind.joints;
   s.forces = kind.forces;

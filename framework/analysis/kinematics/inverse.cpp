@@ -57,7 +57,7 @@ std::vector<DriverEffort> named_efforts(const System& system) {
   for (int k : driver_joints(system)) {
     DriverEffort& e = out.emplace_back();
     e.name = system.joint_names[static_cast<std::size_t>(k)];
-    e.turns = std::holds_alternative<AngleDriver>(system.joints[static_cast<std::size_t>(k)]);
+    e.turns = is_angle_row(system.joints[static_cast<std::size_t>(k)], 0);
   }
   return out;
 }

@@ -41,10 +41,8 @@ System prepared(const Model& model, double t, Laws laws) {
     const double value = law(t).value;
     law = [value](double) { return Jet{value, 0, 0}; };
   };
-  for (Joint& j : out.joints) {
-    if (auto* d = std::get_if<AngleDriver>(&j)) hold(d->law);
-    if (auto* d = std::get_if<DistanceDriver>(&j)) hold(d->law);
-  }
+  for (Joint& j : out.joints)
+    if (TimeLaw* law = driver_law(j)) hold(*law);
   for (Force& f : out.forces) {
     if (auto* p = std::get_if<PointForce>(&f)) hold(p->x), hold(p->y);
     if (auto* q = std::get_if<Torque>(&f)) hold(q->law);

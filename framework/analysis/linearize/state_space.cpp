@@ -143,7 +143,7 @@ void add_efforts(const System& system, const MotionAt& here, const FreeMotion& f
       system.row_scale.asDiagonal() * square.partialPivLu().solve(measure.asDiagonal() * left(free.dependent, Eigen::all));
   for (std::size_t k = 0; k < system.joints.size(); ++k)
     if (is_driver(system.joints[k]))
-      out.add(system.joint_names[k] + (std::holds_alternative<AngleDriver>(system.joints[k]) ? ".torque [N m]" : ".thrust [N]"),
+      out.add(system.joint_names[k] + (is_angle_row(system.joints[k], 0) ? ".torque [N m]" : ".thrust [N]"),
               effort.row(system.row_begin[k]));
 }
 
@@ -165,7 +165,7 @@ StateSpace state_space(const Model& model, const System& system, const MotionAt&
   for (const int i : free.independent) out.states.push_back(per_second(coordinates[at(i)], " rate"));
   for (std::size_t k = 0; k < system.joints.size(); ++k)
     if (is_driver(system.joints[k])) {
-      const std::string name = system.joint_names[k], unit = std::holds_alternative<AngleDriver>(system.joints[k]) ? "rad" : "m";
+      const std::string name = system.joint_names[k], unit = is_angle_row(system.joints[k], 0) ? "rad" : "m";
       out.inputs.insert(out.inputs.end(), {name + ".offset [" + unit + "]", name + ".offset rate [" + unit + "/s]",
                                            name + ".offset acceleration [" + unit + "/s^2]"});
     }

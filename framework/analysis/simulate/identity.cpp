@@ -35,25 +35,10 @@ class Sum : public ValueWriter<Sum> {
       }
   }
 
-  void add(const Revolute& j) { add(j.a, j.b); }
-  void add(const Slot& j) { add(j.a, j.b); }
-  void add(const Prismatic& j) { add(j.a, j.b, j.angle); }
-  void add(const Weld& j) { add(j.a, j.b, j.angle); }
-  void add(const Distance& j) { add(j.a, j.b, j.length); }
-  void add(const AngleDriver& j) { add(j.a, j.b, j.law); }
-  void add(const DistanceDriver& j) { add(j.a, j.b, j.law); }
-  void add(const PointForce& f) {
-    const auto& [a, b, x, y, follows] = f;
-    add(a, b, x, y, follows);
-  }
-  void add(const Torque& f) { add(f.a, f.b, f.law); }
-  void add(const Spring& f) {
-    const auto& [a, b, k, c, free_length] = f;
-    add(a, b, k, c, free_length);
-  }
-  void add(const TorsionSpring& f) {
-    const auto& [a, b, k, c, free_angle] = f;
-    add(a, b, k, c, free_angle);
+  template <class Kind>
+    requires requires(const Kind& kind) { kind.members(); }
+  void add(const Kind& joint_or_force) {
+    std::apply([this](const auto&... member) { add(member...); }, joint_or_force.members());
   }
   void add(const ContactPair& p) {
     const auto& [journal, bearing, gap, normal, friction, sliding, slowest, link] = p;
@@ -88,8 +73,8 @@ class Sum : public ValueWriter<Sum> {
   }
   void add(const System& s) {
     const auto& [gravity, bodies, markers, joints, forces, contacts, joint_names, force_names, contact_names, length, eta_begin, scale,
-                 row_begin, row_scale, integrals, contact_z, force_z, joint_z] = s;
-    add(gravity, bodies, markers, joints, forces, contacts, joint_names, force_names, contact_names, length, eta_begin, scale, row_begin, row_scale);
+                 row_begin, end_begin, end_marker, row_scale, integrals, contact_z, force_z, joint_z] = s;
+    add(gravity, bodies, markers, joints, forces, contacts, joint_names, force_names, contact_names, length, eta_begin, scale, row_begin, end_begin, end_marker, row_scale);
     for (const Integral& z : integrals) add(z);
     add(contact_z, force_z, joint_z);
   }

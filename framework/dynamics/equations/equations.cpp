@@ -37,25 +37,19 @@ void subtract_reaction(const System& system, Equations& eq, const VectorXd& x, d
   Eigen::Map<VectorXd>(v, eq.g.size()) -= eq.g;
 }
 
-// ∂C/∂p of the marker's pose
-const double* row_of_L(const Equations& eq, const Equations::Source& r) {
-  const ConstraintRows& rows = eq.rows[at(r.joint)];
-  return (r.is_b ? rows.Lb : rows.La).data() + 3 * r.i;
-}
-
 // out += Cq v
 void add_product(const Equations& eq, const double* v, VectorXd& out) {
-  for (const Equations::Row& r : eq.side_rows) {
+  for (const Equations::EndRow& r : eq.end_rows) {
     const double *B = eq.B.front().data() + r.at, *x = v + r.q;
     out.data()[r.row] += B[0] * x[0] + B[1] * x[1] + B[2] * x[2];
   }
   if (eq.flexible.empty()) return;
-  for (const Equations::Side& side : eq.sides) {
-    if (!side.bends) continue;
-    double* o = out.data() + side.row;
-    const FlexibleInertia& body = eq.flexible[at(side.flexible)];
+  for (const Equations::End& end : eq.ends) {
+    if (!end.bends) continue;
+    double* o = out.data() + end.row;
+    const FlexibleInertia& body = eq.flexible[at(end.flexible)];
     const Eigen::Map<const VectorXd> eta(v + body.begin, body.n);
-    for (int r = 0; r < side.m; ++r) o[r] += eq.B_eta[side.block].row(r).dot(eta);
+    for (int r = 0; r < end.m; ++r) o[r] += eq.B_eta[end.at].row(r).dot(eta);
   }
 }
 
@@ -121,27 +115,27 @@ void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
       m.u = {std::cos(m.angle), std::sin(m.angle)};
   }
   for (std::size_t k = 0; k < system.joints.size(); ++k)
-    evaluate_pose(system.joints[k], eq.motion[eq.ends[k][0]], eq.motion[eq.ends[k][1]], t, eq.rows[k]);
+    evaluate_pose(system.joints[k], eq.motion.data(), t, eq.rows[k], eq.L.data() + system.end_begin[k]);
   for (Index row = 0; row < eq.C.size(); ++row) {
     const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
     eq.C[row] = eq.rows[at(joint)].C[i];
   }
-  for (std::size_t k = 0; k < eq.sources.size(); ++k) {  // B = L J
-    const double* L = row_of_L(eq, eq.sources[k]);
-    const Vector2d& d = eq.motion[at(eq.sources[k].marker)].d;
-    double* B = eq.B.front().data() + eq.side_rows[k].at;
+  for (const Equations::EndRow& r : eq.end_rows) {  // B = L J
+    const double* L = eq.L.front().data() + r.at;
+    const Vector2d& d = eq.motion[at(r.marker)].d;
+    double* B = eq.B.front().data() + r.at;
     B[0] = L[0];
     B[1] = L[1];
     B[2] = L[2] - L[0] * d.y() + L[1] * d.x();
   }
   if (eq.flexible.empty()) return;
-  for (const Equations::Side& side : eq.sides) {
-    if (!side.bends) continue;
-    const ConstraintRows::Block& L = side.is_b ? eq.rows[side.joint].Lb : eq.rows[side.joint].La;
-    RowBlock& B_eta = eq.B_eta[side.block];
-    const Eigen::Matrix2Xd& flex = eq.motion[at(side.marker)].flex;
-    for (int i = 0; i < side.m; ++i)
-      B_eta.row(i) = L(i, 0) * flex.row(0) + L(i, 1) * flex.row(1) + L(i, 2) * system.markers[at(side.marker)].slope;
+  for (const Equations::End& end : eq.ends) {
+    if (!end.bends) continue;
+    const ConstraintRows::Block& L = eq.L[end.at];
+    RowBlock& B_eta = eq.B_eta[end.at];
+    const Eigen::Matrix2Xd& flex = eq.motion[at(end.marker)].flex;
+    for (int i = 0; i < end.m; ++i)
+      B_eta.row(i) = L(i, 0) * flex.row(0) + L(i, 1) * flex.row(1) + L(i, 2) * system.markers[at(end.marker)].slope;
   }
 }
 
@@ -157,7 +151,7 @@ void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
     if (m.flex.cols() > 0) move_on_flexible(system, system.markers[i], y, eq.cos_[body], eq.sin_[body], m);
   }
   for (std::size_t k = 0; k < system.joints.size(); ++k)
-    evaluate_speed(system.joints[k], eq.motion[eq.ends[k][0]], eq.motion[eq.ends[k][1]], t, eq.rows[k]);
+    evaluate_speed(system.joints[k], eq.motion.data(), t, eq.rows[k]);
   for (Index row = 0; row < eq.Cdot.size(); ++row) {
     const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
     eq.Cdot[row] = eq.rows[at(joint)].Ct[i];
@@ -183,7 +177,7 @@ void add_mass_times(const System& system, const Equations& eq, const VectorXd& v
 }
 
 void add_reaction(const Equations& eq, const VectorXd& x, VectorXd& out) {
-  for (const Equations::Row& r : eq.side_rows) {
+  for (const Equations::EndRow& r : eq.end_rows) {
     const double *B = eq.B.front().data() + r.at, x_r = x.data()[r.row];
     double* o = out.data() + r.q;
     o[0] += B[0] * x_r;
@@ -191,11 +185,11 @@ void add_reaction(const Equations& eq, const VectorXd& x, VectorXd& out) {
     o[2] += B[2] * x_r;
   }
   if (eq.flexible.empty()) return;
-  for (const Equations::Side& side : eq.sides) {
-    if (!side.bends) continue;
-    const FlexibleInertia& body = eq.flexible[at(side.flexible)];
-    for (int r = 0; r < side.m; ++r)
-      out.segment(body.begin, body.n) += x[side.row + r] * eq.B_eta[side.block].row(r).transpose();
+  for (const Equations::End& end : eq.ends) {
+    if (!end.bends) continue;
+    const FlexibleInertia& body = eq.flexible[at(end.flexible)];
+    for (int r = 0; r < end.m; ++r)
+      out.segment(body.begin, body.n) += x[end.row + r] * eq.B_eta[end.at].row(r).transpose();
   }
 }
 
@@ -212,18 +206,23 @@ void factor(const System& system, const VectorXd& y, Equations& eq) {
     eq.regular = eq.schur.factor(eq.B, eq.B_eta_hat, least);
     return;
   }
-  for (const Equations::Side& side : eq.sides) {  // Cq M⁻¹ Cqᵀ = B̂ B̂ᵀ + B̂_η B̂_ηᵀ
-    if (side.flexible < 0) {
-      eq.B_hat[side.block] = eq.B[side.block];
-    } else if (!side.bends) {
-      eq.B_hat[side.block].noalias() = eq.B[side.block] * eq.flexible[at(side.flexible)].frame.root;
+  for (const Equations::End& end : eq.ends) {  // Cq M⁻¹ Cqᵀ = B̂ B̂ᵀ + B̂_η B̂_ηᵀ
+    if (end.flexible < 0) {
+      eq.B_hat[end.at] = eq.B[end.at];
+    } else if (!end.bends) {
+      eq.B_hat[end.at].noalias() = eq.B[end.at] * eq.flexible[at(end.flexible)].frame.root;
     } else {
       Eigen::Matrix3d B_hat;
-      to_metric(eq.flexible[at(side.flexible)], eq.B[side.block], eq.B_eta[side.block], B_hat, eq.B_eta_hat[side.block]);
-      eq.B_hat[side.block] = B_hat;
+      to_metric(eq.flexible[at(end.flexible)], eq.B[end.at], eq.B_eta[end.at], B_hat, eq.B_eta_hat[end.at]);
+      eq.B_hat[end.at] = B_hat;
     }
   }
   eq.regular = eq.schur.factor(eq.B_hat, eq.B_eta_hat, least);
+}
+
+Wrench reaction(const System& system, const Equations& eq, std::size_t joint, std::size_t end) {
+  const int row = system.row_begin[joint], m = system.row_begin[joint + 1] - row;
+  return -eq.L[at(system.end_begin[joint]) + end].topRows(m).transpose() * eq.lambda.segment(row, m);
 }
 
 void add_wrench(const System& system, const Equations& eq, int marker, const Wrench& w, VectorXd& v) {
@@ -284,10 +283,10 @@ void accelerate(const System& system, const State& state, Equations& eq) {
     const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
     eq.gamma[row] = -eq.rows[at(joint)].kappa[i];
   }
-  for (std::size_t k = 0; k < eq.sources.size(); ++k) {
-    const double* L = row_of_L(eq, eq.sources[k]);
-    const MarkerMotion& m = eq.motion[at(eq.sources[k].marker)];
-    eq.gamma.data()[eq.side_rows[k].row] -= L[0] * m.a0.x() + L[1] * m.a0.y() + L[2] * m.alpha0;
+  for (const Equations::EndRow& r : eq.end_rows) {
+    const double* L = eq.L.front().data() + r.at;
+    const MarkerMotion& m = eq.motion[at(r.marker)];
+    eq.gamma.data()[r.row] -= L[0] * m.a0.x() + L[1] * m.a0.y() + L[2] * m.alpha0;
   }
   solve_reactions(system, eq);
   ++eq.evaluations;

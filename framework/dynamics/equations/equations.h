@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,27 +19,19 @@ namespace pintle {
 struct Equations {
   explicit Equations(const System&);
 
-  /// One side of a joint on a body that moves, with the indices it needs at hand.
-  struct Side {
-    std::size_t joint, block;  ///< B[block] is its share of Cq
-    int marker, q, row, m;     ///< marker; first coordinate; first row; rows
-    bool is_b;
-    int flexible;              ///< index into `flexible`, −1 for a rigid body
-    bool bends;                ///< B_eta may be other than 0
+  /// An end of a joint on a body that moves, with the indices it needs at hand.
+  struct End {
+    std::size_t joint, at;   ///< L[at] and B[at] are its share of the joint's rows
+    int marker, q, row, m;   ///< marker; first coordinate; first row; rows
+    int flexible;            ///< index into `flexible`, −1 for a rigid body
+    bool bends;              ///< B_eta may be other than 0
   };
-  std::vector<Side> sides;
-  /// One row of a side on a body that moves, for products: B's three entries, counted through all blocks, at q.
-  struct Row {
-    int row, q, at;
+  std::vector<End> ends;
+  /// One row of an end, for products: three entries of L or B, counted through all blocks, at q.
+  struct EndRow {
+    int row, q, at, marker;
   };
-  std::vector<Row> side_rows;
-  /// … and where it comes from: row i of a joint's L at a marker.
-  struct Source {
-    int joint, marker;
-    short i;
-    bool is_b;
-  };
-  std::vector<Source> sources;
+  std::vector<EndRow> end_rows;
   /// What a pose needs of a marker on a rigid body or the ground; tables as narrow as they can be: large systems wait for memory.
   struct Point {
     int body;
@@ -51,15 +42,15 @@ struct Equations {
     int joint, i;
   };
   std::vector<JointRow> joint_rows;   ///< of each constraint row
-  std::vector<std::array<std::size_t, 2>> ends;  ///< markers a and b of each joint
   Eigen::VectorXd W;                  ///< M⁻¹ of rigid bodies, diagonal, n_rigid
   std::vector<FlexibleInertia> flexible;  ///< of each flexible body
   std::vector<int> flexible_of;       ///< per body, index into `flexible` or −1
 
   std::vector<MarkerMotion> motion;   ///< of each marker
-  std::vector<bool> directed;         ///< per marker: a slot or a following force asks for its direction u
+  std::vector<bool> directed;         ///< per marker: a joint or a following force asks for its direction u
   std::vector<ConstraintRows> rows;   ///< of each joint, in poses of its markers
-  std::vector<Schur::Block> B;        ///< rows of Cq, two blocks a joint: L J on [x y θ] …
+  std::vector<ConstraintRows::Block> L;  ///< … and their derivatives, one an end of a joint
+  std::vector<Schur::Block> B;        ///< rows of Cq, likewise: L J on [x y θ] …
   std::vector<RowBlock> B_eta;        ///< … and on η; empty for a rigid body
   std::vector<Schur::Block> B_hat;    ///< both in the metric of M⁻¹: see to_metric
   std::vector<RowBlock> B_eta_hat;
@@ -183,18 +174,21 @@ void visit_motion(const System& system, const Equations& eq, int marker, Put put
 /// put(row, column, value) for each entry of Cq, zeros included. After pose.
 template <class Put>
 void visit_jacobian(const Equations& eq, Put put) {
-  for (const Equations::Side& side : eq.sides)
-    for (int r = 0; r < side.m; ++r) {
-      for (int c = 0; c < 3; ++c) put(side.row + r, side.q + c, eq.B[side.block](r, c));
-      if (side.flexible < 0) continue;
-      const FlexibleInertia& body = eq.flexible[static_cast<std::size_t>(side.flexible)];
-      for (int c = 0; c < body.n; ++c) put(side.row + r, body.begin + c, eq.B_eta[side.block](r, c));
+  for (const Equations::End& end : eq.ends)
+    for (int r = 0; r < end.m; ++r) {
+      for (int c = 0; c < 3; ++c) put(end.row + r, end.q + c, eq.B[end.at](r, c));
+      if (end.flexible < 0) continue;
+      const FlexibleInertia& body = eq.flexible[static_cast<std::size_t>(end.flexible)];
+      for (int c = 0; c < body.n; ++c) put(end.row + r, body.begin + c, eq.B_eta[end.at](r, c));
     }
 }
 
 /// What clearance joint c does in an evaluated state: its contact, or its massless link, whose normal force is
 /// that of the row, acts at the centres, and is below zero where the link pushes as no wall could pull.
 ContactEffect clearance_effect(const System&, const Equations&, std::size_t c);
+
+/// What a joint does at one of its ends, −L_iᵀλ.
+Wrench reaction(const System&, const Equations&, std::size_t joint, std::size_t end);
 
 /// v ← v + Σ of a marker's wrench brought to its body's coordinates.
 void add_wrench(const System&, const Equations&, int marker, const Wrench&, Eigen::VectorXd& v);

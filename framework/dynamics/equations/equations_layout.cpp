@@ -1,4 +1,4 @@
-// What the equations of a system have room for: tables of markers, sides and rows, found once.
+// What the equations of a system have room for: tables of markers, ends and rows, found once.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,7 +14,8 @@ using Index = Eigen::Index;
 Equations::Equations(const System& system)
     : motion(system.markers.size()),
       rows(system.joints.size()),
-      B(2 * system.joints.size(), Schur::Block::Zero()),
+      L(system.end_marker.size(), ConstraintRows::Block::Zero()),
+      B(L.size(), Schur::Block::Zero()),
       B_eta(B.size()),
       schur(system),
       C(VectorXd::Zero(system.n_rows())),
@@ -39,7 +40,7 @@ Equations::Equations(const System& system)
   }
   directed.assign(motion.size(), false);
   for (const Joint& j : system.joints)
-    if (std::holds_alternative<Slot>(j) || std::holds_alternative<Prismatic>(j)) directed[at(marker_a(j))] = true;
+    if (properties_of(j).direction) directed[at(*ends_of(j).begin())] = true;
   for (const Force& acting : system.forces)
     if (const auto* p = std::get_if<PointForce>(&acting); p && p->follows) directed[at(p->b)] = true;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
@@ -51,25 +52,20 @@ Equations::Equations(const System& system)
   for (std::size_t i = 0; i < motion.size(); ++i)
     if (system.markers[i].body != ground) motion[i].flex.setZero(2, system.bodies[at(system.markers[i].body)].modes());
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
-    const std::array<int, 2> markers{marker_a(system.joints[k]), marker_b(system.joints[k])};
-    ends.push_back({at(markers[0]), at(markers[1])});
-    for (int i = 0; i < pintle::rows(system.joints[k]); ++i) joint_rows.push_back({static_cast<int>(k), i});
-    for (std::size_t s = 0; s < 2; ++s)
-      if (const int body = system.markers[at(markers[s])].body; body != ground) {
-        sides.push_back({k, 2 * k + s, markers[s], 3 * body, system.row_begin[k],
-                         system.row_begin[k + 1] - system.row_begin[k], s == 1, flexible_of[at(body)],
-                         feels_shapes(system, system.joints[k], markers[s])});
-        for (int i = 0; i < sides.back().m; ++i) {
-          side_rows.push_back({system.row_begin[k] + i, 3 * body, static_cast<int>(9 * (2 * k + s)) + 3 * i});
-          sources.push_back({static_cast<int>(k), markers[s], static_cast<short>(i), s == 1});
-        }
-        B_eta[2 * k + s].setZero(3, system.bodies[at(body)].modes());
-      }
+    const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
+    for (int i = 0; i < m; ++i) joint_rows.push_back({static_cast<int>(k), i});
+    for (int e = system.end_begin[k]; e < system.end_begin[k + 1]; ++e) {
+      const int marker = system.end_marker[at(e)], body = system.markers[at(marker)].body;
+      if (body == ground) continue;
+      ends.push_back({k, at(e), marker, 3 * body, row, m, flexible_of[at(body)], feels_shapes(system, system.joints[k], marker)});
+      for (int i = 0; i < m; ++i) end_rows.push_back({row + i, 3 * body, 9 * e + 3 * i, marker});
+      B_eta[at(e)].setZero(3, system.bodies[at(body)].modes());
+    }
   }
   if (!flexible.empty()) B_hat = B;
   B_eta_hat = B_eta;
-  for (const Side& side : sides)
-    if (side.flexible >= 0 && flexible[at(side.flexible)].stiffens) B_eta_hat[side.block].setZero(3, flexible[at(side.flexible)].n + 3);
+  for (const End& end : ends)
+    if (end.flexible >= 0 && flexible[at(end.flexible)].stiffens) B_eta_hat[end.at].setZero(3, flexible[at(end.flexible)].n + 3);
   W.resize(system.n_rigid());
   constexpr double alike = 100;  // inverse inertias that leave no more than two digits of rounding
   double least = std::numeric_limits<double>::infinity(), most = 0;

@@ -28,11 +28,11 @@ int coordinate(const System& system, int body, int i) {
 
 Tangent::Tangent(const System& system) {
   for (std::size_t i = 0; i < system.joints.size(); ++i)
-    link(system, Pair::joint, i, marker_a(system.joints[i]), marker_b(system.joints[i]), reach(system.joints[i]));
+    add(system, Interaction::joint, i, ends_of(system.joints[i]), properties_of(system.joints[i]).curvature);
   for (std::size_t i = 0; i < system.forces.size(); ++i)
-    link(system, Pair::force, i, marker_a(system.forces[i]), marker_b(system.forces[i]), reach(system.forces[i]));
+    add(system, Interaction::force, i, {{marker_a(system.forces[i]), marker_b(system.forces[i])}, 2}, wrench_pattern(system.forces[i]));
   for (std::size_t i = 0; i < system.contacts.size(); ++i)
-    link(system, Pair::contact, i, system.contacts[i].journal, system.contacts[i].bearing, reach(system.contacts[i]));
+    add(system, Interaction::contact, i, {{system.contacts[i].journal, system.contacts[i].bearing}, 2}, contact_pattern);
   lay_out(system);
 
   Index most = 0;
@@ -46,17 +46,22 @@ Tangent::Tangent(const System& system) {
   }
 }
 
-// Notes the pair with 0 for each block that it has; lay_out turns these into places.
-void Tangent::link(const System& system, Pair::Kind kind, std::size_t index, int a, int b, const PairReach& r) {
-  const bool on_a = system.markers[at(a)].body != ground, on_b = system.markers[at(b)].body != ground;
-  const auto block = [](bool there) { return there ? 0 : -1; };
-  const bool between = r.ab && on_a && on_b;
-  const Pair pair{kind, index, {a, b}, {{{block(r.aa && on_a), block(between)}, {block(between), block(r.bb && on_b)}}}, r.rate};
-  if (pair.block[0][0] >= 0 || pair.block[1][1] >= 0 || between) pairs_.push_back(pair);
+// Notes the interaction with 0 for each block that it has; lay_out turns these into places.
+void Tangent::add(const System& system, Interaction::Kind kind, std::size_t index, const JointEnds& ends, const WrenchPattern& pattern) {
+  const auto moves = [&](std::size_t end) { return system.markers[at(ends.marker[end])].body != ground; };
+  Interaction x{kind, index, at(ends.n), ends.marker, {}, pattern.rate};
+  bool any = false;
+  for (std::size_t i = 0; i < x.n; ++i)
+    for (std::size_t j = 0; j < x.n; ++j) {
+      const bool there = pattern.block[i][j] && moves(i) && moves(j);
+      x.block[i][j] = there ? 0 : -1;
+      any = any || there;
+    }
+  if (any) interactions_.push_back(x);
 }
 
 void Tangent::lay_out(const System& system) {
-  const auto body_of = [&](const Pair& pair, std::size_t side) { return system.markers[at(pair.marker[side])].body; };
+  const auto body_of = [&](const Interaction& x, std::size_t end) { return system.markers[at(x.marker[end])].body; };
   const auto put_block = [&](int row_body, int column_body) {
     const int begin = static_cast<int>(places_.size());
     for (int j = 0; j < size_of(system, column_body); ++j)
@@ -64,15 +69,16 @@ void Tangent::lay_out(const System& system) {
         places_.push_back({coordinate(system, row_body, i), coordinate(system, column_body, j)});
     return begin;
   };
+  const auto each_block = [&](auto does) {
+    for (Interaction& x : interactions_)
+      for (std::size_t i = 0; i < x.n; ++i)
+        for (std::size_t j = 0; j < x.n; ++j)
+          if (x.block[i][j] >= 0) does(x.block[i][j], body_of(x, i), body_of(x, j));
+  };
 
   std::vector<bool> full;
   for (const Body& body : system.bodies) full.push_back(body.modes() > 0);
-  for (const Pair& pair : pairs_)
-    for (const std::size_t side : {0u, 1u}) {
-      // Both ends on one body: what is between them is its own.
-      const bool itself = pair.block[0][1] >= 0 && body_of(pair, 0) == body_of(pair, 1);
-      if (pair.block[side][side] >= 0 || itself) full[at(body_of(pair, side))] = true;
-    }
+  each_block([&](int, int row, int column) { if (row == column) full[at(row)] = true; });
 
   for (int b = 0; b < static_cast<int>(system.bodies.size()); ++b) {
     const int begin = static_cast<int>(places_.size());
@@ -83,19 +89,15 @@ void Tangent::lay_out(const System& system) {
       for (int i = 0; i < 3; ++i) places_.push_back({3 * b + i, 3 * b + i});
   }
   std::map<std::pair<int, int>, int> known;
-  for (Pair& pair : pairs_)
-    for (const std::size_t i : {0u, 1u})
-      for (const std::size_t j : {0u, 1u}) {
-        if (pair.block[i][j] < 0) continue;
-        const int row = body_of(pair, i), column = body_of(pair, j);
-        if (row == column) {
-          pair.block[i][j] = own_[at(row)].begin;
-          continue;
-        }
-        const auto [place, is_new] = known.try_emplace({row, column});
-        if (is_new) place->second = put_block(row, column);
-        pair.block[i][j] = place->second;
-      }
+  each_block([&](int& block, int row, int column) {
+    if (row == column) {
+      block = own_[at(row)].begin;
+      return;
+    }
+    const auto [place, is_new] = known.try_emplace({row, column});
+    if (is_new) place->second = put_block(row, column);
+    block = place->second;
+  });
 }
 
 void Tangent::evaluate(const System& system, const State& state, const Equations& eq, const VectorXd& a,
@@ -103,7 +105,7 @@ void Tangent::evaluate(const System& system, const State& state, const Equations
   std::fill(values.begin(), values.end(), 0.0);
   add_inertia(system, state, eq, a, w, values.data());
   if (w.q != 0) add_geometric_stiffness_of_forces(system, eq, lambda, w.q, values.data());
-  if (w.q != 0 || w.s != 0) add_pairs(system, state, eq, lambda, w, values.data());
+  if (w.q != 0 || w.s != 0) add_interactions(system, state, eq, lambda, w, values.data());
 }
 
 void Tangent::add_inertia(const System& system, const State& state, const Equations& eq, const VectorXd& a, const Weights& w,
@@ -127,17 +129,16 @@ void Tangent::add_geometric_stiffness_of_forces(const System& system, const Equa
                           double* values) const {
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
-    const ConstraintRows& rows = eq.rows[k];
-    double ax = 0, ay = 0, bx = 0, by = 0;
-    for (int i = 0; i < m; ++i) {
-      const double l = weight * lambda[row + i];
-      ax -= rows.La(i, 0) * l;
-      ay -= rows.La(i, 1) * l;
-      bx -= rows.Lb(i, 0) * l;
-      by -= rows.Lb(i, 1) * l;
+    for (int e = system.end_begin[k]; e < system.end_begin[k + 1]; ++e) {
+      const ConstraintRows::Block& L = eq.L[at(e)];
+      double fx = 0, fy = 0;
+      for (int i = 0; i < m; ++i) {
+        const double l = weight * lambda[row + i];
+        fx -= L(i, 0) * l;
+        fy -= L(i, 1) * l;
+      }
+      add_geometric_stiffness(system, eq, system.end_marker[at(e)], fx, fy, values);
     }
-    add_geometric_stiffness(system, eq, static_cast<int>(eq.ends[k][0]), ax, ay, values);
-    add_geometric_stiffness(system, eq, static_cast<int>(eq.ends[k][1]), bx, by, values);
   }
   for (std::size_t k = 0; k < system.forces.size(); ++k) {
     const ForceEffect& now = eq.force[k];
@@ -171,7 +172,7 @@ void Tangent::add_geometric_stiffness(const System& system, const Equations& eq,
   K.bottomRightCorner(n, n) -= (c * fx + s * fy) * m.second[0] + (c * fy - s * fx) * m.second[1];
 }
 
-void Tangent::stand(const System& system, const State& state, const Equations& eq, int marker, End& end) const {
+void Tangent::move(const System& system, const State& state, const Equations& eq, int marker, End& end) const {
   const Marker& m = system.markers[at(marker)];
   end.n = 0;
   if (m.body == ground) return;
@@ -196,37 +197,37 @@ void Tangent::stand(const System& system, const State& state, const Equations& e
 }
 
 // −Jᵀ(P J + D V) in q and −JᵀD J in s, P and D the derivatives of the wrenches in poses and their rates.
-void Tangent::add_pairs(const System& system, const State& state, const Equations& eq, const VectorXd& lambda,
+void Tangent::add_interactions(const System& system, const State& state, const Equations& eq, const VectorXd& lambda,
                         const Weights& w, double* values) {
-  for (const Pair& pair : pairs_) {
-    if (w.q == 0 && !pair.rate) continue;
-    if (pair.kind == Pair::contact && eq.contact[pair.index].normal.force == 0) continue;
-    const MarkerMotion &a = eq.motion[at(pair.marker[0])], &b = eq.motion[at(pair.marker[1])];
-    const PairTangent tangent =
-        pair.kind == Pair::joint   ? pair_tangent(system.joints[pair.index], a, b, lambda.data() + system.row_begin[pair.index])
-        : pair.kind == Pair::force ? pair_tangent(system.forces[pair.index], eq.force[pair.index], a, b)
-                                   : pair_tangent(system.contacts[pair.index], eq.contact[pair.index], a, b);
-    for (const std::size_t i : {0u, 1u}) stand(system, state, eq, pair.marker[i], ends_[i]);
+  for (const Interaction& x : interactions_) {
+    if (w.q == 0 && !x.rate) continue;
+    if (x.kind == Interaction::contact && eq.contact[x.index].normal.force == 0) continue;
+    const MarkerMotion &a = eq.motion[at(x.marker[0])], &b = eq.motion[at(x.marker[1])];
+    const WrenchTangent tangent =
+        x.kind == Interaction::joint   ? wrench_tangent(system.joints[x.index], eq.motion.data(), lambda.data() + system.row_begin[x.index])
+        : x.kind == Interaction::force ? wrench_tangent(system.forces[x.index], eq.force[x.index], a, b)
+                                       : wrench_tangent(system.contacts[x.index], eq.contact[x.index], a, b);
+    for (std::size_t i = 0; i < x.n; ++i) move(system, state, eq, x.marker[i], ends_[i]);
 
-    for (const std::size_t i : {0u, 1u})
-      for (const std::size_t j : {0u, 1u}) {
-        if (pair.block[i][j] < 0) continue;
+    for (std::size_t i = 0; i < x.n; ++i)
+      for (std::size_t j = 0; j < x.n; ++j) {
+        if (x.block[i][j] < 0) continue;
         const End &on = ends_[i], &by = ends_[j];
         const Index row = static_cast<Index>(3 * i), column = static_cast<Index>(3 * j);
         Matrix3d K = w.q * tangent.pose.block<3, 3>(row, column);
         Matrix3d D = Matrix3d::Zero();
-        if (pair.rate) {
+        if (x.rate) {
           D = tangent.rate.block<3, 3>(row, column);
           K += w.s * D;
           D *= w.q;
         }
         Matrix3d in_frame = K;  // (K J + D V) on [x y θ], J being [1 J_θ J_η]
         in_frame.col(2) = K * by.J_theta + D * by.V_theta;
-        Eigen::Map<Matrix3d, 0, Eigen::OuterStride<>> frame(values + pair.block[i][j], Eigen::OuterStride<>(3 + on.n));
+        Eigen::Map<Matrix3d, 0, Eigen::OuterStride<>> frame(values + x.block[i][j], Eigen::OuterStride<>(3 + on.n));
         frame.topRows<2>() -= in_frame.topRows<2>();
         frame.row(2) -= on.J_theta.transpose() * in_frame;
         if (on.n == 0 && by.n == 0) continue;
-        Block block(values + pair.block[i][j], 3 + on.n, 3 + by.n);
+        Block block(values + x.block[i][j], 3 + on.n, 3 + by.n);
         const auto from_shapes = on.J_eta.topRows(on.n);
         for (Index c = 0; c < 3; ++c) block.col(c).tail(on.n).noalias() -= from_shapes.lazyProduct(in_frame.col(c));
         for (Index c = 0; c < by.n; ++c) {

@@ -5,13 +5,13 @@
 
 #include "framework/dynamics/equations/equations.h"
 #include "framework/dynamics/model/flexible_tangent.h"
-#include "framework/dynamics/model/pair_tangent.h"
+#include "framework/dynamics/model/wrench_tangent.h"
 
 namespace pintle {
 
 /// How the residual of the equations of motion, r(q, s, a, λ, t) = M a + Cqᵀλ − f, answers to small
 /// changes: ∂r/∂q, ∂r/∂s and ∂r/∂a = M, each n × n. Its pattern follows from the system alone: a block for
-/// each body and two for each pair of bodies whose interaction answers to their relative motion; pins and
+/// each body and two for each two bodies whose interaction answers to their relative motion; pins and
 /// welds, which do not, couple no bodies. Theory: docs/theory/tangent.md.
 class Tangent {
  public:
@@ -36,16 +36,16 @@ class Tangent {
   struct Own {
     int begin, stride;
   };
-  /// What answers to poses or rates of its two markers. block[i][j]: first summand of ∂(force on body i)/
+  /// What answers to poses or rates of its n markers. block[i][j]: first summand of ∂(force on body i)/
   /// ∂(coordinates of body j), by columns; −1 where there is none.
-  struct Pair {
+  struct Interaction {
     enum Kind { joint, force, contact } kind;
-    std::size_t index;
-    std::array<int, 2> marker;
-    std::array<std::array<int, 2>, 2> block;
+    std::size_t index, n;
+    std::array<int, most_ends> marker;
+    std::array<std::array<int, most_ends>, most_ends> block;
     bool rate;
   };
-  /// One end of a pair: ṗ = [1 J_θ J_ηᵀ]s and its derivatives V by θ and, transposed, by η.
+  /// A marker's motion in its body's coordinates: ṗ = [1 J_θ J_ηᵀ]s and its derivatives V by θ and, transposed, by η.
   struct End {
     Eigen::Vector3d J_theta, V_theta;
     Eigen::MatrixX3d J_eta, V_eta;
@@ -53,18 +53,18 @@ class Tangent {
   };
 
   void lay_out(const System&);
-  void link(const System&, Pair::Kind, std::size_t index, int marker_a, int marker_b, const PairReach&);
+  void add(const System&, Interaction::Kind, std::size_t index, const JointEnds&, const WrenchPattern&);
   void add_inertia(const System&, const State&, const Equations&, const Eigen::VectorXd& a, const Weights&, double* values);
   void add_geometric_stiffness_of_forces(const System&, const Equations&, const Eigen::VectorXd& lambda, double weight, double* values) const;
   void add_geometric_stiffness(const System&, const Equations&, int marker, double fx, double fy, double* values) const;
-  void add_pairs(const System&, const State&, const Equations&, const Eigen::VectorXd& lambda, const Weights&, double* values);
-  void stand(const System&, const State&, const Equations&, int marker, End&) const;
+  void add_interactions(const System&, const State&, const Equations&, const Eigen::VectorXd& lambda, const Weights&, double* values);
+  void move(const System&, const State&, const Equations&, int marker, End&) const;
 
   std::vector<Place> places_;
   std::vector<Own> own_;  ///< per body
-  std::vector<Pair> pairs_;
+  std::vector<Interaction> interactions_;
   std::vector<FlexibleScratch> flexible_;  ///< per flexible body
-  std::array<End, 2> ends_;
+  std::array<End, most_ends> ends_;
 };
 
 /// The same as a dense matrix; for those who have time.

@@ -6,6 +6,7 @@
 #include "contact/gap.h"
 #include "contact/normal_law.h"
 #include "framework/dynamics/model/marker.h"
+#include "framework/dynamics/model/wrench_tangent.h"
 
 namespace pintle {
 
@@ -38,5 +39,10 @@ MovingPoint moving_point(const MarkerMotion&);
 /// @param impact_rate  latched approach speed [m/s]; 0 while open: then only the gap is found
 ContactEffect evaluate(const ContactPair&, const MarkerMotion& journal, const MarkerMotion& bearing,
                        double impact_rate);
+
+inline constexpr WrenchPattern contact_pattern{{{{true, true}, {true, true}}}, true};
+/// How the wrenches [journal; bearing] answer to the motion, the latched approach speed held. Zero while open.
+/// @param now  what the contact does in this state
+WrenchTangent wrench_tangent(const ContactPair&, const ContactEffect& now, const MarkerMotion& journal, const MarkerMotion& bearing);
 
 }  // namespace pintle

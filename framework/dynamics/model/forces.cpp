@@ -7,8 +7,12 @@ namespace pintle {
 namespace {
 
 using Eigen::Vector2d;
+using M = const MarkerMotion&;
 
-ForceEffect effect(const PointForce& f, const MarkerMotion&, const MarkerMotion& b, double t) {
+constexpr WrenchPattern constant{};
+constexpr WrenchPattern between(bool rate) { return {{{{true, true}, {true, true}}}, rate}; }
+
+ForceEffect effect(const PointForce& f, M, M b, double t) {
   Vector2d force(f.x(t).value, f.y(t).value);
   if (f.follows) force = force.x() * b.u + force.y() * perp(b.u);
   ForceEffect e;
@@ -16,8 +20,12 @@ ForceEffect effect(const PointForce& f, const MarkerMotion&, const MarkerMotion&
   e.input = force.dot(b.v);
   return e;
 }
+WrenchPattern pattern(const PointForce& f) { return {{{{}, {false, f.follows}}}, false}; }
+void curve(const PointForce& f, const ForceEffect& now, M, M, WrenchTangent& out) {
+  if (f.follows) out.pose.block<2, 1>(place_of(1), angle_of(1)) = perp(now.on_b.head<2>());
+}
 
-ForceEffect effect(const Torque& f, const MarkerMotion& a, const MarkerMotion& b, double t) {
+ForceEffect effect(const Torque& f, M a, M b, double t) {
   const double torque = f.law(t).value;
   ForceEffect e;
   e.on_a[2] = -torque;
@@ -25,8 +33,10 @@ ForceEffect effect(const Torque& f, const MarkerMotion& a, const MarkerMotion& b
   e.input = torque * (b.w - a.w);
   return e;
 }
+WrenchPattern pattern(const Torque&) { return constant; }
+void curve(const Torque&, const ForceEffect&, M, M, WrenchTangent&) {}
 
-ForceEffect effect(const Spring& f, const MarkerMotion& a, const MarkerMotion& b, double) {
+ForceEffect effect(const Spring& f, M a, M b, double) {
   const Vector2d d = b.r - a.r;
   const double length = d.norm(), stretch = length - f.free_length;
   ForceEffect e;
@@ -40,8 +50,19 @@ ForceEffect effect(const Spring& f, const MarkerMotion& a, const MarkerMotion& b
   e.dissipation = f.c * rate * rate;
   return e;
 }
+WrenchPattern pattern(const Spring& f) { return between(f.c != 0); }
+void curve(const Spring& f, const ForceEffect&, M a, M b, WrenchTangent& out) {
+  const Vector2d d = b.r - a.r, v = b.v - a.v;
+  const double length = d.norm();
+  if (length == 0) return;
+  const Vector2d along = d / length, across = perp(along);
+  const double pull = f.k * (length - f.free_length) + f.c * along.dot(v);
+  const Vector2d slope = f.k * along + f.c * across.dot(v) / length * across;  // of the pull
+  oppose(along * slope.transpose() + pull / length * across * across.transpose(), out.pose);
+  oppose(f.c * along * along.transpose(), out.rate);
+}
 
-ForceEffect effect(const TorsionSpring& f, const MarkerMotion& a, const MarkerMotion& b, double) {
+ForceEffect effect(const TorsionSpring& f, M a, M b, double) {
   const double twist = b.angle - a.angle - f.free_angle, rate = b.w - a.w;
   const double torque = f.k * twist + f.c * rate;
   ForceEffect e;
@@ -51,11 +72,26 @@ ForceEffect effect(const TorsionSpring& f, const MarkerMotion& a, const MarkerMo
   e.dissipation = f.c * rate * rate;
   return e;
 }
+WrenchPattern pattern(const TorsionSpring& f) { return between(f.c != 0); }
+void curve(const TorsionSpring& f, const ForceEffect&, M, M, WrenchTangent& out) {
+  twist(f.k, out.pose);
+  twist(f.c, out.rate);
+}
 
 }  // namespace
 
 ForceEffect evaluate(const Force& f, const MarkerMotion& a, const MarkerMotion& b, double t) {
   return std::visit([&](const auto& k) { return effect(k, a, b, t); }, f);
+}
+
+WrenchPattern wrench_pattern(const Force& f) {
+  return std::visit([](const auto& k) { return pattern(k); }, f);
+}
+
+WrenchTangent wrench_tangent(const Force& f, const ForceEffect& now, const MarkerMotion& a, const MarkerMotion& b) {
+  WrenchTangent out(2);
+  std::visit([&](const auto& k) { curve(k, now, a, b, out); }, f);
+  return out;
 }
 
 }  // namespace pintle

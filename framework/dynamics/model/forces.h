@@ -1,9 +1,11 @@
 #pragma once
 
+#include <tuple>
 #include <variant>
 
 #include "framework/common/time_law.h"
 #include "framework/dynamics/model/marker.h"
+#include "framework/dynamics/model/wrench_tangent.h"
 
 namespace pintle {
 
@@ -21,27 +23,35 @@ struct PointForce {
   int a, b;  ///< markers
   TimeLaw x, y;  ///< [N]
   bool follows = false;
+  auto members() const { return std::tie(a, b, x, y, follows); }
 };
 /// A torque on b, its opposite on a.
 struct Torque {
   int a, b;
   TimeLaw law;  ///< [N m]
+  auto members() const { return std::tie(a, b, law); }
 };
 /// f = k(ℓ − ℓ₀) + c ℓ̇ along the line from a to b, pulling when positive.
 struct Spring {
   int a, b;
   double k, c, free_length;  ///< [N/m], [N s/m], [m]
+  auto members() const { return std::tie(a, b, k, c, free_length); }
 };
 /// τ = k(φ − φ₀) + c φ̇, φ = φ_b − φ_a; turns b back.
 struct TorsionSpring {
   int a, b;
   double k, c, free_angle;  ///< [N m/rad], [N m s/rad], [rad]
+  auto members() const { return std::tie(a, b, k, c, free_angle); }
 };
 
 using Force = std::variant<PointForce, Torque, Spring, TorsionSpring>;
 
 /// Cannot fail. A spring of no length has no direction and gives no force.
 ForceEffect evaluate(const Force&, const MarkerMotion& a, const MarkerMotion& b, double t);
+
+WrenchPattern wrench_pattern(const Force&);
+/// How the wrenches answer to the motion. @param now  what the force does in this state
+WrenchTangent wrench_tangent(const Force&, const ForceEffect& now, const MarkerMotion& a, const MarkerMotion& b);
 
 inline int marker_a(const Force& f) {
   return std::visit([](const auto& k) { return k.a; }, f);

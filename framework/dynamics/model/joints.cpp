@@ -3,144 +3,168 @@
 #include <cmath>
 #include <string_view>
 
+#include "framework/common/index.h"
+
 namespace pintle {
 
 namespace {
 
 using Eigen::Vector2d;
+using Block = ConstraintRows::Block;
+using M = const MarkerMotion&;
 
-// Rows shared by several joints. `row` is where they start.
+// What several joints have in common. `row` is where the rows of a part start; a has the block L[0], b L[1].
 
-void coincide(const MarkerMotion& a, const MarkerMotion& b, ConstraintRows& out) {
+void coincide(M a, M b, ConstraintRows& out, Block* L) {
   out.C.head<2>() = b.r - a.r;
-  out.La.row(0) << -1, 0, 0;
-  out.La.row(1) << 0, -1, 0;
-  out.Lb.row(0) << 1, 0, 0;
-  out.Lb.row(1) << 0, 1, 0;
-  out.kappa.head<2>().setZero();
+  L[0].row(0) << -1, 0, 0;
+  L[0].row(1) << 0, -1, 0;
+  L[1].row(0) << 1, 0, 0;
+  L[1].row(1) << 0, 1, 0;
 }
 
 // C = n·d with d = r_b − r_a;  Ċ = n·ḋ − w_a u·d
-void ride_line(const MarkerMotion& a, const MarkerMotion& b, ConstraintRows& out) {
+void ride_line(M a, M b, ConstraintRows& out, Block* L) {
   const Vector2d n = perp(a.u), d = b.r - a.r;
   out.C[0] = n.dot(d);
-  out.La.row(0) << -n.x(), -n.y(), -a.u.dot(d);
-  out.Lb.row(0) << n.x(), n.y(), 0;
+  L[0].row(0) << -n.x(), -n.y(), -a.u.dot(d);
+  L[1].row(0) << n.x(), n.y(), 0;
 }
-double ride_line_kappa(const MarkerMotion& a, const MarkerMotion& b) {
+double ride_line_kappa(M a, M b) {
   const Vector2d d = b.r - a.r, dv = b.v - a.v;
   return -2 * a.w * a.u.dot(dv) - a.w * a.w * perp(a.u).dot(d);
 }
+// Minus the Hessian of λ n·d, n = Zu_a.
+void ride_line_tangent(M a, M b, double lambda, WrenchTangent& out) {
+  const Vector2d along = lambda * a.u;
+  const Eigen::Index a_turns = angle_of(0);
+  out.pose.block<2, 1>(place_of(0), a_turns) = -along;
+  out.pose.block<1, 2>(a_turns, place_of(0)) = -along.transpose();
+  out.pose.block<2, 1>(place_of(1), a_turns) = along;
+  out.pose.block<1, 2>(a_turns, place_of(1)) = along.transpose();
+  out.pose(a_turns, a_turns) = lambda * cross(a.u, b.r - a.r);
+}
 
-void keep_angle(const MarkerMotion& a, const MarkerMotion& b, double angle, int row,
-                ConstraintRows& out) {
+void keep_angle(M a, M b, double angle, int row, ConstraintRows& out, Block* L) {
   out.C[row] = b.angle - a.angle - angle;
-  out.La.row(row) << 0, 0, -1;
-  out.Lb.row(row) << 0, 0, 1;
-  out.kappa[row] = 0;
+  L[0].row(row) << 0, 0, -1;
+  L[1].row(row) << 0, 0, 1;
 }
 
 // C = |d| − length;  Ċ = e·ḋ;  C̈ = e·d̈ + (|ḋ|² − (e·ḋ)²)/|d|
-Vector2d direction(const MarkerMotion& a, const MarkerMotion& b) {
+Vector2d direction(M a, M b) {
   const Vector2d d = b.r - a.r;
   const double length = d.norm();
   return length > 0 ? Vector2d(d / length) : Vector2d(1, 0);
 }
-void keep_length(const MarkerMotion& a, const MarkerMotion& b, double length, ConstraintRows& out) {
+void keep_length(M a, M b, double length, ConstraintRows& out, Block* L) {
   const Vector2d e = direction(a, b);
   out.C[0] = (b.r - a.r).norm() - length;
-  out.La.row(0) << -e.x(), -e.y(), 0;
-  out.Lb.row(0) << e.x(), e.y(), 0;
+  L[0].row(0) << -e.x(), -e.y(), 0;
+  L[1].row(0) << e.x(), e.y(), 0;
 }
-double keep_length_kappa(const MarkerMotion& a, const MarkerMotion& b) {
+double keep_length_kappa(M a, M b) {
   const double across = cross(direction(a, b), b.v - a.v), length = (b.r - a.r).norm();
   return length > 0 ? across * across / length : 0;
 }
-
-void pose(const Revolute&, const MarkerMotion& a, const MarkerMotion& b, double, ConstraintRows& out) {
-  coincide(a, b, out);
-}
-void pose(const Slot&, const MarkerMotion& a, const MarkerMotion& b, double, ConstraintRows& out) {
-  ride_line(a, b, out);
-}
-void pose(const Prismatic& j, const MarkerMotion& a, const MarkerMotion& b, double,
-          ConstraintRows& out) {
-  ride_line(a, b, out);
-  keep_angle(a, b, j.angle, 1, out);
-}
-void pose(const Weld& j, const MarkerMotion& a, const MarkerMotion& b, double, ConstraintRows& out) {
-  coincide(a, b, out);
-  keep_angle(a, b, j.angle, 2, out);
-}
-void pose(const Distance& j, const MarkerMotion& a, const MarkerMotion& b, double,
-          ConstraintRows& out) {
-  keep_length(a, b, j.length, out);
-}
-void pose(const AngleDriver& j, const MarkerMotion& a, const MarkerMotion& b, double t,
-          ConstraintRows& out) {
-  keep_angle(a, b, j.law(t).value, 0, out);
-}
-void pose(const DistanceDriver& j, const MarkerMotion& a, const MarkerMotion& b, double t,
-          ConstraintRows& out) {
-  keep_length(a, b, j.law(t).value, out);
+// Minus the Hessian of λ |d|.
+void keep_length_tangent(M a, M b, double lambda, WrenchTangent& out) {
+  const Vector2d d = b.r - a.r;
+  const double length = d.norm();
+  if (length == 0) return;
+  const Vector2d across = perp(d) / length;
+  oppose(lambda / length * across * across.transpose(), out.pose);
 }
 
-void speed(const Revolute&, const MarkerMotion&, const MarkerMotion&, double, ConstraintRows&) {}
-void speed(const Slot&, const MarkerMotion& a, const MarkerMotion& b, double, ConstraintRows& out) {
-  out.kappa[0] = ride_line_kappa(a, b);
+// The joints, each: `pose` gives C and L, `speed` Ct and kappa where they are not zero, `curve` the tangent of its wrenches
+// where it is not zero. m: all markers.
+
+void pose(const Revolute& j, const MarkerMotion* m, double, ConstraintRows& out, Block* L) { coincide(m[j.a], m[j.b], out, L); }
+
+void pose(const Slot& j, const MarkerMotion* m, double, ConstraintRows& out, Block* L) { ride_line(m[j.a], m[j.b], out, L); }
+void speed(const Slot& j, const MarkerMotion* m, double, ConstraintRows& out) { out.kappa[0] = ride_line_kappa(m[j.a], m[j.b]); }
+void curve(const Slot& j, const MarkerMotion* m, const double* lambda, WrenchTangent& out) {
+  ride_line_tangent(m[j.a], m[j.b], lambda[0], out);
 }
-void speed(const Prismatic&, const MarkerMotion& a, const MarkerMotion& b, double,
-           ConstraintRows& out) {
-  out.kappa[0] = ride_line_kappa(a, b);
+
+void pose(const Prismatic& j, const MarkerMotion* m, double, ConstraintRows& out, Block* L) {
+  ride_line(m[j.a], m[j.b], out, L);
+  keep_angle(m[j.a], m[j.b], j.angle, 1, out, L);
 }
-void speed(const Weld&, const MarkerMotion&, const MarkerMotion&, double, ConstraintRows&) {}
-void speed(const Distance&, const MarkerMotion& a, const MarkerMotion& b, double,
-           ConstraintRows& out) {
-  out.kappa[0] = keep_length_kappa(a, b);
+void speed(const Prismatic& j, const MarkerMotion* m, double, ConstraintRows& out) { out.kappa[0] = ride_line_kappa(m[j.a], m[j.b]); }
+void curve(const Prismatic& j, const MarkerMotion* m, const double* lambda, WrenchTangent& out) {
+  ride_line_tangent(m[j.a], m[j.b], lambda[0], out);
 }
-void speed(const AngleDriver& j, const MarkerMotion&, const MarkerMotion&, double t,
-           ConstraintRows& out) {
+
+void pose(const Weld& j, const MarkerMotion* m, double, ConstraintRows& out, Block* L) {
+  coincide(m[j.a], m[j.b], out, L);
+  keep_angle(m[j.a], m[j.b], j.angle, 2, out, L);
+}
+
+void pose(const Distance& j, const MarkerMotion* m, double, ConstraintRows& out, Block* L) {
+  keep_length(m[j.a], m[j.b], j.length, out, L);
+}
+void speed(const Distance& j, const MarkerMotion* m, double, ConstraintRows& out) { out.kappa[0] = keep_length_kappa(m[j.a], m[j.b]); }
+void curve(const Distance& j, const MarkerMotion* m, const double* lambda, WrenchTangent& out) {
+  keep_length_tangent(m[j.a], m[j.b], lambda[0], out);
+}
+
+void pose(const AngleDriver& j, const MarkerMotion* m, double t, ConstraintRows& out, Block* L) {
+  keep_angle(m[j.a], m[j.b], j.law(t).value, 0, out, L);
+}
+void speed(const AngleDriver& j, const MarkerMotion*, double t, ConstraintRows& out) {
   const Jet law = j.law(t);
   out.Ct[0] = -law.rate;
   out.kappa[0] = -law.accel;
 }
-void speed(const DistanceDriver& j, const MarkerMotion& a, const MarkerMotion& b, double t,
-           ConstraintRows& out) {
+
+void pose(const DistanceDriver& j, const MarkerMotion* m, double t, ConstraintRows& out, Block* L) {
+  keep_length(m[j.a], m[j.b], j.law(t).value, out, L);
+}
+void speed(const DistanceDriver& j, const MarkerMotion* m, double t, ConstraintRows& out) {
   const Jet law = j.law(t);
   out.Ct[0] = -law.rate;
-  out.kappa[0] = keep_length_kappa(a, b) - law.accel;
+  out.kappa[0] = keep_length_kappa(m[j.a], m[j.b]) - law.accel;
+}
+void curve(const DistanceDriver& j, const MarkerMotion* m, const double* lambda, WrenchTangent& out) {
+  keep_length_tangent(m[j.a], m[j.b], lambda[0], out);
+}
+
+template <class AnyJoint>
+auto law_in(AnyJoint& joint) {
+  return std::visit(
+      [](auto& j) -> decltype(&std::get_if<AngleDriver>(&joint)->law) {
+        if constexpr (requires { j.law; })
+          return &j.law;
+        else
+          return nullptr;
+      },
+      joint);
 }
 
 }  // namespace
 
-bool is_driver(const Joint& j) {
-  return std::holds_alternative<AngleDriver>(j) || std::holds_alternative<DistanceDriver>(j);
+JointEnds ends_of(const Joint& joint) {
+  return std::visit([](const auto& j) { return JointEnds{{j.a, j.b}, 2}; }, joint);
 }
 
-const char* row_name(const Joint& j, int row) {
-  if (std::holds_alternative<Revolute>(j) || std::holds_alternative<Weld>(j))
-    return row == 0 ? "x" : row == 1 ? "y" : "angle";
-  if (std::holds_alternative<Slot>(j) || std::holds_alternative<Prismatic>(j))
-    return row == 0 ? "across" : "angle";
-  return std::holds_alternative<AngleDriver>(j) ? "angle" : "length";
+const TimeLaw* driver_law(const Joint& j) { return law_in(j); }
+TimeLaw* driver_law(Joint& j) { return law_in(j); }
+
+bool is_angle_row(const Joint& j, int row) { return std::string_view(row_name(j, row)) == "angle"; }
+
+void evaluate_pose(const Joint& joint, const MarkerMotion* markers, double t, ConstraintRows& out, Block* L) {
+  std::visit([&](const auto& j) { pose(j, markers, t, out, L); }, joint);
 }
 
-bool is_angle_row(const Joint& j, int row) {
-  return std::string_view(row_name(j, row)) == "angle";
+void evaluate_speed(const Joint& joint, const MarkerMotion* markers, double t, ConstraintRows& out) {
+  std::visit([&](const auto& j) { if constexpr (requires { speed(j, markers, t, out); }) speed(j, markers, t, out); }, joint);
 }
 
-bool feels_angle(const Joint& j) {
-  return !(std::holds_alternative<Revolute>(j) || std::holds_alternative<Distance>(j) || std::holds_alternative<DistanceDriver>(j));
-}
-
-void evaluate_pose(const Joint& j, const MarkerMotion& a, const MarkerMotion& b, double t,
-                   ConstraintRows& out) {
-  std::visit([&](const auto& k) { pose(k, a, b, t, out); }, j);
-}
-
-void evaluate_speed(const Joint& j, const MarkerMotion& a, const MarkerMotion& b, double t,
-                    ConstraintRows& out) {
-  std::visit([&](const auto& k) { speed(k, a, b, t, out); }, j);
+WrenchTangent wrench_tangent(const Joint& joint, const MarkerMotion* markers, const double* lambda) {
+  WrenchTangent out(ends_of(joint).n);
+  std::visit([&](const auto& j) { if constexpr (requires { curve(j, markers, lambda, out); }) curve(j, markers, lambda, out); }, joint);
+  return out;
 }
 
 }  // namespace pintle

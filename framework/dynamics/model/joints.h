@@ -1,94 +1,135 @@
 #pragma once
 
+#include <array>
+#include <tuple>
 #include <variant>
 
 #include "framework/common/time_law.h"
 #include "framework/dynamics/model/marker.h"
+#include "framework/dynamics/model/wrench_tangent.h"
 
 namespace pintle {
 
-/// One joint's share of the constraints, written in the poses p = (r, angle) of its two markers, so
+/// One joint's share of the constraints, written in the poses p_i = (r, angle) of its markers, so
 /// that no joint knows what a body is:
-///   C(p_a, p_b, t) = 0,   La ṗ_a + Lb ṗ_b + Ct = 0,   La p̈_a + Lb p̈_b + kappa = 0.
-/// The first m rows are used. The joint acts on marker b with the wrench −Lbᵀλ, on a with −Laᵀλ.
+///   C(p, t) = 0,   Σ L_i ṗ_i + Ct = 0,   Σ L_i p̈_i + kappa = 0,   L_i = ∂C/∂p_i.
+/// The first m rows are used. The joint acts on marker i with the wrench −L_iᵀλ.
 struct ConstraintRows {
-  using Block = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  using Block = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;  ///< L_i; one an end of the joint
   Eigen::Vector3d C = Eigen::Vector3d::Zero();      ///< violation [m or rad]
-  Block La = Block::Zero(), Lb = Block::Zero();     ///< ∂C/∂p_a, ∂C/∂p_b
   Eigen::Vector3d Ct = Eigen::Vector3d::Zero();     ///< ∂C/∂t; zero unless driven [m/s or rad/s]
   Eigen::Vector3d kappa = Eigen::Vector3d::Zero();  ///< what C̈ holds besides accelerations
 };
+
+/// How a joint is drawn at its marker b.
+enum class JointSymbol { none, pin, guide, pin_in_guide, rod };
+
+/// What all joints of a kind have in common.
+struct JointProperties {
+  /// Its constraint equations, as messages call them. One called "angle" is in radians, others in metres.
+  std::array<const char*, 3> equations = {};
+  bool force = true, couple = false;  ///< what of its reaction is written
+  bool angles = true;                 ///< turning a marker can change its rows
+  bool direction = false;             ///< it reads the direction u of marker a
+  JointSymbol symbol = JointSymbol::none;
+  WrenchPattern curvature = {};       ///< of its wrenches at given λ
+  constexpr int rows() const { return (equations[0] != nullptr) + (equations[1] != nullptr) + (equations[2] != nullptr); }
+};
+
+namespace joint_curvature {
+inline constexpr WrenchPattern along_a_line{{{{true, true}, {true, false}}}}, of_a_length{{{{true, true}, {true, true}}}};
+}
 
 /// Pin: the two points coincide. λ is the force of b on a [N], world axes.
 ///   C = r_b − r_a
 struct Revolute {
   int a, b;  ///< markers
-  static constexpr int rows = 2;
+  auto members() const { return std::tie(a, b); }
+  static constexpr JointProperties properties{.equations = {"x", "y"}, .angles = false, .symbol = JointSymbol::pin};
 };
 /// Pin in slot: point b rides the line through a along a's direction u, n = Zu.
 ///   C = n·(r_b − r_a)      λ: push of b on a along n [N]
 struct Slot {
   int a, b;
-  static constexpr int rows = 1;
+  auto members() const { return std::tie(a, b); }
+  static constexpr JointProperties properties{
+      .equations = {"across"}, .direction = true, .symbol = JointSymbol::pin_in_guide, .curvature = joint_curvature::along_a_line};
 };
 /// Guide: the slot, and b's direction keeps `angle` to a's.
 ///   C = [n·(r_b − r_a); φ_b − φ_a − angle]      λ: push along n [N], couple of b on a [N m]
 struct Prismatic {
   int a, b;
   double angle = 0;
-  static constexpr int rows = 2;
+  auto members() const { return std::tie(a, b, angle); }
+  static constexpr JointProperties properties{.equations = {"across", "angle"},
+                                  .couple = true,
+                                  .direction = true,
+                                  .symbol = JointSymbol::guide,
+                                  .curvature = joint_curvature::along_a_line};
 };
 /// Clamp: the points coincide and b's direction keeps `angle` to a's.
 ///   C = [r_b − r_a; φ_b − φ_a − angle]          λ in N, N, N m
 struct Weld {
   int a, b;
   double angle = 0;
-  static constexpr int rows = 3;
+  auto members() const { return std::tie(a, b, angle); }
+  static constexpr JointProperties properties{.equations = {"x", "y", "angle"}, .couple = true, .symbol = JointSymbol::pin};
 };
 /// Massless rigid link between two points.
 ///   C = |r_b − r_a| − length                    λ: tension is negative, thrust positive −λ [N]
 struct Distance {
   int a, b;
   double length;  ///< > 0 [m]
-  static constexpr int rows = 1;
+  auto members() const { return std::tie(a, b, length); }
+  static constexpr JointProperties properties{
+      .equations = {"length"}, .angles = false, .symbol = JointSymbol::rod, .curvature = joint_curvature::of_a_length};
 };
 /// Imposed angle.   C = φ_b − φ_a − law(t)        −λ is the driving torque on b [N m]
 struct AngleDriver {
   int a, b;
   TimeLaw law;
-  static constexpr int rows = 1;
+  auto members() const { return std::tie(a, b, law); }
+  static constexpr JointProperties properties{.equations = {"angle"}, .force = false, .couple = true};
 };
 /// Imposed distance.   C = |r_b − r_a| − law(t)   −λ is the thrust that parts a and b [N]
 struct DistanceDriver {
   int a, b;
   TimeLaw law;  ///< > 0 [m]
-  static constexpr int rows = 1;
+  auto members() const { return std::tie(a, b, law); }
+  static constexpr JointProperties properties{.equations = {"length"}, .angles = false, .curvature = joint_curvature::of_a_length};
 };
 
 using Joint = std::variant<Revolute, Slot, Prismatic, Weld, Distance, AngleDriver, DistanceDriver>;
 
-inline int rows(const Joint& j) {
-  return std::visit([](const auto& k) { return k.rows; }, j);
+inline const JointProperties& properties_of(const Joint& joint) {
+  return std::visit([](const auto& j) -> const JointProperties& { return j.properties; }, joint);
 }
-inline int marker_a(const Joint& j) {
-  return std::visit([](const auto& k) { return k.a; }, j);
-}
-inline int marker_b(const Joint& j) {
-  return std::visit([](const auto& k) { return k.b; }, j);
-}
-bool is_driver(const Joint&);
-/// How the joint's row is called in messages: "x", "y", "across", "angle", "length".
-const char* row_name(const Joint&, int row);
+inline int rows(const Joint& j) { return properties_of(j).rows(); }
 
+/// The markers that a joint joins: its ends, in order.
+struct JointEnds {
+  std::array<int, most_ends> marker;
+  int n;
+  const int* begin() const { return marker.data(); }
+  const int* end() const { return marker.data() + n; }
+};
+JointEnds ends_of(const Joint&);
+
+/// The law of a driver, nullptr of other joints.
+const TimeLaw* driver_law(const Joint&);
+TimeLaw* driver_law(Joint&);
+inline bool is_driver(const Joint& j) { return driver_law(j) != nullptr; }
+
+inline const char* row_name(const Joint& j, int row) { return properties_of(j).equations[static_cast<std::size_t>(row)]; }
 bool is_angle_row(const Joint&, int row);
-/// Can turning a marker change its rows?
-bool feels_angle(const Joint&);
 
-/// Position level: C, La, Lb. Cannot fail; a distance of zero has no direction and gives x.
-void evaluate_pose(const Joint&, const MarkerMotion& a, const MarkerMotion& b, double t,
-                   ConstraintRows& out);
+/// Position level: C, and L of each end. Cannot fail; a distance of zero has no direction and gives x.
+/// @param markers  of the whole system
+void evaluate_pose(const Joint&, const MarkerMotion* markers, double t, ConstraintRows& out, ConstraintRows::Block* L);
 /// Velocity level: Ct and kappa, from markers whose speeds are known. After evaluate_pose.
-void evaluate_speed(const Joint&, const MarkerMotion& a, const MarkerMotion& b, double t,
-                    ConstraintRows& out);
+void evaluate_speed(const Joint&, const MarkerMotion* markers, double t, ConstraintRows& out);
+
+/// How the wrenches −L_iᵀλ answer to the poses, λ held. @param lambda  the joint's own multipliers, rows(joint) of them
+WrenchTangent wrench_tangent(const Joint&, const MarkerMotion* markers, const double* lambda);
 
 }  // namespace pintle

@@ -16,7 +16,14 @@ void number(System& system, bool scheme_loses) {
   }
 
   system.row_begin.assign(1, 0);
-  for (const Joint& j : system.joints) system.row_begin.push_back(system.row_begin.back() + rows(j));
+  system.end_begin.assign(1, 0);
+  system.end_marker.clear();
+  for (const Joint& j : system.joints) {
+    const JointEnds ends = ends_of(j);
+    system.row_begin.push_back(system.row_begin.back() + rows(j));
+    system.end_begin.push_back(system.end_begin.back() + ends.n);
+    system.end_marker.insert(system.end_marker.end(), ends.begin(), ends.end());
+  }
 
   system.row_scale.resize(system.n_rows());
   for (std::size_t k = 0; k < system.joints.size(); ++k)
@@ -58,7 +65,7 @@ bool feels_shapes(const System& system, const Joint& joint, int marker) {
   if (m.body == ground) return false;
   const Body& body = system.bodies[static_cast<std::size_t>(m.body)];
   if (body.modes() == 0) return false;
-  return body.flex->second || !m.shape.isZero(0) || (feels_angle(joint) && !m.slope.isZero(0));
+  return body.flex->second || !m.shape.isZero(0) || (properties_of(joint).angles && !m.slope.isZero(0));
 }
 
 bool is_link(const System& system, int joint) {

@@ -51,6 +51,8 @@ struct System {
   /// the mean square displacement 1/m.
   Eigen::VectorXd scale;
   std::vector<int> row_begin;      ///< first constraint row of joint i; one past
+  std::vector<int> end_begin;      ///< first end of joint i, an end being the joint at one of its markers; one past
+  std::vector<int> end_marker;     ///< marker of each end
   Eigen::VectorXd row_scale;       ///< 1/length for a row in metres, 1 for an angle
   std::vector<Integral> integrals; ///< what z accounts for, in order
   std::vector<int> contact_z, force_z, joint_z;  ///< first integral of each, −1 for none

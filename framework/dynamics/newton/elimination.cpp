@@ -25,7 +25,11 @@ std::vector<int> bodies_of(const System& system) {
 // Joints on each body.
 std::vector<std::vector<int>> joints_on(const System& system, const Equations& eq) {
   std::vector<std::vector<int>> joints(system.bodies.size());
-  for (const Equations::Side& side : eq.sides) joints[at(side.q / 3)].push_back(static_cast<int>(side.joint));
+  for (const Equations::End& end : eq.ends) {
+    std::vector<int>& on = joints[at(end.q / 3)];
+    const int joint = static_cast<int>(end.joint);
+    if (on.empty() || on.back() != joint) on.push_back(joint);
+  }
   return joints;
 }
 
@@ -46,30 +50,31 @@ std::vector<int> rows_last(const System& system, const std::vector<std::vector<i
 
 std::vector<int> body_by_body(const System& system, const std::vector<std::vector<int>>& joints,
                               std::vector<Pattern::Place> meet) {
-  std::vector<std::vector<int>> ends(system.joints.size());
+  std::vector<std::vector<int>> bodies(system.joints.size());  // that each joint joins
   for (std::size_t b = 0; b < joints.size(); ++b)
-    for (int joint : joints[b]) ends[at(joint)].push_back(static_cast<int>(b));
-  for (const std::vector<int>& bodies : ends)
-    if (bodies.size() == 2) meet.push_back({bodies[0], bodies[1]});
+    for (int joint : joints[b]) bodies[at(joint)].push_back(static_cast<int>(b));
+  for (const std::vector<int>& joined : bodies)
+    for (std::size_t i = 0; i < joined.size(); ++i)
+      for (std::size_t j = i + 1; j < joined.size(); ++j) meet.push_back({joined[i], joined[j]});
   std::vector<int> order, waiting(system.joints.size());
-  for (std::size_t k = 0; k < ends.size(); ++k) waiting[k] = static_cast<int>(ends[k].size());
+  for (std::size_t k = 0; k < bodies.size(); ++k) waiting[k] = static_cast<int>(bodies[k].size());
   for (int b : fill_reducing_order(static_cast<int>(system.bodies.size()), meet)) {
     for (int c = 0; c < 3; ++c) order.push_back(3 * b + c);
     for (int i = system.eta_begin[at(b)]; i < system.eta_begin[at(b) + 1]; ++i) order.push_back(i);
     int room = 3 + system.bodies[at(b)].modes();
-    for (bool last_end : {true, false})
+    for (bool last_body : {true, false})
       for (int joint : joints[at(b)]) {
         int& left = waiting[at(joint)];
         const int height = system.row_begin[at(joint) + 1] - system.row_begin[at(joint)];
-        if (last_end && left > 0) --left;  // this end is there now
-        if (left < 0 || (last_end ? left > 0 : height > room)) continue;
+        if (last_body && left > 0) --left;  // this one is there now
+        if (left < 0 || (last_body ? left > 0 : height > room)) continue;
         append_rows(system, joint, order);
         room -= height;
         left = -1;
       }
   }
-  for (std::size_t k = 0; k < ends.size(); ++k)  // joints of ground with ground
-    if (ends[k].empty()) append_rows(system, static_cast<int>(k), order);
+  for (std::size_t k = 0; k < bodies.size(); ++k)  // joints of ground with ground
+    if (bodies[k].empty()) append_rows(system, static_cast<int>(k), order);
   return order;
 }
 

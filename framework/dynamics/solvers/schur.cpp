@@ -132,31 +132,28 @@ Schur::~Schur() = default;
 Schur::Schur(Schur&&) noexcept = default;
 
 Schur::Schur(const System& system) : n_(system.n_rows()), data_(std::make_unique<Data>(system.row_scale)) {
-  // Sides of joints on each body.
-  std::vector<std::vector<int>> sides(system.bodies.size());
-  for (std::size_t k = 0; k < system.joints.size(); ++k) {
-    const std::array<int, 2> markers{marker_a(system.joints[k]), marker_b(system.joints[k])};
-    for (int side = 0; side < 2; ++side) {
-      const int body = system.markers[at(markers[at(side)])].body;
-      if (body != ground) sides[at(body)].push_back(2 * static_cast<int>(k) + side);
+  std::vector<std::vector<int>> ends(system.bodies.size());  // of joints on each body
+  std::vector<int> joint_of;                                  // of each end
+  for (std::size_t k = 0; k < system.joints.size(); ++k)
+    for (int end = system.end_begin[k]; end < system.end_begin[k + 1]; ++end) {
+      joint_of.push_back(static_cast<int>(k));
+      if (const int body = system.markers[at(system.end_marker[at(end)])].body; body != ground) ends[at(body)].push_back(end);
     }
-  }
-  const auto first_row = [&](int side) { return system.row_begin[at(side / 2)]; };
-  const auto height = [&](int side) { return rows(system.joints[at(side / 2)]); };
+  const auto first_row = [&](int end) { return system.row_begin[at(joint_of[at(end)])]; };
+  const auto height = [&](int end) { return rows(system.joints[at(joint_of[at(end)])]); };
 
   std::vector<Pattern::Place> places;
-  for (std::size_t b = 0; b < sides.size(); ++b) {
+  for (std::size_t b = 0; b < ends.size(); ++b) {
     const Body& body = system.bodies[b];
     const int w = static_cast<int>(weights_.size());
     const bool flexible = body.modes() > 0;
-    const auto bends = [&](int side) {
-      const Joint& joint = system.joints[at(side / 2)];
-      return flexible && feels_shapes(system, joint, side % 2 == 0 ? marker_a(joint) : marker_b(joint));
+    const auto bends = [&](int end) {
+      return flexible && feels_shapes(system, system.joints[at(joint_of[at(end)])], system.end_marker[at(end)]);
     };
     weights_.insert(weights_.end(), {flexible ? 1 : 1 / body.m, flexible ? 1 : 1 / body.m, flexible ? 1 : 1 / body.J});
-    for (std::size_t p = 0; p < sides[b].size(); ++p)
+    for (std::size_t p = 0; p < ends[b].size(); ++p)
       for (std::size_t q = 0; q <= p; ++q) {
-        const int i = sides[b][p], j = sides[b][q];
+        const int i = ends[b][p], j = ends[b][q];
         const bool both_bend = bends(i) && bends(j);
         for (int r = 0; r < height(i); ++r)
           for (int c = 0; c < (i == j ? r + 1 : height(j)); ++c) {

@@ -26,10 +26,10 @@ class Schur {
   ~Schur();
   Schur(Schur&&) noexcept;
 
-  /// One side of each joint: B = L J, m × 3 in a 3 × 3 block; index 2·joint + (0 for a, 1 for b).
+  /// One end of each joint, as System::end_marker counts them: B = L J, m × 3 in a 3 × 3 block.
   using Block = ConstraintRows::Block;
 
-  /// Sums and factors S; pivots not above `least` count as lost. Sides on flexible bodies are given in the metric of M⁻¹ (to_metric). No allocation
+  /// Sums and factors S; pivots not above `least` count as lost. Ends on flexible bodies are given in the metric of M⁻¹ (to_metric). No allocation
   /// when dense or thin (SparseLdl), but at the first dependent rows of a sparse one.
   /// @returns false if S is not finite, or a row has no entries; dependent rows are allowed for
   bool factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta, double least = dependent_rows::lost);
@@ -55,13 +55,13 @@ class Schur {
   double nonzeros() const;     ///< of the factor
 
  private:
-  /// A product of two rows of sides on one body: three entries of B each, counted through all blocks, by the body's
+  /// A product of two rows of ends on one body: three entries of B each, counted through all blocks, by the body's
   /// inverse inertia; and what the modal coordinates of a flexible one add.
   struct Term {
     int to, a, b, w;
   };
   struct ModalTerm {
-    int to, i, r, j, c;  ///< row r of side i by row c of side j
+    int to, i, r, j, c;  ///< row r of end i by row c of end j
   };
   /// Rows of joints that bodies connect, dense: row order_[begin + i] of all is row i of the part.
   struct Part {

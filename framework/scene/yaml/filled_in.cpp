@@ -1,3 +1,4 @@
+#include "framework/scene/joint_words.h"
 #include "framework/scene/yaml/filled_in_parts.h"
 #include "framework/scene/yaml/json_text.h"
 #include "framework/scene/yaml/reader_parts.h"
@@ -107,25 +108,9 @@ Json json(const SceneClearance& clearance) {
 }
 
 Json json(const SceneJoint& joint) {
-  const Json two = ends(joint.a, joint.b);
-  Json out = Json::object();
-  switch (joint.kind) {
-    case JointKind::revolute:
-      out["revolute"] = two;
-      break;
-    case JointKind::prismatic:
-      out = {{"prismatic", two}, {"angle", joint.angle}};
-      break;
-    case JointKind::slot:
-      out["slot"] = two;
-      break;
-    case JointKind::weld:
-      out = {{"weld", two}, {"angle", joint.angle}};
-      break;
-    case JointKind::distance:
-      out = {{"distance", two}, {"length", joint.length}};
-      break;
-  }
+  const JointWord& word = word_of(joint);
+  Json out = {{word.word, ends(joint.a, joint.b)}};
+  for (const JointNumber& number : word.numbers) out[number.key] = joint.*number.value;
   if (joint.clearance) out["clearance"] = json(*joint.clearance);
   return out;
 }

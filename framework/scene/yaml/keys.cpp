@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/common/nearest.h"
+#include "framework/scene/joint_words.h"
 
 namespace pintle {
 
@@ -29,6 +30,16 @@ const std::vector<std::string> element_names{"triangle3",      "triangle6",
                                              "quadrilateral8", "quadrilateral8-reduced",
                                              "quadrilateral9"};
 constexpr const char* two_eyes = "[{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]";
+
+std::vector<Key> joint_keys() {
+  std::vector<Key> keys{{"clearance"}};
+  const auto add = [&](const char* key) { if (std::ranges::find(keys, key, &Key::name) == keys.end()) keys.push_back({key}); };
+  for (const JointWord& word : joint_words()) {
+    add(word.word);
+    for (const JointNumber& number : word.numbers) add(number.key);
+  }
+  return keys;
+}
 
 const std::vector<KeyTable>& tables() {
   static const std::vector<KeyTable> all{
@@ -150,15 +161,7 @@ const std::vector<KeyTable>& tables() {
         {"spin"},
         {"about"},
         {"line load"}}},
-      {"joints.*",
-       {{"revolute"},
-        {"prismatic"},
-        {"slot"},
-        {"weld"},
-        {"distance"},
-        {"angle"},
-        {"length"},
-        {"clearance"}}},
+      {"joints.*", joint_keys()},
       {"joints.*.clearance",
        {{"radial", required, "0.1 mm"},
         {"bearing radius", required, "10 mm"},

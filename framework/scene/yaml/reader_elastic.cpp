@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "framework/common/nearest.h"
+#include "framework/scene/joint_words.h"
 #include "framework/scene/yaml/reader_parts.h"
 
 namespace pintle {
@@ -229,9 +230,9 @@ Held held_points(const SceneBody& body, const Scene& scene) {
   for (const SceneDriver& d : scene.drivers)
     if (d.kind == DriverKind::angle) add(turned, d.a), add(turned, d.b);
   for (const SceneJoint& j : scene.joints)
-    for (const PointRef* ref : {&j.a, &j.b}) {
+    for (const PointRef* ref : points_of(j)) {
       add(held.points, *ref);
-      if (j.kind == JointKind::weld || j.kind == JointKind::prismatic) add(held.clamped, *ref);
+      if (word_of(j).clamps) add(held.clamped, *ref);
     }
   for (const ScenePoint* p : held.points)
     if (std::ranges::find(turned, p) != turned.end() && std::ranges::find(held.clamped, p) == held.clamped.end()) held.clamped.push_back(p);

@@ -1,19 +1,24 @@
-#include <array>
 #include <tuple>
 
+#include "framework/scene/joint_words.h"
 #include "framework/scene/yaml/reader_parts.h"
 
 namespace pintle {
 
 namespace {
 
-const std::array<KindKeys, 5> joint_kinds{{{"revolute", {"clearance"}},
-                                           {"prismatic", {"angle"}},
-                                           {"slot", {}},
-                                           {"weld", {"angle"}},
-                                           {"distance", {"length"}}}};
-constexpr std::array joint_kind_of{JointKind::revolute, JointKind::prismatic, JointKind::slot,
-                                   JointKind::weld, JointKind::distance};
+const std::vector<KindKeys>& joint_keys() {
+  static const std::vector<KindKeys> keys = [] {
+    std::vector<KindKeys> out;
+    for (const JointWord& word : joint_words()) {
+      KindKeys& k = out.emplace_back(KindKeys{word.word, {}});
+      for (const JointNumber& number : word.numbers) k.beside.emplace_back(number.key);
+      if (word.clearance) k.beside.emplace_back("clearance");
+    }
+    return out;
+  }();
+  return keys;
+}
 
 void read_stiffness(const Node& node, SceneNormal& normal) {
   const bool elastic = node.has("young") || node.has("poisson");
@@ -122,13 +127,12 @@ SceneJoint read_joint(const Node& node) {
   joint.name = checked_name(node);
   joint.place = node.place();
   check_keys(node, "joints.*");
-  const std::size_t kind = which_kind(node, joint_kinds);
-  joint.kind = joint_kind_of[kind];
-  std::tie(joint.a, joint.b) = read_ends(node.at(joint_kinds[kind].kind));
-  read_optional(node, "angle", dimension::angle, rule::any, joint.angle);
-  if (joint.kind == JointKind::distance) {
-    if (!node.has("length")) node.fail("lacks a required key; add for example length: 120 mm");
-    joint.length = node.at("length").quantity(dimension::length, rule::positive);
+  const JointWord& word = joint_words()[which_kind(node, joint_keys())];
+  joint.kind = word.kind;
+  std::tie(joint.a, joint.b) = read_ends(node.at(word.word));
+  for (const JointNumber& number : word.numbers) {
+    if (number.required && !node.has(number.key)) node.fail(std::string("lacks a required key; add for example ") + number.required);
+    read_optional(node, number.key, number.dimension, number.required ? rule::positive : rule::any, joint.*number.value);
   }
   if (node.has("clearance")) joint.clearance = read_clearance(node.at("clearance"), joint);
   return joint;

@@ -1,0 +1,24 @@
+#include "framework/scene/joint_words.h"
+
+#include <algorithm>
+
+namespace pintle {
+
+std::span<const JointWord> joint_words() {
+  static const JointNumber angle{"angle", &SceneJoint::angle, dimension::angle},
+      length{"length", &SceneJoint::length, dimension::length, "length: 120 mm"};
+  static const std::vector<JointWord> words{
+      {.kind = JointKind::revolute, .word = "revolute", .clearance = true},
+      {.kind = JointKind::prismatic, .word = "prismatic", .guides = true, .clamps = true, .numbers = {angle}},
+      {.kind = JointKind::slot, .word = "slot", .guides = true},
+      {.kind = JointKind::weld, .word = "weld", .clamps = true, .numbers = {angle}},
+      {.kind = JointKind::distance, .word = "distance", .numbers = {length}},
+  };
+  return words;
+}
+
+const JointWord& word_of(const SceneJoint& joint) { return *std::ranges::find(joint_words(), joint.kind, &JointWord::kind); }
+
+std::vector<const PointRef*> points_of(const SceneJoint& joint) { return {&joint.a, &joint.b}; }
+
+}  // namespace pintle

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "framework/scene/scene.h"
+#include "framework/scene/units/unit.h"
+
+/// The joints that a scene can have, in one table: their words, what stands beside them, and what they hold of a body.
+namespace pintle {
+
+/// A number that stands beside a joint's points.
+struct JointNumber {
+  const char* key;
+  double SceneJoint::*value;
+  Dimension dimension;
+  const char* required = nullptr;  ///< what to write where it is missing: "length: 120 mm"; it is above 0 then
+};
+
+struct JointWord {
+  JointKind kind;
+  const char* word;  ///< its key in a scene, of its list of points
+  bool guides = false;  ///< along the direction of its first point
+  bool clamps = false;  ///< holds the directions of its points to each other
+  bool clearance = false;  ///< takes one
+  std::vector<JointNumber> numbers = {};
+};
+
+std::span<const JointWord> joint_words();
+const JointWord& word_of(const SceneJoint&);
+
+/// The points that a joint joins, in order.
+std::vector<const PointRef*> points_of(const SceneJoint&);
+
+}  // namespace pintle
