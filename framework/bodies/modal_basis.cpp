@@ -10,6 +10,7 @@
 #include "framework/bodies/in_body.h"
 #include "framework/common/nearest.h"
 #include "framework/component/fe/assembly.h"
+#include "framework/scene/joint_words.h"
 
 namespace pintle {
 
@@ -80,7 +81,8 @@ std::vector<int> interface_of(const Scene& scene, const ElasticBody& e) {
   const auto note = [&](const PointRef& ref) {
     if (ref.body == e.scene->name) used.insert(port_of(e, ref.point));
   };
-  for (const SceneJoint& j : scene.joints) note(j.a), note(j.b);
+  for (const SceneJoint& j : scene.joints)
+    for (const PointRef* point : points_of(j)) note(*point);
   for (const SceneDriver& d : scene.drivers) note(d.a), note(d.b);
   for (const SceneLoad& l : scene.loads)
     std::visit([&](const auto& w) {

@@ -27,6 +27,7 @@ void Redirection::redirect(PointRef& a, PointRef& b, const Place& place) const {
 void Redirection::redirect(SceneJoint& joint) const {
   const std::string a = joint.a.body, b = joint.b.body;
   redirect(joint.a, joint.b, joint.place);
+  if (joint.c) redirect(*joint.c);
   if (!joint.clearance) return;
   std::string& bearing = joint.clearance->bearing;
   bearing = bearing == a ? joint.a.body : bearing == b ? joint.b.body : bearing;

@@ -159,10 +159,13 @@ class Builder {
   void add(const SceneJoint& j) {
     unique(j.name, "joint", j.place);
     two_bodies(j.a, j.b, j.place);
-    if (j.clearance) return add_contact(j);
     const JointWord& word = word_of(j);
-    const int a = marker(j.a, word.clamps || word.guides ? Holds::direction : Holds::point);
-    const int b = marker(j.b, word.clamps ? Holds::direction : Holds::point);
+    const PointRef c = j.c.value_or(PointRef{"ground", "", j.place});
+    if (word.third) two_bodies(j.a, c, j.place), two_bodies(j.b, c, j.place);
+    if (j.clearance) return add_contact(j);
+    const bool turns = word.clamps || word.turns;
+    const int a = marker(j.a, turns || word.guides ? Holds::direction : Holds::point);
+    const int b = marker(j.b, turns ? Holds::direction : Holds::point);
     auto& joints = model_.system.joints;
     model_.order.joints.push_back(static_cast<int>(joints.size()));
     switch (j.kind) {
@@ -175,23 +178,30 @@ class Builder {
           wrong(j.place, "length must be above 0; for two points that coincide use revolute");
         joints.push_back(Distance{a, b, j.length});
         break;
+      case JointKind::differential:
+        if (j.ratio == 0) wrong(j.place, "ratio must not be 0: the first shaft would be fixed to the cage; use weld");
+        joints.push_back(Differential{a, b, marker(c, Holds::direction), j.ratio,
+                                      drawn_angle(j.a) + j.ratio * drawn_angle(j.b) - (1 + j.ratio) * drawn_angle(c)});
+        break;
     }
     model_.system.joint_names.push_back(j.name);
   }
 
+  /// A point's direction where its body's rough pose and start put it.
+  double drawn_angle(const PointRef& ref) const {
+    const int b = body(ref);
+    double angle = marker_at(ref, Holds::direction).angle;
+    if (b == ground) return angle;
+    angle += scene_.bodies[static_cast<std::size_t>(b)].angle;
+    for (const StartBody& s : scene_.start_bodies)
+      if (s.body == ref.body && s.angle) angle += *s.angle - scene_.bodies[static_cast<std::size_t>(b)].angle;
+    return angle;
+  }
+
   /// The joint's angle with the whole turns that its bodies' rough poses show.
   double nearest_turn(const SceneJoint& j) const {
-    const auto direction = [&](const PointRef& ref) {
-      const int b = body(ref);
-      double angle = marker_at(ref, Holds::direction).angle;
-      if (b == ground) return angle;
-      angle += scene_.bodies[static_cast<std::size_t>(b)].angle;
-      for (const StartBody& s : scene_.start_bodies)
-        if (s.body == ref.body && s.angle) angle += *s.angle - scene_.bodies[static_cast<std::size_t>(b)].angle;
-      return angle;
-    };
     constexpr double turn = 2 * std::numbers::pi;
-    return j.angle + turn * std::round((direction(j.b) - direction(j.a) - j.angle) / turn);
+    return j.angle + turn * std::round((drawn_angle(j.b) - drawn_angle(j.a) - j.angle) / turn);
   }
 
   void add_contact(const SceneJoint& j) {
@@ -287,8 +297,9 @@ class Builder {
     const MechanismBody& b = *elements_[static_cast<std::size_t>(m.body)];
     const int port = port_of(b.elastic, ref.point);
     const auto holds = [&](const PointRef& held) { return held.body == ref.body && port_of(b.elastic, held.point) == port; };
-    const auto joins = [&](const auto& j) { return holds(j.a) || holds(j.b); };
-    const bool joined = std::any_of(scene_.joints.begin(), scene_.joints.end(), joins) || std::any_of(scene_.drivers.begin(), scene_.drivers.end(), joins);
+    const auto joins = [&](const SceneJoint& j) { return std::ranges::any_of(points_of(j), [&](const PointRef* p) { return holds(*p); }); };
+    const auto drives = [&](const SceneDriver& d) { return holds(d.a) || holds(d.b); };
+    const bool joined = std::ranges::any_of(scene_.joints, joins) || std::ranges::any_of(scene_.drivers, drives);
     if (!joined && !b.second.empty()) m.second = b.second[static_cast<std::size_t>(port)];
     return m;
   }

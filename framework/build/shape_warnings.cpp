@@ -10,6 +10,7 @@
 #include "framework/build/choose_method.h"
 #include "framework/common/text.h"
 #include "framework/component/fe/statics.h"
+#include "framework/scene/joint_words.h"
 
 namespace pintle {
 
@@ -43,7 +44,7 @@ std::vector<std::string> contact_warnings(const Scene& scene, const System& syst
     const SceneJoint& j = scene.joints[i];
     if (!j.clearance || j.clearance->model == ClearanceModel::massless_link) continue;
     const ContactPair& pair = system.contacts[static_cast<std::size_t>(order.joints[i])];
-    for (const PointRef* ref : {&j.a, &j.b})
+    for (const PointRef* ref : points_of(j))
       for (const auto& b : bodies) {
         if (!b || !b->body.flex || b->body.name != ref->body) continue;
         const int port = port_of(b->elastic, ref->point);

@@ -6,19 +6,23 @@ namespace pintle {
 
 std::span<const JointWord> joint_words() {
   static const JointNumber angle{"angle", &SceneJoint::angle, dimension::angle},
-      length{"length", &SceneJoint::length, dimension::length, "length: 120 mm"};
+      length{"length", &SceneJoint::length, dimension::length, "length: 120 mm"}, ratio{"ratio", &SceneJoint::ratio, dimension::number};
   static const std::vector<JointWord> words{
       {.kind = JointKind::revolute, .word = "revolute", .clearance = true},
       {.kind = JointKind::prismatic, .word = "prismatic", .guides = true, .clamps = true, .numbers = {angle}},
       {.kind = JointKind::slot, .word = "slot", .guides = true},
       {.kind = JointKind::weld, .word = "weld", .clamps = true, .numbers = {angle}},
       {.kind = JointKind::distance, .word = "distance", .numbers = {length}},
+      {.kind = JointKind::differential, .word = "differential", .third = true, .turns = true, .numbers = {ratio}},
   };
   return words;
 }
 
 const JointWord& word_of(const SceneJoint& joint) { return *std::ranges::find(joint_words(), joint.kind, &JointWord::kind); }
 
-std::vector<const PointRef*> points_of(const SceneJoint& joint) { return {&joint.a, &joint.b}; }
+std::vector<const PointRef*> points_of(const SceneJoint& joint) {
+  if (joint.c) return {&joint.a, &joint.b, &*joint.c};
+  return {&joint.a, &joint.b};
+}
 
 }  // namespace pintle

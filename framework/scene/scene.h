@@ -100,14 +100,16 @@ struct SceneClearance {
 /// As a scene file calls it.
 const char* model_name(ClearanceModel);
 
-enum class JointKind { revolute, prismatic, slot, weld, distance };
+enum class JointKind { revolute, prismatic, slot, weld, distance, differential };
 
 struct SceneJoint {
   std::string name;
   JointKind kind = JointKind::revolute;
   PointRef a, b;
+  std::optional<PointRef> c = {};           ///< differential: the cage; else the ground
   double length = 0;                        ///< distance [m]
   double angle = 0;                         ///< prismatic, weld: b's direction less a's [rad]
+  double ratio = 1;                         ///< differential: turns of a against the cage for one of b's the other way
   std::optional<SceneClearance> clearance;  ///< revolute only
   Place place;
 };

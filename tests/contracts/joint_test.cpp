@@ -66,6 +66,10 @@ const Kind kinds[] = {
      [](int a, int b, double) {
        return Joint{Distance{a, b, 0.8}};
      }},
+    {"Differential",
+     [](int a, int b, double angle) {
+       return Joint{Differential{a, b, 2, -0.6, angle}};
+     }},
     {"AngleDriver",
      [](int a, int b, double) {
        return Joint{AngleDriver{a, b, sine}};

@@ -61,6 +61,7 @@ const std::vector<Kind> kinds{
     {"Prismatic", {Prismatic{0, 1, -0.4}}},
     {"Weld", {Weld{0, 1, -0.4}}},
     {"Distance", {Distance{0, 1, 0.8}}},
+    {"Differential", {Differential{0, 1, 2, -0.6, 0.3}}},
     {"AngleDriver", {AngleDriver{0, 1, sine}}},
     {"DistanceDriver", {DistanceDriver{0, 1, sine}}},
     {"PointForce", {}, {PointForce{0, 1, sine, steady, false}}},

@@ -109,6 +109,13 @@ void curve(const Distance& j, const MarkerMotion* m, const double* lambda, Wrenc
   keep_length_tangent(m[j.a], m[j.b], lambda[0], out);
 }
 
+void pose(const Differential& j, const MarkerMotion* m, double, ConstraintRows& out, Block* L) {
+  out.C[0] = m[j.a].angle + j.ratio * m[j.b].angle - (1 + j.ratio) * m[j.cage].angle - j.angle;
+  L[0].row(0) << 0, 0, 1;
+  L[1].row(0) << 0, 0, j.ratio;
+  L[2].row(0) << 0, 0, -(1 + j.ratio);
+}
+
 void pose(const AngleDriver& j, const MarkerMotion* m, double t, ConstraintRows& out, Block* L) {
   keep_angle(m[j.a], m[j.b], j.law(t).value, 0, out, L);
 }
@@ -145,7 +152,14 @@ auto law_in(AnyJoint& joint) {
 }  // namespace
 
 JointEnds ends_of(const Joint& joint) {
-  return std::visit([](const auto& j) { return JointEnds{{j.a, j.b}, 2}; }, joint);
+  return std::visit(
+      [](const auto& j) {
+        if constexpr (requires { j.cage; })
+          return JointEnds{{j.a, j.b, j.cage}, 3};
+        else
+          return JointEnds{{j.a, j.b}, 2};
+      },
+      joint);
 }
 
 const TimeLaw* driver_law(const Joint& j) { return law_in(j); }

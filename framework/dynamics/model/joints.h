@@ -84,6 +84,15 @@ struct Distance {
   static constexpr JointProperties properties{
       .equations = {"length"}, .angles = false, .symbol = JointSymbol::rod, .curvature = joint_curvature::of_a_length};
 };
+/// Two shafts on a cage c, which may be the ground: their angles against it go together, by couples alone.
+///   C = (φ_a − φ_c) + ratio (φ_b − φ_c) − angle  −λ is the torque on a, −ratio λ on b [N m]
+struct Differential {
+  int a, b, cage;
+  double ratio;      ///< not 0
+  double angle = 0;  ///< [rad]
+  auto members() const { return std::tie(a, b, cage, ratio, angle); }
+  static constexpr JointProperties properties{.equations = {"angle"}, .force = false, .couple = true};
+};
 /// Imposed angle.   C = φ_b − φ_a − law(t)        −λ is the driving torque on b [N m]
 struct AngleDriver {
   int a, b;
@@ -99,7 +108,7 @@ struct DistanceDriver {
   static constexpr JointProperties properties{.equations = {"length"}, .angles = false, .curvature = joint_curvature::of_a_length};
 };
 
-using Joint = std::variant<Revolute, Slot, Prismatic, Weld, Distance, AngleDriver, DistanceDriver>;
+using Joint = std::variant<Revolute, Slot, Prismatic, Weld, Distance, Differential, AngleDriver, DistanceDriver>;
 
 inline const JointProperties& properties_of(const Joint& joint) {
   return std::visit([](const auto& j) -> const JointProperties& { return j.properties; }, joint);

@@ -109,7 +109,8 @@ Json json(const SceneClearance& clearance) {
 
 Json json(const SceneJoint& joint) {
   const JointWord& word = word_of(joint);
-  Json out = {{word.word, ends(joint.a, joint.b)}};
+  Json out = Json::object();
+  for (const PointRef* point : points_of(joint)) out[word.word].push_back(json(*point));
   for (const JointNumber& number : word.numbers) out[number.key] = joint.*number.value;
   if (joint.clearance) out["clearance"] = json(*joint.clearance);
   return out;

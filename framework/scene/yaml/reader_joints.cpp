@@ -122,6 +122,19 @@ SceneClearance read_clearance(const Node& node, const SceneJoint& joint) {
   return clearance;
 }
 
+void read_points(const Node& node, const JointWord& word, SceneJoint& joint) {
+  if (!word.third) {
+    std::tie(joint.a, joint.b) = read_ends(node);
+    return;
+  }
+  const std::string remedy = "two points, or three: [left.A, right.A, cage.A]; the third is the ground if it is left out";
+  const std::vector<Node> points = node.list(2, remedy);
+  if (points.size() > 3) node.fail("is " + node.shown() + "; write " + remedy);
+  joint.a = read_point_ref(points[0]);
+  joint.b = read_point_ref(points[1]);
+  if (points.size() == 3) joint.c = read_point_ref(points[2]);
+}
+
 SceneJoint read_joint(const Node& node) {
   SceneJoint joint;
   joint.name = checked_name(node);
@@ -129,7 +142,7 @@ SceneJoint read_joint(const Node& node) {
   check_keys(node, "joints.*");
   const JointWord& word = joint_words()[which_kind(node, joint_keys())];
   joint.kind = word.kind;
-  std::tie(joint.a, joint.b) = read_ends(node.at(word.word));
+  read_points(node.at(word.word), word, joint);
   for (const JointNumber& number : word.numbers) {
     if (number.required && !node.has(number.key)) node.fail(std::string("lacks a required key; add for example ") + number.required);
     read_optional(node, number.key, number.dimension, number.required ? rule::positive : rule::any, joint.*number.value);
