@@ -17,6 +17,12 @@ using Eigen::VectorXd;
 
 namespace {
 
+std::string number(double x) {
+  std::ostringstream s;
+  s << x;
+  return s.str();
+}
+
 struct End {
   State state;
   double steps = 0, fastest = 0;  ///< fastest rate of the run [1/s]
@@ -24,17 +30,21 @@ struct End {
   bool implicit = false;
 };
 
-/// Where a run ends; nothing if it does not, or takes too long.
-std::optional<End> end_of(const System& system, const Scheme& scheme, const State& start, double until, double seconds) {
-  const double begin = processor_time();  // not by the clock of a machine that has other things to do
+/// What a run may cost; what would come later is left out.
+struct Budget {
+  double steps, seconds;  ///< [s] of the processor, not of the clock of a machine that has other things to do
+};
+
+/// Where a run stands at `until`, or before that where it fails or its budget ends.
+End end_of(const System& system, const Scheme& scheme, const State& start, double until, const Budget& budget) {
+  const double begin = processor_time();
   Integrator run(system, scheme, start);
   End out;
-  while (run.failure().empty() && run.state().t < until) {
-    if (processor_time() - begin > seconds || !run.advance(until)) return std::nullopt;
+  while (run.state().t < until && static_cast<double>(run.counts().steps) < budget.steps && processor_time() - begin < budget.seconds) {
+    if (!run.advance(until)) break;
     out.fastest = std::max(out.fastest, fastest_rate(system, run.state().y));
     out.implicit = out.implicit || run.implicit();
   }
-  if (!run.failure().empty() || !run.state().y.allFinite()) return std::nullopt;
   out.state = run.state();
   out.steps = static_cast<double>(run.counts().steps);
   out.impacts = run.impacts().size();
@@ -61,46 +71,89 @@ double allowed(const End& e, double tolerance) {
   return e.implicit ? std::max(e.steps * tolerance, implicit_constant * std::pow(tolerance, 2.0 / 3)) : e.steps * tolerance;
 }
 
-}  // namespace
+struct Ends {
+  double until;
+  End one, two;
+};
 
-std::string number(double x) {
-  std::ostringstream s;
-  s << x;
-  return s.str();
+/// Two runs from one start as far as both come for what they may cost. One that does not come to the end is compared a little before,
+/// not just where an event or a singular pose has ended it.
+Ends ends_of(const Model& first, const Model& second, const State& start, double until, double seconds) {
+  constexpr double short_of_the_end = 0.97;
+  const Budget first_budget{1500, seconds / 5}, second_budget{15000, seconds / 2}, enough{1e9, 4 * seconds};
+  End one = end_of(first.system, first.scheme, start, until, first_budget);
+  if (one.state.t < until) until = short_of_the_end * one.state.t;
+  End two = end_of(second.system, second.scheme, start, until, second_budget);
+  if (two.state.t < until) {
+    until = short_of_the_end * two.state.t;
+    two = end_of(second.system, second.scheme, start, until, enough);
+  }
+  if (one.state.t > until) one = end_of(first.system, first.scheme, start, until, enough);
+  return {until, one, two};
 }
 
-Verdict agreement(const Scene& scene, const Model& model, const Assembly& assembly, double seconds) {
-  constexpr double off = 1e-7, other_directions = 10, telling = 0.05;
+Verdict skipped(const std::string& why) { return {true, "not compared: " + why, "", 0, 0}; }
+
+/// How much a small difference of the start has grown; nothing if that cannot be told.
+std::optional<double> growth_of(const Model& model, const State& from, const End& one, double until, double seconds, std::string& why) {
+  constexpr double off = 1e-7;
   const System& system = model.system;
-  const double until = scene.run.until;
-  const auto skipped = [](const std::string& why) { return Verdict{true, "not compared: " + why, "", 0, 0}; };
-  Scene second = scene;
-  second.run.constraints = "projection";
-  second.run.method = name(model.scheme) == "dopri5" ? "verner87" : "dopri5";
-  const Model other = build(second);
-  const auto one = end_of(system, model.scheme, assembly.start, until, seconds);
-  if (!one) return skipped("the run does not end");
-  const auto two = end_of(other.system, other.scheme, State(assembly.start), until, seconds);
-  if (!two) return skipped(second.run.method + " does not end");
   double growth = 1;
   for (const double phase : {0.3, 1.9}) {
-    State start = assembly.start;
+    State start = from;
     for (Index i = 0; i < system.n(); ++i) {
       const double way = off * system.scale[i] * std::sin(phase + 12.9898 * static_cast<double>(i + 1));
       start.y[i] += way;
-      start.y[system.n() + i] += way * fastest_rate(system, assembly.start.y);
+      start.y[system.n() + i] += way * fastest_rate(system, from.y);
     }
-    const auto moved = end_of(system, model.scheme, start, until, seconds);
-    if (!moved) return skipped("it does not end from a start that is a little off");
-    if (moved->impacts != one->impacts) return skipped("impacts depend on the last digits");
-    growth = std::max(growth, apart(system, moved->state.y, one->state.y, one->fastest) / off);
+    const End moved = end_of(system, model.scheme, start, until, {1e9, seconds});
+    if (moved.state.t < until) return why = "it does not come as far from a start that is a little off", std::nullopt;
+    if (moved.impacts != one.impacts) return why = "impacts depend on the last digits", std::nullopt;
+    growth = std::max(growth, apart(system, moved.state.y, one.state.y, one.fastest) / off);
   }
-  if (one->impacts != two->impacts && growth > 10) return skipped("impacts depend on the last digits");
-  const double within = other_directions * growth * (allowed(*one, scene.run.tolerance) + allowed(*two, scene.run.tolerance)) + 1e-9 * growth;
-  if (!(within < telling)) return skipped("errors grow too much");
-  const double difference = apart(system, one->state.y, two->state.y, std::max(one->fastest, two->fastest));
-  if (difference <= within) return {true, "agrees with another method", number(difference) + " of " + number(within), two->steps, 0};
-  return {false, "two methods disagree", name(model.scheme) + " and " + name(other.scheme) + " end " + number(difference) + " apart, " + number(within) + " allowed", 0, 0};
+  return growth;
+}
+
+/// @returns nothing where errors have grown too much to tell
+std::optional<Verdict> compared(const Model& model, const Model& other, const State& start, double tolerance, const Ends& ends, double seconds, std::string& why) {
+  constexpr double other_directions = 10, telling = 0.05;
+  const auto& [until, one, two] = ends;
+  if (!one.state.y.allFinite() || !two.state.y.allFinite()) return Verdict{false, "a state that is not finite", "", 0, 0};
+  if (one.state.t < until || two.state.t < until) return skipped("a run does not come as far a second time");
+  const auto growth = growth_of(model, start, one, until, seconds, why);
+  if (!growth) return std::nullopt;
+  if (one.impacts != two.impacts && *growth > 10) return why = "impacts depend on the last digits", std::nullopt;
+  const double within = other_directions * *growth * (allowed(one, tolerance) + allowed(two, tolerance)) + 1e-9 * *growth;
+  if (!(within < telling)) return why = "errors grow too much", std::nullopt;
+  const double rate = std::max(one.fastest, two.fastest), difference = apart(model.system, one.state.y, two.state.y, rate);
+  const std::string what = name(model.scheme) + " and " + name(other.scheme) + " end " + number(difference) + " apart at t = " + number(until) + ", " + number(within) + " allowed";
+  if (!(difference <= within)) return Verdict{false, "two methods disagree", what, 0, 0};
+  const bool moved = apart(model.system, one.state.y, start.y, rate) > 10 * within;
+  return Verdict{true, moved ? "agrees with another method" : "agrees, but has hardly moved", what, two.steps, 0};
+}
+
+}  // namespace
+
+Verdict agreement(const Scene& scene, const Model& model, const Assembly& assembly, double seconds) {
+  constexpr int spans = 4;
+  constexpr double shorter = 0.2;
+  Scene second = scene;
+  second.run.constraints = "projection";
+  second.run.method = name(model.scheme) == "dopri5" ? "verner87" : "dopri5";
+  second.run.max_steps = 1'000'000;
+  const Model other = build(second);
+  std::string why;
+  double until = scene.run.until;
+  for (int k = 0; k < spans; ++k, until *= shorter) {
+    const Ends ends = ends_of(model, other, assembly.start, until, seconds);
+    until = ends.until;
+    if (!(until > 0)) return skipped("a run does not begin");
+    if (auto v = compared(model, other, assembly.start, scene.run.tolerance, ends, seconds, why)) {
+      if (until < scene.run.until) v->outcome += ", over a part of the run";
+      return *v;
+    }
+  }
+  return skipped(why);
 }
 
 }  // namespace soak

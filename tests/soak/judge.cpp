@@ -9,6 +9,7 @@
 #include "framework/analysis/linearize/linearize.h"
 #include "framework/bodies/segments.h"
 #include "framework/build/build.h"
+#include "framework/common/processor_time.h"
 #include "framework/configuration/equilibrium.h"
 #include "framework/output/results.h"
 #include "framework/scene/yaml/reader.h"
@@ -228,8 +229,11 @@ Verdict judge(const std::string& text, Question question, bool twice, double sec
         return validate_driven(scene, model, inverse(scene, model, assembly, stop_after(seconds)).run);
       case Question::linearize:
         return validate_linear(scene, linearize(scene, model, assembly.start));
-      case Question::agree:
-        return agreement(scene, model, assembly, seconds);
+      case Question::agree: {
+        Verdict v = agreement(scene, model, assembly, seconds);
+        v.seconds = processor_time();
+        return v;
+      }
     }
     return bad("no such question", "");
   } catch (const SceneError& e) {
