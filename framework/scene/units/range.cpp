@@ -106,7 +106,7 @@ RangeJet smooth(const RangeJet& x) {
     const double s = std::clamp(v, 0.0, 1.0);
     return 30 * s * s * (1 - s) * (1 - s);
   };
-  const auto [lo, hi] = std::minmax(slope(x.value.lo), slope(x.value.hi));
+  const auto [lo, hi] = std::minmax({slope(x.value.lo), slope(x.value.hi)});  // a list: minmax of two returns references
   return chain(x, rising(f, x.value), {lo, x.value.holds(0.5) ? slope(0.5) : hi});
 }
 
