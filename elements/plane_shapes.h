@@ -93,7 +93,7 @@ constexpr ShapeValues<E::nodes> shape_values(double xi, double eta) {
 
 /// Points and weights on the reference cell.
 template <int count>
-struct Rule {
+struct PlaneRule {
   std::array<CellPosition, count> at{};
   std::array<double, count> weight{};
 };
@@ -112,8 +112,8 @@ inline constexpr LineRule<4> gauss_4{{-0.86113631159405257522, -0.33998104358485
                                       0.65214515486254614263, 0.34785484513745385737}};
 
 template <int count>
-constexpr Rule<count * count> squared(const LineRule<count>& line) {
-  Rule<count * count> r;
+constexpr PlaneRule<count * count> squared(const LineRule<count>& line) {
+  PlaneRule<count * count> r;
   for (int j = 0; j < count; ++j)
     for (int i = 0; i < count; ++i) {
       r.at[j * count + i] = {line.at[i], line.at[j]};
@@ -122,12 +122,12 @@ constexpr Rule<count * count> squared(const LineRule<count>& line) {
   return r;
 }
 
-inline constexpr Rule<1> triangle_1{{{{1.0 / 3, 1.0 / 3}}}, {0.5}};
-inline constexpr Rule<3> triangle_3{{{{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}}},
+inline constexpr PlaneRule<1> triangle_1{{{{1.0 / 3, 1.0 / 3}}}, {0.5}};
+inline constexpr PlaneRule<3> triangle_3{{{{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}}},
                                     {1.0 / 6, 1.0 / 6, 1.0 / 6}};
 
 /// Exact to degree 6 [Dunavant1985], its digits refined by Newton's method on the moment equations.
-constexpr Rule<12> triangle_12() {
+constexpr PlaneRule<12> triangle_12() {
   constexpr double a = 0.24928674517091043650, wa = 0.11678627572637933960 / 2;
   constexpr double b = 0.06308901449150222305, wb = 0.05084490637020680984 / 2;
   constexpr double c = 0.05314504984481695893, d = 0.31035245103378439010;
@@ -174,12 +174,12 @@ constexpr auto mass_rule() {
 
 template <int nodes, int count>
 struct ShapeTable {
-  Rule<count> rule;
+  PlaneRule<count> rule;
   std::array<ShapeValues<nodes>, count> shapes{};
 };
 
 template <class E, int count>
-constexpr ShapeTable<E::nodes, count> tabulate(const Rule<count>& rule) {
+constexpr ShapeTable<E::nodes, count> tabulate(const PlaneRule<count>& rule) {
   ShapeTable<E::nodes, count> t{rule};
   for (int p = 0; p < count; ++p) t.shapes[p] = shape_values<E>(rule.at[p][0], rule.at[p][1]);
   return t;
@@ -191,7 +191,7 @@ template <class E>
 inline constexpr auto mass_table = tabulate<E>(mass_rule<E>());
 template <class E>
 constexpr auto at_nodes() {
-  Rule<E::nodes> nodes;
+  PlaneRule<E::nodes> nodes;
   for (int i = 0; i < E::nodes; ++i)
     nodes.at[i] = is_triangle(E::plane_kind) ? triangle_nodes[i] : quadrilateral_nodes[i];
   return tabulate<E>(nodes);

@@ -32,7 +32,7 @@ std::string tied_to(const MechanismBody& b) {
 bool keeps_all(const SceneKeep& k) { return !k.automatic && !k.count && !k.below && !k.effective_mass; }
 
 /// The first of them by name, and how many more.
-std::string listed(const std::vector<std::string>& names) {
+std::string first_of(const std::vector<std::string>& names) {
   return names.front() + (names.size() > 1 ? " (and " + std::to_string(names.size() - 1) + " more)" : "");
 }
 
@@ -54,10 +54,10 @@ std::vector<std::string> holding_warnings(const Scene& scene, const std::vector<
   }
   std::vector<std::string> out;
   if (!clamped.empty())
-    out.push_back(listed(clamped) + " is clamped where its shapes are not, for they are normal modes of another holding; a few of them bend too little "
+    out.push_back(first_of(clamped) + " is clamped where its shapes are not, for they are normal modes of another holding; a few of them bend too little "
                   "there and miss the stress: take craig-bampton");
   if (!untied.empty())
-    out.push_back("stiffening: rotation counts the pull of inertia as the frame's tie holds it, and joints hold " + listed(untied) +
+    out.push_back("stiffening: rotation counts the pull of inertia as the frame's tie holds it, and joints hold " + first_of(untied) +
                   " elsewhere; take axial, or tie the frame to the joint that holds it");
   return out;
 }

@@ -14,7 +14,7 @@ namespace {
 
 // Rows and frames are read between the steps: of dopri5 by dense output, brought onto the joints by one evaluation; of verner87,
 // whose steps are too long for that, by a step of its own.
-const Tableau* automatic_explicit(const Scene& scene, const Spectrum& s, const Demand& d) {
+const Tableau* automatic_explicit(const Scene& scene, const RateSpectrum& s, const Demand& d) {
   constexpr double fine = 1e-6, brief = 0.05, taken = 0.4;  // of the demand, by a smooth motion
   constexpr double read = 1000;  // as a run writes by default: what this one writes must not change its motion
   const Tableau *low = find_tableau("dopri5"), *high = find_tableau("verner87");
@@ -74,10 +74,10 @@ class Parts {
     found.struck = true;
     if (depth > 0) found.strike = std::max(found.strike, speed / depth);
   }
-  Spectrum found;
+  RateSpectrum found;
 
  private:
-  void see(const Spectrum::Part& part) {
+  void see(const RateSpectrum::Part& part) {
     found.parts.push_back(part);
     if (part.rate > found.fastest.rate) found.fastest = part;
     if (part.decay > found.most_damped.decay) found.most_damped = part;
@@ -117,7 +117,7 @@ Constraints constraints_of(const Scene& scene, bool is_explicit) {
 constexpr double dearer = 8;
 
 void choose(const Scene& scene, const System& system, Scheme& scheme) {
-  const Spectrum s = spectrum(scene, system);
+  const RateSpectrum s = spectrum(scene, system);
   const Demand d = demand(s, scene.run.tolerance);
   const double needed = std::max(d.stability, d.accuracy);
   const bool is_implicit = needed > dearer * d.implicit && scene.run.constraints != "partitioning";
@@ -140,7 +140,7 @@ void choose(const Scene& scene, const System& system, Scheme& scheme) {
 
 }  // namespace
 
-Spectrum spectrum(const Scene& scene, const System& system) {
+RateSpectrum spectrum(const Scene& scene, const System& system) {
   const double motion = motion_of(scene, system);
   Parts parts(system);
   for (std::size_t i = 0; i < system.forces.size(); ++i)
@@ -148,11 +148,11 @@ Spectrum spectrum(const Scene& scene, const System& system) {
   for (const Body& b : system.bodies) parts.see(b);
   for (std::size_t i = 0; i < system.contacts.size(); ++i)
     parts.see(system.contacts[i], motion, i < system.contact_names.size() ? system.contact_names[i] : "");
-  Spectrum s = std::move(parts.found);
+  RateSpectrum s = std::move(parts.found);
   s.motion = motion;
   s.until = scene.run.until;
   if (motion > 0) return s;
-  for (const Spectrum::Part& p : s.parts)
+  for (const RateSpectrum::Part& p : s.parts)
     if (p.rate > 0) s.motion = s.motion > 0 ? std::min(s.motion, p.rate) : p.rate;
   return s;
 }
@@ -160,11 +160,11 @@ Spectrum spectrum(const Scene& scene, const System& system) {
 // A step h of order p in an oscillation of rate r whose speed is A times the motion's errs by (hr)ᵖ A about; the
 // constants are those that the schemes show on a slider-crank. Inertia bends what is elastic by a fifth of
 // (motion/r)², and lets it ring so from the start, or from an impact, until damping has brought that to the tolerance.
-Demand demand(const Spectrum& s, double tolerance) {
+Demand demand(const RateSpectrum& s, double tolerance) {
   constexpr double explicit_order = 5, high_order = 8, implicit_order = 3, explicit_constant = 0.7, high_constant = 0.4, implicit_constant = 1, bent = 0.2;
   const auto most = [&](double order) {
     double steps = s.motion * std::pow(1 / tolerance, 1 / order);
-    for (const Spectrum::Part& p : s.parts) {
+    for (const RateSpectrum::Part& p : s.parts) {
       const double excess = bent * std::min(1.0, s.motion / std::max(p.rate, 1e-300)) / tolerance;
       if (!(p.rate > 0) || excess <= 1) continue;
       const double rings = s.struck || p.decay == 0 ? 1 : std::min(1.0, 2 * std::log(excess) / (p.decay * s.until));

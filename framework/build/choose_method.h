@@ -10,7 +10,7 @@ namespace pintle {
 
 /// How fast a system would move by itself and how fast it is made to, estimated from its parts alone: linear
 /// in their number, before any pose is known.
-struct Spectrum {
+struct RateSpectrum {
   struct Part {
     double rate = 0;        ///< as an undamped oscillation [rad/s]
     double decay = 0;       ///< of its speed by its damper, 2ζω of a mode [1/s]
@@ -25,7 +25,7 @@ struct Spectrum {
 };
 /// Each spring is taken as if nothing but it held its two bodies, at the points where it holds them, which no joint
 /// makes slower. A contact is no `fastest`: while it lasts, accuracy asks for short steps of any scheme.
-Spectrum spectrum(const Scene&, const System&);
+RateSpectrum spectrum(const Scene&, const System&);
 
 /// Steps a second that stability and accuracy ask for at a local error of `tolerance`.
 struct Demand {
@@ -34,7 +34,7 @@ struct Demand {
   double implicit;   ///< accuracy, of generalised-α
   double high;       ///< accuracy, of verner87
 };
-Demand demand(const Spectrum&, double tolerance);
+Demand demand(const RateSpectrum&, double tolerance);
 
 /// Fills tableau, constraints, rho, switch_below and reason. `method: auto` takes generalised-α if it gets by with
 /// an eighth of the steps of dopri5, which cost about the same but are more accurate; else verner87 if the tolerance is 1e-6 or

@@ -269,7 +269,7 @@ TEST(Auto, SpectrumOfOneBodyOnASpringIsItsFrequency) {
   s.loads = {spring("spring", "ground", "mass", 8, 3, 1)};
   s.run.until = 1;
   const pintle::Model model = pintle::build(s);
-  const pintle::Spectrum found = pintle::spectrum(s, model.system);
+  const pintle::RateSpectrum found = pintle::spectrum(s, model.system);
   EXPECT_DOUBLE_EQ(found.fastest.rate, 2);
   EXPECT_DOUBLE_EQ(found.most_damped.decay, 1.5);
   EXPECT_EQ(found.motion, 2);  // nothing else moves it

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <regex>
 #include <string>
 #include <string_view>
@@ -160,6 +161,29 @@ TEST(Layering, ALayerIncludesOnlyThoseBeforeIt) {
       for (std::size_t k = i + 1; k < layers.size(); ++k)
         EXPECT_FALSE(may.starts_with(layers[k].folder) && !layers[i].folder.starts_with(layers[k].folder))
             << layers[i].folder << " may include " << may << ", which stands after it";
+}
+
+// Two types of one name are one to the linker, which keeps the functions of either.
+TEST(Layering, NoTwoTypesShareAName) {
+  const fs::path root = PINTLE_SOURCE_DIR;
+  const std::regex type(R"(^(?:struct|class|enum|enum class) (\w+)(?: final)?(?: \{| : |$))");
+  std::map<std::string, std::string> known;
+  for (const auto* folder : {"elements", "contact", "files", "meshes", "framework", "app"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+      const std::string file = entry.path().lexically_relative(root).generic_string();
+      std::ifstream in(entry.path());
+      bool local = false;
+      for (std::string line; std::getline(in, line);) {
+        if (line == "namespace {") local = true;
+        if (line == "}  // namespace") local = false;
+        std::smatch match;
+        if (local || !std::regex_search(line, match, type)) continue;
+        const auto [first, is_new] = known.try_emplace(match.str(1), file);
+        EXPECT_TRUE(is_new) << match.str(1) << " stands in " << first->second << " and in " << file;
+      }
+    }
+  EXPECT_GT(known.size(), 200u) << "the scan has missed the types";
 }
 
 TEST(Layering, HeadersThatUseEigenCheckItsLayout) {

@@ -181,10 +181,10 @@ std::vector<std::string> terms_of(const System& s) {
 }
 
 void estimate_rates(const Scene& scene, const System& system, CostEstimate& p) {
-  const Spectrum s = spectrum(scene, system);
+  const RateSpectrum s = spectrum(scene, system);
   p.largest_rate = s.fastest.rate;
   p.largest_rate_of = s.fastest.what;
-  for (const Spectrum::Part& part : s.parts)
+  for (const RateSpectrum::Part& part : s.parts)
     if (part.what.starts_with("contact")) p.contact_rate = std::max(p.contact_rate, part.rate);
 }
 
