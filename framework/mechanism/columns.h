@@ -5,7 +5,7 @@
 #include <vector>
 
 /// A table's columns in one list: a function template that calls `out` for each group of columns names them if `out` is a
-/// Heading, and appends their values if it is a Row. Neither knows what a column means.
+/// Heading, and appends their values if it is a ValueRow. Neither knows what a column means.
 namespace pintle {
 
 struct Column {
@@ -25,7 +25,7 @@ struct Heading {
 
 /// values(now): as many as there are columns.
 template <class Now>
-struct Row {
+struct ValueRow {
   Now now;
   std::vector<double>& data;
 

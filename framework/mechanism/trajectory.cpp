@@ -65,16 +65,23 @@ struct Now {
 template <class Out>
 void body_columns(const System& system, std::size_t b, Out& out) {
   const Body& body = system.bodies[b];
-  const std::size_t n = at(system.n());
-  out(body.name,
-      {{".x", "m"}, {".y", "m"}, {".angle", "rad"}, {".vx", "m/s"}, {".vy", "m/s"}, {".speed", "rad/s"}, {".ax", "m/s^2"}, {".ay", "m/s^2"}, {".alpha", "rad/s^2"}},
-      [&](const Now& now) {
-        const double *q = now.state.y.data() + 3 * b, *s = q + n, *a = now.eq.a.data() + 3 * b;
-        const Eigen::Vector2d arm = Eigen::Rotation2Dd(q[2]) * body.x_BO, turned = perp(arm);
-        return std::array{q[0] + arm.x(), q[1] + arm.y(), q[2],
-                          s[0] + s[2] * turned.x(), s[1] + s[2] * turned.y(), s[2],
-                          a[0] + a[2] * turned.x() - s[2] * s[2] * arm.x(), a[1] + a[2] * turned.y() - s[2] * s[2] * arm.y(), a[2]};
-      });
+  const auto arm = [&body, b](const Now& now) -> Eigen::Vector2d { return Eigen::Rotation2Dd(now.state.y[static_cast<Eigen::Index>(3 * b) + 2]) * body.x_BO; };
+  const auto speeds = [&system, b](const Now& now) { return now.state.y.data() + system.n() + 3 * b; };
+  out(body.name, {{".x", "m"}, {".y", "m"}, {".angle", "rad"}}, [&](const Now& now) {
+    const double* q = now.state.y.data() + 3 * b;
+    const Eigen::Vector2d d = arm(now);
+    return std::array{q[0] + d.x(), q[1] + d.y(), q[2]};
+  });
+  out(body.name, {{".vx", "m/s"}, {".vy", "m/s"}, {".speed", "rad/s"}}, [&](const Now& now) {
+    const double* s = speeds(now);
+    const Eigen::Vector2d turned = perp(arm(now));
+    return std::array{s[0] + s[2] * turned.x(), s[1] + s[2] * turned.y(), s[2]};
+  });
+  out(body.name, {{".ax", "m/s^2"}, {".ay", "m/s^2"}, {".alpha", "rad/s^2"}}, [&](const Now& now) {
+    const double *s = speeds(now), *a = now.eq.a.data() + 3 * b;
+    const Eigen::Vector2d d = arm(now), turned = perp(d);
+    return std::array{a[0] + a[2] * turned.x() - s[2] * s[2] * d.x(), a[1] + a[2] * turned.y() - s[2] * s[2] * d.y(), a[2]};
+  });
   for (int i = 0; i < body.modes(); ++i)
     out(body.name, {{".mode ", "m kg^0.5"}}, [&](const Now& now) { return std::array{now.state.y[system.eta_begin[b] + i]}; },
         [i] { return std::to_string(i + 1); });
@@ -202,7 +209,7 @@ Table trajectory_table(const Model& model) {
   return t;
 }
 void record(const Model& model, const State& state, const Equations& eq, Table& t) {
-  trajectory_columns(model, Row<Now>{{state, eq}, t.data});
+  trajectory_columns(model, ValueRow<Now>{{state, eq}, t.data});
 }
 
 Table ledger_table(const System& system) {
@@ -211,7 +218,7 @@ Table ledger_table(const System& system) {
   return t;
 }
 void record_ledger(const System& system, const State& state, const Energies& e, double unexplained, Table& t) {
-  ledger_columns(system, Row<Books>{{state, e, unexplained}, t.data});
+  ledger_columns(system, ValueRow<Books>{{state, e, unexplained}, t.data});
 }
 
 std::size_t first_integral(const System& system) { return is_flexible(system) ? 7 : 6; }

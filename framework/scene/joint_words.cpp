@@ -5,8 +5,8 @@
 namespace pintle {
 
 std::span<const JointWord> joint_words() {
-  static const JointNumber angle{"angle", &SceneJoint::angle, dimension::angle},
-      length{"length", &SceneJoint::length, dimension::length, "length: 120 mm"}, ratio{"ratio", &SceneJoint::ratio, dimension::number};
+  static const JointNumber angle{JointNumber::angle, "angle", &SceneJoint::angle},
+      length{JointNumber::length, "length", &SceneJoint::length, "length: 120 mm"}, ratio{JointNumber::ratio, "ratio", &SceneJoint::ratio};
   static const std::vector<JointWord> words{
       {.kind = JointKind::revolute, .word = "revolute", .clearance = true},
       {.kind = JointKind::prismatic, .word = "prismatic", .guides = true, .clamps = true, .numbers = {angle}},

@@ -4,16 +4,15 @@
 #include <vector>
 
 #include "framework/scene/scene.h"
-#include "framework/scene/units/unit.h"
 
 /// The joints that a scene can have, in one table: their words, what stands beside them, and what they hold of a body.
 namespace pintle {
 
 /// A number that stands beside a joint's points.
 struct JointNumber {
+  enum Of { angle, length, ratio } of;
   const char* key;
   double SceneJoint::*value;
-  Dimension dimension;
   const char* required = nullptr;  ///< what to write where it is missing: "length: 120 mm"; it is above 0 then
 };
 

@@ -17,12 +17,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-std::string number(double x) {
-  std::ostringstream s;
-  s << x;
-  return s.str();
-}
-
 struct End {
   State state;
   double steps = 0, fastest = 0;  ///< fastest rate of the run [1/s]
@@ -136,6 +130,12 @@ std::optional<Verdict> compared(const Model& model, const Model& other, const As
 }
 
 }  // namespace
+
+std::string number(double x) {
+  std::ostringstream s;
+  s << x;
+  return s.str();
+}
 
 Verdict agreement(const Scene& scene, const Model& model, const Assembly& assembly, double seconds) {
   constexpr int spans = 4;

@@ -92,7 +92,7 @@ TEST(BadScene, MissingKeyIsNamedWithAnExample) {
       {"{revolute: [ground, crank.O]}",
        "{}",
        "scene.yaml:13: joints.main: ",
-       {"add one of revolute, prismatic, slot, weld or distance"}},
+       {"add one of revolute, prismatic, slot, weld, distance or differential"}},
   });
 }
 

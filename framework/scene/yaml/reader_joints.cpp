@@ -145,7 +145,10 @@ SceneJoint read_joint(const Node& node) {
   read_points(node.at(word.word), word, joint);
   for (const JointNumber& number : word.numbers) {
     if (number.required && !node.has(number.key)) node.fail(std::string("lacks a required key; add for example ") + number.required);
-    read_optional(node, number.key, number.dimension, number.required ? rule::positive : rule::any, joint.*number.value);
+    const Dimension& expected = number.of == JointNumber::angle    ? dimension::angle
+                                : number.of == JointNumber::length ? dimension::length
+                                                                   : dimension::number;
+    read_optional(node, number.key, expected, number.required ? rule::positive : rule::any, joint.*number.value);
   }
   if (node.has("clearance")) joint.clearance = read_clearance(node.at("clearance"), joint);
   return joint;
