@@ -39,28 +39,30 @@ SceneTorque read_torque(const Node& node, const std::filesystem::path& folder, d
           read_time_law(node.at("torque"), dimension::torque, Smoothness::load, folder, until)};
 }
 
-void must_act(const Node& node) {
+// What the two kinds of springs have in common.
+template <class Spring>
+Spring read_ends_and_rates(const Node& node, std::string_view kind, const Dimension& stiffness,
+                           const Dimension& damping) {
   if (!node.has("stiffness") && !node.has("damping"))
     node.fail("neither springs nor damps; add stiffness, damping or both");
+  Spring spring;
+  std::tie(spring.a, spring.b) = read_ends(node.at(kind));
+  read_optional(node, "stiffness", stiffness, rule::positive, spring.stiffness);
+  read_optional(node, "damping", damping, rule::not_negative, spring.damping);
+  return spring;
 }
 
 SceneSpring read_spring(const Node& node) {
-  must_act(node);
   if (node.has("stiffness")) must_have(node, "free length", "50 mm");
-  SceneSpring spring;
-  std::tie(spring.a, spring.b) = read_ends(node.at("spring"));
-  read_optional(node, "stiffness", dimension::stiffness, rule::positive, spring.stiffness);
-  read_optional(node, "damping", dimension::damping, rule::not_negative, spring.damping);
+  auto spring = read_ends_and_rates<SceneSpring>(node, "spring", dimension::stiffness,
+                                                 dimension::damping);
   read_optional(node, "free length", dimension::length, rule::not_negative, spring.free_length);
   return spring;
 }
 
 SceneTorsionSpring read_torsion_spring(const Node& node) {
-  must_act(node);
-  SceneTorsionSpring spring;
-  std::tie(spring.a, spring.b) = read_ends(node.at("torsion spring"));
-  read_optional(node, "stiffness", dimension::torsion_stiffness, rule::positive, spring.stiffness);
-  read_optional(node, "damping", dimension::torsion_damping, rule::not_negative, spring.damping);
+  auto spring = read_ends_and_rates<SceneTorsionSpring>(
+      node, "torsion spring", dimension::torsion_stiffness, dimension::torsion_damping);
   read_optional(node, "free angle", dimension::angle, rule::any, spring.free_angle);
   return spring;
 }
