@@ -90,7 +90,6 @@ const std::vector<Foreign> foreign{
     {"vtk", {"framework/drawing/vtk_encoder.cpp", "app/picture.cpp", "app/png.cpp", "app/canvas.h", "app/canvas.cpp",
              "app/field_picture.cpp", "app/frames.cpp", "tests/unit/vtk_test.cpp"}},
     {"yaml-cpp/", {"framework/scene/", "tests/"}},
-    {"muParser", {"framework/scene/units/expression.cpp"}},
     {"cholmod", {"framework/dynamics/solvers/sparse_ldl.cpp", "framework/component/"}},
     {"Eigen/CholmodSupport", {"framework/configuration/least_step.cpp"}},
     {"ldl.h", {"framework/dynamics/solvers/sparse_ldl.cpp"}},

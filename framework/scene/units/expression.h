@@ -32,7 +32,4 @@ Law read_law(std::string_view text, const Dimension& expected, const Parameters&
 /// Why a parameter may not have this name, or empty if it may.
 std::string fault_of_name(std::string_view name);
 
-/// Names of all functions, for messages and documentation.
-const std::vector<std::string>& function_names();
-
 }  // namespace pintle

@@ -22,8 +22,14 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
+// The text in ASCII, and of each of its characters the place in the text as written, from 1.
+struct Plain {
+  std::string text;
+  std::vector<std::size_t> at;
+};
+
 // Characters an engineer types that are not ASCII.
-std::string plain(std::string_view text) {
+Plain plain(std::string_view text) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 10> spellings{
       {{"µ", "u"},
        {"μ", "u"},
@@ -35,26 +41,30 @@ std::string plain(std::string_view text) {
        {"³", "^3"},
        {"π", "pi"},
        {"\u00a0", " "}}};
-  std::string out;
-  while (!text.empty()) {
-    bool replaced = false;
-    for (const auto& [from, to] : spellings)
-      if (text.starts_with(from)) {
-        out += to;
-        text.remove_prefix(from.size());
-        replaced = true;
-        break;
-      }
-    if (replaced) continue;
-    out += text.front();
-    text.remove_prefix(1);
+  const auto goes_on = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
+  Plain out;
+  for (std::size_t place = 0; !text.empty();) {
+    if (!goes_on(text.front())) ++place;
+    std::string_view from = text.substr(0, 1), to = from;
+    for (const auto& [written, ascii] : spellings)
+      if (text.starts_with(written)) from = written, to = ascii;
+    out.text += to;
+    out.at.resize(out.text.size(), place);
+    text.remove_prefix(from.size());
   }
   return out;
 }
 
+// An open parenthesis, or the whole.
+struct Level {
+  std::size_t opened = 0;  // where
+  bool divided = false;    // its current product
+};
+
 class Speller {
  public:
-  Speller(const std::string& text, const Vocabulary& known) : rest_(text), known_(known) {}
+  Speller(const Plain& plain, const Vocabulary& known)
+      : at_(plain.at), rest_(plain.text), known_(known) {}
 
   std::vector<Word> words() {
     for (skip_space(); !rest_.empty(); skip_space()) {
@@ -72,7 +82,8 @@ class Speller {
       else
         sign();
     }
-    if (divided_.size() > 1) throw ExpressionError("a parenthesis is not closed" + hint_);
+    if (levels_.size() > 1)
+      throw ExpressionError("a parenthesis is not closed" + hint_, levels_.back().opened);
     return std::move(words_);
   }
 
@@ -83,9 +94,11 @@ class Speller {
       rest_.remove_prefix(1);
   }
   void take(Kind kind, std::size_t length, double value = 0) {
-    words_.push_back({kind, std::string(rest_.substr(0, length)), value});
+    words_.push_back({kind, std::string(rest_.substr(0, length)), at(), value});
     rest_.remove_prefix(length);
   }
+  std::size_t at() const { return rest_.empty() ? 0 : at_[at_.size() - rest_.size()]; }
+  [[noreturn]] void fail(const std::string& what) const { throw ExpressionError(what, at()); }
   // The last word ends a value, so that what follows must be a sign.
   bool after_value() const {
     if (words_.empty()) return false;
@@ -97,8 +110,7 @@ class Speller {
   }
   [[noreturn]] void side_by_side(std::string_view next) const {
     const std::string last = words_.back().text;
-    throw ExpressionError(between(next) + ": write " + (last == ")" ? "" : last) + "*" +
-                          std::string(next));
+    fail(between(next) + ": write " + (last == ")" ? "" : last) + "*" + std::string(next));
   }
 
   void number();
@@ -106,26 +118,26 @@ class Speller {
   void multiply_by_unit(std::string_view unit);
   void open() {
     if (after_value()) side_by_side("(");
-    divided_.push_back(false);
+    levels_.push_back({at(), false});
     take(Kind::open, 1);
   }
   void close() {
-    if (divided_.size() == 1) throw ExpressionError("a parenthesis closes that was not opened");
-    divided_.pop_back();
+    if (levels_.size() == 1) fail("a parenthesis closes that was not opened");
+    levels_.pop_back();
     take(Kind::close, 1);
   }
   void comma() {
-    if (divided_.size() == 1)
-      throw ExpressionError("a comma stands outside a function: the decimal point is \".\"");
-    divided_.back() = false;
+    if (levels_.size() == 1) fail("a comma stands outside a function: the decimal point is \".\"");
+    levels_.back().divided = false;
     take(Kind::comma, 1);
   }
   void sign();
 
+  const std::vector<std::size_t>& at_;
   std::string_view rest_;
   const Vocabulary& known_;
   std::vector<Word> words_;
-  std::vector<bool> divided_{false};  // per open parenthesis: the current product has divided
+  std::vector<Level> levels_{Level{}};
   const std::string hint_ = "; inside { } or [ ] an expression with commas must stand in quotes";
 };
 
@@ -135,14 +147,13 @@ void Speller::number() {
   const auto length = static_cast<std::size_t>(end - rest_.data());
   const bool reciprocal = length == 1 && value == 1 && rest_.size() > 2 && rest_[1] == '/' &&
                           is_letter(rest_[2]) && !words_.empty() &&
-                          words_.back().kind == Kind::number && !divided_.back();
+                          words_.back().kind == Kind::number && !levels_.back().divided;
   if (reciprocal)
-    words_.push_back({Kind::sign, "*"});
+    words_.push_back({Kind::sign, "*", at()});
   else if (after_value())
     side_by_side(rest_.substr(0, length));
   if (error != std::errc())
-    throw ExpressionError(std::string(rest_.substr(0, length)) +
-                          " is too large or too small for a number");
+    fail(std::string(rest_.substr(0, length)) + " is too large or too small for a number");
   take(Kind::number, length, value);
 }
 
@@ -156,8 +167,7 @@ void Speller::name() {
   if (after_value()) {
     const bool value = calls || text == "t" || text == "pi" || known_.parameters.contains(text);
     if (value) side_by_side(text);
-    if (!known_.unit(text))
-      throw ExpressionError(between(text) + ", and " + no_unit(std::string(text)));
+    if (!known_.unit(text)) fail(between(text) + ", and " + no_unit(std::string(text)));
     multiply_by_unit(text);
   }
   take(calls ? Kind::function : Kind::name, length);
@@ -169,14 +179,13 @@ void Speller::multiply_by_unit(std::string_view unit) {
   const std::size_t n = words_.size();
   const bool fraction = n >= 3 && words_[n - 1].kind == Kind::number && words_[n - 2].text == "/" &&
                         words_[n - 3].kind == Kind::number && (n == 3 || words_[n - 4].text != "/");
-  if (divided_.back() && !fraction) {
+  if (levels_.back().divided && !fraction) {
     const std::string last = words_.back().text, u(unit);
-    throw ExpressionError("\"" + last + " " + u +
-                          "\" after a \"/\" can be read two ways: write /(" + last + "*" + u +
-                          ") or *" + u);
+    fail("\"" + last + " " + u + "\" after a \"/\" can be read two ways: write /(" + last + "*" +
+         u + ") or *" + u);
   }
-  divided_.back() = false;
-  words_.push_back({Kind::sign, "*"});
+  levels_.back().divided = false;
+  words_.push_back({Kind::sign, "*", at()});
 }
 
 void Speller::sign() {
@@ -186,17 +195,17 @@ void Speller::sign() {
   for (const std::string_view s : signs)
     if (rest_.starts_with(s) && s.size() > length) length = s.size();
   const std::string_view s = rest_.substr(0, length);
-  if (s == "**") throw ExpressionError("a power is written ^");
-  if (s == "=") throw ExpressionError("= is no operator: write == to compare");
+  if (s == "**") fail("a power is written ^");
+  if (s == "=") fail("= is no operator: write == to compare");
   if (length == 0) {
     const bool condition = rest_.front() == '?' || rest_.front() == ':';
-    if (condition) throw ExpressionError("a choice is written if(condition, a, b)");
-    throw ExpressionError("\"" + std::string(rest_.substr(0, rest_.front() < 0 ? 2 : 1)) +
-                          "\" has no meaning in an expression: it is made of numbers, units, "
-                          "parameters, t, functions and + - * / ^ ( )");
+    if (condition) fail("a choice is written if(condition, a, b)");
+    fail("\"" + std::string(rest_.substr(0, rest_.front() < 0 ? 2 : 1)) +
+         "\" has no meaning in an expression: it is made of numbers, units, "
+         "parameters, t, functions and + - * / ^ ( )");
   }
   const bool prefix = !after_value();
-  if (!prefix && s != "^") divided_.back() = s == "/";
+  if (!prefix && s != "^") levels_.back().divided = s == "/";
   take(Kind::sign, length);
 }
 
@@ -211,7 +220,7 @@ std::vector<Word> spell(std::string_view text, const Vocabulary& known) {
   if (text.size() > longest_text)
     throw ExpressionError("it is longer than " + std::to_string(longest_text) +
                           " characters: name parts of it in parameters, or use a table");
-  const std::string ascii = plain(text);
+  const Plain ascii = plain(text);
   std::vector<Word> words = Speller(ascii, known).words();
   if (words.empty()) throw ExpressionError("it is empty: write a value");
   return words;

@@ -24,7 +24,8 @@ struct Vocabulary {
 struct Word {
   enum class Kind { number, name, function, sign, open, close, comma } kind;
   std::string text;
-  double value = 0;  ///< of a number
+  std::size_t at = 0;  ///< its first character's place in the expression, from 1
+  double value = 0;    ///< of a number
 };
 
 /// `3 1/s` becomes 3 * 1 / s.

@@ -38,25 +38,32 @@ constexpr std::array known_units{
 constexpr std::array turns{Unit{"Hz", 2 * pi, d::angular_speed},
                            Unit{"kHz", 2e3 * pi, d::angular_speed}};
 
-struct AbsentUnit {
+struct AbsentWord {
   std::string_view name, remedy;
 };
-constexpr std::array absent_units{
-    AbsentUnit{"Hz", "Hz counts turns, not radians: write 50*rev/s, 3000 rpm or 50/s, as you mean it"},
-    AbsentUnit{"kHz", "Hz counts turns, not radians: write 1000*rev/s or 1000/s, as you mean it"},
-    AbsentUnit{"min", "minutes are not offered: write 60 s"},
-    AbsentUnit{"inch", "inches are not offered: write 25.4 mm"},
-    AbsentUnit{"in", "inches are not offered: write 25.4 mm"},
-    AbsentUnit{"ft", "feet are not offered: write 0.3048 m"},
-    AbsentUnit{"lb", "pounds are not offered: write 0.45359237 kg"},
-    AbsentUnit{"lbf", "pounds are not offered: write 4.4482216 N"},
-    AbsentUnit{"psi", "pounds are not offered: write 6894.7573 Pa"},
-    AbsentUnit{"ton", "write 1000 kg"},
-    AbsentUnit{"Nm", "a product of units is written with a space: N m"},
-    AbsentUnit{"Nmm", "a product of units is written with a space: N mm"},
-    AbsentUnit{"kNm", "a product of units is written with a space: kN m"},
-    AbsentUnit{"Ns", "a product of units is written with a space: N s"},
-    AbsentUnit{"kgm", "a product of units is written with a space: kg m"}};
+constexpr std::array absent_words{
+    AbsentWord{"Hz", "Hz counts turns, not radians: write 50*rev/s, 3000 rpm or 50/s, as you mean it"},
+    AbsentWord{"kHz", "Hz counts turns, not radians: write 1000*rev/s or 1000/s, as you mean it"},
+    AbsentWord{"min", "minutes are not offered: write 60 s"},
+    AbsentWord{"inch", "inches are not offered: write 25.4 mm"},
+    AbsentWord{"in", "inches are not offered: write 25.4 mm"},
+    AbsentWord{"ft", "feet are not offered: write 0.3048 m"},
+    AbsentWord{"lb", "pounds are not offered: write 0.45359237 kg"},
+    AbsentWord{"lbf", "pounds are not offered: write 4.4482216 N"},
+    AbsentWord{"psi", "pounds are not offered: write 6894.7573 Pa"},
+    AbsentWord{"ton", "write 1000 kg"},
+    AbsentWord{"Nm", "a product of units is written with a space: N m"},
+    AbsentWord{"Nmm", "a product of units is written with a space: N mm"},
+    AbsentWord{"kNm", "a product of units is written with a space: kN m"},
+    AbsentWord{"Ns", "a product of units is written with a space: N s"},
+    AbsentWord{"kgm", "a product of units is written with a space: kg m"},
+    AbsentWord{"inf", "every value must be finite"},
+    AbsentWord{"Inf", "every value must be finite"},
+    AbsentWord{"infinity", "every value must be finite"},
+    AbsentWord{"nan", "every value must be finite"},
+    AbsentWord{"NaN", "every value must be finite"},
+    AbsentWord{"e", "Euler's number is exp(1); a power of ten is written 1e-3"},
+    AbsentWord{"ln", "the natural logarithm is log"}};
 
 struct Named {
   Dimension dimension;
@@ -153,7 +160,7 @@ std::span<const Unit> frequency_units() {
 }
 
 std::string_view instead_of(std::string_view word) {
-  for (const AbsentUnit& a : absent_units)
+  for (const AbsentWord& a : absent_words)
     if (a.name == word) return a.remedy;
   return {};
 }

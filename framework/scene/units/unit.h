@@ -47,8 +47,8 @@ const Unit* find_unit(std::string_view name);
 /// Hz and kHz as turns: units only where the value is a frequency and nothing else (`modes.below`).
 std::span<const Unit> frequency_units();
 
-/// What to write instead of a unit that people try and that is absent on purpose ("Hz", "inch",
-/// "Nm"); empty for any other word.
+/// What to write instead of a unit, constant or function that people try and that is absent on
+/// purpose ("Hz", "Nm", "e", "ln"); empty for any other word.
 std::string_view instead_of(std::string_view word);
 /// "lb is no unit here: write 0.45359237 kg. Units: m, km, …".
 std::string no_unit(const std::string& word);

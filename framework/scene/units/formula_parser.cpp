@@ -1,0 +1,200 @@
+#include "framework/scene/units/formula_parser.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "framework/common/nearest.h"
+#include "framework/scene/units/unit.h"
+
+// A Pratt parser: every operator says how strongly it binds the operand to its left and the one to
+// its right; an operand between two operators belongs to the stronger side.
+namespace pintle {
+
+namespace {
+
+using Kind = Word::Kind;
+
+struct Operator {
+  std::string_view sign;
+  Op op;
+  int left, right;
+};
+// Left below right: a - b - c is (a - b) - c. Left above right: a^b^c is a^(b^c).
+constexpr std::array<Operator, 13> operators{{{"||", Op::either, 1, 2},
+                                              {"&&", Op::both, 3, 4},
+                                              {"<", Op::less, 5, 6},
+                                              {">", Op::greater, 5, 6},
+                                              {"<=", Op::at_most, 5, 6},
+                                              {">=", Op::at_least, 5, 6},
+                                              {"==", Op::equal, 5, 6},
+                                              {"!=", Op::unequal, 5, 6},
+                                              {"+", Op::add, 7, 8},
+                                              {"-", Op::subtract, 7, 8},
+                                              {"*", Op::multiply, 9, 10},
+                                              {"/", Op::divide, 9, 10},
+                                              {"^", Op::power, 14, 13}}};
+constexpr int weakest = 0, before_a_value = 11;  // a sign: -a^2 is -(a^2), -a*b is (-a)*b
+
+constexpr int any = std::numeric_limits<int>::max();
+struct Function {
+  std::string_view name;
+  Op op;
+  int least, most;  // arguments; of any number, op joins one after the other
+};
+constexpr std::array<Function, 15> functions{{{"sin", Op::sin, 1, 1},
+                                              {"cos", Op::cos, 1, 1},
+                                              {"tan", Op::tan, 1, 1},
+                                              {"asin", Op::asin, 1, 1},
+                                              {"acos", Op::acos, 1, 1},
+                                              {"atan", Op::atan, 1, 1},
+                                              {"atan2", Op::atan2, 2, 2},
+                                              {"sqrt", Op::sqrt, 1, 1},
+                                              {"exp", Op::exp, 1, 1},
+                                              {"log", Op::log, 1, 1},
+                                              {"abs", Op::abs, 1, 1},
+                                              {"min", Op::min, 1, any},
+                                              {"max", Op::max, 1, any},
+                                              {"if", Op::choose, 3, 3},
+                                              {"step", Op::smooth, 3, 3}}};
+
+bool adds(const Word& w) {
+  return w.kind == Kind::sign && (w.text == "+" || w.text == "-");
+}
+
+const Function& function(const Word& w) {
+  const auto found = std::ranges::find(functions, w.text, &Function::name);
+  if (found != functions.end()) return *found;
+  const std::string_view remedy = instead_of(w.text);
+  throw ExpressionError("there is no function \"" + w.text + "\"" +
+                            (remedy.empty() ? "." + did_you_mean(w.text, function_names())
+                                            : ": " + std::string(remedy)),
+                        w.at);
+}
+
+class Parser {
+ public:
+  explicit Parser(std::span<const Word> words) : words_(words) {}
+
+  std::vector<Step> steps() {
+    expression(weakest);
+    if (!at_end()) throw ExpressionError(next().text + " stands where it should end", next().at);
+    return std::move(steps_);
+  }
+
+ private:
+  // Of expressions within one another, so that no text, however hostile, overflows the stack.
+  static constexpr int deepest = 250;
+
+  bool at_end() const { return place_ == words_.size(); }
+  const Word& next() const { return words_[place_]; }
+  bool next_is(Kind kind) const { return !at_end() && next().kind == kind; }
+  const Word& take() {
+    if (!at_end()) return words_[place_++];
+    if (words_.empty()) throw ExpressionError("it ends too early");
+    throw ExpressionError("it ends too early: nothing follows " + words_.back().text,
+                          words_.back().at);
+  }
+  bool take_if(Kind kind) {
+    const bool taken = next_is(kind);
+    place_ += taken ? 1 : 0;
+    return taken;
+  }
+
+  // As far as operators reach that bind their left side at least so strongly.
+  void expression(int least) {
+    if (++depth_ > deepest)
+      throw ExpressionError("it nests too deeply: name parts of it in parameters",
+                            words_[place_ - 1].at);
+    operand();
+    while (next_is(Kind::sign)) {
+      const auto o = std::ranges::find(operators, next().text, &Operator::sign);
+      if (o == operators.end() || o->left < least) break;
+      const Word& word = take();
+      expression(o->right);
+      steps_.push_back({&word, 2, o->op});
+    }
+    --depth_;
+  }
+
+  void operand() {
+    const Word& word = take();
+    switch (word.kind) {
+      case Kind::number:
+      case Kind::name:
+        return steps_.push_back({&word});
+      case Kind::function:
+        return call(word);
+      case Kind::open:
+        expression(weakest);
+        if (next_is(Kind::comma))
+          throw ExpressionError("a comma stands outside a function: the decimal point is \".\"",
+                                next().at);
+        return close(word);
+      case Kind::sign:
+        if (adds(word)) return signed_operand(word);
+        throw ExpressionError("the operator " + word.text + " stands where a value should",
+                              word.at);
+      case Kind::comma:
+        throw ExpressionError("a comma stands where a value should", word.at);
+      case Kind::close:
+        throw ExpressionError("a parenthesis stands where a value should", word.at);
+    }
+  }
+
+  void signed_operand(const Word& sign) {
+    if (!at_end() && adds(next()))
+      throw ExpressionError("a second sign needs parentheses, as in -(-2)", next().at);
+    expression(before_a_value);
+    if (sign.text == "-") steps_.push_back({&sign, 1, Op::negate});
+  }
+
+  void call(const Word& name) {
+    const Function& f = function(name);
+    if (!next_is(Kind::open))
+      throw ExpressionError("the function " + name.text + " needs its parentheses", name.at);
+    const Word& open = take();
+    int given = 0;
+    for (bool more = !next_is(Kind::close); more; more = take_if(Kind::comma)) {
+      expression(weakest);
+      if (++given > 1 && f.most == any) steps_.push_back({&name, 2, f.op});
+    }
+    close(open);
+    if (given < f.least || given > f.most)
+      throw ExpressionError(name.text + " has too " + (given < f.least ? "few" : "many") +
+                                " arguments: " + std::to_string(given) + " instead of " +
+                                std::to_string(f.least) + (f.most == any ? " or more" : ""),
+                            name.at);
+    if (f.most != any) steps_.push_back({&name, given, f.op});
+  }
+
+  void close(const Word& open) {
+    if (!take_if(Kind::close)) throw ExpressionError("a parenthesis is not closed", open.at);
+  }
+
+  std::span<const Word> words_;
+  std::size_t place_ = 0;
+  int depth_ = 0;
+  std::vector<Step> steps_;
+};
+
+}  // namespace
+
+std::vector<Step> parse(std::span<const Word> words) {
+  return Parser(words).steps();
+}
+
+const std::vector<std::string>& function_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> out;
+    for (const Function& f : functions) out.emplace_back(f.name);
+    return out;
+  }();
+  return names;
+}
+
+bool is_function(std::string_view name) {
+  return std::ranges::find(functions, name, &Function::name) != functions.end();
+}
+
+}  // namespace pintle

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "framework/scene/units/spelling.h"
+
+namespace pintle {
+
+/// One step of working out an expression on a stack of results: it takes the last `operands` of
+/// them and leaves one.
+struct Step {
+  const Word* word;      ///< that asks for it
+  int operands = 0;      ///< none: the word is the number or name that is wanted
+  Op op = Op::constant;  ///< with operands; Op::smooth with three of them: step(x, x0, x1)
+};
+
+/// The steps of an expression, those of its operands first. Its grammar, [ ] once or not at all,
+/// { } any number of times:
+///
+///     expression = and {"||" and}
+///     and        = comparison {"&&" comparison}
+///     comparison = sum {("<" | "<=" | ">" | ">=" | "==" | "!=") sum}
+///     sum        = product {("+" | "-") product}
+///     product    = signed {("*" | "/") signed}
+///     signed     = ["+" | "-"] power
+///     power      = operand ["^" signed]
+///     operand    = number | name | "(" expression ")" | call
+///     call       = function "(" [expression {"," expression}] ")"
+///
+/// The steps point to the words, which must outlive them.
+/// @throws ExpressionError  it is no such expression, nests too deeply, names a function that there
+///                          is not, or gives one too many arguments or too few
+std::vector<Step> parse(std::span<const Word>);
+
+/// Names of all functions, for messages and documentation.
+const std::vector<std::string>& function_names();
+bool is_function(std::string_view name);
+
+}  // namespace pintle
