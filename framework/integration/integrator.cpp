@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "framework/common/text.h"
@@ -34,6 +36,8 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
       norm_(system, scheme.tolerance),
       control_(scheme.max_step),
       events_(events_of(system, scheme, contacts_)) {
+  if (start.y.size() != system.n_y())  // of another model, whose ledger may have other rows
+    throw std::invalid_argument("a start of " + std::to_string(start.y.size()) + " numbers for a system of " + std::to_string(system.n_y()));
   start.impact_rate.resize(system.contacts.size(), 0.0);
   step_.to.state = std::move(start);
   step_.to.dy.setZero(system.n_y());

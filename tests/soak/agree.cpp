@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "framework/build/build.h"
+#include "framework/common/library_threads.h"
 #include "framework/common/processor_time.h"
 #include "framework/integration/integrator.h"
 
@@ -70,6 +71,13 @@ struct Ends {
   End one, two;
 };
 
+/// The same start for another model of the mechanism, which may keep other integrals.
+State start_for(const System& system, State start) {
+  start.y.conservativeResize(2 * system.n());
+  start.y.conservativeResizeLike(VectorXd::Zero(system.n_y()));
+  return start;
+}
+
 /// Two runs from one start as far as both come for what they may cost. One that does not come to the end is compared a little before,
 /// not just where an event or a singular pose has ended it.
 Ends ends_of(const Model& first, const Model& second, const State& start, double until, double seconds) {
@@ -77,10 +85,11 @@ Ends ends_of(const Model& first, const Model& second, const State& start, double
   const Budget first_budget{1000, seconds / 20}, second_budget{5000, seconds / 10}, enough{1e9, seconds};
   End one = end_of(first.system, first.scheme, start, until, first_budget);
   if (one.state.t < until) until = short_of_the_end * one.state.t;
-  End two = end_of(second.system, second.scheme, start, until, second_budget);
+  const State second_start = start_for(second.system, start);
+  End two = end_of(second.system, second.scheme, second_start, until, second_budget);
   if (two.state.t < until) {
     until = short_of_the_end * two.state.t;
-    two = end_of(second.system, second.scheme, start, until, enough);
+    two = end_of(second.system, second.scheme, second_start, until, enough);
   }
   if (one.state.t > until) one = end_of(first.system, first.scheme, start, until, enough);
   return {until, one, two};
@@ -138,6 +147,7 @@ std::string number(double x) {
 }
 
 Verdict agreement(const Scene& scene, const Model& model, const Assembly& assembly, double seconds) {
+  hold_library_threads();
   constexpr int spans = 4;
   constexpr double shorter = 0.2;
   Scene second = scene;

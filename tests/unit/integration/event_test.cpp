@@ -226,5 +226,15 @@ TEST(Events, AreLocatedBesideAnOnsetThatIsCut) {
   EXPECT_LE(depth, 1e-6);
 }
 
+// Models of one mechanism may differ in the integrals behind their coordinates; taken as its own, a shorter one was read past its end.
+TEST(Integrator, TakesNoStartOfAnotherSystem) {
+  const System system = free_body();
+  for (const int more : {-1, 1}) {
+    State start = falling(system);
+    start.y.conservativeResizeLike(Eigen::VectorXd::Zero(system.n_y() + more));
+    for (const char* method : {"dopri5", "verner87", "generalized-alpha"}) EXPECT_THROW(Integrator(system, scheme_of(method), start), std::invalid_argument);
+  }
+}
+
 }  // namespace
 }  // namespace pintle::event_test
