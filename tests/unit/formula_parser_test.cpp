@@ -16,7 +16,7 @@ std::string read(const std::string& text) {
   const Parameters none;
   const std::vector<Word> words = spell(text, {none});
   std::vector<std::string> results;
-  for (const Step& step : parse(words)) {
+  for (const FormulaStep& step : parse(words)) {
     std::vector<std::string> x;
     for (int i = 0; i < step.operands; ++i) {
       x.insert(x.begin(), results.back());

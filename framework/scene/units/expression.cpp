@@ -33,7 +33,8 @@ int value_of(const Word& word, const Vocabulary& known, Formula& formula) {
   unknown(name, known.parameters);
 }
 
-int result_of(const Step& step, std::span<const int> x, const Vocabulary& known, Formula& formula) {
+int result_of(const FormulaStep& step, std::span<const int> x, const Vocabulary& known,
+              Formula& formula) {
   switch (x.size()) {
     case 0:
       return value_of(*step.word, known, formula);
@@ -48,9 +49,9 @@ int result_of(const Step& step, std::span<const int> x, const Vocabulary& known,
 }
 
 // Builds the formula; returns its last term.
-int build(const std::vector<Step>& steps, const Vocabulary& known, Formula& formula) {
+int build(const std::vector<FormulaStep>& steps, const Vocabulary& known, Formula& formula) {
   std::vector<int> results;
-  for (const Step& step : steps) {
+  for (const FormulaStep& step : steps) {
     const std::size_t left = results.size() - step.operands;
     try {
       const int result = result_of(step, std::span(results).subspan(left), known, formula);
@@ -90,7 +91,7 @@ Law law_from(const Formula& formula, int root, std::string_view text) {
   return {formula.program(root), std::string(text), false};
 }
 
-Law law_with(const std::vector<Step>& steps, std::string_view text, const Dimension& of_time,
+Law law_with(const std::vector<FormulaStep>& steps, std::string_view text, const Dimension& of_time,
              const Dimension& expected, const Vocabulary& known) {
   Formula formula(of_time);
   const int root = build(steps, known, formula);
@@ -146,7 +147,7 @@ Law read_law(std::string_view text, const Dimension& expected, const Parameters&
   try {
     const Vocabulary known{parameters};
     const std::vector<Word> words = spell(text, known);
-    const std::vector<Step> steps = parse(words);
+    const std::vector<FormulaStep> steps = parse(words);
     try {
       return law_with(steps, text, dimension::time, expected, known);
     } catch (const ExpressionError& error) {

@@ -76,7 +76,7 @@ class Parser {
  public:
   explicit Parser(std::span<const Word> words) : words_(words) {}
 
-  std::vector<Step> steps() {
+  std::vector<FormulaStep> steps() {
     expression(weakest);
     if (!at_end()) throw ExpressionError(next().text + " stands where it should end", next().at);
     return std::move(steps_);
@@ -175,12 +175,12 @@ class Parser {
   std::span<const Word> words_;
   std::size_t place_ = 0;
   int depth_ = 0;
-  std::vector<Step> steps_;
+  std::vector<FormulaStep> steps_;
 };
 
 }  // namespace
 
-std::vector<Step> parse(std::span<const Word> words) {
+std::vector<FormulaStep> parse(std::span<const Word> words) {
   return Parser(words).steps();
 }
 

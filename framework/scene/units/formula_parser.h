@@ -11,7 +11,7 @@ namespace pintle {
 
 /// One step of working out an expression on a stack of results: it takes the last `operands` of
 /// them and leaves one.
-struct Step {
+struct FormulaStep {
   const Word* word;      ///< that asks for it
   int operands = 0;      ///< none: the word is the number or name that is wanted
   Op op = Op::constant;  ///< with operands; Op::smooth with three of them: step(x, x0, x1)
@@ -33,7 +33,7 @@ struct Step {
 /// The steps point to the words, which must outlive them.
 /// @throws ExpressionError  it is no such expression, nests too deeply, names a function that there
 ///                          is not, or gives one too many arguments or too few
-std::vector<Step> parse(std::span<const Word>);
+std::vector<FormulaStep> parse(std::span<const Word>);
 
 /// Names of all functions, for messages and documentation.
 const std::vector<std::string>& function_names();

@@ -54,8 +54,8 @@ Spring read_ends_and_rates(const Node& node, std::string_view kind, const Dimens
 
 SceneSpring read_spring(const Node& node) {
   if (node.has("stiffness")) must_have(node, "free length", "50 mm");
-  auto spring = read_ends_and_rates<SceneSpring>(node, "spring", dimension::stiffness,
-                                                 dimension::damping);
+  auto spring =
+      read_ends_and_rates<SceneSpring>(node, "spring", dimension::stiffness, dimension::damping);
   read_optional(node, "free length", dimension::length, rule::not_negative, spring.free_length);
   return spring;
 }
