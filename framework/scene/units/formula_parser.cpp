@@ -62,14 +62,30 @@ bool adds(const Word& w) {
   return w.kind == Kind::sign && (w.text == "+" || w.text == "-");
 }
 
+[[noreturn]] void fail(const Word& at, const std::string& what) {
+  throw ExpressionError(what, at.at);
+}
+
 const Function& function(const Word& w) {
   const auto found = std::ranges::find(functions, w.text, &Function::name);
   if (found != functions.end()) return *found;
-  const std::string_view remedy = instead_of(w.text);
-  throw ExpressionError("there is no function \"" + w.text + "\"" +
-                            (remedy.empty() ? "." + did_you_mean(w.text, function_names())
-                                            : ": " + std::string(remedy)),
-                        w.at);
+  const std::string remedy(instead_of(w.text));
+  fail(w, "there is no function \"" + w.text + "\"" +
+              (remedy.empty() ? "." + did_you_mean(w.text, function_names()) : ": " + remedy));
+}
+
+// A word that begins no operand.
+[[noreturn]] void misplaced(const Word& w) {
+  const std::string what = w.kind == Kind::comma   ? "a comma"
+                           : w.kind == Kind::close ? "a parenthesis"
+                                                   : "the operator " + w.text;
+  fail(w, what + " stands where a value should");
+}
+
+[[noreturn]] void miscounted(const Word& name, const Function& f, int given) {
+  fail(name, name.text + " has too " + (given < f.least ? "few" : "many") +
+                 " arguments: " + std::to_string(given) + " instead of " + std::to_string(f.least) +
+                 (f.most == any ? " or more" : ""));
 }
 
 class Parser {
@@ -78,7 +94,7 @@ class Parser {
 
   std::vector<FormulaStep> steps() {
     expression(weakest);
-    if (!at_end()) throw ExpressionError(next().text + " stands where it should end", next().at);
+    if (!at_end()) fail(next(), next().text + " stands where it should end");
     return std::move(steps_);
   }
 
@@ -92,8 +108,7 @@ class Parser {
   const Word& take() {
     if (!at_end()) return words_[place_++];
     if (words_.empty()) throw ExpressionError("it ends too early");
-    throw ExpressionError("it ends too early: nothing follows " + words_.back().text,
-                          words_.back().at);
+    fail(words_.back(), "it ends too early: nothing follows " + words_.back().text);
   }
   bool take_if(Kind kind) {
     const bool taken = next_is(kind);
@@ -104,8 +119,7 @@ class Parser {
   // As far as operators reach that bind their left side at least so strongly.
   void expression(int least) {
     if (++depth_ > deepest)
-      throw ExpressionError("it nests too deeply: name parts of it in parameters",
-                            words_[place_ - 1].at);
+      fail(words_[place_ - 1], "it nests too deeply: name parts of it in parameters");
     operand();
     while (next_is(Kind::sign)) {
       const auto o = std::ranges::find(operators, next().text, &Operator::sign);
@@ -127,32 +141,21 @@ class Parser {
         return call(word);
       case Kind::open:
         expression(weakest);
-        if (next_is(Kind::comma))
-          throw ExpressionError("a comma stands outside a function: the decimal point is \".\"",
-                                next().at);
         return close(word);
-      case Kind::sign:
-        if (adds(word)) return signed_operand(word);
-        throw ExpressionError("the operator " + word.text + " stands where a value should",
-                              word.at);
-      case Kind::comma:
-        throw ExpressionError("a comma stands where a value should", word.at);
-      case Kind::close:
-        throw ExpressionError("a parenthesis stands where a value should", word.at);
+      default:
+        return adds(word) ? signed_operand(word) : misplaced(word);
     }
   }
 
   void signed_operand(const Word& sign) {
-    if (!at_end() && adds(next()))
-      throw ExpressionError("a second sign needs parentheses, as in -(-2)", next().at);
+    if (!at_end() && adds(next())) fail(next(), "a second sign needs parentheses, as in -(-2)");
     expression(before_a_value);
     if (sign.text == "-") steps_.push_back({&sign, 1, Op::negate});
   }
 
   void call(const Word& name) {
     const Function& f = function(name);
-    if (!next_is(Kind::open))
-      throw ExpressionError("the function " + name.text + " needs its parentheses", name.at);
+    if (!next_is(Kind::open)) fail(name, "the function " + name.text + " needs its parentheses");
     const Word& open = take();
     int given = 0;
     for (bool more = !next_is(Kind::close); more; more = take_if(Kind::comma)) {
@@ -160,16 +163,14 @@ class Parser {
       if (++given > 1 && f.most == any) steps_.push_back({&name, 2, f.op});
     }
     close(open);
-    if (given < f.least || given > f.most)
-      throw ExpressionError(name.text + " has too " + (given < f.least ? "few" : "many") +
-                                " arguments: " + std::to_string(given) + " instead of " +
-                                std::to_string(f.least) + (f.most == any ? " or more" : ""),
-                            name.at);
+    if (given < f.least || given > f.most) miscounted(name, f, given);
     if (f.most != any) steps_.push_back({&name, given, f.op});
   }
 
   void close(const Word& open) {
-    if (!take_if(Kind::close)) throw ExpressionError("a parenthesis is not closed", open.at);
+    if (next_is(Kind::comma))
+      fail(next(), "a comma stands outside a function: the decimal point is \".\"");
+    if (!take_if(Kind::close)) fail(open, "a parenthesis is not closed");
   }
 
   std::span<const Word> words_;
