@@ -11,7 +11,7 @@
 #include "framework/scene/error.h"
 #include "tests/scenes/mechanisms.h"
 
-namespace pintle {
+namespace pintle::differential_test {
 namespace {
 
 using pintle_scenes::angle_driver;
@@ -111,4 +111,4 @@ TEST(Differential, NeedsThreeBodiesAndARatio) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::differential_test

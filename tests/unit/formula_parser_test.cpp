@@ -8,7 +8,7 @@
 
 #include "framework/scene/units/expression.h"
 
-namespace pintle {
+namespace pintle::formula_parser_test {
 namespace {
 
 // The expression with every operation in parentheses, a sign or function before its own.
@@ -257,4 +257,4 @@ TEST(Parser, RefusesWordsThatNoTextIsSpelledTo) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::formula_parser_test

@@ -7,7 +7,7 @@
 
 #include "framework/scene/units/jet.h"
 
-namespace pintle {
+namespace pintle::range_test {
 namespace {
 
 struct Function {
@@ -53,4 +53,4 @@ TEST(Ranges, HoldEveryFunctionAndItsRateAndLittleMore) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::range_test
