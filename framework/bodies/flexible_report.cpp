@@ -4,10 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
 #include "framework/bodies/elastic_parts.h"
 #include "framework/bodies/modal_basis.h"
+#include "framework/common/dense.h"
 #include "framework/common/text.h"
 
 namespace pintle {

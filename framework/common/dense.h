@@ -7,6 +7,8 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include "eigen_layout.h"
+
 /// What takes longest to compile of Eigen's decompositions of matrices of any size: it is compiled once, in dense.cpp, instead of
 /// wherever it is used.
 namespace Eigen {

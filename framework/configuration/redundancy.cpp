@@ -5,9 +5,7 @@
 #include <optional>
 #include <sstream>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
+#include "framework/common/dense.h"
 #include "framework/common/index.h"
 #include "framework/common/text.h"
 #include "framework/configuration/least_step.h"
@@ -20,7 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Index = Eigen::Index;
 using Sparse = Eigen::SparseMatrix<double>;
-
 
 int joint_of(const System& system, int row) {
   const auto next = std::upper_bound(system.row_begin.begin(), system.row_begin.end(), row);

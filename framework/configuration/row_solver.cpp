@@ -1,5 +1,6 @@
 #include "framework/configuration/row_solver.h"
 
+#include "framework/common/dense.h"
 #include "framework/common/index.h"
 #include "framework/configuration/least_step.h"
 

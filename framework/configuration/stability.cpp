@@ -2,9 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
+#include "framework/common/dense.h"
 #include "framework/configuration/equilibrium.h"
 #include "framework/dynamics/equations/tangent.h"
 #include "framework/dynamics/equations/jacobian.h"

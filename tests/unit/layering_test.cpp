@@ -35,9 +35,9 @@ const std::vector<Layer> layers{
     {"framework/scene/yaml/", {"files/", "framework/common/", "framework/scene/"}},
     {"framework/scene/", {"files/", "elements/material.h", "elements/section.h", "meshes/link.h", "framework/common/"}},
 
-    {"framework/component/eigen/", {}},
-    {"framework/component/fe/", {"elements/", "meshes/", "framework/component/eigen/"}},
-    {"framework/component/reduction/", {"meshes/", "framework/component/eigen/", "framework/component/fe/"}},
+    {"framework/component/eigen/", {"framework/common/"}},
+    {"framework/component/fe/", {"elements/", "meshes/", "framework/common/", "framework/component/eigen/"}},
+    {"framework/component/reduction/", {"meshes/", "framework/common/", "framework/component/eigen/", "framework/component/fe/"}},
 
     {"framework/dynamics/model/", {"contact/", "framework/common/", "framework/component/reduction/inertia.h"}},
     {"framework/dynamics/solvers/", {"framework/common/", "framework/dynamics/model/"}},

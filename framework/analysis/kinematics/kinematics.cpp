@@ -5,9 +5,8 @@
 #include <cmath>
 #include <sstream>
 
-#include <Eigen/SVD>
-
 #include "framework/analysis/simulate/end_short.h"
+#include "framework/common/dense.h"
 #include "framework/common/text.h"
 #include "framework/common/worse.h"
 #include "framework/scene/error.h"

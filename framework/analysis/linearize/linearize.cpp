@@ -6,10 +6,9 @@
 #include <numbers>
 #include <sstream>
 
-#include <Eigen/Cholesky>
-
 #include "framework/analysis/linearize/quadratic_roots.h"
 #include "framework/analysis/linearize/state_space.h"
+#include "framework/common/dense.h"
 #include "framework/common/index.h"
 #include "framework/integration/integrator.h"
 #include "framework/scene/error.h"
@@ -23,7 +22,6 @@ using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
 namespace {
-
 
 std::string text(double x, int digits = 4) {
   std::ostringstream s;

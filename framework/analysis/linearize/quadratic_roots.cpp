@@ -4,9 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
+#include "framework/common/dense.h"
 #include "framework/component/eigen/lapack.h"
 
 namespace pintle {

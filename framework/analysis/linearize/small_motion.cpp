@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
-
+#include "framework/common/dense.h"
 #include "framework/dynamics/equations/tangent.h"
 
 namespace pintle {

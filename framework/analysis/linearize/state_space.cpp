@@ -1,8 +1,6 @@
 #include "framework/analysis/linearize/state_space.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-
+#include "framework/common/dense.h"
 #include "framework/common/index.h"
 #include "framework/mechanism/trajectory.h"
 
@@ -13,7 +11,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
 
 /// Generalised forces of the loads' inputs, a column each.
 MatrixXd load_inputs(const System& system, const Equations& eq, std::vector<std::string>& names) {

@@ -1,7 +1,7 @@
 // Flexible bodies bent as steady motion bends them, before an integration starts.
-#include <Eigen/QR>
 
 #include "framework/analysis/kinematics/inverse.h"
+#include "framework/common/dense.h"
 #include "framework/configuration/row_solver.h"
 #include "framework/dynamics/newton/kkt.h"
 

@@ -1,6 +1,5 @@
 #include "framework/component/eigen/pencil.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "framework/common/dense.h"
 #include "framework/component/eigen/tall_products.h"
 
 namespace pintle {

@@ -1,9 +1,9 @@
 #include "framework/component/eigen/subspace.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "framework/common/dense.h"
 #include "framework/component/eigen/tall_products.h"
 
 namespace pintle {

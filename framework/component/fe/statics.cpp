@@ -1,10 +1,9 @@
 #include "framework/component/fe/statics.h"
 
+#include "framework/common/dense.h"
 #include "framework/component/eigen/factor.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>

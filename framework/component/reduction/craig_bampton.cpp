@@ -1,8 +1,8 @@
-#include <Eigen/SVD>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
+#include "framework/common/dense.h"
 #include "framework/component/eigen/factor.h"
 #include "framework/component/fe/statics.h"
 #include "framework/component/reduction/reduction.h"

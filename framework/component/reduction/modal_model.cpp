@@ -1,8 +1,8 @@
 #include "framework/component/reduction/modal_model.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "framework/common/dense.h"
 #include "framework/component/fe/assembly.h"
 #include "framework/component/reduction/reduction.h"
 

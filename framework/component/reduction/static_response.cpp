@@ -1,10 +1,9 @@
 #include "framework/component/reduction/static_response.h"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <stdexcept>
 #include <string>
 
+#include "framework/common/dense.h"
 #include "framework/component/fe/statics.h"
 #include "framework/component/reduction/reduction.h"
 

@@ -5,9 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include <Eigen/LU>
-
 #include "framework/common/binary.h"
+#include "framework/common/dense.h"
 #include "framework/common/index.h"
 #include "framework/dynamics/newton/elimination.h"
 #include "framework/dynamics/solvers/dependent_rows.h"

@@ -1,7 +1,6 @@
 #include "framework/integration/explicit/partition.h"
 
-#include <Eigen/QR>
-
+#include "framework/common/dense.h"
 #include "framework/dynamics/equations/jacobian.h"
 
 namespace pintle {
