@@ -8,5 +8,6 @@
 #include <Eigen/Core>
 
 #if EIGEN_MAX_STATIC_ALIGN_BYTES != 16 || EIGEN_MAX_ALIGN_BYTES != 64 || EIGEN_DEFAULT_ALIGN_BYTES != 64
-#error "Eigen would lay out its types otherwise than the library pintle: link the CMake target pintle::pintle, or compile the whole program with -DEIGEN_MAX_ALIGN_BYTES=64 -DEIGEN_MAX_STATIC_ALIGN_BYTES=16"
+#error \
+    "Eigen would lay out its types otherwise than the library pintle: link the CMake target pintle::pintle, or compile the whole program with -DEIGEN_MAX_ALIGN_BYTES=64 -DEIGEN_MAX_STATIC_ALIGN_BYTES=16"
 #endif

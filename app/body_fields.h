@@ -11,9 +11,7 @@ namespace pintle {
 struct FieldRange {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   /// Where a value lies between the two, 0 to 1.
-  double share(double value) const {
-    return greatest > least ? (value - least) / (greatest - least) : 0;
-  }
+  double share(double value) const { return greatest > least ? (value - least) / (greatest - least) : 0; }
 };
 
 /// Values of a field at a body's points, vectors by their length; empty if it has no such field.

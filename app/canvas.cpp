@@ -22,20 +22,13 @@ using Triangle = std::array<int, 3>;
 /// A cell as triangles that take in all of its nodes.
 std::vector<Triangle> triangles(CellShape shape) {
   switch (shape) {
-    case CellShape::triangle3:
-      return {{0, 1, 2}};
-    case CellShape::triangle6:
-      return {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
-    case CellShape::quadrilateral4:
-      return {{0, 1, 2}, {0, 2, 3}};
-    case CellShape::quadrilateral8:
-      return {{0, 4, 7}, {4, 1, 5}, {5, 2, 6}, {6, 3, 7}, {4, 5, 6}, {4, 6, 7}};
-    case CellShape::quadrilateral9:
-      return {{0, 4, 8}, {0, 8, 7}, {4, 1, 5}, {4, 5, 8},
-              {8, 5, 2}, {8, 2, 6}, {7, 8, 6}, {7, 6, 3}};
+    case CellShape::triangle3: return {{0, 1, 2}};
+    case CellShape::triangle6: return {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+    case CellShape::quadrilateral4: return {{0, 1, 2}, {0, 2, 3}};
+    case CellShape::quadrilateral8: return {{0, 4, 7}, {4, 1, 5}, {5, 2, 6}, {6, 3, 7}, {4, 5, 6}, {4, 6, 7}};
+    case CellShape::quadrilateral9: return {{0, 4, 8}, {0, 8, 7}, {4, 1, 5}, {4, 5, 8}, {8, 5, 2}, {8, 2, 6}, {7, 8, 6}, {7, 6, 3}};
     case CellShape::line2:
-    case CellShape::line3:
-      break;
+    case CellShape::line3: break;
   }
   return {};
 }
@@ -53,8 +46,7 @@ std::vector<int> first_at_same_place(const Eigen::Matrix2Xd& points) {
     for (long dx = -1; dx <= 1; ++dx)
       for (long dy = -1; dy <= 1; ++dy) {
         const auto other = known.find({x + dx, y + dy});
-        if (other != known.end() && (points.col(other->second) - points.col(i)).norm() <= reach)
-          found = other->second;
+        if (other != known.end() && (points.col(other->second) - points.col(i)).norm() <= reach) found = other->second;
       }
     if (found == i) known.emplace(std::pair(x, y), i);
     first[static_cast<std::size_t>(i)] = found;
@@ -67,8 +59,7 @@ std::vector<int> first_at_same_place(const Eigen::Matrix2Xd& points) {
 Colour field_colour(double share) {
   const double s = std::clamp(share, 0.0, 1.0);
   Colour colour;
-  vtkMath::HSVToRGB(0.66 * (1 - s), 0.75 + 0.1 * s, 0.85 + 0.05 * s, &colour[0], &colour[1],
-                    &colour[2]);
+  vtkMath::HSVToRGB(0.66 * (1 - s), 0.75 + 0.1 * s, 0.85 + 0.05 * s, &colour[0], &colour[1], &colour[2]);
   return colour;
 }
 
@@ -83,12 +74,10 @@ void Canvas::fill(const std::vector<Vector2d>& outline, const Colour& colour) {
   for (const Vector2d& r : outline) shapes_->InsertCellPoint(corner(r, colour));
 }
 
-void Canvas::fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>& cells,
-                  const std::vector<Colour>& colours) {
+void Canvas::fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>& cells, const std::vector<Colour>& colours) {
   const auto count = static_cast<std::size_t>(points.cols());
   std::vector<vtkIdType> ids(count);
-  for (std::size_t i = 0; i < count; ++i)
-    ids[i] = corner(points.col(static_cast<Eigen::Index>(i)), colours[colours.size() == 1 ? 0 : i]);
+  for (std::size_t i = 0; i < count; ++i) ids[i] = corner(points.col(static_cast<Eigen::Index>(i)), colours[colours.size() == 1 ? 0 : i]);
   for (const Cells& block : cells)
     for (std::size_t c = 0; c < block.size(); ++c)
       for (const Triangle& t : triangles(block.shape)) {
@@ -98,8 +87,7 @@ void Canvas::fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>& cell
       }
 }
 
-void Canvas::stroke_outline(const Eigen::Matrix2Xd& points, const std::vector<Cells>& cells,
-                            double width, const Colour& colour) {
+void Canvas::stroke_outline(const Eigen::Matrix2Xd& points, const std::vector<Cells>& cells, double width, const Colour& colour) {
   Mesh mesh{points, {}, cells, {}};
   const std::vector<int> first = first_at_same_place(points);
   for (Cells& block : mesh.cells)
@@ -116,8 +104,7 @@ void Canvas::stroke_outline(const Eigen::Matrix2Xd& points, const std::vector<Ce
   }
 }
 
-void Canvas::stroke(const std::vector<Vector2d>& line, bool closed, double width,
-                    const Colour& colour) {
+void Canvas::stroke(const std::vector<Vector2d>& line, bool closed, double width, const Colour& colour) {
   const std::size_t n = line.size();
   for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
     const Vector2d &a = line[i], &b = line[(i + 1) % n];

@@ -29,12 +29,10 @@ class Canvas {
 
   /// Cells, those of second order in straight pieces.
   /// @param colours  one for all, or one a point and linear between them
-  void fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>&,
-            const std::vector<Colour>& colours);
+  void fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>&, const std::vector<Colour>& colours);
 
   /// The sides that belong to one cell alone. Points that coincide count as one.
-  void stroke_outline(const Eigen::Matrix2Xd& points, const std::vector<Cells>&, double width,
-                      const Colour& colour);
+  void stroke_outline(const Eigen::Matrix2Xd& points, const std::vector<Cells>&, double width, const Colour& colour);
 
   /// A line with round corners and ends.
   void stroke(const std::vector<Vector2d>& line, bool closed, double width, const Colour& colour);

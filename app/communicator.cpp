@@ -21,7 +21,8 @@ int launched() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"})
     if (const char* size = std::getenv(name)) return std::atoi(size);
   // srun sets these for the tasks of a step; the script of a batch job has neither.
-  if (std::getenv("SLURM_STEP_NUM_TASKS") && std::getenv("SLURM_PROCID") && std::getenv("SLURM_LOCALID")) return std::atoi(std::getenv("SLURM_STEP_NUM_TASKS"));
+  if (std::getenv("SLURM_STEP_NUM_TASKS") && std::getenv("SLURM_PROCID") && std::getenv("SLURM_LOCALID"))
+    return std::atoi(std::getenv("SLURM_STEP_NUM_TASKS"));
   return std::getenv("PMIX_RANK") || std::getenv("PMI_RANK") ? 1 : 0;
 }
 
@@ -88,12 +89,14 @@ std::unique_ptr<Communicator> communicator() {
 #ifdef PINTLE_WITH_MPI
   auto out = std::make_unique<MpiCommunicator>();
   if (out->size() == 1 && expected > 1)
-    throw SceneError("the launcher started " + std::to_string(expected) + " processes, but MPI sees one: start them by mpirun, or by srun --mpi=pmix");
+    throw SceneError("the launcher started " + std::to_string(expected) +
+                     " processes, but MPI sees one: start them by mpirun, or by srun --mpi=pmix");
   return out;
 #else
   if (expected > 1)
     throw SceneError("a launcher started " + std::to_string(expected) +
-                     " processes, but this program was built without MPI: install Open MPI (libopenmpi-dev) and configure again, or start it alone with --threads");
+                     " processes, but this program was built without MPI: install Open MPI (libopenmpi-dev) and configure again, or start "
+                     "it alone with --threads");
   return nullptr;
 #endif
 }

@@ -58,8 +58,10 @@ std::string what_it_takes(const Saving& s) {
   const Trial& t = s.cost.trial;
   if (!t.trouble.empty()) return "cannot be told: " + t.trouble;
   std::string part = number(100 * std::abs(s.saved), 2) + " %";
-  if (std::abs(s.saved) < 0.02) part = "nothing to speak of";
-  else if (s.saved < 0) part += " more time instead";
+  if (std::abs(s.saved) < 0.02)
+    part = "nothing to speak of";
+  else if (s.saved < 0)
+    part += " more time instead";
   return s.of_outputs ? part : part + "; " + steps_text(s.cost) + " steps";
 }
 
@@ -73,9 +75,9 @@ void print_cost(const CostEstimate& p, double build_seconds) {
   if (p.contact_rate > 0) rows.emplace_back("  of a slow contact", frequency(p.contact_rate));
   rows.emplace_back("  steps", steps_text(p.run) + " of " + duration(p.run.step) + " in the mean");
   const std::string frames = o.frames > 0 ? ", " + std::to_string(o.frames) + " frames " + duration(o.frames * o.frame_seconds) : "";
-  rows.emplace_back("  processor time", about(p.seconds, duration) + ": computing " + duration(p.run.seconds.likely) + ", " + std::to_string(o.rows) +
-                                  " rows " + duration(static_cast<double>(o.rows) * o.row_seconds) + frames + "; and " +
-                                  duration(build_seconds) + " to build the model");
+  rows.emplace_back("  processor time", about(p.seconds, duration) + ": computing " + duration(p.run.seconds.likely) + ", " +
+                                            std::to_string(o.rows) + " rows " + duration(static_cast<double>(o.rows) * o.row_seconds) +
+                                            frames + "; and " + duration(build_seconds) + " to build the model");
   rows.emplace_back("  memory, files", size(p.memory) + ", " + size(o.bytes()));
   rows.emplace_back("  how sure", certainty(p));
   print_rows(std::cout, rows);

@@ -46,7 +46,8 @@ Rows run_rows(const Run& run) {
 }
 
 void print(const Scene& scene, const Run& run, Rows rows, const fs::path& out) {
-  if (run.status != Status::not_written) rows.emplace_back("results", out.string() + (scene.output.frames > 1 ? ", animation " + (out / "mechanism.pvd").string() : ""));
+  if (run.status != Status::not_written)
+    rows.emplace_back("results", out.string() + (scene.output.frames > 1 ? ", animation " + (out / "mechanism.pvd").string() : ""));
   std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
   print_rows(std::cout, rows);
   for (const std::string& w : run.warnings) std::cout << "  warning: " << w << "\n";
@@ -79,7 +80,8 @@ int kinematics(const Options& options) {
   ResultsDirectory results(out);
   results_are_in(results.path().string());
   std::optional<FrameWriter> writer = frame_writer(scene, results);
-  Run run = watched(scene, model, writer, options, [&](const Listeners& listeners) { return kinematics(scene, model, assembly, listeners); });
+  Run run =
+      watched(scene, model, writer, options, [&](const Listeners& listeners) { return kinematics(scene, model, assembly, listeners); });
   if (run.status == Status::interrupted) run.reason = stopped_by();
   const auto write = [&] {
     if (writer) writer->finish();
@@ -107,7 +109,8 @@ int inverse(const Options& options) {
   ResultsDirectory results(out);
   results_are_in(results.path().string());
   std::optional<FrameWriter> writer = frame_writer(scene, results);
-  Inverse found = watched(scene, model, writer, options, [&](const Listeners& listeners) { return inverse(scene, model, assembly, listeners); });
+  Inverse found =
+      watched(scene, model, writer, options, [&](const Listeners& listeners) { return inverse(scene, model, assembly, listeners); });
   if (found.run.status == Status::interrupted) found.run.reason = stopped_by();
   const auto write = [&] {
     if (writer) writer->finish();

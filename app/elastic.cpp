@@ -77,8 +77,8 @@ std::string percent(double part, double whole) {
 
 /// `residual`: also what is left of K φ − ω² M φ; static shapes are no modes of the body and have a large one.
 void print_table(const ModeTable& t, const ModesReport& r, bool residual) {
-  std::printf("\n  %s\n  %4s %15s %9s %9s %11s %9s %10s\n", t.title.c_str(), "mode", "frequency [Hz]", "mass x %", "mass y %",
-              "rotation %", "damping", residual ? "residual" : "");
+  std::printf("\n  %s\n  %4s %15s %9s %9s %11s %9s %10s\n", t.title.c_str(), "mode", "frequency [Hz]", "mass x %", "mass y %", "rotation %",
+              "damping", residual ? "residual" : "");
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (Eigen::Index i = 0; i < t.modes.omega.size(); ++i) {
     sum += t.mass.col(i);
@@ -130,16 +130,17 @@ int modes(const Options& options) {
     Rows rows;
     add_body(rows, e);
     rows.emplace_back("rigid motions", std::to_string(report.rigid) + ", at 0 Hz, not listed");
-    if (report.natural.modes.sturm) rows.emplace_back("Sturm count", std::to_string(*report.natural.modes.sturm) + " up to the last mode: none is missed");
+    if (report.natural.modes.sturm)
+      rows.emplace_back("Sturm count", std::to_string(*report.natural.modes.sturm) + " up to the last mode: none is missed");
     print_rows(std::cout, rows);
     print_table(report.natural, report, true);
     if (report.rigid == 3) std::cout << "  (free modes carry no momentum: their effective masses are zero)\n";
-    if (report.reduced)
-      print_table(*report.reduced, report, e.scene->elastic->modes->method == SceneModes::Method::normal);
+    if (report.reduced) print_table(*report.reduced, report, e.scene->elastic->modes->method == SceneModes::Method::normal);
     std::cout << "\n";
     print_warnings(e);
     if (frames == 0 && options.frames < 0) std::cout << "  no animations of so large a mesh unless asked for: --frames 24\n";
-    print_rows(std::cout, {{"time", number(e.mesh_seconds, 3) + " s mesh, " + number(e.assembly_seconds, 3) + " s assembly, " + number(report.seconds, 3) + " s modes"},
+    print_rows(std::cout, {{"time", number(e.mesh_seconds, 3) + " s mesh, " + number(e.assembly_seconds, 3) + " s assembly, " +
+                                        number(report.seconds, 3) + " s modes"},
                            {"results", out.string() + (frames > 0 ? ", animations " + (out / "mode_01.pvd").string() + " …" : "")}});
   }
   return ok;
@@ -159,9 +160,11 @@ int mesh(const Options& options) {
     add_body(rows, e);
     if (e.plate()) {
       const double degrees = 180 / std::numbers::pi;
-      rows.emplace_back("scaled Jacobian", number(e.quality.least_jacobian, 3) + " least, " + number(e.quality.mean_jacobian, 3) + " mean (1 is best, at 0 a cell folds)");
+      rows.emplace_back("scaled Jacobian", number(e.quality.least_jacobian, 3) + " least, " + number(e.quality.mean_jacobian, 3) +
+                                               " mean (1 is best, at 0 a cell folds)");
       rows.emplace_back("aspect ratio", number(e.quality.greatest_aspect, 3) + " at most");
-      rows.emplace_back("corner angles", number(e.quality.least_angle * degrees, 3) + " to " + number(e.quality.greatest_angle * degrees, 3) + " deg");
+      rows.emplace_back("corner angles",
+                        number(e.quality.least_angle * degrees, 3) + " to " + number(e.quality.greatest_angle * degrees, 3) + " deg");
     }
     for (const Group& g : e.mesh.groups) rows.emplace_back("group \"" + g.name + "\"", std::to_string(g.nodes.size()) + " nodes");
     for (const Port& p : e.model.ports) rows.emplace_back("point \"" + p.name + "\"", place(p.x, size_of(e.mesh)));
@@ -188,13 +191,14 @@ int statics(const Options& options) {
     add_body(rows, e);
     const double size = size_of(e.mesh), force = r.load.norm(), motion = r.greatest_displacement;
     const auto resultant = [&](const Eigen::Vector3d& f) {
-      return number(tidy(f[0], force)) + " N, " + number(tidy(f[1], force)) + " N, " + number(tidy(f[2], force * size)) + " N m about the origin";
+      return number(tidy(f[0], force)) + " N, " + number(tidy(f[1], force)) + " N, " + number(tidy(f[2], force * size)) +
+             " N m about the origin";
     };
     rows.emplace_back("loads together", resultant(r.load));
     for (const SupportReaction& s : r.reactions) rows.emplace_back("reaction at " + s.at, resultant(s.resultant));
     for (const PortDisplacement& p : r.ports)
       rows.emplace_back("moved: " + p.name, number(tidy(p.u[0], motion)) + " m, " + number(tidy(p.u[1], motion)) + " m" +
-                                               (std::isnan(p.u[2]) ? "" : ", " + number(tidy(p.u[2], motion / size)) + " rad"));
+                                                (std::isnan(p.u[2]) ? "" : ", " + number(tidy(p.u[2], motion / size)) + " rad"));
     rows.emplace_back("greatest displacement", number(r.greatest_displacement) + " m at " + place(r.displaced_at, size));
     rows.emplace_back("greatest von Mises stress", number(r.greatest_stress * 1e-6) + " MPa at " + place(r.stressed_at, size));
     if (e.plate()) rows.emplace_back("stress jump", percent(r.stress.jump, 1) + " % between neighbouring elements (a sign of mesh error)");

@@ -35,7 +35,8 @@ std::string stability_text(const Stability& s) {
     return out + ")";
   };
   std::string out = s.unstable > 0 ? "UNSTABLE in " + plural(s.unstable, "direction") + bodies(0, s.unstable) : "";
-  if (s.neutral > 0) out += (out.empty() ? "" : ", ") + std::string("neutral in ") + plural(s.neutral, "direction") + bodies(s.unstable, s.neutral);
+  if (s.neutral > 0)
+    out += (out.empty() ? "" : ", ") + std::string("neutral in ") + plural(s.neutral, "direction") + bodies(s.unstable, s.neutral);
   if (out.empty()) out = "stable";
   out += ", of " + plural(s.freedoms, "freedom");
   return out + (s.circulatory ? "; loads that follow may make it flutter, which statics cannot tell" : "");
@@ -80,8 +81,8 @@ void print(const Scene& scene, const Equilibrium& e, const fs::path& out) {
   std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
   Rows rows;
   if (!e.method.empty())
-    rows.emplace_back(e.found ? "found by" : "tried",
-                      e.method + ", " + plural(e.iterations, "iteration") + "; out of balance " + number(e.residual, 2) + " of the greatest force");
+    rows.emplace_back(e.found ? "found by" : "tried", e.method + ", " + plural(e.iterations, "iteration") + "; out of balance " +
+                                                          number(e.residual, 2) + " of the greatest force");
   if (e.found) {
     rows.emplace_back("equilibrium", stability_text(e.stability));
     if (e.state.t != 0) rows.emplace_back("at", number(e.state.t, 9) + " s, drivers held and loads as they are then");

@@ -58,7 +58,8 @@ void write_field_picture(const std::filesystem::path& file, const std::string& f
   const bool on_cells = values == nullptr;
   if (on_cells) values = grid->GetCellData()->GetArray(field.c_str());
   if (!values)
-    throw std::runtime_error(file.string() + ": has no field \"" + field + "\"; it has " + names(grid->GetPointData()) + " on points, " + names(grid->GetCellData()) + " on cells");
+    throw std::runtime_error(file.string() + ": has no field \"" + field + "\"; it has " + names(grid->GetPointData()) + " on points, " +
+                             names(grid->GetCellData()) + " on cells");
 
   const auto table = colours(values);
   vtkNew<vtkDataSetSurfaceFilter> surface;
@@ -66,8 +67,10 @@ void write_field_picture(const std::filesystem::path& file, const std::string& f
   surface->SetNonlinearSubdivisionLevel(2);
   vtkNew<vtkDataSetMapper> mapper;
   mapper->SetInputConnection(surface->GetOutputPort());
-  if (on_cells) mapper->SetScalarModeToUseCellFieldData();
-  else mapper->SetScalarModeToUsePointFieldData();
+  if (on_cells)
+    mapper->SetScalarModeToUseCellFieldData();
+  else
+    mapper->SetScalarModeToUsePointFieldData();
   mapper->SelectColorArray(field.c_str());
   mapper->SetLookupTable(table);
   mapper->UseLookupTableScalarRangeOn();

@@ -34,14 +34,12 @@ struct Frame {
 /// What a collection lists, frame by frame: a part 0 begins one.
 std::vector<Frame> frames_of(const fs::path& pvd) {
   if (!fs::is_regular_file(pvd)) throw std::runtime_error(pvd.string() + ": no such file");
-  const auto root =
-      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
+  const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
   vtkXMLDataElement* list = root ? root->FindNestedElementWithName("Collection") : nullptr;
   std::vector<Frame> frames;
   for (int i = 0; list && i < list->GetNumberOfNestedElements(); ++i) {
     vtkXMLDataElement* entry = list->GetNestedElement(i);
-    const char *t = entry->GetAttribute("timestep"), *part = entry->GetAttribute("part"),
-               *file = entry->GetAttribute("file");
+    const char *t = entry->GetAttribute("timestep"), *part = entry->GetAttribute("part"), *file = entry->GetAttribute("file");
     if (!t || !file) continue;
     const fs::path path = pvd.parent_path() / file;
     if (!part || std::atoi(part) == 0)
@@ -61,26 +59,17 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const fs::path& file) {
   return reader->GetOutput();
 }
 
-[[noreturn]] void not_ours(const fs::path& file) {
-  throw std::runtime_error(file.string() + ": is not a frame of pintle");
-}
+[[noreturn]] void not_ours(const fs::path& file) { throw std::runtime_error(file.string() + ": is not a frame of pintle"); }
 
 CellShape shape_of(int vtk_cell, const fs::path& file) {
   switch (vtk_cell) {
-    case VTK_LINE:
-      return CellShape::line2;
-    case VTK_QUADRATIC_EDGE:
-      return CellShape::line3;
-    case VTK_TRIANGLE:
-      return CellShape::triangle3;
-    case VTK_QUADRATIC_TRIANGLE:
-      return CellShape::triangle6;
-    case VTK_QUAD:
-      return CellShape::quadrilateral4;
-    case VTK_QUADRATIC_QUAD:
-      return CellShape::quadrilateral8;
-    case VTK_BIQUADRATIC_QUAD:
-      return CellShape::quadrilateral9;
+    case VTK_LINE: return CellShape::line2;
+    case VTK_QUADRATIC_EDGE: return CellShape::line3;
+    case VTK_TRIANGLE: return CellShape::triangle3;
+    case VTK_QUADRATIC_TRIANGLE: return CellShape::triangle6;
+    case VTK_QUAD: return CellShape::quadrilateral4;
+    case VTK_QUADRATIC_QUAD: return CellShape::quadrilateral8;
+    case VTK_BIQUADRATIC_QUAD: return CellShape::quadrilateral9;
   }
   not_ours(file);
 }
@@ -92,8 +81,7 @@ std::vector<Cells> cells_of(vtkUnstructuredGrid* grid, const fs::path& file) {
     const CellShape shape = shape_of(grid->GetCellType(c), file);
     if (cells.empty() || cells.back().shape != shape) cells.push_back({shape, {}, {}});
     grid->GetCellPoints(c, ids);
-    for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
-      cells.back().nodes.push_back(static_cast<int>(ids->GetId(k)));
+    for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k) cells.back().nodes.push_back(static_cast<int>(ids->GetId(k)));
     cells.back().numbers.push_back(static_cast<long>(c) + 1);
   }
   return cells;
@@ -106,10 +94,8 @@ DrawnBody read_body(const fs::path& file, double& deformation) {
   vtkDataArray* exaggeration = grid->GetFieldData()->GetArray("deformation exaggeration");
   if (!name || name->GetNumberOfValues() == 0 || !exaggeration) not_ours(file);
   deformation = exaggeration->GetTuple1(0);
-  DrawnBody body{
-      name->GetValue(0), Eigen::Matrix2Xd(2, grid->GetNumberOfPoints()), cells_of(grid, file), {}};
-  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
-    body.points.col(i) = Vector2d(grid->GetPoint(i)[0], grid->GetPoint(i)[1]);
+  DrawnBody body{name->GetValue(0), Eigen::Matrix2Xd(2, grid->GetNumberOfPoints()), cells_of(grid, file), {}};
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i) body.points.col(i) = Vector2d(grid->GetPoint(i)[0], grid->GetPoint(i)[1]);
   for (int f = 0; f < grid->GetPointData()->GetNumberOfArrays(); ++f) {
     vtkDataArray* array = grid->GetPointData()->GetArray(f);
     if (!array) continue;
@@ -147,8 +133,7 @@ Drawing read_lines(const fs::path& file) {
       const double* r = grid->GetPoint(ids->GetId(i));
       return Vector2d(r[0], r[1]);
     };
-    const int kind = static_cast<int>(part->GetTuple1(c)),
-              who = static_cast<int>(owner->GetTuple1(c));
+    const int kind = static_cast<int>(part->GetTuple1(c)), who = static_cast<int>(owner->GetTuple1(c));
     if (kind > static_cast<int>(Part::trace)) {
       const double* f = force->GetTuple3(ids->GetId(0));
       drawing.forces.push_back({point(0), {f[0], f[1]}, who});
@@ -172,22 +157,20 @@ FrameFiles frame_files(const fs::path& directory, int frame, double at) {
   const int count = static_cast<int>(frames.size());
   int n = frame < 0 ? count + frame : frame;
   if (!std::isnan(at)) {
-    const auto nearest = std::min_element(
-        frames.begin(), frames.end(),
-        [&](const Frame& a, const Frame& b) { return std::abs(a.t - at) < std::abs(b.t - at); });
+    const auto nearest = std::min_element(frames.begin(), frames.end(),
+                                          [&](const Frame& a, const Frame& b) { return std::abs(a.t - at) < std::abs(b.t - at); });
     n = static_cast<int>(nearest - frames.begin());
   }
   if (n < 0 || n >= count) {
-    throw std::runtime_error(pvd.string() + ": has " + std::to_string(count) + " frames, 0 to " +
-                             std::to_string(count - 1) + "; asked for " + std::to_string(frame));
+    throw std::runtime_error(pvd.string() + ": has " + std::to_string(count) + " frames, 0 to " + std::to_string(count - 1) +
+                             "; asked for " + std::to_string(frame));
   }
   return frames[static_cast<std::size_t>(n)].files;
 }
 
 Drawing read_frame(const FrameFiles& files) {
   Drawing drawing = read_lines(files.lines);
-  for (const fs::path& file : files.bodies)
-    drawing.bodies.push_back(read_body(file, drawing.deformation));
+  for (const fs::path& file : files.bodies) drawing.bodies.push_back(read_body(file, drawing.deformation));
   return drawing;
 }
 

@@ -22,7 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string about_text(const Options& options, const Linearization& lin) {
-  if (options.at_rest) return "where the mechanism rests" + (lin.about.t > 0 ? ", drivers and loads as at t = " + number(lin.about.t, 9) + " s" : std::string());
+  if (options.at_rest)
+    return "where the mechanism rests" +
+           (lin.about.t > 0 ? ", drivers and loads as at t = " + number(lin.about.t, 9) + " s" : std::string());
   if (!options.at.empty()) return "the run's state at t = " + number(lin.about.t, 9) + " s";
   return "the assembled start";
 }
@@ -44,7 +46,9 @@ void print_modes(const Linearization& lin, int count) {
       std::printf("%15.9g %15.9g %10.4g %13.6g", m.frequency(), m.natural(), std::abs(m.root.real()) <= m.uncertainty ? 0 : m.damping(),
                   std::abs(m.root.real()) <= m.uncertainty ? 0 : -m.root.real());
     std::printf("  %s (%.3g %%)%s\n", m.carrier.c_str(), 100 * m.share,
-                m.kind == LinearMode::Kind::zero ? ": moves freely" : m.kind == LinearMode::Kind::growing && lin.coefficients != Coefficients::frozen ? ": UNSTABLE" : "");
+                m.kind == LinearMode::Kind::zero                                                  ? ": moves freely"
+                : m.kind == LinearMode::Kind::growing && lin.coefficients != Coefficients::frozen ? ": UNSTABLE"
+                                                                                                  : "");
   }
   if (left_out > 0) std::printf("  %4s %d more in linearized.csv\n", "", left_out);
   std::printf("\n");
@@ -113,13 +117,15 @@ int linearize(const Options& options) {
     std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
     print_rows(std::cout, {{"about", about_text(options, lin)},
                            {"free coordinates", std::to_string(lin.independent.size()) + " of " + std::to_string(lin.coordinates.size())},
-                           {"state space", std::to_string(lin.space.states.size()) + " states, " + std::to_string(lin.space.inputs.size()) + " inputs, " +
-                                               std::to_string(lin.space.outputs.size()) + " outputs"}});
+                           {"state space", std::to_string(lin.space.states.size()) + " states, " + std::to_string(lin.space.inputs.size()) +
+                                               " inputs, " + std::to_string(lin.space.outputs.size()) + " outputs"}});
     std::cout << std::flush;
     if (!lin.modes.empty()) print_modes(lin, options.count);
     for (const std::string& n : lin.notes) std::cout << "  note: " << n << "\n";
     for (const std::string& w : model.warnings) std::cout << "  warning: " << w << "\n";
-    print_rows(std::cout, {{"results", out.string() + (options.frames > 0 && !lin.modes.empty() ? ", animations " + (out / "mode_01/mechanism.pvd").string() + " …" : "")}});
+    print_rows(std::cout, {{"results", out.string() + (options.frames > 0 && !lin.modes.empty()
+                                                           ? ", animations " + (out / "mode_01/mechanism.pvd").string() + " …"
+                                                           : "")}});
   }
   return ok;
 }

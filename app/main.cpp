@@ -119,7 +119,11 @@ CLI::Validator whole(int least, int most) {
 
 /// Of files and folders: `--out ""` is no default but a variable of a script that was never set.
 CLI::Validator named() {
-  return CLI::Validator([](const std::string& path) { return path.empty() ? std::string("is empty; name a file or folder, or leave the option out") : std::string(); }, "");
+  return CLI::Validator(
+      [](const std::string& path) {
+        return path.empty() ? std::string("is empty; name a file or folder, or leave the option out") : std::string();
+      },
+      "");
 }
 
 /// What sweeps and trade-offs share: a study, overrides, the way results go.
@@ -134,7 +138,8 @@ void add_study_options(CLI::App& command, Options& options, const std::string& s
 }
 
 void add_sweep_options(CLI::App& command, Options& options) {
-  add_study_options(command, options, "study file (YAML)", "cases", "directory for the results, or of the same sweep, to go on with (default: runs/STUDY-sweep)");
+  add_study_options(command, options, "study file (YAML)", "cases",
+                    "directory for the results, or of the same sweep, to go on with (default: runs/STUDY-sweep)");
   command.add_option("-t,--threads", options.threads, "cases run at once by this process (default: as many as cores; under MPI 1)")
       ->type_name("N")
       ->check(whole(1, 4096));
@@ -152,31 +157,56 @@ constexpr const char* what_tradeoff_writes =
     "output says what is missing and what would help. There is then no recommended.yaml. Others: see pintle --help\n";
 
 void add_tradeoff_options(CLI::App& command, Options& options) {
-  add_study_options(command, options, "study file, or a scene with --quantity (YAML)", "settings", "directory for the results; it must not exist (default: runs/NAME-tradeoff, numbered)");
-  command.add_option("--quantity", options.quantities, "what matters, e.g. \"peak force at gudgeon pin\"; may be repeated")->allow_extra_args(false)->type_name("WORDS");
-  command.add_option("--error", options.wanted_error, "the error that is wanted, e.g. 1%: the cheapest setting for it is recommended")->type_name("SHARE");
-  command.add_option("--time", options.wanted_time, "the time of a run that is wanted, e.g. 0.5s: the most accurate setting within it is named")->type_name("TIME");
-  command.add_option("--budget", options.budget, "of computing, e.g. 10min: then what is clearly dominated is not run (default: of a scene 1min, of a study as it says)")->type_name("TIME");
+  add_study_options(command, options, "study file, or a scene with --quantity (YAML)", "settings",
+                    "directory for the results; it must not exist (default: runs/NAME-tradeoff, numbered)");
+  command.add_option("--quantity", options.quantities, "what matters, e.g. \"peak force at gudgeon pin\"; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("WORDS");
+  command.add_option("--error", options.wanted_error, "the error that is wanted, e.g. 1%: the cheapest setting for it is recommended")
+      ->type_name("SHARE");
+  command
+      .add_option("--time", options.wanted_time,
+                  "the time of a run that is wanted, e.g. 0.5s: the most accurate setting within it is named")
+      ->type_name("TIME");
+  command
+      .add_option("--budget", options.budget,
+                  "of computing, e.g. 10min: then what is clearly dominated is not run (default: of a scene 1min, of a study as it says)")
+      ->type_name("TIME");
   command.add_option("--repeats", options.repeats, "timed runs of each setting (default 5)")->type_name("N")->check(whole(1, 1000));
-  command.add_option("--markdown", options.markdown, "write the report there as well, its picture beside it")->check(named())->type_name("FILE.md");
+  command.add_option("--markdown", options.markdown, "write the report there as well, its picture beside it")
+      ->check(named())
+      ->type_name("FILE.md");
   command.footer(what_tradeoff_writes);
 }
 
 void add_linearize_options(CLI::App& command, Options& options) {
-  command.add_option("--at", options.at, "about the state that the run has at this time, e.g. 20ms; with --equilibrium, with drivers and loads as they are then")
+  command
+      .add_option("--at", options.at,
+                  "about the state that the run has at this time, e.g. 20ms; with --equilibrium, with drivers and loads as they are then")
       ->type_name("TIME");
-  command.add_flag("--equilibrium", options.at_rest, "about where the mechanism rests, drivers and loads held; without it and --at, about the assembled start");
-  command.add_option("-n,--count", options.count, "how many modes are printed and drawn (default 6; all are written)")->type_name("N")->check(whole(0, 100'000));
-  command.add_option("--frames", options.frames, "frames of an animation of each of these modes (default: none)")->type_name("N")->check(whole(0, 100'000));
+  command.add_flag("--equilibrium", options.at_rest,
+                   "about where the mechanism rests, drivers and loads held; without it and --at, about the assembled start");
+  command.add_option("-n,--count", options.count, "how many modes are printed and drawn (default 6; all are written)")
+      ->type_name("N")
+      ->check(whole(0, 100'000));
+  command.add_option("--frames", options.frames, "frames of an animation of each of these modes (default: none)")
+      ->type_name("N")
+      ->check(whole(0, 100'000));
   command.footer(what_linearize_writes);
 }
 
 /// What a scene may reach and cost, which no scene can say: SECURITY.md.
 void add_bounds(CLI::App& command, Options& options) {
-  command.add_option("--allow-path", options.allowed, "let the scene read files in this folder and below it, beside its own; may be repeated")->allow_extra_args(false)->check(named())->type_name("DIR");
+  command
+      .add_option("--allow-path", options.allowed, "let the scene read files in this folder and below it, beside its own; may be repeated")
+      ->allow_extra_args(false)
+      ->check(named())
+      ->type_name("DIR");
   command.add_flag("--trust-geo", options.trust_geo, "let drawings (.geo) do all that they ask for, shell commands included");
   command.add_option("--mesh-time", options.mesh_time, "time that the mesh of one body may take (default 600 s)")->type_name("TIME");
-  command.add_option("--mesh-memory", options.mesh_memory, "memory that it may take, in GB (default 8)")->type_name("GB")->check(CLI::Range(0.1, 1e6));
+  command.add_option("--mesh-memory", options.mesh_memory, "memory that it may take, in GB (default 8)")
+      ->type_name("GB")
+      ->check(CLI::Range(0.1, 1e6));
 }
 
 void add_options(CLI::App& command, Options& options) {
@@ -185,16 +215,23 @@ void add_options(CLI::App& command, Options& options) {
   if (name == "sweep") return add_sweep_options(command, options);
   if (name == "tradeoff") return add_tradeoff_options(command, options);
   command.add_option("scene", options.scene, "scene file (YAML)")->required()->check(named())->type_name("SCENE.yaml");
-  command.add_option("--set", options.set, "override a parameter of the scene, e.g. --set clearance=0.1mm, or any key by its path, e.g. --set run.tolerance=1e-6, "
-                                               "--set \"joints.pin.clearance=null\" (null takes it away); may be repeated")
+  command
+      .add_option("--set", options.set,
+                  "override a parameter of the scene, e.g. --set clearance=0.1mm, or any key by its path, e.g. --set run.tolerance=1e-6, "
+                  "--set \"joints.pin.clearance=null\" (null takes it away); may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME|PATH=VALUE");
   command.add_flag("--json", options.json, "print JSON instead of text");
   if (name == "check") return;
   const std::string folder = name == "run" ? "runs/SCENE" : "runs/SCENE-" + name;
-  command.add_option("-o,--out", options.out, "directory for the results; it must not exist (default: " + folder + ", numbered)")->check(named())->type_name("DIR");
+  command.add_option("-o,--out", options.out, "directory for the results; it must not exist (default: " + folder + ", numbered)")
+      ->check(named())
+      ->type_name("DIR");
   command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
-  if (name == "run") command.add_option("--restart", options.restart, "go on from a saved state of this scene, states/NNNNN.state of a run")->check(named())->type_name("FILE.state");
+  if (name == "run")
+    command.add_option("--restart", options.restart, "go on from a saved state of this scene, states/NNNNN.state of a run")
+        ->check(named())
+        ->type_name("FILE.state");
   if (name == "run") command.footer(what_it_writes);
   if (name == "run") return;
   if (name == "linearize") return add_linearize_options(command, options);
@@ -208,17 +245,24 @@ void add_options(CLI::App& command, Options& options) {
     return;
   }
   command.add_option("-b,--body", options.body, "which body; may be left out when only one is made of elements")->type_name("NAME");
-  if (name == "static") command.footer("It writes static.vtu (displacement, stress), points.csv, section_forces.csv (beams) and static.json.\nExit codes: see pintle --help\n");
+  if (name == "static")
+    command.footer(
+        "It writes static.vtu (displacement, stress), points.csv, section_forces.csv (beams) and static.json.\nExit codes: see pintle "
+        "--help\n");
   if (name == "mesh") command.footer("It writes mesh.vtu (quality of each cell, groups) and mesh.json.\nExit codes: see pintle --help\n");
   if (name != "modes") return;
   command.add_option("-n,--count", options.count, "how many natural modes (default 6)")->type_name("N")->check(whole(1, 100'000));
-  command.add_option("--frames", options.frames, "frames of each animation, 0 for none (default 24, none above 30000 nodes)")->type_name("N")->check(whole(0, 100'000));
+  command.add_option("--frames", options.frames, "frames of each animation, 0 for none (default 24, none above 30000 nodes)")
+      ->type_name("N")
+      ->check(whole(0, 100'000));
   command.footer(what_modes_writes);
 }
 
 int carry_out(int argc, char** argv) {
-  CLI::App app("Planar mechanisms with real joints: from a scene file to an energy ledger, time series and a ParaView "
-               "animation; modes and statics of their bodies.", "pintle");
+  CLI::App app(
+      "Planar mechanisms with real joints: from a scene file to an energy ledger, time series and a ParaView "
+      "animation; modes and statics of their bodies.",
+      "pintle");
   app.set_version_flag("--version", std::string("pintle ") + PINTLE_VERSION);
   app.require_subcommand(1);
   app.footer(exit_codes);
@@ -253,8 +297,10 @@ int carry_out(int argc, char** argv) {
 }
 
 void say_there_was_no_memory() {
-  std::fprintf(stderr, "pintle: there was not enough memory while %s (the program held %ld MB); end other programs, raise the limit (ulimit -v), "
-               "or make the model or its outputs smaller%s\n", what_is_done(), most_megabytes(), where_results_are());
+  std::fprintf(stderr,
+               "pintle: there was not enough memory while %s (the program held %ld MB); end other programs, raise the limit (ulimit -v), "
+               "or make the model or its outputs smaller%s\n",
+               what_is_done(), most_megabytes(), where_results_are());
 }
 
 /// Where memory ends so wholly that not even an error can be handed on.

@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 std::string bodies_text(const System& s) {
   const auto flexible = std::count_if(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.modes() > 0; });
   const auto rigid = static_cast<long>(s.bodies.size()) - flexible;
-  const std::string text = flexible > 0 ? std::to_string(flexible) + " flexible with " + std::to_string(s.n() - s.n_rigid()) + " shapes" : "";
+  const std::string text =
+      flexible > 0 ? std::to_string(flexible) + " flexible with " + std::to_string(s.n() - s.n_rigid()) + " shapes" : "";
   if (rigid == 0) return text;
   return std::to_string(rigid) + " rigid" + (flexible > 0 ? ", " + text : "");
 }
@@ -76,12 +77,16 @@ void print_estimates(const Model& model) {
     if (r.choice) print_choice(r);
   if (!model.preliminary_run) return;
   const PreliminaryRun& run = *model.preliminary_run;
-  std::cout << "  rigid run: " << (run.steps > 0 ? number(run.until, 4) + " s in " + std::to_string(run.steps) + " steps, took " + number(run.seconds, 3) + " s" : "none")
+  std::cout << "  rigid run: "
+            << (run.steps > 0
+                    ? number(run.until, 4) + " s in " + std::to_string(run.steps) + " steps, took " + number(run.seconds, 3) + " s"
+                    : "none")
             << (run.trouble.empty() ? "" : "; " + run.trouble) << "\n";
   for (const FlexibleReport& r : model.flexible)
     if (r.motion)
-      std::cout << "    \"" << r.body << "\" deflects by about " << percent(r.motion->deflection) << " % of its size, slope " << number(r.motion->slope, 3)
-                << " rad; excited up to " << number(r.motion->excited_up_to, 4) << " Hz; its loads change its first frequency by " << percent(r.motion->by_all_loads) << " %\n";
+      std::cout << "    \"" << r.body << "\" deflects by about " << percent(r.motion->deflection) << " % of its size, slope "
+                << number(r.motion->slope, 3) << " rad; excited up to " << number(r.motion->excited_up_to, 4)
+                << " Hz; its loads change its first frequency by " << percent(r.motion->by_all_loads) << " %\n";
 }
 
 /// Which rows repeat what others hold, and which joint forces follow from the motion all the same.
@@ -101,20 +106,20 @@ void print_redundancy(const System& s, const Assembly& a) {
 void print_check(const Scene& scene, const Model& model, const Assembly& a) {
   const System& s = model.system;
   std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
-  print_rows(std::cout,
-             {{"bodies", bodies_text(s) + ", " + std::to_string(s.n()) + " coordinates"},
-              {"constraint rows", std::to_string(s.n_rows()) + ", rank " + std::to_string(a.rank) +
-                                      (a.redundant.empty() ? "" : ", " + std::to_string(a.redundant.size()) + " redundant")},
-              {"mobility", std::to_string(s.n() - a.rank)},
-              {"clearance joints", s.contacts.empty() ? "none" : std::to_string(s.contacts.size())},
-              {"forces", s.forces.empty() ? "none" : std::to_string(s.forces.size())},
-              {"gravity", s.gravity.isZero() ? "off" : number(s.gravity.x()) + ", " + number(s.gravity.y()) + " m/s^2"},
-              {"ledger integrals", std::to_string(s.n_z())},
-              {"scheme", name(model.scheme) + ", tolerance " + number(model.scheme.tolerance) +
-                             ", constraints by " + scene.run.constraints},
-              {"method", model.scheme.reason},
-              {"constraint equations", Schur(s).solver()},
-              {"assembly", "closed in " + std::to_string(a.iterations) + " iterations, worst coordinate moved by " + number(a.moved, 3)}});
+  print_rows(
+      std::cout,
+      {{"bodies", bodies_text(s) + ", " + std::to_string(s.n()) + " coordinates"},
+       {"constraint rows", std::to_string(s.n_rows()) + ", rank " + std::to_string(a.rank) +
+                               (a.redundant.empty() ? "" : ", " + std::to_string(a.redundant.size()) + " redundant")},
+       {"mobility", std::to_string(s.n() - a.rank)},
+       {"clearance joints", s.contacts.empty() ? "none" : std::to_string(s.contacts.size())},
+       {"forces", s.forces.empty() ? "none" : std::to_string(s.forces.size())},
+       {"gravity", s.gravity.isZero() ? "off" : number(s.gravity.x()) + ", " + number(s.gravity.y()) + " m/s^2"},
+       {"ledger integrals", std::to_string(s.n_z())},
+       {"scheme", name(model.scheme) + ", tolerance " + number(model.scheme.tolerance) + ", constraints by " + scene.run.constraints},
+       {"method", model.scheme.reason},
+       {"constraint equations", Schur(s).solver()},
+       {"assembly", "closed in " + std::to_string(a.iterations) + " iterations, worst coordinate moved by " + number(a.moved, 3)}});
   for (std::size_t c = 0; c < s.contacts.size(); ++c) {
     std::cout << "  clearance at \"" << s.contact_names[c] << "\": " << number(s.contacts[c].gap.clearance()) << " m, "
               << model.clearances[c] << "\n";
@@ -130,10 +135,9 @@ void print_check(const Scene& scene, const Model& model, const Assembly& a) {
 
 void print_run(const Scene& scene, const Model& model, const Run& run, const fs::path& out) {
   std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
-  Rows rows{
-      {"time reached", number(run.t_end) + " s"},
-      {"energy at start", number(run.first.stored(), 9) + " J"},
-      {"energy at end", number(run.last.stored(), 9) + " J"}};
+  Rows rows{{"time reached", number(run.t_end) + " s"},
+            {"energy at start", number(run.first.stored(), 9) + " J"},
+            {"energy at end", number(run.last.stored(), 9) + " J"}};
   for (const FlexibleReport& r : model.flexible)
     if (r.choice) rows.emplace_back("modes of " + r.body, r.choice->reason);
   const System& s = model.system;
@@ -145,7 +149,8 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
   }
   for (std::size_t c = 0; c < s.contacts.size(); ++c) {
     if (s.contacts[c].link >= 0) {
-      rows.emplace_back("massless link at " + s.contact_names[c], "force at the outputs from " + number(run.links[c].least, 4) + " to " + number(run.links[c].greatest, 4) + " N");
+      rows.emplace_back("massless link at " + s.contact_names[c],
+                        "force at the outputs from " + number(run.links[c].least, 4) + " to " + number(run.links[c].greatest, 4) + " N");
       continue;
     }
     long begun = 0, ended = 0;
@@ -157,21 +162,22 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
         deepest = std::max(deepest, i.deepest);
         force = std::max(force, i.peak_force);
       }
-    rows.emplace_back("contacts at " + s.contact_names[c],
-                      std::to_string(begun) + (begun > ended ? " (the last goes on)" : "") + ", peak force " +
-                          number(force, 4) + " N, deepest " + number(deepest, 4) + " m");
+    rows.emplace_back("contacts at " + s.contact_names[c], std::to_string(begun) + (begun > ended ? " (the last goes on)" : "") +
+                                                               ", peak force " + number(force, 4) + " N, deepest " + number(deepest, 4) +
+                                                               " m");
   }
   if (!run.switched.empty()) rows.emplace_back("method", name(model.scheme) + ", then " + run.switched);
   rows.emplace_back("steps", std::to_string(run.counts.steps) + " (" + std::to_string(run.counts.rejected) + " rejected), " +
                                  std::to_string(run.counts.evaluations) + " evaluations in " + number(run.seconds, 3) + " s");
-  rows.emplace_back("constraints held to", number(run.worst_position, 2) + " in position, " + number(run.worst_velocity, 2) + " in speed (scaled)");
-  if (run.status != Status::not_written) rows.emplace_back("results", out.string() + (scene.output.frames > 1 ? ", animation " + (out / "mechanism.pvd").string() : ""));
+  rows.emplace_back("constraints held to",
+                    number(run.worst_position, 2) + " in position, " + number(run.worst_velocity, 2) + " in speed (scaled)");
+  if (run.status != Status::not_written)
+    rows.emplace_back("results", out.string() + (scene.output.frames > 1 ? ", animation " + (out / "mechanism.pvd").string() : ""));
   print_rows(std::cout, rows);
   for (const std::string& w : run.warnings) std::cout << "  warning: " << w << "\n";
   std::cout << "  " << status_text(run.status) << (run.reason.empty() ? "" : ": " + run.reason) << "\n";
   std::cout << "  unexplained energy: " << number(run.unexplained, 3) << " J, "
-            << number(run.energy_in_play > 0 ? std::abs(run.unexplained) / run.energy_in_play : 0, 3)
-            << " of the energy in play\n";
+            << number(run.energy_in_play > 0 ? std::abs(run.unexplained) / run.energy_in_play : 0, 3) << " of the energy in play\n";
 }
 
 Scene runnable(const Options& options) {
@@ -217,8 +223,13 @@ namespace {
 class Recording {
  public:
   Recording(const fs::path& directory, const Scene& scene, const Model& model, const Assembly& assembly)
-      : directory_(directory), scene_(scene), model_(model), assembly_(assembly), files_(directory, model),
-        identity_(identity(scene, model, assembly)), kept_for_report_(directory / "room for run.json", least_room + 4 * scene.filled_in.size()) {
+      : directory_(directory),
+        scene_(scene),
+        model_(model),
+        assembly_(assembly),
+        files_(directory, model),
+        identity_(identity(scene, model, assembly)),
+        kept_for_report_(directory / "room for run.json", least_room + 4 * scene.filled_in.size()) {
     if (scene.output.frames < 2) return;
     writer_.emplace(directory);
     drafting_.emplace(scene, model);
@@ -226,7 +237,9 @@ class Recording {
 
   Listeners listeners() {
     Listeners out;
-    out.rows = [this](const Table& trajectory, const Table& ledger, const std::vector<Impact>& impacts) { files_.add(trajectory, ledger, impacts); };
+    out.rows = [this](const Table& trajectory, const Table& ledger, const std::vector<Impact>& impacts) {
+      files_.add(trajectory, ledger, impacts);
+    };
     out.state = [this](const SavedState& state) { add(state); };
     if (writer_) out.frame = [this](const State& state, const Equations& eq) { writer_->add(draw(model_, *drafting_, state, eq)); };
     return out;
@@ -285,7 +298,8 @@ int run(const Options& options) {
   Model model = build(scene);
   const Assembly assembly = assemble(scene, model);
   const std::optional<SavedState> from = saved_state(options, scene, model, assembly);
-  for (std::string& warning : validate_room(out, room_needed(scene, model, from ? from->t : 0), room_at(out))) model.warnings.push_back(std::move(warning));
+  for (std::string& warning : validate_room(out, room_needed(scene, model, from ? from->t : 0), room_at(out)))
+    model.warnings.push_back(std::move(warning));
 
   now_doing("running the scene");
   Progress progress(scene.run.until, options.quiet);

@@ -62,8 +62,7 @@ std::string number(double x, int digits) {
 void print_rows(std::ostream& out, const Rows& rows) {
   std::size_t width = 0;
   for (const auto& row : rows) width = std::max(width, row.first.size());
-  for (const auto& [left, right] : rows)
-    out << "  " << std::left << std::setw(static_cast<int>(width) + 2) << left << right << "\n";
+  for (const auto& [left, right] : rows) out << "  " << std::left << std::setw(static_cast<int>(width) + 2) << left << right << "\n";
 }
 
 fs::path results_directory(const Options& options, const std::string& suffix) {

@@ -18,16 +18,16 @@ struct Options {
   std::vector<std::string> set;
   bool quiet = false, json = false;
   int count = 6, frames = -1;
-  std::string restart, at;  ///< a saved state; an instant
-  bool at_rest = false;     ///< about where the mechanism rests
-  int threads = 0;          ///< of this process; 0: as many as cores
+  std::string restart, at;              ///< a saved state; an instant
+  bool at_rest = false;                 ///< about where the mechanism rests
+  int threads = 0;                      ///< of this process; 0: as many as cores
   std::vector<std::string> quantities;  ///< of a trade-off, in words
   std::string wanted_error, wanted_time, budget, markdown;
-  int repeats = 0;          ///< 0: as the study says
+  int repeats = 0;  ///< 0: as the study says
   bool trust_geo = false;
-  std::vector<std::string> allowed;     ///< folders that scenes may read from
-  std::string mesh_time;                ///< of one body; empty: as the library says
-  double mesh_memory = 0;               ///< [GB]; 0: likewise
+  std::vector<std::string> allowed;  ///< folders that scenes may read from
+  std::string mesh_time;             ///< of one body; empty: as the library says
+  double mesh_memory = 0;            ///< [GB]; 0: likewise
 };
 
 // One a command; each returns its exit code.

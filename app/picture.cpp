@@ -46,7 +46,7 @@ using pintle::quantity;
 
 struct Choice {
   fs::path directory, picture;
-  int frame = -1;  ///< counted from 0; from the end if negative
+  int frame = -1;                                          ///< counted from 0; from the end if negative
   double time = std::numeric_limits<double>::quiet_NaN();  ///< [s]; the frame nearest to it
   int width = 1400, height = 0;                            ///< [px]; height 0: as the content asks
   std::string around;                                      ///< an owner to fill the picture with
@@ -59,13 +59,10 @@ const Colour ink{0.16, 0.18, 0.22}, white{1, 1, 1}, red{0.80, 0.16, 0.14};
 
 /// Okabe and Ito's colours, which the colour-blind tell apart, less the yellow, which white
 /// swallows.
-const std::array<Colour, 6> palette{Colour{0.00, 0.45, 0.70}, Colour{0.84, 0.37, 0.00},
-                                    Colour{0.00, 0.62, 0.45}, Colour{0.80, 0.47, 0.65},
-                                    Colour{0.34, 0.71, 0.91}, Colour{0.90, 0.62, 0.00}};
+const std::array<Colour, 6> palette{Colour{0.00, 0.45, 0.70}, Colour{0.84, 0.37, 0.00}, Colour{0.00, 0.62, 0.45},
+                                    Colour{0.80, 0.47, 0.65}, Colour{0.34, 0.71, 0.91}, Colour{0.90, 0.62, 0.00}};
 
-Colour mix(const Colour& a, const Colour& b, double share_of_b) {
-  return a + share_of_b * (b - a);
-}
+Colour mix(const Colour& a, const Colour& b, double share_of_b) { return a + share_of_b * (b - a); }
 
 // How to draw -------------------------------------------------------------------------------------
 
@@ -75,8 +72,7 @@ struct View {
   int width, height;  ///< [px]
   double scale;       ///< [px/m]
   Vector2d operator()(const Vector2d& r) const {
-    return Vector2d(width / 2.0, bottom + (height - bottom - top) / 2.0) +
-           scale * (r - world.center());
+    return Vector2d(width / 2.0, bottom + (height - bottom - top) / 2.0) + scale * (r - world.center());
   }
   int bottom = 84;  ///< margins [px]
   static constexpr int side = 36, top = 76;
@@ -107,9 +103,7 @@ double largest_force(const pintle::Drawing& drawing) {
   return largest;
 }
 
-double pixels_per_newton(const View& view, const pintle::Drawing& drawing) {
-  return 0.16 * view.width / largest_force(drawing);
-}
+double pixels_per_newton(const View& view, const pintle::Drawing& drawing) { return 0.16 * view.width / largest_force(drawing); }
 
 View view_of(const pintle::Drawing& drawing, const Choice& choice) {
   View view{{}, choice.width, choice.height, 1};
@@ -122,12 +116,10 @@ View view_of(const pintle::Drawing& drawing, const Choice& choice) {
   }
   for (const auto& body : drawing.bodies) {
     if (!whole && body.name != choice.around) continue;
-    for (Eigen::Index i = 0; i < body.points.cols(); ++i)
-      view.world.extend(Vector2d(body.points.col(i)));
+    for (Eigen::Index i = 0; i < body.points.cols(); ++i) view.world.extend(Vector2d(body.points.col(i)));
   }
   if (view.world.isEmpty()) {
-    throw std::runtime_error(whole ? "the frame is empty"
-                                   : "--around " + choice.around + ": no lines of that name");
+    throw std::runtime_error(whole ? "the frame is empty" : "--around " + choice.around + ": no lines of that name");
   }
   fit(view, choice.height);
   if (whole && largest_force(drawing) > 0) {  // room for the arrows, whose length is in pixels
@@ -139,8 +131,7 @@ View view_of(const pintle::Drawing& drawing, const Choice& choice) {
 }
 
 int owner_of(const pintle::Drawing& drawing, const pintle::DrawnBody& body) {
-  return static_cast<int>(std::find(drawing.owners.begin(), drawing.owners.end(), body.name) -
-                          drawing.owners.begin());
+  return static_cast<int>(std::find(drawing.owners.begin(), drawing.owners.end(), body.name) - drawing.owners.begin());
 }
 
 /// A colour for each owner that has a link or is flexible, in the order of the owners.
@@ -155,16 +146,15 @@ std::map<int, Colour> body_colours(const pintle::Drawing& drawing) {
   return colours;
 }
 
-void draw_bodies(Canvas& canvas, const View& view, const pintle::Drawing& drawing,
-                 const std::map<int, Colour>& colours, const std::string& field) {
+void draw_bodies(Canvas& canvas, const View& view, const pintle::Drawing& drawing, const std::map<int, Colour>& colours,
+                 const std::string& field) {
   const FieldRange range = field.empty() ? FieldRange{} : range_of(drawing, field);
   for (const auto& body : drawing.bodies) {
     Eigen::Matrix2Xd at(2, body.points.cols());
     for (Eigen::Index i = 0; i < at.cols(); ++i) at.col(i) = view(body.points.col(i));
     const Colour& own = colours.at(owner_of(drawing, body));
     std::vector<Colour> inside;
-    for (const double value : values(body, field))
-      inside.push_back(pintle::field_colour(range.share(value)));
+    for (const double value : values(body, field)) inside.push_back(pintle::field_colour(range.share(value)));
     const bool plain = inside.empty();
     if (plain) inside.push_back(mix(own, white, 0.65));
     canvas.fill(at, body.cells, inside);
@@ -174,22 +164,15 @@ void draw_bodies(Canvas& canvas, const View& view, const pintle::Drawing& drawin
   }
 }
 
-void draw_lines(Canvas& canvas, const View& view, const pintle::Drawing& drawing,
-                const std::map<int, Colour>& colours, Part part) {
+void draw_lines(Canvas& canvas, const View& view, const pintle::Drawing& drawing, const std::map<int, Colour>& colours, Part part) {
   for (const auto& line : drawing.lines) {
     if (line.part != part) continue;
     std::vector<Vector2d> r;
     for (const auto& p : line.points) r.push_back(view(p));
     switch (part) {
-      case Part::guide:
-        canvas.stroke(r, line.closed, 4, mix(ink, white, 0.45));
-        break;
-      case Part::trace:
-        canvas.stroke(r, line.closed, 1.6, mix(ink, white, 0.55));
-        break;
-      case Part::spring:
-        canvas.stroke(r, line.closed, 3, mix(ink, white, 0.2));
-        break;
+      case Part::guide: canvas.stroke(r, line.closed, 4, mix(ink, white, 0.45)); break;
+      case Part::trace: canvas.stroke(r, line.closed, 1.6, mix(ink, white, 0.55)); break;
+      case Part::spring: canvas.stroke(r, line.closed, 3, mix(ink, white, 0.2)); break;
       case Part::link: {
         const Colour& colour = colours.at(line.owner);
         if (line.closed) {
@@ -233,8 +216,7 @@ void draw_forces(Canvas& canvas, const View& view, const pintle::Drawing& drawin
   canvas.next_layer();
 }
 
-vtkSmartPointer<vtkTextActor> words(const std::string& text, double x, double y, bool right,
-                                    const Colour& colour) {
+vtkSmartPointer<vtkTextActor> words(const std::string& text, double x, double y, bool right, const Colour& colour) {
   const auto actor = vtkSmartPointer<vtkTextActor>::New();
   actor->SetInput(text.c_str());
   actor->SetDisplayPosition(static_cast<int>(x), static_cast<int>(y));
@@ -247,31 +229,28 @@ vtkSmartPointer<vtkTextActor> words(const std::string& text, double x, double y,
 }
 
 /// The scale of a field's colours: its name, its least and its greatest value.
-void add_field_scale(vtkRenderer* renderer, Canvas& canvas, const View& view,
-                     const std::string& field, const FieldRange& range) {
+void add_field_scale(vtkRenderer* renderer, Canvas& canvas, const View& view, const std::string& field, const FieldRange& range) {
   const std::size_t unit = field.rfind(" [");
   const bool has_unit = unit != std::string::npos && field.back() == ']';
   const std::string symbol = has_unit ? field.substr(unit + 2, field.size() - unit - 3) : "";
   constexpr int steps = 256;
-  const double left = 0.42 * view.width, right = 0.82 * view.width, y = view.bottom - field_row,
-               width = (right - left) / steps, height = 18;
+  const double left = 0.42 * view.width, right = 0.82 * view.width, y = view.bottom - field_row, width = (right - left) / steps,
+               height = 18;
   for (int i = 0; i < steps; ++i) {
     const double x = left + i * width;
-    canvas.fill({{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}},
-                pintle::field_colour((i + 0.5) / steps));
+    canvas.fill({{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, pintle::field_colour((i + 0.5) / steps));
   }
   canvas.next_layer();
   const std::string name = field.substr(0, has_unit ? unit : field.size());
   renderer->AddActor2D(words(name, View::side, y, false, ink));
   const bool from_zero = std::abs(range.least) < 1e-6 * std::abs(range.greatest);
-  renderer->AddActor2D(
-      words(quantity(from_zero ? 0 : range.least, symbol), left - 14, y, true, ink));
+  renderer->AddActor2D(words(quantity(from_zero ? 0 : range.least, symbol), left - 14, y, true, ink));
   renderer->AddActor2D(words(quantity(range.greatest, symbol), right + 14, y, false, ink));
 }
 
 /// Time and bodies above; the scales of lengths and forces and the exaggeration below.
-void add_words(vtkRenderer* renderer, Canvas& canvas, const View& view,
-               const pintle::Drawing& drawing, const std::map<int, Colour>& colours) {
+void add_words(vtkRenderer* renderer, Canvas& canvas, const View& view, const pintle::Drawing& drawing,
+               const std::map<int, Colour>& colours) {
   const double w = view.width, h = view.height, top = h - View::top / 2.0 - 8;
   canvas.fill({{0, h - View::top}, {w, h - View::top}, {w, h}, {0, h}}, white);
   canvas.fill({{0, 0}, {w, 0}, {w, 1.0 * view.bottom}, {0, 1.0 * view.bottom}}, white);
@@ -320,15 +299,13 @@ void write_picture(const pintle::Drawing& drawing, const Choice& choice) {
   window->AddRenderer(renderer);
 
   Canvas canvas;
-  for (const Part part : {Part::guide, Part::link, Part::spring, Part::joint, Part::bearing,
-                          Part::journal, Part::trace}) {
+  for (const Part part : {Part::guide, Part::link, Part::spring, Part::joint, Part::bearing, Part::journal, Part::trace}) {
     draw_lines(canvas, view, drawing, colours, part);
     if (part == Part::link) draw_bodies(canvas, view, drawing, colours, choice.field);
   }
   draw_forces(canvas, view, drawing);
   add_words(renderer, canvas, view, drawing, colours);
-  if (!choice.field.empty())
-    add_field_scale(renderer, canvas, view, choice.field, range_of(drawing, choice.field));
+  if (!choice.field.empty()) add_field_scale(renderer, canvas, view, choice.field, range_of(drawing, choice.field));
   renderer->AddActor(canvas.actor());
 
   vtkCamera* camera = renderer->GetActiveCamera();
@@ -352,16 +329,13 @@ int main(int argc, char** argv) {
       "Draws one frame of a run as a picture, or a field of a body that modes, static or mesh "
       "wrote.\n"
       "Needs a display, be it a virtual one:  xvfb-run -a pintle-picture DIR OUT.png"};
-  app.add_option("dir", choice.directory,
-                 "What `pintle run --out` wrote, or a .vtu file with --field")
-      ->required();
+  app.add_option("dir", choice.directory, "What `pintle run --out` wrote, or a .vtu file with --field")->required();
   app.add_option("picture", choice.picture, "The PNG file to write")->required();
   auto* frame = app.add_option("--frame", choice.frame, "Frame, from 0; -1 is the last (default)");
   app.add_option("--time", choice.time, "The frame nearest to this time [s]")->excludes(frame);
   app.add_option("--size", size, "WIDTHxHEIGHT or WIDTH in pixels (1400, as high as needed)");
   app.add_option("--around", choice.around, "Fill the picture with this body or joint");
-  app.add_option("--field", choice.field,
-                 "Colour flexible bodies, or the .vtu file's, by this field: \"von Mises [Pa]\"");
+  app.add_option("--field", choice.field, "Colour flexible bodies, or the .vtu file's, by this field: \"von Mises [Pa]\"");
   CLI11_PARSE(app, argc, argv);
   vtkObject::GlobalWarningDisplayOff();  // what fails is said below, once
   try {
@@ -374,9 +348,7 @@ int main(int argc, char** argv) {
     if (!choice.field.empty() && !fs::is_directory(choice.directory))
       pintle::write_field_picture(choice.directory, choice.field, choice.width, choice.picture);
     else
-      write_picture(
-          pintle::read_frame(pintle::frame_files(choice.directory, choice.frame, choice.time)),
-          choice);
+      write_picture(pintle::read_frame(pintle::frame_files(choice.directory, choice.frame, choice.time)), choice);
   } catch (const std::exception& e) {
     std::cerr << "pintle-picture: " << e.what() << '\n';
     return 1;

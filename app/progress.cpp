@@ -100,9 +100,7 @@ void results_are_in(const std::string& folder) {
 
 const char* where_results_are() { return !kept.empty() && ::access(kept.c_str(), F_OK) == 0 ? kept_note.c_str() : ""; }
 
-Progress::Progress(double until, bool quiet) : until_(until), on_(!quiet && ::isatty(STDERR_FILENO)) {
-  heed_signals();
-}
+Progress::Progress(double until, bool quiet) : until_(until), on_(!quiet && ::isatty(STDERR_FILENO)) { heed_signals(); }
 
 Progress::~Progress() {
   if (shown_) std::cerr << "\r\033[K" << std::flush;
@@ -113,8 +111,8 @@ bool Progress::operator()(double t) {
   if (on_ && now - last_ > std::chrono::milliseconds(200)) {
     last_ = now;
     shown_ = true;
-    std::cerr << "\r  " << std::fixed << std::setprecision(1) << 100 * t / until_ << " %  t = " << std::defaultfloat
-              << std::setprecision(6) << t << " s\033[K" << std::flush;
+    std::cerr << "\r  " << std::fixed << std::setprecision(1) << 100 * t / until_ << " %  t = " << std::defaultfloat << std::setprecision(6)
+              << t << " s\033[K" << std::flush;
   }
   return !asked_to_stop();
 }

@@ -15,8 +15,8 @@ std::string quantity(double value, const std::string& unit) {
   }
   step = std::clamp(step, -3, 3);
   std::array<char, 48> text;
-  std::snprintf(text.data(), text.size(), "%.3g %s%s", value / std::pow(1000.0, step),
-                prefixes[static_cast<std::size_t>(step + 3)], unit.c_str());
+  std::snprintf(text.data(), text.size(), "%.3g %s%s", value / std::pow(1000.0, step), prefixes[static_cast<std::size_t>(step + 3)],
+                unit.c_str());
   return text.data();
 }
 

@@ -37,9 +37,12 @@ void require_file_place(const fs::path& file) {
   std::error_code error;
   const fs::file_status there = fs::status(file, error);
   if (fs::exists(there) && !fs::is_regular_file(there))
-    throw std::runtime_error(file.string() + ": " + (fs::is_directory(there) ? "is a directory" : "is not an ordinary file") + "; name a file to write");
+    throw std::runtime_error(file.string() + ": " + (fs::is_directory(there) ? "is a directory" : "is not an ordinary file") +
+                             "; name a file to write");
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, error)) throw std::runtime_error(file.string() + ": cannot be written, as there is no folder " + folder.string() + "; make it, or name another");
+  if (!fs::is_directory(folder, error))
+    throw std::runtime_error(file.string() + ": cannot be written, as there is no folder " + folder.string() +
+                             "; make it, or name another");
   fs::remove(make_unique_folder(folder / ".pintle"), error);
 }
 
@@ -47,7 +50,8 @@ void tell_leftovers(const Options& options, const fs::path& out) {
   const std::vector<fs::path> all = leftovers(out);
   if (options.quiet || all.empty()) return;
   constexpr std::size_t most = 3;
-  std::cerr << "  note: " << all.size() << (all.size() == 1 ? " folder" : " folders") << " of runs that were ended, or still go, with the same --out:";
+  std::cerr << "  note: " << all.size() << (all.size() == 1 ? " folder" : " folders")
+            << " of runs that were ended, or still go, with the same --out:";
   for (std::size_t k = 0; k < std::min(most, all.size()); ++k) std::cerr << " " << all[k].string();
   std::cerr << (all.size() > most ? " …" : "") << "; rename what is worth keeping and remove the rest\n";
 }
@@ -74,17 +78,19 @@ void settle(ResultsDirectory& results, Run& run, const std::function<void()>& wr
     }
   };
   attempt(write);
-  if (whole) attempt([&] { results.commit(); });
-  else attempt(report);
+  if (whole)
+    attempt([&] { results.commit(); });
+  else
+    attempt(report);
   if (whole || run.reason.find("the results are in") != std::string::npos) return;
   if (!results.holds_files()) return void(run.reason += "; nothing of the results could be written");
-  run.reason += "; what was computed" + (run.t_end > 0 ? " up to t = " + number(run.t_end) + " s" : std::string()) + " is in " + results.path().string();
+  run.reason += "; what was computed" + (run.t_end > 0 ? " up to t = " + number(run.t_end) + " s" : std::string()) + " is in " +
+                results.path().string();
 }
 
 int exit_code(const Options& options, const Scene& scene, const Run& run) {
   const bool unsaid = options.quiet || options.json || run.status == Status::not_written || run.status == Status::out_of_memory;
-  if (run.status != Status::finished && unsaid)
-    std::cerr << scene.file << ": " << status_text(run.status) << ": " << run.reason << "\n";
+  if (run.status != Status::finished && unsaid) std::cerr << scene.file << ": " << status_text(run.status) << ": " << run.reason << "\n";
   switch (run.status) {
     case Status::finished: return ok;
     case Status::failed: return run_failed;

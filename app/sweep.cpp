@@ -25,10 +25,14 @@ namespace fs = std::filesystem;
 std::string span_text(double seconds) {
   std::ostringstream s;
   const long whole = std::lround(seconds);
-  if (seconds < 10) s << std::setprecision(2) << seconds << " s";
-  else if (whole < 120) s << whole << " s";
-  else if (whole < 7200) s << whole / 60 << " min " << whole % 60 << " s";
-  else s << whole / 3600 << " h " << whole % 3600 / 60 << " min";
+  if (seconds < 10)
+    s << std::setprecision(2) << seconds << " s";
+  else if (whole < 120)
+    s << whole << " s";
+  else if (whole < 7200)
+    s << whole / 60 << " min " << whole % 60 << " s";
+  else
+    s << whole / 3600 << " h " << whole % 3600 / 60 << " min";
   return s.str();
 }
 
@@ -39,7 +43,8 @@ std::string line(const SweepCount& c) {
   if (c.trouble > 0) s << ", " << c.trouble << " not finished";
   if (c.done > 0 && c.seconds > 0) {
     const double rate = static_cast<double>(c.done) / c.seconds;
-    s << std::setprecision(3) << ", " << rate << " a second, " << span_text(static_cast<double>(c.cases - c.before - c.done) / rate) << " left";
+    s << std::setprecision(3) << ", " << rate << " a second, " << span_text(static_cast<double>(c.cases - c.before - c.done) / rate)
+      << " left";
   }
   return s.str();
 }
@@ -86,8 +91,9 @@ void print(const Sweep& sweep, const SweepEnd& end, const fs::path& out) {
                                                 : number(r.least) + " (case " + std::to_string(r.least_in) + ") to " + number(r.greatest) +
                                                       " (case " + std::to_string(r.greatest_in) + ")");
   if (end.count.done > 0)
-    rows.emplace_back("this session", std::to_string(end.count.done) + " cases in " + span_text(end.count.seconds) + " by " + std::to_string(end.workers) +
-                                          (end.workers > 1 ? " workers, busy " + number(100 * end.efficiency(), 3) + " % of the time" : " worker"));
+    rows.emplace_back("this session",
+                      std::to_string(end.count.done) + " cases in " + span_text(end.count.seconds) + " by " + std::to_string(end.workers) +
+                          (end.workers > 1 ? " workers, busy " + number(100 * end.efficiency(), 3) + " % of the time" : " worker"));
   rows.emplace_back("table", (out / (end.whole ? "sweep.csv" : "sweep-so-far.csv")).string());
   print_rows(std::cout, rows);
   if (!end.whole) std::cout << "  " << (asked_to_stop() ? stopped_by() : "stopped") << "; the same command goes on from here\n";
@@ -100,9 +106,12 @@ bool none_ran(const SweepEnd& end) {
 }
 
 int carry_out(const Sweep& sweep, const Options& options, Communicator* together, bool leads) {
-  const fs::path out = options.out.empty() ? fs::path("runs") / (fs::path(options.scene).stem().string() + "-sweep") : fs::path(options.out);
+  const fs::path out =
+      options.out.empty() ? fs::path("runs") / (fs::path(options.scene).stem().string() + "-sweep") : fs::path(options.out);
   SweepSettings settings;
-  settings.threads = options.threads > 0 ? options.threads : together ? 1 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  settings.threads = options.threads > 0 ? options.threads
+                     : together          ? 1
+                                         : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   settings.communicator = together;
   SweepEnd end;
   now_doing("running the cases");
@@ -117,9 +126,12 @@ int carry_out(const Sweep& sweep, const Options& options, Communicator* together
   if (const auto n = std::ranges::count_if(end.rows, lacked_memory); n > 0)
     std::cerr << "warning: " << n << (n == 1 ? " case" : " cases") << " lacked memory; the same command, with fewer --threads, runs "
               << (n == 1 ? "it" : "them") << " again\n";
-  if (options.json) std::cout << sweep_json(sweep, end);
-  else if (!options.quiet) print(sweep, end, out);
-  if (!end.whole && (options.quiet || options.json)) std::cerr << sweep.study.file << ": " << (asked_to_stop() ? stopped_by() : "stopped") << "; the same command goes on from here\n";
+  if (options.json)
+    std::cout << sweep_json(sweep, end);
+  else if (!options.quiet)
+    print(sweep, end, out);
+  if (!end.whole && (options.quiet || options.json))
+    std::cerr << sweep.study.file << ": " << (asked_to_stop() ? stopped_by() : "stopped") << "; the same command goes on from here\n";
   if (!end.whole) return stopped;
   if (none_ran(end)) {
     std::cerr << sweep.study.file << ": none of " << end.rows.size() << " cases ran to its end; case " << end.rows.front().number << ": "
@@ -139,9 +151,12 @@ int sweep(const Options& options) {
     what = read_sweep(options.scene, overrides(options));
   } catch (...) {
     // What stops one process mostly stops all: one of them says so.
-    if (together && leads) reject_all(*together);
-    else if (together && rejected(*together)) return ok;
-    else if (together) stay_away(*together);
+    if (together && leads)
+      reject_all(*together);
+    else if (together && rejected(*together))
+      return ok;
+    else if (together)
+      stay_away(*together);
     throw;
   }
   return carry_out(what, options, together.get(), leads);

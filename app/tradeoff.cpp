@@ -42,7 +42,8 @@ bool is_study(const fs::path& file) {
 std::vector<Measure> asked_quantities(const Options& options) {
   std::vector<Measure> out;
   for (const std::string& words : options.quantities) {
-    if (std::ranges::find(out, words, &Measure::words) != out.end()) throw SceneError("--quantity \"" + words + "\": is asked for twice; leave one out");
+    if (std::ranges::find(out, words, &Measure::words) != out.end())
+      throw SceneError("--quantity \"" + words + "\": is asked for twice; leave one out");
     out.emplace_back(Measure{words, words, Place{0, "--quantity"}, options.scene});
   }
   return out;
@@ -72,7 +73,9 @@ Asked understood(const Options& options) {
   } else {
     asked.scene = read_case_source(options.scene, set);
     if (options.quantities.empty())
-      throw SceneError(options.scene + ": no quantity is named; say what matters, for example --quantity \"peak force at JOINT\" or --quantity \"energy lost\" (docs/studies.md)");
+      throw SceneError(options.scene +
+                       ": no quantity is named; say what matters, for example --quantity \"peak force at JOINT\" or --quantity \"energy "
+                       "lost\" (docs/studies.md)");
     asked.measures = asked_quantities(options);
     judge(asked.measures, common_scene(asked.scene));
     asked.plan = suggested_plan(asked.scene);
@@ -140,10 +143,13 @@ int tradeoff(const Options& options) {
     write_synced(picture, tradeoff_svg(report));
     write_synced(page, tradeoff_markdown(report, picture.filename().string()));
   }
-  if (options.json) std::cout << tradeoff_json(report);
+  if (options.json)
+    std::cout << tradeoff_json(report);
   else if (!options.quiet) {
     std::cout << tradeoff_text(report);
-    print_rows(std::cout, {{"spent", number(report.seconds, 3) + " s"}, {"results", out.string() + (report.recommended ? ", ready to run: " + (out / "recommended.yaml").string() : "; no recommended.yaml, as nothing is recommended")}});
+    print_rows(std::cout, {{"spent", number(report.seconds, 3) + " s"},
+                           {"results", out.string() + (report.recommended ? ", ready to run: " + (out / "recommended.yaml").string()
+                                                                          : "; no recommended.yaml, as nothing is recommended")}});
   }
   if (report.stopped) std::cerr << options.scene << ": " << stopped_by() << "; what was measured until then is in " << out.string() << "\n";
   if (report.stopped) return stopped;

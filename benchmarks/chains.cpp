@@ -179,7 +179,8 @@ void Acceleration(benchmark::State& bench, const std::string& kind) {
 
 /// What a Newton step of generalised-α does at a state, h = 1 ms.
 struct Newton {
-  explicit Newton(Mechanism made) : m(std::move(made)), eq(m.system), tangent(m.system), kkt(m.system, eq, tangent), J(tangent.places().size()) {
+  explicit Newton(Mechanism made)
+      : m(std::move(made)), eq(m.system), tangent(m.system), kkt(m.system, eq, tangent), J(tangent.places().size()) {
     VectorXd dy(m.system.n_y());
     evaluate(m.system, m.state, eq, dy);
     x = eq.f;
@@ -324,7 +325,10 @@ const bool registered = [] {
     sizes(benchmark::RegisterBenchmark(("Acceleration/" + kind).c_str(), Acceleration, kind));
     sizes(benchmark::RegisterBenchmark(("NewtonStep/" + kind).c_str(), NewtonStep, kind));
     benchmark::RegisterBenchmark(("AgainstSparseLu/" + kind).c_str(), AgainstSparseLu, kind)
-        ->Arg(1000)->UseManualTime()->Iterations(101)->Unit(benchmark::kMicrosecond);
+        ->Arg(1000)
+        ->UseManualTime()
+        ->Iterations(101)
+        ->Unit(benchmark::kMicrosecond);
   }
   for (const std::string& kind : kinds)
     for (const char* what : {"acceleration ", "Newton step ", "solution "})

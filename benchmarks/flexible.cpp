@@ -32,8 +32,7 @@ std::string beam(long shapes) {
 /// 120 mm × 10 mm of quadrilaterals, twelve times as many along as across; 150, 10 122 and 99 970
 /// freedoms. Held at the middles of its ends.
 std::string bar(long freedoms) {
-  const long across =
-      2 * std::max(1L, std::lround(std::sqrt(static_cast<double>(freedoms) / 24) / 2));
+  const long across = 2 * std::max(1L, std::lround(std::sqrt(static_cast<double>(freedoms) / 24) / 2));
   return "    plate: {thickness: 7.9 mm, young: 207 GPa, poisson: 0.3, mass: 0.21 kg, element: "
          "quadrilateral4,\n"
          "            grid: {corners: [[0, -5 mm], [120 mm, -5 mm], [120 mm, 5 mm], [0, 5 mm]],\n"
@@ -84,8 +83,7 @@ using Coupler = std::string (*)(long);
 const Mechanism& mechanism(Coupler coupler, long size, bool clearance) {
   static std::map<std::string, Mechanism> built;
   const std::string text = coupler(size);
-  return built.try_emplace(text + (clearance ? "+" : ""), slider_crank(text, clearance))
-      .first->second;
+  return built.try_emplace(text + (clearance ? "+" : ""), slider_crank(text, clearance)).first->second;
 }
 
 void describe(benchmark::State& bench, const Mechanism& m) {

@@ -51,8 +51,7 @@ Plate::Plate(double nodes) : scene(scene_of(nodes)), body(elastic_body(scene, sc
 }
 
 FlexiblePose pose_at(int frame) {
-  FlexiblePose pose{
-      {0.1, 0.2}, {3, -4}, 0.02 * frame, 150, Eigen::VectorXd(shapes), Eigen::VectorXd(shapes)};
+  FlexiblePose pose{{0.1, 0.2}, {3, -4}, 0.02 * frame, 150, Eigen::VectorXd(shapes), Eigen::VectorXd(shapes)};
   for (int k = 0; k < shapes; ++k) {
     pose.eta[k] = 1e-4 * std::sin(0.1 * (k + 1) * frame) / (k + 1);
     pose.speed[k] = 1e-2 * std::cos(0.1 * (k + 1) * frame);
@@ -72,8 +71,7 @@ BENCHMARK(fields)->Arg(1000)->Arg(10000)->Arg(100000)->Unit(benchmark::kMillisec
 void frames(benchmark::State& state) {
   const Plate plate(static_cast<double>(state.range(0)));
   const FlexibleDrawing flexible = plate.drawing();
-  const fs::path folder =
-      fs::temp_directory_path() / ("pintle_bench_frames_" + std::to_string(getpid()));
+  const fs::path folder = fs::temp_directory_path() / ("pintle_bench_frames_" + std::to_string(getpid()));
   FrameWriter writer(folder);
   int frame = 0;
   std::uintmax_t bytes = 0;

@@ -79,8 +79,7 @@ Link link_of(double freedoms) {
   FeModel model;
   link.meshing = cost_of([&] {
     const Mesh mesh = grid_mesh(corners, 10 * high, high, CellShape::triangle6);
-    const PlaneProperties steel{plane_material({Isotropic{207e9, 0.3}, 7850}, PlaneState::stress),
-                                7850, 0.01};
+    const PlaneProperties steel{plane_material({Isotropic{207e9, 0.3}, 7850}, PlaneState::stress), 7850, 0.01};
     model = fe_model(mesh.x, plane_blocks(mesh, steel, ""));
   });
   link.assembly = cost_of([&] {
@@ -138,8 +137,7 @@ Found by_spectra(const Link& link) {
   factor.compute(A);
   Inverse inverse(factor, A.rows());
   Mass mass(link.M);
-  Spectra::SymGEigsShiftSolver<Inverse, Mass, Spectra::GEigsMode::ShiftInvert> solver(
-      inverse, mass, pairs, lanczos_vectors, mu);
+  Spectra::SymGEigsShiftSolver<Inverse, Mass, Spectra::GEigsMode::ShiftInvert> solver(inverse, mass, pairs, lanczos_vectors, mu);
   solver.init();
   solver.compute(Spectra::SortRule::LargestMagn, 1000, tolerance, Spectra::SortRule::SmallestAlge);
   return {solver.eigenvalues(), solver.eigenvectors(), inverse.solves};
@@ -183,10 +181,7 @@ void Modes(benchmark::State& bench) {
   bench.counters["iterations"] = ours.iterations;
   bench.counters["our_residual"] = worst_residual(link, ours.lambda, ours.shapes);
   bench.counters["their_residual"] = worst_residual(link, theirs.lambda, theirs.shapes);
-  bench.counters["difference"] = ((ours.lambda - theirs.lambda).array() / ours.lambda.array())
-                                     .tail(pairs - 3)
-                                     .abs()
-                                     .maxCoeff();
+  bench.counters["difference"] = ((ours.lambda - theirs.lambda).array() / ours.lambda.array()).tail(pairs - 3).abs().maxCoeff();
   bench.counters["assembly_share"] = link.assembly.cpu / (link.assembly.cpu + cpu);
   bench.counters["missed"] = ours.missed + (ours.converged ? 0 : 1000);
 }
@@ -206,8 +201,7 @@ void Parts(benchmark::State& bench) {
   MatrixXd x;
   for (auto _ : bench) {
     again.push_back(cost_of([&] { factor.compute(A); }));
-    count.push_back(
-        cost_of([&] { benchmark::DoNotOptimize(negative_eigenvalues(B, factor.supernodes())); }));
+    count.push_back(cost_of([&] { benchmark::DoNotOptimize(negative_eigenvalues(B, factor.supernodes())); }));
     one.push_back(cost_of([&] { factor.solve_into(b.leftCols(1), x); }));
     eight.push_back(cost_of([&] { factor.solve_into(b, x); }));
     bench.SetIterationTime(again.back().elapsed);
@@ -219,8 +213,7 @@ void Parts(benchmark::State& bench) {
   bench.counters["nonzeros"] = factor.nonzeros();
   bench.counters["assembly_cpu_s"] = link.assembly.cpu;
 }
-BENCHMARK(Parts)->Arg(20'000)->Arg(200'000)->Arg(1'000'000)->UseManualTime()->Iterations(3)->Unit(
-    benchmark::kMillisecond);
+BENCHMARK(Parts)->Arg(20'000)->Arg(200'000)->Arg(1'000'000)->UseManualTime()->Iterations(3)->Unit(benchmark::kMillisecond);
 
 void OursAlone(benchmark::State& bench) {
   const Link link = link_of(static_cast<double>(bench.range(0)));
@@ -228,8 +221,7 @@ void OursAlone(benchmark::State& bench) {
   for (auto _ : bench) benchmark::DoNotOptimize(by_us(link).lambda.data());
   bench.counters["peak_MiB"] = peak();
 }
-BENCHMARK(OursAlone)->Arg(20'000)->Arg(200'000)->Arg(1'000'000)->Iterations(1)->Unit(
-    benchmark::kMillisecond);
+BENCHMARK(OursAlone)->Arg(20'000)->Arg(200'000)->Arg(1'000'000)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 void SpectraAlone(benchmark::State& bench) {
   const Link link = link_of(static_cast<double>(bench.range(0)));
@@ -237,12 +229,7 @@ void SpectraAlone(benchmark::State& bench) {
   for (auto _ : bench) benchmark::DoNotOptimize(by_spectra(link).lambda.data());
   bench.counters["peak_MiB"] = peak();
 }
-BENCHMARK(SpectraAlone)
-    ->Arg(20'000)
-    ->Arg(200'000)
-    ->Arg(1'000'000)
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK(SpectraAlone)->Arg(20'000)->Arg(200'000)->Arg(1'000'000)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

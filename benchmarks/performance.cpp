@@ -186,7 +186,8 @@ std::string said(const std::vector<Work>& all) {
     if (ranked.empty()) continue;
     std::sort(ranked.begin(), ranked.end());
     const double best = ranked.front().first;
-    out += printed("- For an error of %.0e the fastest is %s, ", error, ranked.front().second.c_str()) + printed("%.3g ms", 1e3 * std::pow(10, best));
+    out += printed("- For an error of %.0e the fastest is %s, ", error, ranked.front().second.c_str()) +
+           printed("%.3g ms", 1e3 * std::pow(10, best));
     if (const auto t = time_for(all, by_hand, error)) out += printed(", %.1f times the model written by hand", std::pow(10, best - *t));
     for (std::size_t i = 1; i < ranked.size(); ++i)
       out += printed("%s %s takes %.1f times as long", i == 1 ? ";" : ",", ranked[i].second.c_str(), std::pow(10, ranked[i].first - best));

@@ -27,8 +27,8 @@ struct Start {
 };
 /// A mechanism, from one start or several: times are means and errors root mean squares over them.
 struct Problem {
-  std::string name, title;     ///< of its figure; of its section
-  std::string text;            ///< what it is, what its error means, where the reference comes from
+  std::string name, title;  ///< of its figure; of its section
+  std::string text;         ///< what it is, what its error means, where the reference comes from
   std::vector<Start> starts;
   std::vector<double> tolerances = {};
   bool by_hand() const { return static_cast<bool>(starts.front().by_hand); }

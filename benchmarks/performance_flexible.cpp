@@ -51,10 +51,11 @@ std::string spread() {
     impacts.push_back(static_cast<double>(one.run.impacts.size()));
   }
   std::ranges::sort(seconds), std::ranges::sort(steps), std::ranges::sort(impacts);
-  return printed("\nWhat a second takes depends on the path: from %d speeds 1e-5 rad/s apart about 150 the defaults took %.2f s in the median, "
-                 "%.2f to %.2f s, with %ld to %ld steps and %.0f to %.0f impacts. A path on which a contact that lasts begins slowly is "
-                 "dearer: the damping of the law goes with one over that speed, and is stiff then.\n",
-                 paths, seconds[paths / 2], seconds.front(), seconds.back(), steps.front(), steps.back(), impacts.front(), impacts.back());
+  return printed(
+      "\nWhat a second takes depends on the path: from %d speeds 1e-5 rad/s apart about 150 the defaults took %.2f s in the median, "
+      "%.2f to %.2f s, with %ld to %ld steps and %.0f to %.0f impacts. A path on which a contact that lasts begins slowly is "
+      "dearer: the damping of the law goes with one over that speed, and is stiff then.\n",
+      paths, seconds[paths / 2], seconds.front(), seconds.back(), steps.front(), steps.back(), impacts.front(), impacts.back());
 }
 
 }  // namespace

@@ -18,9 +18,7 @@ using pintle_scenes::SliderCrank;
 
 namespace {
 
-double last(const Run& run, const std::string& column) {
-  return run.trajectory.column(column).back();
-}
+double last(const Run& run, const std::string& column) { return run.trajectory.column(column).back(); }
 
 std::vector<double> decades(int from, int to) {
   std::vector<double> out;
@@ -40,12 +38,12 @@ Problem ideal_slider_crank(bool quick) {
   const pintle_oracle::Ideal end = pintle_oracle::ideal_at(params, o.until, 1e-14), check = pintle_oracle::ideal_at(params, o.until, 1e-13);
   Problem p;
   p.name = "ideal", p.title = "Slider-crank, ideal joints";
-  p.text =
-      printed("The paper's rigid slider-crank (Ebrahimi, Salahshoor and Moradi 2017, Table 1), crank free at 150 rad/s from its "
-        "dead centre, %g s, gravity. Error: of the crank's angle [rad], or of its speed over 150 rad/s if that is larger, at "
-        "the end. Reference: the one-freedom oracle (tests/oracles/slider_crank_ideal.cpp) at a tolerance of 1e-14; at 1e-13 it "
-        "differs by %.0e rad.",
-        o.until, std::abs(end.angle - check.angle));
+  p.text = printed(
+      "The paper's rigid slider-crank (Ebrahimi, Salahshoor and Moradi 2017, Table 1), crank free at 150 rad/s from its "
+      "dead centre, %g s, gravity. Error: of the crank's angle [rad], or of its speed over 150 rad/s if that is larger, at "
+      "the end. Reference: the one-freedom oracle (tests/oracles/slider_crank_ideal.cpp) at a tolerance of 1e-14; at 1e-13 it "
+      "differs by %.0e rad.",
+      o.until, std::abs(end.angle - check.angle));
   Start& start = p.starts.emplace_back();
   start.scene = [o](double tolerance) {
     SliderCrank s = o;
@@ -101,13 +99,13 @@ Problem clearance_slider_crank() {
   Problem p;
   for (int i = 0; i < starts; ++i) p.starts.push_back(clearance_start(150 + 0.5 * (i - 0.5 * (starts - 1)), impacts, warning));
   p.name = "clearance", p.title = "Slider-crank, clearance";
-  p.text =
-      printed("The same with a clearance of 0.5 mm at the gudgeon pin, K = 6.61e10 N/m^1.5, e = 0.9, no friction, journal in the "
-        "middle at the start, 0.02 s with some %d impacts: short of chaos. From %d speeds, 0.5 rad/s apart about 150: after impacts the "
-        "error of one run at one tolerance may fall by a factor of ten by luck, so times are means and errors root mean squares over them. "
-        "Error as before. References: the oracle with the contact (tests/oracles/slider_crank_clearance.cpp) at 1e-13; at 1e-12 it "
-        "differs by %.0e rad at most.",
-        impacts / starts, starts, warning);
+  p.text = printed(
+      "The same with a clearance of 0.5 mm at the gudgeon pin, K = 6.61e10 N/m^1.5, e = 0.9, no friction, journal in the "
+      "middle at the start, 0.02 s with some %d impacts: short of chaos. From %d speeds, 0.5 rad/s apart about 150: after impacts the "
+      "error of one run at one tolerance may fall by a factor of ten by luck, so times are means and errors root mean squares over them. "
+      "Error as before. References: the oracle with the contact (tests/oracles/slider_crank_clearance.cpp) at 1e-13; at 1e-12 it "
+      "differs by %.0e rad at most.",
+      impacts / starts, starts, warning);
   p.tolerances = decades(4, 11);
   return p;
 }
@@ -160,12 +158,12 @@ Problem four_bar(bool quick) {
   const auto end = four_bar_end(bar, links, until, torque, 1e-14, unused), check = four_bar_end(bar, links, until, torque, 1e-13, unused);
   Problem p;
   p.name = "four_bar", p.title = "Four-bar under a torque";
-  p.text =
-      printed("Crank 0.2 m, coupler 0.55 m, rocker 0.4 m on 0.6 m, from rest under a torque of %g N m and gravity, %g s, in which the "
-        "crank turns %.1f times. Error: of the crank's angle [rad], or of its speed over %.0f rad/s if that is larger, at the end. "
-        "Reference: the one-freedom equation from the oracle's kinematics and virtual power (tests/oracles/four_bar.cpp) at 1e-14; "
-        "at 1e-13 it differs by %.0e rad. That model is written for clarity: an acceleration takes it two evaluations of the torque.",
-        torque, until, (end[0] - 0.6) / (2 * paper::pi), std::abs(end[1]), std::abs(end[0] - check[0]));
+  p.text = printed(
+      "Crank 0.2 m, coupler 0.55 m, rocker 0.4 m on 0.6 m, from rest under a torque of %g N m and gravity, %g s, in which the "
+      "crank turns %.1f times. Error: of the crank's angle [rad], or of its speed over %.0f rad/s if that is larger, at the end. "
+      "Reference: the one-freedom equation from the oracle's kinematics and virtual power (tests/oracles/four_bar.cpp) at 1e-14; "
+      "at 1e-13 it differs by %.0e rad. That model is written for clarity: an acceleration takes it two evaluations of the torque.",
+      torque, until, (end[0] - 0.6) / (2 * paper::pi), std::abs(end[1]), std::abs(end[0] - check[0]));
   Start& start = p.starts.emplace_back();
   start.scene = [=](double tolerance) {
     Scene s = pintle_scenes::four_bar(bar, links, 9.81, 0.6, 0, 0);
@@ -208,13 +206,13 @@ Problem flexible_slider_crank(bool quick) {
   const End end = reference("dopri5", quick ? 1e-11 : 1e-13), check = reference("rkf45", quick ? 1e-11 : 1e-13);
   Problem p;
   p.name = "flexible", p.title = "Slider-crank, flexible coupler of 8 modes";
-  p.text =
-      printed("The ideal slider-crank with its coupler a steel beam of 10 mm, 20 Euler elements, 8 shapes in the frame of its chord, "
-        "undamped, starting straight, %g s. Error: the largest of the crank's angle [rad], its speed over 150 rad/s, and the place "
-        "of the coupler's end over its length. Reference: Dormand-Prince at 1e-13; Fehlberg at 1e-13 differs from it by %.0e. That both "
-        "stand "
-        "on the same equations is why these are judged elsewhere (tests/scenes/oracle_test.cpp, paper_flexible_test.cpp).",
-        until, difference(end, check));
+  p.text = printed(
+      "The ideal slider-crank with its coupler a steel beam of 10 mm, 20 Euler elements, 8 shapes in the frame of its chord, "
+      "undamped, starting straight, %g s. Error: the largest of the crank's angle [rad], its speed over 150 rad/s, and the place "
+      "of the coupler's end over its length. Reference: Dormand-Prince at 1e-13; Fehlberg at 1e-13 differs from it by %.0e. That both "
+      "stand "
+      "on the same equations is why these are judged elsewhere (tests/scenes/oracle_test.cpp, paper_flexible_test.cpp).",
+      until, difference(end, check));
   Start& start = p.starts.emplace_back();
   start.scene = [until](double tolerance) {
     Scene s = flexible(until, 8, 0);

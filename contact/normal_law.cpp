@@ -72,35 +72,25 @@ double exact_chi(double e) {
 
 constexpr std::array factors{
     ImpactFactor{"hertz", [](double) { return 0.0; }, true, "Hertz 1881"},
-    ImpactFactor{"hunt-crossley", [](double e) { return 3 * (1 - e) / 2; }, true,
-                 "Hunt and Crossley 1975"},
-    ImpactFactor{"herbert-mcwhannell",
-                 [](double e) { return 6 * (1 - e) / ((2 * e - 1) * (2 * e - 1) + 3); }, true,
+    ImpactFactor{"hunt-crossley", [](double e) { return 3 * (1 - e) / 2; }, true, "Hunt and Crossley 1975"},
+    ImpactFactor{"herbert-mcwhannell", [](double e) { return 6 * (1 - e) / ((2 * e - 1) * (2 * e - 1) + 3); }, true,
                  "Herbert and McWhannell 1977"},
     ImpactFactor{"lee-wang", [](double e) { return 3 * (1 - e) / 4; }, true, "Lee and Wang 1983"},
-    ImpactFactor{"lankarani-nikravesh", [](double e) { return 3 * (1 - e) * (1 + e) / 4; }, true,
-                 "Lankarani and Nikravesh 1990"},
-    ImpactFactor{"gonthier", [](double e) { return (1 - e) * (1 + e) / e; }, false,
-                 "Gonthier et al. 2004, as usually simplified"},
-    ImpactFactor{"zhiying-qishao",
-                 [](double e) { return 3 * (1 - e) * (1 + e) * std::exp(2 * (1 - e)) / 4; }, true,
+    ImpactFactor{"lankarani-nikravesh", [](double e) { return 3 * (1 - e) * (1 + e) / 4; }, true, "Lankarani and Nikravesh 1990"},
+    ImpactFactor{"gonthier", [](double e) { return (1 - e) * (1 + e) / e; }, false, "Gonthier et al. 2004, as usually simplified"},
+    ImpactFactor{"zhiying-qishao", [](double e) { return 3 * (1 - e) * (1 + e) * std::exp(2 * (1 - e)) / 4; }, true,
                  "Zhiying and Qishao 2006"},
-    ImpactFactor{"flores", [](double e) { return 8 * (1 - e) / (5 * e); }, false,
-                 "Flores et al. 2011"},
-    ImpactFactor{"hu-guo", [](double e) { return 3 * (1 - e) / (2 * e); }, false,
-                 "Hu and Guo 2015"},
+    ImpactFactor{"flores", [](double e) { return 8 * (1 - e) / (5 * e); }, false, "Flores et al. 2011"},
+    ImpactFactor{"hu-guo", [](double e) { return 3 * (1 - e) / (2 * e); }, false, "Hu and Guo 2015"},
     ImpactFactor{"exact", exact_chi, false, "solved from the impact: docs/theory/contact.md"},
 };
 
 }  // namespace
 
-std::span<const ImpactFactor> impact_factors() {
-  return factors;
-}
+std::span<const ImpactFactor> impact_factors() { return factors; }
 
 const ImpactFactor* find_impact_factor(std::string_view name) {
-  const auto found = std::find_if(factors.begin(), factors.end(),
-                                  [name](const ImpactFactor& f) { return f.name == name; });
+  const auto found = std::find_if(factors.begin(), factors.end(), [name](const ImpactFactor& f) { return f.name == name; });
   return found == factors.end() ? nullptr : &*found;
 }
 
@@ -129,11 +119,10 @@ double damping_ratio(double e) {
   return sign_change(0, std::max(1.0, 1 / std::sqrt(e)), [e](double zeta) { return e - linear_restitution(zeta); });
 }
 
-double hertz_stiffness(double journal_radius, double bearing_radius, double young_i, double nu_i,
-                       double young_j, double nu_j, bool internal) {
+double hertz_stiffness(double journal_radius, double bearing_radius, double young_i, double nu_i, double young_j, double nu_j,
+                       bool internal) {
   const double h = (1 - nu_i * nu_i) / young_i + (1 - nu_j * nu_j) / young_j;
-  const double signed_sum =
-      internal ? bearing_radius - journal_radius : bearing_radius + journal_radius;
+  const double signed_sum = internal ? bearing_radius - journal_radius : bearing_radius + journal_radius;
   return 4 / (3 * h) * std::sqrt(journal_radius * bearing_radius / signed_sum);
 }
 

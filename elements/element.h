@@ -13,19 +13,23 @@
 /// alone give every invariant of a floating frame: docs/theory/elements.md.
 namespace pintle {
 
-template <class E> using Coords = Eigen::Matrix<double, 2, E::nodes>;           ///< [m]
-template <class E> using Freedoms = Eigen::Matrix<double, E::dofs, 1>;
-template <class E> using Square = Eigen::Matrix<double, E::dofs, E::dofs>;
-template <class E> using ShapeMatrix = Eigen::Matrix<double, 2, E::dofs>;
+template <class E>
+using Coords = Eigen::Matrix<double, 2, E::nodes>;  ///< [m]
+template <class E>
+using Freedoms = Eigen::Matrix<double, E::dofs, 1>;
+template <class E>
+using Square = Eigen::Matrix<double, E::dofs, E::dofs>;
+template <class E>
+using ShapeMatrix = Eigen::Matrix<double, 2, E::dofs>;
 /// Stress at the element's own points, a column each. Plane: [σx σy τxy σz] in Pa, body axes, at the
 /// integration points. Line: [N V M] in N, N, N m, at the two ends, element axes: N pulls, M > 0
 /// stretches the side to the right of the axis (−y of the element), V = −dM/ds.
-template <class E> using Stress = Eigen::Matrix<double, E::stress_rows, E::points>;
+template <class E>
+using Stress = Eigen::Matrix<double, E::stress_rows, E::points>;
 
 template <class E>
-concept Element = requires(const E& e, const Coords<E>& x, const Freedoms<E>& u,
-                           const Stress<E>& s, const Eigen::Vector2d& xi) {
-  requires E::dofs == E::nodes * E::dofs_per_node;
+concept Element = requires(const E& e, const Coords<E>& x, const Freedoms<E>& u, const Stress<E>& s, const Eigen::Vector2d& xi) {
+  requires E::dofs == E::nodes* E::dofs_per_node;
   /// K = ∫ BᵀDB. Symmetric; its null space is the three rigid motions of the plane.
   { stiffness(e, x) } -> std::same_as<Square<E>>;
   /// M = ∫ ρ NᵀN, consistent. Symmetric; TᵀMT is the mass.

@@ -23,8 +23,7 @@ template <class E>
 Square<E> turn(const Matrix2d& x) {
   const Vector2d t = (x.col(1) - x.col(0)) / length(x);
   Square<E> Q = Square<E>::Identity();
-  for (int i = 0; i < E::dofs; i += E::dofs_per_node)
-    Q.template block<2, 2>(i, i) << t.x(), -t.y(), t.y(), t.x();
+  for (int i = 0; i < E::dofs; i += E::dofs_per_node) Q.template block<2, 2>(i, i) << t.x(), -t.y(), t.y(), t.x();
   return Q;
 }
 
@@ -36,12 +35,8 @@ struct Field {
 };
 
 /// Shear against bending flexibility over the element, 12 EI/(κGA L²).
-double shear_ratio(const BeamEuler&, double) {
-  return 0;
-}
-double shear_ratio(const BeamTimoshenko& e, double L) {
-  return 12 * e.EI / (e.kGA * L * L);
-}
+double shear_ratio(const BeamEuler&, double) { return 0; }
+double shear_ratio(const BeamTimoshenko& e, double L) { return 12 * e.EI / (e.kGA * L * L); }
 
 Field<Bar> field(const Bar&, double L, double xi) {
   Field<Bar> f;
@@ -78,9 +73,7 @@ Field<E> field(const E& e, double L, double xi) {
   return f;
 }
 
-double rotary_inertia(const Bar&) {
-  return 0;
-}
+double rotary_inertia(const Bar&) { return 0; }
 template <BeamElement E>
 double rotary_inertia(const E& e) {
   return e.rhoI;
@@ -92,10 +85,8 @@ Square<E> integrate(const E& e, const Matrix2d& x, F integrand) {
   struct Point {
     double xi, weight;
   };
-  constexpr std::array points{Point{0.06943184420297371, 0.17392742256872693},
-                              Point{0.33000947820757187, 0.32607257743127307},
-                              Point{0.66999052179242813, 0.32607257743127307},
-                              Point{0.93056815579702629, 0.17392742256872693}};
+  constexpr std::array points{Point{0.06943184420297371, 0.17392742256872693}, Point{0.33000947820757187, 0.32607257743127307},
+                              Point{0.66999052179242813, 0.32607257743127307}, Point{0.93056815579702629, 0.17392742256872693}};
   const double L = length(x);
   Square<E> sum = Square<E>::Zero();
   for (const Point& p : points) sum += p.weight * L * integrand(field(e, L, p.xi), p.xi);
@@ -130,9 +121,7 @@ struct Springs {
   double stretch, bend, shear;
 };
 
-Springs springs(const Bar& e, double L) {
-  return {e.EA / L, 0, 0};
-}
+Springs springs(const Bar& e, double L) { return {e.EA / L, 0, 0}; }
 template <BeamElement E>
 Springs springs(const E& e, double L) {
   return {e.EA / L, e.EI / L, 12 * e.EI / (L * L * L * (1 + shear_ratio(e, L)))};
@@ -144,15 +133,13 @@ template <LineElement E>
 Square<E> stiffness(const E& e, const Coords<E>& x) {
   const Natural<E> d = natural<E>(x);
   const Springs k = springs(e, length(x));
-  return k.stretch * d.stretch.transpose() * d.stretch + k.bend * d.bend.transpose() * d.bend +
-         k.shear * d.shear.transpose() * d.shear;
+  return k.stretch * d.stretch.transpose() * d.stretch + k.bend * d.bend.transpose() * d.bend + k.shear * d.shear.transpose() * d.shear;
 }
 
 template <LineElement E>
 Square<E> mass(const E& e, const Coords<E>& x) {
   return integrate(e, x, [&](const Field<E>& f, double) -> Square<E> {
-    return e.rhoA * (f.u.transpose() * f.u + f.w.transpose() * f.w) +
-           rotary_inertia(e) * f.theta.transpose() * f.theta;
+    return e.rhoA * (f.u.transpose() * f.u + f.w.transpose() * f.w) + rotary_inertia(e) * f.theta.transpose() * f.theta;
   });
 }
 
@@ -160,16 +147,13 @@ template <LineElement E>
 Freedoms<E> lumped_mass(const E& e, const Coords<E>& x) {
   const double half = length(x) / 2;
   Freedoms<E> m;
-  for (int i = 0; i < E::dofs; ++i)
-    m[i] = half * (i % E::dofs_per_node < 2 ? e.rhoA : rotary_inertia(e));
+  for (int i = 0; i < E::dofs; ++i) m[i] = half * (i % E::dofs_per_node < 2 ? e.rhoA : rotary_inertia(e));
   return m;
 }
 
 template <LineElement E>
 Square<E> skew_mass(const E& e, const Coords<E>& x) {
-  return integrate(e, x, [&](const Field<E>& f, double) -> Square<E> {
-    return e.rhoA * (f.u.transpose() * f.w - f.w.transpose() * f.u);
-  });
+  return integrate(e, x, [&](const Field<E>& f, double) -> Square<E> { return e.rhoA * (f.u.transpose() * f.w - f.w.transpose() * f.u); });
 }
 
 template <LineElement E>
@@ -197,8 +181,7 @@ template <LineElement E>
 Square<E> geometric_stiffness(const E& e, const Coords<E>& x, const Stress<E>& s) {
   return integrate(e, x, [&](const Field<E>& f, double xi) -> Square<E> {
     const double N = (1 - xi) * s(0, 0) + xi * s(0, 1), V = (1 - xi) * s(1, 0) + xi * s(1, 1);
-    return N * f.dw.transpose() * f.dw -
-           V * (f.du.transpose() * f.theta + f.theta.transpose() * f.du);
+    return N * f.dw.transpose() * f.dw - V * (f.du.transpose() * f.theta + f.theta.transpose() * f.du);
   });
 }
 
@@ -237,10 +220,8 @@ template Square<BeamEuler> mass(const BeamEuler&, const Coords<BeamEuler>&);
 template Freedoms<BeamEuler> lumped_mass(const BeamEuler&, const Coords<BeamEuler>&);
 template Square<BeamEuler> skew_mass(const BeamEuler&, const Coords<BeamEuler>&);
 template ShapeMatrix<BeamEuler> shape(const BeamEuler&, const Coords<BeamEuler>&, const Vector2d&);
-template Stress<BeamEuler> stress(const BeamEuler&, const Coords<BeamEuler>&,
-                                  const Freedoms<BeamEuler>&);
-template Square<BeamEuler> geometric_stiffness(const BeamEuler&, const Coords<BeamEuler>&,
-                                               const Stress<BeamEuler>&);
+template Stress<BeamEuler> stress(const BeamEuler&, const Coords<BeamEuler>&, const Freedoms<BeamEuler>&);
+template Square<BeamEuler> geometric_stiffness(const BeamEuler&, const Coords<BeamEuler>&, const Stress<BeamEuler>&);
 template Freedoms<BeamEuler> line_load(const BeamEuler&, const Coords<BeamEuler>&, const Vector2d&);
 template Eigen::Matrix<double, 1, 6> rotation(const BeamEuler&, const Coords<BeamEuler>&, double);
 
@@ -248,17 +229,11 @@ template Square<BeamTimoshenko> stiffness(const BeamTimoshenko&, const Coords<Be
 template Square<BeamTimoshenko> mass(const BeamTimoshenko&, const Coords<BeamTimoshenko>&);
 template Freedoms<BeamTimoshenko> lumped_mass(const BeamTimoshenko&, const Coords<BeamTimoshenko>&);
 template Square<BeamTimoshenko> skew_mass(const BeamTimoshenko&, const Coords<BeamTimoshenko>&);
-template ShapeMatrix<BeamTimoshenko> shape(const BeamTimoshenko&, const Coords<BeamTimoshenko>&,
-                                           const Vector2d&);
-template Stress<BeamTimoshenko> stress(const BeamTimoshenko&, const Coords<BeamTimoshenko>&,
-                                       const Freedoms<BeamTimoshenko>&);
-template Square<BeamTimoshenko> geometric_stiffness(const BeamTimoshenko&,
-                                                    const Coords<BeamTimoshenko>&,
-                                                    const Stress<BeamTimoshenko>&);
-template Freedoms<BeamTimoshenko> line_load(const BeamTimoshenko&, const Coords<BeamTimoshenko>&,
-                                            const Vector2d&);
-template Eigen::Matrix<double, 1, 6> rotation(const BeamTimoshenko&, const Coords<BeamTimoshenko>&,
-                                              double);
+template ShapeMatrix<BeamTimoshenko> shape(const BeamTimoshenko&, const Coords<BeamTimoshenko>&, const Vector2d&);
+template Stress<BeamTimoshenko> stress(const BeamTimoshenko&, const Coords<BeamTimoshenko>&, const Freedoms<BeamTimoshenko>&);
+template Square<BeamTimoshenko> geometric_stiffness(const BeamTimoshenko&, const Coords<BeamTimoshenko>&, const Stress<BeamTimoshenko>&);
+template Freedoms<BeamTimoshenko> line_load(const BeamTimoshenko&, const Coords<BeamTimoshenko>&, const Vector2d&);
+template Eigen::Matrix<double, 1, 6> rotation(const BeamTimoshenko&, const Coords<BeamTimoshenko>&, double);
 
 static_assert(Element<Bar> && Element<BeamEuler> && Element<BeamTimoshenko>);
 

@@ -20,8 +20,7 @@ void require(bool holds, const char* name, double value, const std::string& rule
 
 void judge(const Isotropic& m) {
   require(m.young > 0, "young", m.young, "positive [Pa]");
-  require(m.poisson > -1 && m.poisson < 0.5, "poisson", m.poisson,
-          "above −1 and below 0.5; take 0.4999 for a nearly incompressible solid");
+  require(m.poisson > -1 && m.poisson < 0.5, "poisson", m.poisson, "above −1 and below 0.5; take 0.4999 for a nearly incompressible solid");
 }
 
 // Both axes stretch when pulled, whatever the other does.
@@ -60,10 +59,9 @@ InPlane compliance(const Orthotropic& m, PlaneState state) {
   InPlane c{1 / m.young_1, -m.poisson_12 / m.young_1, 1 / m.young_2, 0, 0};
   if (state == PlaneState::stress) return c;
   if (!m.young_3 || !m.poisson_13 || !m.poisson_23)
-    throw std::invalid_argument(
-        std::string("material: orthotropic in plane strain lacks") + (m.young_3 ? "" : " young_3") +
-        (m.poisson_13 ? "" : " poisson_13") + (m.poisson_23 ? "" : " poisson_23") +
-        "; give it, or take plane stress");
+    throw std::invalid_argument(std::string("material: orthotropic in plane strain lacks") + (m.young_3 ? "" : " young_3") +
+                                (m.poisson_13 ? "" : " poisson_13") + (m.poisson_23 ? "" : " poisson_23") +
+                                "; give it, or take plane stress");
   const double E3 = *m.young_3;
   require(E3 > 0, "young_3", E3, "positive [Pa]");
   c.s1 = E3 * *m.poisson_13 / m.young_1;
@@ -73,9 +71,8 @@ InPlane compliance(const Orthotropic& m, PlaneState state) {
   c.S22 -= c.s2 * c.s2 / E3;
   require(c.S11 > 0, "poisson_13", *m.poisson_13, "below √(young_1/young_3) in size");
   require(c.S22 > 0, "poisson_23", *m.poisson_23, "below √(young_2/young_3) in size");
-  require(
-      c.S12 * c.S12 < c.S11 * c.S22, "poisson_12", m.poisson_12,
-      "smaller for the given poisson_13 and poisson_23: the solid would not resist every strain");
+  require(c.S12 * c.S12 < c.S11 * c.S22, "poisson_12", m.poisson_12,
+          "smaller for the given poisson_13 and poisson_23: the solid would not resist every strain");
   return c;
 }
 
@@ -93,9 +90,7 @@ PlaneMaterial plane(const Orthotropic& m, PlaneState state) {
   return {(D + D.transpose()) / 2, Dz * turn};
 }
 
-BeamModuli along(const Isotropic& m, double) {
-  return {m.young, m.young / (2 * (1 + m.poisson)), m.poisson};
-}
+BeamModuli along(const Isotropic& m, double) { return {m.young, m.young / (2 * (1 + m.poisson)), m.poisson}; }
 
 BeamModuli along(const Orthotropic& m, double direction) {
   const double c = std::cos(direction - m.angle), s = std::sin(direction - m.angle);

@@ -11,8 +11,7 @@ namespace {
 /// Σ_p t A_p B_pᵀ D B_p over all functions, [u_x u_y] of each. As D is constant, products of
 /// gradients are summed first and D enters once.
 template <class E>
-Eigen::Matrix<double, 2 * functions<E>, 2 * functions<E>> full_stiffness(
-    const PlaneProperties& properties, const PointGradients<E>& at) {
+Eigen::Matrix<double, 2 * functions<E>, 2 * functions<E>> full_stiffness(const PlaneProperties& properties, const PointGradients<E>& at) {
   constexpr int n = functions<E>;
   using Products = Eigen::Matrix<double, n, n>;
   Products xx = Products::Zero(), xy = Products::Zero(), yy = Products::Zero();
@@ -60,8 +59,7 @@ Eigen::Matrix<double, E::nodes, E::nodes> scalar_mass(const E& e, const Coords<E
 
 }  // namespace
 
-Eigen::Matrix<double, 4, 8> incompatible_amplitudes(const PlaneProperties& p,
-                                                    const PointGradients<Quadrilateral4>& at) {
+Eigen::Matrix<double, 4, 8> incompatible_amplitudes(const PlaneProperties& p, const PointGradients<Quadrilateral4>& at) {
   return amplitudes(full_stiffness<Quadrilateral4>(p, at));
 }
 
@@ -119,58 +117,42 @@ ShapeMatrix<E> shape(const E&, const Coords<E>&, const Eigen::Vector2d& xi) {
 template Square<Triangle3> stiffness(const Triangle3&, const Coords<Triangle3>&);
 template Square<Triangle6> stiffness(const Triangle6&, const Coords<Triangle6>&);
 template Square<Quadrilateral4> stiffness(const Quadrilateral4&, const Coords<Quadrilateral4>&);
-template Square<Quadrilateral4Plain> stiffness(const Quadrilateral4Plain&,
-                                               const Coords<Quadrilateral4Plain>&);
+template Square<Quadrilateral4Plain> stiffness(const Quadrilateral4Plain&, const Coords<Quadrilateral4Plain>&);
 template Square<Quadrilateral8> stiffness(const Quadrilateral8&, const Coords<Quadrilateral8>&);
-template Square<Quadrilateral8Reduced> stiffness(const Quadrilateral8Reduced&,
-                                                 const Coords<Quadrilateral8Reduced>&);
+template Square<Quadrilateral8Reduced> stiffness(const Quadrilateral8Reduced&, const Coords<Quadrilateral8Reduced>&);
 template Square<Quadrilateral9> stiffness(const Quadrilateral9&, const Coords<Quadrilateral9>&);
 
 template Square<Triangle3> mass(const Triangle3&, const Coords<Triangle3>&);
 template Square<Triangle6> mass(const Triangle6&, const Coords<Triangle6>&);
 template Square<Quadrilateral4> mass(const Quadrilateral4&, const Coords<Quadrilateral4>&);
-template Square<Quadrilateral4Plain> mass(const Quadrilateral4Plain&,
-                                          const Coords<Quadrilateral4Plain>&);
+template Square<Quadrilateral4Plain> mass(const Quadrilateral4Plain&, const Coords<Quadrilateral4Plain>&);
 template Square<Quadrilateral8> mass(const Quadrilateral8&, const Coords<Quadrilateral8>&);
-template Square<Quadrilateral8Reduced> mass(const Quadrilateral8Reduced&,
-                                            const Coords<Quadrilateral8Reduced>&);
+template Square<Quadrilateral8Reduced> mass(const Quadrilateral8Reduced&, const Coords<Quadrilateral8Reduced>&);
 template Square<Quadrilateral9> mass(const Quadrilateral9&, const Coords<Quadrilateral9>&);
 
 template Freedoms<Triangle3> lumped_mass(const Triangle3&, const Coords<Triangle3>&);
 template Freedoms<Triangle6> lumped_mass(const Triangle6&, const Coords<Triangle6>&);
 template Freedoms<Quadrilateral4> lumped_mass(const Quadrilateral4&, const Coords<Quadrilateral4>&);
-template Freedoms<Quadrilateral4Plain> lumped_mass(const Quadrilateral4Plain&,
-                                                   const Coords<Quadrilateral4Plain>&);
+template Freedoms<Quadrilateral4Plain> lumped_mass(const Quadrilateral4Plain&, const Coords<Quadrilateral4Plain>&);
 template Freedoms<Quadrilateral8> lumped_mass(const Quadrilateral8&, const Coords<Quadrilateral8>&);
-template Freedoms<Quadrilateral8Reduced> lumped_mass(const Quadrilateral8Reduced&,
-                                                     const Coords<Quadrilateral8Reduced>&);
+template Freedoms<Quadrilateral8Reduced> lumped_mass(const Quadrilateral8Reduced&, const Coords<Quadrilateral8Reduced>&);
 template Freedoms<Quadrilateral9> lumped_mass(const Quadrilateral9&, const Coords<Quadrilateral9>&);
 
 template Square<Triangle3> skew_mass(const Triangle3&, const Coords<Triangle3>&);
 template Square<Triangle6> skew_mass(const Triangle6&, const Coords<Triangle6>&);
 template Square<Quadrilateral4> skew_mass(const Quadrilateral4&, const Coords<Quadrilateral4>&);
-template Square<Quadrilateral4Plain> skew_mass(const Quadrilateral4Plain&,
-                                               const Coords<Quadrilateral4Plain>&);
+template Square<Quadrilateral4Plain> skew_mass(const Quadrilateral4Plain&, const Coords<Quadrilateral4Plain>&);
 template Square<Quadrilateral8> skew_mass(const Quadrilateral8&, const Coords<Quadrilateral8>&);
-template Square<Quadrilateral8Reduced> skew_mass(const Quadrilateral8Reduced&,
-                                                 const Coords<Quadrilateral8Reduced>&);
+template Square<Quadrilateral8Reduced> skew_mass(const Quadrilateral8Reduced&, const Coords<Quadrilateral8Reduced>&);
 template Square<Quadrilateral9> skew_mass(const Quadrilateral9&, const Coords<Quadrilateral9>&);
 
-template ShapeMatrix<Triangle3> shape(const Triangle3&, const Coords<Triangle3>&,
-                                      const Eigen::Vector2d&);
-template ShapeMatrix<Triangle6> shape(const Triangle6&, const Coords<Triangle6>&,
-                                      const Eigen::Vector2d&);
-template ShapeMatrix<Quadrilateral4> shape(const Quadrilateral4&, const Coords<Quadrilateral4>&,
-                                           const Eigen::Vector2d&);
-template ShapeMatrix<Quadrilateral4Plain> shape(const Quadrilateral4Plain&,
-                                                const Coords<Quadrilateral4Plain>&,
-                                                const Eigen::Vector2d&);
-template ShapeMatrix<Quadrilateral8> shape(const Quadrilateral8&, const Coords<Quadrilateral8>&,
-                                           const Eigen::Vector2d&);
-template ShapeMatrix<Quadrilateral8Reduced> shape(const Quadrilateral8Reduced&,
-                                                  const Coords<Quadrilateral8Reduced>&,
+template ShapeMatrix<Triangle3> shape(const Triangle3&, const Coords<Triangle3>&, const Eigen::Vector2d&);
+template ShapeMatrix<Triangle6> shape(const Triangle6&, const Coords<Triangle6>&, const Eigen::Vector2d&);
+template ShapeMatrix<Quadrilateral4> shape(const Quadrilateral4&, const Coords<Quadrilateral4>&, const Eigen::Vector2d&);
+template ShapeMatrix<Quadrilateral4Plain> shape(const Quadrilateral4Plain&, const Coords<Quadrilateral4Plain>&, const Eigen::Vector2d&);
+template ShapeMatrix<Quadrilateral8> shape(const Quadrilateral8&, const Coords<Quadrilateral8>&, const Eigen::Vector2d&);
+template ShapeMatrix<Quadrilateral8Reduced> shape(const Quadrilateral8Reduced&, const Coords<Quadrilateral8Reduced>&,
                                                   const Eigen::Vector2d&);
-template ShapeMatrix<Quadrilateral9> shape(const Quadrilateral9&, const Coords<Quadrilateral9>&,
-                                           const Eigen::Vector2d&);
+template ShapeMatrix<Quadrilateral9> shape(const Quadrilateral9&, const Coords<Quadrilateral9>&, const Eigen::Vector2d&);
 
 }  // namespace pintle

@@ -19,10 +19,10 @@ struct PlaneProperties {
 /// The kinds. Displacement is of order p + 1 in L2, energy and frequency of order 2p; p = 1 for
 /// three and four nodes, 2 for the others.
 enum class PlaneKind {
-  triangle3,       ///< constant strain: stiff in bending, for comparison
-  triangle6,       ///< quadratic, 3 points
-  quadrilateral4,  ///< bilinear with incompatible modes, exact for a rectangle in pure bending;
-                   ///< passes the patch test in any shape [TaylorBeresfordWilson1976]
+  triangle3,               ///< constant strain: stiff in bending, for comparison
+  triangle6,               ///< quadratic, 3 points
+  quadrilateral4,          ///< bilinear with incompatible modes, exact for a rectangle in pure bending;
+                           ///< passes the patch test in any shape [TaylorBeresfordWilson1976]
   quadrilateral4_plain,    ///< bilinear: locks in bending, for comparison
   quadrilateral8,          ///< serendipity, 3 × 3 points
   quadrilateral8_reduced,  ///< serendipity, 2 × 2 points
@@ -44,9 +44,8 @@ struct PlaneElement {
   /// elements across the wall of a thick cylinder. The others ask for more constancy of volume than
   /// their freedoms can give: at 3 × 3 points one level of refinement late, three and four nodes
   /// (without incompatible modes) for good.
-  static constexpr bool near_incompressible = kind == PlaneKind::triangle6 ||
-                                              kind == PlaneKind::quadrilateral4 ||
-                                              kind == PlaneKind::quadrilateral8_reduced;
+  static constexpr bool near_incompressible =
+      kind == PlaneKind::triangle6 || kind == PlaneKind::quadrilateral4 || kind == PlaneKind::quadrilateral8_reduced;
 
   PlaneProperties p;
 };
@@ -112,8 +111,7 @@ Eigen::Matrix<double, 1, E::nodes> nodal_jacobians(const E&, const Coords<E>& x)
 /// middle. Resultant and moment are those of the traction on the (parabolic) side, to rounding for
 /// arcs up to 90°.
 /// @throws std::invalid_argument  a side of another number of nodes
-Eigen::VectorXd side_load(const Eigen::Matrix2Xd& side, const Eigen::Vector2d& traction,
-                          double thickness);
+Eigen::VectorXd side_load(const Eigen::Matrix2Xd& side, const Eigen::Vector2d& traction, double thickness);
 /// The same of a pressure [Pa], which pushes to the side's left: into the body, as an outline runs
 /// counter-clockwise with the body on its left (and a hole's rim clockwise). Exact to rounding, so
 /// a uniform pressure on a closed outline has neither resultant nor moment.

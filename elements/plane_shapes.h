@@ -10,14 +10,11 @@ namespace pintle {
 
 using CellPosition = std::array<double, 2>;  ///< ξ, η
 
-inline constexpr std::array<CellPosition, 6> triangle_nodes{
-    {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
+inline constexpr std::array<CellPosition, 6> triangle_nodes{{{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
 inline constexpr std::array<CellPosition, 9> quadrilateral_nodes{
     {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}, {0, 0}}};
 
-constexpr bool is_triangle(PlaneKind kind) {
-  return kind == PlaneKind::triangle3 || kind == PlaneKind::triangle6;
-}
+constexpr bool is_triangle(PlaneKind kind) { return kind == PlaneKind::triangle3 || kind == PlaneKind::triangle6; }
 
 /// Of one value at all nodes: N_i; a row for ∂/∂ξ and one for ∂/∂η.
 template <int nodes>
@@ -30,9 +27,7 @@ struct ShapeValues {
 struct ValueAndSlope {
   double f, d;
 };
-constexpr ValueAndSlope linear(double node, double xi) {
-  return {(1 + node * xi) / 2, node / 2};
-}
+constexpr ValueAndSlope linear(double node, double xi) { return {(1 + node * xi) / 2, node / 2}; }
 constexpr ValueAndSlope quadratic(double node, double xi) {
   if (node == 0) return {1 - xi * xi, -2 * xi};
   return {xi * (xi + node) / 2, xi + node / 2};
@@ -104,12 +99,9 @@ struct LineRule {
   std::array<double, count> at, weight;
 };
 inline constexpr LineRule<2> gauss_2{{-0.57735026918962576451, 0.57735026918962576451}, {1, 1}};
-inline constexpr LineRule<3> gauss_3{{-0.77459666924148337704, 0, 0.77459666924148337704},
-                                     {5.0 / 9, 8.0 / 9, 5.0 / 9}};
-inline constexpr LineRule<4> gauss_4{{-0.86113631159405257522, -0.33998104358485626480,
-                                      0.33998104358485626480, 0.86113631159405257522},
-                                     {0.34785484513745385737, 0.65214515486254614263,
-                                      0.65214515486254614263, 0.34785484513745385737}};
+inline constexpr LineRule<3> gauss_3{{-0.77459666924148337704, 0, 0.77459666924148337704}, {5.0 / 9, 8.0 / 9, 5.0 / 9}};
+inline constexpr LineRule<4> gauss_4{{-0.86113631159405257522, -0.33998104358485626480, 0.33998104358485626480, 0.86113631159405257522},
+                                     {0.34785484513745385737, 0.65214515486254614263, 0.65214515486254614263, 0.34785484513745385737}};
 
 template <int count>
 constexpr PlaneRule<count * count> squared(const LineRule<count>& line) {
@@ -123,8 +115,7 @@ constexpr PlaneRule<count * count> squared(const LineRule<count>& line) {
 }
 
 inline constexpr PlaneRule<1> triangle_1{{{{1.0 / 3, 1.0 / 3}}}, {0.5}};
-inline constexpr PlaneRule<3> triangle_3{{{{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}}},
-                                    {1.0 / 6, 1.0 / 6, 1.0 / 6}};
+inline constexpr PlaneRule<3> triangle_3{{{{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}}}, {1.0 / 6, 1.0 / 6, 1.0 / 6}};
 
 /// Exact to degree 6 [Dunavant1985], its digits refined by Newton's method on the moment equations.
 constexpr PlaneRule<12> triangle_12() {
@@ -132,19 +123,9 @@ constexpr PlaneRule<12> triangle_12() {
   constexpr double b = 0.06308901449150222305, wb = 0.05084490637020680984 / 2;
   constexpr double c = 0.05314504984481695893, d = 0.31035245103378439010;
   constexpr double wc = 0.08285107561837359193 / 2, e = 1 - c - d;
-  return {{{{a, a},
-            {a, 1 - 2 * a},
-            {1 - 2 * a, a},
-            {b, b},
-            {b, 1 - 2 * b},
-            {1 - 2 * b, b},
-            {c, d},
-            {d, c},
-            {c, e},
-            {e, c},
-            {d, e},
-            {e, d}}},
-          {wa, wa, wa, wb, wb, wb, wc, wc, wc, wc, wc, wc}};
+  return {
+      {{{a, a}, {a, 1 - 2 * a}, {1 - 2 * a, a}, {b, b}, {b, 1 - 2 * b}, {1 - 2 * b, b}, {c, d}, {d, c}, {c, e}, {e, c}, {d, e}, {e, d}}},
+      {wa, wa, wa, wb, wb, wb, wc, wc, wc, wc, wc, wc}};
 }
 
 template <class E>
@@ -192,8 +173,7 @@ inline constexpr auto mass_table = tabulate<E>(mass_rule<E>());
 template <class E>
 constexpr auto at_nodes() {
   PlaneRule<E::nodes> nodes;
-  for (int i = 0; i < E::nodes; ++i)
-    nodes.at[i] = is_triangle(E::plane_kind) ? triangle_nodes[i] : quadrilateral_nodes[i];
+  for (int i = 0; i < E::nodes; ++i) nodes.at[i] = is_triangle(E::plane_kind) ? triangle_nodes[i] : quadrilateral_nodes[i];
   return tabulate<E>(nodes);
 }
 template <class E>
@@ -236,8 +216,7 @@ PointGradients<E> point_gradients(const Coords<E>& x) {
     const Eigen::Matrix2d inverse = J.inverse();
     out.area[p] = table.rule.weight[p] * det;
     auto& g = out.g[p];
-    for (int i = 0; i < E::nodes; ++i)
-      g.row(i) = s.d[0][i] * inverse.row(0) + s.d[1][i] * inverse.row(1);
+    for (int i = 0; i < E::nodes; ++i) g.row(i) = s.d[0][i] * inverse.row(0) + s.d[1][i] * inverse.row(1);
     if constexpr (functions < E >> E::nodes) {
       // The centre's Jacobian and det J cancelled: ∫ ∇M_k = 0, which is the patch test.
       const Eigen::Matrix2d scaled = centre.inverse() * (centre.determinant() / det);
@@ -248,7 +227,6 @@ PointGradients<E> point_gradients(const Coords<E>& x) {
 }
 
 /// Amplitudes [u_x u_y] of the two incompatible modes per nodal freedom, no force acting on them.
-Eigen::Matrix<double, 4, 8> incompatible_amplitudes(const PlaneProperties&,
-                                                    const PointGradients<Quadrilateral4>&);
+Eigen::Matrix<double, 4, 8> incompatible_amplitudes(const PlaneProperties&, const PointGradients<Quadrilateral4>&);
 
 }  // namespace pintle

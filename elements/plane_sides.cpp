@@ -29,21 +29,17 @@ Eigen::VectorXd integrate(const Eigen::Matrix2Xd& side, int panels, Force force)
         tangent += N[k].d * side.col(i);
       }
       const Eigen::Vector2d f = gauss_4.weight[p] / panels * force(tangent);
-      for (Eigen::Index i = 0; i < nodes; ++i)
-        load.segment<2>(2 * i) += N[static_cast<std::size_t>(i)].f * f;
+      for (Eigen::Index i = 0; i < nodes; ++i) load.segment<2>(2 * i) += N[static_cast<std::size_t>(i)].f * f;
     }
   return load;
 }
 
 }  // namespace
 
-Eigen::VectorXd side_load(const Eigen::Matrix2Xd& side, const Eigen::Vector2d& traction,
-                          double thickness) {
+Eigen::VectorXd side_load(const Eigen::Matrix2Xd& side, const Eigen::Vector2d& traction, double thickness) {
   // |∂x/∂ξ| of a parabola is no polynomial; parts make it nearly one.
   constexpr int panels = 32;
-  return integrate(side, panels, [&](const Eigen::Vector2d& tangent) -> Eigen::Vector2d {
-    return thickness * tangent.norm() * traction;
-  });
+  return integrate(side, panels, [&](const Eigen::Vector2d& tangent) -> Eigen::Vector2d { return thickness * tangent.norm() * traction; });
 }
 
 Eigen::VectorXd side_pressure(const Eigen::Matrix2Xd& side, double pressure, double thickness) {

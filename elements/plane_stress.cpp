@@ -21,8 +21,7 @@ double share(int p, const CellPosition& node) {
     const std::array L{1 - node[0] - node[1], node[0], node[1]};
     return 2 * L[p] - 1.0 / 3;
   }
-  return stiffness_table<E>.rule.weight[p] / 4 * (1 + 3 * node[0] * at[0]) *
-         (1 + 3 * node[1] * at[1]);
+  return stiffness_table<E>.rule.weight[p] / 4 * (1 + 3 * node[0] * at[0]) * (1 + 3 * node[1] * at[1]);
 }
 
 template <class E>
@@ -40,8 +39,7 @@ Stress<E> stress(const E& e, const Coords<E>& x, const Freedoms<E>& u) {
   const PointGradients<E> at = point_gradients<E>(x);
   Eigen::Matrix<double, 2 * functions<E>, 1> all;
   all.template head<E::dofs>() = u;
-  if constexpr (functions < E >> E::nodes)
-    all.template tail<4>() = incompatible_amplitudes(e.p, at) * u;
+  if constexpr (functions < E >> E::nodes) all.template tail<4>() = incompatible_amplitudes(e.p, at) * u;
   const Eigen::Map<const Eigen::Matrix<double, 2, functions<E>>> U(all.data());
 
   Stress<E> out;
@@ -76,8 +74,7 @@ Square<E> geometric_stiffness(const E& e, const Coords<E>& x, const Stress<E>& s
 template <PlaneElementType E>
 Eigen::Matrix<double, 2, E::points> reference_points(const E&) {
   Eigen::Matrix<double, 2, E::points> out;
-  for (int p = 0; p < E::points; ++p)
-    out.col(p) << stiffness_table<E>.rule.at[p][0], stiffness_table<E>.rule.at[p][1];
+  for (int p = 0; p < E::points; ++p) out.col(p) << stiffness_table<E>.rule.at[p][0], stiffness_table<E>.rule.at[p][1];
   return out;
 }
 
@@ -85,8 +82,7 @@ template <PlaneElementType E>
 Eigen::Matrix<double, 2, E::points> stress_points(const E&, const Coords<E>& x) {
   Eigen::Matrix<double, 2, E::points> out;
   for (int p = 0; p < E::points; ++p)
-    out.col(p) = x * Eigen::Map<const Eigen::Matrix<double, E::nodes, 1>>(
-                         stiffness_table<E>.shapes[p].N.data());
+    out.col(p) = x * Eigen::Map<const Eigen::Matrix<double, E::nodes, 1>>(stiffness_table<E>.shapes[p].N.data());
   return out;
 }
 
@@ -114,96 +110,61 @@ Eigen::Vector3d principal(const Eigen::Vector4d& s) {
   return {middle + radius, middle - radius, std::atan2(s[2] + 0.0, half) / 2};
 }
 
-template Stress<Triangle3> stress(const Triangle3&, const Coords<Triangle3>&,
-                                  const Freedoms<Triangle3>&);
-template Stress<Triangle6> stress(const Triangle6&, const Coords<Triangle6>&,
-                                  const Freedoms<Triangle6>&);
-template Stress<Quadrilateral4> stress(const Quadrilateral4&, const Coords<Quadrilateral4>&,
-                                       const Freedoms<Quadrilateral4>&);
-template Stress<Quadrilateral4Plain> stress(const Quadrilateral4Plain&,
-                                            const Coords<Quadrilateral4Plain>&,
+template Stress<Triangle3> stress(const Triangle3&, const Coords<Triangle3>&, const Freedoms<Triangle3>&);
+template Stress<Triangle6> stress(const Triangle6&, const Coords<Triangle6>&, const Freedoms<Triangle6>&);
+template Stress<Quadrilateral4> stress(const Quadrilateral4&, const Coords<Quadrilateral4>&, const Freedoms<Quadrilateral4>&);
+template Stress<Quadrilateral4Plain> stress(const Quadrilateral4Plain&, const Coords<Quadrilateral4Plain>&,
                                             const Freedoms<Quadrilateral4Plain>&);
-template Stress<Quadrilateral8> stress(const Quadrilateral8&, const Coords<Quadrilateral8>&,
-                                       const Freedoms<Quadrilateral8>&);
-template Stress<Quadrilateral8Reduced> stress(const Quadrilateral8Reduced&,
-                                              const Coords<Quadrilateral8Reduced>&,
+template Stress<Quadrilateral8> stress(const Quadrilateral8&, const Coords<Quadrilateral8>&, const Freedoms<Quadrilateral8>&);
+template Stress<Quadrilateral8Reduced> stress(const Quadrilateral8Reduced&, const Coords<Quadrilateral8Reduced>&,
                                               const Freedoms<Quadrilateral8Reduced>&);
-template Stress<Quadrilateral9> stress(const Quadrilateral9&, const Coords<Quadrilateral9>&,
-                                       const Freedoms<Quadrilateral9>&);
+template Stress<Quadrilateral9> stress(const Quadrilateral9&, const Coords<Quadrilateral9>&, const Freedoms<Quadrilateral9>&);
 
-template Square<Triangle3> geometric_stiffness(const Triangle3&, const Coords<Triangle3>&,
-                                               const Stress<Triangle3>&);
-template Square<Triangle6> geometric_stiffness(const Triangle6&, const Coords<Triangle6>&,
-                                               const Stress<Triangle6>&);
-template Square<Quadrilateral4> geometric_stiffness(const Quadrilateral4&,
-                                                    const Coords<Quadrilateral4>&,
-                                                    const Stress<Quadrilateral4>&);
-template Square<Quadrilateral4Plain> geometric_stiffness(const Quadrilateral4Plain&,
-                                                         const Coords<Quadrilateral4Plain>&,
+template Square<Triangle3> geometric_stiffness(const Triangle3&, const Coords<Triangle3>&, const Stress<Triangle3>&);
+template Square<Triangle6> geometric_stiffness(const Triangle6&, const Coords<Triangle6>&, const Stress<Triangle6>&);
+template Square<Quadrilateral4> geometric_stiffness(const Quadrilateral4&, const Coords<Quadrilateral4>&, const Stress<Quadrilateral4>&);
+template Square<Quadrilateral4Plain> geometric_stiffness(const Quadrilateral4Plain&, const Coords<Quadrilateral4Plain>&,
                                                          const Stress<Quadrilateral4Plain>&);
-template Square<Quadrilateral8> geometric_stiffness(const Quadrilateral8&,
-                                                    const Coords<Quadrilateral8>&,
-                                                    const Stress<Quadrilateral8>&);
-template Square<Quadrilateral8Reduced> geometric_stiffness(const Quadrilateral8Reduced&,
-                                                           const Coords<Quadrilateral8Reduced>&,
+template Square<Quadrilateral8> geometric_stiffness(const Quadrilateral8&, const Coords<Quadrilateral8>&, const Stress<Quadrilateral8>&);
+template Square<Quadrilateral8Reduced> geometric_stiffness(const Quadrilateral8Reduced&, const Coords<Quadrilateral8Reduced>&,
                                                            const Stress<Quadrilateral8Reduced>&);
-template Square<Quadrilateral9> geometric_stiffness(const Quadrilateral9&,
-                                                    const Coords<Quadrilateral9>&,
-                                                    const Stress<Quadrilateral9>&);
+template Square<Quadrilateral9> geometric_stiffness(const Quadrilateral9&, const Coords<Quadrilateral9>&, const Stress<Quadrilateral9>&);
 
 template Eigen::Matrix<double, 2, Triangle3::points> reference_points(const Triangle3&);
 template Eigen::Matrix<double, 2, Triangle6::points> reference_points(const Triangle6&);
 template Eigen::Matrix<double, 2, Quadrilateral4::points> reference_points(const Quadrilateral4&);
-template Eigen::Matrix<double, 2, Quadrilateral4Plain::points> reference_points(
-    const Quadrilateral4Plain&);
+template Eigen::Matrix<double, 2, Quadrilateral4Plain::points> reference_points(const Quadrilateral4Plain&);
 template Eigen::Matrix<double, 2, Quadrilateral8::points> reference_points(const Quadrilateral8&);
-template Eigen::Matrix<double, 2, Quadrilateral8Reduced::points> reference_points(
-    const Quadrilateral8Reduced&);
+template Eigen::Matrix<double, 2, Quadrilateral8Reduced::points> reference_points(const Quadrilateral8Reduced&);
 template Eigen::Matrix<double, 2, Quadrilateral9::points> reference_points(const Quadrilateral9&);
 
-template Eigen::Matrix<double, 2, Triangle3::points> stress_points(const Triangle3&,
-                                                                   const Coords<Triangle3>&);
-template Eigen::Matrix<double, 2, Triangle6::points> stress_points(const Triangle6&,
-                                                                   const Coords<Triangle6>&);
-template Eigen::Matrix<double, 2, Quadrilateral4::points> stress_points(
-    const Quadrilateral4&, const Coords<Quadrilateral4>&);
-template Eigen::Matrix<double, 2, Quadrilateral4Plain::points> stress_points(
-    const Quadrilateral4Plain&, const Coords<Quadrilateral4Plain>&);
-template Eigen::Matrix<double, 2, Quadrilateral8::points> stress_points(
-    const Quadrilateral8&, const Coords<Quadrilateral8>&);
-template Eigen::Matrix<double, 2, Quadrilateral8Reduced::points> stress_points(
-    const Quadrilateral8Reduced&, const Coords<Quadrilateral8Reduced>&);
-template Eigen::Matrix<double, 2, Quadrilateral9::points> stress_points(
-    const Quadrilateral9&, const Coords<Quadrilateral9>&);
+template Eigen::Matrix<double, 2, Triangle3::points> stress_points(const Triangle3&, const Coords<Triangle3>&);
+template Eigen::Matrix<double, 2, Triangle6::points> stress_points(const Triangle6&, const Coords<Triangle6>&);
+template Eigen::Matrix<double, 2, Quadrilateral4::points> stress_points(const Quadrilateral4&, const Coords<Quadrilateral4>&);
+template Eigen::Matrix<double, 2, Quadrilateral4Plain::points> stress_points(const Quadrilateral4Plain&,
+                                                                             const Coords<Quadrilateral4Plain>&);
+template Eigen::Matrix<double, 2, Quadrilateral8::points> stress_points(const Quadrilateral8&, const Coords<Quadrilateral8>&);
+template Eigen::Matrix<double, 2, Quadrilateral8Reduced::points> stress_points(const Quadrilateral8Reduced&,
+                                                                               const Coords<Quadrilateral8Reduced>&);
+template Eigen::Matrix<double, 2, Quadrilateral9::points> stress_points(const Quadrilateral9&, const Coords<Quadrilateral9>&);
 
-template Eigen::Matrix<double, 4, Triangle3::nodes> nodal_stress(const Triangle3&,
-                                                                 const Stress<Triangle3>&);
-template Eigen::Matrix<double, 4, Triangle6::nodes> nodal_stress(const Triangle6&,
-                                                                 const Stress<Triangle6>&);
-template Eigen::Matrix<double, 4, Quadrilateral4::nodes> nodal_stress(
-    const Quadrilateral4&, const Stress<Quadrilateral4>&);
-template Eigen::Matrix<double, 4, Quadrilateral4Plain::nodes> nodal_stress(
-    const Quadrilateral4Plain&, const Stress<Quadrilateral4Plain>&);
-template Eigen::Matrix<double, 4, Quadrilateral8::nodes> nodal_stress(
-    const Quadrilateral8&, const Stress<Quadrilateral8>&);
-template Eigen::Matrix<double, 4, Quadrilateral8Reduced::nodes> nodal_stress(
-    const Quadrilateral8Reduced&, const Stress<Quadrilateral8Reduced>&);
-template Eigen::Matrix<double, 4, Quadrilateral9::nodes> nodal_stress(
-    const Quadrilateral9&, const Stress<Quadrilateral9>&);
+template Eigen::Matrix<double, 4, Triangle3::nodes> nodal_stress(const Triangle3&, const Stress<Triangle3>&);
+template Eigen::Matrix<double, 4, Triangle6::nodes> nodal_stress(const Triangle6&, const Stress<Triangle6>&);
+template Eigen::Matrix<double, 4, Quadrilateral4::nodes> nodal_stress(const Quadrilateral4&, const Stress<Quadrilateral4>&);
+template Eigen::Matrix<double, 4, Quadrilateral4Plain::nodes> nodal_stress(const Quadrilateral4Plain&, const Stress<Quadrilateral4Plain>&);
+template Eigen::Matrix<double, 4, Quadrilateral8::nodes> nodal_stress(const Quadrilateral8&, const Stress<Quadrilateral8>&);
+template Eigen::Matrix<double, 4, Quadrilateral8Reduced::nodes> nodal_stress(const Quadrilateral8Reduced&,
+                                                                             const Stress<Quadrilateral8Reduced>&);
+template Eigen::Matrix<double, 4, Quadrilateral9::nodes> nodal_stress(const Quadrilateral9&, const Stress<Quadrilateral9>&);
 
-template Eigen::Matrix<double, 1, Triangle3::nodes> nodal_jacobians(const Triangle3&,
-                                                                    const Coords<Triangle3>&);
-template Eigen::Matrix<double, 1, Triangle6::nodes> nodal_jacobians(const Triangle6&,
-                                                                    const Coords<Triangle6>&);
-template Eigen::Matrix<double, 1, Quadrilateral4::nodes> nodal_jacobians(
-    const Quadrilateral4&, const Coords<Quadrilateral4>&);
-template Eigen::Matrix<double, 1, Quadrilateral4Plain::nodes> nodal_jacobians(
-    const Quadrilateral4Plain&, const Coords<Quadrilateral4Plain>&);
-template Eigen::Matrix<double, 1, Quadrilateral8::nodes> nodal_jacobians(
-    const Quadrilateral8&, const Coords<Quadrilateral8>&);
-template Eigen::Matrix<double, 1, Quadrilateral8Reduced::nodes> nodal_jacobians(
-    const Quadrilateral8Reduced&, const Coords<Quadrilateral8Reduced>&);
-template Eigen::Matrix<double, 1, Quadrilateral9::nodes> nodal_jacobians(
-    const Quadrilateral9&, const Coords<Quadrilateral9>&);
+template Eigen::Matrix<double, 1, Triangle3::nodes> nodal_jacobians(const Triangle3&, const Coords<Triangle3>&);
+template Eigen::Matrix<double, 1, Triangle6::nodes> nodal_jacobians(const Triangle6&, const Coords<Triangle6>&);
+template Eigen::Matrix<double, 1, Quadrilateral4::nodes> nodal_jacobians(const Quadrilateral4&, const Coords<Quadrilateral4>&);
+template Eigen::Matrix<double, 1, Quadrilateral4Plain::nodes> nodal_jacobians(const Quadrilateral4Plain&,
+                                                                              const Coords<Quadrilateral4Plain>&);
+template Eigen::Matrix<double, 1, Quadrilateral8::nodes> nodal_jacobians(const Quadrilateral8&, const Coords<Quadrilateral8>&);
+template Eigen::Matrix<double, 1, Quadrilateral8Reduced::nodes> nodal_jacobians(const Quadrilateral8Reduced&,
+                                                                                const Coords<Quadrilateral8Reduced>&);
+template Eigen::Matrix<double, 1, Quadrilateral9::nodes> nodal_jacobians(const Quadrilateral9&, const Coords<Quadrilateral9>&);
 
 }  // namespace pintle

@@ -2,9 +2,7 @@
 
 namespace pintle {
 
-Eigen::Matrix3d mass(const PointMass& p) {
-  return Eigen::Vector3d(p.m, p.m, p.J).asDiagonal();
-}
+Eigen::Matrix3d mass(const PointMass& p) { return Eigen::Vector3d(p.m, p.m, p.J).asDiagonal(); }
 
 Eigen::Matrix3d skew_mass(const PointMass& p) {
   Eigen::Matrix3d G = Eigen::Matrix3d::Zero();

@@ -21,13 +21,9 @@ void require(bool holds, const char* kind, const char* name, double value, const
   text << kind << " section: " << name << " = " << value << ", must be " << rule;
   throw std::invalid_argument(text.str());
 }
-void require_size(const char* kind, const char* name, double value) {
-  require(value > 0, kind, name, value, "positive [m]");
-}
+void require_size(const char* kind, const char* name, double value) { require(value > 0, kind, name, value, "positive [m]"); }
 
-double square(double x) {
-  return x * x;
-}
+double square(double x) { return x * x; }
 
 Section measure(const RectangleSection& s, double nu) {
   require_size("rectangle", "height", s.height);
@@ -48,8 +44,7 @@ Section measure(const TubeSection& s, double nu) {
   require(s.inner < s.outer, "tube", "inner", s.inner, "below outer; both are diameters");
   const double A = pi * (s.outer - s.inner) * (s.outer + s.inner) / 4;
   const double mm = square(s.inner / s.outer);
-  const double kappa =
-      6 * (1 + nu) * square(1 + mm) / ((7 + 6 * nu) * square(1 + mm) + (20 + 12 * nu) * mm);
+  const double kappa = 6 * (1 + nu) * square(1 + mm) / ((7 + 6 * nu) * square(1 + mm) + (20 + 12 * nu) * mm);
   return {A, A * square(s.outer) * (1 + mm) / 16, kappa, s.outer / 2};
 }
 
@@ -63,11 +58,9 @@ Section measure(const ISection& s, double nu) {
   require(2 * s.flange < s.height, "I", "flange", s.flange, "below half the height");
   const double b = s.width, clear = s.height - 2 * s.flange, h = s.height - s.flange;
   const double A = 2 * b * s.flange + clear * s.web;
-  const double I = (s.web * clear * clear * clear + 2 * b * s.flange * s.flange * s.flange) / 12 +
-                   b * s.flange * h * h / 2;
+  const double I = (s.web * clear * clear * clear + 2 * b * s.flange * s.flange * s.flange) / 12 + b * s.flange * h * h / 2;
   const double m = 2 * b * s.flange / (h * s.web), n = b / h;
-  const double lower = 12 + m * (72 + m * (150 + 90 * m)) +
-                       nu * (11 + m * (66 + m * (135 + 90 * m))) + 30 * n * n * m * (1 + m) +
+  const double lower = 12 + m * (72 + m * (150 + 90 * m)) + nu * (11 + m * (66 + m * (135 + 90 * m))) + 30 * n * n * m * (1 + m) +
                        5 * nu * n * n * m * (8 + 9 * m);
   return {A, I, 10 * (1 + nu) * square(1 + 3 * m) / lower, s.height / 2};
 }
@@ -76,35 +69,25 @@ Section measure(const GivenSection& s, double) {
   require(s.area > 0, "given", "area", s.area, "positive [m²]");
   require(s.second_moment > 0, "given", "second_moment", s.second_moment, "positive [m⁴]");
   require(s.fibre >= 0, "given", "fibre", s.fibre, "positive, or 0 if it is not known [m]");
-  require(s.fibre == 0 || s.second_moment <= s.area * s.fibre * s.fibre, "given", "second_moment",
-          s.second_moment, "at most area·fibre²: no part of the section lies further out");
+  require(s.fibre == 0 || s.second_moment <= s.area * s.fibre * s.fibre, "given", "second_moment", s.second_moment,
+          "at most area·fibre²: no part of the section lies further out");
   const double kappa = s.shear_factor.value_or(five_sixths);
   require(kappa > 0, "given", "shear_factor", kappa, "positive");
   return {s.area, s.second_moment, kappa, s.fibre};
 }
 
-double mix(double a, double b, double t) {
-  return (1 - t) * a + t * b;
-}
+double mix(double a, double b, double t) { return (1 - t) * a + t * b; }
 RectangleSection mix(const RectangleSection& a, const RectangleSection& b, double t) {
   return {mix(a.height, b.height, t), mix(a.width, b.width, t)};
 }
-CircleSection mix(const CircleSection& a, const CircleSection& b, double t) {
-  return {mix(a.diameter, b.diameter, t)};
-}
-TubeSection mix(const TubeSection& a, const TubeSection& b, double t) {
-  return {mix(a.outer, b.outer, t), mix(a.inner, b.inner, t)};
-}
+CircleSection mix(const CircleSection& a, const CircleSection& b, double t) { return {mix(a.diameter, b.diameter, t)}; }
+TubeSection mix(const TubeSection& a, const TubeSection& b, double t) { return {mix(a.outer, b.outer, t), mix(a.inner, b.inner, t)}; }
 ISection mix(const ISection& a, const ISection& b, double t) {
-  return {mix(a.height, b.height, t), mix(a.width, b.width, t), mix(a.web, b.web, t),
-          mix(a.flange, b.flange, t)};
+  return {mix(a.height, b.height, t), mix(a.width, b.width, t), mix(a.web, b.web, t), mix(a.flange, b.flange, t)};
 }
 GivenSection mix(const GivenSection& a, const GivenSection& b, double t) {
-  GivenSection s{mix(a.area, b.area, t), mix(a.second_moment, b.second_moment, t),
-                 mix(a.fibre, b.fibre, t), std::nullopt};
-  if (a.shear_factor || b.shear_factor)
-    s.shear_factor =
-        mix(a.shear_factor.value_or(five_sixths), b.shear_factor.value_or(five_sixths), t);
+  GivenSection s{mix(a.area, b.area, t), mix(a.second_moment, b.second_moment, t), mix(a.fibre, b.fibre, t), std::nullopt};
+  if (a.shear_factor || b.shear_factor) s.shear_factor = mix(a.shear_factor.value_or(five_sixths), b.shear_factor.value_or(five_sixths), t);
   return s;
 }
 
@@ -130,13 +113,8 @@ Section section(const SectionShape& shape, ShearFactor factor, double poisson) {
 SectionShape between(const SectionShape& a, const SectionShape& b, double t) {
   assert(t >= 0 && t <= 1);
   if (a.index() != b.index())
-    throw std::invalid_argument(std::string("tapered section: from ") + name(a) + " to " + name(b) +
-                                "; both ends must be of one kind");
-  return std::visit(
-      [&](const auto& from) -> SectionShape {
-        return mix(from, std::get<std::decay_t<decltype(from)>>(b), t);
-      },
-      a);
+    throw std::invalid_argument(std::string("tapered section: from ") + name(a) + " to " + name(b) + "; both ends must be of one kind");
+  return std::visit([&](const auto& from) -> SectionShape { return mix(from, std::get<std::decay_t<decltype(from)>>(b), t); }, a);
 }
 
 }  // namespace pintle

@@ -22,13 +22,12 @@ struct ISection {
 };
 /// Whatever else: A, I and the distances from the axis to the outermost fibres.
 struct GivenSection {
-  double area;           ///< A [m²]
-  double second_moment;  ///< I about the axis across the plane [m⁴]
-  double fibre = 0;      ///< distance to the outermost fibre; 0: bending stress is not told [m]
+  double area;                         ///< A [m²]
+  double second_moment;                ///< I about the axis across the plane [m⁴]
+  double fibre = 0;                    ///< distance to the outermost fibre; 0: bending stress is not told [m]
   std::optional<double> shear_factor;  ///< κ, then taken as it is; unset: 5/6
 };
-using SectionShape =
-    std::variant<RectangleSection, CircleSection, TubeSection, ISection, GivenSection>;
+using SectionShape = std::variant<RectangleSection, CircleSection, TubeSection, ISection, GivenSection>;
 
 /// Which shear factor κ (shear stiffness κGA) a Timoshenko beam takes.
 /// `cowper`: by section and Poisson's ratio [Cowper1966]: solid formulas for rectangle, circle and

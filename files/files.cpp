@@ -79,13 +79,9 @@ bool lies_in(const fs::path& path, const fs::path& folder) {
 
 }  // namespace
 
-void set_trust(Trust trust) {
-  settings() = std::move(trust);
-}
+void set_trust(Trust trust) { settings() = std::move(trust); }
 
-const Trust& trust() {
-  return settings();
-}
+const Trust& trust() { return settings(); }
 
 std::string read_file(const fs::path& path, std::size_t most_bytes) {
   const File file(path);
@@ -119,8 +115,9 @@ fs::path contained_file(const fs::path& named, const fs::path& beside, const fs:
   if (error) throw FileRefused("\"" + named.string() + "\": its path cannot be followed (" + error.message() + "); check it");
   const std::vector<fs::path> folders = readable_folders(folder);
   if (std::none_of(folders.begin(), folders.end(), [&](const fs::path& f) { return lies_in(real, f); }))
-    throw FileRefused("\"" + named.string() + "\" lies outside the folder of the scene" + (folders.empty() ? std::string() : ", " + folders[0].string()) +
-                      "; copy it there, or allow it by --allow-path " + real.parent_path().string());
+    throw FileRefused("\"" + named.string() + "\" lies outside the folder of the scene" +
+                      (folders.empty() ? std::string() : ", " + folders[0].string()) + "; copy it there, or allow it by --allow-path " +
+                      real.parent_path().string());
   return path;
 }
 

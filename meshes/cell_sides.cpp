@@ -101,8 +101,7 @@ double distance(const Mesh& mesh, const SideView& s, const Vector2d& p, double& 
 
 bool covers(const Mesh& mesh, const CellView& view, const Vector2d& p) {
   bool inside = false;
-  for (int s = 0; s < corners_of(view.shape); ++s)
-    inside = inside != side_crosses_ray(mesh, side_of(view, 0, s), p);
+  for (int s = 0; s < corners_of(view.shape); ++s) inside = inside != side_crosses_ray(mesh, side_of(view, 0, s), p);
   return inside;
 }
 

@@ -20,8 +20,13 @@ namespace {
 // Of linux/landlock.h, which older systems lack; the numbers are fixed.
 constexpr long landlock_create = 444, landlock_add = 445, landlock_restrict = 446;
 constexpr std::uint64_t read_file = 1 << 2, read_folder = 1 << 3;
-struct Ruleset { std::uint64_t files; };
-struct [[gnu::packed]] Below { std::uint64_t allowed; std::int32_t folder; };
+struct Ruleset {
+  std::uint64_t files;
+};
+struct [[gnu::packed]] Below {
+  std::uint64_t allowed;
+  std::int32_t folder;
+};
 
 /// All rights over files that this version of Landlock knows.
 std::uint64_t rights_of(long version) {
@@ -55,19 +60,46 @@ constexpr std::uint32_t machine = AUDIT_ARCH_AARCH64;
 constexpr std::uint32_t machine = 0;
 #endif
 
-constexpr long forbidden[]{
-    SYS_execve, SYS_execveat,
+constexpr long forbidden[]{SYS_execve,
+                           SYS_execveat,
 #ifdef SYS_fork
-    SYS_fork, SYS_vfork,
+                           SYS_fork,
+                           SYS_vfork,
 #endif
-    SYS_socket, SYS_socketpair, SYS_connect, SYS_bind, SYS_listen, SYS_accept, SYS_accept4, SYS_ptrace, SYS_process_vm_readv,
-    SYS_process_vm_writev, SYS_kill, SYS_tkill, SYS_open_by_handle_at, SYS_mount, SYS_umount2, SYS_pivot_root, SYS_chroot,
-    SYS_unshare, SYS_setns, SYS_bpf, SYS_perf_event_open, SYS_userfaultfd, SYS_keyctl, SYS_add_key, SYS_request_key,
-    SYS_io_uring_setup, SYS_init_module, SYS_finit_module, SYS_kexec_load, SYS_shmget, SYS_msgget, SYS_semget};
+                           SYS_socket,
+                           SYS_socketpair,
+                           SYS_connect,
+                           SYS_bind,
+                           SYS_listen,
+                           SYS_accept,
+                           SYS_accept4,
+                           SYS_ptrace,
+                           SYS_process_vm_readv,
+                           SYS_process_vm_writev,
+                           SYS_kill,
+                           SYS_tkill,
+                           SYS_open_by_handle_at,
+                           SYS_mount,
+                           SYS_umount2,
+                           SYS_pivot_root,
+                           SYS_chroot,
+                           SYS_unshare,
+                           SYS_setns,
+                           SYS_bpf,
+                           SYS_perf_event_open,
+                           SYS_userfaultfd,
+                           SYS_keyctl,
+                           SYS_add_key,
+                           SYS_request_key,
+                           SYS_io_uring_setup,
+                           SYS_init_module,
+                           SYS_finit_module,
+                           SYS_kexec_load,
+                           SYS_shmget,
+                           SYS_msgget,
+                           SYS_semget};
 
-sock_filter load(std::size_t offset) {
-  return {BPF_LD | BPF_W | BPF_ABS, 0, 0, static_cast<std::uint32_t>(offset)};
-}
+sock_filter load(std::size_t offset) { return {BPF_LD | BPF_W | BPF_ABS, 0, 0, static_cast<std::uint32_t>(offset)}; }
 sock_filter answer(std::uint32_t action) { return {BPF_RET | BPF_K, 0, 0, action}; }
 /// The next instruction if the test holds, else the one after it.
 sock_filter if_true(std::uint16_t test, std::uint32_t value) { return {static_cast<std::uint16_t>(BPF_JMP | test | BPF_K), 0, 1, value}; }
@@ -77,15 +109,15 @@ sock_filter unless(std::uint16_t test, std::uint32_t value) { return {static_cas
 bool filter_calls() {
   if (machine == 0) return false;
   const auto kill = answer(SECCOMP_RET_KILL_PROCESS);
-  std::vector<sock_filter> program{load(offsetof(seccomp_data, arch)), unless(BPF_JEQ, machine), kill,
-                                   load(offsetof(seccomp_data, nr)), if_true(BPF_JGE, 0x40000000), kill};
+  std::vector<sock_filter> program{load(offsetof(seccomp_data, arch)), unless(BPF_JEQ, machine),     kill,
+                                   load(offsetof(seccomp_data, nr)),   if_true(BPF_JGE, 0x40000000), kill};
   for (const long call : forbidden) program.insert(program.end(), {if_true(BPF_JEQ, static_cast<std::uint32_t>(call)), kill});
   // Threads may be started. clone3 hides its flags behind a pointer; without it the C library takes clone.
   program.insert(program.end(), {if_true(BPF_JEQ, SYS_clone3), answer(SECCOMP_RET_ERRNO | ENOSYS)});
   sock_filter not_clone = if_true(BPF_JEQ, SYS_clone);
   not_clone.jf = 3;
-  program.insert(program.end(), {not_clone, load(offsetof(seccomp_data, args)), unless(BPF_JSET, CLONE_THREAD), kill,
-                                 answer(SECCOMP_RET_ALLOW)});
+  program.insert(program.end(),
+                 {not_clone, load(offsetof(seccomp_data, args)), unless(BPF_JSET, CLONE_THREAD), kill, answer(SECCOMP_RET_ALLOW)});
   const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
   return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
 }

@@ -28,7 +28,8 @@ Line line_with(std::string_view text, std::string_view part) {
   const std::size_t at = part.empty() ? text.npos : text.find(part);
   if (at == text.npos) return {};
   const std::size_t begin = text.rfind('\n', at) + 1;
-  return {1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'), text.substr(begin, text.find('\n', at) - begin)};
+  return {1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'),
+          text.substr(begin, text.find('\n', at) - begin)};
 }
 
 /// Why a file that the script names could not be opened.

@@ -9,6 +9,7 @@ namespace pintle {
 /// text: Gmsh names the line of a syntax error, but of no file that it cannot open, and a script that is ended says nothing.
 /// @param words  "FILE: what is wrong; what to do"
 /// @param read_from  the folder whose files it may read
-std::string with_line_of_script(const std::filesystem::path& file, const std::string& text, const std::string& words, const std::filesystem::path& read_from);
+std::string with_line_of_script(const std::filesystem::path& file, const std::string& text, const std::string& words,
+                                const std::filesystem::path& read_from);
 
 }  // namespace pintle

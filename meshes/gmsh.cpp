@@ -23,21 +23,18 @@ namespace {
 
 using Eigen::Vector2d;
 namespace fs = std::filesystem;
-constexpr std::size_t most_script_bytes = std::size_t{100} << 20;      // of a script
+constexpr std::size_t most_script_bytes = std::size_t{100} << 20;  // of a script
 constexpr std::size_t most_mesh_bytes = std::size_t{1} << 30;
 
 void judge(const std::string& name, const MeshOptions& o, double scale) {
   if (corners_of(o.shape) == 2)
-    reject(name, ": cells of shape ", name_of(o.shape),
-           "; a plane body is made of triangles or quadrilaterals");
+    reject(name, ": cells of shape ", name_of(o.shape), "; a plane body is made of triangles or quadrilaterals");
   const auto not_negative = [&](const char* what, double value) {
-    if (!(value >= 0) || !std::isfinite(value))
-      reject(name, ": ", what, " = ", value, " m, must be positive, or 0 to have it chosen");
+    if (!(value >= 0) || !std::isfinite(value)) reject(name, ": ", what, " = ", value, " m, must be positive, or 0 to have it chosen");
   };
   not_negative("size", o.size);
   not_negative("hole_size", o.hole_size);
-  if (!(scale > 0) || !std::isfinite(scale))
-    reject(name, ": scale = ", scale, ", must be positive: m per unit of the file");
+  if (!(scale > 0) || !std::isfinite(scale)) reject(name, ": scale = ", scale, ", must be positive: m per unit of the file");
   for (const Vector2d& p : o.points)
     if (!p.allFinite()) reject(name, ": the point (", p.x(), ", ", p.y(), ") is not finite");
 }
@@ -93,8 +90,7 @@ Mesh read_geometry(const fs::path& path, const MeshOptions& o, double scale, con
   const std::string name = path.string(), kind = path.extension().string();
   judge(name, o, scale);
   if (kind != ".geo" && kind != ".step" && kind != ".stp" && kind != ".brep" && kind != ".msh")
-    reject(name, ": \"", kind,
-           "\" is no kind of drawing known here; .geo, .step, .stp, .brep and .msh are");
+    reject(name, ": \"", kind, "\" is no kind of drawing known here; .geo, .step, .stp, .brep and .msh are");
   std::string text;
   try {
     const bool all = kind == ".geo" || kind == ".msh";

@@ -13,9 +13,9 @@ namespace pintle {
 
 struct MeshOptions {
   CellShape shape = CellShape::triangle6;  ///< plane; quadrilaterals: no triangles among them
-  double size = 0;       ///< of a cell's side [m]; 0: a tenth of the square root of the area
-  double hole_size = 0;  ///< along holes [m]; 0: 24 sides go round, if smaller than `size`
-  std::vector<Eigen::Vector2d> points;  ///< places that must become nodes, body axes [m]
+  double size = 0;                         ///< of a cell's side [m]; 0: a tenth of the square root of the area
+  double hole_size = 0;                    ///< along holes [m]; 0: 24 sides go round, if smaller than `size`
+  std::vector<Eigen::Vector2d> points;     ///< places that must become nodes, body axes [m]
 };
 
 /// Sizes grow by a quarter of the distance from holes, and from arcs of the outline where `size` is
@@ -42,7 +42,6 @@ Mesh mesh_link(const Link&, const MeshOptions&);
 ///     time or memory than it may
 /// @throws std::invalid_argument  the file is not of the kind it is named; the geometry is not plane (z = 0), there is no surface in it, a
 ///     point lies off the material, or an option is wrong
-Mesh read_geometry(const std::filesystem::path&, const MeshOptions&, double scale = 1,
-                   const std::filesystem::path& folder = {});
+Mesh read_geometry(const std::filesystem::path&, const MeshOptions&, double scale = 1, const std::filesystem::path& folder = {});
 
 }  // namespace pintle

@@ -24,22 +24,14 @@ namespace model = gmsh::model;
 
 std::optional<CellShape> shape_of(int gmsh_type) {
   switch (gmsh_type) {
-    case 1:
-      return CellShape::line2;
-    case 8:
-      return CellShape::line3;
-    case 2:
-      return CellShape::triangle3;
-    case 9:
-      return CellShape::triangle6;
-    case 3:
-      return CellShape::quadrilateral4;
-    case 16:
-      return CellShape::quadrilateral8;
-    case 10:
-      return CellShape::quadrilateral9;
-    default:
-      return std::nullopt;
+    case 1: return CellShape::line2;
+    case 8: return CellShape::line3;
+    case 2: return CellShape::triangle3;
+    case 9: return CellShape::triangle6;
+    case 3: return CellShape::quadrilateral4;
+    case 16: return CellShape::quadrilateral8;
+    case 10: return CellShape::quadrilateral9;
+    default: return std::nullopt;
   }
 }
 
@@ -64,14 +56,12 @@ struct Extract {
     if (numbers.empty()) return;
     std::vector<size_t> order(numbers.size());
     std::iota(order.begin(), order.end(), size_t{0});
-    std::sort(order.begin(), order.end(),
-              [&](size_t a, size_t b) { return numbers[a] < numbers[b]; });
+    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return numbers[a] < numbers[b]; });
     mesh.x.resize(2, static_cast<Eigen::Index>(numbers.size()));
     for (size_t i = 0; i < order.size(); ++i) {
       const double* p = &x[3 * order[i]];
       if (std::abs(p[2]) > 1e-6 * std::max(1e-3, std::hypot(p[0], p[1])))
-        reject(name, ": node ", numbers[order[i]], " is at z = ", p[2],
-               "; a body's mesh lies in the plane z = 0");
+        reject(name, ": node ", numbers[order[i]], " is at z = ", p[2], "; a body's mesh lies in the plane z = 0");
       mesh.x.col(static_cast<Eigen::Index>(i)) << scale * p[0], scale * p[1];
       sorted.push_back(numbers[order[i]]);
       mesh.node_numbers.push_back(static_cast<long>(numbers[order[i]]));
@@ -104,8 +94,7 @@ struct Extract {
   void add_cells(int dim, const Tags& entities) {
     for (const int tag : entities)
       for (Cells& block : cells(dim, tag)) {
-        const auto same = std::find_if(mesh.cells.begin(), mesh.cells.end(),
-                                       [&](const Cells& c) { return c.shape == block.shape; });
+        const auto same = std::find_if(mesh.cells.begin(), mesh.cells.end(), [&](const Cells& c) { return c.shape == block.shape; });
         if (same == mesh.cells.end()) {
           mesh.cells.push_back(std::move(block));
           continue;
@@ -123,8 +112,7 @@ struct Extract {
       std::string label;
       model::getPhysicalName(dim, tag, label);
       if (label.empty()) label = std::to_string(tag);
-      auto group = std::find_if(mesh.groups.begin(), mesh.groups.end(),
-                                [&](const Group& g) { return g.name == label; });
+      auto group = std::find_if(mesh.groups.begin(), mesh.groups.end(), [&](const Group& g) { return g.name == label; });
       if (group == mesh.groups.end()) group = mesh.groups.insert(group, Group{label, {}, {}});
       std::vector<size_t> numbers;
       std::vector<double> x;
@@ -135,10 +123,8 @@ struct Extract {
       if (dim == 1) model::getEntitiesForPhysicalGroup(dim, tag, entities);
       for (const int entity : entities)
         for (const Cells& lines : cells(1, entity))
-          for (size_t i = 0; i < lines.nodes.size();
-               i += static_cast<size_t>(nodes_of(lines.shape)))
-            if (const int side = rim.find(lines.nodes[i], lines.nodes[i + 1]); side >= 0)
-              sides.push_back(side);
+          for (size_t i = 0; i < lines.nodes.size(); i += static_cast<size_t>(nodes_of(lines.shape)))
+            if (const int side = rim.find(lines.nodes[i], lines.nodes[i + 1]); side >= 0) sides.push_back(side);
       rim.add_to(*group, std::move(sides));
     }
     name_loops(mesh, rim);

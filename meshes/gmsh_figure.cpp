@@ -39,8 +39,8 @@ void sample(const std::string& name, int curve, bool forward, Contour& contour) 
   model::getCurvature(1, curve, t, curvature);
   for (size_t i = 0; i < t.size(); ++i) {
     if (std::abs(x[3 * i + 2]) > 1e-6 * std::max(1e-3, std::hypot(x[3 * i], x[3 * i + 1])))
-      reject(name, ": not plane: curve ", curve, " passes (", x[3 * i], ", ", x[3 * i + 1], ", ",
-             x[3 * i + 2], "); a body lies in the plane z = 0: draw, or move, its face there");
+      reject(name, ": not plane: curve ", curve, " passes (", x[3 * i], ", ", x[3 * i + 1], ", ", x[3 * i + 2],
+             "); a body lies in the plane z = 0: draw, or move, its face there");
     contour.points.emplace_back(x[3 * i], x[3 * i + 1]);
     contour.curvature.push_back(std::isfinite(curvature[i]) ? curvature[i] : 0);
   }
@@ -74,14 +74,12 @@ std::vector<Contour> contours_of(const std::string& name, const Tags& boundary) 
       sample(name, curve, a == from, contour);
       from = a == from ? b : a;
       const Tags& next = at[from];
-      const auto found =
-          std::find_if(next.begin(), next.end(), [&](int c) { return !used.contains(c); });
+      const auto found = std::find_if(next.begin(), next.end(), [&](int c) { return !used.contains(c); });
       curve = found == next.end() ? 0 : *found;
     }
     out.push_back(std::move(contour));
   }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const Contour& a, const Contour& b) { return a.area() > b.area(); });
+  std::stable_sort(out.begin(), out.end(), [](const Contour& a, const Contour& b) { return a.area() > b.area(); });
   return out;
 }
 
@@ -112,8 +110,7 @@ Figure gmsh_figure(const std::string& name, const Tags& surfaces) {
   model::getBoundary(faces, boundary, true, false);
   f.contours = contours_of(name, tags(boundary));
   if (f.contours.empty() || !(f.contours[0].area() > 0))
-    reject(name,
-           ": its surfaces have no outline in the plane z = 0; draw a face bounded by curves");
+    reject(name, ": its surfaces have no outline in the plane z = 0; draw a face bounded by curves");
   Vector2d low = f.contours[0].points[0], high = low;
   for (const Vector2d& p : f.contours[0].points) low = low.cwiseMin(p), high = high.cwiseMax(p);
   f.span = (high - low).norm();
@@ -145,12 +142,10 @@ std::vector<Pinned> gmsh_pin(const Figure& f, const std::vector<Vector2d>& point
     }
     for (size_t k = 0; k < f.contours.size(); ++k)
       if (inside(f.contours[k], at) != (k == 0))
-        reject(f.name, ": the point (", p.x(), ", ", p.y(), ") m ",
-               k == 0 ? "lies outside the outline" : "lies in a hole",
+        reject(f.name, ": the point (", p.x(), ", ", p.y(), ") m ", k == 0 ? "lies outside the outline" : "lies in a hole",
                ", where no node can be; put it on the material, or name the hole and couple the "
                "point to its rim");
-    within.push_back(open_cascade ? model::occ::addPoint(at.x(), at.y(), 0)
-                                  : model::geo::addPoint(at.x(), at.y(), 0));
+    within.push_back(open_cascade ? model::occ::addPoint(at.x(), at.y(), 0) : model::geo::addPoint(at.x(), at.y(), 0));
   }
   if (!within.empty()) open_cascade ? model::occ::synchronize() : model::geo::synchronize();
   for (const int point : within)
@@ -200,8 +195,7 @@ void gmsh_make_room(const Figure& f, const std::vector<Pinned>& pinned, SizeFiel
         if (d > 1e-6 * f.span) room = std::min(room, d);
       }
     for (const Pinned& other : pinned)
-      if (const double d = (other.at - p.at).norm(); d > 1e-6 * f.span)
-        room = std::min(room, d / 2);
+      if (const double d = (other.at - p.at).norm(); d > 1e-6 * f.span) room = std::min(room, d / 2);
     if (room < field.largest) field.sources.push_back({p.at, room});
   }
 }

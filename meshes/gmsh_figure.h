@@ -36,8 +36,7 @@ struct Pinned {
 /// Embeds the points that lie within; returns those on curves.
 /// @param points  in m, `scale` to the unit of the figure
 /// @throws std::invalid_argument  a point in a hole or outside
-std::vector<Pinned> gmsh_pin(const Figure&, const std::vector<Eigen::Vector2d>& points,
-                             double scale);
+std::vector<Pinned> gmsh_pin(const Figure&, const std::vector<Eigen::Vector2d>& points, double scale);
 /// Once curves are meshed: the nearest node of the curve, itself no end of it, goes to each place.
 void gmsh_move_nodes(const std::vector<Pinned>&, double span);
 /// Makes room on the curves for nodes at those places, and between one and the next.

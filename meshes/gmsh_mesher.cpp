@@ -25,9 +25,7 @@ using Tags = std::vector<int>;
 namespace fs = std::filesystem;
 namespace model = gmsh::model;
 
-void set(const char* option, double value) {
-  gmsh::option::setNumber(option, value);
-}
+void set(const char* option, double value) { gmsh::option::setNumber(option, value); }
 
 // Runs `work` with Gmsh open; what Gmsh throws or logs as an error becomes a runtime_error.
 template <class Work>
@@ -49,19 +47,15 @@ Mesh with_gmsh(const std::string& what, Work work) {
   } catch (...) {  // it says nothing
   }
   if (const std::string logged = gmsh_errors(); !logged.empty()) words = logged;
-  throw std::runtime_error(what + ": Gmsh cannot " +
-                           (words.empty() ? "make a mesh of it" : "make a mesh of it: " + words) +
+  throw std::runtime_error(what + ": Gmsh cannot " + (words.empty() ? "make a mesh of it" : "make a mesh of it: " + words) +
                            "; take another size or element, or mend the drawing");
 }
 
-void generate(const Figure& f, const std::vector<Pinned>& pinned, SizeField field, double factor,
-              CellShape shape) {
+void generate(const Figure& f, const std::vector<Pinned>& pinned, SizeField field, double factor, CellShape shape) {
   gmsh_make_room(f, pinned, field);
   model::mesh::clear();
   model::mesh::setSizeCallback(
-      [field = std::move(field), factor](int, int, double x, double y, double) {
-        return factor * field.at(x, y);
-      });
+      [field = std::move(field), factor](int, int, double x, double y, double) { return factor * field.at(x, y); });
   if (corners_of(shape) == 4)
     for (const int s : f.surfaces) model::mesh::setRecombine(2, s);
   model::mesh::generate(1);
@@ -75,9 +69,8 @@ void snap(const std::string& name, Mesh& mesh, const std::vector<Vector2d>& poin
   for (const Vector2d& p : points) {
     const int node = nearest_node(mesh, p, 1e-6 * span);
     if (node < 0)
-      reject(
-          name, ": no node could be put at the point (", p.x(), ", ", p.y(),
-          ") m; another point or a corner is too near for cells of this size: make `size` smaller");
+      reject(name, ": no node could be put at the point (", p.x(), ", ", p.y(),
+             ") m; another point or a corner is too near for cells of this size: make `size` smaller");
     mesh.x.col(node) = p;
   }
 }
@@ -110,13 +103,11 @@ void draw(const std::vector<Loop>& loops) {
   Tags rings;
   for (const Loop& loop : loops) {
     Tags corners, curves;
-    for (const Edge& e : loop.edges)
-      corners.push_back(model::geo::addPoint(e.from.x(), e.from.y(), 0));
+    for (const Edge& e : loop.edges) corners.push_back(model::geo::addPoint(e.from.x(), e.from.y(), 0));
     for (size_t k = 0; k < loop.edges.size(); ++k) {
       const Edge& e = loop.edges[k];
       const int a = corners[k], b = corners[(k + 1) % corners.size()];
-      curves.push_back(e.arc ? model::geo::addCircleArc(
-                                   a, model::geo::addPoint(e.center.x(), e.center.y(), 0), b)
+      curves.push_back(e.arc ? model::geo::addCircleArc(a, model::geo::addPoint(e.center.x(), e.center.y(), 0), b)
                              : model::geo::addLine(a, b));
       groups[loop.names[k]].push_back(curves.back());
     }
@@ -124,8 +115,7 @@ void draw(const std::vector<Loop>& loops) {
   }
   model::geo::addPlaneSurface(rings);
   model::geo::synchronize();
-  for (const auto& [name, curves] : groups)
-    model::setPhysicalName(1, model::addPhysicalGroup(1, curves), name);
+  for (const auto& [name, curves] : groups) model::setPhysicalName(1, model::addPhysicalGroup(1, curves), name);
 }
 
 Mesh mesh_drawing(const std::string& name, const MeshOptions& o, double scale) {
@@ -152,9 +142,7 @@ Mesh gmsh_geometry(const fs::path& path, const MeshOptions& o, double scale) {
     if (const std::string words = gmsh_errors(); !words.empty()) throw std::runtime_error(words);
     gmsh::vectorpair solids;
     model::getEntities(solids, 3);
-    if (!solids.empty())
-      reject(name,
-             ": there is a solid in it; a body is plane: keep only the face in the plane z = 0");
+    if (!solids.empty()) reject(name, ": there is a solid in it; a body is plane: keep only the face in the plane z = 0");
     if (kind == ".msh") return gmsh_extract(name, scale);
     if (gmsh_body(2).empty())
       reject(name,

@@ -9,27 +9,26 @@ namespace pintle {
 
 namespace {
 
-constexpr std::pair<const char*, double> defaults[]{
-    {"General.Terminal", 0},
-    {"General.NumThreads", 1},
-    {"General.AbortOnError", 0},
-    {"Mesh.Algorithm", 6},               // Frontal-Delaunay
-    {"Mesh.RecombinationAlgorithm", 2},  // all quadrilaterals, by halves
-    {"Mesh.RecombineAll", 0},
-    {"Mesh.SubdivisionAlgorithm", 0},
-    {"Mesh.RandomSeed", 1},
-    {"Mesh.RandomFactor", 1e-9},
-    {"Mesh.Smoothing", 1},
-    {"Mesh.ElementOrder", 1},
-    {"Mesh.SecondOrderLinear", 0},
-    {"Mesh.SecondOrderIncomplete", 0},
-    {"Mesh.HighOrderOptimize", 0},
-    {"Mesh.MeshSizeFactor", 1},
-    {"Mesh.MeshSizeMin", 0},
-    {"Mesh.MeshSizeMax", 1e22},
-    {"Mesh.MeshSizeFromPoints", 1},
-    {"Mesh.MeshSizeFromCurvature", 0},
-    {"Mesh.MeshSizeExtendFromBoundary", 1}};
+constexpr std::pair<const char*, double> defaults[]{{"General.Terminal", 0},
+                                                    {"General.NumThreads", 1},
+                                                    {"General.AbortOnError", 0},
+                                                    {"Mesh.Algorithm", 6},               // Frontal-Delaunay
+                                                    {"Mesh.RecombinationAlgorithm", 2},  // all quadrilaterals, by halves
+                                                    {"Mesh.RecombineAll", 0},
+                                                    {"Mesh.SubdivisionAlgorithm", 0},
+                                                    {"Mesh.RandomSeed", 1},
+                                                    {"Mesh.RandomFactor", 1e-9},
+                                                    {"Mesh.Smoothing", 1},
+                                                    {"Mesh.ElementOrder", 1},
+                                                    {"Mesh.SecondOrderLinear", 0},
+                                                    {"Mesh.SecondOrderIncomplete", 0},
+                                                    {"Mesh.HighOrderOptimize", 0},
+                                                    {"Mesh.MeshSizeFactor", 1},
+                                                    {"Mesh.MeshSizeMin", 0},
+                                                    {"Mesh.MeshSizeMax", 1e22},
+                                                    {"Mesh.MeshSizeFromPoints", 1},
+                                                    {"Mesh.MeshSizeFromCurvature", 0},
+                                                    {"Mesh.MeshSizeExtendFromBoundary", 1}};
 
 }  // namespace
 

@@ -23,17 +23,13 @@ class NumberIndex {
  public:
   explicit NumberIndex(const std::vector<long>& numbers) : order_(numbers.size()) {
     std::iota(order_.begin(), order_.end(), 0);
-    const auto by_number = [&](int a, int b) {
-      return numbers[static_cast<std::size_t>(a)] < numbers[static_cast<std::size_t>(b)];
-    };
-    if (!std::is_sorted(numbers.begin(), numbers.end()))
-      std::stable_sort(order_.begin(), order_.end(), by_number);
+    const auto by_number = [&](int a, int b) { return numbers[static_cast<std::size_t>(a)] < numbers[static_cast<std::size_t>(b)]; };
+    if (!std::is_sorted(numbers.begin(), numbers.end())) std::stable_sort(order_.begin(), order_.end(), by_number);
     for (const int i : order_) sorted_.push_back(numbers[static_cast<std::size_t>(i)]);
   }
   int find(long number) const {  // −1: there is none
     if (sorted_.empty() || number < sorted_.front() || number > sorted_.back()) return -1;
-    const std::size_t guess =
-        static_cast<std::size_t>(number - sorted_.front());  // mostly without gaps
+    const std::size_t guess = static_cast<std::size_t>(number - sorted_.front());  // mostly without gaps
     if (guess < sorted_.size() && sorted_[guess] == number) return order_[guess];
     const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), number);
     return *at == number ? order_[static_cast<std::size_t>(at - sorted_.begin())] : -1;
@@ -69,34 +65,25 @@ struct Builder {
     bool whole = false;
   };
   std::map<std::size_t, Members> of_set{};  // by its number
-  std::size_t total = 0, depth = 0;        // members of them all; sets that are being gathered
+  std::size_t total = 0, depth = 0;         // members of them all; sets that are being gathered
   std::vector<std::size_t> seen = std::vector<std::size_t>(std::max(queue.elements.size(), queue.x.size()));
   std::size_t round = 0;  // seen[p] == round: p is among the members gathered now
   std::map<std::string, std::size_t> group_index{};
   std::vector<int> nodes{};  // of all elements, looked up
 
-  InpPlace place_of_element(int e) const {
-    return queue.elements[static_cast<std::size_t>(e)].place;
-  }
-  const InpDeck::Element& element(int e) const {
-    return queue.elements[static_cast<std::size_t>(e)];
-  }
-  int corner(const InpDeck::Element& e, int k) const {
-    return nodes[e.first + static_cast<std::size_t>(k)];
-  }
+  InpPlace place_of_element(int e) const { return queue.elements[static_cast<std::size_t>(e)].place; }
+  const InpDeck::Element& element(int e) const { return queue.elements[static_cast<std::size_t>(e)]; }
+  int corner(const InpDeck::Element& e, int k) const { return nodes[e.first + static_cast<std::size_t>(k)]; }
   static bool is_plane(const InpDeck::Element& e) { return corners_of(e.kind.shape) > 2; }
 
   void check_numbers() {
     if (const auto [a, b] = node_index.twice(); b >= 0)
-      queue.text.reject(
-          queue.node_places[static_cast<std::size_t>(b)], "node ",
-          queue.node_numbers[static_cast<std::size_t>(b)], " is defined again, first on line ",
-          queue.node_places[static_cast<std::size_t>(a)].line, "; a number belongs to one node");
+      queue.text.reject(queue.node_places[static_cast<std::size_t>(b)], "node ", queue.node_numbers[static_cast<std::size_t>(b)],
+                        " is defined again, first on line ", queue.node_places[static_cast<std::size_t>(a)].line,
+                        "; a number belongs to one node");
     if (const auto [a, b] = element_index.twice(); b >= 0)
-      queue.text.reject(place_of_element(b), "element ",
-                       queue.element_numbers[static_cast<std::size_t>(b)],
-                       " is defined again, first on line ", place_of_element(a).line,
-                       "; a number belongs to one element");
+      queue.text.reject(place_of_element(b), "element ", queue.element_numbers[static_cast<std::size_t>(b)],
+                        " is defined again, first on line ", place_of_element(a).line, "; a number belongs to one element");
   }
 
   void look_up_nodes() {
@@ -107,13 +94,11 @@ struct Builder {
       for (std::size_t k = el.first; k < end; ++k) {
         const int node = node_index.find(queue.element_nodes[k]);
         if (node < 0)
-          queue.text.reject(el.place, "element ", queue.element_numbers[e], " names node ",
-                           queue.element_nodes[k], ", which no *NODE defines");
-        if (std::find(nodes.begin() + static_cast<std::ptrdiff_t>(el.first), nodes.end(), node) !=
-            nodes.end())
-          queue.text.reject(el.place, "element ", queue.element_numbers[e], " names node ",
-                           queue.element_nodes[k],
-                           " twice; collapsed elements are not read: take a triangle");
+          queue.text.reject(el.place, "element ", queue.element_numbers[e], " names node ", queue.element_nodes[k],
+                            ", which no *NODE defines");
+        if (std::find(nodes.begin() + static_cast<std::ptrdiff_t>(el.first), nodes.end(), node) != nodes.end())
+          queue.text.reject(el.place, "element ", queue.element_numbers[e], " names node ", queue.element_nodes[k],
+                            " twice; collapsed elements are not read: take a triangle");
         nodes.push_back(node);
       }
       if (el.kind.shape == CellShape::line3) middle_last(el.first);
@@ -124,8 +109,7 @@ struct Builder {
   void middle_last(std::size_t first) {
     const auto miss = [&](std::size_t middle, std::size_t a, std::size_t b) {
       const auto i = [&](std::size_t k) { return static_cast<std::size_t>(nodes[first + k]); };
-      return std::hypot(queue.x[i(middle)] - (queue.x[i(a)] + queue.x[i(b)]) / 2,
-                        queue.y[i(middle)] - (queue.y[i(a)] + queue.y[i(b)]) / 2);
+      return std::hypot(queue.x[i(middle)] - (queue.x[i(a)] + queue.x[i(b)]) / 2, queue.y[i(middle)] - (queue.y[i(a)] + queue.y[i(b)]) / 2);
     };
     if (miss(1, 0, 2) < miss(2, 0, 1)) std::swap(nodes[first + 1], nodes[first + 2]);
   }
@@ -133,17 +117,14 @@ struct Builder {
   Mesh cells(double scale) const {
     Mesh mesh;
     mesh.x.resize(2, static_cast<Eigen::Index>(queue.x.size()));
-    for (std::size_t i = 0; i < queue.x.size(); ++i)
-      mesh.x.col(static_cast<Eigen::Index>(i)) << scale * queue.x[i], scale * queue.y[i];
+    for (std::size_t i = 0; i < queue.x.size(); ++i) mesh.x.col(static_cast<Eigen::Index>(i)) << scale * queue.x[i], scale * queue.y[i];
     mesh.node_numbers = queue.node_numbers;
     const bool plane = std::any_of(queue.elements.begin(), queue.elements.end(), is_plane);
     for (std::size_t e = 0; e < queue.elements.size(); ++e) {
       const InpDeck::Element& el = queue.elements[e];
       if (is_plane(el) != plane) continue;
-      auto block = std::find_if(mesh.cells.begin(), mesh.cells.end(),
-                                [&](const Cells& c) { return c.shape == el.kind.shape; });
-      if (block == mesh.cells.end())
-        block = mesh.cells.insert(mesh.cells.end(), Cells{el.kind.shape, {}, {}});
+      auto block = std::find_if(mesh.cells.begin(), mesh.cells.end(), [&](const Cells& c) { return c.shape == el.kind.shape; });
+      if (block == mesh.cells.end()) block = mesh.cells.insert(mesh.cells.end(), Cells{el.kind.shape, {}, {}});
       const auto first = nodes.begin() + static_cast<std::ptrdiff_t>(el.first);
       block->nodes.insert(block->nodes.end(), first, first + nodes_of(el.kind.shape));
       block->numbers.push_back(queue.element_numbers[e]);
@@ -154,8 +135,8 @@ struct Builder {
   std::size_t set_of(const InpDeck::Item& item, SetKind kind, const std::string& name) const {
     const auto found = set_index.find({upper(name), kind});
     if (found == set_index.end())
-      queue.text.reject(item.place, "there is no ", kind == SetKind::node ? "node" : "element",
-                       " set \"", name, "\"; define it, or correct the name");
+      queue.text.reject(item.place, "there is no ", kind == SetKind::node ? "node" : "element", " set \"", name,
+                        "\"; define it, or correct the name");
     return found->second;
   }
 
@@ -167,17 +148,16 @@ struct Builder {
     if (is_new) {
       if (++depth > most_depth)
         queue.text.reject(set.place, "the set \"", set.name, "\" is named by sets that are named by sets, more than ", most_depth,
-                         " times over; name it directly");
+                          " times over; name it directly");
       for (const InpDeck::Item& item : set.items) add_members(item, set, m.places);
       drop_repeated(m.places);
       m.whole = true;
       --depth;
       if ((total += m.places.size()) > most_members)
         queue.text.reject(set.place, "the sets up to \"", set.name, "\" have more than ", most_members,
-                         " members; leave sets out that are not needed");
+                          " members; leave sets out that are not needed");
     }
-    if (!m.whole)
-      queue.text.reject(set.place, "the set \"", set.name, "\" contains itself; leave that out");
+    if (!m.whole) queue.text.reject(set.place, "the set \"", set.name, "\" contains itself; leave that out");
     return m.places;
   }
 
@@ -186,8 +166,7 @@ struct Builder {
     const NumberIndex& index = node ? node_index : element_index;
     if (item.label == "ELSET") {
       for (const int e : members(set_of(item, SetKind::element, item.name)))
-        for (int k = 0; k < nodes_of(element(e).kind.shape); ++k)
-          out.push_back(corner(element(e), k));
+        for (int k = 0; k < nodes_of(element(e).kind.shape); ++k) out.push_back(corner(element(e), k));
     } else if (!item.name.empty()) {
       const std::vector<int>& more = members(set_of(item, set.kind, item.name));
       out.insert(out.end(), more.begin(), more.end());
@@ -196,8 +175,8 @@ struct Builder {
     } else {
       const int at = index.find(item.number);
       if (at < 0)
-        queue.text.reject(item.place, "the set \"", set.name, "\" names ",
-                         node ? "node " : "element ", item.number, ", which is not defined");
+        queue.text.reject(item.place, "the set \"", set.name, "\" names ", node ? "node " : "element ", item.number,
+                          ", which is not defined");
       out.push_back(at);
     }
   }
@@ -210,17 +189,14 @@ struct Builder {
   // Which side of the element a surface's label means: 0 to 3, −1 for all free ones.
   int side_of(const InpDeck::Item& item, const InpDeck::Element& e) const {
     if (item.label.empty()) return -1;
-    const int number = item.label.size() == 2 ? item.label[1] - '0' : 0,
-              corners = corners_of(e.kind.shape);
+    const int number = item.label.size() == 2 ? item.label[1] - '0' : 0, corners = corners_of(e.kind.shape);
     int side = -1;
     if (item.label[0] == 'E' && e.kind.shell) side = number - 1;
     if (item.label[0] == 'S') side = e.kind.shell ? number - 3 : number - 1;
     if (side < 0 || side >= corners)
-      queue.text.reject(item.place, "\"", item.label, "\" is no side of ",
-                       e.kind.shell ? "a shell" : "an element", " with ", corners,
-                       " corners; its sides are ", e.kind.shell ? "E1" : "S1", " to ",
-                       e.kind.shell ? "E" : "S", corners,
-                       e.kind.shell ? " (S1 and S2 are its faces)" : "");
+      queue.text.reject(item.place, "\"", item.label, "\" is no side of ", e.kind.shell ? "a shell" : "an element", " with ", corners,
+                        " corners; its sides are ", e.kind.shell ? "E1" : "S1", " to ", e.kind.shell ? "E" : "S", corners,
+                        e.kind.shell ? " (S1 and S2 are its faces)" : "");
     return side;
   }
 
@@ -235,9 +211,7 @@ struct Builder {
       const std::vector<int> elements = [&] {
         if (!item.name.empty()) return members(set_of(item, SetKind::element, item.name));
         const int e = element_index.find(item.number);
-        if (e < 0)
-          queue.text.reject(item.place, "the surface \"", set.name, "\" names element ", item.number,
-                           ", which is not defined");
+        if (e < 0) queue.text.reject(item.place, "the surface \"", set.name, "\" names element ", item.number, ", which is not defined");
         return std::vector<int>{e};
       }();
       for (const int e : elements) {
@@ -255,7 +229,8 @@ struct Builder {
   std::vector<std::pair<int, int>> plane_sides() const {
     std::vector<std::pair<int, int>> sides;
     for (const InpDeck::Element& e : queue.elements)
-      for (int k = 0, n = corners_of(e.kind.shape); is_plane(e) && k < n; ++k) sides.emplace_back(std::minmax(corner(e, k), corner(e, (k + 1) % n)));
+      for (int k = 0, n = corners_of(e.kind.shape); is_plane(e) && k < n; ++k)
+        sides.emplace_back(std::minmax(corner(e, k), corner(e, (k + 1) % n)));
     std::sort(sides.begin(), sides.end());
     return sides;
   }
@@ -268,7 +243,8 @@ struct Builder {
               return found == set_index.end() ? std::vector<int>{} : members(found->second);
             },
             [this, sides = lines ? plane_sides() : std::vector<std::pair<int, int>>{}](int e) {
-              return std::binary_search(sides.begin(), sides.end(), std::pair<int, int>(std::minmax(corner(element(e), 0), corner(element(e), 1))));
+              return std::binary_search(sides.begin(), sides.end(),
+                                        std::pair<int, int>(std::minmax(corner(element(e), 0), corner(element(e), 1))));
             }};
   }
 
@@ -279,8 +255,7 @@ struct Builder {
   }
 
   void groups(Mesh& mesh, const Rim& rim) {
-    for (std::size_t s = 0; s < queue.sets.size(); ++s)
-      set_index[{upper(queue.sets[s].name), queue.sets[s].kind}] = s;
+    for (std::size_t s = 0; s < queue.sets.size(); ++s) set_index[{upper(queue.sets[s].name), queue.sets[s].kind}] = s;
     for (std::size_t s = 0; s < queue.sets.size(); ++s) {
       const InpDeck::Set& set = queue.sets[s];
       Group& group = group_named(mesh, set.name);
@@ -307,12 +282,10 @@ struct Builder {
 
 Mesh read_inp(const std::filesystem::path& path, double scale, const std::filesystem::path& folder, InpClaims* claims) {
   if (!(scale > 0) || !std::isfinite(scale))
-    throw std::invalid_argument(path.string() + ": scale = " + std::to_string(scale) +
-                                ", must be positive: m per unit of the file");
+    throw std::invalid_argument(path.string() + ": scale = " + std::to_string(scale) + ", must be positive: m per unit of the file");
   const InpDeck queue = read_inp_deck(path, folder.empty() ? path.parent_path() : folder);
   if (queue.elements.empty())
-    throw std::invalid_argument(
-        path.string() + ": no *ELEMENT in it; it needs plane elements or beams between its nodes");
+    throw std::invalid_argument(path.string() + ": no *ELEMENT in it; it needs plane elements or beams between its nodes");
   Builder builder{queue};
   builder.check_numbers();
   builder.look_up_nodes();

@@ -10,14 +10,14 @@ namespace pintle {
 namespace {
 
 enum class Meaning {
-  none,      ///< no part of the body: output, steps
-  model,     ///< read elsewhere, or below
-  load,      ///< supports and loads
-  law,       ///< of a material, beyond linear elasticity
-  axes,      ///< of a material
+  none,   ///< no part of the body: output, steps
+  model,  ///< read elsewhere, or below
+  load,   ///< supports and loads
+  law,    ///< of a material, beyond linear elasticity
+  axes,   ///< of a material
   contact,
-  spider,    ///< moves a rim with a reference node
-  part,      ///< makes another body: refused
+  spider,  ///< moves a rim with a reference node
+  part,    ///< makes another body: refused
 };
 
 struct Keyword {
@@ -27,34 +27,139 @@ struct Keyword {
 const std::vector<Keyword>& keywords() {
   static const std::vector<Keyword> all{
       {Meaning::model,
-       {"NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "PART", "INSTANCE", "MATERIAL", "ELASTIC", "DENSITY", "SOLID SECTION", "SHELL SECTION",
-        "MEMBRANE SECTION", "BEAM SECTION", "BEAM GENERAL SECTION", "FRAME SECTION"}},
+       {"NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "PART", "INSTANCE", "MATERIAL", "ELASTIC", "DENSITY", "SOLID SECTION",
+        "SHELL SECTION", "MEMBRANE SECTION", "BEAM SECTION", "BEAM GENERAL SECTION", "FRAME SECTION"}},
       {Meaning::none,
-       {"HEADING", "PREPRINT", "END PART", "END INSTANCE", "ASSEMBLY", "END ASSEMBLY", "STEP", "END STEP", "NODE PRINT", "NODE FILE", "NODE OUTPUT",
-        "EL PRINT", "EL FILE", "ELEMENT OUTPUT", "OUTPUT", "CONTACT PRINT", "CONTACT FILE", "CONTACT OUTPUT", "ENERGY PRINT", "ENERGY FILE",
-        "ENERGY OUTPUT", "SECTION PRINT", "SECTION FILE", "MODAL FILE", "MODAL OUTPUT", "MONITOR", "RESTART", "FILE FORMAT", "PRINT", "TIME POINTS",
-        "FILTER", "PHYSICAL CONSTANTS", "STATIC", "FREQUENCY", "DYNAMIC", "MODAL DYNAMIC", "STEADY STATE DYNAMICS", "COMPLEX FREQUENCY", "BUCKLE",
-        "VISCO", "HEAT TRANSFER", "COUPLED TEMPERATURE-DISPLACEMENT", "UNCOUPLED TEMPERATURE-DISPLACEMENT", "RANDOM RESPONSE", "RESPONSE SPECTRUM",
-        "NO ANALYSIS", "GREEN", "SENSITIVITY", "AMPLITUDE", "CONTROLS", "SOLVER", "SOLUTION TECHNIQUE", "EXPANSION", "CONDUCTIVITY", "SPECIFIC HEAT",
-        "SELECT CYCLIC SYMMETRY MODES", "OUTPUT HISTORY", "CFLUX", "DFLUX", "FILM", "RADIATE", "CHANGE MATERIAL", "HOURGLASS STIFFNESS",
-        "SECTION CONTROLS", "TRANSVERSE SHEAR STIFFNESS", "DISTRIBUTION TABLE"}},
+       {"HEADING",
+        "PREPRINT",
+        "END PART",
+        "END INSTANCE",
+        "ASSEMBLY",
+        "END ASSEMBLY",
+        "STEP",
+        "END STEP",
+        "NODE PRINT",
+        "NODE FILE",
+        "NODE OUTPUT",
+        "EL PRINT",
+        "EL FILE",
+        "ELEMENT OUTPUT",
+        "OUTPUT",
+        "CONTACT PRINT",
+        "CONTACT FILE",
+        "CONTACT OUTPUT",
+        "ENERGY PRINT",
+        "ENERGY FILE",
+        "ENERGY OUTPUT",
+        "SECTION PRINT",
+        "SECTION FILE",
+        "MODAL FILE",
+        "MODAL OUTPUT",
+        "MONITOR",
+        "RESTART",
+        "FILE FORMAT",
+        "PRINT",
+        "TIME POINTS",
+        "FILTER",
+        "PHYSICAL CONSTANTS",
+        "STATIC",
+        "FREQUENCY",
+        "DYNAMIC",
+        "MODAL DYNAMIC",
+        "STEADY STATE DYNAMICS",
+        "COMPLEX FREQUENCY",
+        "BUCKLE",
+        "VISCO",
+        "HEAT TRANSFER",
+        "COUPLED TEMPERATURE-DISPLACEMENT",
+        "UNCOUPLED TEMPERATURE-DISPLACEMENT",
+        "RANDOM RESPONSE",
+        "RESPONSE SPECTRUM",
+        "NO ANALYSIS",
+        "GREEN",
+        "SENSITIVITY",
+        "AMPLITUDE",
+        "CONTROLS",
+        "SOLVER",
+        "SOLUTION TECHNIQUE",
+        "EXPANSION",
+        "CONDUCTIVITY",
+        "SPECIFIC HEAT",
+        "SELECT CYCLIC SYMMETRY MODES",
+        "OUTPUT HISTORY",
+        "CFLUX",
+        "DFLUX",
+        "FILM",
+        "RADIATE",
+        "CHANGE MATERIAL",
+        "HOURGLASS STIFFNESS",
+        "SECTION CONTROLS",
+        "TRANSVERSE SHEAR STIFFNESS",
+        "DISTRIBUTION TABLE"}},
       {Meaning::load,
-       {"BOUNDARY", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE", "INITIAL CONDITIONS", "BASE MOTION", "TRANSFORM", "FIELD", "PREDEFINED FIELD",
-        "INERTIA RELIEF", "BOUNDARY CHANGE", "LOAD CASE", "END LOAD CASE", "CONNECTOR MOTION", "CONNECTOR LOAD", "MODAL DAMPING"}},
+       {"BOUNDARY", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE", "INITIAL CONDITIONS", "BASE MOTION", "TRANSFORM", "FIELD",
+        "PREDEFINED FIELD", "INERTIA RELIEF", "BOUNDARY CHANGE", "LOAD CASE", "END LOAD CASE", "CONNECTOR MOTION", "CONNECTOR LOAD",
+        "MODAL DAMPING"}},
       {Meaning::law,
-       {"PLASTIC", "CYCLIC HARDENING", "CREEP", "HYPERELASTIC", "HYPERFOAM", "VISCOELASTIC", "DAMPING", "USER MATERIAL", "DEPVAR",
-        "DEFORMATION PLASTICITY", "MOHR COULOMB", "DRUCKER PRAGER", "CONCRETE", "DAMAGE INITIATION", "DAMAGE EVOLUTION", "RATE DEPENDENT",
-        "NO COMPRESSION", "NO TENSION", "FAIL STRESS", "FAIL STRAIN"}},
+       {"PLASTIC",
+        "CYCLIC HARDENING",
+        "CREEP",
+        "HYPERELASTIC",
+        "HYPERFOAM",
+        "VISCOELASTIC",
+        "DAMPING",
+        "USER MATERIAL",
+        "DEPVAR",
+        "DEFORMATION PLASTICITY",
+        "MOHR COULOMB",
+        "DRUCKER PRAGER",
+        "CONCRETE",
+        "DAMAGE INITIATION",
+        "DAMAGE EVOLUTION",
+        "RATE DEPENDENT",
+        "NO COMPRESSION",
+        "NO TENSION",
+        "FAIL STRESS",
+        "FAIL STRAIN"}},
       {Meaning::axes, {"ORIENTATION", "DISTRIBUTION"}},
       {Meaning::contact,
-       {"CONTACT", "CONTACT PAIR", "CONTACT INCLUSIONS", "CONTACT EXCLUSIONS", "CONTACT PROPERTY ASSIGNMENT", "CONTACT DAMPING", "CLEARANCE",
-        "SURFACE INTERACTION", "SURFACE BEHAVIOR", "FRICTION", "GAP CONDUCTANCE", "CONTACT CONTROLS", "CHANGE FRICTION"}},
+       {"CONTACT", "CONTACT PAIR", "CONTACT INCLUSIONS", "CONTACT EXCLUSIONS", "CONTACT PROPERTY ASSIGNMENT", "CONTACT DAMPING",
+        "CLEARANCE", "SURFACE INTERACTION", "SURFACE BEHAVIOR", "FRICTION", "GAP CONDUCTANCE", "CONTACT CONTROLS", "CHANGE FRICTION"}},
       {Meaning::spider, {"COUPLING", "KINEMATIC", "DISTRIBUTING", "KINEMATIC COUPLING", "DISTRIBUTING COUPLING"}},
       {Meaning::part,
-       {"EQUATION", "MPC", "NODAL THICKNESS", "TIE", "EMBEDDED ELEMENT", "EMBEDDED REGION", "SHELL TO SOLID COUPLING", "CYCLIC SYMMETRY MODEL",
-        "PRE-TENSION SECTION", "SUBMODEL", "SUBSTRUCTURE PROPERTY", "SUPER ELEMENT", "MATRIX INPUT", "MATRIX ASSEMBLE", "FASTENER",
-        "CONNECTOR SECTION", "SPRING", "DASHPOT", "GAP", "MASS", "ROTARY INERTIA", "NONSTRUCTURAL MASS", "IMPERFECTION", "MODEL CHANGE", "RELEASE",
-        "COHESIVE SECTION", "GASKET SECTION", "REBAR", "REBAR LAYER", "USER ELEMENT", "DISPLAY BODY", "RETAINED NODAL DOFS", "MULTI-POINT"}},
+       {"EQUATION",
+        "MPC",
+        "NODAL THICKNESS",
+        "TIE",
+        "EMBEDDED ELEMENT",
+        "EMBEDDED REGION",
+        "SHELL TO SOLID COUPLING",
+        "CYCLIC SYMMETRY MODEL",
+        "PRE-TENSION SECTION",
+        "SUBMODEL",
+        "SUBSTRUCTURE PROPERTY",
+        "SUPER ELEMENT",
+        "MATRIX INPUT",
+        "MATRIX ASSEMBLE",
+        "FASTENER",
+        "CONNECTOR SECTION",
+        "SPRING",
+        "DASHPOT",
+        "GAP",
+        "MASS",
+        "ROTARY INERTIA",
+        "NONSTRUCTURAL MASS",
+        "IMPERFECTION",
+        "MODEL CHANGE",
+        "RELEASE",
+        "COHESIVE SECTION",
+        "GASKET SECTION",
+        "REBAR",
+        "REBAR LAYER",
+        "USER ELEMENT",
+        "DISPLAY BODY",
+        "RETAINED NODAL DOFS",
+        "MULTI-POINT"}},
   };
   return all;
 }
@@ -82,16 +187,17 @@ struct Reading {
   }
   static bool known(const InpCard& card) {
     if (card.keyword == "RIGID BODY" || card.keyword.empty()) return true;
-    return std::any_of(keywords().begin(), keywords().end(), [&](const Keyword& k) {
-      return std::find(k.names.begin(), k.names.end(), card.keyword) != k.names.end();
-    });
+    return std::any_of(keywords().begin(), keywords().end(),
+                       [&](const Keyword& k) { return std::find(k.names.begin(), k.names.end(), card.keyword) != k.names.end(); });
   }
 
   [[noreturn]] void reject_part(const InpCard& card) const {
     const bool ties = card.keyword == "TIE" || card.keyword == "EQUATION" || card.keyword == "MPC" || card.keyword.starts_with("EMBEDDED");
-    queue.text.reject(card.place, "*", card.keyword, ties ? " ties nodes to each other, which is not read, and the body would come apart there: mesh the parts with shared nodes"
-                                                         : " makes another body than its plane elements alone, which is not read: describe it in the scene (lumps, "
-                                                           "joints, forces, points of holes) and leave it out here");
+    queue.text.reject(
+        card.place, "*", card.keyword,
+        ties ? " ties nodes to each other, which is not read, and the body would come apart there: mesh the parts with shared nodes"
+             : " makes another body than its plane elements alone, which is not read: describe it in the scene (lumps, "
+               "joints, forces, points of holes) and leave it out here");
   }
 
   std::vector<double> numbers(const InpDeck::Other& other) const {
@@ -110,14 +216,16 @@ struct Reading {
     const std::string* material = card.find("MATERIAL");
     if (material) section_of.try_emplace(upper(*material), *material + " (" + where(card.place) + ")");
     for (const char* word : {"COMPOSITE", "NODAL THICKNESS", "OFFSET"})
-      if (card.find(word)) say(where(card.place) + ": " + word + " of *" + card.keyword + " is not read; the body is of one thickness and one layer, those of the scene");
+      if (card.find(word))
+        say(where(card.place) + ": " + word + " of *" + card.keyword +
+            " is not read; the body is of one thickness and one layer, those of the scene");
     if (card.find("ORIENTATION")) seen_once(Meaning::axes, "ORIENTATION of *" + card.keyword, card.place);
     const std::vector<int> members = set ? elements.of_set(*set) : std::vector<int>{};
     const bool lines = !members.empty() && std::all_of(members.begin(), members.end(), [&](int e) { return !plane(e); });
     if (lines && has_plane())
       queue.text.reject(card.place, "*", card.keyword, " makes the ", members.size(), " line elements of \"", *set,
-                       "\" bars or beams of their own beside the plane elements; only plane elements are read of such a file: leave "
-                       "them out, mesh them as plane elements, or make them bodies of the scene");
+                        "\" bars or beams of their own beside the plane elements; only plane elements are read of such a file: leave "
+                        "them out, mesh them as plane elements, or make them bodies of the scene");
     const bool thick = card.keyword == "SOLID SECTION" || card.keyword == "SHELL SECTION" || card.keyword == "MEMBRANE SECTION";
     if (!thick || lines || card.find("COMPOSITE")) return;
     if (const std::vector<double> data = numbers(other); !data.empty()) claims.thickness.push_back({data[0], where(card.place)});
@@ -125,7 +233,8 @@ struct Reading {
 
   bool plane(int e) const { return corners_of(queue.elements[static_cast<std::size_t>(e)].kind.shape) > 2; }
   bool has_plane() const {
-    return std::any_of(queue.elements.begin(), queue.elements.end(), [](const InpDeck::Element& e) { return corners_of(e.kind.shape) > 2; });
+    return std::any_of(queue.elements.begin(), queue.elements.end(),
+                       [](const InpDeck::Element& e) { return corners_of(e.kind.shape) > 2; });
   }
 
   void seen_once(Meaning what, const std::string& keyword, InpPlace place) {
@@ -165,7 +274,7 @@ struct Reading {
     }
     if (strained && stressed)
       queue.text.reject(strained->place, "this element is of plane strain (CPE), but that of line ", stressed->place.line,
-                       " is not; a body is of one kind: name them all CPS or all CPE");
+                        " is not; a body is of one kind: name them all CPS or all CPE");
     if (strained) claims.strain = where(strained->place);
   }
 
@@ -175,16 +284,18 @@ struct Reading {
     for (std::size_t e = 0; e < queue.elements.size(); ++e)
       if (!plane(static_cast<int>(e)) && !elements.along_side(static_cast<int>(e)) && count++ == 0) first = static_cast<int>(e);
     if (count > 0)
-      say(where(queue.elements[static_cast<std::size_t>(first)].place) + ": element " + std::to_string(queue.element_numbers[static_cast<std::size_t>(first)]) +
-          " is a line along no side of a plane element and is left out" + (count > 1 ? ", and so are " + std::to_string(count - 1) + " more" : "") +
-          "; bars and beams belong into a body of their own");
+      say(where(queue.elements[static_cast<std::size_t>(first)].place) + ": element " +
+          std::to_string(queue.element_numbers[static_cast<std::size_t>(first)]) +
+          " is a line along no side of a plane element and is left out" +
+          (count > 1 ? ", and so are " + std::to_string(count - 1) + " more" : "") + "; bars and beams belong into a body of their own");
   }
 
   void tell(Meaning what, const std::string& rest) {
     const auto found = seen.find(what);
     if (found == seen.end()) return;
     std::string list;
-    for (std::size_t k = 0; k < found->second.size(); ++k) list += (k == 0 ? "" : k + 1 == found->second.size() ? " and " : ", ") + found->second[k];
+    for (std::size_t k = 0; k < found->second.size(); ++k)
+      list += (k == 0 ? "" : k + 1 == found->second.size() ? " and " : ", ") + found->second[k];
     say(list + rest);
   }
 

@@ -12,7 +12,7 @@ namespace pintle {
 /// What the Builder of a deck's mesh knows of its elements.
 struct InpElements {
   std::function<std::vector<int>(const std::string& set)> of_set;  ///< places in InpDeck::elements; empty if there is no such set
-  std::function<bool(int element)> along_side;  ///< a line lies along a side of a plane element
+  std::function<bool(int element)> along_side;                     ///< a line lies along a side of a plane element
 };
 
 /// Goes through the cards that are no mesh: what they say of the body, what is passed over.

@@ -31,24 +31,21 @@ struct Parser {
 
   const std::string& required(const InpCard& card, const char* name) {
     const std::string* value = card.find(name);
-    if (!value || value->empty())
-      queue.text.reject(card.place, "*", card.keyword, " without ", name, "=; add it");
+    if (!value || value->empty()) queue.text.reject(card.place, "*", card.keyword, " without ", name, "=; add it");
     return *value;
   }
 
   long whole(std::string_view field, InpPlace place, const char* what) {
     long value = 0;
     if (!to_number(field, value) || value < 1)
-      queue.text.reject(place, "\"", field, "\" is no ", what,
-                       "; a whole number from 1 belongs here");
+      queue.text.reject(place, "\"", field, "\" is no ", what, "; a whole number from 1 belongs here");
     return value;
   }
 
   void nodes(const InpCard& card) {
     for (const char* unread : {"INPUT", "SYSTEM"})
       if (const std::string* value = card.find(unread); value && *value != "R")
-        queue.text.reject(card.place, "*NODE with ", unread, "=", *value,
-                         " is not read; write the nodes here, in rectangular coordinates");
+        queue.text.reject(card.place, "*NODE with ", unread, "=", *value, " is not read; write the nodes here, in rectangular coordinates");
     const std::string* name = card.find("NSET");
     for (; data(); ++at) {
       const auto& [text, place] = lines[at];
@@ -62,14 +59,11 @@ struct Parser {
           queue.text.reject(place, "node ", number, ": \"", field, "\" is no coordinate");
       }
       if (std::abs(x[2]) > 1e-6 * std::max({1e-6, std::abs(x[0]), std::abs(x[1])}))
-        queue.text.reject(place, "node ", number, " is at z = ", x[2],
-                         "; the mesh must lie in the plane z = 0");
+        queue.text.reject(place, "node ", number, " is at z = ", x[2], "; the mesh must lie in the plane z = 0");
       queue.node_numbers.push_back(number);
       queue.node_places.push_back(place);
       queue.x.push_back(x[0]), queue.y.push_back(x[1]);
-      if (name)
-        set(*name, InpDeck::SetKind::node, card.place)
-            .items.push_back({number, {}, place, 0, 0, {}});
+      if (name) set(*name, InpDeck::SetKind::node, card.place).items.push_back({number, {}, place, 0, 0, {}});
     }
   }
 
@@ -91,21 +85,16 @@ struct Parser {
           queue.element_nodes.push_back(whole(field, lines[at].place, "node number"));
           ++k;
         } else if (++at; !data()) {
-          queue.text.reject(place, "element ", number, " of type ", type, " has ", k,
-                           " nodes, must have ", n);
+          queue.text.reject(place, "element ", number, " of type ", type, " has ", k, " nodes, must have ", n);
         } else {
           rest = lines[at].text;
         }
       }
-      if (next_field(rest, field))
-        queue.text.reject(place, "element ", number, " of type ", type, " has more than its ", n,
-                         " nodes");
+      if (next_field(rest, field)) queue.text.reject(place, "element ", number, " of type ", type, " has more than its ", n, " nodes");
       ++at;
       queue.element_numbers.push_back(number);
       queue.elements.push_back({*kind, first, place});
-      if (name)
-        set(*name, InpDeck::SetKind::element, card.place)
-            .items.push_back({number, {}, place, 0, 0, {}});
+      if (name) set(*name, InpDeck::SetKind::element, card.place).items.push_back({number, {}, place, 0, 0, {}});
     }
   }
 
@@ -115,16 +104,14 @@ struct Parser {
     std::array<long, 3> range{0, 0, 1};
     std::size_t k = 0;
     for (; k < 3 && next_field(rest, field); ++k) range[k] = whole(field, place, "number");
-    if (k < 2 || range[1] < range[0])
-      queue.text.reject(place, "GENERATE needs first, last and step, last not before first");
+    if (k < 2 || range[1] < range[0]) queue.text.reject(place, "GENERATE needs first, last and step, last not before first");
     s.items.push_back({range[0], {}, place, range[1], range[2], {}});
   }
 
   void set_card(const InpCard& card, InpDeck::SetKind kind) {
     const bool node = kind == InpDeck::SetKind::node;
     InpDeck::Set& s = set(required(card, node ? "NSET" : "ELSET"), kind, card.place);
-    if (const std::string* of = node ? card.find("ELSET") : nullptr)
-      s.items.push_back({0, *of, card.place, 0, 0, "ELSET"});
+    if (const std::string* of = node ? card.find("ELSET") : nullptr) s.items.push_back({0, *of, card.place, 0, 0, "ELSET"});
     for (; data(); ++at) {
       if (card.find("GENERATE")) {
         generate(s);
@@ -143,14 +130,12 @@ struct Parser {
   void surface(const InpCard& card) {
     const std::string* type = card.find("TYPE");
     const std::string kind = type ? upper(*type) : "ELEMENT";
-    if (kind != "ELEMENT" &&
-        kind != "NODE") {  // cutting and analytical surfaces are no part of the mesh
+    if (kind != "ELEMENT" && kind != "NODE") {  // cutting and analytical surfaces are no part of the mesh
       while (data()) ++at;
       return;
     }
     const std::string& name = required(card, "NAME");
-    InpDeck::Set& s =
-        set(name, kind == "NODE" ? InpDeck::SetKind::node : InpDeck::SetKind::surface, card.place);
+    InpDeck::Set& s = set(name, kind == "NODE" ? InpDeck::SetKind::node : InpDeck::SetKind::surface, card.place);
     for (; data(); ++at) {
       std::string_view rest = lines[at].text, field;
       next_field(rest, field);
@@ -171,12 +156,12 @@ struct Parser {
   void part_card(const InpCard& card, bool& seen) {
     if (seen)
       queue.text.reject(card.place, "a second *", card.keyword, " after that of line ", part.line,
-                       "; a body is one part: write each to a file of its own");
+                        "; a body is one part: write each to a file of its own");
     seen = true, part = card.place;
     if (card.keyword == "INSTANCE" && data())
       queue.text.reject(lines[at].place,
-                       "this *INSTANCE is moved or turned; a body's axes are its part's: "
-                       "leave the line out and place the body in the scene");
+                        "this *INSTANCE is moved or turned; a body's axes are its part's: "
+                        "leave the line out and place the body in the scene");
   }
 
   void run() {
@@ -214,32 +199,24 @@ struct Parser {
 
 std::optional<CellShape> plane_shape(int nodes) {
   switch (nodes) {
-    case 3:
-      return CellShape::triangle3;
-    case 4:
-      return CellShape::quadrilateral4;
-    case 6:
-      return CellShape::triangle6;
-    case 8:
-      return CellShape::quadrilateral8;
-    case 9:
-      return CellShape::quadrilateral9;
-    default:
-      return std::nullopt;
+    case 3: return CellShape::triangle3;
+    case 4: return CellShape::quadrilateral4;
+    case 6: return CellShape::triangle6;
+    case 8: return CellShape::quadrilateral8;
+    case 9: return CellShape::quadrilateral9;
+    default: return std::nullopt;
   }
 }
 
 int digit(const std::string& text, std::size_t at) {
-  return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) ? text[at] - '0'
-                                                                                : -1;
+  return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) ? text[at] - '0' : -1;
 }
 
 }  // namespace
 
 std::optional<InpKind> inp_kind(const std::string& type, std::string& reason) {
   const auto starts = [&](std::string_view head) { return type.starts_with(head); };
-  if (starts("STRI"))
-    return InpKind{type == "STRI65" ? CellShape::triangle6 : CellShape::triangle3, true};
+  if (starts("STRI")) return InpKind{type == "STRI65" ? CellShape::triangle6 : CellShape::triangle3, true};
   for (const char* head : {"CPS", "CPE", "C2D", "M3D"})
     if (starts(head))
       if (const auto shape = plane_shape(digit(type, 3))) return InpKind{*shape, false, starts("CPE")};
@@ -247,8 +224,7 @@ std::optional<InpKind> inp_kind(const std::string& type, std::string& reason) {
     if (const auto shape = plane_shape(digit(type, 1))) return InpKind{*shape, true};
   if ((starts("T2D") || starts("T3D")) && (digit(type, 3) == 2 || digit(type, 3) == 3))
     return InpKind{digit(type, 3) == 2 ? CellShape::line2 : CellShape::line3, false};
-  if (starts("B") && (digit(type, 1) == 2 || digit(type, 1) == 3) && digit(type, 2) >= 1 &&
-      digit(type, 2) <= 3)
+  if (starts("B") && (digit(type, 1) == 2 || digit(type, 1) == 3) && digit(type, 2) >= 1 && digit(type, 2) <= 3)
     return InpKind{digit(type, 2) == 2 ? CellShape::line3 : CellShape::line2, false};
   if (starts("CAX") || starts("SAX") || starts("MAX") || starts("CGAX"))
     reason = "is axisymmetric: a ring, not a plane body; mesh it with CPS or CPE elements";

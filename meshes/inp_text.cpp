@@ -65,8 +65,7 @@ struct Reader {
   void include(std::string_view text, InpPlace place) {
     const InpCard card = inp_card(text, place);
     const std::string* input = card.find("INPUT");
-    if (!input || input->empty())
-      out.reject(place, "*INCLUDE names no file; write *INCLUDE, INPUT=file");
+    if (!input || input->empty()) out.reject(place, "*INCLUDE names no file; write *INCLUDE, INPUT=file");
     const fs::path beside = out.files[static_cast<std::size_t>(place.file)].parent_path();
     fs::path path;
     try {
@@ -76,8 +75,7 @@ struct Reader {
     }
     if (std::find(open.begin(), open.end(), fs::weakly_canonical(path)) != open.end())
       out.reject(place, "*INCLUDE of ", *input, ", which is just being read; leave it out");
-    if (!fs::exists(path))
-      out.reject(place, "*INCLUDE of ", *input, ": there is no file ", path.string());
+    if (!fs::exists(path)) out.reject(place, "*INCLUDE of ", *input, ": there is no file ", path.string());
     if (out.files.size() >= most_files)
       out.reject(place, "*INCLUDE of ", *input, ": more than ", most_files, " files are included; put them together");
     read(path);
@@ -87,8 +85,7 @@ struct Reader {
 }  // namespace
 
 void InpText::fail(InpPlace at, const std::string& what) const {
-  throw std::invalid_argument(files[static_cast<std::size_t>(at.file)].string() + ":" +
-                              std::to_string(at.line) + ": " + what);
+  throw std::invalid_argument(files[static_cast<std::size_t>(at.file)].string() + ":" + std::to_string(at.line) + ": " + what);
 }
 
 InpText read_inp_text(const fs::path& path, const fs::path& folder) {
@@ -109,17 +106,13 @@ InpCard inp_card(std::string_view line, InpPlace place) {
   while (next_field(rest, field)) {
     const std::size_t equals = field.find('=');
     std::string key = upper(trimmed(field.substr(0, equals)));
-    key.erase(
-        std::unique(key.begin(), key.end(), [](char a, char b) { return a == ' ' && b == ' '; }),
-        key.end());
+    key.erase(std::unique(key.begin(), key.end(), [](char a, char b) { return a == ' ' && b == ' '; }), key.end());
     if (card.keyword.empty()) {
       card.keyword = key;
       continue;
     }
-    std::string_view value =
-        equals == field.npos ? std::string_view{} : trimmed(field.substr(equals + 1));
-    if (value.size() > 1 && value.front() == '"' && value.back() == '"')
-      value = value.substr(1, value.size() - 2);
+    std::string_view value = equals == field.npos ? std::string_view{} : trimmed(field.substr(equals + 1));
+    if (value.size() > 1 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
     card.parameters.emplace_back(std::move(key), value);
   }
   return card;
@@ -155,8 +148,7 @@ bool to_number(std::string_view field, long& value) {
 bool to_number(std::string_view field, double& value) {
   if (field.starts_with('+')) field.remove_prefix(1);
   std::array<char, 64> copy{};
-  if (const std::size_t d = field.find_first_of("dD");
-      d != field.npos && field.size() < copy.size()) {
+  if (const std::size_t d = field.find_first_of("dD"); d != field.npos && field.size() < copy.size()) {
     std::copy(field.begin(), field.end(), copy.begin());
     copy[d] = 'e';
     field = {copy.data(), field.size()};

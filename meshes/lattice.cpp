@@ -32,18 +32,15 @@ void add_field(const Grid& g, Mesh& mesh, int i, int j, Cells& cells) {
     cells.numbers.push_back(static_cast<long>(cells.size()) + 1);
   };
   if (h == 0 && corners_of(cells.shape) == 4) return add({c[0], c[1], c[2], c[3]});
-  const bool falls = (mesh.x.col(c[1]) - mesh.x.col(c[3])).norm() <
-                     (1 - 1e-9) * (mesh.x.col(c[0]) - mesh.x.col(c[2])).norm();
+  const bool falls = (mesh.x.col(c[1]) - mesh.x.col(c[3])).norm() < (1 - 1e-9) * (mesh.x.col(c[0]) - mesh.x.col(c[2])).norm();
   if (h == 0) {
     add({c[0], c[1], falls ? c[3] : c[2]});
     return add({c[2], c[3], falls ? c[1] : c[0]});
   }
   const int m[] = {g.node(i + h, j), g.node(i + p, j + h), g.node(i + h, j + p), g.node(i, j + h)};
   const int centre = g.node(i + h, j + h);
-  if (cells.shape == CellShape::quadrilateral8)
-    return add({c[0], c[1], c[2], c[3], m[0], m[1], m[2], m[3]});
-  if (cells.shape == CellShape::quadrilateral9)
-    return add({c[0], c[1], c[2], c[3], m[0], m[1], m[2], m[3], centre});
+  if (cells.shape == CellShape::quadrilateral8) return add({c[0], c[1], c[2], c[3], m[0], m[1], m[2], m[3]});
+  if (cells.shape == CellShape::quadrilateral9) return add({c[0], c[1], c[2], c[3], m[0], m[1], m[2], m[3], centre});
   const int a = falls ? 1 : 0;
   mesh.x.col(centre) = (mesh.x.col(c[a]) + mesh.x.col(c[a + 2])) / 2;  // the cut is straight
   if (falls) {
@@ -61,10 +58,7 @@ void add_groups(const Grid& g, const std::array<std::string, 4>& names, Mesh& me
     Group group{names[s], {}, {}};
     const int n = s % 2 == 0 ? last_column : last_row;
     for (int k = 0; k <= n; ++k)
-      group.nodes.push_back(s == 0   ? g.node(k, 0)
-                            : s == 1 ? g.node(last_column, k)
-                            : s == 2 ? g.node(k, last_row)
-                                     : g.node(0, k));
+      group.nodes.push_back(s == 0 ? g.node(k, 0) : s == 1 ? g.node(last_column, k) : s == 2 ? g.node(k, last_row) : g.node(0, k));
     std::sort(group.nodes.begin(), group.nodes.end());
     group.nodes.erase(std::unique(group.nodes.begin(), group.nodes.end()), group.nodes.end());
     group.sides = sides_within(mesh, group.nodes);
@@ -75,15 +69,13 @@ void add_groups(const Grid& g, const std::array<std::string, 4>& names, Mesh& me
 }  // namespace
 
 Mesh lattice_mesh(const Lattice& lattice, CellShape shape) {
-  const int nx = static_cast<int>(lattice.u.size()) - 1,
-            ny = static_cast<int>(lattice.v.size()) - 1;
+  const int nx = static_cast<int>(lattice.u.size()) - 1, ny = static_cast<int>(lattice.v.size()) - 1;
   const Grid g{nx, ny, nodes_of(shape) > corners_of(shape) ? 2 : 1, lattice.closed};
   Mesh mesh;
   mesh.x.resize(2, g.columns() * g.rows());
   for (int j = 0; j < g.rows(); ++j)
     for (int i = 0; i < g.columns(); ++i)
-      mesh.x.col(g.node(i, j)) =
-          lattice.at(line(lattice.u, i, g.per_field), line(lattice.v, j, g.per_field));
+      mesh.x.col(g.node(i, j)) = lattice.at(line(lattice.u, i, g.per_field), line(lattice.v, j, g.per_field));
   mesh.node_numbers.resize(static_cast<std::size_t>(mesh.x.cols()));
   std::iota(mesh.node_numbers.begin(), mesh.node_numbers.end(), 1L);
   Cells cells{shape, {}, {}};

@@ -14,7 +14,7 @@ struct Lattice {
   std::vector<double> u, v;                           ///< ascending, two or more each
   std::function<Eigen::Vector2d(double, double)> at;  ///< keeps the sense of rotation
   bool closed = false;                                ///< the last u is the first again
-  std::array<std::string, 4> sides;  ///< groups along v low, u high, v high, u low; empty: none
+  std::array<std::string, 4> sides;                   ///< groups along v low, u high, v high, u low; empty: none
 };
 
 /// The lattice's fields as cells of `shape` (triangles: halves, cut along the shorter diagonal).

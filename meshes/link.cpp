@@ -14,8 +14,7 @@ using Eigen::Vector2d;
 using std::numbers::pi;
 
 void positive(const char* link, const char* what, double value) {
-  if (!(value > 0) || !std::isfinite(value))
-    reject(link, ": ", what, " = ", value, " m, must be positive");
+  if (!(value > 0) || !std::isfinite(value)) reject(link, ": ", what, " = ", value, " m, must be positive");
 }
 
 void validate_eye(const char* link, const char* which, const Eye& eye) {
@@ -23,16 +22,13 @@ void validate_eye(const char* link, const char* which, const Eye& eye) {
   positive(link, (name + "bore").c_str(), eye.bore);
   positive(link, (name + "outer").c_str(), eye.outer);
   if (!(eye.bore < eye.outer))
-    reject(link, ": ", name, "bore = ", eye.bore,
-           " m leaves no material inside outer = ", eye.outer, " m; the bore must be smaller");
+    reject(link, ": ", name, "bore = ", eye.bore, " m leaves no material inside outer = ", eye.outer, " m; the bore must be smaller");
 }
 
-void validate_apart(const char* link, const char* a, const char* b, double distance, double outer_a,
-                 double outer_b) {
+void validate_apart(const char* link, const char* a, const char* b, double distance, double outer_a, double outer_b) {
   if (!(distance > (outer_a + outer_b) / 2))
-    reject(link, ": ", a, " and ", b, " overlap: their centres are ", distance,
-           " m apart, their outer radii together are ", (outer_a + outer_b) / 2,
-           " m; move them apart or make them smaller");
+    reject(link, ": ", a, " and ", b, " overlap: their centres are ", distance, " m apart, their outer radii together are ",
+           (outer_a + outer_b) / 2, " m; move them apart or make them smaller");
 }
 
 /// The three eyes as a loop runs round them, counter-clockwise.
@@ -50,9 +46,7 @@ Vector2d tangent_normal(const Triangle& t, int i, int j) {
   return cosine * e + std::sqrt(1 - cosine * cosine) * right;
 }
 
-double angle_of(const Vector2d& v) {
-  return std::atan2(v.y(), v.x());
-}
+double angle_of(const Vector2d& v) { return std::atan2(v.y(), v.x()); }
 Vector2d on_circle(const Vector2d& center, double radius, double angle) {
   return center + radius * Vector2d(std::cos(angle), std::sin(angle));
 }
@@ -76,8 +70,7 @@ struct Judge {
     positive("disc", "diameter", l.diameter);
     positive("disc", "bore", l.bore);
     if (!(l.bore < l.diameter))
-      reject("disc: bore = ", l.bore, " m leaves no material inside diameter = ", l.diameter,
-             " m; the bore must be smaller");
+      reject("disc: bore = ", l.bore, " m leaves no material inside diameter = ", l.diameter, " m; the bore must be smaller");
   }
   void operator()(const EyeBar& l) const {
     const char* link = "bar with two eyes";
@@ -88,8 +81,7 @@ struct Judge {
     validate_apart(link, "the first eye", "the second", l.length, l.first.outer, l.second.outer);
     for (const Eye& eye : {l.first, l.second})
       if (l.width > eye.outer)
-        reject(link, ": width = ", l.width,
-               " m, must be at most the outer diameter of either eye, ", eye.outer,
+        reject(link, ": width = ", l.width, " m, must be at most the outer diameter of either eye, ", eye.outer,
                " m; for a plain plate with holes bring a drawing");
   }
   void operator()(const Triangle& l) const {
@@ -101,31 +93,27 @@ struct Judge {
     }
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
-      validate_apart(link, names[i], names[j], (l.center[i] - l.center[j]).norm(), l.eye[i].outer,
-                  l.eye[j].outer);
+      validate_apart(link, names[i], names[j], (l.center[i] - l.center[j]).norm(), l.eye[i].outer, l.eye[j].outer);
     }
     const auto order = turn_order(l);
     double turn = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const int before = order[(k + 2) % 3], at = order[k], after = order[(k + 1) % 3];
-      const double arc =
-          sweep(angle_of(tangent_normal(l, before, at)), angle_of(tangent_normal(l, at, after)));
+      const double arc = sweep(angle_of(tangent_normal(l, before, at)), angle_of(tangent_normal(l, at, after)));
       turn += arc;
       if (arc < 1e-3 || arc > 2 * pi - 1e-3 || turn > 2 * pi + 1e-6)
-        reject(link, ": an eye does not reach the outline round the other two (centres (",
-               l.center[0].x(), ", ", l.center[0].y(), "), (", l.center[1].x(), ", ",
-               l.center[1].y(), "), (", l.center[2].x(), ", ", l.center[2].y(),
+        reject(link, ": an eye does not reach the outline round the other two (centres (", l.center[0].x(), ", ", l.center[0].y(), "), (",
+               l.center[1].x(), ", ", l.center[1].y(), "), (", l.center[2].x(), ", ", l.center[2].y(),
                ") m); move it outwards, make it larger, or bring a drawing");
     }
   }
 };
 
-void add_arc(Loop& loop, const Vector2d& center, double radius, double from, double turn,
-             const std::string& name) {
+void add_arc(Loop& loop, const Vector2d& center, double radius, double from, double turn, const std::string& name) {
   const int n = static_cast<int>(std::ceil(std::abs(turn) / (pi / 2) - 1e-9));
   for (int k = 0; k < n; ++k) {
-    loop.edges.push_back({on_circle(center, radius, from + turn * k / n),
-                          on_circle(center, radius, from + turn * (k + 1) / n), true, center});
+    loop.edges.push_back(
+        {on_circle(center, radius, from + turn * k / n), on_circle(center, radius, from + turn * (k + 1) / n), true, center});
     loop.names.push_back(name);
   }
 }
@@ -147,26 +135,19 @@ void close(Loop& loop, const std::string& name) {
     out.edges.push_back({end, next});
     out.names.push_back(name);
   }
-  for (std::size_t k = 0; k < out.edges.size(); ++k)
-    out.edges[(k + 1) % out.edges.size()].from = out.edges[k].to;
+  for (std::size_t k = 0; k < out.edges.size(); ++k) out.edges[(k + 1) % out.edges.size()].from = out.edges[k].to;
   loop = std::move(out);
 }
 
 struct Draw {
   static std::vector<Loop> trapezium(double length, double left, double right) {
     const Vector2d c[] = {{0, -left / 2}, {length, -right / 2}, {length, right / 2}, {0, left / 2}};
-    return {{{{c[0], c[1]}, {c[1], c[2]}, {c[2], c[3]}, {c[3], c[0]}},
-             {"bottom", "right", "top", "left"}}};
+    return {{{{c[0], c[1]}, {c[1], c[2]}, {c[2], c[3]}, {c[3], c[0]}}, {"bottom", "right", "top", "left"}}};
   }
-  std::vector<Loop> operator()(const StraightBar& l) const {
-    return trapezium(l.length, l.width, l.width);
-  }
-  std::vector<Loop> operator()(const TaperedBar& l) const {
-    return trapezium(l.length, l.width_left, l.width_right);
-  }
+  std::vector<Loop> operator()(const StraightBar& l) const { return trapezium(l.length, l.width, l.width); }
+  std::vector<Loop> operator()(const TaperedBar& l) const { return trapezium(l.length, l.width_left, l.width_right); }
   std::vector<Loop> operator()(const Disc& l) const {
-    std::vector<Loop> loops{circle(Vector2d::Zero(), l.diameter, "outline"),
-                            circle(Vector2d::Zero(), l.bore, "bore")};
+    std::vector<Loop> loops{circle(Vector2d::Zero(), l.diameter, "outline"), circle(Vector2d::Zero(), l.bore, "bore")};
     for (Loop& loop : loops) close(loop, loop.names[0]);
     return loops;
   }
@@ -176,8 +157,7 @@ struct Draw {
     Loop outline;
     add_arc(outline, Vector2d::Zero(), l.first.outer / 2, a, 2 * (pi - a), "outline");
     add_arc(outline, far, l.second.outer / 2, b - pi, 2 * (pi - b), "outline");
-    std::vector<Loop> loops{outline, circle(Vector2d::Zero(), l.first.bore, "eye 1"),
-                            circle(far, l.second.bore, "eye 2")};
+    std::vector<Loop> loops{outline, circle(Vector2d::Zero(), l.first.bore, "eye 1"), circle(far, l.second.bore, "eye 2")};
     for (Loop& loop : loops) close(loop, loop.names[0]);
     return loops;
   }
@@ -187,11 +167,9 @@ struct Draw {
     for (std::size_t k = 0; k < 3; ++k) {
       const int before = order[(k + 2) % 3], at = order[k], after = order[(k + 1) % 3];
       const double from = angle_of(tangent_normal(l, before, at));
-      add_arc(loops[0], l.center[at], l.eye[at].outer / 2, from,
-              sweep(from, angle_of(tangent_normal(l, at, after))), "outline");
+      add_arc(loops[0], l.center[at], l.eye[at].outer / 2, from, sweep(from, angle_of(tangent_normal(l, at, after))), "outline");
     }
-    for (int i = 0; i < 3; ++i)
-      loops.push_back(circle(l.center[i], l.eye[i].bore, "eye " + std::to_string(i + 1)));
+    for (int i = 0; i < 3; ++i) loops.push_back(circle(l.center[i], l.eye[i].bore, "eye " + std::to_string(i + 1)));
     for (Loop& loop : loops) close(loop, loop.names[0]);
     return loops;
   }
@@ -199,11 +177,7 @@ struct Draw {
 
 }  // namespace
 
-void judge(const Link& link) {
-  std::visit(Judge{}, link);
-}
-std::vector<Loop> drawing(const Link& link) {
-  return std::visit(Draw{}, link);
-}
+void judge(const Link& link) { std::visit(Judge{}, link); }
+std::vector<Loop> drawing(const Link& link) { return std::visit(Draw{}, link); }
 
 }  // namespace pintle

@@ -12,20 +12,34 @@
 namespace pintle {
 
 /// A round hole with the material around it.
-struct Eye { double bore, outer; };  ///< diameters
+struct Eye {
+  double bore, outer;
+};  ///< diameters
 
 /// Rectangle from (0, −width/2) to (length, width/2). Edges "left", "right", "top", "bottom".
-struct StraightBar { double length, width; };
+struct StraightBar {
+  double length, width;
+};
 /// Two eyes `length` apart, the first at (0, 0), the second at (length, 0), joined by a shank no wider than
 /// either. Holes "eye 1", "eye 2"; the outline is "outline".
-struct EyeBar { double length, width; Eye first, second; };
+struct EyeBar {
+  double length, width;
+  Eye first, second;
+};
 /// Trapezium from x = 0 to `length`, symmetric about the x axis. Edges as a straight bar's.
-struct TaperedBar { double length, width_left, width_right; };
+struct TaperedBar {
+  double length, width_left, width_right;
+};
 /// Three eyes at the given centres, joined by the tangents of their outer circles (the convex hull).
 /// Holes "eye 1", "eye 2", "eye 3"; the outline is "outline".
-struct Triangle { Eigen::Vector2d center[3]; Eye eye[3]; };
+struct Triangle {
+  Eigen::Vector2d center[3];
+  Eye eye[3];
+};
 /// Round disc about (0, 0). Hole "bore", edge "outline".
-struct Disc { double diameter, bore; };
+struct Disc {
+  double diameter, bore;
+};
 
 using Link = std::variant<StraightBar, EyeBar, TaperedBar, Triangle, Disc>;
 /// @throws std::invalid_argument  a size is not positive or not finite; a bore not inside its eye; the outer

@@ -21,13 +21,9 @@ constexpr std::array<ShapeFacts, 7> facts{{{2, 2, "line2"},
                                            {4, 4, "quadrilateral4"},
                                            {8, 4, "quadrilateral8"},
                                            {9, 4, "quadrilateral9"}}};
-const ShapeFacts& facts_of(CellShape shape) {
-  return facts[static_cast<std::size_t>(shape)];
-}
+const ShapeFacts& facts_of(CellShape shape) { return facts[static_cast<std::size_t>(shape)]; }
 
-bool is_line(CellShape shape) {
-  return corners_of(shape) == 2;
-}
+bool is_line(CellShape shape) { return corners_of(shape) == 2; }
 
 /// A side by its corners, in the direction its cell runs, and where it comes from.
 struct Side {
@@ -67,9 +63,7 @@ std::vector<Cells> as_cells(const Mesh& mesh, const std::vector<Side>& sides) {
     const int n = nodes_of(from.shape), corners = corners_of(from.shape);
     Cells& to = n == corners ? straight : curved;
     to.nodes.insert(to.nodes.end(), {s.a, s.b});
-    if (n != corners)
-      to.nodes.push_back(from.nodes[s.cell * static_cast<std::size_t>(n) +
-                                    static_cast<std::size_t>(corners + s.side)]);
+    if (n != corners) to.nodes.push_back(from.nodes[s.cell * static_cast<std::size_t>(n) + static_cast<std::size_t>(corners + s.side)]);
     to.numbers.push_back(from.numbers[s.cell]);
   }
   std::vector<Cells> out;
@@ -80,23 +74,16 @@ std::vector<Cells> as_cells(const Mesh& mesh, const std::vector<Side>& sides) {
 
 }  // namespace
 
-int nodes_of(CellShape shape) {
-  return facts_of(shape).nodes;
-}
-int corners_of(CellShape shape) {
-  return facts_of(shape).corners;
-}
-const char* name_of(CellShape shape) {
-  return facts_of(shape).name;
-}
+int nodes_of(CellShape shape) { return facts_of(shape).nodes; }
+int corners_of(CellShape shape) { return facts_of(shape).corners; }
+const char* name_of(CellShape shape) { return facts_of(shape).name; }
 
 bool Mesh::plane() const {
   return std::any_of(cells.begin(), cells.end(), [](const Cells& c) { return !is_line(c.shape); });
 }
 
 const Group* Mesh::group(std::string_view name) const {
-  const auto at =
-      std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.name == name; });
+  const auto at = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.name == name; });
   return at == groups.end() ? nullptr : &*at;
 }
 
@@ -112,16 +99,13 @@ std::vector<Cells> outline(const Mesh& mesh) {
   std::vector<Side> lone;
   for (std::size_t node = 0; node + 1 < begin.size(); ++node)
     for (std::size_t i = begin[node]; i < begin[node + 1]; ++i) {
-      const auto same = [&](const Side& other) {
-        return std::max(other.a, other.b) == std::max(sides[i].a, sides[i].b);
-      };
+      const auto same = [&](const Side& other) { return std::max(other.a, other.b) == std::max(sides[i].a, sides[i].b); };
       if (std::count_if(sides.begin() + static_cast<std::ptrdiff_t>(begin[node]),
                         sides.begin() + static_cast<std::ptrdiff_t>(begin[node + 1]), same) == 1)
         lone.push_back(sides[i]);
     }
-  std::sort(lone.begin(), lone.end(), [](const Side& p, const Side& q) {
-    return std::tie(p.block, p.cell, p.side) < std::tie(q.block, q.cell, q.side);
-  });
+  std::sort(lone.begin(), lone.end(),
+            [](const Side& p, const Side& q) { return std::tie(p.block, p.cell, p.side) < std::tie(q.block, q.cell, q.side); });
   return as_cells(mesh, lone);
 }
 
@@ -134,8 +118,7 @@ std::vector<Cells> sides_within(const Mesh& mesh, const std::vector<int>& nodes)
     std::size_t kept = 0;
     for (std::size_t c = 0; c < cells.size(); ++c) {
       const auto from = cells.nodes.begin() + static_cast<std::ptrdiff_t>(c * n);
-      if (!std::all_of(from, from + static_cast<std::ptrdiff_t>(n),
-                       [&](int node) { return in[static_cast<std::size_t>(node)] != 0; }))
+      if (!std::all_of(from, from + static_cast<std::ptrdiff_t>(n), [&](int node) { return in[static_cast<std::size_t>(node)] != 0; }))
         continue;
       std::copy_n(from, n, cells.nodes.begin() + static_cast<std::ptrdiff_t>(kept * n));
       cells.numbers[kept++] = cells.numbers[c];
@@ -176,8 +159,7 @@ int pieces(const Mesh& mesh, std::vector<int>& piece_of_node) {
   int count = 0;
   for (std::size_t i = 0; i < parent.size(); ++i) {
     const int r = root(static_cast<int>(i));
-    piece_of_node[i] =
-        r == static_cast<int>(i) ? count++ : piece_of_node[static_cast<std::size_t>(r)];
+    piece_of_node[i] = r == static_cast<int>(i) ? count++ : piece_of_node[static_cast<std::size_t>(r)];
   }
   return count;
 }

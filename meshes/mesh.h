@@ -13,8 +13,8 @@ namespace pintle {
 /// Shapes of cells. Nodes: corners counter-clockwise, then middles of the sides 12, 23, …, then the
 /// centre; a line: its ends, then its middle. VTK's and Gmsh's order.
 enum class CellShape { line2, line3, triangle3, triangle6, quadrilateral4, quadrilateral8, quadrilateral9 };
-int nodes_of(CellShape);       ///< 2, 3, 3, 6, 4, 8, 9
-int corners_of(CellShape);     ///< 2, 2, 3, 3, 4, 4, 4
+int nodes_of(CellShape);    ///< 2, 3, 3, 6, 4, 8, 9
+int corners_of(CellShape);  ///< 2, 2, 3, 3, 4, 4, 4
 const char* name_of(CellShape);
 
 /// Cells of one shape.
@@ -34,11 +34,11 @@ struct Group {
 
 /// Nodes and cells of one body in its own axes. Every node belongs to a cell.
 struct Mesh {
-  Eigen::Matrix2Xd x;               ///< [m]
-  std::vector<long> node_numbers;   ///< as the file numbers them, for messages
-  std::vector<Cells> cells;         ///< all lines or all plane
+  Eigen::Matrix2Xd x;              ///< [m]
+  std::vector<long> node_numbers;  ///< as the file numbers them, for messages
+  std::vector<Cells> cells;        ///< all lines or all plane
   std::vector<Group> groups;
-  bool plane() const;               ///< cells are triangles and quadrilaterals, not lines
+  bool plane() const;                               ///< cells are triangles and quadrilaterals, not lines
   const Group* group(std::string_view name) const;  ///< nullptr: there is none
   std::size_t cell_count() const;
 };

@@ -70,9 +70,9 @@ class Worker {
     const auto soon = clock::now() + std::chrono::seconds(60);
     if (!receive(version, 100, soon, nullptr) || version != PINTLE_VERSION) {
       end();
-      throw std::runtime_error(program_ + (version.empty() ? ": does not start; install pintle again"
-                                                           : ": is of pintle " + version + ", the program of " PINTLE_VERSION
-                                                                 "; install both together"));
+      throw std::runtime_error(
+          program_ + (version.empty() ? ": does not start; install pintle again"
+                                      : ": is of pintle " + version + ", the program of " PINTLE_VERSION "; install both together"));
     }
   }
   ~Worker() { end(); }
@@ -197,21 +197,18 @@ std::string death(int code, const MesherLimits& limits) {
     return "Gmsh " + how + " without a mesh; take Exit or Abort out of the drawing, take another size or element, or mend the drawing";
   }
   return std::string("Gmsh crashes on it (") + strsignal(signal) + "); take another size or element, or mend the drawing" +
-         (signal == SIGSEGV ? "; if the mesh is large, allow more than " + shown(static_cast<double>(limits.bytes)) + " by --mesh-memory" : "");
+         (signal == SIGSEGV ? "; if the mesh is large, allow more than " + shown(static_cast<double>(limits.bytes)) + " by --mesh-memory"
+                            : "");
 }
 
 Mesh understood(const std::string& answer, const std::string& name, const MesherLimits& limits) {
   if (answer.empty()) throw std::runtime_error(name + ": the mesher says nothing; please report this");
   const std::string words = answer.substr(1);
   switch (static_cast<Answer>(answer[0])) {
-    case Answer::mesh:
-      return unpacked_mesh(std::string_view(answer).substr(1));
-    case Answer::invalid_argument:
-      throw std::invalid_argument(words);
-    case Answer::out_of_memory:
-      throw std::runtime_error(name + ": " + no_memory(limits));
-    default:
-      throw std::runtime_error(words);
+    case Answer::mesh: return unpacked_mesh(std::string_view(answer).substr(1));
+    case Answer::invalid_argument: throw std::invalid_argument(words);
+    case Answer::out_of_memory: throw std::runtime_error(name + ": " + no_memory(limits));
+    default: throw std::runtime_error(words);
   }
 }
 

@@ -12,8 +12,8 @@ namespace pintle {
 
 /// What the mesher is to do, once its input is judged and needs Gmsh indeed.
 struct MesherTask {
-  std::optional<Link> link;          ///< or else `file`
-  std::string file;                  ///< a drawing or a mesh
+  std::optional<Link> link;  ///< or else `file`
+  std::string file;          ///< a drawing or a mesh
   double scale = 1;
   MeshOptions options;
   std::string at;                    ///< the current folder

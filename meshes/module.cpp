@@ -53,8 +53,9 @@ std::string program_beside_modules(const std::string& name) {
   static const std::vector<std::string> folders = search_path();
   for (const std::string& folder : folders)
     if (const std::string path = folder + "/" + name; access(path.c_str(), X_OK) == 0) return path;
-  throw std::runtime_error(name + ": is not there; it is built and installed with pintle: keep it in lib/pintle beside the library, or "
-                                  "name its folder in LD_LIBRARY_PATH");
+  throw std::runtime_error(name +
+                           ": is not there; it is built and installed with pintle: keep it in lib/pintle beside the library, or "
+                           "name its folder in LD_LIBRARY_PATH");
 }
 
 const void* load_module(const char* name) {

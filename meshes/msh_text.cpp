@@ -53,7 +53,9 @@ struct Msh {
     return false;
   }
   template <class... Parts>
-  [[noreturn]] void fail(const Parts&... parts) const { reject(name, ":", line, ": ", parts..., "; write the file again"); }
+  [[noreturn]] void fail(const Parts&... parts) const {
+    reject(name, ":", line, ": ", parts..., "; write the file again");
+  }
 
   /// The next line of a section.
   std::string_view entry(const char* what, long count) {
@@ -85,7 +87,8 @@ struct Msh {
     its_nodes.remove_suffix(its_nodes.size() - std::min(its_nodes.find_last_not_of(" \t\r") + 1, its_nodes.size()));
     const auto [found, fresh] = elements.try_emplace(of, its_nodes, line);
     if (!fresh && found->second.first != its_nodes)
-      fail("element ", of, " has other nodes than in line ", found->second.second, ": a number stands for one element, and Gmsh would leave one out");
+      fail("element ", of, " has other nodes than in line ", found->second.second,
+           ": a number stands for one element, and Gmsh would leave one out");
   }
 
   // Version 2: a count, then a line for each.
@@ -104,7 +107,8 @@ struct Msh {
     read(entry("the count", 1), "count of elements", count);
     for (long k = 1, of = 0, type = 0, tags = 0; k <= count; ++k) {
       std::string_view text = entry("element", k);
-      if (!number(text, of) || !number(text, type) || !number(text, tags)) fail("is no element: its number, type, number of tags, tags and nodes");
+      if (!number(text, of) || !number(text, type) || !number(text, tags))
+        fail("is no element: its number, type, number of tags, tags and nodes");
       for (; tags > 0 && !text.empty(); --tags) word(text);
       add_element(of, text);
     }

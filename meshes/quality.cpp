@@ -37,16 +37,13 @@ Slopes triangle_slopes(int nodes, double xi, double eta) {
   return d;
 }
 
-constexpr std::array<std::array<double, 2>, 9> square{
-    {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}, {0, 0}}};
-constexpr std::array<std::array<double, 2>, 6> triangle{
-    {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
+constexpr std::array<std::array<double, 2>, 9> square{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}, {0, 0}}};
+constexpr std::array<std::array<double, 2>, 6> triangle{{{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
 
 Slopes quadrilateral_slopes(int nodes, double xi, double eta) {
   Slopes d(nodes, 2);
   for (int i = 0; i < nodes; ++i) {
-    const double a = square[static_cast<std::size_t>(i)][0],
-                 b = square[static_cast<std::size_t>(i)][1];
+    const double a = square[static_cast<std::size_t>(i)][0], b = square[static_cast<std::size_t>(i)][1];
     if (nodes == 4) {
       d.row(i) << a * (1 + b * eta) / 4, b * (1 + a * xi) / 4;
     } else if (nodes == 9) {  // products of the line's three quadratics
@@ -54,8 +51,7 @@ Slopes quadrilateral_slopes(int nodes, double xi, double eta) {
       const auto slope = [](double p, double t) { return p == 0 ? -2 * t : t + p / 2; };
       d.row(i) << slope(a, xi) * value(b, eta), value(a, xi) * slope(b, eta);
     } else if (i < 4) {
-      d.row(i) << a * (1 + b * eta) * (2 * a * xi + b * eta) / 4,
-          b * (1 + a * xi) * (2 * b * eta + a * xi) / 4;
+      d.row(i) << a * (1 + b * eta) * (2 * a * xi + b * eta) / 4, b * (1 + a * xi) * (2 * b * eta + a * xi) / 4;
     } else if (a == 0) {
       d.row(i) << -xi * (1 + b * eta), b * (1 - xi * xi) / 2;
     } else {
@@ -74,9 +70,7 @@ std::vector<Slopes> slopes_at_nodes(CellShape shape) {
   return at;
 }
 
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
+double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double scaled_jacobian(const Matrix2d& J, bool is_triangle) {
   double a = J.col(0).norm(), b = J.col(1).norm(), unit = 1;
@@ -106,13 +100,11 @@ double corner_angle(const Matrix2d& J, int corner, bool is_triangle) {
 // 1, or less than 0 where a middle node lies so near an end that the side sets out the wrong way:
 // past a quarter of its length. Where two such sides meet, the Jacobian is positive again.
 double side_sense(const Vector2d& a, const Vector2d& b, const Vector2d& middle) {
-  const double s = (middle - a).dot(b - a) / (b - a).squaredNorm(),
-               out = 4 * std::min(s, 1 - s) - 1;
+  const double s = (middle - a).dot(b - a) / (b - a).squaredNorm(), out = 4 * std::min(s, 1 - s) - 1;
   return out < 0 ? out : 1;
 }
 
-CellQuality quality_of(const Mesh& mesh, const int* node, CellShape shape,
-                       const std::vector<Slopes>& slopes) {
+CellQuality quality_of(const Mesh& mesh, const int* node, CellShape shape, const std::vector<Slopes>& slopes) {
   const int n = nodes_of(shape), corners = corners_of(shape);
   Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 9> x(2, n);
   for (int i = 0; i < n; ++i) x.col(i) = mesh.x.col(node[i]);
@@ -128,9 +120,7 @@ CellQuality quality_of(const Mesh& mesh, const int* node, CellShape shape,
     q.angle_max = std::max(q.angle_max, angle);
     const double side = (x.col((i + 1) % corners) - x.col(i)).norm();
     longest = std::max(longest, side), shortest = std::min(shortest, side);
-    if (n > corners)
-      q.jacobian =
-          std::min(q.jacobian, side_sense(x.col(i), x.col((i + 1) % corners), x.col(i + corners)));
+    if (n > corners) q.jacobian = std::min(q.jacobian, side_sense(x.col(i), x.col((i + 1) % corners), x.col(i + corners)));
   }
   q.aspect = longest / shortest;
   return q;
@@ -139,9 +129,7 @@ CellQuality quality_of(const Mesh& mesh, const int* node, CellShape shape,
 double signed_area(const Mesh& mesh, const int* node, int corners) {
   double area = 0;
   for (int i = 0; i < corners; ++i)
-    area += cross(mesh.x.col(node[i]) - mesh.x.col(node[0]),
-                  mesh.x.col(node[(i + 1) % corners]) - mesh.x.col(node[0])) /
-            2;
+    area += cross(mesh.x.col(node[i]) - mesh.x.col(node[0]), mesh.x.col(node[(i + 1) % corners]) - mesh.x.col(node[0])) / 2;
   return area;
 }
 
@@ -181,9 +169,8 @@ MeshQuality quality(const Mesh& mesh) {
   }
   if (plane == 0) all.least_angle = 0;
   if (plane > 0) all.mean_jacobian = sum / static_cast<double>(plane);
-  std::stable_sort(all.bad.begin(), all.bad.end(), [](const WorstCell& a, const WorstCell& b) {
-    return a.quality.jacobian < b.quality.jacobian;
-  });
+  std::stable_sort(all.bad.begin(), all.bad.end(),
+                   [](const WorstCell& a, const WorstCell& b) { return a.quality.jacobian < b.quality.jacobian; });
   std::copy_if(all.bad.begin(), all.bad.end(), std::back_inserter(all.inverted),
                [](const WorstCell& w) { return w.quality.jacobian <= zero_jacobian; });
   return all;

@@ -11,8 +11,8 @@ namespace pintle {
 /// is 0 at a straight corner. A middle node nearer to an end than a quarter of the side turns the
 /// side back on itself: less than 0 too.
 struct CellQuality {
-  double jacobian = 1;  ///< least scaled Jacobian over the nodes (not only the integration points)
-  double aspect = 1;    ///< longest side over shortest, corner to corner
+  double jacobian = 1;                  ///< least scaled Jacobian over the nodes (not only the integration points)
+  double aspect = 1;                    ///< longest side over shortest, corner to corner
   double angle_min = 0, angle_max = 0;  ///< between tangents at the corners [rad], 0 to 2π
 };
 

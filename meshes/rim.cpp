@@ -46,8 +46,7 @@ void measure(const Mesh& mesh, const std::vector<Ends>& ends, Chain& chain) {
 
 std::vector<Chain> chains(const Mesh& mesh, const std::vector<Ends>& ends) {
   std::vector<std::pair<int, int>> leaving;  // node, side
-  for (std::size_t s = 0; s < ends.size(); ++s)
-    leaving.emplace_back(ends[s].a, static_cast<int>(s));
+  for (std::size_t s = 0; s < ends.size(); ++s) leaving.emplace_back(ends[s].a, static_cast<int>(s));
   std::sort(leaving.begin(), leaving.end());
   std::vector<char> used(ends.size(), 0);
   std::vector<Chain> out;
@@ -98,8 +97,7 @@ void Rim::add_to(Group& group, std::vector<int> sides) const {
   for (const Cells& c : cells_) {
     const int n = nodes_of(c.shape), end = begin + static_cast<int>(c.size());
     Cells part{c.shape, {}, {}};
-    for (auto at = std::lower_bound(sides.begin(), sides.end(), begin);
-         at != sides.end() && *at < end; ++at) {
+    for (auto at = std::lower_bound(sides.begin(), sides.end(), begin); at != sides.end() && *at < end; ++at) {
       const auto from = c.nodes.begin() + static_cast<std::ptrdiff_t>(*at - begin) * n;
       part.nodes.insert(part.nodes.end(), from, from + n);
       part.numbers.push_back(c.numbers[static_cast<std::size_t>(*at - begin)]);
@@ -120,17 +118,13 @@ void name_loops(Mesh& mesh, const Rim& rim) {
       if (const int side = rim.find(e.a, e.b); side >= 0) taken[static_cast<std::size_t>(side)] = 1;
   std::vector<Chain> free = chains(mesh, ends);
   std::erase_if(free, [&](const Chain& c) {
-    return std::any_of(c.sides.begin(), c.sides.end(),
-                       [&](int s) { return taken[static_cast<std::size_t>(s)] != 0; });
+    return std::any_of(c.sides.begin(), c.sides.end(), [&](int s) { return taken[static_cast<std::size_t>(s)] != 0; });
   });
   // Centres that differ by rounding or by where nodes happen to lie on a rim are at one x.
   const Vector2d low = mesh.x.rowwise().minCoeff(), span = mesh.x.rowwise().maxCoeff() - low;
   const double unit = 1e-3 * span.maxCoeff();
-  const auto key = [&](const Chain& c) {
-    return std::tuple{std::lround((c.center.x() - low.x()) / unit), c.center.y()};
-  };
-  std::stable_sort(free.begin(), free.end(),
-                   [&](const Chain& a, const Chain& b) { return key(a) < key(b); });
+  const auto key = [&](const Chain& c) { return std::tuple{std::lround((c.center.x() - low.x()) / unit), c.center.y()}; };
+  std::stable_sort(free.begin(), free.end(), [&](const Chain& a, const Chain& b) { return key(a) < key(b); });
   Group around{"outline", {}, {}};
   std::vector<int> around_sides;
   int holes = 0;

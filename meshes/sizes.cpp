@@ -29,8 +29,7 @@ double SizeField::at(double x, double y) const {
 
 double Contour::length() const {
   double sum = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    sum += (points[(i + 1) % points.size()] - points[i]).norm();
+  for (std::size_t i = 0; i < points.size(); ++i) sum += (points[(i + 1) % points.size()] - points[i]).norm();
   return sum;
 }
 
@@ -48,9 +47,7 @@ bool inside(const Contour& contour, const Vector2d& p) {
   const std::size_t n = contour.points.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Vector2d &a = contour.points[i], &b = contour.points[(i + 1) % n];
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
-      in = !in;
+    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) in = !in;
   }
   return in;
 }
@@ -58,8 +55,7 @@ bool inside(const Contour& contour, const Vector2d& p) {
 void validate_count(double cells, double size) {
   if (cells <= most_cells) return;
   std::ostringstream text;
-  text << "cells of size " << size << " would be about " << cells << ", more than " << most_cells
-       << "; make `size` or `hole size` larger";
+  text << "cells of size " << size << " would be about " << cells << ", more than " << most_cells << "; make `size` or `hole size` larger";
   throw std::invalid_argument(text.str());
 }
 
@@ -73,19 +69,15 @@ SizeField size_field(const std::vector<Contour>& contours, double size, double h
     const Contour& c = contours[k];
     if (k > 0 && hole_size > 0) validate_count(c.length() / hole_size / SizeField::growth, hole_size);
     const double of_hole = hole_size > 0 ? hole_size : c.length() / sides_round_hole;
-    std::size_t last =
-        c.points.size();  // that became a source; those much nearer than a cell add nothing
+    std::size_t last = c.points.size();  // that became a source; those much nearer than a cell add nothing
     for (std::size_t i = 0; i < c.points.size(); ++i) {
       double at = of_hole;
       if (k == 0) {
         if (!(c.curvature[i] * field.largest > 2 * std::numbers::pi / sides_round_arc)) continue;
-        at = std::max(2 * std::numbers::pi / sides_round_arc / c.curvature[i],
-                      least_share * field.largest);
+        at = std::max(2 * std::numbers::pi / sides_round_arc / c.curvature[i], least_share * field.largest);
       }
       if (at >= field.largest) continue;
-      if (last < c.points.size() && (c.points[i] - c.points[last]).norm() < at / 4 &&
-          at >= field.sources.back().size)
-        continue;
+      if (last < c.points.size() && (c.points[i] - c.points[last]).norm() < at / 4 && at >= field.sources.back().size) continue;
       field.sources.push_back({c.points[i], at});
       last = i;
     }

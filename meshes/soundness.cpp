@@ -36,9 +36,7 @@ struct Check {
   Vector2d at(int node) const { return mesh.x.col(node); }
   std::string node(int i) const { return std::to_string(mesh.node_numbers[index(i)]); }
   std::string nodes(int a, int b) const { return node(a) + " and " + node(b); }
-  std::string cell(int c) const {
-    return "cell " + std::to_string(cells[index(c)].number) + " (" + name_of(cells[index(c)].shape) + ")";
-  }
+  std::string cell(int c) const { return "cell " + std::to_string(cells[index(c)].number) + " (" + name_of(cells[index(c)].shape) + ")"; }
   double length(const SideView& s) const { return (at(s.a) - at(s.b)).norm(); }
   /// "; 3 in all" where there is more than one.
   static std::string in_all(std::size_t count) { return count > 1 ? "; there are " + std::to_string(count) + " such places" : ""; }
@@ -76,7 +74,8 @@ struct Check {
       const auto [a, b] = *twice.begin();
       found.faults.push_back("cells " + std::to_string(cells[index(a)].number) + " and " + std::to_string(cells[index(b)].number) +
                              " have the same corners, near " + place(at(cells[index(a)].nodes[0])) + ": the material there counts twice" +
-                             in_all(twice.size()) + "; leave one of each pair out (a .msh of version 2 writes a surface once for each of its physical groups)");
+                             in_all(twice.size()) +
+                             "; leave one of each pair out (a .msh of version 2 writes a surface once for each of its physical groups)");
     } else if (!stacked.empty()) {
       const auto [a, b] = *stacked.begin();
       found.faults.push_back(cell(a) + " and " + cell(b) + " lie on the same side of a side that they share, near " +
@@ -85,14 +84,18 @@ struct Check {
     if (!crowded.empty()) {
       const auto& [a, b, c] = crowded.front();
       found.faults.push_back("more than two cells meet at the side between nodes " + nodes(a.a, a.b) + ", near " + place(at(a.a)) + ": " +
-                             cell(a.cell) + ", " + cell(b.cell) + " and " + cell(c.cell) + in_all(crowded.size()) + "; leave out the cells that are too many");
+                             cell(a.cell) + ", " + cell(b.cell) + " and " + cell(c.cell) + in_all(crowded.size()) +
+                             "; leave out the cells that are too many");
     }
     if (!cracked.empty()) {
       const auto& [a, b] = cracked.front();
-      const auto middle = [&](const SideView& s) { return s.middle < 0 ? std::string("no middle node") : "the middle node " + node(s.middle); };
-      found.faults.push_back(cell(a.cell) + " and " + cell(b.cell) + " share the side between nodes " + nodes(a.a, a.b) + ", near " + place(at(a.a)) +
-                             ", but there the one has " + middle(a) + " and the other " + middle(b) + ": the side opens under load" +
-                             in_all(cracked.size()) + "; mesh both with cells of one order and the same nodes");
+      const auto middle = [&](const SideView& s) {
+        return s.middle < 0 ? std::string("no middle node") : "the middle node " + node(s.middle);
+      };
+      found.faults.push_back(cell(a.cell) + " and " + cell(b.cell) + " share the side between nodes " + nodes(a.a, a.b) + ", near " +
+                             place(at(a.a)) + ", but there the one has " + middle(a) + " and the other " + middle(b) +
+                             ": the side opens under load" + in_all(cracked.size()) +
+                             "; mesh both with cells of one order and the same nodes");
     }
   }
 
@@ -108,8 +111,8 @@ struct Check {
         const int n = cells[c].nodes[k];
         if (corner_of[index(n)] < 0) continue;
         if (++count == 1)
-          first = "node " + node(n) + " at " + place(at(n)) + " is in the middle of a side of " + cell(static_cast<int>(c)) + ", but a corner of " +
-                  cell(corner_of[index(n)]);
+          first = "node " + node(n) + " at " + place(at(n)) + " is in the middle of a side of " + cell(static_cast<int>(c)) +
+                  ", but a corner of " + cell(corner_of[index(n)]);
       }
     if (count > 0)
       found.faults.push_back(first + ": the side opens under load" + in_all(count) + "; mesh both with cells of one order, side to side");
@@ -147,7 +150,9 @@ struct Check {
 
   // Nodes of the rim that lie at another one, or on a side that they are no node of.
   void strangers() {
-    struct Hanging { int node, side; };
+    struct Hanging {
+      int node, side;
+    };
     std::vector<Hanging> hanging, near;
     std::vector<std::pair<int, int>> pairs;
     const Squares squares = rim_squares();
@@ -175,14 +180,15 @@ struct Check {
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     const auto told = [&](const Hanging& h) {
       const SideView& s = rim[index(h.side)];
-      return "node " + node(h.node) + " at " + place(at(h.node)) + " lies on the side between nodes " + nodes(s.a, s.b) + " of " + cell(s.cell);
+      return "node " + node(h.node) + " at " + place(at(h.node)) + " lies on the side between nodes " + nodes(s.a, s.b) + " of " +
+             cell(s.cell);
     };
     if (!hanging.empty())
       found.faults.push_back(told(hanging.front()) + " and is no node of that cell: the side opens under load" + in_all(hanging.size()) +
                              "; mesh so that cells meet side to side");
     else if (!near.empty())
       found.warnings_of.push_back(told(near.front()) + " to a thousandth of its length and is not joined to it" + in_all(near.size()) +
-                             "; if the cells are to hold together there, mesh so that they meet side to side");
+                                  "; if the cells are to hold together there, mesh so that they meet side to side");
     slits(pairs);
   }
 
@@ -199,7 +205,8 @@ struct Check {
     std::iota(same.begin(), same.end(), 0);
     for (const auto& [low, high] : pairs) same[index(high)] = std::min(same[index(high)], same[index(low)]);
     std::map<std::pair<int, int>, std::vector<int>> on;  // sides between the same places
-    for (std::size_t k = 0; k < rim.size(); ++k) on[std::minmax(same[index(rim[k].a)], same[index(rim[k].b)])].push_back(static_cast<int>(k));
+    for (std::size_t k = 0; k < rim.size(); ++k)
+      on[std::minmax(same[index(rim[k].a)], same[index(rim[k].b)])].push_back(static_cast<int>(k));
     std::vector<std::pair<int, int>> shut;
     for (const auto& [ends, sides] : on)
       if (sides.size() > 1) shut.emplace_back(sides[0], sides[1]);
@@ -210,10 +217,11 @@ struct Check {
       text = "nodes " + nodes(a, b) + " both lie at " + place(at(a)) + " and are not joined";
     } else {
       const SideView &p = rim[index(shut.front().first)], &q = rim[index(shut.front().second)];
-      text = "sides of " + cell(p.cell) + " and " + cell(q.cell) + " lie on each other near " + place(at(p.a)) + ", from nodes " + nodes(p.a, p.b) +
-             " and from nodes " + nodes(q.a, q.b) + ", and are not joined: the body is slit there";
+      text = "sides of " + cell(p.cell) + " and " + cell(q.cell) + " lie on each other near " + place(at(p.a)) + ", from nodes " +
+             nodes(p.a, p.b) + " and from nodes " + nodes(q.a, q.b) + ", and are not joined: the body is slit there";
     }
-    found.warnings_of.push_back(text + in_all(std::max(pairs.size(), shut.size())) + "; merge nodes that lie at one place unless a crack is meant");
+    found.warnings_of.push_back(text + in_all(std::max(pairs.size(), shut.size())) +
+                                "; merge nodes that lie at one place unless a crack is meant");
   }
 
   // Where more than two sides of the rim end in one corner, cells turn about it.
@@ -225,8 +233,9 @@ struct Check {
     for (std::size_t n = 0; n < ends.size(); ++n)
       if (ends[n] > 2 && count++ == 0) first = static_cast<int>(n);
     if (count > 0)
-      found.warnings_of.push_back("at node " + node(first) + ", " + place(at(first)) + ", cells meet by that node alone and turn about it as about a hinge" + in_all(count) +
-                             "; join them along a side");
+      found.warnings_of.push_back("at node " + node(first) + ", " + place(at(first)) +
+                                  ", cells meet by that node alone and turn about it as about a hinge" + in_all(count) +
+                                  "; join them along a side");
   }
 
   // Crossing a side of the rim changes the number of cells over a place by one, so whatever lies under two cells has such a side
@@ -254,8 +263,8 @@ struct Check {
     }
     if (over.empty()) return;
     const auto& [pair, p] = *over.begin();
-    found.faults.push_back(cell(pair.first) + " and " + cell(pair.second) + " overlap at " + place(p) + ": the material there counts twice" +
-                           in_all(over.size()) + "; leave one of them out, or mend their nodes");
+    found.faults.push_back(cell(pair.first) + " and " + cell(pair.second) + " overlap at " + place(p) +
+                           ": the material there counts twice" + in_all(over.size()) + "; leave one of them out, or mend their nodes");
   }
 };
 
@@ -277,8 +286,7 @@ std::optional<std::pair<int, int>> unjoined(const Mesh& mesh, const std::vector<
   const double size = (mesh.x.rowwise().maxCoeff() - mesh.x.rowwise().minCoeff()).norm();
   const double near = nearness * size / std::sqrt(static_cast<double>(mesh.x.cols()));
   std::vector<Box> boxes;
-  for (Eigen::Index i = 0; i < mesh.x.cols(); ++i)
-    boxes.emplace_back(mesh.x.col(i).array() - near, mesh.x.col(i).array() + near);
+  for (Eigen::Index i = 0; i < mesh.x.cols(); ++i) boxes.emplace_back(mesh.x.col(i).array() - near, mesh.x.col(i).array() + near);
   const Squares squares(boxes);
   std::optional<std::pair<int, int>> found;
   for (int i = 0; i < mesh.x.cols() && !found; ++i)

@@ -12,7 +12,7 @@ namespace pintle {
 /// Whether plane cells make one sheet: neighbours share a whole side with all its nodes, and no place is covered twice.
 /// Each entry names cells, nodes and the place, and says what to do.
 struct Soundness {
-  std::vector<std::string> faults;  ///< another body than meant: cells twice, overlaps, nodes on a side that it lacks
+  std::vector<std::string> faults;       ///< another body than meant: cells twice, overlaps, nodes on a side that it lacks
   std::vector<std::string> warnings_of;  ///< may be meant: slits, cells that meet at one node alone
 };
 /// Lengths are compared with those of the sides at hand: what is nearer than 1e-6 of a side lies on it, what is nearer than 1e-3 of it

@@ -25,7 +25,9 @@ struct Packer {
   std::string bytes{};
 
   template <Number T>
-  void one(const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
+  void one(const T& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
   void size(std::size_t n) { one(std::uint64_t{n}); }
   template <class List, class Pass>
   void each(List& list, Pass pass_one) {
@@ -64,7 +66,9 @@ struct Unpacker {
 // One description for both ways: `pass` writes what it is given, or reads into it.
 
 template <class Archive, Number T>
-void pass(Archive& a, T& value) { a.one(value); }
+void pass(Archive& a, T& value) {
+  a.one(value);
+}
 
 template <class Archive>
 void pass(Archive& a, bool& value) {
@@ -74,7 +78,9 @@ void pass(Archive& a, bool& value) {
 }
 
 template <class Archive>
-void pass(Archive& a, Eigen::Vector2d& v) { a.one(v[0]), a.one(v[1]); }
+void pass(Archive& a, Eigen::Vector2d& v) {
+  a.one(v[0]), a.one(v[1]);
+}
 
 template <class Archive, class T>
 void pass(Archive& a, std::vector<T>& all);
@@ -85,15 +91,25 @@ void pass(Archive& a, std::string& text) {
 }
 
 template <class Archive>
-void pass(Archive& a, Eye& e) { a.one(e.bore), a.one(e.outer); }
+void pass(Archive& a, Eye& e) {
+  a.one(e.bore), a.one(e.outer);
+}
 template <class Archive>
-void pass(Archive& a, StraightBar& l) { a.one(l.length), a.one(l.width); }
+void pass(Archive& a, StraightBar& l) {
+  a.one(l.length), a.one(l.width);
+}
 template <class Archive>
-void pass(Archive& a, TaperedBar& l) { a.one(l.length), a.one(l.width_left), a.one(l.width_right); }
+void pass(Archive& a, TaperedBar& l) {
+  a.one(l.length), a.one(l.width_left), a.one(l.width_right);
+}
 template <class Archive>
-void pass(Archive& a, Disc& l) { a.one(l.diameter), a.one(l.bore); }
+void pass(Archive& a, Disc& l) {
+  a.one(l.diameter), a.one(l.bore);
+}
 template <class Archive>
-void pass(Archive& a, EyeBar& l) { a.one(l.length), a.one(l.width), pass(a, l.first), pass(a, l.second); }
+void pass(Archive& a, EyeBar& l) {
+  a.one(l.length), a.one(l.width), pass(a, l.first), pass(a, l.second);
+}
 template <class Archive>
 void pass(Archive& a, Triangle& l) {
   for (std::size_t i = 0; i < 3; ++i) pass(a, l.center[i]), pass(a, l.eye[i]);
@@ -101,9 +117,12 @@ void pass(Archive& a, Triangle& l) {
 
 template <std::size_t kind = 0>
 Link link_of_kind(std::size_t wanted) {
-  if constexpr (kind == std::variant_size_v<Link>) spoilt();
-  else if (wanted == kind) return std::variant_alternative_t<kind, Link>{};
-  else return link_of_kind<kind + 1>(wanted);
+  if constexpr (kind == std::variant_size_v<Link>)
+    spoilt();
+  else if (wanted == kind)
+    return std::variant_alternative_t<kind, Link>{};
+  else
+    return link_of_kind<kind + 1>(wanted);
 }
 
 template <class Archive>
@@ -116,11 +135,17 @@ void pass(Archive& a, std::optional<Link>& link) {
 }
 
 template <class Archive>
-void pass(Archive& a, MeshOptions& o) { a.one(o.shape), a.one(o.size), a.one(o.hole_size), pass(a, o.points); }
+void pass(Archive& a, MeshOptions& o) {
+  a.one(o.shape), a.one(o.size), a.one(o.hole_size), pass(a, o.points);
+}
 template <class Archive>
-void pass(Archive& a, Cells& c) { a.one(c.shape), pass(a, c.nodes), pass(a, c.numbers); }
+void pass(Archive& a, Cells& c) {
+  a.one(c.shape), pass(a, c.nodes), pass(a, c.numbers);
+}
 template <class Archive>
-void pass(Archive& a, Group& g) { pass(a, g.name), pass(a, g.nodes), pass(a, g.sides); }
+void pass(Archive& a, Group& g) {
+  pass(a, g.name), pass(a, g.nodes), pass(a, g.sides);
+}
 
 template <class Archive, class T>
 void pass(Archive& a, std::vector<T>& all) {

@@ -47,14 +47,16 @@ std::vector<Attachment> attachments_of(const Scene& scene, const BuiltOrder& ord
     add(Attachment::joint, order.drivers[i], 1, scene.drivers[i].b);
   }
   for (std::size_t i = 0; i < scene.loads.size(); ++i)
-    std::visit([&](const auto& what) {
-      if constexpr (requires { what.at; }) {
-        add(Attachment::force, order.loads[i], 1, what.at);
-      } else {
-        add(Attachment::force, order.loads[i], 0, what.a);
-        add(Attachment::force, order.loads[i], 1, what.b);
-      }
-    }, scene.loads[i].what);
+    std::visit(
+        [&](const auto& what) {
+          if constexpr (requires { what.at; }) {
+            add(Attachment::force, order.loads[i], 1, what.at);
+          } else {
+            add(Attachment::force, order.loads[i], 0, what.a);
+            add(Attachment::force, order.loads[i], 1, what.b);
+          }
+        },
+        scene.loads[i].what);
   return all;
 }
 

@@ -29,6 +29,7 @@ struct Attachment {
 std::vector<Attachment> attachments_of(const Scene&, const BuiltOrder&, const std::vector<const ElasticBody*>& elements);
 
 /// How much of each of `loads_on` acts on body b in an evaluated state: a column of its LoadHistory, whose size `out` has.
-void loads_now(const System&, const std::vector<Attachment>&, const State&, const Equations&, std::size_t b, Eigen::Ref<Eigen::VectorXd> out);
+void loads_now(const System&, const std::vector<Attachment>&, const State&, const Equations&, std::size_t b,
+               Eigen::Ref<Eigen::VectorXd> out);
 
 }  // namespace pintle

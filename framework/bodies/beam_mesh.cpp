@@ -39,7 +39,8 @@ struct Places {
       if ((vector(points[passed[k]].at) - vector(points[point].at)).norm() > near) continue;
       const bool other = named && passed[k] != point;
       if (other && named_here[k])
-        reject("its beam passes ", points[passed[k]].name, " and ", points[point].name, ", which both lie at ", shown(vector(points[point].at)),
+        reject("its beam passes ", points[passed[k]].name, " and ", points[point].name, ", which both lie at ",
+               shown(vector(points[point].at)),
                "; to join it there write one of the names in both places of through, to leave it open move one of the points a little");
       if (named) passed[k] = point, named_here[k] = true;
       return static_cast<int>(k);
@@ -136,8 +137,9 @@ BeamAxis beam_axis(const Scene& scene, const SceneBody& body, const SceneBeam& b
   for (std::size_t i = 0; i + 1 < axis.node.size(); ++i) {
     const auto [twin, is_new] = run.try_emplace(std::minmax(axis.node[i], axis.node[i + 1]), i);
     if (!is_new && axis.node[i] != axis.node[i + 1])
-      reject("its beam runs twice between ", axis.name[i], " and ", axis.name[i + 1],
-             ", so that the material there would count twice; draw each stretch once, and branches as bodies of their own welded to this one");
+      reject(
+          "its beam runs twice between ", axis.name[i], " and ", axis.name[i + 1],
+          ", so that the material there would count twice; draw each stretch once, and branches as bodies of their own welded to this one");
   }
   return axis;
 }
@@ -163,8 +165,7 @@ std::vector<std::string> crossings(const BeamAxis& axis) {
           axis.node[i + 1] == axis.node[k + 1])
         continue;
       Vector2d at;
-      if (gap(axis.corners[i], axis.corners[i + 1], axis.corners[k], axis.corners[k + 1], at) > std::min(reach(i), reach(k)))
-        continue;
+      if (gap(axis.corners[i], axis.corners[i + 1], axis.corners[k], axis.corners[k + 1], at) > std::min(reach(i), reach(k))) continue;
       if (++count <= 3)
         out.push_back("its beam meets itself at " + shown(at) + ", between " + axis.name[i] + " and " + axis.name[i + 1] + " and between " +
                       axis.name[k] + " and " + axis.name[k + 1] +

@@ -126,9 +126,9 @@ class Writer : public ValueWriter<Writer> {
 };
 
 /// Words of a Gmsh script that look beyond it, or parts of them: Include, ListFromFile, GetEnv, SystemCall, Rand, OnelabRun, …
-constexpr std::string_view outward[]{"Include", "Merge", "Open", "File", "Env", "System", "Rand", "nelab", "ONELAB", "Plugin", "Today",
-                                     "Cpu", "Memory", "Exists", "Define", "Get", "SetNumber", "SetString", "Current", "Path", "DirName",
-                                     "Executable", "MPI", "General", "Solver", "External"};
+constexpr std::string_view outward[]{"Include", "Merge", "Open",    "File",       "Env",    "System",  "Rand",   "nelab",     "ONELAB",
+                                     "Plugin",  "Today", "Cpu",     "Memory",     "Exists", "Define",  "Get",    "SetNumber", "SetString",
+                                     "Current", "Path",  "DirName", "Executable", "MPI",    "General", "Solver", "External"};
 
 /// Whether a drawing may depend on more than its own text. Told generously: if so, it is only made again.
 bool looks_beyond(const std::string& kind, const std::string& text) {

@@ -67,8 +67,8 @@ void judge(const Mesh& mesh) {
     if (const auto pair = unjoined(mesh, piece))
       remedy = "; nodes " + number(pair->first) + " and " + number(pair->second) + " both lie at " + shown(mesh.x.col(pair->first)) +
                ": merge nodes that lie at one place, or make the pieces bodies of their own";
-    throw std::invalid_argument("its mesh falls into " + std::to_string(n) + " pieces that share no node; one holds node " +
-                                number(other) + " at " + shown(mesh.x.col(other)) + remedy);
+    throw std::invalid_argument("its mesh falls into " + std::to_string(n) + " pieces that share no node; one holds node " + number(other) +
+                                " at " + shown(mesh.x.col(other)) + remedy);
   }
 }
 

@@ -48,10 +48,10 @@ FlexInertia invariants(const ElasticBody& e, const Reduction& r) {
 struct Judged {
   const ElasticBody& e;
   const Reduction& r;
-  MatrixXd loads;               ///< loads_on
+  MatrixXd loads;  ///< loads_on
   const Component& c;
   StaticResponse response;
-  std::vector<int> interface;   ///< ports in use
+  std::vector<int> interface;  ///< ports in use
 };
 
 /// Reduced over full compliance uᵀf of unit loads at the ports in use, the least.
@@ -122,7 +122,8 @@ CoveredInertia inertia_covered(const Judged& b) {
   for (Index p = 0; p < static_cast<Index>(b.e.model.ports.size()); ++p)
     if (p == hold->a || p == hold->b)
       for (Index k = 0; k < 3; ++k)
-        if (const int freedom = b.e.model.ports[static_cast<std::size_t>(p)].freedom[k]; freedom >= 0) B_phi += B.col(freedom) * b.r.modes.ports.row(3 * p + k);
+        if (const int freedom = b.e.model.ports[static_cast<std::size_t>(p)].freedom[k]; freedom >= 0)
+          B_phi += B.col(freedom) * b.r.modes.ports.row(3 * p + k);
   const MatrixXd rigid = (B * R).fullPivLu().solve(B_phi);
   const MatrixXd work = work_of_loads(b.e, b.r.modes).leftCols<translations>() - rigid.transpose() * (R.transpose() * loads);
   const VectorXd kept = (b.r.modes.omega.cwiseInverse().asDiagonal() * work).colwise().squaredNorm();
@@ -138,7 +139,8 @@ std::vector<MatrixXd> by_load(const Judged& b) {
   for (const int port : b.interface)
     for (Index k = 0; k < 3; ++k)
       if (b.e.model.ports[static_cast<std::size_t>(port)].freedom[k] >= 0) used.push_back(inertia_loads + 3 * Index{port} + k);
-  std::vector<MatrixXd> F = foreshortening_of_response(b.c, lowest_of(b.r.modes, count), b.response.under(b.r.conditions, b.loads(Eigen::all, used)));
+  std::vector<MatrixXd> F =
+      foreshortening_of_response(b.c, lowest_of(b.r.modes, count), b.response.under(b.r.conditions, b.loads(Eigen::all, used)));
   std::vector<MatrixXd> out(static_cast<std::size_t>(b.loads.cols()), MatrixXd::Zero(count, count));
   for (std::size_t i = 0; i < used.size(); ++i) out[static_cast<std::size_t>(used[i])] = std::move(F[i]);
   return out;

@@ -30,12 +30,12 @@ struct CoveredInertia {
 /// What a body of elements is reduced to: all of a flexible body that is expensive to find. Neither its name nor its damping is in it.
 struct Reduction {
   ReferenceConditions conditions;
-  ModalModel modes;     ///< no shapes: rigid, and what follows is empty
-  FlexInertia inertia;  ///< about the mass centre, without damping
+  ModalModel modes;                                    ///< no shapes: rigid, and what follows is empty
+  FlexInertia inertia;                                 ///< about the mass centre, without damping
   std::vector<std::array<Eigen::MatrixXd, 2>> second;  ///< foreshortening at each port, if it stiffens
   CoveredCompliance compliance;
   std::vector<FreeCompliance> when_free;  ///< of each port; zero of those not in use
-  CoveredInertia inertia_covered;           ///< of Craig–Bampton shapes
+  CoveredInertia inertia_covered;         ///< of Craig–Bampton shapes
   /// Foreshortening of each of `loads_on` in use, on the `stiffened_shapes` lowest; those not in use are zero.
   std::vector<Eigen::MatrixXd> by_load;
 };

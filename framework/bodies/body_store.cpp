@@ -31,8 +31,9 @@ std::size_t cells(const std::vector<Cells>& all) {
 
 /// Memory of what grows with the mesh.
 std::size_t bytes_of(const ElasticBody& e) {
-  std::size_t bytes = sizeof e + dense(e.mesh.x) + list(e.mesh.node_numbers) + cells(e.mesh.cells) + list(e.quality.cells) + dense(e.model.x) +
-                      list(e.model.begin) + list(e.model.independent) + sparse(e.model.L) + sparse(e.K) + sparse(e.M) + list(e.fibres);
+  std::size_t bytes = sizeof e + dense(e.mesh.x) + list(e.mesh.node_numbers) + cells(e.mesh.cells) + list(e.quality.cells) +
+                      dense(e.model.x) + list(e.model.begin) + list(e.model.independent) + sparse(e.model.L) + sparse(e.K) + sparse(e.M) +
+                      list(e.fibres);
   for (const Group& g : e.mesh.groups) bytes += list(g.nodes) + cells(g.sides);
   for (const AnyBlock& any : e.model.blocks)
     bytes += std::visit([](const auto& block) { return list(block.properties) + list(block.nodes) + list(block.cells); }, any);

@@ -25,8 +25,8 @@ using Eigen::Vector2d;
 
 std::string described(const WorstCell& cell) {
   std::ostringstream s;
-  s << name_of(cell.shape) << " " << cell.number << " at " << shown(cell.at) << " (scaled Jacobian "
-    << std::setprecision(3) << cell.quality.jacobian << ")";
+  s << name_of(cell.shape) << " " << cell.number << " at " << shown(cell.at) << " (scaled Jacobian " << std::setprecision(3)
+    << cell.quality.jacobian << ")";
   return s.str();
 }
 
@@ -35,7 +35,8 @@ void judge(const MeshQuality& q, std::vector<std::string>& warnings) {
     throw std::invalid_argument("its mesh has " + std::to_string(q.inverted.size()) + " inverted cell(s), the worst " +
                                 described(q.inverted.front()) + "; refine there, take another element, or mend the mesh");
   if (!q.bad.empty())
-    warnings.push_back(std::to_string(q.bad.size()) + " badly shaped cell(s), the worst " + described(q.bad.front()) + ": stress there is not to be trusted");
+    warnings.push_back(std::to_string(q.bad.size()) + " badly shaped cell(s), the worst " + described(q.bad.front()) +
+                       ": stress there is not to be trusted");
 }
 
 /// Cells that overlap or do not hold together are another body than the one meant.
@@ -96,7 +97,8 @@ AnyBlock line_block(const SceneBeam& beam, const Mesh& mesh, std::vector<Fibre>&
   Block<BeamEuler> euler;
   Block<BeamTimoshenko> timoshenko;
   double length = 0;
-  for (int i = 0; i < n; ++i) length += (mesh.x.col(nodes[static_cast<std::size_t>(2 * i + 1)]) - mesh.x.col(nodes[static_cast<std::size_t>(2 * i)])).norm();
+  for (int i = 0; i < n; ++i)
+    length += (mesh.x.col(nodes[static_cast<std::size_t>(2 * i + 1)]) - mesh.x.col(nodes[static_cast<std::size_t>(2 * i)])).norm();
   double begun = 0;
   std::vector<int> cells(static_cast<std::size_t>(n));
   std::iota(cells.begin(), cells.end(), 0);
@@ -130,12 +132,15 @@ AnyBlock line_block(const SceneBeam& beam, const Mesh& mesh, std::vector<Fibre>&
 double total_mass(const std::vector<AnyBlock>& blocks, const Eigen::Matrix2Xd& x) {
   double m = 0;
   for (const AnyBlock& any : blocks)
-    std::visit([&](const auto& block) {
-      for (int i = 0; i < block.size(); ++i) {
-        const auto lumped = lumped_mass(block.element(i), block.coords(i, x));
-        for (int k = 0; k < lumped.size(); k += static_cast<int>(lumped.size()) / static_cast<int>(block.coords(i, x).cols())) m += lumped[k];
-      }
-    }, any);
+    std::visit(
+        [&](const auto& block) {
+          for (int i = 0; i < block.size(); ++i) {
+            const auto lumped = lumped_mass(block.element(i), block.coords(i, x));
+            for (int k = 0; k < lumped.size(); k += static_cast<int>(lumped.size()) / static_cast<int>(block.coords(i, x).cols()))
+              m += lumped[k];
+          }
+        },
+        any);
   return m;
 }
 
@@ -164,7 +169,8 @@ bool is_outline(const Mesh& mesh, const std::vector<Cells>& sides) {
   double twice_area = 0;
   for (const Cells& c : sides)
     for (std::size_t i = 0; i < c.size(); ++i) {
-      const int a = c.nodes[i * static_cast<std::size_t>(nodes_of(c.shape))], b = c.nodes[i * static_cast<std::size_t>(nodes_of(c.shape)) + 1];
+      const int a = c.nodes[i * static_cast<std::size_t>(nodes_of(c.shape))],
+                b = c.nodes[i * static_cast<std::size_t>(nodes_of(c.shape)) + 1];
       begins.push_back(a);
       ends.push_back(b);
       twice_area += mesh.x(0, a) * mesh.x(1, b) - mesh.x(1, a) * mesh.x(0, b);
@@ -176,7 +182,7 @@ bool is_outline(const Mesh& mesh, const std::vector<Cells>& sides) {
 
 /// A point coupled to a part of a rim stands in the middle of that part, not of the hole.
 void validate_rim(const Scene& scene, const Mesh& mesh, const ScenePoint& p, const RimPort& port, const std::vector<Cells>& sides,
-               std::vector<std::string>& warnings) {
+                  std::vector<std::string>& warnings) {
   constexpr double bent = 10 * std::numbers::pi / 180, round = 45 * std::numbers::pi / 180, on_circle = 0.02;
   const RimShape rim = rim_shape(mesh, sides);
   const std::string name = "\"" + p.hole + "\"", stands = "point \"" + p.name + "\" stands at " + shown(port.x);
@@ -185,15 +191,17 @@ void validate_rim(const Scene& scene, const Mesh& mesh, const ScenePoint& p, con
                        ", in the middle of them all; give each a name and a point of its own if that is not meant");
   if (rim.open == 0 || rim.angle < bent) return;
   if (rim.misfit > on_circle) {
-    warnings.push_back(name + " is no closed rim: its sides do not come round, and " + stands + ", their middle; name the whole rim if a hole is meant");
+    warnings.push_back(name + " is no closed rim: its sides do not come round, and " + stands +
+                       ", their middle; name the whole rim if a hole is meant");
     return;
   }
   const double grain = 1e-9 * rim.radius;
   const Vector2d center = (rim.center / grain).array().round() * grain;
-  const std::string part = name + " covers " + number_text(rim.angle * 180 / std::numbers::pi) + " of 360 deg of a circle of radius " + number_text(rim.radius) +
-                           " m about " + shown(center) + ", but its ";
+  const std::string part = name + " covers " + number_text(rim.angle * 180 / std::numbers::pi) + " of 360 deg of a circle of radius " +
+                           number_text(rim.radius) + " m about " + shown(center) + ", but its ";
   if (rim.open == 1 && rim.angle >= round)
-    throw SceneError(scene.file, p.place, part + "point would stand at " + shown(port.x) + ", the middle of that arc; give the whole rim the name");
+    throw SceneError(scene.file, p.place,
+                     part + "point would stand at " + shown(port.x) + ", the middle of that arc; give the whole rim the name");
   warnings.push_back(part + stands + ", the middle of that arc; give the whole rim the name if a hole is meant");
 }
 
@@ -203,8 +211,10 @@ RimPort rim_port(const Scene& scene, const Mesh& mesh, const ScenePoint& p, std:
   if (rim.sides.empty())
     throw SceneError(scene.file, p.place, "\"" + p.hole + "\" is no rim: none of the mesh's sides lies along it; name the curve of a hole");
   if (is_outline(mesh, rim.sides))
-    throw SceneError(scene.file, p.place, "\"" + p.hole + "\" is the outline of the body, not a hole in it; name a hole, or hold the edge under supports");
-  RimPort port{p.name, Vector2d::Zero(), rim.nodes, rim_weights(mesh, rim), p.coupling == RimCoupling::average ? Coupling::average : Coupling::rigid};
+    throw SceneError(scene.file, p.place,
+                     "\"" + p.hole + "\" is the outline of the body, not a hole in it; name a hole, or hold the edge under supports");
+  RimPort port{p.name, Vector2d::Zero(), rim.nodes, rim_weights(mesh, rim),
+               p.coupling == RimCoupling::average ? Coupling::average : Coupling::rigid};
   double length = 0;
   for (std::size_t i = 0; i < rim.nodes.size(); ++i) {
     port.x += port.weights[i] * mesh.x.col(rim.nodes[i]);
@@ -224,11 +234,14 @@ NodePort node_port(const Scene& scene, const SceneBody& body, const Mesh& mesh, 
     const auto* file = beam_of(body) ? nullptr : std::get_if<SceneFile>(&plate_of(body).shape);
     const int far = file && !file->unit_given ? nearest_node(mesh, 1000 * vector(p.at), 1e-4 * size) : -1;
     if (far >= 0 && vector(p.at).norm() > 0)
-      throw SceneError(scene.file, p.place, "no node lies at " + shown(vector(p.at)) + ", but one at " + shown(mesh.x.col(far)) + ", a thousand times as far: " + file->path +
-                       " is read in m because the scene gives no unit; if it is in mm, add unit: mm");
-    throw SceneError(scene.file, p.place, "no node lies at " + shown(vector(p.at)) + "; the nearest, " +
-                     std::to_string(mesh.node_numbers[static_cast<std::size_t>(node)]) + ", is at " + shown(mesh.x.col(node)) +
-                     (beam_of(body) ? "; put the point on the beam's axis" : "; put the point there, or mesh a drawing, where points become nodes"));
+      throw SceneError(scene.file, p.place,
+                       "no node lies at " + shown(vector(p.at)) + ", but one at " + shown(mesh.x.col(far)) + ", a thousand times as far: " +
+                           file->path + " is read in m because the scene gives no unit; if it is in mm, add unit: mm");
+    throw SceneError(
+        scene.file, p.place,
+        "no node lies at " + shown(vector(p.at)) + "; the nearest, " + std::to_string(mesh.node_numbers[static_cast<std::size_t>(node)]) +
+            ", is at " + shown(mesh.x.col(node)) +
+            (beam_of(body) ? "; put the point on the beam's axis" : "; put the point there, or mesh a drawing, where points become nodes"));
   }
   return {p.name, node};
 }
@@ -249,7 +262,8 @@ std::vector<Lump> lumps_of(const Scene& scene, const SceneBody& body, const Mesh
   for (const SceneLump& l : body.elastic->lumps) {
     const ScenePoint& p = point_of(scene, body, l.at, l.place);
     if (!p.hole.empty())
-      throw SceneError(scene.file, l.place, "\"" + l.at + "\" is the middle of a hole, where no material is; give the lump to a point of the plate itself");
+      throw SceneError(scene.file, l.place,
+                       "\"" + l.at + "\" is the middle of a hole, where no material is; give the lump to a point of the plate itself");
     lumps.push_back({node_port(scene, body, mesh, p).node, {l.mass, l.inertia}});
   }
   return lumps;

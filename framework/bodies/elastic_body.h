@@ -15,14 +15,14 @@ namespace pintle {
 struct ElasticBody {
   const SceneBody* scene = nullptr;
   Mesh mesh;
-  MeshQuality quality;         ///< of plane meshes
+  MeshQuality quality;  ///< of plane meshes
   FeModel model;
   Sparse K, M;
-  std::vector<Fibre> fibres;   ///< of lines, one an element
-  double thickness = 0;        ///< of plates [m]
+  std::vector<Fibre> fibres;  ///< of lines, one an element
+  double thickness = 0;       ///< of plates [m]
   std::vector<std::string> warnings;
   double mesh_seconds = 0, assembly_seconds = 0;
-  long number = 0;             ///< in the BodyStore that has made it; 0: made for itself
+  long number = 0;  ///< in the BodyStore that has made it; 0: made for itself
   bool plate() const { return mesh.plane(); }
 };
 

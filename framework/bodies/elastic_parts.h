@@ -14,7 +14,7 @@ std::string shown(const Eigen::Vector2d&);  ///< "(0.1, 0) m"
 inline const SceneBeam* beam_of(const SceneBody& body) { return std::get_if<SceneBeam>(&body.elastic->shape); }
 inline const ScenePlate& plate_of(const SceneBody& body) { return std::get<ScenePlate>(body.elastic->shape); }
 std::string kind_of(const std::filesystem::path&);  ///< extension in small letters: ".inp"
-bool is_finished_mesh(const ScenePlate&);  ///< read from .msh or .inp: its nodes are where they are
+bool is_finished_mesh(const ScenePlate&);           ///< read from .msh or .inp: its nodes are where they are
 
 /// @throws SceneError  there is no such point; the nearest or all of those there are
 const ScenePoint& point_of(const Scene&, const SceneBody&, const std::string& name, const Place&);

@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index responding = 40;  ///< of the lowest shapes, in estimates
+constexpr Index responding = 40;            ///< of the lowest shapes, in estimates
 constexpr double rounding_of_force = 1e-9;  ///< of a modal force beside its terms
 
 /// Greatest turn in a nodal field of displacements, of sections and ports.
@@ -66,15 +66,15 @@ double greatest_change(const VectorXd& omega, const std::vector<MatrixXd>& F, co
 int pivot(const Scene& scene, const ElasticBody& e) {
   for (const SceneJoint& j : scene.joints) {
     if (j.kind != JointKind::revolute && j.kind != JointKind::weld) continue;
-    const PointRef* own = j.a.body == e.scene->name && j.b.body == "ground" ? &j.a : j.b.body == e.scene->name && j.a.body == "ground" ? &j.b : nullptr;
+    const PointRef* own = j.a.body == e.scene->name && j.b.body == "ground"   ? &j.a
+                          : j.b.body == e.scene->name && j.a.body == "ground" ? &j.b
+                                                                              : nullptr;
     if (own) return port_of(e, own->point);
   }
   return -1;
 }
 
-std::string percent(double part) {
-  return number_text(std::round(1000 * part) / 10) + " %";
-}
+std::string percent(double part) { return number_text(std::round(1000 * part) / 10) + " %"; }
 
 std::string changed(double change) {
   if (change <= -1) return "take away all stiffness, so that it would buckle; the linear body does not know";
@@ -92,7 +92,8 @@ void warn_of_linearity(const Scene& scene, const FlexibleReport& r, std::vector<
   const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const SceneBody& b) { return b.name == r.body; });
   const Stiffening now = body->elastic->stiffening;
   const MotionEstimate& m = *r.motion;
-  if (const std::string warning = stiffening_warning(r.body, now, {m.spin, m.by_rotation, m.by_all_loads}); !warning.empty()) out.push_back(warning);
+  if (const std::string warning = stiffening_warning(r.body, now, {m.spin, m.by_rotation, m.by_all_loads}); !warning.empty())
+    out.push_back(warning);
   const std::string warning = deflection_warning(r.body, m.deflection, m.slope, "would bend");
   if (!warning.empty()) out.push_back(warning + (now == Stiffening::none ? "" : " (estimated without its stiffening; a run tells)"));
 }
@@ -109,7 +110,8 @@ FlexibleReport flexible_report(const MechanismBody& b) {
   r.highest = flex.omega.maxCoeff() / (2 * std::numbers::pi);
   r.least_damping = flex.zeta.minCoeff();
   r.most_damping = flex.zeta.maxCoeff();
-  for (Index i = 0; i < flex.omega.size(); ++i) r.frequencies.push_back(flex.omega[i] / (2 * std::numbers::pi)), r.damping.push_back(flex.zeta[i]);
+  for (Index i = 0; i < flex.omega.size(); ++i)
+    r.frequencies.push_back(flex.omega[i] / (2 * std::numbers::pi)), r.damping.push_back(flex.zeta[i]);
   if (b.conditions.kind != ReferenceConditions::mean_axes) {
     const Eigen::Vector3d sum = effective_mass(b.elastic.model, b.elastic.M, b.modes).rowwise().sum();
     r.mass = Eigen::Vector3d(sum[0] / b.body.m, sum[1] / b.body.m, sum[2] / b.body.J);
@@ -163,7 +165,8 @@ StiffeningProbe stiffening_probe(const MechanismBody& b, int index) {
 
 FrequencyChange frequency_change(const VectorXd& omega, const std::vector<MatrixXd>& F, const MatrixXd& factor) {
   const VectorXd lowest = omega.head(F.front().rows());
-  return {std::sqrt(factor.row(3).maxCoeff()), greatest_change(lowest, F, factor.topRows<inertia_loads>()), greatest_change(lowest, F, factor)};
+  return {std::sqrt(factor.row(3).maxCoeff()), greatest_change(lowest, F, factor.topRows<inertia_loads>()),
+          greatest_change(lowest, F, factor)};
 }
 
 BendingProbe bending_probe(const MechanismBody& b, int index) {
@@ -217,8 +220,8 @@ std::string stiffening_warning(const std::string& body, Stiffening now, const Fr
 std::string deflection_warning(const std::string& body, double deflection, double slope, const std::string& when) {
   if (!(deflection > large_deflection || slope > large_slope)) return "";
   return "\"" + body + "\" " + when + " by " + percent(deflection) + " of its size, its slope " + number_text(slope) +
-         " rad, within one frame, where deformation is taken as small (up to " + percent(large_deflection) + " and " + number_text(large_slope) +
-         " rad); cut a beam into pieces";
+         " rad, within one frame, where deformation is taken as small (up to " + percent(large_deflection) + " and " +
+         number_text(large_slope) + " rad); cut a beam into pieces";
 }
 
 std::vector<std::string> warnings_of(const Scene& scene, const FlexibleReport& r, const std::vector<Imposed>& imposed) {

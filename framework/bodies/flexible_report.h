@@ -30,30 +30,30 @@ struct MotionEstimate {
 
 /// What a flexible body kept of its elements.
 struct FlexibleReport {
-  std::string body, basis;          ///< "coupler", "Craig-Bampton, chord frame"
+  std::string body, basis;  ///< "coupler", "Craig-Bampton, chord frame"
   int shapes = 0;
-  double lowest = 0, highest = 0;   ///< frequency [Hz]
+  double lowest = 0, highest = 0;              ///< frequency [Hz]
   double least_damping = 0, most_damping = 0;  ///< ratio
   std::vector<double> frequencies, damping;    ///< of each shape, ascending [Hz], and its ratio
   /// Share of the mass in x, y and of the inertia in rotation; none under mean axes, whose shapes
   /// carry no momentum.
   std::optional<Eigen::Vector3d> mass;
-  double compliance = 1;            ///< least share of static compliance covered at a port in use
-  std::string compliance_at;        ///< "B, y"; empty: no port yields
-  std::optional<ModalChoice> choice;       ///< of `keep: auto`
-  std::optional<MotionEstimate> motion;    ///< after a rigid run
+  double compliance = 1;                 ///< least share of static compliance covered at a port in use
+  std::string compliance_at;             ///< "B, y"; empty: no port yields
+  std::optional<ModalChoice> choice;     ///< of `keep: auto`
+  std::optional<MotionEstimate> motion;  ///< after a rigid run
 };
 
 /// Relative change of the first frequency by loads, where it is greatest in magnitude; −1: it falls to zero.
 struct FrequencyChange {
-  double spin = 0;  ///< greatest [rad/s]
+  double spin = 0;                           ///< greatest [rad/s]
   double by_rotation = 0, by_all_loads = 0;  ///< by those of inertia, by all
 };
 
 /// What a run needs to tell how its loads would stiffen or soften a body.
 struct StiffeningProbe {
   std::string body;
-  int index = 0;                   ///< into System::bodies
+  int index = 0;  ///< into System::bodies
   Stiffening now = Stiffening::none;
   bool judged = false;             ///< the model's warnings speak of it already
   Eigen::VectorXd omega;           ///< of the lowest shapes
@@ -63,10 +63,10 @@ struct StiffeningProbe {
 /// By how much a body bends within its frame, told from a few of its points.
 struct BendingProbe {
   std::string body;
-  int index = 0;                  ///< into System::bodies
-  double size = 1;                ///< diagonal of the body [m]
-  Eigen::MatrixXd displacement;   ///< x and y of each point, 2·points × n
-  Eigen::MatrixXd slope;          ///< of points that turn, points × n
+  int index = 0;                 ///< into System::bodies
+  double size = 1;               ///< diagonal of the body [m]
+  Eigen::MatrixXd displacement;  ///< x and y of each point, 2·points × n
+  Eigen::MatrixXd slope;         ///< of points that turn, points × n
 };
 BendingProbe bending_probe(const MechanismBody&, int index);
 

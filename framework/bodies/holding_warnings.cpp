@@ -54,7 +54,8 @@ std::vector<std::string> holding_warnings(const Scene& scene, const std::vector<
   }
   std::vector<std::string> out;
   if (!clamped.empty())
-    out.push_back(first_of(clamped) + " is clamped where its shapes are not, for they are normal modes of another holding; a few of them bend too little "
+    out.push_back(first_of(clamped) +
+                  " is clamped where its shapes are not, for they are normal modes of another holding; a few of them bend too little "
                   "there and miss the stress: take craig-bampton");
   if (!untied.empty())
     out.push_back("stiffening: rotation counts the pull of inertia as the frame's tie holds it, and joints hold " + first_of(untied) +

@@ -27,8 +27,9 @@ void validate_frame(const MechanismBody& b) {
   const Eigen::Matrix3d left = Eigen::Matrix3d::Identity() - size.asDiagonal() * (B * B.transpose()) * size.asDiagonal();
   const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(left).eigenvalues()[0];
   if (!(least > 1e-10))
-    throw std::invalid_argument("its shapes leave the frame no inertia: the frame is tied to freedoms without mass; take the "
-                                "consistent mass matrix, rotary inertia, another frame or fewer shapes");
+    throw std::invalid_argument(
+        "its shapes leave the frame no inertia: the frame is tied to freedoms without mass; take the "
+        "consistent mass matrix, rotary inertia, another frame or fewer shapes");
 }
 
 void warn_of_damping(MechanismBody& b) {
@@ -47,12 +48,14 @@ void warn_of_damping(MechanismBody& b) {
 void validate_inertia(const Scene& scene, const ElasticBody& e) {
   const RigidInertia inertia = rigid_inertia(e.model, e.M);
   if (!(inertia.J - inertia.c.squaredNorm() / inertia.m > 0))
-    throw SceneError(scene.file, e.scene->place, "it has no moment of inertia about its mass centre; give it more elements or rotary inertia");
+    throw SceneError(scene.file, e.scene->place,
+                     "it has no moment of inertia about its mass centre; give it more elements or rotary inertia");
 }
 
 MechanismBody mechanism_body(const Scene& scene, ElasticBody elastic, Reduction r) {
-  MechanismBody b{std::move(elastic), r.conditions, std::move(r.modes), {}, Vector2d::Zero(), std::move(r.second), std::move(r.compliance),
-                  std::move(r.when_free), r.inertia_covered, std::move(r.by_load), {}};
+  MechanismBody b{
+      std::move(elastic),     r.conditions,      std::move(r.modes),   {}, Vector2d::Zero(), std::move(r.second), std::move(r.compliance),
+      std::move(r.when_free), r.inertia_covered, std::move(r.by_load), {}};
   const SceneBody& body = *b.elastic.scene;
   for (const std::string& w : b.elastic.warnings) b.warnings.push_back("\"" + body.name + "\": " + w);
   const RigidInertia inertia = rigid_inertia(b.elastic.model, b.elastic.M);
@@ -78,7 +81,9 @@ Marker marker_of(const Scene& scene, const MechanismBody& b, int body, const Poi
   const int found = port_of(e, ref.point);
   if (found < 0 && !ref.point.empty()) point_of(scene, *e.scene, ref.point, ref.place);  // says what there is
   if (found < 0 && b.body.flex)
-    throw SceneError(scene.file, ref.place, "\"" + ref.body + "\" alone is the origin of its axes, and a flexible body has no point there; name one of its points");
+    throw SceneError(
+        scene.file, ref.place,
+        "\"" + ref.body + "\" alone is the origin of its axes, and a flexible body has no point there; name one of its points");
   if (found < 0) return {body, b.body.x_BO, 0};
   const auto i = static_cast<std::size_t>(found);
   const Port& port = e.model.ports[i];
@@ -86,14 +91,14 @@ Marker marker_of(const Scene& scene, const MechanismBody& b, int body, const Poi
   Marker m{body, port.x - b.centre, ref.point.empty() ? 0 : point.angle};
   if (!b.body.flex) return m;
   if (turns && port.freedom[2] < 0)
-    throw SceneError(scene.file, ref.place, "\"" + ref.body + "." + port.name + "\" is a point of " + (e.plate() ? "a plate" : "a bar") +
-                                                ", which has no direction to hold or turn; " +
-                                                (e.plate() ? "take the middle of a hole, which turns with its rim" : "take a beam that bends"));
+    throw SceneError(scene.file, ref.place,
+                     "\"" + ref.body + "." + port.name + "\" is a point of " + (e.plate() ? "a plate" : "a bar") +
+                         ", which has no direction to hold or turn; " +
+                         (e.plate() ? "take the middle of a hole, which turns with its rim" : "take a beam that bends"));
   const auto row = 3 * static_cast<Eigen::Index>(i);
   m.shape = b.modes.ports.middleRows<2>(row);
   m.slope = b.modes.ports.row(row + 2);
-  if (e.scene->elastic->stiffening == Stiffening::axial)
-    m.second = b.second[i];
+  if (e.scene->elastic->stiffening == Stiffening::axial) m.second = b.second[i];
   return m;
 }
 
@@ -102,8 +107,9 @@ VectorXd bent_start(const Scene& scene, const MechanismBody& b, const StartBody&
   VectorXd eta = VectorXd::Zero(n);
   if (!start.modes.empty()) {
     if (static_cast<Eigen::Index>(start.modes.size()) > n)
-      throw SceneError(scene.file, start.place, "gives " + std::to_string(start.modes.size()) + " modal coordinates, but \"" + b.body.name + "\" keeps " +
-                                                    std::to_string(n) + " shapes; leave out the rest, or keep more");
+      throw SceneError(scene.file, start.place,
+                       "gives " + std::to_string(start.modes.size()) + " modal coordinates, but \"" + b.body.name + "\" keeps " +
+                           std::to_string(n) + " shapes; leave out the rest, or keep more");
     for (std::size_t i = 0; i < start.modes.size(); ++i) eta[static_cast<Eigen::Index>(i)] = start.modes[i];
     return eta;
   }
@@ -123,9 +129,10 @@ VectorXd bent_start(const Scene& scene, const MechanismBody& b, const StartBody&
   for (std::size_t i = 0; i < start.deflection.size(); ++i) {
     const Vector2d there = made.segment<2>(2 * static_cast<Eigen::Index>(i));
     if ((there - vector(start.deflection[i].u)).norm() <= met * u.norm()) continue;
-    throw SceneError(scene.file, start.deflection[i].place, "the shapes of \"" + b.body.name + "\" cannot displace it by " + shown(vector(start.deflection[i].u)) +
-                                                               "; nearest is " + shown(there) + ": its frame, \"" + title_of(*b.elastic.scene->elastic->modes) +
-                                                               "\", holds that point, or too few shapes are kept");
+    throw SceneError(scene.file, start.deflection[i].place,
+                     "the shapes of \"" + b.body.name + "\" cannot displace it by " + shown(vector(start.deflection[i].u)) +
+                         "; nearest is " + shown(there) + ": its frame, \"" + title_of(*b.elastic.scene->elastic->modes) +
+                         "\", holds that point, or too few shapes are kept");
   }
   return eta;
 }

@@ -16,14 +16,14 @@ namespace pintle {
 struct MechanismBody {
   ElasticBody elastic;
   ReferenceConditions conditions;
-  ModalModel modes;            ///< no shapes: rigid
-  Body body;                   ///< mass, inertia, invariants about the mass centre
-  Eigen::Vector2d centre;      ///< of mass, undeformed, body axes [m]
+  ModalModel modes;                                    ///< no shapes: rigid
+  Body body;                                           ///< mass, inertia, invariants about the mass centre
+  Eigen::Vector2d centre;                              ///< of mass, undeformed, body axes [m]
   std::vector<std::array<Eigen::MatrixXd, 2>> second;  ///< of each port, if it stiffens
   CoveredCompliance compliance;
   std::vector<FreeCompliance> when_free;  ///< of each port
   CoveredInertia inertia_covered;
-  std::vector<Eigen::MatrixXd> by_load;     ///< foreshortening of each of `loads_on`, on the lowest shapes
+  std::vector<Eigen::MatrixXd> by_load;  ///< foreshortening of each of `loads_on`, on the lowest shapes
   std::vector<std::string> warnings;
 };
 

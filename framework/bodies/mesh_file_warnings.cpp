@@ -11,8 +11,8 @@ namespace pintle {
 
 namespace {
 
-constexpr double same = 1e-3;       ///< relative: numbers of a file are written with three digits or more
-constexpr double very_large = 20;   ///< of a body [m]
+constexpr double same = 1e-3;      ///< relative: numbers of a file are written with three digits or more
+constexpr double very_large = 20;  ///< of a body [m]
 
 bool near(double a, double b) { return std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b)); }
 
@@ -41,8 +41,10 @@ double rest_of_scene(const Scene& scene, const SceneBody& but) {
 void validate_claims(const InpClaims& claims, const ScenePlate& plate, std::vector<std::string>& warnings) {
   if (!claims.strain.empty() && plate.state == PlaneState::stress) {
     if (!plate.state_given)
-      reject(claims.strain, ": the file's elements are of plane strain (CPE), the plate is of plane stress unless it says otherwise; add plane: strain, or "
-                            "plane: stress to compute it so all the same");
+      reject(
+          claims.strain,
+          ": the file's elements are of plane strain (CPE), the plate is of plane stress unless it says otherwise; add plane: strain, or "
+          "plane: stress to compute it so all the same");
     warnings.push_back(claims.strain + ": the file's elements are of plane strain (CPE); computed in plane stress, as the scene says");
   }
   const double scale = std::get<SceneFile>(plate.shape).scale;
@@ -54,7 +56,8 @@ void validate_claims(const InpClaims& claims, const ScenePlate& plate, std::vect
   }
   const Isotropic* solid = std::get_if<Isotropic>(&plate.material.material.elastic);
   if (!claims.directional.empty() && solid)
-    warnings.push_back(claims.directional + ": the file's material is not isotropic, that of the scene is; computed with that of the scene");
+    warnings.push_back(claims.directional +
+                       ": the file's material is not isotropic, that of the scene is; computed with that of the scene");
   if (!solid) return;
   for (const InpClaims::Value& E : claims.young) {
     if (same_modulus(E.value, solid->young)) continue;
@@ -64,8 +67,8 @@ void validate_claims(const InpClaims& claims, const ScenePlate& plate, std::vect
   }
   for (const InpClaims::Value& nu : claims.poisson) {
     if (near(nu.value, solid->poisson)) continue;
-    warnings.push_back(nu.where + ": the file says Poisson's ratio " + number_text(nu.value) + ", the scene " + number_text(solid->poisson) +
-                       "; computed with that of the scene");
+    warnings.push_back(nu.where + ": the file says Poisson's ratio " + number_text(nu.value) + ", the scene " +
+                       number_text(solid->poisson) + "; computed with that of the scene");
     break;
   }
 }
@@ -77,8 +80,9 @@ std::string size_warning(const Scene& scene, const ElasticBody& e) {
   const double size = (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm(), rest = rest_of_scene(scene, *e.scene);
   const bool off = rest > 0 && size > 300 * rest && size < 3000 * rest;  // a thousand, with room for a link longer than the others
   if (!(size > very_large) && !off) return "";
-  return "it is " + number_text(size) + " m across" + (off ? ", about a thousand times the rest of the scene (" + number_text(rest) + " m)" : "") +
-         ": " + file->path + " is read in m because the scene gives no unit; if it is in mm, add unit: mm, else unit: m";
+  return "it is " + number_text(size) + " m across" +
+         (off ? ", about a thousand times the rest of the scene (" + number_text(rest) + " m)" : "") + ": " + file->path +
+         " is read in m because the scene gives no unit; if it is in mm, add unit: mm, else unit: m";
 }
 
 }  // namespace pintle

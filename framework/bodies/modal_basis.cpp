@@ -46,15 +46,17 @@ void judge(const Scene& scene, const ElasticBody& e, const ReferenceConditions& 
   const SceneModes& modes = *e.scene->elastic->modes;
   const Port& a = e.model.ports[static_cast<std::size_t>(conditions.a)];
   if (conditions.kind == ReferenceConditions::tangent && a.freedom[2] < 0)
-    throw SceneError(scene.file, modes.place, "the frame is tangent at " + a.name + ", a point of " + (e.plate() ? "a plate" : "a bar") +
-                                                  ", which has no direction; take " + (e.plate() ? "the middle of a hole, " : "") +
-                                                  "a chord through two points, or mean axes");
+    throw SceneError(scene.file, modes.place,
+                     "the frame is tangent at " + a.name + ", a point of " + (e.plate() ? "a plate" : "a bar") +
+                         ", which has no direction; take " + (e.plate() ? "the middle of a hole, " : "") +
+                         "a chord through two points, or mean axes");
   if (conditions.kind == ReferenceConditions::tangent) return;
   const Port& b = e.model.ports[static_cast<std::size_t>(conditions.b)];
   const double size = (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm();
   if ((b.x - a.x).norm() <= 1e-9 * size)
-    throw SceneError(scene.file, modes.place, "the frame's chord runs from " + a.name + " to " + b.name + ", which lie at the same place, " + shown(a.x) +
-                                                  "; name two points that lie apart, or tangent: " + a.name);
+    throw SceneError(scene.file, modes.place,
+                     "the frame's chord runs from " + a.name + " to " + b.name + ", which lie at the same place, " + shown(a.x) +
+                         "; name two points that lie apart, or tangent: " + a.name);
 }
 
 std::string hertz(double omega) {
@@ -65,9 +67,7 @@ std::string hertz(double omega) {
 
 }  // namespace
 
-Component component_of(const ElasticBody& e) {
-  return {e.model, independent(e.model, e.K), independent(e.model, e.M)};
-}
+Component component_of(const ElasticBody& e) { return {e.model, independent(e.model, e.K), independent(e.model, e.M)}; }
 
 int port_of(const ElasticBody& e, const std::string& point) {
   const double size = (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm();
@@ -85,10 +85,14 @@ std::vector<int> interface_of(const Scene& scene, const ElasticBody& e) {
     for (const PointRef* point : points_of(j)) note(*point);
   for (const SceneDriver& d : scene.drivers) note(d.a), note(d.b);
   for (const SceneLoad& l : scene.loads)
-    std::visit([&](const auto& w) {
-      if constexpr (requires { w.at; }) note(w.at);
-      else note(w.a), note(w.b);
-    }, l.what);
+    std::visit(
+        [&](const auto& w) {
+          if constexpr (requires { w.at; })
+            note(w.at);
+          else
+            note(w.a), note(w.b);
+        },
+        l.what);
   std::vector<int> ports;
   for (int i = 0; i < static_cast<int>(e.model.ports.size()); ++i)
     if (used.empty() || used.contains(i)) ports.push_back(i);
@@ -119,20 +123,26 @@ ReferenceConditions reference_conditions_of(const Scene& scene, const ElasticBod
   if (modes.frame == Frame::mean_axes) return {ReferenceConditions::mean_axes};
   const std::size_t needed = modes.frame == Frame::tangent ? 1 : 2;
   if (e.model.ports.size() < needed)
-    throw SceneError(scene.file, modes.place, "the frame needs " + std::string(needed == 1 ? "a point" : "two points") + " of the body; add " + (needed == 1 ? "it" : "them") + " under points");
+    throw SceneError(scene.file, modes.place,
+                     "the frame needs " + std::string(needed == 1 ? "a point" : "two points") + " of the body; add " +
+                         (needed == 1 ? "it" : "them") + " under points");
   std::string a = modes.a, b = modes.b;
   if (const auto* beam = std::get_if<SceneBeam>(&e.scene->elastic->shape); beam && a.empty()) a = beam->through.front();
   if (const auto* beam = std::get_if<SceneBeam>(&e.scene->elastic->shape); beam && b.empty()) b = beam->through.back();
   if (a.empty()) a = e.scene->points.front().name;
   if (b.empty()) b = e.scene->points.back().name;
   const int first = named_port(scene, e, a, modes.place);
-  const ReferenceConditions conditions = modes.frame == Frame::tangent ? ReferenceConditions{ReferenceConditions::tangent, first} : ReferenceConditions{ReferenceConditions::chord, first, named_port(scene, e, b, modes.place)};
+  const ReferenceConditions conditions = modes.frame == Frame::tangent
+                                             ? ReferenceConditions{ReferenceConditions::tangent, first}
+                                             : ReferenceConditions{ReferenceConditions::chord, first, named_port(scene, e, b, modes.place)};
   judge(scene, e, conditions);
   return conditions;
 }
 
 std::string title_of(const SceneModes& m) {
-  const std::string frame = m.frame == SceneModes::Frame::tangent ? "tangent frame" : m.frame == SceneModes::Frame::chord ? "chord frame" : "mean axes";
+  const std::string frame = m.frame == SceneModes::Frame::tangent ? "tangent frame"
+                            : m.frame == SceneModes::Frame::chord ? "chord frame"
+                                                                  : "mean axes";
   switch (m.method) {
     case SceneModes::Method::normal: return "normal modes, " + frame;
     case SceneModes::Method::craig_bampton: return "Craig-Bampton, " + frame;
@@ -158,14 +168,18 @@ Eigen::VectorXd damping_of(const Scene& scene, const SceneBody& body, const Eige
     const auto& z = *damping->rayleigh_ratios;
     if (basis.size() == 1 && z[0] == z[1]) return zeta.setConstant(z[0]);
     if (std::max(first, second) > basis.size())
-      throw SceneError(scene.file, damping->place, "Rayleigh damping is set by modes " + std::to_string(first) + " and " + std::to_string(second) + ", but there are " + std::to_string(basis.size()) + "; name two of those under modes, or keep more");
+      throw SceneError(scene.file, damping->place,
+                       "Rayleigh damping is set by modes " + std::to_string(first) + " and " + std::to_string(second) + ", but there are " +
+                           std::to_string(basis.size()) + "; name two of those under modes, or keep more");
     c = in_body(scene, body, [&] { return rayleigh(basis[first - 1], z[0], basis[second - 1], z[1]); });
   }
   zeta = ratios(c, omega);
   Eigen::Index at = 0;
   if (zeta.size() > 0 && zeta.minCoeff(&at) < 0)
-    throw SceneError(scene.file, damping->place, "Rayleigh damping gives mode " + std::to_string(at + 1) + " at " + hertz(omega[at]) + " Hz the ratio " + hertz(2 * std::numbers::pi * zeta[at]) +
-                     ", which would feed it energy; bring the two ratios nearer to each other, or give a ratio to each mode");
+    throw SceneError(scene.file, damping->place,
+                     "Rayleigh damping gives mode " + std::to_string(at + 1) + " at " + hertz(omega[at]) + " Hz the ratio " +
+                         hertz(2 * std::numbers::pi * zeta[at]) +
+                         ", which would feed it energy; bring the two ratios nearer to each other, or give a ratio to each mode");
   return zeta;
 }
 

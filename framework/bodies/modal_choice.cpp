@@ -21,7 +21,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Method = SceneModes::Method;
 
-constexpr Index evenly = 256;       ///< times at which shares are judged, beside the extremes
+constexpr Index evenly = 256;        ///< times at which shares are judged, beside the extremes
 constexpr Index watched_nodes = 64;  ///< nodes whose displacement is judged, beside the ports
 constexpr Index spectrum_samples = 8192;
 
@@ -100,12 +100,12 @@ class Watched {
 
 /// A body under its loads: static shapes, then candidates, in small matrices.
 struct Reduced {
-  VectorXd omega, zeta;  ///< of the candidates
-  Index fixed;           ///< static shapes, in front
-  MatrixXd gram;         ///< VᵀKV
-  MatrixXd work;         ///< VᵀL, shapes × loads
-  MatrixXd watched;      ///< displacement, rows × shapes
-  MatrixXd static_work;  ///< LᵀU of the full static response U, loads × loads
+  VectorXd omega, zeta;     ///< of the candidates
+  Index fixed;              ///< static shapes, in front
+  MatrixXd gram;            ///< VᵀKV
+  MatrixXd work;            ///< VᵀL, shapes × loads
+  MatrixXd watched;         ///< displacement, rows × shapes
+  MatrixXd static_work;     ///< LᵀU of the full static response U, loads × loads
   MatrixXd static_watched;  ///< its displacement, rows × loads
 };
 
@@ -125,7 +125,8 @@ Reduced reduced(const Scene& scene, const ElasticBody& e) {
   const Index d = D.omega.size(), n = modes.omega.size();
   const MatrixXd loads = loads_on(e), U = static_response(c, candidates.conditions, loads);
   const Watched watched(e);
-  Reduced r{modes.omega, damping(scene, e, modes.omega), d, MatrixXd::Zero(d + n, d + n), {}, {}, loads.transpose() * U, watched.of(e.model, U)};
+  Reduced r{modes.omega,           damping(scene, e, modes.omega), d, MatrixXd::Zero(d + n, d + n), {}, {},
+            loads.transpose() * U, watched.of(e.model, U)};
   r.gram.diagonal() << D.omega.cwiseAbs2(), modes.omega.cwiseAbs2();
   r.gram.topRightCorner(d, n) = D.shapes.transpose() * (e.K * modes.shapes);
   r.gram.bottomLeftCorner(n, d) = r.gram.topRightCorner(d, n).transpose();
@@ -290,7 +291,8 @@ ModalChoice choose_modes(const Scene& scene, const ElasticBody& e, const LoadHis
   for (Index i = 0; i < n; ++i) {
     left.take(r.fixed + i);
     const double own = r.omega[i] * eta.row(i).lpNorm<Eigen::Infinity>();
-    choice.considered.push_back({r.omega[i] / (2 * std::numbers::pi), own * own / 2 / energy, left.energy() / energy, left.displacement() / displacement, false});
+    choice.considered.push_back(
+        {r.omega[i] / (2 * std::numbers::pi), own * own / 2 / energy, left.energy() / energy, left.displacement() / displacement, false});
   }
   choice.beyond_energy = choice.considered.back().left_energy;
   choice.beyond_displacement = choice.considered.back().left_displacement;
@@ -305,7 +307,11 @@ ModalChoice choose_by_rule(const Scene& scene, const ElasticBody& e, const std::
     const Component c = component_of(e);
     return candidates_of(scene, e, c, without_a_run).modes.omega.size();
   });
-  return {static_cast<int>(there), "the " + std::to_string(there) + " lowest modes, by rule, for there is no rigid run to judge by: " + why, {}, 0, 0};
+  return {static_cast<int>(there),
+          "the " + std::to_string(there) + " lowest modes, by rule, for there is no rigid run to judge by: " + why,
+          {},
+          0,
+          0};
 }
 
 double excited_up_to(const std::vector<double>& t, const MatrixXd& Q, const VectorXd& omega) {

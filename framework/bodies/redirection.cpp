@@ -11,15 +11,13 @@ void Redirection::redirect(PointRef& ref) const {
   const auto found = cuts_.find(ref.body);
   if (found == cuts_.end()) return;
   const SceneBody& body = *std::ranges::find(before_.bodies, ref.body, &SceneBody::name);
-  const ScenePoint& point =
-      ref.point.empty() ? at_origin(body, ref) : point_of(before_, body, ref.point, ref.place);
+  const ScenePoint& point = ref.point.empty() ? at_origin(body, ref) : point_of(before_, body, ref.point, ref.place);
   ref.body = found->second.owner.at(point.name);
 }
 
 void Redirection::redirect(PointRef& a, PointRef& b, const Place& place) const {
   if (a.body == b.body && cuts_.contains(a.body))
-    throw SceneError(before_.file, place,
-                     "both ends are on \"" + a.body + "\"; join two different bodies");
+    throw SceneError(before_.file, place, "both ends are on \"" + a.body + "\"; join two different bodies");
   redirect(a);
   redirect(b);
 }
@@ -54,8 +52,7 @@ std::vector<StartBody> Redirection::starts() const {
     }
     if (!start.deflection.empty() || !start.modes.empty())
       throw SceneError(before_.file, start.place,
-                       "\"" + start.body +
-                           "\" is cut into pieces, and how it starts bent is not shared among them; " +
+                       "\"" + start.body + "\" is cut into pieces, and how it starts bent is not shared among them; " +
                            "leave it out, or begin at rest by start: equilibrium");
     for (const SceneBody& piece : found->second.bodies) {
       out.push_back(start);
@@ -74,8 +71,7 @@ const ScenePoint& Redirection::at_origin(const SceneBody& body, const PointRef& 
     points.push_back(p.name);
   }
   throw SceneError(before_.file, ref.place,
-                   "\"" + body.name +
-                       "\" alone is the origin of its axes, and the beam, cut into " +
+                   "\"" + body.name + "\" alone is the origin of its axes, and the beam, cut into " +
                        "pieces, has no point there; name one of its points: " + listed(points));
 }
 

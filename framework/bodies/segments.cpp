@@ -32,8 +32,7 @@ Axis axis_of(const Scene& scene, const SceneBody& body, const SceneBeam& beam) {
     const Vector2d x = vector(point_of(scene, body, name, body.place).at);
     const double step = axis.corners.empty() ? 0 : (x - axis.corners.back()).norm();
     if (!axis.corners.empty() && !(step > 0))
-      throw SceneError(scene.file, body.place,
-                       "its beam has no length up to " + name + "; move one of the two points");
+      throw SceneError(scene.file, body.place, "its beam has no length up to " + name + "; move one of the two points");
     axis.at.push_back(axis.at.empty() ? 0 : axis.at.back() + step);
     axis.corners.push_back(x);
   }
@@ -52,8 +51,7 @@ std::optional<double> arc_of(const Axis& axis, const Vector2d& p, double toleran
   for (std::size_t i = 0; i + 1 < axis.corners.size(); ++i) {
     const Vector2d &a = axis.corners[i], &b = axis.corners[i + 1];
     const double t = std::clamp((b - a).dot(p - a) / (b - a).squaredNorm(), 0.0, 1.0);
-    if ((a + t * (b - a) - p).norm() <= tolerance)
-      return axis.at[i] + t * (axis.at[i + 1] - axis.at[i]);
+    if ((a + t * (b - a) - p).norm() <= tolerance) return axis.at[i] + t * (axis.at[i + 1] - axis.at[i]);
   }
   return {};
 }
@@ -63,7 +61,8 @@ int passages(const Axis& axis, const SceneBeam& beam, const ScenePoint& p, doubl
   std::vector<double> at;
   for (std::size_t i = 0; i + 1 < axis.corners.size(); ++i) {
     const Vector2d &a = axis.corners[i], &b = axis.corners[i + 1];
-    const double t = std::clamp((b - a).dot(vector(p.at) - a) / (b - a).squaredNorm(), 0.0, 1.0), s = axis.at[i] + t * (axis.at[i + 1] - axis.at[i]);
+    const double t = std::clamp((b - a).dot(vector(p.at) - a) / (b - a).squaredNorm(), 0.0, 1.0),
+                 s = axis.at[i] + t * (axis.at[i + 1] - axis.at[i]);
     if ((a + t * (b - a) - vector(p.at)).norm() > tolerance) continue;
     bool other = !at.empty() && std::abs(at.back() - s) <= tolerance;
     for (std::size_t k = 0; k < axis.at.size(); ++k) other = other || (beam.through[k] != p.name && std::abs(axis.at[k] - s) <= tolerance);
@@ -84,9 +83,7 @@ struct Whole {
 };
 
 void judge(const Scene& scene, const SceneBody& body, const SceneBeam& beam) {
-  const auto wrong = [&](const std::string& message) {
-    throw SceneError(scene.file, body.place, message);
-  };
+  const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, body.place, message); };
   if (!body.elastic->modes) wrong("its beam is cut into pieces but has no modes; add modes");
   if (beam.bar)
     wrong(
@@ -96,8 +93,7 @@ void judge(const Scene& scene, const SceneBody& body, const SceneBeam& beam) {
   for (std::size_t i = 0; i < beam.through.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (beam.through[i] == beam.through[k])
-        wrong("its beam is cut into pieces and passes " + beam.through[i] +
-              " twice; give the second passage a point of its own");
+        wrong("its beam is cut into pieces and passes " + beam.through[i] + " twice; give the second passage a point of its own");
 }
 
 Whole whole_of(const Scene& scene, const SceneBody& body, const SceneBeam& beam) {
@@ -108,19 +104,19 @@ Whole whole_of(const Scene& scene, const SceneBody& body, const SceneBeam& beam)
   for (const ScenePoint& p : body.points) {
     const auto corner = std::ranges::find(beam.through, p.name);
     if (corner != beam.through.end()) {
-      whole.points.push_back(
-          whole.axis.at[static_cast<std::size_t>(corner - beam.through.begin())]);
+      whole.points.push_back(whole.axis.at[static_cast<std::size_t>(corner - beam.through.begin())]);
     } else if (const auto s = arc_of(whole.axis, vector(p.at), whole.tolerance)) {
       whole.points.push_back(*s);
     } else {
-      throw SceneError(scene.file, p.place,
-                       "lies off the axis of the beam \"" + body.name + "\", at " +
-                           shown(vector(p.at)) + "; put it on the axis or leave it out");
+      throw SceneError(
+          scene.file, p.place,
+          "lies off the axis of the beam \"" + body.name + "\", at " + shown(vector(p.at)) + "; put it on the axis or leave it out");
     }
   }
   for (const ScenePoint& p : body.points)
     if (passages(whole.axis, beam, p, whole.tolerance) > 1)
-      throw SceneError(scene.file, body.place, "its beam is cut into pieces and passes " + p.name +
+      throw SceneError(scene.file, body.place,
+                       "its beam is cut into pieces and passes " + p.name +
                            " twice, where the pieces would not hold together; make the second passage a body of its own and weld it there");
   whole.cuts.push_back(0);
   for (int k = 1; k < beam.pieces; ++k) {
@@ -144,9 +140,7 @@ std::string cut_name(const SceneBody& body, std::size_t cut) {
 /// Simpson's rule is exact.
 double volume(const SceneBeam& beam, double begin, double end, double length) {
   const auto area = [&](double s) {
-    return section(beam.taper_to ? between(beam.section, *beam.taper_to, s / length) : beam.section,
-                   ShearFactor::five_sixths, 0)
-        .A;
+    return section(beam.taper_to ? between(beam.section, *beam.taper_to, s / length) : beam.section, ShearFactor::five_sixths, 0).A;
   };
   return (end - begin) / 6 * (area(begin) + 4 * area((begin + end) / 2) + area(end));
 }
@@ -154,11 +148,9 @@ double volume(const SceneBeam& beam, double begin, double end, double length) {
 void share_sections(const Whole& whole, std::size_t k, SceneBeam& piece) {
   const double length = whole.axis.length(), begin = whole.cuts[k], end = whole.cuts[k + 1];
   const SceneBeam& beam = whole.beam;
-  if (beam.mass)
-    piece.mass = *beam.mass * volume(beam, begin, end, length) / volume(beam, 0, length, length);
+  if (beam.mass) piece.mass = *beam.mass * volume(beam, begin, end, length) / volume(beam, 0, length, length);
   const double wanted = beam.elements > 0 ? beam.elements : default_beam_elements;
-  piece.elements =
-      static_cast<int>(std::lround(wanted * end / length) - std::lround(wanted * begin / length));
+  piece.elements = static_cast<int>(std::lround(wanted * end / length) - std::lround(wanted * begin / length));
   piece.elements = std::max(1, piece.elements);
   if (!beam.taper_to) return;
   piece.section = between(beam.section, *beam.taper_to, begin / length);
@@ -267,12 +259,11 @@ void validate_names(const Scene& scene, const std::map<std::string, Pieces>& cut
   for (const SceneJoint& j : scene.joints) taken.try_emplace(j.name, j.place);
   for (const SceneDriver& d : scene.drivers) taken.try_emplace(d.name, d.place);
   for (const SceneLoad& l : scene.loads) taken.try_emplace(l.name, l.place);
-  const auto judge = [&](const std::string& name, const std::string& what,
-                         const std::string& beam) {
+  const auto judge = [&](const std::string& name, const std::string& what, const std::string& beam) {
     if (const auto found = taken.find(name); found != taken.end())
-      throw SceneError(scene.file, found->second,
-                       "\"" + name + "\" is the name of a " + what + " of the beam \"" + beam +
-                           "\", which is cut into pieces; choose another name");
+      throw SceneError(
+          scene.file, found->second,
+          "\"" + name + "\" is the name of a " + what + " of the beam \"" + beam + "\", which is cut into pieces; choose another name");
   };
   for (const auto& [beam, pieces] : cuts) {
     for (const SceneBody& b : pieces.bodies) judge(b.name, "piece", beam);

@@ -17,14 +17,16 @@ std::vector<NamedSupport> supports_of(const Scene& scene, const ElasticBody& e) 
     for (const ScenePoint& p : e.scene->points)
       if (!port && p.hole == s.at) port = e.model.port(p.name);
     if (port && s.rotation && !(s.x && s.y) && port->freedom[2] < 0)
-      throw SceneError(scene.file, s.place, "\"" + s.at + "\" is a point of a plate, which has no rotation of its own; hold a hole or an edge");
+      throw SceneError(scene.file, s.place,
+                       "\"" + s.at + "\" is a point of a plate, which has no rotation of its own; hold a hole or an edge");
     Supports& supports = all.emplace_back(NamedSupport{s.at, {}}).held;
     in_body(scene, *e.scene, [&] {
       if (port) return hold(supports, e.model, *port, s.x, s.y, s.rotation && port->freedom[2] >= 0);
       std::vector<std::string> known = group_names(e.mesh);
       for (const Port& p : e.model.ports) known.push_back(p.name);
       const Group* group = e.mesh.group(s.at);
-      if (!group) throw SceneError(scene.file, s.place, "there is neither a point nor a group \"" + s.at + "\"." + did_you_mean(s.at, known));
+      if (!group)
+        throw SceneError(scene.file, s.place, "there is neither a point nor a group \"" + s.at + "\"." + did_you_mean(s.at, known));
       for (const int node : group->nodes) hold(supports, e.model, node, s.x, s.y, s.rotation && !e.plate());
     });
   }
@@ -44,20 +46,22 @@ namespace {
 /// M_e · field at each line element plus the share of a line load q, 6 × elements.
 Eigen::MatrixXd beam_loads(const FeModel& model, const std::function<Vector2d(const Vector2d&)>& field, const Vector2d& q) {
   Eigen::MatrixXd out;
-  std::visit([&](const auto& block) {
-    using E = std::decay_t<decltype(block.properties.front())>;
-    if constexpr (is_line<E>) {
-      constexpr int d = E::dofs_per_node;
-      out = Eigen::MatrixXd::Zero(6, block.size());
-      for (int i = 0; i < block.size(); ++i) {
-        const Coords<E> x = block.coords(i, model.x);
-        Freedoms<E> a = Freedoms<E>::Zero();
-        for (int k = 0; k < 2; ++k) a.template segment<2>(k * d) = field(x.col(k));
-        const Freedoms<E> p = mass(block.element(i), x) * a + line_load(block.element(i), x, q);
-        for (int k = 0; k < 2; ++k) out.template block<d, 1>(3 * k, i) = p.template segment<d>(k * d);
-      }
-    }
-  }, model.blocks.front());
+  std::visit(
+      [&](const auto& block) {
+        using E = std::decay_t<decltype(block.properties.front())>;
+        if constexpr (is_line<E>) {
+          constexpr int d = E::dofs_per_node;
+          out = Eigen::MatrixXd::Zero(6, block.size());
+          for (int i = 0; i < block.size(); ++i) {
+            const Coords<E> x = block.coords(i, model.x);
+            Freedoms<E> a = Freedoms<E>::Zero();
+            for (int k = 0; k < 2; ++k) a.template segment<2>(k * d) = field(x.col(k));
+            const Freedoms<E> p = mass(block.element(i), x) * a + line_load(block.element(i), x, q);
+            for (int k = 0; k < 2; ++k) out.template block<d, 1>(3 * k, i) = p.template segment<d>(k * d);
+          }
+        }
+      },
+      model.blocks.front());
   return out;
 }
 
@@ -69,7 +73,10 @@ BodyLoad loads_of(const Scene& scene, const ElasticBody& e) {
   const auto nowhere = [](const Vector2d&) -> Vector2d { return {0, 0}; };
   const auto felt = [&](Eigen::VectorXd load, const SceneStaticLoad& l) {
     if (load.norm() > 0 && independent_load(e.model, load).norm() < 1e-9 * load.norm())
-      throw SceneError(scene.file, l.place, "\"" + l.at + "\" is the rim of a rigid coupling, which takes the whole load and does not move; write coupling: average at its point, or leave the point out");
+      throw SceneError(scene.file, l.place,
+                       "\"" + l.at +
+                           "\" is the rim of a rigid coupling, which takes the whole load and does not move; write coupling: average at "
+                           "its point, or leave the point out");
     return load;
   };
   using Kind = SceneStaticLoad::Kind;
@@ -85,7 +92,9 @@ BodyLoad loads_of(const Scene& scene, const ElasticBody& e) {
     switch (l.kind) {
       case Kind::force: add_force(direct, *port, v, 0); break;
       case Kind::torque:
-        if (port->freedom[2] < 0) throw SceneError(scene.file, l.place, "\"" + l.at + "\" is a point of a plate and cannot take a torque; load a hole with a coupling");
+        if (port->freedom[2] < 0)
+          throw SceneError(scene.file, l.place,
+                           "\"" + l.at + "\" is a point of a plate and cannot take a torque; load a hole with a coupling");
         add_force(direct, *port, Vector2d::Zero(), l.value);
         break;
       case Kind::traction: nodal += felt(traction_load(e.model, sides(), v, e.thickness), l); break;
@@ -102,7 +111,8 @@ BodyLoad loads_of(const Scene& scene, const ElasticBody& e) {
       case Kind::spin: {
         const Vector2d about = port ? port->x : Vector2d(0, 0);
         nodal += spin_load(e.model, e.M, l.value, about);
-        if (!e.plate()) on_beams += beam_loads(e.model, [&](const Vector2d& x) -> Vector2d { return l.value * l.value * (x - about); }, {0, 0});
+        if (!e.plate())
+          on_beams += beam_loads(e.model, [&](const Vector2d& x) -> Vector2d { return l.value * l.value * (x - about); }, {0, 0});
         break;
       }
     }

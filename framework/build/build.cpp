@@ -28,9 +28,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
-  return "." + did_you_mean(word, known);
-}
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) { return "." + did_you_mean(word, known); }
 
 /// What is needed to turn names into markers.
 class Builder {
@@ -57,31 +55,29 @@ class Builder {
       if (const std::string warning = j.clearance ? rounding_warning(scene_, j, model_.system.length) : ""; !warning.empty())
         model_.warnings.push_back(warning);
     model_.clearances = complete_clearances(scene_, model_.system, model_.warnings);
-    for (std::string& warning : contact_warnings(scene_, model_.system, model_.order, elements_)) model_.warnings.push_back(std::move(warning));
+    for (std::string& warning : contact_warnings(scene_, model_.system, model_.order, elements_))
+      model_.warnings.push_back(std::move(warning));
     scheme();
     return std::move(model_);
   }
 
  private:
-  [[noreturn]] void wrong(const Place& place, const std::string& message) const {
-    throw SceneError(scene_.file, place, message);
-  }
+  [[noreturn]] void wrong(const Place& place, const std::string& message) const { throw SceneError(scene_.file, place, message); }
 
   void unique(const std::string& name, const char* what, const Place& place) {
-    if (!names_.insert(name).second)
-      wrong(place, quoted(name) + " names two things; give this " + what + " a name of its own");
+    if (!names_.insert(name).second) wrong(place, quoted(name) + " names two things; give this " + what + " a name of its own");
   }
 
   void add(const SceneBody& b) {
-    if (b.name == "ground")
-      wrong(b.place, "\"ground\" is the fixed world; give the body another name");
+    if (b.name == "ground") wrong(b.place, "\"ground\" is the fixed world; give the body another name");
     unique(b.name, "body", b.place);
     const std::size_t i = model_.system.bodies.size();
     index_[b.name] = static_cast<int>(i);
     std::vector<Vector2d> outline;
     if (b.elastic) {
       const std::optional<int> chosen = elastic_.choices[i] ? std::optional<int>(elastic_.choices[i]->count) : std::nullopt;
-      Reduction reduction = store_ ? store_->reduction(scene_, *elastic_.meshed[i], chosen) : reduction_of(scene_, *elastic_.meshed[i], chosen);
+      Reduction reduction =
+          store_ ? store_->reduction(scene_, *elastic_.meshed[i], chosen) : reduction_of(scene_, *elastic_.meshed[i], chosen);
       const MechanismBody& made = elements_[i].emplace(mechanism_body(scene_, std::move(*elastic_.meshed[i]), std::move(reduction)));
       model_.system.bodies.push_back(made.body);
       model_.warnings.insert(model_.warnings.end(), made.warnings.begin(), made.warnings.end());
@@ -100,7 +96,8 @@ class Builder {
     if (b.mass == 0) missing = "mass: 0.3 kg";
     if (b.inertia == 0) missing += (missing.empty() ? "" : ", and ") + std::string("inertia: 1e-4 kg m^2");
     if (!missing.empty())
-      wrong(b.place, quoted(b.name) + " lacks what forces act on; add for example " + missing + " (only `pintle kinematics` does without, and `pintle statics` without gravity)");
+      wrong(b.place, quoted(b.name) + " lacks what forces act on; add for example " + missing +
+                         " (only `pintle kinematics` does without, and `pintle statics` without gravity)");
     if (!(b.mass > 0)) wrong(b.place, "mass must be above 0 kg");
     if (!(b.inertia > 0)) wrong(b.place, "inertia must be above 0 kg m^2");
   }
@@ -125,8 +122,7 @@ class Builder {
     double angle = 0;
     const auto& points = b == ground ? scene_.ground : scene_.bodies[static_cast<std::size_t>(b)].points;
     if (!ref.point.empty()) {
-      const auto p = std::find_if(points.begin(), points.end(),
-                                  [&](const ScenePoint& q) { return q.name == ref.point; });
+      const auto p = std::find_if(points.begin(), points.end(), [&](const ScenePoint& q) { return q.name == ref.point; });
       if (p == points.end()) {
         std::vector<std::string> known;
         for (const ScenePoint& q : points) known.push_back(q.name);
@@ -152,8 +148,7 @@ class Builder {
   }
 
   void two_bodies(const PointRef& a, const PointRef& b, const Place& place) const {
-    if (body(a) == body(b))
-      wrong(place, "both ends are on " + quoted(a.body) + "; join two different bodies");
+    if (body(a) == body(b)) wrong(place, "both ends are on " + quoted(a.body) + "; join two different bodies");
   }
 
   void add(const SceneJoint& j) {
@@ -174,8 +169,7 @@ class Builder {
       case JointKind::prismatic: joints.push_back(Prismatic{a, b, nearest_turn(j)}); break;
       case JointKind::weld: joints.push_back(Weld{a, b, nearest_turn(j)}); break;
       case JointKind::distance:
-        if (!(j.length > 0))
-          wrong(j.place, "length must be above 0; for two points that coincide use revolute");
+        if (!(j.length > 0)) wrong(j.place, "length must be above 0; for two points that coincide use revolute");
         joints.push_back(Distance{a, b, j.length});
         break;
       case JointKind::differential:
@@ -270,13 +264,14 @@ class Builder {
     for (const StartJournal& s : scene_.start_journals) {
       const auto& known = model_.system.contact_names;
       const auto found = std::find(known.begin(), known.end(), s.joint);
-      if (found == known.end())
-        wrong(s.place, quoted(s.joint) + " is not a joint with clearance" + suggestion(s.joint, known));
+      if (found == known.end()) wrong(s.place, quoted(s.joint) + " is not a joint with clearance" + suggestion(s.joint, known));
       const ContactPair& pair = model_.system.contacts[static_cast<std::size_t>(found - known.begin())];
       const JournalBearing& gap = pair.gap;
       if (pair.link < 0 && vector(s.eccentricity).norm() > gap.clearance() + too_deep * gap.journal)
-        wrong(s.place, "eccentricity puts the journal deeper into the wall than a tenth of its radius, where no contact law holds; "
-                       "the clearance is " + std::to_string(1e3 * gap.clearance()) + " mm");
+        wrong(s.place,
+              "eccentricity puts the journal deeper into the wall than a tenth of its radius, where no contact law holds; "
+              "the clearance is " +
+                  std::to_string(1e3 * gap.clearance()) + " mm");
     }
   }
 
@@ -284,7 +279,8 @@ class Builder {
     for (const StartBody& s : scene_.start_bodies) {
       if (s.deflection.empty() && s.modes.empty()) continue;
       const std::size_t b = static_cast<std::size_t>(index_.at(s.body));
-      if (!elements_[b] || !elements_[b]->body.flex) wrong(s.place, quoted(s.body) + " stays rigid and cannot start bent: its `modes` keep no shape; keep more");
+      if (!elements_[b] || !elements_[b]->body.flex)
+        wrong(s.place, quoted(s.body) + " stays rigid and cannot start bent: its `modes` keep no shape; keep more");
       model_.bent.emplace_back(static_cast<int>(b), bent_start(scene_, *elements_[b], s));
     }
   }
@@ -312,8 +308,9 @@ class Builder {
       const std::optional<MechanismBody> none;
       const auto& made = b == ground ? none : elements_[static_cast<std::size_t>(b)];
       if (!made || !made->body.flex)
-        wrong(p.place, quoted(p.body) + " has no stress, " + (made && made->elastic.scene->elastic->modes
-                           ? "its `modes` keep no shape; keep more" : "it is rigid; make it a beam or plate with `modes`"));
+        wrong(p.place, quoted(p.body) + " has no stress, " +
+                           (made && made->elastic.scene->elastic->modes ? "its `modes` keep no shape; keep more"
+                                                                        : "it is rigid; make it a beam or plate with `modes`"));
       model_.stresses.push_back({p.body + "." + p.point, b, stress_probe(scene_, made->elastic, made->modes, p)});
     }
     for (std::string& warning : stress_warnings(model_.system, model_.stresses, elements_)) model_.warnings.push_back(std::move(warning));
@@ -349,8 +346,8 @@ class Builder {
     number(model_.system, !s.tableau || s.switch_below > 0);
     s.tolerance = run.tolerance;
     if (s.constraints == Constraints::partitioning && model_.system.n_rows() > 300)
-      wrong(run.place, "partitioning is dense and meant for up to 300 rows, this scene has " +
-                           std::to_string(model_.system.n_rows()) + "; use constraints: projection");
+      wrong(run.place, "partitioning is dense and meant for up to 300 rows, this scene has " + std::to_string(model_.system.n_rows()) +
+                           "; use constraints: projection");
     s.onset_cut = run.onset_cut.value_or(0);
     follow_laws(scene_, s);
     s.max_steps = run.max_steps;

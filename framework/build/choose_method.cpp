@@ -16,7 +16,7 @@ namespace {
 // whose steps are too long for that, by a step of its own.
 const Tableau* automatic_explicit(const Scene& scene, const RateSpectrum& s, const Demand& d) {
   constexpr double fine = 1e-6, brief = 0.05, taken = 0.4;  // of the demand, by a smooth motion
-  constexpr double read = 1000;  // as a run writes by default: what this one writes must not change its motion
+  constexpr double read = 1000;                             // as a run writes by default: what this one writes must not change its motion
   const Tableau *low = find_tableau("dopri5"), *high = find_tableau("verner87");
   const double steps = taken * scene.run.until * std::max(d.stability, d.accuracy), long_steps = taken * scene.run.until * d.high;
   const bool by_contacts = s.fastest.rate < brief * s.strike;  // impacts are brief, and what is smooth goes on
@@ -24,7 +24,6 @@ const Tableau* automatic_explicit(const Scene& scene, const RateSpectrum& s, con
   return scene.run.tolerance > fine || by_contacts || dearer ? low : high;
 }
 constexpr double rate_reached = 1.0, decay_reached = 3.3;  // of dopri5 along the axes
-
 
 std::string short_number(double x) {
   std::ostringstream s;
@@ -100,14 +99,16 @@ double motion_of(const Scene& scene, const System& system) {
   for (const StartBody& s : scene.start_bodies)
     motion = std::max({motion, std::abs(s.speed.value_or(0)), std::hypot(s.vx.value_or(0), s.vy.value_or(0)) / system.length});
   for (const Joint& j : system.joints)
-    if (const TimeLaw* law = driver_law(j)) motion = std::max(motion, fastest_of(*law, scene.run.until, is_angle_row(j, 0) ? 1 : system.length));
+    if (const TimeLaw* law = driver_law(j))
+      motion = std::max(motion, fastest_of(*law, scene.run.until, is_angle_row(j, 0) ? 1 : system.length));
   return motion;
 }
 
 Constraints constraints_of(const Scene& scene, bool is_explicit) {
   const std::string& c = scene.run.constraints;
   if (c == "partitioning" && !is_explicit)
-    throw SceneError(scene.file, scene.run.place, "generalized-alpha does not take constraints: partitioning; leave it out, or take dopri5");
+    throw SceneError(scene.file, scene.run.place,
+                     "generalized-alpha does not take constraints: partitioning; leave it out, or take dopri5");
   if (c != "partitioning" && c != "projection")
     throw SceneError(scene.file, scene.run.place, "there are no constraints: " + c + "; take projection, the default, or partitioning");
   return c == "partitioning" ? Constraints::partitioning : Constraints::projection;
@@ -127,9 +128,8 @@ void choose(const Scene& scene, const System& system, Scheme& scheme) {
   why = name(scheme) + ", chosen because Dormand and Prince's pair needs about " + short_number(needed) + " steps a second";
   if (d.stability > d.accuracy) {
     const bool by_decay = s.most_damped.decay / decay_reached > s.fastest.rate / rate_reached;
-    why += ", which stability asks for because of " +
-           (by_decay ? s.most_damped.what + " (" + short_number(s.most_damped.decay) + " 1/s)"
-                     : s.fastest.what + " (" + short_number(s.fastest.rate) + " rad/s)");
+    why += ", which stability asks for because of " + (by_decay ? s.most_damped.what + " (" + short_number(s.most_damped.decay) + " 1/s)"
+                                                                : s.fastest.what + " (" + short_number(s.fastest.rate) + " rad/s)");
   } else {
     why += " for its accuracy";
   }
@@ -161,7 +161,8 @@ RateSpectrum spectrum(const Scene& scene, const System& system) {
 // constants are those that the schemes show on a slider-crank. Inertia bends what is elastic by a fifth of
 // (motion/r)², and lets it ring so from the start, or from an impact, until damping has brought that to the tolerance.
 Demand demand(const RateSpectrum& s, double tolerance) {
-  constexpr double explicit_order = 5, high_order = 8, implicit_order = 3, explicit_constant = 0.7, high_constant = 0.4, implicit_constant = 1, bent = 0.2;
+  constexpr double explicit_order = 5, high_order = 8, implicit_order = 3, explicit_constant = 0.7, high_constant = 0.4,
+                   implicit_constant = 1, bent = 0.2;
   const auto most = [&](double order) {
     double steps = s.motion * std::pow(1 / tolerance, 1 / order);
     for (const RateSpectrum::Part& p : s.parts) {

@@ -16,12 +16,12 @@ struct RateSpectrum {
     double decay = 0;       ///< of its speed by its damper, 2ζω of a mode [1/s]
     std::string what = {};  ///< for messages
   };
-  double motion = 0;            ///< start spins, drivers' rates, √(g/length) [rad/s]; if none, the slowest part's own
-  double until = 0;             ///< length of the run [s]
-  Part fastest, most_damped;    ///< of springs and modes
-  std::vector<Part> parts;      ///< springs, modes, contacts
-  bool struck = false;          ///< there are contacts, which set everything ringing again
-  double strike = 0;            ///< rate of the fastest contact [rad/s]
+  double motion = 0;          ///< start spins, drivers' rates, √(g/length) [rad/s]; if none, the slowest part's own
+  double until = 0;           ///< length of the run [s]
+  Part fastest, most_damped;  ///< of springs and modes
+  std::vector<Part> parts;    ///< springs, modes, contacts
+  bool struck = false;        ///< there are contacts, which set everything ringing again
+  double strike = 0;          ///< rate of the fastest contact [rad/s]
 };
 /// Each spring is taken as if nothing but it held its two bodies, at the points where it holds them, which no joint
 /// makes slower. A contact is no `fastest`: while it lasts, accuracy asks for short steps of any scheme.

@@ -84,14 +84,12 @@ std::string match(const Scene& scene, const SceneClearance& c, const IdealPin& p
 ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
   const auto wrong = [&](const Place& place, const std::string& message) { throw SceneError(scene.file, place, message); };
   const SceneClearance& c = *j.clearance;
-  if (j.kind != JointKind::revolute)
-    wrong(c.place, "only a revolute joint takes a clearance");
+  if (j.kind != JointKind::revolute) wrong(c.place, "only a revolute joint takes a clearance");
   if (c.bearing != j.a.body && c.bearing != j.b.body)
     wrong(c.place, "bearing: \"" + c.bearing + "\" is neither \"" + j.a.body + "\" nor \"" + j.b.body + "\"." +
                        did_you_mean(c.bearing, std::vector{j.a.body, j.b.body}));
   if (!(c.radial > 0)) wrong(c.place, "radial must be above 0; leave out `clearance` for an ideal joint");
-  if (!(c.radial < c.bearing_radius))
-    wrong(c.place, "radial clearance must be below the bearing radius, else no journal is left");
+  if (!(c.radial < c.bearing_radius)) wrong(c.place, "radial clearance must be below the bearing radius, else no journal is left");
   if (!(c.bearing_radius - c.radial < c.bearing_radius))
     wrong(c.place, "radial clearance is less than the last digit of the bearing radius; leave out `clearance` for an ideal joint");
 
@@ -146,9 +144,8 @@ double contact_stiffness(const SceneClearance& c) {
   if (c.normal.stiffness) return *c.normal.stiffness;
   const Elasticity& j = c.normal.journal.young > 0 ? c.normal.journal : c.normal.bearing;
   if (!(c.normal.bearing.young > 0)) return 0;
-  return hertz_stiffness(c.bearing_radius - c.radial, c.bearing_radius, j.young, j.poisson,
-                         c.normal.bearing.young, c.normal.bearing.poisson,
-                         c.normal.radii == RadiusConvention::internal);
+  return hertz_stiffness(c.bearing_radius - c.radial, c.bearing_radius, j.young, j.poisson, c.normal.bearing.young,
+                         c.normal.bearing.poisson, c.normal.radii == RadiusConvention::internal);
 }
 
 std::string rounding_warning(const Scene& scene, const SceneJoint& j, double length) {
@@ -157,8 +154,8 @@ std::string rounding_warning(const Scene& scene, const SceneJoint& j, double len
   if (lost <= few) return "";
   std::ostringstream s;
   s.precision(3);
-  s << "radial clearance " << j.clearance->radial << " m: places in a mechanism of " << length << " m are rounded to "
-    << 100 * lost << " % of it";
+  s << "radial clearance " << j.clearance->radial << " m: places in a mechanism of " << length << " m are rounded to " << 100 * lost
+    << " % of it";
   if (lost > most) throw SceneError(scene.file, j.clearance->place, s.str() + "; leave out `clearance` for an ideal joint");
   return "\"" + j.name + "\": " + s.str();
 }

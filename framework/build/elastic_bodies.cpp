@@ -45,8 +45,10 @@ ElasticBodies elastic_bodies(const Scene& scene, BodyStore* store, bool prelimin
     automatic = automatic || (b.elastic->modes && b.elastic->modes->keep.automatic);
   }
   if (!automatic && !(preliminary && flexible)) return out;
-  if (scene.has_run) out.run = rigid_run(scene, all);
-  else out.run.trouble = "the scene has no `run`";
+  if (scene.has_run)
+    out.run = rigid_run(scene, all);
+  else
+    out.run.trouble = "the scene has no `run`";
   out.preliminary_run = {out.run.until, out.run.seconds, out.run.steps, out.run.trouble};
   for (std::size_t i = 0; i < n; ++i)
     if (all[i] && scene.bodies[i].elastic->modes && scene.bodies[i].elastic->modes->keep.automatic)
@@ -54,7 +56,8 @@ ElasticBodies elastic_bodies(const Scene& scene, BodyStore* store, bool prelimin
   return out;
 }
 
-void report_flexible(const Scene& scene, const std::vector<std::optional<MechanismBody>>& elements, const ElasticBodies& made, Model& model) {
+void report_flexible(const Scene& scene, const std::vector<std::optional<MechanismBody>>& elements, const ElasticBodies& made,
+                     Model& model) {
   std::vector<Imposed> imposed;
   for (const Body& b : model.system.bodies)
     if (b.modes() > 0 && imposed.empty()) imposed = imposed_frequencies(scene);

@@ -16,7 +16,7 @@ struct ElasticBodies {
   std::vector<std::optional<ElasticBody>> meshed;   ///< to be moved from
   std::vector<std::optional<ModalChoice>> choices;  ///< of those that say `keep: auto`
   RigidRun run;
-  std::optional<PreliminaryRun> preliminary_run;    ///< if there was one
+  std::optional<PreliminaryRun> preliminary_run;  ///< if there was one
 };
 
 /// Meshes all bodies of elements, and runs them rigid where something is to be judged by that.

@@ -29,15 +29,18 @@ void validate_jumps(const Scene& scene, const SceneDriver& d, const LawScale& sc
     const std::string unit = std::string(d.kind == DriverKind::angle ? "rad" : "m") + (place ? "" : "/s"), when = number_text(b.after, 9);
     throw SceneError(scene.file, d.place,
                      "the " + std::string(place ? "value" : "speed") + " of its law " + d.law.text + " jumps at t = " + when + " s, from " +
-                         number_text(from, 9) + " to " + number_text(to, 9) + " " + unit + ": that is an impact; let it change over some time, for example with step(t, " +
-                         when + " s, " + number_text(b.after + 0.01 * scene.run.until, 9) + " s)");
+                         number_text(from, 9) + " to " + number_text(to, 9) + " " + unit +
+                         ": that is an impact; let it change over some time, for example with step(t, " + when + " s, " +
+                         number_text(b.after + 0.01 * scene.run.until, 9) + " s)");
   }
 }
 
 /// Between the moments that the reader looks at.
 void validate_finite(const Scene& scene, const Law& law, const Place& place, const LawScale& scale, bool driver) {
   const auto fail = [&](const char* what, double t) {
-    throw SceneError(scene.file, place, "its law " + law.text + " " + what + " at t = " + number_text(t, 9) + " s; write one that stays finite from 0 to run.until, or end the run before");
+    throw SceneError(scene.file, place,
+                     "its law " + law.text + " " + what + " at t = " + number_text(t, 9) +
+                         " s; write one that stays finite from 0 to run.until, or end the run before");
   };
   if (!std::isnan(scale.not_finite)) fail("is not a finite number", scale.not_finite);
   if (const auto pole = pole_of(law.at, scene.run.until, driver)) fail("grows beyond all bounds", *pole);
@@ -104,7 +107,8 @@ std::string explain_laws(const Scene& scene, double t) {
       const Jet jet = law.at(0.95 * t * i / looks);
       before = std::max({before, std::abs(jet.value), std::abs(jet.rate) * t});
     }
-    if (!std::isfinite(now.value + now.rate + then.value + then.rate)) out = which + "is not a finite number there; write one that is";
+    if (!std::isfinite(now.value + now.rate + then.value + then.rate))
+      out = which + "is not a finite number there; write one that is";
     else if (std::abs(now.rate) * t > steep * before)
       out = which + "has come to " + number_text(now.value, 9) + " and changes by " + number_text(now.rate, 9) +
             " a second there: it seems to grow beyond all bounds; write one that stays finite, or end the run before (run.until)";

@@ -102,8 +102,7 @@ void march(const Scene& twin, const Model& model, const Assembly& assembly, cons
     keep(model.system, attachments, integrator.state(), integrator.equations(), ++run.steps, run.bodies);
   run.until = integrator.state().t;
   run.trouble = integrator.failure();
-  for (LoadHistory& h : run.bodies)
-    h.factor.conservativeResize(Eigen::NoChange, h.factor.rows() > 0 ? run.steps + 1 : 0);
+  for (LoadHistory& h : run.bodies) h.factor.conservativeResize(Eigen::NoChange, h.factor.rows() > 0 ? run.steps + 1 : 0);
 }
 
 }  // namespace

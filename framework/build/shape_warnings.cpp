@@ -35,7 +35,7 @@ double stiffness_of_blow(const System& system, const ContactPair& pair, double m
 }  // namespace
 
 std::vector<std::string> contact_warnings(const Scene& scene, const System& system, const BuiltOrder& order,
-                                        const std::vector<std::optional<MechanismBody>>& bodies) {
+                                          const std::vector<std::optional<MechanismBody>>& bodies) {
   constexpr double matters = 0.1;  // compliance left out beside the contact's own
   std::vector<std::string> out;
   if (system.contacts.empty()) return out;
@@ -66,7 +66,8 @@ std::vector<std::string> contact_warnings(const Scene& scene, const System& syst
 
 std::string stiff_parts_warning(const MechanismBody& b) {
   if (!(b.inertia_covered.share < least_covered)) return "";
-  return "the shapes of \"" + b.body.name + "\" hold " + percent(b.inertia_covered.share) + " of its deformation under " + b.inertia_covered.of +
+  return "the shapes of \"" + b.body.name + "\" hold " + percent(b.inertia_covered.share) + " of its deformation under " +
+         b.inertia_covered.of +
          ": parts beyond or between the points in use stay rigid; raise the count of craig-bampton until its shapes, which now end at " +
          number_text(std::round(b.modes.omega.maxCoeff() / (2 * std::numbers::pi))) + " Hz, move these parts so";
 }
@@ -87,8 +88,9 @@ std::vector<std::string> stress_warnings(const System& system, const std::vector
     }
     if (stretch > rounding * bend) continue;
     const std::string& name = system.bodies[static_cast<std::size_t>(s.body)].name;
-    out.push_back("no shape of \"" + name + "\" stretches: its section force N is recorded as nothing, and the stress is that of bending alone; "
-                              "take craig-bampton where joints or forces hold two points of it, or keep more shapes");
+    out.push_back("no shape of \"" + name +
+                  "\" stretches: its section force N is recorded as nothing, and the stress is that of bending alone; "
+                  "take craig-bampton where joints or forces hold two points of it, or keep more shapes");
   }
   return out;
 }

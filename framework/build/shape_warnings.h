@@ -19,12 +19,14 @@ inline constexpr double least_covered = 0.5;
 /// that is not little beside the contact's own depth. In words.
 /// @param bodies  one a body of the scene; of rigid ones none
 /// @pre the system's contacts are settled
-std::vector<std::string> contact_warnings(const Scene&, const System&, const BuiltOrder&, const std::vector<std::optional<MechanismBody>>& bodies);
+std::vector<std::string> contact_warnings(const Scene&, const System&, const BuiltOrder&,
+                                          const std::vector<std::optional<MechanismBody>>& bodies);
 
 /// Parts of the body that Craig–Bampton shapes leave stiff, in words; empty if there are none.
 std::string stiff_parts_warning(const MechanismBody&);
 
 /// Beams of which a section force is recorded while no shape stretches: N is rounding, and its part of the stress is lacking. Once a body.
-std::vector<std::string> stress_warnings(const System&, const std::vector<RecordedStress>&, const std::vector<std::optional<MechanismBody>>& bodies);
+std::vector<std::string> stress_warnings(const System&, const std::vector<RecordedStress>&,
+                                         const std::vector<std::optional<MechanismBody>>& bodies);
 
 }  // namespace pintle

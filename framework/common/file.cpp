@@ -73,14 +73,16 @@ std::string random_letters() {
   static std::atomic<std::uint64_t> count{0};
   std::uint64_t bits = 0;
   if (::getrandom(&bits, sizeof bits, GRND_NONBLOCK) != sizeof bits)
-    bits = (static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()) ^
-            static_cast<std::uint64_t>(::getpid()) << 40) * 0x9e3779b97f4a7c15U + 0x632be59bd9b4e019U * ++count;
+    bits = (static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()) ^ static_cast<std::uint64_t>(::getpid())
+                                                                                                          << 40) *
+               0x9e3779b97f4a7c15U +
+           0x632be59bd9b4e019U * ++count;
   std::string out;
   for (int i = 0; i < 6; ++i, bits /= letters.size()) out += letters[bits % letters.size()];
   return out;
 }
 
-constexpr int tries = 100;  // of a random name
+constexpr int tries = 100;                          // of a random name
 constexpr std::size_t many = std::size_t{1} << 18;  // bytes to be written at once
 
 void write_file(const fs::path& path, const std::string& text, bool synced) {

@@ -21,7 +21,8 @@ void hold_library_threads() {
   }();
   thread_local const bool openmp = [] {  // settings of each thread
     if (auto* set = sought<void(int)>("omp_set_num_threads")) set(1);
-    if (auto* set = sought<void(int)>("omp_set_max_active_levels")) set(0);  // CHOLMOD asks for four threads whatever their number was set to
+    if (auto* set = sought<void(int)>("omp_set_max_active_levels"))
+      set(0);  // CHOLMOD asks for four threads whatever their number was set to
     return true;
   }();
   static_cast<void>(blas), static_cast<void>(openmp);

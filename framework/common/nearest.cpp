@@ -21,8 +21,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const std::size_t change = a[i - 1] == b[j - 1] ? 0 : 1;
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + change});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], before[j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
     }
     std::swap(before, last);
     std::swap(last, row);
@@ -61,8 +60,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
   if (!best.empty()) return " Did you mean \"" + best + "\"?";
   if (candidates.empty()) return " None is known here.";
   const auto shown = candidates.first(std::min<std::size_t>(candidates.size(), 20));
-  if (shown.size() < candidates.size())
-    return " Known here: " + listed(shown, ",").append(" and others.");
+  if (shown.size() < candidates.size()) return " Known here: " + listed(shown, ",").append(" and others.");
   return " Known here: " + listed(shown) + ".";
 }
 

@@ -23,17 +23,13 @@ template <class Self>
 class ValueWriter {
  public:
   template <class T>
-    requires(std::is_arithmetic_v<T> || std::is_enum_v<T>)
-  void add(T x) {
+  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void add(T x) {
     if constexpr (std::is_floating_point_v<T>)
       if (std::isnan(x)) x = std::numeric_limits<T>::quiet_NaN();
     self().bytes({reinterpret_cast<const char*>(&x), sizeof x});
   }
   template <class... T>
-    requires(sizeof...(T) > 1)
-  void add(const T&... x) {
-    (self().add(x), ...);
-  }
+  requires(sizeof...(T) > 1) void add(const T&... x) { (self().add(x), ...); }
   void add(const std::string& text) {
     add(text.size());
     self().bytes(text);

@@ -24,7 +24,6 @@ using Eigen::VectorXd;
 using Index = Eigen::Index;
 using Sparse = Eigen::SparseMatrix<double>;
 
-
 /// Where the scene says something of this name.
 Place place_of(const Scene& scene, const std::string& name) {
   for (const SceneJoint& j : scene.joints)
@@ -87,8 +86,8 @@ Rough rough_state(const Scene& scene, const System& system, const Bent& bent) {
   return r;
 }
 
-[[noreturn]] void cannot(const Scene& scene, const std::string& what, const Closure& closure, const VectorXd& left,
-                         const char* per, const char* remedy) {
+[[noreturn]] void cannot(const Scene& scene, const std::string& what, const Closure& closure, const VectorXd& left, const char* per,
+                         const char* remedy) {
   Index worst = 0;
   left.cwiseAbs().maxCoeff(&worst);
   std::string message = what + ": " + closure.amount(worst, left[worst]) + per + " remains";
@@ -164,7 +163,8 @@ int close_joints(const Scene& scene, Closure& closure, const System& system, Rou
     closure.violation(r.y);
     const bool pinned = !scene.start_bodies.empty();
     cannot(scene, pinned ? "cannot close with what `start` pins down" : "cannot close", closure, C, "",
-           left < misfit ? "redundant joints must fit each other to 1e-11 of the mechanism's size: write lengths, points and angles with more digits, or leave a joint out"
+           left < misfit ? "redundant joints must fit each other to 1e-11 of the mechanism's size: write lengths, points and angles with "
+                           "more digits, or leave a joint out"
                          : "check lengths and points, or give the bodies rough poses (`pose`) nearer to the wanted one");
   }
   close_in(closure, system, r, C, J);
@@ -185,7 +185,8 @@ bool choose_branch(Closure& closure, const System& system, const Sparse& J, cons
     VectorXd change = VectorXd::Zero(system.n_rows());
     std::vector<std::vector<std::pair<Index, double>>> of_row(at(system.n_rows()));
     for (Index d = 0; d < count; ++d)
-      for (const auto& [row, weight] : singular[static_cast<std::size_t>(d)].N) of_row[at(row)].emplace_back(d, weight * system.row_scale[row]);
+      for (const auto& [row, weight] : singular[static_cast<std::size_t>(d)].N)
+        of_row[at(row)].emplace_back(d, weight * system.row_scale[row]);
     for (double sign : {-1.0, 1.0}) {
       VectorXd to = r.y;
       to.head(n) += sign * step * s;
@@ -198,7 +199,8 @@ bool choose_branch(Closure& closure, const System& system, const Sparse& J, cons
       });
     }
     for (Index c = 0; c < J.outerSize(); ++c)
-      for (Sparse::InnerIterator it(J, c); it; ++it) entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(it.col()), it.value());
+      for (Sparse::InnerIterator it(J, c); it; ++it)
+        entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(it.col()), it.value());
     G.resize(J.rows() + count, n);
     G.setFromTriplets(entries.begin(), entries.end());
     g.setZero(J.rows() + count);
@@ -244,8 +246,7 @@ int match_speeds(const Scene& scene, Closure& closure, const System& system, Rou
     left = now;
   }
   if (left.lpNorm<Eigen::Infinity>() > 1e-8 * scale)
-    cannot(scene, "cannot move as `start` and the drivers ask", closure, left, "/s",
-           "leave out a speed in `start`, or a driver");
+    cannot(scene, "cannot move as `start` and the drivers ask", closure, left, "/s", "leave out a speed in `start`, or a driver");
   const std::vector<Dependence> singular = singular_dependences(system, 0, r.y);
   if (!singular.empty() && !choose_branch(closure, system, J, singular, r))
     throw AssemblyError(scene.file, named_place(scene, closure.owner(singular.front().N.back().first)),
@@ -269,7 +270,8 @@ int undeformed_first(const System& system, Rough& r, VectorXd Rough::*weight, Cl
       const VectorXd& omega = system.bodies[b].flex->omega;
       const bool pose = weight == &Rough::W_pose;
       (bent.*weight).segment(system.eta_begin[b], n) =
-          pose ? VectorXd((system.scale.segment(system.eta_begin[b], n) * omega.minCoeff()).cwiseQuotient(omega).cwiseAbs2()) : VectorXd::Ones(n);
+          pose ? VectorXd((system.scale.segment(system.eta_begin[b], n) * omega.minCoeff()).cwiseQuotient(omega).cwiseAbs2())
+               : VectorXd::Ones(n);
     }
   r = bent;
   return close(r);
@@ -294,8 +296,9 @@ std::vector<std::string> warnings_of(const Model& model, const Assembly& assembl
     if (!r.permanent) singular += (singular.empty() ? "" : ", ") + row_text(system, r.joint, r.row);
   }
   if (any)
-    out.push_back("redundant joints: how they share these forces does not follow from the motion and is settled by convention (least norm): " +
-                  rows_text(system, assembly.shared));
+    out.push_back(
+        "redundant joints: how they share these forces does not follow from the motion and is settled by convention (least norm): " +
+        rows_text(system, assembly.shared));
   if (!singular.empty())
     out.push_back("the start is a singular pose, where motions branch: there, and only there, other joints imply " + singular +
                   "; speeds in `start` choose the branch, else it is the one nearest to the least kinetic energy");

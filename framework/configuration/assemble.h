@@ -9,11 +9,11 @@
 namespace pintle {
 
 struct Assembly {
-  State start;                ///< on C = 0 and Ċ = 0; journals where the scene puts them
-  int rank = 0;               ///< of Cq at the start
+  State start;                        ///< on C = 0 and Ċ = 0; journals where the scene puts them
+  int rank = 0;                       ///< of Cq at the start
   std::vector<Redundancy> redundant;  ///< rows that others imply there
-  std::vector<bool> shared;   ///< per row: its force is not unique; the least norm shares it out
-  double moved = 0;           ///< how far the worst coordinate went from the rough pose [m or rad]
+  std::vector<bool> shared;           ///< per row: its force is not unique; the least norm shares it out
+  double moved = 0;                   ///< how far the worst coordinate went from the rough pose [m or rad]
   int iterations = 0;
 };
 

@@ -58,8 +58,7 @@ class Closure {
     C.head(system_.n_rows()) = eq_.C.cwiseProduct(system_.row_scale);
     for (std::size_t c = 0; c < offset_.size(); ++c) {
       const ContactPair& pair = system_.contacts[c];
-      C.segment<2>(first(c)) = (eq_.motion[at(pair.journal)].r - eq_.motion[at(pair.bearing)].r - offset_[c]) /
-                               system_.length;
+      C.segment<2>(first(c)) = (eq_.motion[at(pair.journal)].r - eq_.motion[at(pair.bearing)].r - offset_[c]) / system_.length;
     }
     for (std::size_t p = 0; p < pins_.size(); ++p) {
       const Pin& pin = pins_[p];
@@ -77,8 +76,7 @@ class Closure {
     D.head(system_.n_rows()) = eq_.Cdot.cwiseProduct(system_.row_scale);
     for (std::size_t c = 0; c < offset_.size(); ++c) {
       const ContactPair& pair = system_.contacts[c];
-      D.segment<2>(first(c)) = (eq_.motion[at(pair.journal)].v - eq_.motion[at(pair.bearing)].v - drift_[c]) /
-                               system_.length;
+      D.segment<2>(first(c)) = (eq_.motion[at(pair.journal)].v - eq_.motion[at(pair.bearing)].v - drift_[c]) / system_.length;
     }
     for (std::size_t p = 0; p < pins_.size(); ++p) {
       const Pin& pin = pins_[p];
@@ -137,9 +135,7 @@ class Closure {
 
   void jacobian(const VectorXd& y, Sparse& J) const {
     std::vector<Eigen::Triplet<double>> entries;
-    visit_jacobian(eq_, [&](int row, int column, double value) {
-      entries.emplace_back(row, column, system_.row_scale[row] * value);
-    });
+    visit_jacobian(eq_, [&](int row, int column, double value) { entries.emplace_back(row, column, system_.row_scale[row] * value); });
     for (std::size_t c = 0; c < offset_.size(); ++c) {
       const auto row = static_cast<int>(first(c));
       const auto add = [&](int marker, double sign) {

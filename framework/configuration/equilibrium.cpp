@@ -17,11 +17,11 @@ namespace {
 using Eigen::VectorXd;
 using Index = Eigen::Index;
 
-
 /// Drivers held where their laws are at t.
 void hold_drivers(const System& from, double t, System& held) {
   for (std::size_t k = 0; k < from.joints.size(); ++k)
-    if (const TimeLaw* law = driver_law(from.joints[k])) *driver_law(held.joints[k]) = [x = (*law)(t).value](double) { return Jet{x, 0, 0}; };
+    if (const TimeLaw* law = driver_law(from.joints[k]))
+      *driver_law(held.joints[k]) = [x = (*law)(t).value](double) { return Jet{x, 0, 0}; };
 }
 
 bool has_potential(const System& system) {
@@ -204,8 +204,7 @@ class Search {
   bool far_away() {
     const VectorXd moved = state_.y.head(rest_.held.n()) - start_;
     const double farthest = 1e3 * rest_.held.length * static_cast<double>(rest_.held.bodies.size()), most_turned = 40 * std::numbers::pi;
-    for (Index i = 0; i < rest_.held.n_rigid(); ++i)
-      runs_away_ = runs_away_ || std::abs(moved[i]) > (i % 3 == 2 ? most_turned : farthest);
+    for (Index i = 0; i < rest_.held.n_rigid(); ++i) runs_away_ = runs_away_ || std::abs(moved[i]) > (i % 3 == 2 ? most_turned : farthest);
     return runs_away_;
   }
 
@@ -280,7 +279,8 @@ void warn(const Model& model, const Equations& eq, Equilibrium& out) {
       out.warnings.push_back("\"" + system.contact_names[c] + "\": the journal rests " + number_text(depth) +
                              " m in the wall, more than a tenth of its radius; no contact law holds there");
     if (depth > 0 && system.contacts[c].friction)
-      out.warnings.push_back("\"" + system.contact_names[c] + "\": its friction law gives nothing without sliding, so friction holds nothing here");
+      out.warnings.push_back("\"" + system.contact_names[c] +
+                             "\": its friction law gives nothing without sliding, so friction holds nothing here");
   }
   for (const BendingProbe& p : model.bending) {
     const auto eta = out.state.y.segment(system.eta_begin[at(p.index)], p.displacement.cols());
@@ -288,7 +288,8 @@ void warn(const Model& model, const Equations& eq, Equilibrium& out) {
     double deflection = 0;
     for (Index i = 0; i + 1 < u.size(); i += 2) deflection = std::max(deflection, u.segment<2>(i).norm() / p.size);
     const double slope = p.slope.rows() > 0 ? (p.slope * eta).lpNorm<Eigen::Infinity>() : 0;
-    if (const std::string warning = deflection_warning(p.body, deflection, slope, "bends"); !warning.empty()) out.warnings.push_back(warning);
+    if (const std::string warning = deflection_warning(p.body, deflection, slope, "bends"); !warning.empty())
+      out.warnings.push_back(warning);
   }
 }
 
@@ -342,11 +343,12 @@ Equilibrium find_equilibrium(const Scene&, const Model& model, const Assembly& a
   const bool was_found = out.found;
   out.found = out.found && out.residual <= told;
   if (was_found && !out.found)
-    out.reason = "a rest was found next to a singular pose, where the forces of joints have no bound: they cannot be told, " + number_text(out.residual) +
-                 " of the greatest is out of balance; start elsewhere, or leave out a driver or a joint";
+    out.reason = "a rest was found next to a singular pose, where the forces of joints have no bound: they cannot be told, " +
+                 number_text(out.residual) + " of the greatest is out of balance; start elsewhere, or leave out a driver or a joint";
   else if (!out.found && way.runs_away())
-    out.reason = "nothing stops " + names(restless(rest.held, rest.eq.a)) +
-                 " from moving on without end under gravity and loads; join or support what falls, or balance a torque that keeps turning it";
+    out.reason =
+        "nothing stops " + names(restless(rest.held, rest.eq.a)) +
+        " from moving on without end under gravity and loads; join or support what falls, or balance a torque that keeps turning it";
   else if (!out.found)
     out.reason = "no equilibrium was found: after " + std::to_string(out.iterations) + " iterations " + number_text(out.residual) +
                  " of the greatest force is still out of balance, most at " + names(restless(rest.held, rest.eq.a)) +
@@ -356,7 +358,8 @@ Equilibrium find_equilibrium(const Scene&, const Model& model, const Assembly& a
   rest.eq.a.setZero();
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     const double depth = system.contacts[c].link >= 0 ? 0 : rest.eq.contact[c].gap.depth;
-    out.state.impact_rate[c] = depth > 0 ? std::max(speed_to_reach(system, system.contacts[c], depth), system.contacts[c].slowest_impact) : 0;
+    out.state.impact_rate[c] =
+        depth > 0 ? std::max(speed_to_reach(system, system.contacts[c], depth), system.contacts[c].slowest_impact) : 0;
   }
   warn(model, rest.eq, out);
   record(model, out.state, rest.eq, out.table);

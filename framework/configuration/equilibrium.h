@@ -12,27 +12,27 @@ namespace pintle {
 /// How a mechanism at rest answers to a small push: the eigenvalues of its stiffness K = ∂r/∂q reduced to
 /// the ways that the joints leave open, ZᵀKZ with the columns of Z a basis of the null space of Cq.
 struct Stability {
-  bool judged = false;       ///< false: more coordinates than are judged
-  int freedoms = 0;          ///< columns of Z
-  int unstable = 0;          ///< eigenvalues below zero: directions in which it falls away
-  int neutral = 0;           ///< eigenvalues that are zero to rounding: directions in which it stays where it is put
-  bool circulatory = false;  ///< complex eigenvalues, of loads that follow: it may flutter, which statics cannot tell
+  bool judged = false;              ///< false: more coordinates than are judged
+  int freedoms = 0;                 ///< columns of Z
+  int unstable = 0;                 ///< eigenvalues below zero: directions in which it falls away
+  int neutral = 0;                  ///< eigenvalues that are zero to rounding: directions in which it stays where it is put
+  bool circulatory = false;         ///< complex eigenvalues, of loads that follow: it may flutter, which statics cannot tell
   std::vector<std::string> moving;  ///< bodies that move most in each unstable, then each neutral direction
 };
 
 /// Where a mechanism rests: r(q, 0, 0, λ) = Cqᵀλ − f = 0 and C(q, t) = 0, drivers held and loads as they are at t.
 struct Equilibrium {
   bool found = false;
-  std::string reason;        ///< in words, when not found
+  std::string reason;  ///< in words, when not found
   /// At rest there; contacts that press have the approach speed of the impact that would have come as deep.
   State state;
-  Eigen::VectorXd lambda;    ///< joint forces; of redundant rows those of least norm
+  Eigen::VectorXd lambda;  ///< joint forces; of redundant rows those of least norm
   int iterations = 0;
-  std::string method;        ///< how it was found, in words
-  double residual = 0;       ///< greatest force or couple left, over the greatest at work
+  std::string method;   ///< how it was found, in words
+  double residual = 0;  ///< greatest force or couple left, over the greatest at work
   Stability stability;
   std::vector<std::string> warnings;
-  Table table;               ///< one row, as `record` makes it: pose, joint forces, driving torques, contacts, loads
+  Table table;  ///< one row, as `record` makes it: pose, joint forces, driving torques, contacts, loads
 };
 
 /// Of a mechanism at rest in equilibrium. @pre eq was evaluated at `state`, where the joint forces are λ

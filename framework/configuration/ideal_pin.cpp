@@ -14,7 +14,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-
 /// Clearances without constraint rows; no force acts in them before they close.
 System opened(const System& system) {
   System out = system;
@@ -52,8 +51,7 @@ State state_of(const System& system, const VectorXd& y) {
 /// Of each journal on its bearing, by the multipliers of the pins.
 std::vector<Vector2d> pressing(const System& pins, const Equations& eq, std::size_t count) {
   std::vector<Vector2d> out;
-  for (std::size_t c = 0; c < count; ++c)
-    out.emplace_back(eq.lambda.segment<2>(pins.row_begin[pins.joints.size() - count + c]));
+  for (std::size_t c = 0; c < count; ++c) out.emplace_back(eq.lambda.segment<2>(pins.row_begin[pins.joints.size() - count + c]));
   return out;
 }
 
@@ -160,7 +158,8 @@ std::vector<IdealPin> ideal_pins(const Scene& scene, const System& system) {
   for (std::size_t c = 0; c < at_start.size(); ++c) {
     const Vector2d n = at_start[c].isZero() ? Vector2d::UnitX() : Vector2d(at_start[c].normalized());
     const double mass = mass_against(open, y, open.contacts[c], n);
-    out.push_back({mean[c] > 0 ? mean[c] : at_start[c].norm(), mass > 0 && std::isfinite(mass) ? mass : reduced_mass(open, open.contacts[c])});
+    out.push_back(
+        {mean[c] > 0 ? mean[c] : at_start[c].norm(), mass > 0 && std::isfinite(mass) ? mass : reduced_mass(open, open.contacts[c])});
   }
   return out;
 }

@@ -49,7 +49,7 @@ std::optional<VectorXd> moved(const System& system, double t, const VectorXd& y,
   };
   Sparse J;
   held(y, &J);
-  VectorXd way = y.segment(system.n(), system.n());  // along a branch, where the pose is singular
+  VectorXd way = y.segment(system.n(), system.n());                 // along a branch, where the pose is singular
   for (Index i = 0; i < way.size() && attempt < along_speeds; ++i)  // any direction that no symmetry shares
     way[i] = system.scale[i] * std::sin(1.7 + 12.9898 * static_cast<double>(i + 1) + 4.1414 * attempt);
   way += least_step(J, W, -(J * way), 1e-13, 4);
@@ -160,8 +160,9 @@ std::vector<Driven> driven_by(const System& system, const Dependence& d) {
 }
 
 bool alike(const std::vector<Driven>& a, const std::vector<Driven>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const Driven& x, const Driven& y) { return x.law == y.law && std::abs(x.weight - y.weight) <= 1e-6 * std::abs(x.weight); });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Driven& x, const Driven& y) {
+    return x.law == y.law && std::abs(x.weight - y.weight) <= 1e-6 * std::abs(x.weight);
+  });
 }
 
 /// When laws combined with constant weights leave what they held at t; over by how much.
@@ -224,7 +225,8 @@ std::string misfit(const System& system, double t, const VectorXd& y, const std:
     s.precision(3);
     s << "the redundant joints " << listed(names_in(system, d, false)) << " do not fit each other: " << quoted(system.joint_names[at(k)])
       << " stays open by " << std::abs(eq.C[worst]) << (is_angle_row(system.joints[at(k)], worst - system.row_begin[at(k)]) ? " rad" : " m")
-      << ", and 1e-11 of the mechanism's size is all that is allowed; write lengths, points and angles with more digits, or leave a joint out";
+      << ", and 1e-11 of the mechanism's size is all that is allowed; write lengths, points and angles with more digits, or leave a joint "
+         "out";
     return s.str();
   }
   return "";
@@ -269,7 +271,8 @@ std::string rows_text(const System& system, const std::vector<bool>& marked, boo
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     std::string rows;
     for (int row = system.row_begin[k]; row < system.row_begin[k + 1]; ++row)
-      if (marked[at(row)] == which) rows += (rows.empty() ? " " : ", ") + std::string(row_name(system.joints[k], row - system.row_begin[k]));
+      if (marked[at(row)] == which)
+        rows += (rows.empty() ? " " : ", ") + std::string(row_name(system.joints[k], row - system.row_begin[k]));
     if (!rows.empty()) out += (out.empty() ? "" : "; ") + quoted(system.joint_names[k]) + rows;
   }
   return out;
@@ -282,14 +285,15 @@ std::string contradiction(const System& system, double t, const VectorXd& y, dou
   for (const Dependence& d : all.permanent) {
     const std::vector<std::string> names = names_in(system, d, true);
     if (names.empty()) continue;
-    const std::string who = names.size() > 1 ? "the drivers " + listed(names) + " contradict each other"
-                                             : "the driver " + listed(names) + " moves what " + listed(names_in(system, d, false)) + " hold";
-    if (contradiction_of_accelerations(system, t, y, d) > 1e-5) return who + ": at t = " + number_text(t) + " s they ask different accelerations of one freedom";
+    const std::string who = names.size() > 1
+                                ? "the drivers " + listed(names) + " contradict each other"
+                                : "the driver " + listed(names) + " moves what " + listed(names_in(system, d, false)) + " hold";
+    if (contradiction_of_accelerations(system, t, y, d) > 1e-5)
+      return who + ": at t = " + number_text(t) + " s they ask different accelerations of one freedom";
     const std::vector<Driven> drivers = driven_by(system, d);
     const bool constant = std::all_of(all.near.begin(), all.near.end(), [&](const std::vector<Dependence>& there) {
-      return std::any_of(there.begin(), there.end(), [&](const Dependence& e) {
-        return e.N.back().first == d.N.back().first && alike(drivers, driven_by(system, e));
-      });
+      return std::any_of(there.begin(), there.end(),
+                         [&](const Dependence& e) { return e.N.back().first == d.N.back().first && alike(drivers, driven_by(system, e)); });
     });
     if (constant)
       if (const auto conflict = first_contradiction(drivers, t, until))

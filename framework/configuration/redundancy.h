@@ -11,14 +11,14 @@ namespace pintle {
 struct Redundancy {
   int joint, row;
   std::vector<int> implied_by;  ///< joints whose rows combine to it
-  bool permanent = true;          ///< false: at this pose only, a singular one
+  bool permanent = true;        ///< false: at this pose only, a singular one
 };
 
 /// What a pose says of the joints, by rows.
 struct RowReport {
   int rank = 0;
   std::vector<Redundancy> redundant;  ///< in the order of rows
-  std::vector<bool> shared;  ///< per row: its force is not unique, others may bear a part of it [Wojtyra]
+  std::vector<bool> shared;           ///< per row: its force is not unique, others may bear a part of it [Wojtyra]
 };
 
 /// Judges the rows at a pose y and, where some are redundant, at poses reached from it by small motions that the

@@ -22,7 +22,6 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double weightless = 1e-6;  ///< of the largest weight of a dependence
 
-
 /// diag(row_scale) Cq diag(scale)
 Sparse scaled_jacobian(const System& system, const Equations& eq) {
   std::vector<Eigen::Triplet<double>> entries;

@@ -49,38 +49,42 @@ BodyDrawing::BodyDrawing(const ElasticBody& body) : body_(body) {
   const FeModel& model = body.model;
   std::vector<Eigen::Triplet<double>> entries;
   Cells quads{CellShape::quadrilateral4, {}, {}};
-  std::visit([&](const auto& block) {
-    using E = std::decay_t<decltype(block.properties.front())>;
-    if constexpr (E::stress_rows == 3) {
-      points.resize(2, block.size() * stations * across);
-      for (int i = 0; i < block.size(); ++i) {
-        const Coords<E> x = block.coords(i, model.x);
-        const Eigen::Vector2d d = x.col(1) - x.col(0), n = Eigen::Vector2d(-d.y(), d.x()).normalized();
-        const double y = half_height(body.fibres[static_cast<std::size_t>(i)], size);
-        for (int s = 0; s < stations; ++s) {
-          const double xi = static_cast<double>(s) / pieces_per_beam;
-          const auto N = shape(block.element(i), x, {xi, 0});
-          const auto turn = rotation(block.element(i), x, xi);
-          for (int side = 0; side < across; ++side) {
-            const Eigen::Vector2d offset = (side - 1) * y * n;
-            const int p = (i * stations + s) * across + side;
-            points.col(p) = x.col(0) + xi * d + offset;
-            for (int k = 0; k < E::dofs; ++k) {
-              const int freedom = model.begin[static_cast<std::size_t>(block.nodes[static_cast<std::size_t>(i * 2 + k / E::dofs_per_node)])] + k % E::dofs_per_node;
-              entries.emplace_back(2 * p, freedom, N(0, k) - offset.y() * turn(0, k));
-              entries.emplace_back(2 * p + 1, freedom, N(1, k) + offset.x() * turn(0, k));
+  std::visit(
+      [&](const auto& block) {
+        using E = std::decay_t<decltype(block.properties.front())>;
+        if constexpr (E::stress_rows == 3) {
+          points.resize(2, block.size() * stations * across);
+          for (int i = 0; i < block.size(); ++i) {
+            const Coords<E> x = block.coords(i, model.x);
+            const Eigen::Vector2d d = x.col(1) - x.col(0), n = Eigen::Vector2d(-d.y(), d.x()).normalized();
+            const double y = half_height(body.fibres[static_cast<std::size_t>(i)], size);
+            for (int s = 0; s < stations; ++s) {
+              const double xi = static_cast<double>(s) / pieces_per_beam;
+              const auto N = shape(block.element(i), x, {xi, 0});
+              const auto turn = rotation(block.element(i), x, xi);
+              for (int side = 0; side < across; ++side) {
+                const Eigen::Vector2d offset = (side - 1) * y * n;
+                const int p = (i * stations + s) * across + side;
+                points.col(p) = x.col(0) + xi * d + offset;
+                for (int k = 0; k < E::dofs; ++k) {
+                  const int freedom =
+                      model.begin[static_cast<std::size_t>(block.nodes[static_cast<std::size_t>(i * 2 + k / E::dofs_per_node)])] +
+                      k % E::dofs_per_node;
+                  entries.emplace_back(2 * p, freedom, N(0, k) - offset.y() * turn(0, k));
+                  entries.emplace_back(2 * p + 1, freedom, N(1, k) + offset.x() * turn(0, k));
+                }
+              }
+              if (s == 0) continue;
+              for (int side = 0; side + 1 < across; ++side) {
+                const int p = (i * stations + s - 1) * across + side;
+                quads.nodes.insert(quads.nodes.end(), {p, p + across, p + across + 1, p + 1});
+                quads.numbers.push_back(static_cast<long>(quads.numbers.size()) + 1);
+              }
             }
           }
-          if (s == 0) continue;
-          for (int side = 0; side + 1 < across; ++side) {
-            const int p = (i * stations + s - 1) * across + side;
-            quads.nodes.insert(quads.nodes.end(), {p, p + across, p + across + 1, p + 1});
-            quads.numbers.push_back(static_cast<long>(quads.numbers.size()) + 1);
-          }
         }
-      }
-    }
-  }, model.blocks.front());
+      },
+      model.blocks.front());
   D_.resize(points.size(), model.N());
   D_.setFromTriplets(entries.begin(), entries.end());
   cells.push_back(std::move(quads));
@@ -91,9 +95,7 @@ Eigen::Matrix2Xd BodyDrawing::displacement(const Eigen::VectorXd& u) const {
   return Eigen::Map<const Eigen::Matrix2Xd>(all.data(), 2, all.size() / 2);
 }
 
-Eigen::Matrix4Xd BodyDrawing::stress(const Eigen::VectorXd& u) const {
-  return stress(stress_field(body_.model, u, body_.fibres));
-}
+Eigen::Matrix4Xd BodyDrawing::stress(const Eigen::VectorXd& u) const { return stress(stress_field(body_.model, u, body_.fibres)); }
 
 Eigen::Matrix3Xd BodyDrawing::section_forces(const StressField& field) const {
   if (body_.plate()) return Eigen::Matrix3Xd(3, 0);
@@ -160,8 +162,10 @@ void write_shape_animation(const std::filesystem::path& directory, const std::st
     char file[96];
     std::snprintf(file, sizeof file, "frames/%s_%02d.vtu", name.c_str(), f);
     write_grid(directory / file, drawing.points + a * drawn * s.u, drawing.cells,
-               {{"displacement [mm]", a * s.u}, {"von Mises [Pa/mm]", std::abs(a) * s.mises},
-                {"scale", Eigen::RowVectorXd::Constant(s.u.cols(), drawn / 1e-3)}}, {}, phase);
+               {{"displacement [mm]", a * s.u},
+                {"von Mises [Pa/mm]", std::abs(a) * s.mises},
+                {"scale", Eigen::RowVectorXd::Constant(s.u.cols(), drawn / 1e-3)}},
+               {}, phase);
     files.push_back({phase, file});
   }
   write_collection(directory / (name + ".pvd"), files);

@@ -26,7 +26,7 @@ struct BodyDrawing {
 
  private:
   const ElasticBody& body_;
-  Sparse D_;        ///< beams: 2·points × N
+  Sparse D_;  ///< beams: 2·points × N
 };
 
 /// Every shape in one file: fields `mode 01 [mm]` and `von Mises 01 [Pa/mm]`, each scaled to a greatest displacement

@@ -17,8 +17,7 @@ using Eigen::Vector2d;
 
 /// Values of each point, one point below the other, as a column each.
 template <int rows>
-Eigen::Matrix<double, rows, Eigen::Dynamic> by_point(const MatrixXd& shapes,
-                                                     const Eigen::VectorXd& eta) {
+Eigen::Matrix<double, rows, Eigen::Dynamic> by_point(const MatrixXd& shapes, const Eigen::VectorXd& eta) {
   Eigen::Matrix<double, rows, Eigen::Dynamic> out(rows, shapes.rows() / rows);
   out.reshaped().noalias() = shapes * eta;
   return out;
@@ -45,9 +44,7 @@ void add_stress(const Eigen::Matrix4Xd& stress, std::vector<Field>& fields) {
 
 }  // namespace
 
-FlexibleDrawing::FlexibleDrawing(const ElasticBody& body, const ModalModel& modes,
-                                 const Vector2d& centre)
-    : name_(body.scene->name) {
+FlexibleDrawing::FlexibleDrawing(const ElasticBody& body, const ModalModel& modes, const Vector2d& centre) : name_(body.scene->name) {
   BodyDrawing drawing(body);
   const Index points = drawing.points.cols(), n = modes.shapes.cols();
   u_.resize(2 * points, n);
@@ -80,17 +77,14 @@ DrawnBody FlexibleDrawing::at(const FlexiblePose& pose, double exaggeration) con
   return out;
 }
 
-double FlexibleDrawing::largest_displacement(const Eigen::VectorXd& eta) const {
-  return by_point<2>(u_, eta).colwise().norm().maxCoeff();
-}
+double FlexibleDrawing::largest_displacement(const Eigen::VectorXd& eta) const { return by_point<2>(u_, eta).colwise().norm().maxCoeff(); }
 
 namespace {
 
 /// The node where a port that is no rim's sits.
 int node_of(const FeModel& model, const Port& port) {
   int node = 0;
-  while (model.independent_of(model.begin[static_cast<std::size_t>(node)]) != port.freedom[0])
-    ++node;
+  while (model.independent_of(model.begin[static_cast<std::size_t>(node)]) != port.freedom[0]) ++node;
   return node;
 }
 
@@ -117,26 +111,21 @@ StressProbe beam_probe(const ElasticBody& body, const ModalModel& modes, int nod
 /// @throws SceneError  as stress_probe
 const Port& material_port(const Scene& scene, const ElasticBody& body, const PointRef& ref) {
   const auto reject = [&](const std::string& what) {
-    throw SceneError(scene.file, ref.place,
-                     what + ", where there is no stress to tell; name a point of the material");
+    throw SceneError(scene.file, ref.place, what + ", where there is no stress to tell; name a point of the material");
   };
   if (ref.point.empty()) reject("\"" + ref.body + "\" alone is the origin of its axes");
   const ScenePoint& point = point_of(scene, *body.scene, ref.point, ref.place);
-  if (!point.hole.empty())
-    reject("\"" + ref.body + "." + ref.point + "\" is the middle of the hole \"" + point.hole +
-           "\"");
+  if (!point.hole.empty()) reject("\"" + ref.body + "." + ref.point + "\" is the middle of the hole \"" + point.hole + "\"");
   return *body.model.port(ref.point);
 }
 
 }  // namespace
 
-StressProbe stress_probe(const Scene& scene, const ElasticBody& body, const ModalModel& modes,
-                         const PointRef& ref) {
+StressProbe stress_probe(const Scene& scene, const ElasticBody& body, const ModalModel& modes, const PointRef& ref) {
   const int node = node_of(body.model, material_port(scene, body, ref));
   if (!body.plate()) return beam_probe(body, modes, node);
   StressProbe probe{false, MatrixXd(4, modes.shapes.cols())};
-  for (Index i = 0; i < modes.shapes.cols(); ++i)
-    probe.rows.col(i) = stress_field(body.model, modes.shapes.col(i)).nodal.col(node);
+  for (Index i = 0; i < modes.shapes.cols(); ++i) probe.rows.col(i) = stress_field(body.model, modes.shapes.col(i)).nodal.col(node);
   return probe;
 }
 

@@ -29,14 +29,13 @@ void write_vtu(const fs::path& path, const std::string& text) {
 
 }  // namespace
 
-void write_grid(const fs::path& path, const Eigen::Matrix2Xd& at, const std::vector<Cells>& cells,
-                const std::vector<Field>& on_points, const std::vector<Field>& on_cells, double t) {
+void write_grid(const fs::path& path, const Eigen::Matrix2Xd& at, const std::vector<Cells>& cells, const std::vector<Field>& on_points,
+                const std::vector<Field>& on_cells, double t) {
   write_vtu(path, encoder().grid(at, cells, on_points, on_cells, t));
 }
 
 void write_collection(const fs::path& path, const std::vector<CollectedFile>& files) {
-  std::string pvd =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
+  std::string pvd = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
   for (const CollectedFile& f : files) {
     pvd += "    <DataSet timestep=\"";
     append_number(pvd, f.t);
@@ -57,8 +56,7 @@ struct FrameWriter::Bodies {
   void keep(const DrawnBody& body) { kept.push_back({body.name, names.add(body.name, "body"), {}}); }
 };
 
-FrameWriter::FrameWriter(fs::path directory)
-    : directory_(std::move(directory)), bodies_(std::make_unique<Bodies>()) {
+FrameWriter::FrameWriter(fs::path directory) : directory_(std::move(directory)), bodies_(std::make_unique<Bodies>()) {
   std::error_code error;
   const fs::path frames = directory_ / "frames";
   fs::create_directories(frames, error);
@@ -85,8 +83,6 @@ void FrameWriter::add(const Drawing& drawing) {
   }
 }
 
-void FrameWriter::finish() {
-  write_collection(directory_ / "mechanism.pvd", files_);
-}
+void FrameWriter::finish() { write_collection(directory_ / "mechanism.pvd", files_); }
 
 }  // namespace pintle

@@ -20,9 +20,8 @@ struct Field {
 
 /// Points, z = 0, and cells with fields on them, as an unstructured grid in one .vtu.
 /// @throws std::runtime_error  naming the path that cannot be written
-void write_grid(const std::filesystem::path&, const Eigen::Matrix2Xd& points,
-                const std::vector<Cells>&, const std::vector<Field>& on_points,
-                const std::vector<Field>& on_cells = {}, double t = 0);
+void write_grid(const std::filesystem::path&, const Eigen::Matrix2Xd& points, const std::vector<Cells>&,
+                const std::vector<Field>& on_points, const std::vector<Field>& on_cells = {}, double t = 0);
 
 /// A file of a collection. Files of one time are shown together, as its parts.
 struct CollectedFile {
@@ -59,11 +58,10 @@ struct DrawnBody {
 
 /// One frame of an animation.
 struct Drawing {
-  double t = 0;             ///< [s]
-  double exaggeration = 1;  ///< drawn clearance over true clearance
-  double deformation = 1;   ///< drawn deformation of the flexible bodies over the true one
-  std::vector<std::string>
-      owners;  ///< names of bodies, joints and contacts; the same in each frame
+  double t = 0;                     ///< [s]
+  double exaggeration = 1;          ///< drawn clearance over true clearance
+  double deformation = 1;           ///< drawn deformation of the flexible bodies over the true one
+  std::vector<std::string> owners;  ///< names of bodies, joints and contacts; the same in each frame
   std::vector<DrawnLine> lines;
   std::vector<DrawnForce> forces;
   std::vector<DrawnBody> bodies;  ///< flexible ones; the same, with the same cells, in each frame

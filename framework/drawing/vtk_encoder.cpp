@@ -22,8 +22,7 @@ namespace pintle {
 
 namespace {
 
-constexpr std::array part_names{"link",   "joint", "journal", "bearing",
-                                "spring", "guide", "trace",   "force"};
+constexpr std::array part_names{"link", "joint", "journal", "bearing", "spring", "guide", "trace", "force"};
 constexpr int force_part = static_cast<int>(Part::trace) + 1;
 static_assert(part_names.size() == force_part + 1);
 
@@ -117,8 +116,7 @@ vtkNew<Array> array_of(const std::string& name, const Eigen::Ref<const Eigen::Ma
   array->SetName(name.c_str());
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(v.cols());
-  Eigen::Map<Eigen::Matrix<Value, Eigen::Dynamic, Eigen::Dynamic>> to(array->GetPointer(0),
-                                                                      components, v.cols());
+  Eigen::Map<Eigen::Matrix<Value, Eigen::Dynamic, Eigen::Dynamic>> to(array->GetPointer(0), components, v.cols());
   to.topRows(v.rows()) = v.cast<Value>();
   to.bottomRows(components - v.rows()).setZero();
   return array;
@@ -132,20 +130,13 @@ vtkNew<vtkPoints> points_at(const Eigen::Matrix2Xd& at) {
 
 int vtk_cell(CellShape shape) {
   switch (shape) {
-    case CellShape::line2:
-      return VTK_LINE;
-    case CellShape::line3:
-      return VTK_QUADRATIC_EDGE;
-    case CellShape::triangle3:
-      return VTK_TRIANGLE;
-    case CellShape::triangle6:
-      return VTK_QUADRATIC_TRIANGLE;
-    case CellShape::quadrilateral4:
-      return VTK_QUAD;
-    case CellShape::quadrilateral8:
-      return VTK_QUADRATIC_QUAD;
-    case CellShape::quadrilateral9:
-      return VTK_BIQUADRATIC_QUAD;
+    case CellShape::line2: return VTK_LINE;
+    case CellShape::line3: return VTK_QUADRATIC_EDGE;
+    case CellShape::triangle3: return VTK_TRIANGLE;
+    case CellShape::triangle6: return VTK_QUADRATIC_TRIANGLE;
+    case CellShape::quadrilateral4: return VTK_QUAD;
+    case CellShape::quadrilateral8: return VTK_QUADRATIC_QUAD;
+    case CellShape::quadrilateral9: return VTK_BIQUADRATIC_QUAD;
   }
   return VTK_EMPTY_CELL;
 }
@@ -166,19 +157,15 @@ void set_cells(vtkUnstructuredGrid* grid, const std::vector<Cells>& blocks) {
   grid->SetCells(types, cells);
 }
 
-std::string encode_lines(const Drawing& drawing) {
-  return text_of(lines_of(drawing), Packing::small);
-}
+std::string encode_lines(const Drawing& drawing) { return text_of(lines_of(drawing), Packing::small); }
 
 std::string encode_grid(const Eigen::Matrix2Xd& at, const std::vector<Cells>& cells, const std::vector<Field>& on_points,
                         const std::vector<Field>& on_cells, double t) {
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(points_at(at));
   set_cells(grid, cells);
-  for (const Field& f : on_points)
-    grid->GetPointData()->AddArray(array_of<vtkDoubleArray>(f.name, f.values));
-  for (const Field& f : on_cells)
-    grid->GetCellData()->AddArray(array_of<vtkDoubleArray>(f.name, f.values));
+  for (const Field& f : on_points) grid->GetPointData()->AddArray(array_of<vtkDoubleArray>(f.name, f.values));
+  for (const Field& f : on_cells) grid->GetCellData()->AddArray(array_of<vtkDoubleArray>(f.name, f.values));
   grid->GetFieldData()->AddArray(number("TimeValue", t));
   return text_of(grid, Packing::small);
 }
@@ -192,8 +179,7 @@ std::string encode_body(const DrawnBody& body, double t, double deformation, std
   vtkNew<vtkUnstructuredGrid> grid;
   grid->ShallowCopy(*static_cast<vtkNew<vtkUnstructuredGrid>*>(kept.get()));
   grid->SetPoints(points_at(body.points));
-  for (const Field& f : body.fields)
-    grid->GetPointData()->AddArray(array_of<vtkFloatArray>(f.name, f.values));
+  for (const Field& f : body.fields) grid->GetPointData()->AddArray(array_of<vtkFloatArray>(f.name, f.values));
   grid->GetFieldData()->AddArray(number("TimeValue", t));
   grid->GetFieldData()->AddArray(number("deformation exaggeration", deformation));
   grid->GetFieldData()->AddArray(strings("body", std::array{body.name}));

@@ -11,8 +11,9 @@ namespace pintle {
 template <class A>
 void Integrator::archive(A& x) {
   std::string method(stepper_->name()), fallback(scheme_.fallback ? scheme_.fallback->name : "");
-  x(PINTLE_MEMBERS(method, fallback, scheme_.switch_below, step_.from, step_.to, step_.h, norm_, control_, switching_, events_, counts_, failure_,
-                   ended_, worst_position_, worst_velocity_, last_tenth_, near_singular_, eq_.permanent, eq_.evaluations, eq_.factorizations));
+  x(PINTLE_MEMBERS(method, fallback, scheme_.switch_below, step_.from, step_.to, step_.h, norm_, control_, switching_, events_, counts_,
+                   failure_, ended_, worst_position_, worst_velocity_, last_tenth_, near_singular_, eq_.permanent, eq_.evaluations,
+                   eq_.factorizations));
   if constexpr (A::loading) {
     if (!x.good()) return;
     stepper_ = make_stepper(method, system_, scheme_, eq_);
@@ -40,8 +41,8 @@ const char* Integrator::fault_of_loaded() const {
     const bool remembers = m.a.size() == n && m.lambda.size() == rows && m.lambda_before.size() == rows && m.dy_before.size() == n_y &&
                            m.F.size() == n && m.P.size() == n;
     const bool empty = m.a.size() + m.lambda.size() + m.lambda_before.size() + m.dy_before.size() + m.F.size() + m.P.size() == 0;
-    return node.state.y.size() == n_y && node.dy.size() == n_y && node.state.impact_rate.size() == system_.contacts.size() && node.state.y.allFinite() &&
-           node.dy.allFinite() && std::isfinite(node.state.t) && (remembers || empty);
+    return node.state.y.size() == n_y && node.dy.size() == n_y && node.state.impact_rate.size() == system_.contacts.size() &&
+           node.state.y.allFinite() && node.dy.allFinite() && std::isfinite(node.state.t) && (remembers || empty);
   };
   if (step_.to.state.y.size() != n_y) return "it has another number of coordinates or of energies in its ledger";
   if (!whole(step_.from) || !whole(step_.to) || !stepper_->fits(step_.to)) return "it is of another system, or has numbers that are none";

@@ -4,8 +4,8 @@ namespace pintle {
 
 /// How C = 0 and Ċ = 0 are kept.
 enum class Constraints {
-  projection,    ///< both: after each explicit step, by the shortest way in the metric of M; in each implicit one
-  partitioning   ///< both, in each stage of an explicit scheme: dependent coordinates follow from the independent ones
+  projection,   ///< both: after each explicit step, by the shortest way in the metric of M; in each implicit one
+  partitioning  ///< both, in each stage of an explicit scheme: dependent coordinates follow from the independent ones
 };
 
 }  // namespace pintle

@@ -8,7 +8,9 @@ namespace pintle {
 struct Counts {
   long steps = 0, rejected = 0, events = 0, evaluations = 0, factorizations = 0, partitions = 0;
   template <class A>
-  void archive(A& x) { x(PINTLE_MEMBERS(steps, rejected, events, evaluations, factorizations, partitions)); }
+  void archive(A& x) {
+    x(PINTLE_MEMBERS(steps, rejected, events, evaluations, factorizations, partitions));
+  }
 };
 
 }  // namespace pintle

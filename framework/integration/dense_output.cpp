@@ -16,12 +16,10 @@ void interpolate_quintic(const System& system, const Step& step, double t, State
   out.y.resize(system.n_y());
 
   // q = Σ of the six quintic Hermite polynomials, s = q′/h
-  const double p1 = 10 * x3 - 15 * x4 + 6 * x5, v0 = x - 6 * x3 + 8 * x4 - 3 * x5,
-               v1 = -4 * x3 + 7 * x4 - 3 * x5, a0 = 0.5 * x2 - 1.5 * x3 + 1.5 * x4 - 0.5 * x5,
-               a1 = 0.5 * x3 - x4 + 0.5 * x5;
-  const double dp1 = 30 * x2 - 60 * x3 + 30 * x4, dv0 = 1 - 18 * x2 + 32 * x3 - 15 * x4,
-               dv1 = -12 * x2 + 28 * x3 - 15 * x4, da0 = x - 4.5 * x2 + 6 * x3 - 2.5 * x4,
-               da1 = 1.5 * x2 - 4 * x3 + 2.5 * x4;
+  const double p1 = 10 * x3 - 15 * x4 + 6 * x5, v0 = x - 6 * x3 + 8 * x4 - 3 * x5, v1 = -4 * x3 + 7 * x4 - 3 * x5,
+               a0 = 0.5 * x2 - 1.5 * x3 + 1.5 * x4 - 0.5 * x5, a1 = 0.5 * x3 - x4 + 0.5 * x5;
+  const double dp1 = 30 * x2 - 60 * x3 + 30 * x4, dv0 = 1 - 18 * x2 + 32 * x3 - 15 * x4, dv1 = -12 * x2 + 28 * x3 - 15 * x4,
+               da0 = x - 4.5 * x2 + 6 * x3 - 2.5 * x4, da1 = 1.5 * x2 - 4 * x3 + 2.5 * x4;
   for (Index i = 0; i < n; ++i) {
     const double rise = y1[i] - y0[i], s0 = h * y0[n + i], s1 = h * y1[n + i];
     const double b0 = h * h * step.from.dy[n + i], b1 = h * h * dy1[n + i];
@@ -30,8 +28,7 @@ void interpolate_quintic(const System& system, const Step& step, double t, State
   }
   for (Index i = 2 * n; i < 2 * n + nz; ++i) {
     const double rise = y1[i] - y0[i];
-    out.y[i] = y0[i] + x2 * (3 - 2 * x) * rise + x * (1 - x) * (1 - x) * h * step.from.dy[i] +
-               x2 * (x - 1) * h * dy1[i];
+    out.y[i] = y0[i] + x2 * (3 - 2 * x) * rise + x * (1 - x) * (1 - x) * h * step.from.dy[i] + x2 * (x - 1) * h * dy1[i];
   }
 }
 
@@ -44,8 +41,7 @@ void interpolate_cubic(const System& system, const Step& step, double t, State& 
   out.t = t;
   out.impact_rate = step.from.state.impact_rate;
   out.y.resize(system.n_y());
-  for (Index i = 0; i < 2 * n + nz; ++i)
-    out.y[i] = y0[i] + rise * (y1[i] - y0[i]) + from * step.from.dy[i] + to * dy1[i];
+  for (Index i = 0; i < 2 * n + nz; ++i) out.y[i] = y0[i] + rise * (y1[i] - y0[i]) + from * step.from.dy[i] + to * dy1[i];
 }
 
 }  // namespace pintle

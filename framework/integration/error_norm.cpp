@@ -54,7 +54,8 @@ double ErrorNorm::of(const Step& step, bool follows_impacts) const {
   const double fastest = std::max(fastest_, fastest_speed(y));
   const double length = fine_length_, slowest = slowest_speed * length / step.h;
   constexpr double known = 1e-13;  // of the fastest speed, to which constraints are met: an error below it is noise
-  const double across = std::max(std::sqrt(length * fastest * std::max(fastest / system_.length, lowest_shape_)), known / tolerance_ * fastest);
+  const double across =
+      std::max(std::sqrt(length * fastest * std::max(fastest / system_.length, lowest_shape_)), known / tolerance_ * fastest);
   const double speed = std::max(follows_impacts ? std::min(fastest, across) : fastest, slowest);
   const double energy = std::max({energy_, kinetic_energy(system_, y), mass_ * slowest * slowest / 2});
   double worst = 0;

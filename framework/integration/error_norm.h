@@ -32,7 +32,9 @@ class ErrorNorm {
   double speed(const Eigen::VectorXd& y, double h) const;
 
   template <class A>
-  void archive(A& x) { x(PINTLE_MEMBERS(fastest_, energy_)); }
+  void archive(A& x) {
+    x(PINTLE_MEMBERS(fastest_, energy_));
+  }
 
  private:
   const System& system_;

@@ -37,7 +37,8 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
       control_(scheme.max_step),
       events_(events_of(system, scheme, contacts_)) {
   if (start.y.size() != system.n_y())  // of another model, whose ledger may have other rows
-    throw std::invalid_argument("a start of " + std::to_string(start.y.size()) + " numbers for a system of " + std::to_string(system.n_y()));
+    throw std::invalid_argument("a start of " + std::to_string(start.y.size()) + " numbers for a system of " +
+                                std::to_string(system.n_y()));
   start.impact_rate.resize(system.contacts.size(), 0.0);
   step_.to.state = std::move(start);
   step_.to.dy.setZero(system.n_y());
@@ -67,7 +68,8 @@ bool Integrator::advance(double until) {
   if (!events_.empty() && !end_at_first_event(event)) return false;
   ++counts_.steps;
   events_.follow(step_, motion());
-  if (!events_.count(step_, event.has_value())) return stop(events_.name(*event) + ": its events come again and again without time passing");
+  if (!events_.count(step_, event.has_value()))
+    return stop(events_.name(*event) + ": its events come again and again without time passing");
   if (event && !act_on(*event, wish)) return false;
   stepper_->accept(eq_);
   look_at_end();
@@ -134,7 +136,8 @@ bool Integrator::step_to(double left) {
     ++counts_.rejected;
   }
   if (failure_.empty())
-    stop(eq_.regular ? "no step is small enough for the tolerance" + trouble() : "singular pose: the constraint rows have become dependent");
+    stop(eq_.regular ? "no step is small enough for the tolerance" + trouble()
+                     : "singular pose: the constraint rows have become dependent");
   step_.to = step_.from;
   return false;
 }
@@ -210,7 +213,8 @@ bool Integrator::may_step(double until) {
   step_.from = step_.to;
   return stop("max steps reached (" + std::to_string(allowed) + ")" +
               (counts_.steps >= 10 && passed > 0 ? ", the last tenth in " + number_text(passed, 6) + " s: so the rest takes some " +
-                                                       number_text(more, 6) + " times as many" : "") +
+                                                       number_text(more, 6) + " times as many"
+                                                 : "") +
               ": raise run.max steps, loosen run.tolerance, or soften or damp what is so fast");
 }
 

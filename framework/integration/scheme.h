@@ -23,20 +23,20 @@ struct LawChange {
 /// The method of time integration and its settings.
 struct Scheme {
   const Tableau* tableau = nullptr;  ///< explicit; nullptr: generalised-α
-  double tolerance = 1e-8;   ///< local error of each component relative to its scale, see ErrorNorm
+  double tolerance = 1e-8;           ///< local error of each component relative to its scale, see ErrorNorm
   Constraints constraints = Constraints::projection;
-  double onset_cut = 0;      ///< 0: locate contact onset and loss as events. Positive: the strategy of
-                             ///< Flores and Ambrósio (2010), halve the step until the first penetration
-                             ///< is below this [m]; loss is then taken at the end of a step
-  const Tableau* fallback = nullptr; ///< takes over for good where a stage of `tableau` comes near a singular configuration; or none
+  double onset_cut = 0;               ///< 0: locate contact onset and loss as events. Positive: the strategy of
+                                      ///< Flores and Ambrósio (2010), halve the step until the first penetration
+                                      ///< is below this [m]; loss is then taken at the end of a step
+  const Tableau* fallback = nullptr;  ///< takes over for good where a stage of `tableau` comes near a singular configuration; or none
   double max_step = std::numeric_limits<double>::infinity();  ///< [s]
-  std::vector<LawChange> changes = {};          ///< of the laws of time, in order, apart from each other
+  std::vector<LawChange> changes = {};                        ///< of the laws of time, in order, apart from each other
   std::vector<std::vector<double>> pieces = {};  ///< of each law, ends of its smooth pieces, of which a step passes one whole at most
   long max_steps = 100'000'000;
-  double rho = 0.8;          ///< of generalised-α: spectral radius at infinite frequency, 0 to 1
-  double switch_below = 0;   ///< an explicit step that stability, not accuracy, holds below this gives way to
-                             ///< generalised-α [s]; 0: never
-  std::string reason = {};   ///< why this scheme, in words
+  double rho = 0.8;         ///< of generalised-α: spectral radius at infinite frequency, 0 to 1
+  double switch_below = 0;  ///< an explicit step that stability, not accuracy, holds below this gives way to
+                            ///< generalised-α [s]; 0: never
+  std::string reason = {};  ///< why this scheme, in words
   /// Each makes a group of events for one integrator, beside those of the contacts.
   std::vector<std::function<std::unique_ptr<EventGroup>(const System&)>> events = {};
 };

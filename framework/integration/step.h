@@ -10,13 +10,15 @@ namespace pintle {
 
 /// What an implicit scheme knows at a node besides the state; empty for an explicit one.
 struct Memory {
-  double h = 0;                    ///< of the step that led here; 0: a start, nothing before it counts [s]
-  Eigen::VectorXd a;               ///< the scheme's own accelerations
+  double h = 0;                           ///< of the step that led here; 0: a start, nothing before it counts [s]
+  Eigen::VectorXd a;                      ///< the scheme's own accelerations
   Eigen::VectorXd lambda, lambda_before;  ///< multipliers here and a step earlier
-  Eigen::VectorXd dy_before;       ///< derivative a step earlier
-  Eigen::VectorXd F, P;            ///< f − Cqᵀλ, and M v̇, which Newton leaves a little apart
+  Eigen::VectorXd dy_before;              ///< derivative a step earlier
+  Eigen::VectorXd F, P;                   ///< f − Cqᵀλ, and M v̇, which Newton leaves a little apart
   template <class A>
-  void archive(A& x) { x(PINTLE_MEMBERS(h, a, lambda, lambda_before, dy_before, F, P)); }
+  void archive(A& x) {
+    x(PINTLE_MEMBERS(h, a, lambda, lambda_before, dy_before, F, P));
+  }
 };
 
 /// A state with its derivative.
@@ -25,19 +27,22 @@ struct Instant {
   Eigen::VectorXd dy;
   Memory memory = {};
   template <class A>
-  void archive(A& x) { x(PINTLE_MEMBERS(state.t, state.y, state.impact_rate, dy, memory)); }
+  void archive(A& x) {
+    x(PINTLE_MEMBERS(state.t, state.y, state.impact_rate, dy, memory));
+  }
 };
 
 /// From one accepted node to a trial one, with what dense output and error control need.
 struct Step {
   Instant from, to;
-  double h = 0;           ///< [s]
-  Eigen::VectorXd error;  ///< of the lower-order solution, as y
-  bool struck = false;    ///< a force that begins with a jump has changed to.dy …
+  double h = 0;                    ///< [s]
+  Eigen::VectorXd error;           ///< of the lower-order solution, as y
+  bool struck = false;             ///< a force that begins with a jump has changed to.dy …
   Eigen::VectorXd dy_before = {};  ///< … from this, which ends the step's dense output
   const Eigen::VectorXd& dy_end() const { return struck ? dy_before : to.dy; }
 };
 
-inline constexpr double short_part = 1e-3;  ///< of a step: in less, an implicit one shows the rounding of speeds in accelerations and multipliers
+inline constexpr double short_part =
+    1e-3;  ///< of a step: in less, an implicit one shows the rounding of speeds in accelerations and multipliers
 
 }  // namespace pintle

@@ -32,7 +32,9 @@ class StepControl {
   void accepted(const Try&, double error, const StepperTraits&);
 
   template <class A>
-  void archive(A& x) { x(PINTLE_MEMBERS(h_, error_before_, max_step_)); }
+  void archive(A& x) {
+    x(PINTLE_MEMBERS(h_, error_before_, max_step_));
+  }
   bool sound() const { return h_ >= 0 && error_before_ > 0; }
 
  private:

@@ -7,7 +7,8 @@ namespace pintle {
 
 std::unique_ptr<Stepper> make_stepper(std::string_view name, const System& system, const Scheme& scheme, const Equations& eq) {
   if (name == GeneralizedAlpha::method) return std::make_unique<GeneralizedAlpha>(system, eq, scheme.rho, scheme.tolerance);
-  if (const Tableau* tableau = find_tableau(name)) return std::make_unique<RungeKutta>(system, *tableau, scheme.constraints, scheme.tolerance);
+  if (const Tableau* tableau = find_tableau(name))
+    return std::make_unique<RungeKutta>(system, *tableau, scheme.constraints, scheme.tolerance);
   return nullptr;
 }
 

@@ -16,10 +16,10 @@ class Writer;
 
 /// What the control of the step needs to know of a method.
 struct StepperTraits {
-  int order;                   ///< of the error that it estimates in the step h: hᵖ
+  int order;  ///< of the error that it estimates in the step h: hᵖ
   bool implicit;
-  bool follows_impacts;        ///< its steps follow the force of a contact closely: they end where that has a kink
-  bool ends_evaluated;         ///< `attempt` leaves contacts evaluated at the step's end
+  bool follows_impacts;                       ///< its steps follow the force of a contact closely: they end where that has a kink
+  bool ends_evaluated;                        ///< `attempt` leaves contacts evaluated at the step's end
   double least_change = 1, least_growth = 1;  ///< a next step between these parts of the last is not worth another factorization
 };
 

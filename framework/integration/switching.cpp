@@ -4,7 +4,6 @@
 
 #include "framework/common/text.h"
 
-
 namespace pintle {
 
 bool Switching::falls_back(const Stepper& stepper, const Scheme& scheme, double t) {

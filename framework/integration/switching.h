@@ -21,7 +21,9 @@ class Switching {
   const std::string& why() const { return why_; }  ///< when and why it happened; else empty
 
   template <class A>
-  void archive(A& x) { x(PINTLE_MEMBERS(fallen_back_, held_, why_)); }
+  void archive(A& x) {
+    x(PINTLE_MEMBERS(fallen_back_, held_, why_));
+  }
 
  private:
   bool fallen_back_ = false;

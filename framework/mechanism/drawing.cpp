@@ -25,18 +25,14 @@ std::vector<Vector2d> circle(const Vector2d& center, double radius, int points =
 
 // Andrew's monotone chain.
 std::vector<Vector2d> convex_hull(std::vector<Vector2d> p) {
-  std::sort(p.begin(), p.end(), [](const Vector2d& a, const Vector2d& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
+  std::sort(p.begin(), p.end(), [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
   p.erase(std::unique(p.begin(), p.end()), p.end());
   if (p.size() < 3) return p;
   std::vector<Vector2d> hull;
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t begin = hull.size();
     for (const Vector2d& q : p) {
-      while (hull.size() >= begin + 2 &&
-             cross(hull.back() - hull[hull.size() - 2], q - hull.back()) <= 0)
-        hull.pop_back();
+      while (hull.size() >= begin + 2 && cross(hull.back() - hull[hull.size() - 2], q - hull.back()) <= 0) hull.pop_back();
       hull.push_back(q);
     }
     hull.pop_back();
@@ -62,8 +58,7 @@ std::vector<Vector2d> coil(const Vector2d& a, const Vector2d& b, double width) {
   const Vector2d d = b - a;
   const Vector2d side = d.norm() > 0 ? Vector2d(width * perp(d.normalized())) : Vector2d(0, 0);
   std::vector<Vector2d> out{a};
-  for (int i = 1; i < turns; ++i)
-    out.emplace_back(a + d * i / turns + (i == 1 || i == turns - 1 ? 0 : i % 2 ? 1 : -1) * side);
+  for (int i = 1; i < turns; ++i) out.emplace_back(a + d * i / turns + (i == 1 || i == turns - 1 ? 0 : i % 2 ? 1 : -1) * side);
   out.push_back(b);
   return out;
 }
@@ -104,8 +99,7 @@ Drafting::Drafting(const Scene& scene, const Model& model) {
   if (scene.output.exaggerate > 0)
     exaggeration = scene.output.exaggerate;
   else
-    for (const ContactPair& c : system.contacts)
-      exaggeration = std::max(exaggeration, 0.3 * c.gap.bearing / c.gap.clearance());
+    for (const ContactPair& c : system.contacts) exaggeration = std::max(exaggeration, 0.3 * c.gap.bearing / c.gap.clearance());
 }
 
 Drawing draw(const Model& model, const Drafting& drafting, const State& state, const Equations& eq) {
@@ -123,8 +117,9 @@ Drawing draw(const Model& model, const Drafting& drafting, const State& state, c
       if (flexible == model.drawings.end()) continue;
       const double* s = q + system.n();
       const int begin = system.eta_begin[at(b)], n = system.bodies[at(b)].modes();
-      out.bodies.push_back(flexible++->at({Vector2d(q[0], q[1]), Vector2d(s[0], s[1]), q[2], s[2],
-                                           state.y.segment(begin, n), state.y.segment(system.n() + begin, n)}, drafting.deformation));
+      out.bodies.push_back(flexible++->at(
+          {Vector2d(q[0], q[1]), Vector2d(s[0], s[1]), q[2], s[2], state.y.segment(begin, n), state.y.segment(system.n() + begin, n)},
+          drafting.deformation));
       continue;
     }
     const Eigen::Rotation2Dd A(q[2]);

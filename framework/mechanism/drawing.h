@@ -8,11 +8,11 @@ namespace pintle {
 /// What does not change between frames: outlines in body axes, the exaggeration of clearances.
 struct Drafting {
   Drafting(const Scene&, const Model&);
-  std::vector<std::string> owners;                                ///< bodies, joints, contacts
-  std::vector<std::vector<Eigen::Vector2d>> links;                ///< closed outlines, body axes
-  double pin = 0;                                                 ///< radius of a joint's circle [m]
-  double exaggeration = 1;                                        ///< of clearances
-  double deformation = 1;                                         ///< of flexible bodies
+  std::vector<std::string> owners;                  ///< bodies, joints, contacts
+  std::vector<std::vector<Eigen::Vector2d>> links;  ///< closed outlines, body axes
+  double pin = 0;                                   ///< radius of a joint's circle [m]
+  double exaggeration = 1;                          ///< of clearances
+  double deformation = 1;                           ///< of flexible bodies
 };
 
 /// The mechanism at an instant: links, joints, journal and bearing circles, springs, contact forces.

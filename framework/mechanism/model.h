@@ -50,9 +50,9 @@ struct Model {
   std::vector<BendingProbe> bending;                   ///< likewise
   std::vector<StiffeningProbe> stiffening;             ///< likewise
   std::vector<std::pair<int, Eigen::VectorXd>> bent;   ///< bodies that start bent, and their modal coordinates
-  std::vector<Attachment> attachments;                             ///< on flexible bodies
+  std::vector<Attachment> attachments;                 ///< on flexible bodies
   BuiltOrder order;
-  std::optional<PreliminaryRun> preliminary_run;                  ///< the rigid run, if there was one
+  std::optional<PreliminaryRun> preliminary_run;  ///< the rigid run, if there was one
 };
 
 }  // namespace pintle

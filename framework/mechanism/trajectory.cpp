@@ -22,7 +22,9 @@ std::size_t written_end(const System& system, int joint) {
   const int b = system.end_marker[at(system.end_begin[at(joint)] + 1)];
   return system.markers[at(b)].body == ground ? 0 : 1;
 }
-int written_marker(const System& system, int joint) { return system.end_marker[at(system.end_begin[at(joint)]) + written_end(system, joint)]; }
+int written_marker(const System& system, int joint) {
+  return system.end_marker[at(system.end_begin[at(joint)]) + written_end(system, joint)];
+}
 bool is_flexible(const System& system) { return system.n() > system.n_rigid(); }
 
 /// Motion of a marker that no joint uses; of a point of a flexible body also what deformation moves it.
@@ -52,9 +54,7 @@ PointMotion motion_of(const System& system, const Marker& m, const State& state,
           Eigen::Vector2d(a[0], a[1]) + a[2] * perp(d) - s[2] * s[2] * d + 2 * s[2] * perp(drift) + A * ddu, u, turn};
 }
 
-bool is_turning(const Force& f) {
-  return std::holds_alternative<Torque>(f) || std::holds_alternative<TorsionSpring>(f);
-}
+bool is_turning(const Force& f) { return std::holds_alternative<Torque>(f) || std::holds_alternative<TorsionSpring>(f); }
 
 struct Now {
   const State& state;
@@ -65,7 +65,9 @@ struct Now {
 template <class Out>
 void body_columns(const System& system, std::size_t b, Out& out) {
   const Body& body = system.bodies[b];
-  const auto arm = [&body, b](const Now& now) -> Eigen::Vector2d { return Eigen::Rotation2Dd(now.state.y[static_cast<Eigen::Index>(3 * b) + 2]) * body.x_BO; };
+  const auto arm = [&body, b](const Now& now) -> Eigen::Vector2d {
+    return Eigen::Rotation2Dd(now.state.y[static_cast<Eigen::Index>(3 * b) + 2]) * body.x_BO;
+  };
   const auto speeds = [&system, b](const Now& now) { return now.state.y.data() + system.n() + 3 * b; };
   out(body.name, {{".x", "m"}, {".y", "m"}, {".angle", "rad"}}, [&](const Now& now) {
     const double* q = now.state.y.data() + 3 * b;
@@ -83,7 +85,8 @@ void body_columns(const System& system, std::size_t b, Out& out) {
     return std::array{a[0] + a[2] * turned.x() - s[2] * s[2] * d.x(), a[1] + a[2] * turned.y() - s[2] * s[2] * d.y(), a[2]};
   });
   for (int i = 0; i < body.modes(); ++i)
-    out(body.name, {{".mode ", "m kg^0.5"}}, [&](const Now& now) { return std::array{now.state.y[system.eta_begin[b] + i]}; },
+    out(
+        body.name, {{".mode ", "m kg^0.5"}}, [&](const Now& now) { return std::array{now.state.y[system.eta_begin[b] + i]}; },
         [i] { return std::to_string(i + 1); });
 }
 
@@ -92,11 +95,16 @@ template <class Out, class OfNow>
 void wrench_columns(const System& system, const std::string& name, bool force, bool couple, int marker, const OfNow& wrench, Out& out) {
   const auto on = [&] { return " on " + body_name(system, marker); };
   if (force)
-    out(name, {{".fx", "N"}, {".fy", "N"}}, [&](const Now& now) {
-      const Wrench w = wrench(now);
-      return std::array{w[0], w[1]};
-    }, on);
-  if (couple) out(name, {{".torque", "N m"}}, [&](const Now& now) { return std::array{wrench(now)[2]}; }, on);
+    out(
+        name, {{".fx", "N"}, {".fy", "N"}},
+        [&](const Now& now) {
+          const Wrench w = wrench(now);
+          return std::array{w[0], w[1]};
+        },
+        on);
+  if (couple)
+    out(
+        name, {{".torque", "N m"}}, [&](const Now& now) { return std::array{wrench(now)[2]}; }, on);
 }
 
 template <class Out>
@@ -109,8 +117,9 @@ void contact_columns(const System& system, std::size_t k, Out& out) {
         const double slip = pair.sliding == Sliding::geometric ? c.gap.geometric_slip : c.gap.material_slip;
         return std::array{c.gap.e.x(), c.gap.e.y(), c.gap.depth, c.gap.rate, slip, c.normal.force, c.friction};
       });
-  wrench_columns(system, system.contact_names[k], true, false, pair.journal,
-                 [&](const Now& now) { return clearance_effect(system, now.eq, k).on_journal; }, out);
+  wrench_columns(
+      system, system.contact_names[k], true, false, pair.journal,
+      [&](const Now& now) { return clearance_effect(system, now.eq, k).on_journal; }, out);
 }
 
 template <class Out>
@@ -152,13 +161,16 @@ void trajectory_columns(const Model& model, Out out) {
   for (int k = 0; k < static_cast<int>(system.joints.size()); ++k) {
     if (is_link(system, k)) continue;  // its force stands with its clearance
     const JointProperties& of = properties_of(system.joints[at(k)]);
-    wrench_columns(system, system.joint_names[at(k)], of.force, of.couple, written_marker(system, k),
-                   [&](const Now& now) { return joint_wrench(system, now.eq, k); }, out);
+    wrench_columns(
+        system, system.joint_names[at(k)], of.force, of.couple, written_marker(system, k),
+        [&](const Now& now) { return joint_wrench(system, now.eq, k); }, out);
   }
   for (std::size_t k = 0; k < system.contacts.size(); ++k) contact_columns(system, k, out);
   for (std::size_t k = 0; k < system.forces.size(); ++k) {
     const bool turns = is_turning(system.forces[k]);
-    wrench_columns(system, system.force_names[k], !turns, turns, marker_b(system.forces[k]), [&](const Now& now) { return now.eq.force[k].on_b; }, out);
+    wrench_columns(
+        system, system.force_names[k], !turns, turns, marker_b(system.forces[k]), [&](const Now& now) { return now.eq.force[k].on_b; },
+        out);
   }
   for (const RecordedPoint& p : model.points) point_columns(system, p, out);
   for (const RecordedStress& s : model.stresses) stress_columns(system, s, out);
@@ -179,7 +191,8 @@ void ledger_columns(const System& system, Out out) {
   if (is_flexible(system)) out("", {{"strain", "J"}}, [](const Books& now) { return std::array{now.energies.strain}; });
   out("", {{"stored", "J"}}, [](const Books& now) { return std::array{now.energies.stored()}; });
   for (std::size_t i = 0; i < system.integrals.size(); ++i)
-    out("", {{"", "J"}}, [&](const Books& now) { return std::array{now.state.y[2 * system.n() + static_cast<Eigen::Index>(i)]}; },
+    out(
+        "", {{"", "J"}}, [&](const Books& now) { return std::array{now.state.y[2 * system.n() + static_cast<Eigen::Index>(i)]}; },
         [&] { return integral_name(system, system.integrals[i]); });
   out("", {{"unexplained", "J"}}, [](const Books& now) { return std::array{now.unexplained}; });
 }
@@ -188,7 +201,9 @@ void ledger_columns(const System& system, Out out) {
 
 std::string joint_subject(const System& system, int joint) { return body_name(system, written_marker(system, joint)); }
 
-Wrench joint_wrench(const System& system, const Equations& eq, int joint) { return reaction(system, eq, at(joint), written_end(system, joint)); }
+Wrench joint_wrench(const System& system, const Equations& eq, int joint) {
+  return reaction(system, eq, at(joint), written_end(system, joint));
+}
 
 std::string integral_name(const System& system, const Integral& i) {
   switch (i.account) {

@@ -22,9 +22,16 @@ Json cost_json(const RunCost& c) {
   return {{"steps", whole_range(c.steps)},
           {"mean step [s]", c.step},
           {"computing [s]", range(c.seconds)},
-          {"trial", {{"steps", t.steps}, {"rejected", t.rejected}, {"evaluations", t.evaluations}, {"impacts", t.impacts},
-                     {"reached [s]", t.reached}, {"whole run", t.whole}, {"ended by the clock", t.by_clock},
-                     {"took [s]", t.seconds}, {"trouble", t.trouble}}}};
+          {"trial",
+           {{"steps", t.steps},
+            {"rejected", t.rejected},
+            {"evaluations", t.evaluations},
+            {"impacts", t.impacts},
+            {"reached [s]", t.reached},
+            {"whole run", t.whole},
+            {"ended by the clock", t.by_clock},
+            {"took [s]", t.seconds},
+            {"trouble", t.trouble}}}};
 }
 
 std::string short_number(double x) {
@@ -55,12 +62,21 @@ std::string cost_json(const CostEstimate& p) {
     if (!s.of_outputs) simpler.back()["cost"] = cost_json(s.cost);
   }
   const OutputCost& o = p.output;
-  const Json out = {{"coordinates", p.coordinates}, {"rows", p.rows}, {"integrals", p.integrals}, {"terms", p.terms},
-                    {"largest rate [rad/s]", p.largest_rate}, {"largest rate of", p.largest_rate_of},
+  const Json out = {{"coordinates", p.coordinates},
+                    {"rows", p.rows},
+                    {"integrals", p.integrals},
+                    {"terms", p.terms},
+                    {"largest rate [rad/s]", p.largest_rate},
+                    {"largest rate of", p.largest_rate_of},
                     {"contact rate [rad/s]", p.contact_rate},
                     {"run", cost_json(p.run)},
-                    {"outputs", {{"rows", o.rows}, {"columns", o.columns}, {"frames", o.frames}, {"time of a row [s]", o.row_seconds},
-                                 {"time of a frame [s]", o.frame_seconds}, {"files [bytes]", std::lround(o.bytes())}}},
+                    {"outputs",
+                     {{"rows", o.rows},
+                      {"columns", o.columns},
+                      {"frames", o.frames},
+                      {"time of a row [s]", o.row_seconds},
+                      {"time of a frame [s]", o.frame_seconds},
+                      {"files [bytes]", std::lround(o.bytes())}}},
                     {"time [s]", range(p.seconds)},
                     {"memory [bytes]", std::lround(p.memory)},
                     {"certainty", certainty(p)},

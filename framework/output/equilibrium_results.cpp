@@ -20,8 +20,11 @@ bool is_rate(const std::string& column) {
 
 Json stability_json(const Stability& s) {
   if (!s.judged) return nullptr;
-  return {{"freedoms", s.freedoms}, {"unstable directions", s.unstable}, {"neutral directions", s.neutral},
-          {"may flutter", s.circulatory}, {"bodies that move most in them", s.moving}};
+  return {{"freedoms", s.freedoms},
+          {"unstable directions", s.unstable},
+          {"neutral directions", s.neutral},
+          {"may flutter", s.circulatory},
+          {"bodies that move most in them", s.moving}};
 }
 
 }  // namespace

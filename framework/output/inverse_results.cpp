@@ -20,18 +20,19 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 Json head(const Scene& scene, const Model& model, const Run& run) {
-  return {{"program", "pintle"},
-          {"version", PINTLE_VERSION},
-          {"title", scene.title},
-          {"file", scene.file},
-          {"status", status_text(run.status)},
-          {"reason", run.reason},
-          {"warnings", run.warnings},
-          {"reached [s]", run.t_end},
-          {"model", {{"bodies", model.system.bodies.size()}, {"coordinates", model.system.n()}, {"constraint rows", model.system.n_rows()}}},
-          {"worst scaled violation", {{"position", run.worst_position}, {"velocity", run.worst_velocity}}},
-          {"counts", {{"steps", run.counts.steps}, {"rejected", run.counts.rejected}}},
-          {"timings [s]", {{"computing", run.seconds}}}};
+  return {
+      {"program", "pintle"},
+      {"version", PINTLE_VERSION},
+      {"title", scene.title},
+      {"file", scene.file},
+      {"status", status_text(run.status)},
+      {"reason", run.reason},
+      {"warnings", run.warnings},
+      {"reached [s]", run.t_end},
+      {"model", {{"bodies", model.system.bodies.size()}, {"coordinates", model.system.n()}, {"constraint rows", model.system.n_rows()}}},
+      {"worst scaled violation", {{"position", run.worst_position}, {"velocity", run.worst_velocity}}},
+      {"counts", {{"steps", run.counts.steps}, {"rejected", run.counts.rejected}}},
+      {"timings [s]", {{"computing", run.seconds}}}};
 }
 
 std::string effort_csv(const DriverEffort& e) {
@@ -78,7 +79,10 @@ std::string inverse_json(const Scene& scene, const Model& model, const Inverse& 
     }
     const double span = e.t.size() > 1 ? e.t.back() - e.t.front() : 0;
     const std::string unit = e.turns ? " [N m]" : " [N]";
-    drivers[e.name] = {{"file", effort_file(inverse, d)}, {"rows", e.t.size()}, {"greatest" + unit, most}, {"least" + unit, least},
+    drivers[e.name] = {{"file", effort_file(inverse, d)},
+                       {"rows", e.t.size()},
+                       {"greatest" + unit, most},
+                       {"least" + unit, least},
                        {"root of mean square" + unit, span > 0 ? std::sqrt(sum / span) : 0},
                        {"error of a spline through every second row" + unit, std::isnan(e.error) ? Json(nullptr) : Json(e.error)}};
   }

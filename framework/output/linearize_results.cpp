@@ -34,7 +34,8 @@ void append_row(std::string& out, const std::string& name, const Eigen::VectorXd
   out += '\n';
 }
 
-std::string matrix_csv(const std::string& corner, const std::vector<std::string>& rows, const std::vector<std::string>& columns, const Eigen::MatrixXd& A) {
+std::string matrix_csv(const std::string& corner, const std::vector<std::string>& rows, const std::vector<std::string>& columns,
+                       const Eigen::MatrixXd& A) {
   std::string out = csv_field(corner);
   for (const std::string& c : columns) out += ',' + csv_field(c);
   out += '\n';
@@ -79,13 +80,24 @@ std::string shapes_csv(const Linearization& lin, int count) {
 std::string linearized_json(const Scene& scene, const Linearization& lin) {
   Json modes = Json::array(), contacts = Json::array();
   for (const LinearMode& m : lin.modes)
-    modes.push_back({{"kind", kind_text(m.kind)}, {"frequency [Hz]", m.frequency()}, {"natural frequency [Hz]", m.natural()},
-                     {"damping ratio", m.damping()}, {"decay [1/s]", 0 - m.root.real()},
-                     {"root [1/s]", {m.root.real(), m.root.imag()}}, {"uncertainty of root [1/s]", m.uncertainty}, {"roots", m.roots},
-                     {"moves most", m.carrier}, {"share of kinetic energy", m.share}});
+    modes.push_back({{"kind", kind_text(m.kind)},
+                     {"frequency [Hz]", m.frequency()},
+                     {"natural frequency [Hz]", m.natural()},
+                     {"damping ratio", m.damping()},
+                     {"decay [1/s]", 0 - m.root.real()},
+                     {"root [1/s]", {m.root.real(), m.root.imag()}},
+                     {"uncertainty of root [1/s]", m.uncertainty},
+                     {"roots", m.roots},
+                     {"moves most", m.carrier},
+                     {"share of kinetic energy", m.share}});
   for (const LinearContact& c : lin.contacts)
-    contacts.push_back({{"joint", c.name}, {"closed", c.closed}, {"depth [m]", c.depth}, {"normal force [N]", c.force},
-                        {"stiffness [N/m]", c.stiffness}, {"damping [N s/m]", c.damping}, {"impact rate [m/s]", c.impact_rate}});
+    contacts.push_back({{"joint", c.name},
+                        {"closed", c.closed},
+                        {"depth [m]", c.depth},
+                        {"normal force [N]", c.force},
+                        {"stiffness [N/m]", c.stiffness},
+                        {"damping [N s/m]", c.damping},
+                        {"impact rate [m/s]", c.impact_rate}});
   const Json out = {{"program", "pintle"},
                     {"version", PINTLE_VERSION},
                     {"title", scene.title},

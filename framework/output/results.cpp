@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 Json energies_json(const Energies& e) {
-  return {{"kinetic", e.kinetic}, {"gravity", e.gravity}, {"springs", e.springs}, {"contacts", e.contacts}, {"strain", e.strain},
-          {"stored", e.stored()}, {"lost", e.lost},       {"work in", e.input}};
+  return {{"kinetic", e.kinetic}, {"gravity", e.gravity}, {"springs", e.springs}, {"contacts", e.contacts},
+          {"strain", e.strain},   {"stored", e.stored()}, {"lost", e.lost},       {"work in", e.input}};
 }
 
 Json assembly_json(const System& system, const Assembly& a) {
@@ -51,13 +51,18 @@ Json assembly_json(const System& system, const Assembly& a) {
 Json choice_json(const ModalChoice& c) {
   Json modes = Json::array();
   for (const ConsideredMode& m : c.considered)
-    modes.push_back({{"frequency [Hz]", m.frequency}, {"strain energy", m.energy}, {"left out of strain energy", m.left_energy},
-                     {"left out of displacement", m.left_displacement}, {"kept", m.kept}});
+    modes.push_back({{"frequency [Hz]", m.frequency},
+                     {"strain energy", m.energy},
+                     {"left out of strain energy", m.left_energy},
+                     {"left out of displacement", m.left_displacement},
+                     {"kept", m.kept}});
   return {{"count", c.count}, {"reason", c.reason}, {"considered", modes}};
 }
 
 Json motion_json(const MotionEstimate& m) {
-  return {{"deflection over size", m.deflection}, {"slope [rad]", m.slope}, {"spin [rad/s]", m.spin},
+  return {{"deflection over size", m.deflection},
+          {"slope [rad]", m.slope},
+          {"spin [rad/s]", m.spin},
           {"excited up to [Hz]", m.excited_up_to},
           {"first frequency changed by inertia", m.by_rotation},
           {"first frequency changed by all loads", m.by_all_loads}};
@@ -66,11 +71,18 @@ Json motion_json(const MotionEstimate& m) {
 Json flexible_json(const Model& model) {
   Json all = Json::array();
   for (const FlexibleReport& r : model.flexible) {
-    Json one = {{"body", r.body}, {"basis", r.basis}, {"shapes", r.shapes}, {"lowest [Hz]", r.lowest}, {"highest [Hz]", r.highest},
-                {"least damping", r.least_damping}, {"greatest damping", r.most_damping},
-                {"frequencies [Hz]", r.frequencies}, {"damping ratios", r.damping},
+    Json one = {{"body", r.body},
+                {"basis", r.basis},
+                {"shapes", r.shapes},
+                {"lowest [Hz]", r.lowest},
+                {"highest [Hz]", r.highest},
+                {"least damping", r.least_damping},
+                {"greatest damping", r.most_damping},
+                {"frequencies [Hz]", r.frequencies},
+                {"damping ratios", r.damping},
                 {"mass share", r.mass ? Json{{"x", r.mass->x()}, {"y", r.mass->y()}, {"rotation", r.mass->z()}} : Json(nullptr)},
-                {"compliance covered", r.compliance}, {"compliance covered least at", r.compliance_at}};
+                {"compliance covered", r.compliance},
+                {"compliance covered least at", r.compliance_at}};
     if (r.choice) one["choice"] = choice_json(*r.choice);
     if (r.motion) one["rigid run"] = motion_json(*r.motion);
     all.push_back(std::move(one));
@@ -108,45 +120,46 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
     out["journal radius [m]"] = p.gap.journal;
     out["bearing radius [m]"] = p.gap.bearing;
   }
-  const Json out = {
-      {"program", "pintle"},
-      {"version", PINTLE_VERSION},
-      {"title", scene.title},
-      {"file", scene.file},
-      {"status", status_text(run.status)},
-      {"reason", run.reason},
-      {"warnings", run.warnings},
-      {"reached [s]", run.t_end},
-      {"model", assembly_json(system, assembly)},
-      {"method", method_json(model.scheme, run.switched)},
-      {"flexible bodies", flexible_json(model)},
-      {"rigid run", preliminary_run_json(model)},
-      {"contacts", contacts},
-      {"energy at start [J]", energies_json(run.first)},
-      {"energy at end [J]", energies_json(run.last)},
-      {"ledger [J]", losses},
-      {"unexplained [J]", run.unexplained},
-      {"worst unexplained [J]", run.worst_unexplained},
-      {"energy in play [J]", run.energy_in_play},
-      {"ledger bound", {{"share of the energy in play", run.ledger_bound}, {"and of rounding [J]", run.ledger_floor}}},
-      {"worst scaled violation", {{"position", run.worst_position}, {"velocity", run.worst_velocity}}},
-      {"counts",
-       {{"steps", run.counts.steps},
-        {"rejected", run.counts.rejected},
-        {"evaluations", run.counts.evaluations},
-        {"factorizations", run.counts.factorizations},
-        {"events", run.counts.events},
-        {"impacts", run.impacts.size()},
-        {"partitions chosen", run.counts.partitions}}},
-      {"timings [s]", {{"integration", run.seconds}}},
-      {"scene", scene_json(scene)}};
+  const Json out = {{"program", "pintle"},
+                    {"version", PINTLE_VERSION},
+                    {"title", scene.title},
+                    {"file", scene.file},
+                    {"status", status_text(run.status)},
+                    {"reason", run.reason},
+                    {"warnings", run.warnings},
+                    {"reached [s]", run.t_end},
+                    {"model", assembly_json(system, assembly)},
+                    {"method", method_json(model.scheme, run.switched)},
+                    {"flexible bodies", flexible_json(model)},
+                    {"rigid run", preliminary_run_json(model)},
+                    {"contacts", contacts},
+                    {"energy at start [J]", energies_json(run.first)},
+                    {"energy at end [J]", energies_json(run.last)},
+                    {"ledger [J]", losses},
+                    {"unexplained [J]", run.unexplained},
+                    {"worst unexplained [J]", run.worst_unexplained},
+                    {"energy in play [J]", run.energy_in_play},
+                    {"ledger bound", {{"share of the energy in play", run.ledger_bound}, {"and of rounding [J]", run.ledger_floor}}},
+                    {"worst scaled violation", {{"position", run.worst_position}, {"velocity", run.worst_velocity}}},
+                    {"counts",
+                     {{"steps", run.counts.steps},
+                      {"rejected", run.counts.rejected},
+                      {"evaluations", run.counts.evaluations},
+                      {"factorizations", run.counts.factorizations},
+                      {"events", run.counts.events},
+                      {"impacts", run.impacts.size()},
+                      {"partitions chosen", run.counts.partitions}}},
+                    {"timings [s]", {{"integration", run.seconds}}},
+                    {"scene", scene_json(scene)}};
   return json_text(out) + "\n";
 }
 
 std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly, const CostEstimate& price) {
   std::vector<std::string> warnings = model.warnings;
   for (std::string& w : warnings_of(model, assembly)) warnings.push_back(std::move(w));
-  const Json out = {{"title", scene.title}, {"file", scene.file}, {"model", assembly_json(model.system, assembly)},
+  const Json out = {{"title", scene.title},
+                    {"file", scene.file},
+                    {"model", assembly_json(model.system, assembly)},
                     {"method", method_json(model.scheme, "")},
                     {"clearances", model.clearances},
                     {"flexible bodies", flexible_json(model)},
@@ -157,8 +170,7 @@ std::string check_json(const Scene& scene, const Model& model, const Assembly& a
   return json_text(out) + "\n";
 }
 
-void write_results(const fs::path& directory, const Scene& scene, const Model& model, const Assembly& assembly,
-                   const Run& run) {
+void write_results(const fs::path& directory, const Scene& scene, const Model& model, const Assembly& assembly, const Run& run) {
   RunFiles files(directory, model);
   files.add(run.trajectory, run.ledger, run.impacts);
   files.finish(run.impacts);

@@ -87,9 +87,7 @@ ResultsDirectory::~ResultsDirectory() {
   }
 }
 
-bool ResultsDirectory::holds_files() const {
-  return !tree_of(staging_).files.empty();
-}
+bool ResultsDirectory::holds_files() const { return !tree_of(staging_).files.empty(); }
 
 void ResultsDirectory::commit() {
   const auto moved = [](const fs::path& where, const std::string& why) {

@@ -41,11 +41,12 @@ double times(double from, double until, double interval) { return interval > 0 ?
 }  // namespace
 
 RoomNeeded room_needed(const Scene& scene, const Model& model, double from) {
-  constexpr double least_number = 2, number = 17;       // bytes of text
+  constexpr double least_number = 2, number = 17;  // bytes of text
   constexpr double least_frame = 1000, frame = 5000, point = 64;
   const double until = scene.run.until;
   const double rows = times(from, until, scene.output.every > 0 ? scene.output.every : until / 1000);
-  const double wide = rows * static_cast<double>(trajectory_table(model).columns()), narrow = rows * static_cast<double>(ledger_table(model.system).columns());
+  const double wide = rows * static_cast<double>(trajectory_table(model).columns()),
+               narrow = rows * static_cast<double>(ledger_table(model.system).columns());
   const double frames = scene.output.frames > 1 ? std::ceil(scene.output.frames * (until - from) / until) : 0;
   const double states = times(from, until, scene.output.states) * 8 * model.system.n_y();
   double points = 0;
@@ -74,14 +75,18 @@ Room room_at(const std::filesystem::path& directory) {
 std::vector<std::string> validate_room(const std::filesystem::path& directory, const RoomNeeded& needed, const Room& room) {
   const std::string at = directory.string() + ": ", remedy = "write fewer rows (output.every) or frames";
   if (needed.least > room.on_disk)
-    throw std::runtime_error(at + "the results need at least " + needs(needed.least) + ", and the disk has " + has(room.on_disk) + " left; make room, name another place with --out, or " + remedy);
+    throw std::runtime_error(at + "the results need at least " + needs(needed.least) + ", and the disk has " + has(room.on_disk) +
+                             " left; make room, name another place with --out, or " + remedy);
   if (needed.file_least > room.in_a_file)
-    throw std::runtime_error(at + "trajectory.csv needs at least " + needs(needed.file_least) + ", and a file may have " + has(room.in_a_file) + "; raise the limit (ulimit -f), or " + remedy);
+    throw std::runtime_error(at + "trajectory.csv needs at least " + needs(needed.file_least) + ", and a file may have " +
+                             has(room.in_a_file) + "; raise the limit (ulimit -f), or " + remedy);
   std::vector<std::string> out;
   if (needed.likely > room.on_disk)
-    out.push_back("the results may need " + needs(needed.likely) + ", and the disk of " + directory.string() + " has " + has(room.on_disk) + " left; make room, name another place with --out, or " + remedy);
+    out.push_back("the results may need " + needs(needed.likely) + ", and the disk of " + directory.string() + " has " + has(room.on_disk) +
+                  " left; make room, name another place with --out, or " + remedy);
   if (needed.file_likely > room.in_a_file)
-    out.push_back("trajectory.csv may need " + needs(needed.file_likely) + ", and a file may have " + has(room.in_a_file) + "; raise the limit (ulimit -f), or " + remedy);
+    out.push_back("trajectory.csv may need " + needs(needed.file_likely) + ", and a file may have " + has(room.in_a_file) +
+                  "; raise the limit (ulimit -f), or " + remedy);
   return out;
 }
 

@@ -41,8 +41,8 @@ struct SceneBeam {
 };
 
 struct SceneFile {
-  std::string path;  ///< beside the scene file
-  double scale = 1;  ///< m per unit of the file
+  std::string path;         ///< beside the scene file
+  double scale = 1;         ///< m per unit of the file
   bool unit_given = false;  ///< by `unit` or `scale`
 };
 struct SceneGrid {
@@ -57,8 +57,8 @@ struct ScenePlate {
   PlaneState state = PlaneState::stress;
   bool state_given = false;  ///< by `plane`
   SceneMaterial material;
-  std::optional<double> mass;  ///< scales the density so that the body has this mass [kg]
-  std::string element;         ///< "triangle6" …; empty: triangle6, or as the mesh file has it
+  std::optional<double> mass;      ///< scales the density so that the body has this mass [kg]
+  std::string element;             ///< "triangle6" …; empty: triangle6, or as the mesh file has it
   double size = 0, hole_size = 0;  ///< [m]; 0: chosen
 };
 

@@ -18,11 +18,11 @@ struct JointNumber {
 
 struct JointWord {
   JointKind kind;
-  const char* word;  ///< its key in a scene, of its list of points
-  bool third = false;   ///< may have a third point, else the ground
-  bool turns = false;   ///< holds angles of its bodies, whatever their points
-  bool guides = false;  ///< along the direction of its first point
-  bool clamps = false;  ///< holds the directions of its points to each other
+  const char* word;        ///< its key in a scene, of its list of points
+  bool third = false;      ///< may have a third point, else the ground
+  bool turns = false;      ///< holds angles of its bodies, whatever their points
+  bool guides = false;     ///< along the direction of its first point
+  bool clamps = false;     ///< holds the directions of its points to each other
   bool clearance = false;  ///< takes one
   std::vector<JointNumber> numbers = {};
 };

@@ -28,7 +28,7 @@ struct ScenePoint {
   Pair at{0, 0};     ///< [m]
   double angle = 0;  ///< [rad]
   Place place = {};
-  std::string hole = {};  ///< of a plate: the point is the middle of this hole …
+  std::string hole = {};                     ///< of a plate: the point is the middle of this hole …
   RimCoupling coupling = RimCoupling::none;  ///< … and follows its rim so
 };
 
@@ -44,10 +44,9 @@ struct SceneBody {
   double inertia = 0;  ///< about the mass centre [kg m²]; likewise
   Pair center{0, 0};   ///< mass centre in body axes [m]
   std::vector<ScenePoint> points;
-  std::optional<SceneElastic> elastic =
-      {};            ///< made of elements: mass, inertia, center come from them
-  Pair at{0, 0};     ///< rough starting position of the body's origin, world [m]
-  double angle = 0;  ///< rough starting angle [rad]
+  std::optional<SceneElastic> elastic = {};  ///< made of elements: mass, inertia, center come from them
+  Pair at{0, 0};                             ///< rough starting position of the body's origin, world [m]
+  double angle = 0;                          ///< rough starting angle [rad]
   Place place;
 };
 
@@ -179,20 +178,20 @@ struct RunOptions {
   double rho = 0.8;                        ///< of generalized-alpha: spectral radius at infinite frequency, 0 to 1
   double tolerance = 1e-8;                 ///< local error, relative
   std::string constraints = "projection";  ///< projection | partitioning
-  std::optional<double> onset_cut;  ///< cut the step until first penetration is below this [m];
-                                    ///< unset: locate the onset as an event
-  double max_step = 0;              ///< [s]; 0: none
+  std::optional<double> onset_cut;         ///< cut the step until first penetration is below this [m];
+                                           ///< unset: locate the onset as an event
+  double max_step = 0;                     ///< [s]; 0: none
   long max_steps = 100'000'000;
   double ledger_bound = 1e-3;  ///< unexplained energy, relative to the energy in play
   Place place;
 };
 
 struct OutputOptions {
-  double every = 0;       ///< output interval [s]; 0: a thousandth of the run
-  double states = 0;      ///< interval of saved states [s]; 0: the last alone
-  int frames = 0;         ///< animation frames; 0: none
-  double exaggerate = 0;  ///< drawn clearance times this; 0: chosen so that the gap can be seen
-  double deformation = 1;  ///< drawn deformation times this; 0: chosen so that it can be seen
+  double every = 0;              ///< output interval [s]; 0: a thousandth of the run
+  double states = 0;             ///< interval of saved states [s]; 0: the last alone
+  int frames = 0;                ///< animation frames; 0: none
+  double exaggerate = 0;         ///< drawn clearance times this; 0: chosen so that the gap can be seen
+  double deformation = 1;        ///< drawn deformation times this; 0: chosen so that it can be seen
   std::vector<PointRef> points;  ///< whose motion, and on flexible bodies displacement, is recorded
   std::vector<PointRef> stress;  ///< of flexible bodies, whose stress is recorded
   Place place;

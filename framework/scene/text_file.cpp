@@ -11,9 +11,7 @@ namespace {
 
 // Bytes of the UTF-8 character that begins at s[i]; 0 if none does.
 std::size_t character(const std::string& s, std::size_t i) {
-  const auto byte = [&](std::size_t k) {
-    return static_cast<unsigned char>(k < s.size() ? s[k] : 0);
-  };
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(k < s.size() ? s[k] : 0); };
   const unsigned char c = byte(i);
   if (c == 0) return 0;
   if (c < 0x80) return 1;
@@ -40,9 +38,7 @@ int line_not_text(const std::string& s) {
 }
 
 std::string read_text_file(const fs::path& path, std::size_t most_bytes, const std::string& key) {
-  const auto fail = [&](const std::string& message, int line = 0) {
-    throw SceneError(path.string(), {line, key}, message);
-  };
+  const auto fail = [&](const std::string& message, int line = 0) { throw SceneError(path.string(), {line, key}, message); };
   std::string text;
   try {
     text = read_file(path, most_bytes);

@@ -17,9 +17,7 @@ namespace pintle {
 namespace {
 
 using clock = std::chrono::steady_clock;
-double since(clock::time_point begin) {
-  return std::chrono::duration<double>(clock::now() - begin).count();
-}
+double since(clock::time_point begin) { return std::chrono::duration<double>(clock::now() - begin).count(); }
 
 std::string one_line(std::string s) {
   for (char& c : s)

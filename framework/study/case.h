@@ -44,7 +44,7 @@ struct CaseLimits {
   double seconds = 0;       ///< of simulating; 0: none
   bool keep_run = false;    ///< Outcome::run
   bool time_alone = false;  ///< no rows but the first and the last: run_seconds is then what the integration takes, and measures are NaN
-  BodyStore* bodies = nullptr;  ///< shared by the cases of a study; none: each makes its own
+  BodyStore* bodies = nullptr;       ///< shared by the cases of a study; none: each makes its own
   std::function<bool()> go_on = {};  ///< asked now and then; false interrupts the run
 };
 

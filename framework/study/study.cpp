@@ -45,8 +45,9 @@ void without_unit(Measure& m, const std::string& unit) {
   } catch (const ExpressionError&) {
     return;  // no unit
   }
-  throw SceneError(m.file, m.place, "is named in " + written + ", and comes " + (unit.empty() ? "without a unit" : "in " + unit) +
-                                        "; leave the unit out, the table puts it behind the name");
+  throw SceneError(m.file, m.place,
+                   "is named in " + written + ", and comes " + (unit.empty() ? "without a unit" : "in " + unit) +
+                       "; leave the unit out, the table puts it behind the name");
 }
 
 void validate_names(std::vector<Measure>& measures, const Scene& scene, const Node& node) {
@@ -65,8 +66,8 @@ std::string first_in(const Node& scene, const char* group, const char* otherwise
 [[noreturn]] void reject_scene(const Node& root, const std::filesystem::path& path) {
   const std::string parameter = first_in(root, "parameters", "run.tolerance");
   const std::string value = parameter == "run.tolerance" ? "1e-6" : override_text(root.at("parameters").at(parameter).yaml());
-  const std::string example = "{scene: " + path.filename().string() + ", measure: {peak: peak force at " + first_in(root, "joints", "JOINT") +
-                              "}, sweep: {grid: {" + parameter + ": [" + value + ", …]}}}";
+  const std::string example = "{scene: " + path.filename().string() + ", measure: {peak: peak force at " +
+                              first_in(root, "joints", "JOINT") + "}, sweep: {grid: {" + parameter + ": [" + value + ", …]}}}";
   throw SceneError(path.string(), {}, "is a scene, not a study. Write a study beside it, for example  " + example + "  (docs/studies.md)");
 }
 

@@ -208,7 +208,8 @@ double error_at_end(const Start& start, double tolerance) {
   const auto [exact, fastest] = end(1e-11, "dopri5");
   const VectorXd y = end(tolerance, nullptr).first;
   const Eigen::Index n = start.k.system.n();
-  return std::max((y - exact).head(n).lpNorm<Eigen::Infinity>() / start.k.system.length, (y - exact).segment(n, n).lpNorm<Eigen::Infinity>() / fastest);
+  return std::max((y - exact).head(n).lpNorm<Eigen::Infinity>() / start.k.system.length,
+                  (y - exact).segment(n, n).lpNorm<Eigen::Infinity>() / fastest);
 }
 
 // A step errs by the tolerance and there are some ωT/tolerance^⅓ of them: the run errs by ωT tolerance^⅔, whatever its first step
@@ -216,9 +217,11 @@ double error_at_end(const Start& start, double tolerance) {
 TEST(Alpha, ErrorOfARunFallsWithTheToleranceFromAnyStart) {
   const auto grows = [](double t) { return Jet{30 * t * t, 60 * t, 60}; };
   const auto jumps = [](double t) { return Jet{t < 0.0437 ? 0.0 : 1.0, 0, 0}; };
-  for (const Start& start : {slack_spring(), ring("bent at rest", 0.01, 0, 0.1), ring("straight at speed", 0, 10, 0.1), ring("straight at speed, long", 0, 10, 5),
-                             shaft("spun up from rest", grows), shaft("load switched on", jumps)}) {
-    const std::vector<double> tolerances = start.rate * start.until > 1000 ? std::vector<double>{1e-6} : std::vector<double>{1e-4, 1e-5, 1e-6, 1e-7};
+  for (const Start& start :
+       {slack_spring(), ring("bent at rest", 0.01, 0, 0.1), ring("straight at speed", 0, 10, 0.1),
+        ring("straight at speed, long", 0, 10, 5), shaft("spun up from rest", grows), shaft("load switched on", jumps)}) {
+    const std::vector<double> tolerances =
+        start.rate * start.until > 1000 ? std::vector<double>{1e-6} : std::vector<double>{1e-4, 1e-5, 1e-6, 1e-7};
     std::vector<double> error;
     for (const double tolerance : tolerances) {
       error.push_back(error_at_end(start, tolerance));

@@ -27,9 +27,7 @@ using Eigen::VectorXd;
 class Draw {
  public:
   explicit Draw(unsigned seed) : random_(seed) {}
-  double within(double low, double high) {
-    return low + (high - low) * static_cast<double>(random_()) / 4294967296.0;
-  }
+  double within(double low, double high) { return low + (high - low) * static_cast<double>(random_()) / 4294967296.0; }
   double over_decades(double low, double high) { return low * std::pow(high / low, within(0, 1)); }
   MatrixXd matrix(int rows, int columns) {
     return MatrixXd::NullaryExpr(rows, columns, [this](Eigen::Index) { return within(-1, 1); });
@@ -40,8 +38,7 @@ class Draw {
 };
 
 inline Matrix2d turn_by(double angle) {
-  return (Matrix2d() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle))
-      .finished();
+  return (Matrix2d() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle)).finished();
 }
 inline const Matrix2d Z = (Matrix2d() << 0, -1, 1, 0).finished();
 
@@ -100,15 +97,11 @@ Traits traits() {
 template <class E>
 Subject subject(const E& e, const Matrix2Xd& place) {
   const Coords<E> x = place;
-  Subject s{place, stiffness(e, x), mass(e, x), skew_mass(e, x), lumped_mass(e, x), {}, {}, {}, {},
-            {}};
+  Subject s{place, stiffness(e, x), mass(e, x), skew_mass(e, x), lumped_mass(e, x), {}, {}, {}, {}, {}};
   s.shape = [e, x](const Vector2d& xi) -> MatrixXd { return shape(e, x, xi); };
   s.stress = [e, x](const VectorXd& u) -> MatrixXd { return stress(e, x, Freedoms<E>(u)); };
-  s.geometric_stiffness = [e, x](const MatrixXd& f) -> MatrixXd {
-    return geometric_stiffness(e, x, Stress<E>(f));
-  };
-  if constexpr (E::dofs_per_node == 3)
-    s.rotation = [e, x](double xi) -> RowVectorXd { return rotation(e, x, xi); };
+  s.geometric_stiffness = [e, x](const MatrixXd& f) -> MatrixXd { return geometric_stiffness(e, x, Stress<E>(f)); };
+  if constexpr (E::dofs_per_node == 3) s.rotation = [e, x](double xi) -> RowVectorXd { return rotation(e, x, xi); };
   if constexpr (E::stress_rows == 4) s.points = reference_points(e);
   return s;
 }
@@ -235,8 +228,7 @@ inline std::vector<std::pair<double, double>> gauss(int n) {
     double z = std::cos(M_PI * (i + 0.75) / (n + 0.5)), slope = 1;
     for (int iteration = 0; iteration < 20; ++iteration) {
       double p = 1, before = 0;
-      for (int k = 0; k < n; ++k)
-        before = std::exchange(p, ((2 * k + 1) * z * p - k * before) / (k + 1));
+      for (int k = 0; k < n; ++k) before = std::exchange(p, ((2 * k + 1) * z * p - k * before) / (k + 1));
       slope = n * (z * p - before) / (z * z - 1);
       z -= p / slope;
     }
@@ -281,8 +273,7 @@ inline Rule own_rule(const Sample& s) {
   Eigen::Index row = 0;
   const auto add = [&](int a, int b) {
     value.row(row) = xi.row(0).array().pow(a) * xi.row(1).array().pow(b);
-    integral[row++] =
-        (fine.xi.row(0).array().pow(a) * fine.xi.row(1).array().pow(b)).matrix().dot(fine.weight);
+    integral[row++] = (fine.xi.row(0).array().pow(a) * fine.xi.row(1).array().pow(b)).matrix().dot(fine.weight);
   };
   const bool triangle = s.is.cell == Cell::triangle;
   for (int i = 0; (triangle ? i * (i + 1) / 2 : i * i) < P; ++i)
@@ -304,8 +295,7 @@ struct Point {
 /// ∂N/∂ξ by differences, exact up to degree 4: `shape` is at most a cubic in each direction.
 inline MatrixXd shape_slope(const Subject& e, const Vector2d& xi, int direction) {
   const Vector2d d = 0.25 * Vector2d::Unit(direction);
-  return (8 * (e.shape(xi + d) - e.shape(xi - d)) - (e.shape(xi + 2 * d) - e.shape(xi - 2 * d))) /
-         3;
+  return (8 * (e.shape(xi + d) - e.shape(xi - d)) - (e.shape(xi + 2 * d) - e.shape(xi - 2 * d))) / 3;
 }
 
 inline std::vector<Point> points_of(const Sample& s, const Rule& rule) {
@@ -324,8 +314,7 @@ inline std::vector<Point> points_of(const Sample& s, const Rule& rule) {
       Matrix2d J;
       J << along * e.x.reshaped(), across * e.x.reshaped();
       const Matrix2d inverse = J.inverse();
-      for (int k = 0; k < 2; ++k)
-        at.slope[static_cast<std::size_t>(k)] = inverse(0, k) * along + inverse(1, k) * across;
+      for (int k = 0; k < 2; ++k) at.slope[static_cast<std::size_t>(k)] = inverse(0, k) * along + inverse(1, k) * across;
       at.measure *= J.determinant() * s.stuff.thickness;
     }
     points.push_back(std::move(at));

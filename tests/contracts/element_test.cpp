@@ -26,9 +26,7 @@ struct Kind {
   const char* name;
   std::vector<Sample> (*samples)(Sides);
 };
-void PrintTo(const Kind& kind, std::ostream* out) {
-  *out << kind.name;
-}
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 const Kind kinds[] = {
     {"Bar", samples<Bar>},
     {"BeamEuler", samples<BeamEuler>},
@@ -49,8 +47,7 @@ class ElementContract : public testing::TestWithParam<Kind> {
   std::vector<Sample> curved() const { return GetParam().samples(Sides::curved); }
   Draw draw_{11};
 };
-INSTANTIATE_TEST_SUITE_P(Each, ElementContract, testing::ValuesIn(kinds),
-                         [](const auto& p) { return std::string(p.param.name); });
+INSTANTIATE_TEST_SUITE_P(Each, ElementContract, testing::ValuesIn(kinds), [](const auto& p) { return std::string(p.param.name); });
 
 // ---- nodal fields and what is compared ----
 
@@ -64,12 +61,8 @@ MatrixXd translations(const Traits& is) {
   for (int k = 0; k < 2; ++k) T.col(k) = nodal(is, Vector2d::Unit(k).replicate(1, is.nodes), 0);
   return T;
 }
-VectorXd position(const Sample& s) {
-  return nodal(s.is, s.here.x, 0);
-}
-VectorXd rotation_field(const Sample& s) {
-  return nodal(s.is, Z * s.here.x, 1);
-}
+VectorXd position(const Sample& s) { return nodal(s.is, s.here.x, 0); }
+VectorXd rotation_field(const Sample& s) { return nodal(s.is, Z * s.here.x, 1); }
 /// Forces [N, N m] or displacements [m, rad], either turned; rotations and moments as they are.
 MatrixXd turned(const Traits& is, double angle) {
   MatrixXd Q = MatrixXd::Identity(is.dofs(), is.dofs());
@@ -77,28 +70,17 @@ MatrixXd turned(const Traits& is, double angle) {
   return Q;
 }
 /// Lengths that rotations are divided by and moments too, so that entries have one unit.
-VectorXd units(const Sample& s) {
-  return nodal(s.is, Matrix2Xd::Ones(2, s.is.nodes), 1 / s.size);
-}
-MatrixXd scaled(const Sample& s, const MatrixXd& A) {
-  return units(s).asDiagonal() * A * units(s).asDiagonal();
-}
-double largest(const MatrixXd& A) {
-  return A.cwiseAbs().maxCoeff();
-}
+VectorXd units(const Sample& s) { return nodal(s.is, Matrix2Xd::Ones(2, s.is.nodes), 1 / s.size); }
+MatrixXd scaled(const Sample& s, const MatrixXd& A) { return units(s).asDiagonal() * A * units(s).asDiagonal(); }
+double largest(const MatrixXd& A) { return A.cwiseAbs().maxCoeff(); }
 /// Largest difference of two matrices of an element, relative to the largest entry of the first.
-double apart(const Sample& s, const MatrixXd& A, const MatrixXd& B) {
-  return largest(scaled(s, A - B)) / largest(scaled(s, A));
-}
-VectorXd random_freedoms(Draw& draw, const Sample& s) {
-  return s.size * units(s).cwiseProduct(draw.matrix(s.is.dofs(), 1));
-}
+double apart(const Sample& s, const MatrixXd& A, const MatrixXd& B) { return largest(scaled(s, A - B)) / largest(scaled(s, A)); }
+VectorXd random_freedoms(Draw& draw, const Sample& s) { return s.size * units(s).cwiseProduct(draw.matrix(s.is.dofs(), 1)); }
 
 // ---- stiffness ----
 
 TEST_P(ElementContract, StiffnessIsSymmetric) {
-  for (const Sample& s : curved())
-    EXPECT_LT(apart(s, s.here.stiffness, s.here.stiffness.transpose()), rounding);
+  for (const Sample& s : curved()) EXPECT_LT(apart(s, s.here.stiffness, s.here.stiffness.transpose()), rounding);
 }
 
 // Three motions, and the modes that an element owns up to.
@@ -198,8 +180,7 @@ TEST_P(ElementContract, MassAndSkewMassKnowTheMomentsOfTheBody) {
     const Moments b = moments(s);
     const double sections = s.stuff.rotary_density * (s.here.x.col(1) - s.here.x.col(0)).norm();
     const double first = b.mass * s.size, second = first * s.size;  // 4 and 16 of them a term
-    EXPECT_LT(largest(T.transpose() * M * T - b.mass * Matrix2d::Identity()),
-              4 * rounding * b.mass);
+    EXPECT_LT(largest(T.transpose() * M * T - b.mass * Matrix2d::Identity()), 4 * rounding * b.mass);
     EXPECT_LT(largest(T.transpose() * M * x - b.first), 4 * rounding * first);
     EXPECT_LT(largest(T.transpose() * M * R - Z * b.first), 4 * rounding * first);
     EXPECT_NEAR(x.dot(M * x), b.second, 16 * rounding * second);
@@ -248,8 +229,7 @@ TEST_P(ElementContract, ConstantStrainGivesItsStress) {
 double energy_of(const Sample& s, const MatrixXd& f) {
   if (s.is.line()) {
     double twice = f(0, 0) * f(0, 0) / s.stuff.EA;
-    if (s.is.turns())
-      twice += (f(2, 0) * f(2, 0) + f(2, 0) * f(2, 1) + f(2, 1) * f(2, 1)) / (3 * s.stuff.EI);
+    if (s.is.turns()) twice += (f(2, 0) * f(2, 0) + f(2, 0) * f(2, 1) + f(2, 1) * f(2, 1)) / (3 * s.stuff.EI);
     if (s.stuff.kGA > 0) twice += f(1, 0) * f(1, 0) / s.stuff.kGA;
     return twice / 2 * (s.here.x.col(1) - s.here.x.col(0)).norm();
   }
@@ -267,8 +247,7 @@ TEST_P(ElementContract, StrainEnergyIsThatOfTheStress) {
   for (const Sample& s : curved()) {
     const VectorXd u = random_freedoms(draw_, s);
     const double terms = largest(scaled(s, s.here.stiffness)) * s.size * s.size;
-    EXPECT_NEAR(u.dot(s.here.stiffness * u) / 2, energy_of(s, s.here.stress(u)),
-                10 * rounding * terms);
+    EXPECT_NEAR(u.dot(s.here.stiffness * u) / 2, energy_of(s, s.here.stress(u)), 10 * rounding * terms);
   }
 }
 
@@ -285,8 +264,7 @@ MatrixXd random_stress(Draw& draw, const Sample& s) {
 
 /// What a stress does on the quadratic part of strain at one point, as the headers say it: Biot's
 /// strain in a plane, ½N w′² − V u′θ along a line, N and V linear between its ends.
-double second_order_work(const Sample& s, const Point& at, const MatrixXd& f, Eigen::Index point,
-                         const VectorXd& u) {
+double second_order_work(const Sample& s, const Point& at, const MatrixXd& f, Eigen::Index point, const VectorXd& u) {
   if (!s.is.line()) {
     Matrix2d slope, sigma;
     slope << at.slope[0] * u, at.slope[1] * u;
@@ -310,15 +288,13 @@ TEST_P(ElementContract, GeometricStiffnessIsTheSecondDifferenceOfWork) {
     const auto W = [&](const VectorXd& u) {
       double work = 0;
       for (std::size_t p = 0; p < points.size(); ++p)
-        work +=
-            points[p].measure * second_order_work(s, points[p], f, static_cast<Eigen::Index>(p), u);
+        work += points[p].measure * second_order_work(s, points[p], f, static_cast<Eigen::Index>(p), u);
       return work;
     };
     const MatrixXd I = MatrixXd::Identity(s.is.dofs(), s.is.dofs());
     MatrixXd second = I;
     for (int i = 0; i < I.cols(); ++i)
-      for (int j = 0; j < I.cols(); ++j)
-        second(i, j) = W(I.col(i) + I.col(j)) - W(I.col(i)) - W(I.col(j));
+      for (int j = 0; j < I.cols(); ++j) second(i, j) = W(I.col(i) + I.col(j)) - W(I.col(i)) - W(I.col(j));
     EXPECT_LT(apart(s, second, s.here.geometric_stiffness(f)), rounding);
   }
 }

@@ -40,9 +40,7 @@ struct Kind {
   Force force;
   bool internal = true;  // acts between its two bodies, so its wrenches cancel
 };
-void PrintTo(const Kind& kind, std::ostream* out) {
-  *out << kind.name;
-}
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 const Kind kinds[] = {
     {"PointForce", PointForce{0, 1, sine, steady, false}, false},
     {"FollowerForce", PointForce{0, 1, sine, steady, true}, false},
@@ -53,9 +51,7 @@ const Kind kinds[] = {
     {"TorsionSpring", TorsionSpring{0, 1, 25, 0, -0.8}},
     {"DampedTorsionSpring", TorsionSpring{0, 1, 25, 2, -0.8}},
 };
-bool is_load(const Force& f) {
-  return std::holds_alternative<PointForce>(f) || std::holds_alternative<Torque>(f);
-}
+bool is_load(const Force& f) { return std::holds_alternative<PointForce>(f) || std::holds_alternative<Torque>(f); }
 
 // Two poses whose points are apart: a spring has no direction where they meet.
 std::pair<Vector3d, Vector3d> apart(Draw& draw) {
@@ -75,9 +71,7 @@ MarkerMotion moving(const Vector3d& p, const Vector3d& p_rate) {
   m.w = p_rate[2];
   return m;
 }
-double moment(const Vector3d& p, const Wrench& wrench) {
-  return cross(p.head<2>(), wrench.head<2>()) + wrench[2];
-}
+double moment(const Vector3d& p, const Wrench& wrench) { return cross(p.head<2>(), wrench.head<2>()) + wrench[2]; }
 
 class ForceContract : public testing::TestWithParam<Kind> {
  protected:
@@ -95,8 +89,7 @@ TEST_P(ForceContract, PowerGoesWhereItSays) {
     const Vector3d da = draw_.rates(), db = draw_.rates();
     const ForceEffect e = evaluate(force_, moving(a, da), moving(b, db), draw_.within(-3, 3));
     const double power = e.on_a.dot(da) + e.on_b.dot(db);
-    const double rate =
-        (stored(a + step * da, b + step * db) - stored(a - step * da, b - step * db)) / (2 * step);
+    const double rate = (stored(a + step * da, b + step * db) - stored(a - step * da, b - step * db)) / (2 * step);
     const double terms = 1 + std::abs(e.input) + e.dissipation + std::abs(rate) + e.stored;
     EXPECT_NEAR(power, e.input - e.dissipation - rate, terms * difference) << "draw " << n;
   }
@@ -105,8 +98,7 @@ TEST_P(ForceContract, PowerGoesWhereItSays) {
 TEST_P(ForceContract, LosesButNeverGains) {
   for (int n = 0; n < draws; ++n) {
     const auto [a, b] = apart(draw_);
-    const ForceEffect e =
-        evaluate(force_, moving(a, draw_.rates()), moving(b, draw_.rates()), draw_.within(-3, 3));
+    const ForceEffect e = evaluate(force_, moving(a, draw_.rates()), moving(b, draw_.rates()), draw_.within(-3, 3));
     EXPECT_GE(e.dissipation, 0);
     EXPECT_GE(e.stored, 0);
     if (!is_load(force_)) {
@@ -138,8 +130,7 @@ TEST_P(ForceContract, ConservativePartIsTheSlopeOfTheStoredEnergy) {
 TEST_P(ForceContract, ItsTwoWrenchesCancel) {
   for (int n = 0; n < draws; ++n) {
     const auto [a, b] = apart(draw_);
-    const ForceEffect e =
-        evaluate(force_, moving(a, draw_.rates()), moving(b, draw_.rates()), draw_.within(-3, 3));
+    const ForceEffect e = evaluate(force_, moving(a, draw_.rates()), moving(b, draw_.rates()), draw_.within(-3, 3));
     if (!GetParam().internal) {
       EXPECT_EQ(e.on_a.norm(), 0);
       continue;
@@ -153,8 +144,7 @@ TEST_P(ForceContract, ItsTwoWrenchesCancel) {
 TEST(PointForce, TurnsWithItsBodyOnlyIfItFollows) {
   const double t = 0.4, turn = 2.1;
   const Vector3d at(0.2, -0.5, 3.0);
-  const MarkerMotion still = moving({0, 0, 0}, {0, 0, 0}), b = moving(at, {0, 0, 0}),
-                     turned = moving(at + Vector3d(0, 0, turn), {0, 0, 0});
+  const MarkerMotion still = moving({0, 0, 0}, {0, 0, 0}), b = moving(at, {0, 0, 0}), turned = moving(at + Vector3d(0, 0, turn), {0, 0, 0});
   const Force fixed = PointForce{0, 1, sine, steady, false};
   EXPECT_EQ(evaluate(fixed, still, b, t).on_b, Wrench(sine(t).value, steady(t).value, 0));
   EXPECT_EQ(evaluate(fixed, still, turned, t).on_b, evaluate(fixed, still, b, t).on_b);
@@ -163,8 +153,7 @@ TEST(PointForce, TurnsWithItsBodyOnlyIfItFollows) {
   const Vector2d law(sine(t).value, steady(t).value);
   const auto along = [&](double angle) -> Vector2d { return Eigen::Rotation2Dd(angle) * law; };
   EXPECT_LT((evaluate(follower, still, b, t).on_b.head<2>() - along(at[2])).norm(), rounding);
-  EXPECT_LT((evaluate(follower, still, turned, t).on_b.head<2>() - along(at[2] + turn)).norm(),
-            rounding);
+  EXPECT_LT((evaluate(follower, still, turned, t).on_b.head<2>() - along(at[2] + turn)).norm(), rounding);
 }
 
 TEST(Spring, OfNoLengthGivesNoForce) {
@@ -216,9 +205,7 @@ TEST_P(ForceBetween, PowerOnTheBodiesGoesWhereItSays) {
     const VectorXd f = applied(system, s, eq);
     const ForceEffect& e = eq.force[0];
     const double terms = 1 + std::abs(e.input) + e.dissipation + std::abs(rate) + e.stored;
-    EXPECT_NEAR(f.dot(s.y.segment(system.n(), system.n())), e.input - e.dissipation - rate,
-                terms * difference)
-        << "draw " << n;
+    EXPECT_NEAR(f.dot(s.y.segment(system.n(), system.n())), e.input - e.dissipation - rate, terms * difference) << "draw " << n;
   }
 }
 
@@ -251,12 +238,10 @@ TEST_P(ContactBetween, PowerOnTheBodiesGoesToStorageHysteresisAndFriction) {
     const VectorXd f = applied(system, s, eq);
     const ContactEffect& e = eq.contact[0];
     ASSERT_NEAR(e.gap.depth, depth, rounding);
-    const double terms = std::abs(rate) + e.normal.dissipation + std::abs(e.friction_loss) +
-                         e.normal.force * std::abs(e.gap.rate);
+    const double terms = std::abs(rate) + e.normal.dissipation + std::abs(e.friction_loss) + e.normal.force * std::abs(e.gap.rate);
     // Rates below 10 m/s change the depth by 3e-4 of itself: cut-off 1e-8, rounding of the depth
     // 1e-13 of itself.
-    EXPECT_NEAR(f.dot(s.y.segment(system.n(), system.n())),
-                -rate - e.normal.dissipation - e.friction_loss, terms * difference)
+    EXPECT_NEAR(f.dot(s.y.segment(system.n(), system.n())), -rate - e.normal.dissipation - e.friction_loss, terms * difference)
         << "draw " << n;
   }
 }
@@ -282,8 +267,7 @@ std::vector<Touching> overlaps(std::optional<Ambrosio> friction) {
           c.bearing << 0, 0, draw.within(-12, 12);  // far from the origin, depth loses its digits
           c.journal = draw.pose();
           const double angle = draw.within(-M_PI, M_PI);
-          c.journal.head<2>() = c.bearing.head<2>() +
-                                (clearance + depth) * Vector2d(std::cos(angle), std::sin(angle));
+          c.journal.head<2>() = c.bearing.head<2>() + (clearance + depth) * Vector2d(std::cos(angle), std::sin(angle));
           c.bearing_rate = draw.rates();
           c.journal_rate = c.bearing_rate + 0.3 * draw.rates();
           c.impact_rate = draw.within(0.05, 0.6);
@@ -292,22 +276,19 @@ std::vector<Touching> overlaps(std::optional<Ambrosio> friction) {
   return out;
 }
 ContactEffect effect_after(const Touching& c, double t) {
-  return evaluate(c.pair, moving(c.journal + t * c.journal_rate, c.journal_rate),
-                  moving(c.bearing + t * c.bearing_rate, c.bearing_rate), c.impact_rate);
+  return evaluate(c.pair, moving(c.journal + t * c.journal_rate, c.journal_rate), moving(c.bearing + t * c.bearing_rate, c.bearing_rate),
+                  c.impact_rate);
 }
 
 TEST(ContactPair, PowerGoesToStorageHysteresisAndFriction) {
   for (const bool rough : {false, true})
-    for (const Touching& c :
-         overlaps(rough ? std::optional<Ambrosio>({0.3, 1e-3, 1e-2}) : std::nullopt)) {
+    for (const Touching& c : overlaps(rough ? std::optional<Ambrosio>({0.3, 1e-3, 1e-2}) : std::nullopt)) {
       const ContactEffect e = effect_after(c, 0);
       ASSERT_GT(e.gap.depth, 0);
       const double power = e.on_journal.dot(c.journal_rate) + e.on_bearing.dot(c.bearing_rate);
       const double h = 1e-4 * e.gap.depth;  // rates below 1 m/s: 1e-8 cut-off
-      const double rate =
-          (effect_after(c, h).normal.stored - effect_after(c, -h).normal.stored) / (2 * h);
-      const double terms = std::abs(rate) + e.normal.dissipation + std::abs(e.friction_loss) +
-                           e.normal.force * std::abs(e.gap.rate);
+      const double rate = (effect_after(c, h).normal.stored - effect_after(c, -h).normal.stored) / (2 * h);
+      const double terms = std::abs(rate) + e.normal.dissipation + std::abs(e.friction_loss) + e.normal.force * std::abs(e.gap.rate);
       const double digits = 1e-17 * e.normal.stored / (e.gap.depth * h);  // a depth is a difference of lengths to 1e-3 m [W]
       EXPECT_NEAR(power, -rate - e.normal.dissipation - e.friction_loss, terms * 2e-6 + digits);
     }
@@ -344,12 +325,9 @@ TEST(ContactPair, ActsOnlyOnceLatchedAndOverlapping) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, ForceContract, testing::ValuesIn(kinds), [](const auto& p) { return p.param.name; });
-INSTANTIATE_TEST_SUITE_P(Each, ForceBetween,
-                         testing::Combine(testing::ValuesIn(kinds),
-                                          testing::ValuesIn(all_carriers())),
+INSTANTIATE_TEST_SUITE_P(Each, ForceBetween, testing::Combine(testing::ValuesIn(kinds), testing::ValuesIn(all_carriers())),
                          [](const auto& p) { return std::get<0>(p.param).name + name_of(std::get<1>(p.param)); });
-INSTANTIATE_TEST_SUITE_P(Each, ContactBetween, testing::ValuesIn(all_carriers()),
-                         [](const auto& p) { return name_of(p.param); });
+INSTANTIATE_TEST_SUITE_P(Each, ContactBetween, testing::ValuesIn(all_carriers()), [](const auto& p) { return name_of(p.param); });
 
 TEST(ForceContract, EveryKindSitsTheExam) {
   std::vector<std::size_t> seen;

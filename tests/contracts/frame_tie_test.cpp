@@ -63,23 +63,15 @@ struct Way {
 };
 const std::vector<int> both{0, 1};
 const Way ways[] = {
-    {"NormalModes",
-     [](const Component& c, const ReferenceConditions& t) { return normal_modes(c, t, {.count = 7}); },
-     Promise::true_modes},
-    {"AllModes",
-     [](const Component& c, const ReferenceConditions& t) { return normal_modes(c, t, {.all = true}); },
-     Promise::true_modes},
-    {"CraigBampton",
-     [](const Component& c, const ReferenceConditions& t) { return craig_bampton(c, both, t, {.count = 5}); },
+    {"NormalModes", [](const Component& c, const ReferenceConditions& t) { return normal_modes(c, t, {.count = 7}); }, Promise::true_modes},
+    {"AllModes", [](const Component& c, const ReferenceConditions& t) { return normal_modes(c, t, {.all = true}); }, Promise::true_modes},
+    {"CraigBampton", [](const Component& c, const ReferenceConditions& t) { return craig_bampton(c, both, t, {.count = 5}); },
      Promise::static_at_ports},
-    {"StaticShapesAlone",
-     [](const Component& c, const ReferenceConditions& t) { return craig_bampton(c, both, t, {.count = 0}); },
+    {"StaticShapesAlone", [](const Component& c, const ReferenceConditions& t) { return craig_bampton(c, both, t, {.count = 0}); },
      Promise::static_at_ports},
-    {"FreeModes",
-     [](const Component& c, const ReferenceConditions& t) { return free_modes(c, both, t, {.count = 5}); },
+    {"FreeModes", [](const Component& c, const ReferenceConditions& t) { return free_modes(c, both, t, {.count = 5}); },
      Promise::static_at_ports},
-    {"AttachmentShapesAlone",
-     [](const Component& c, const ReferenceConditions& t) { return free_modes(c, both, t, {.count = 0}); },
+    {"AttachmentShapesAlone", [](const Component& c, const ReferenceConditions& t) { return free_modes(c, both, t, {.count = 0}); },
      Promise::static_at_ports},
 };
 
@@ -89,12 +81,8 @@ struct Case {
   Way way;
   bool possible() const { return conditions.conditions.kind != ReferenceConditions::tangent || body.make().turns(); }
 };
-void PrintTo(const Case& at, std::ostream* out) {
-  *out << at.body.name << at.conditions.name << at.way.name;
-}
-std::string case_name(const testing::TestParamInfo<Case>& info) {
-  return testing::PrintToString(info.param);
-}
+void PrintTo(const Case& at, std::ostream* out) { *out << at.body.name << at.conditions.name << at.way.name; }
+std::string case_name(const testing::TestParamInfo<Case>& info) { return testing::PrintToString(info.param); }
 /// Of ways that promise this; tangent ties only where ports can turn (else they are refused: tested
 /// below).
 std::vector<Case> cases(std::vector<Promise> promises) {
@@ -102,8 +90,7 @@ std::vector<Case> cases(std::vector<Promise> promises) {
   for (const NamedBody& body : bodies)
     for (const NamedTie& conditions : ties)
       for (const Way& way : ways)
-        if (Case at{body, conditions, way}; std::ranges::count(promises, way.promise) && at.possible())
-          all.push_back(at);
+        if (Case at{body, conditions, way}; std::ranges::count(promises, way.promise) && at.possible()) all.push_back(at);
   return all;
 }
 
@@ -119,13 +106,9 @@ class FrameTieExam : public testing::TestWithParam<Case> {
 class TrueModes : public FrameTieExam {};
 class StaticAtPorts : public FrameTieExam {};
 
-INSTANTIATE_TEST_SUITE_P(Every, FrameTieExam,
-                         testing::ValuesIn(cases({Promise::true_modes, Promise::static_at_ports})),
-                         case_name);
-INSTANTIATE_TEST_SUITE_P(Every, TrueModes, testing::ValuesIn(cases({Promise::true_modes})),
-                         case_name);
-INSTANTIATE_TEST_SUITE_P(Every, StaticAtPorts, testing::ValuesIn(cases({Promise::static_at_ports})),
-                         case_name);
+INSTANTIATE_TEST_SUITE_P(Every, FrameTieExam, testing::ValuesIn(cases({Promise::true_modes, Promise::static_at_ports})), case_name);
+INSTANTIATE_TEST_SUITE_P(Every, TrueModes, testing::ValuesIn(cases({Promise::true_modes})), case_name);
+INSTANTIATE_TEST_SUITE_P(Every, StaticAtPorts, testing::ValuesIn(cases({Promise::static_at_ports})), case_name);
 
 TEST_P(FrameTieExam, ShapesAreMassNormalisedAndDiagonaliseTheStiffness) {
   const ModalModel m = reduced();
@@ -133,9 +116,7 @@ TEST_P(FrameTieExam, ShapesAreMassNormalisedAndDiagonaliseTheStiffness) {
   const Eigen::Index k = m.omega.size();
   ASSERT_EQ(m.shapes.cols(), k);
   ASSERT_EQ(m.shapes.rows(), body.model.N());
-  EXPECT_LT(
-      (m.shapes.transpose() * a.M * m.shapes - MatrixXd::Identity(k, k)).cwiseAbs().maxCoeff(),
-      orthogonality);
+  EXPECT_LT((m.shapes.transpose() * a.M * m.shapes - MatrixXd::Identity(k, k)).cwiseAbs().maxCoeff(), orthogonality);
   const MatrixXd squares = m.omega.cwiseAbs2().asDiagonal();
   const MatrixXd off = m.shapes.transpose() * a.K * m.shapes - squares;
   EXPECT_LT(off.cwiseAbs().maxCoeff(), orthogonality * squares.maxCoeff());
@@ -161,12 +142,10 @@ TEST_P(FrameTieExam, EveryShapeMeetsTheTie) {
       const Eigen::Vector2d along = body.model.ports[1].x - body.model.ports[0].x;
       const Eigen::Vector2d across = Eigen::Vector2d(-along.y(), along.x()).normalized();
       violation.resize(3);
-      violation << port_motion(body, 0, phi).head<2>(),
-          across.dot(port_motion(body, 1, phi).head<2>());
+      violation << port_motion(body, 0, phi).head<2>(), across.dot(port_motion(body, 1, phi).head<2>());
     } else {
       // Momentum over what the moving masses carry at most.
-      violation = (rigid.transpose() * a.M * phi)
-                      .cwiseQuotient((rigid.transpose() * a.M * rigid).diagonal().cwiseSqrt());
+      violation = (rigid.transpose() * a.M * phi).cwiseQuotient((rigid.transpose() * a.M * rigid).diagonal().cwiseSqrt());
       EXPECT_LT(violation.cwiseAbs().maxCoeff(), on_tie) << "shape " << k;
       continue;
     }
@@ -187,8 +166,7 @@ TEST_P(FrameTieExam, TieRowsVanishOnEveryShapeAndOnNoRigidMotion) {
   const MatrixXd L = nodal(body.model, MatrixXd::Identity(body.model.n(), body.model.n()));
   const MatrixXd phi = L.colPivHouseholderQr().solve(m.shapes);
   for (int r = 0; r < 3; ++r)
-    for (Eigen::Index k = 0; k < phi.cols(); ++k)
-      EXPECT_LT(std::abs(B.row(r) * phi.col(k)), on_tie * B.row(r).norm() * phi.col(k).norm());
+    for (Eigen::Index k = 0; k < phi.cols(); ++k) EXPECT_LT(std::abs(B.row(r) * phi.col(k)), on_tie * B.row(r).norm() * phi.col(k).norm());
 }
 
 TEST_P(FrameTieExam, RigidMotionsAndShapesAreIndependent) {
@@ -216,8 +194,7 @@ TEST_P(FrameTieExam, SignsFollowTheFirstLargeComponent) {
   for (Eigen::Index k = 0; k < m.omega.size(); ++k) {
     const VectorXd phi = m.shapes.col(k);
     const double half = phi.cwiseAbs().maxCoeff() / 2;
-    const auto first =
-        std::find_if(phi.begin(), phi.end(), [&](double v) { return std::abs(v) >= half; });
+    const auto first = std::find_if(phi.begin(), phi.end(), [&](double v) { return std::abs(v) >= half; });
     EXPECT_GT(*first, 0) << "shape " << k;
   }
 }
@@ -258,8 +235,7 @@ TEST_P(StaticAtPorts, ResponseToLoadsInEquilibriumIsThatOfTheWholeBody) {
   const MatrixXd L = nodal(body.model, MatrixXd::Identity(body.model.n(), body.model.n()));
   const MatrixXd phi = L.colPivHouseholderQr().solve(m.shapes);
   const MatrixXd modal = phi.transpose() * loads.load;
-  const MatrixXd reduced_flexibility =
-      modal.transpose() * m.omega.cwiseAbs2().cwiseInverse().asDiagonal() * modal;
+  const MatrixXd reduced_flexibility = modal.transpose() * m.omega.cwiseAbs2().cwiseInverse().asDiagonal() * modal;
   const MatrixXd full = loads.load.transpose() * loads.response;
   EXPECT_LT((reduced_flexibility - full).norm(), through_inverse * full.norm());
 }
@@ -271,9 +247,7 @@ class Gauge : public testing::TestWithParam<std::tuple<NamedBody, Way>> {};
 std::string gauge_name(const testing::TestParamInfo<Gauge::ParamType>& info) {
   return std::string(std::get<0>(info.param).name) + std::get<1>(info.param).name;
 }
-INSTANTIATE_TEST_SUITE_P(Every, Gauge,
-                         testing::Combine(testing::ValuesIn(bodies),
-                                          testing::ValuesIn(ways + 1, ways + std::size(ways))),
+INSTANTIATE_TEST_SUITE_P(Every, Gauge, testing::Combine(testing::ValuesIn(bodies), testing::ValuesIn(ways + 1, ways + std::size(ways))),
                          gauge_name);
 
 TEST_P(Gauge, EveryTieSpansTheSameMotionsUpToRigidOnes) {
@@ -295,8 +269,7 @@ TEST_P(Gauge, EveryTieSpansTheSameMotionsUpToRigidOnes) {
     const MatrixXd other = span(conditions);
     ASSERT_EQ(other.cols(), reference.cols()) << name;
     const MatrixXd outside = other - Q * (Q.transpose() * other);
-    EXPECT_LT((outside.colwise().norm().cwiseQuotient(other.colwise().norm())).maxCoeff(), 1e-7)
-        << name;
+    EXPECT_LT((outside.colwise().norm().cwiseQuotient(other.colwise().norm())).maxCoeff(), 1e-7) << name;
   }
 }
 
@@ -347,9 +320,7 @@ TEST(ClassicalSpectrum, OfASlenderMeshedBarComesOutUnderEachTie) {
   const double length = 1, height = 0.01, poisson = 0;
   const Plate p = plate(40, 1, CellShape::quadrilateral8, rectangle(length, height));
   FeModel model = model_of(p, steel(PlaneState::stress, poisson));
-  add_ports(
-      model, {},
-      {edge_port(p, "A", "left", Coupling::rigid), edge_port(p, "B", "right", Coupling::rigid)});
+  add_ports(model, {}, {edge_port(p, "A", "left", Coupling::rigid), edge_port(p, "B", "right", Coupling::rigid)});
   const Component c = component(model);
   const double wave = std::sqrt(2e11 / 7800 / 12) * height;
   for (const Spectrum& s : spectra) {

@@ -35,8 +35,8 @@ const std::array normals{0.0, 1e-6, 1.0, 1e5};  // [N]
 const std::array speed_ratios{0.0, 1e-6, 0.05, 0.1, 0.2, 0.5, 0.9, 0.95, 1.0, 1.1, 30.0, 1e6};
 
 std::string describe(const Ambrosio& law, double v, double normal) {
-  return "mu " + std::to_string(law.mu) + ", v0/v1 " + std::to_string(law.v0 / law.v1) + ", v/v1 " +
-         std::to_string(v / law.v1) + ", N " + std::to_string(normal);
+  return "mu " + std::to_string(law.mu) + ", v0/v1 " + std::to_string(law.v0 / law.v1) + ", v/v1 " + std::to_string(v / law.v1) + ", N " +
+         std::to_string(normal);
 }
 
 template <class Law, class F>
@@ -64,17 +64,14 @@ TYPED_TEST(FrictionLawContract, OpposesSlip) {
 
 TYPED_TEST(FrictionLawContract, StaysInsideTheCone) {
   for_slips_over_decades<TypeParam>([](const TypeParam& law, double v, double normal) {
-    ASSERT_LE(std::abs(evaluate(law, v, normal).force), law.mu * normal * (1 + rounding))
-        << describe(law, v, normal);
+    ASSERT_LE(std::abs(evaluate(law, v, normal).force), law.mu * normal * (1 + rounding)) << describe(law, v, normal);
   });
 }
 
 TYPED_TEST(FrictionLawContract, ReachesTheConeWhenSliding) {
   for_slips_over_decades<TypeParam>([](const TypeParam& law, double v, double normal) {
     if (std::abs(v) < law.v1) return;
-    ASSERT_NEAR(std::abs(evaluate(law, v, normal).force), law.mu * normal,
-                rounding * law.mu * normal)
-        << describe(law, v, normal);
+    ASSERT_NEAR(std::abs(evaluate(law, v, normal).force), law.mu * normal, rounding * law.mu * normal) << describe(law, v, normal);
   });
 }
 
@@ -101,8 +98,7 @@ TYPED_TEST(FrictionLawContract, IsContinuousInSpeed) {
     // The steepest slope allowed is the cone's width over the ramp; near |v| >> v1, h may round to
     // 0.
     const double steepest = 2 * h * law.mu * normal / (law.v1 - law.v0);
-    ASSERT_LE(std::abs(jump), steepest * (1 + difference) + rounding * law.mu * normal)
-        << describe(law, v, normal);
+    ASSERT_LE(std::abs(jump), steepest * (1 + difference) + rounding * law.mu * normal) << describe(law, v, normal);
   });
 }
 
@@ -113,19 +109,15 @@ TYPED_TEST(FrictionLawContract, DerivativesAreDifferencesOfTheForce) {
     const FrictionForce f = evaluate(law, v, normal);
 
     const double dn = normal == 0 ? 1.0 : normal / 2;
-    const double by_normal =
-        (evaluate(law, v, normal + dn).force - evaluate(law, v, normal).force) / dn;
+    const double by_normal = (evaluate(law, v, normal + dn).force - evaluate(law, v, normal).force) / dn;
     ASSERT_NEAR(f.d_normal, by_normal, difference * law.mu) << describe(law, v, normal);
 
-    const bool at_kink =
-        std::abs(std::abs(v) - law.v0) < 2 * h || std::abs(std::abs(v) - law.v1) < 2 * h;
+    const bool at_kink = std::abs(std::abs(v) - law.v0) < 2 * h || std::abs(std::abs(v) - law.v1) < 2 * h;
     const bool unresolved = std::abs(v) > 1e3 * law.v1;  // v ± h differs from v by rounding alone
     if (at_kink || unresolved) return;
     ++judged;
-    const double by_speed =
-        (evaluate(law, v + h, normal).force - evaluate(law, v - h, normal).force) / (2 * h);
-    ASSERT_NEAR(f.d_speed, by_speed, difference * law.mu * normal / ramp)
-        << describe(law, v, normal);
+    const double by_speed = (evaluate(law, v + h, normal).force - evaluate(law, v - h, normal).force) / (2 * h);
+    ASSERT_NEAR(f.d_speed, by_speed, difference * law.mu * normal / ramp) << describe(law, v, normal);
   });
   EXPECT_GT(judged, 0);
 }
@@ -151,8 +143,7 @@ TEST(Ambrosio, RisesInAStraightLineBetweenItsSpeeds) {
   const double normal = 100;
   for (double part : {0.1, 0.25, 0.5, 0.75, 0.99}) {
     const double v = law.v0 + part * (law.v1 - law.v0);
-    EXPECT_NEAR(evaluate(law, v, normal).force, -part * law.mu * normal,
-                rounding * law.mu * normal);
+    EXPECT_NEAR(evaluate(law, v, normal).force, -part * law.mu * normal, rounding * law.mu * normal);
   }
 }
 

@@ -26,12 +26,8 @@ constexpr double difference = 1e-7;
 // Its step, relative to the shortest length or time at hand.
 constexpr double relative_step = 1e-5;
 
-Vector2d perp(const Vector2d& v) {
-  return {-v.y(), v.x()};
-}
-Vector2d turned(double angle, const Vector2d& v) {
-  return Eigen::Rotation2Dd(angle) * v;
-}
+Vector2d perp(const Vector2d& v) { return {-v.y(), v.x()}; }
+Vector2d turned(double angle, const Vector2d& v) { return Eigen::Rotation2Dd(angle) * v; }
 
 struct Case {
   MovingPoint journal, bearing;
@@ -53,9 +49,7 @@ std::vector<JournalBearing> over_decades<JournalBearing>() {
 struct Surfaces {
   double journal, bearing, touch;
 };
-Surfaces surfaces(const JournalBearing& gap) {
-  return {gap.journal, gap.bearing, gap.bearing - gap.journal};
-}
+Surfaces surfaces(const JournalBearing& gap) { return {gap.journal, gap.bearing, gap.bearing - gap.journal}; }
 
 // Eccentricities from deep inside the clearance to well into the wall, all directions, at random
 // speeds and spins (fixed seed).
@@ -69,8 +63,7 @@ void for_cases(const G& gap, F exam) {
     return Vector2d(scale * x, scale * y);
   };
   for (double ratio : {0.01, 0.5, 0.999999, 1.0, 1.000001, 1.5})
-    for (double angle = -std::numbers::pi; angle <= std::numbers::pi;
-         angle += std::numbers::pi / 8) {
+    for (double angle = -std::numbers::pi; angle <= std::numbers::pi; angle += std::numbers::pi / 8) {
       const Vector2d e = ratio * size.touch * Vector2d(std::cos(angle), std::sin(angle));
       const MovingPoint bearing{vector(size.bearing), vector(2.0), 150 * unit(generator)};
       const MovingPoint journal{bearing.r + e, bearing.v + vector(1.0), 150 * unit(generator)};
@@ -101,8 +94,7 @@ double short_time(const Case& c) {
 double speed_scale(const Case& c, double length, double t) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const double spin = std::abs(c.journal.w) + std::abs(c.bearing.w);
-  return difference * (c.relative_speed() + spin * length) +
-         4 * epsilon * (c.journal.r.norm() + length) / t;
+  return difference * (c.relative_speed() + spin * length) + 4 * epsilon * (c.journal.r.norm() + length) / t;
 }
 
 template <class G>
@@ -116,8 +108,7 @@ using Gaps = testing::Types<JournalBearing>;  // a new gap joins here
 TYPED_TEST_SUITE(GapContract, Gaps);
 
 TYPED_TEST(GapContract, NormalIsUnit) {
-  this->everywhere(
-      [](const TypeParam& gap, const Case& c) { EXPECT_NEAR(at(gap, c).n.norm(), 1, rounding); });
+  this->everywhere([](const TypeParam& gap, const Case& c) { EXPECT_NEAR(at(gap, c).n.norm(), 1, rounding); });
 }
 
 TYPED_TEST(GapContract, NormalIsTheGradientOfDepth) {
@@ -147,8 +138,7 @@ TYPED_TEST(GapContract, DepthIsContinuous) {
       Case moved = c;
       const Vector2d shift = size * at(gap, c).e.norm() * Vector2d(0.6, -0.8);
       moved.journal.r += shift;
-      EXPECT_LE(std::abs(at(gap, moved).depth - depth),
-                shift.norm() + rounding * (c.journal.r.norm() + surfaces(gap).bearing));
+      EXPECT_LE(std::abs(at(gap, moved).depth - depth), shift.norm() + rounding * (c.journal.r.norm() + surfaces(gap).bearing));
     }
   });
 }
@@ -190,12 +180,10 @@ TYPED_TEST(GapContract, GeometricSlipIsThatOfTheContactPoints) {
     };
     const double by_time = (apart(t) - apart(-t)).dot(perp(n)) / (2 * t);
     // n of a shallow eccentricity carries the positions' rounding over |e|, times the levers.
-    const double n_noise = 4 * std::numeric_limits<double>::epsilon() * c.journal.r.norm() /
-                           at(gap, c).e.norm() * surfaces(gap).touch / t;
-    EXPECT_NEAR(at(gap, c).geometric_slip, by_time,
-                speed_scale(c, surfaces(gap).bearing, t) +
-                    difference * surfaces(gap).touch / at(gap, c).e.norm() * c.relative_speed() +
-                    n_noise);
+    const double n_noise = 4 * std::numeric_limits<double>::epsilon() * c.journal.r.norm() / at(gap, c).e.norm() * surfaces(gap).touch / t;
+    EXPECT_NEAR(
+        at(gap, c).geometric_slip, by_time,
+        speed_scale(c, surfaces(gap).bearing, t) + difference * surfaces(gap).touch / at(gap, c).e.norm() * c.relative_speed() + n_noise);
   });
 }
 
@@ -210,11 +198,9 @@ TYPED_TEST(GapContract, ContactForcesWorkOnRateAndMaterialSlip) {
     const auto power = [](const MovingPoint& p, const Vector2d& arm, const Vector2d& f) {
       return f.dot(p.v) + (arm.x() * f.y() - arm.y() * f.x()) * p.w;
     };
-    const double received = power(c.journal, levers.journal * g.n, force) +
-                            power(c.bearing, levers.bearing * g.n, -force);
+    const double received = power(c.journal, levers.journal * g.n, force) + power(c.bearing, levers.bearing * g.n, -force);
     const double size = (normal - friction) *
-                        (c.journal.v.norm() + c.bearing.v.norm() +
-                         surfaces(gap).bearing * (std::abs(c.journal.w) + std::abs(c.bearing.w)));
+                        (c.journal.v.norm() + c.bearing.v.norm() + surfaces(gap).bearing * (std::abs(c.journal.w) + std::abs(c.bearing.w)));
     EXPECT_NEAR(received, -normal * g.rate + friction * g.material_slip, rounding * size);
   });
 }
@@ -222,8 +208,7 @@ TYPED_TEST(GapContract, ContactForcesWorkOnRateAndMaterialSlip) {
 TYPED_TEST(GapContract, SwappingTheCentresMirrors) {
   // Spins stay where they are: journal and bearing differ in size.
   this->everywhere([](const TypeParam& gap, const Case& c) {
-    const Case swapped{{c.bearing.r, c.bearing.v, c.journal.w},
-                       {c.journal.r, c.journal.v, c.bearing.w}};
+    const Case swapped{{c.bearing.r, c.bearing.v, c.journal.w}, {c.journal.r, c.journal.v, c.bearing.w}};
     const Gap g = at(gap, c), m = at(gap, swapped);
     EXPECT_EQ(m.e, -g.e);
     EXPECT_EQ(m.n, -g.n);
@@ -236,9 +221,7 @@ TYPED_TEST(GapContract, SwappingTheCentresMirrors) {
 
 TYPED_TEST(GapContract, ReflectedWorldReversesSlipOnly) {
   this->everywhere([](const TypeParam& gap, const Case& c) {
-    const auto reflected = [](const MovingPoint& p) {
-      return MovingPoint{{p.r.x(), -p.r.y()}, {p.v.x(), -p.v.y()}, -p.w};
-    };
+    const auto reflected = [](const MovingPoint& p) { return MovingPoint{{p.r.x(), -p.r.y()}, {p.v.x(), -p.v.y()}, -p.w}; };
     const Gap g = at(gap, c), m = at(gap, Case{reflected(c.journal), reflected(c.bearing)});
     EXPECT_EQ(m.depth, g.depth);
     EXPECT_EQ(m.rate, g.rate);
@@ -251,20 +234,17 @@ TYPED_TEST(GapContract, TurningAndMovingTheWorldChangesNothing) {
   this->everywhere([](const TypeParam& gap, const Case& c) {
     const double angle = 0.7;
     const Vector2d shift(0.3, -0.2), drift(1.1, 0.4);  // [m], [m/s]
-    const auto moved = [&](const MovingPoint& p) {
-      return MovingPoint{turned(angle, p.r) + shift, turned(angle, p.v) + drift, p.w};
-    };
+    const auto moved = [&](const MovingPoint& p) { return MovingPoint{turned(angle, p.r) + shift, turned(angle, p.v) + drift, p.w}; };
     const Gap g = at(gap, c), m = at(gap, Case{moved(c.journal), moved(c.bearing)});
     const double lengths = c.journal.r.norm() + surfaces(gap).bearing + shift.norm();
     // e is a difference of positions: their rounding over |e| is the error of n's direction.
     const double direction = rounding * lengths / g.e.norm();
-    const double speeds = c.journal.v.norm() + c.bearing.v.norm() + drift.norm() +
-                          surfaces(gap).bearing * (std::abs(c.journal.w) + std::abs(c.bearing.w));
+    const double speeds =
+        c.journal.v.norm() + c.bearing.v.norm() + drift.norm() + surfaces(gap).bearing * (std::abs(c.journal.w) + std::abs(c.bearing.w));
     EXPECT_NEAR(m.depth, g.depth, rounding * lengths);
     EXPECT_NEAR(m.rate, g.rate, (rounding + direction) * speeds);
     EXPECT_NEAR(m.material_slip, g.material_slip, (rounding + direction) * speeds);
-    EXPECT_NEAR(m.geometric_slip, g.geometric_slip,
-                (rounding + direction) * speeds * (1 + std::abs(g.depth) / g.e.norm()));
+    EXPECT_NEAR(m.geometric_slip, g.geometric_slip, (rounding + direction) * speeds * (1 + std::abs(g.depth) / g.e.norm()));
   });
 }
 
@@ -273,14 +253,12 @@ TYPED_TEST(GapContract, SpinOfTheWholeWorldSlipsByDepthOnly) {
   // `depth` apart along n, so their speeds along Zn differ by just w · depth.
   this->everywhere([](const TypeParam& gap, const Case& c) {
     const double w = 40;  // [rad/s]
-    const Case rigid{{c.journal.r, w * perp(c.journal.r), w},
-                     {c.bearing.r, w * perp(c.bearing.r), w}};
+    const Case rigid{{c.journal.r, w * perp(c.journal.r), w}, {c.bearing.r, w * perp(c.bearing.r), w}};
     const Gap g = at(gap, rigid);
     const double size = w * (c.journal.r.norm() + surfaces(gap).bearing);
     EXPECT_NEAR(g.rate, 0, rounding * size);
     EXPECT_NEAR(g.material_slip, w * g.depth, rounding * size);
-    EXPECT_NEAR(g.geometric_slip, w * g.depth,
-                rounding * size * (1 + std::abs(g.depth) / g.e.norm()));
+    EXPECT_NEAR(g.geometric_slip, w * g.depth, rounding * size * (1 + std::abs(g.depth) / g.e.norm()));
   });
 }
 
@@ -290,8 +268,7 @@ TYPED_TEST(GapContract, IsFiniteWhereverTheCentresAre) {
       const Case c{{{size, -size}, {0.3, 0.4}, 5}, {{0, 0}, {-0.1, 0.2}, -7}};
       const Gap g = at(gap, c);
       EXPECT_NEAR(g.n.norm(), 1, rounding) << size;
-      for (double value : {g.depth, g.rate, g.material_slip, g.geometric_slip})
-        EXPECT_TRUE(std::isfinite(value)) << size;
+      for (double value : {g.depth, g.rate, g.material_slip, g.geometric_slip}) EXPECT_TRUE(std::isfinite(value)) << size;
     }
 }
 

@@ -42,9 +42,7 @@ struct Kind {
   const char* name;
   Joint (*make)(int a, int b, double angle);
 };
-void PrintTo(const Kind& kind, std::ostream* out) {
-  *out << kind.name;
-}
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 const Kind kinds[] = {
     {"Revolute",
      [](int a, int b, double) {
@@ -90,9 +88,7 @@ MarkerMotion moving(const Vector3d& p, const Vector3d& p_rate) {
   m.w = p_rate[2];
   return m;
 }
-double largest(const VectorXd& x) {
-  return x.size() == 0 ? 0 : x.lpNorm<Eigen::Infinity>();
-}
+double largest(const VectorXd& x) { return x.size() == 0 ? 0 : x.lpNorm<Eigen::Infinity>(); }
 
 /// Poses or rates of a joint's markers, or what follows from them, one an end.
 using Ends = std::vector<Vector3d>;
@@ -238,7 +234,8 @@ TEST_P(JointContract, PropertiesSayWhatItReads) {
     EXPECT_TRUE(tangent.pose.allFinite());
     for (std::size_t i = 0; i < n_; ++i)
       for (std::size_t j = 0; j < n_; ++j)
-        EXPECT_TRUE(of.curvature.block[i][j] || tangent.pose.block(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j), 3, 3).isZero(0))
+        EXPECT_TRUE(of.curvature.block[i][j] ||
+                    tangent.pose.block(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j), 3, 3).isZero(0))
             << i << ", " << j;
   }
   EXPECT_EQ(turns, of.angles);
@@ -281,8 +278,7 @@ TEST_P(JointBetween, JacobianIsDifferencesOfTheViolationOverCoordinates) {
       pose(system_, s.t, forth, eq);
       const VectorXd C = eq.C;
       pose(system_, s.t, back, eq);
-      EXPECT_LT(largest(Cq.col(i) - (C - eq.C) / (2 * step)), 3 * difference)
-          << "draw " << n << ", coordinate " << i;
+      EXPECT_LT(largest(Cq.col(i) - (C - eq.C) / (2 * step)), 3 * difference) << "draw " << n << ", coordinate " << i;
     }
   }
 }
@@ -370,9 +366,7 @@ TEST_P(JointBetween, RowsAreIndependent) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, JointContract, testing::ValuesIn(kinds), [](const auto& p) { return p.param.name; });
-INSTANTIATE_TEST_SUITE_P(Each, JointBetween,
-                         testing::Combine(testing::ValuesIn(kinds),
-                                          testing::ValuesIn(all_carriers())),
+INSTANTIATE_TEST_SUITE_P(Each, JointBetween, testing::Combine(testing::ValuesIn(kinds), testing::ValuesIn(all_carriers())),
                          [](const auto& p) { return std::get<0>(p.param).name + name_of(std::get<1>(p.param)); });
 
 TEST(JointContract, EveryKindSitsTheExam) {

@@ -15,9 +15,7 @@ namespace pintle {
 class Draw {
  public:
   explicit Draw(unsigned seed) : random_(seed) {}
-  double within(double low, double high) {
-    return low + (high - low) * static_cast<double>(random_()) / 4294967296.0;
-  }
+  double within(double low, double high) { return low + (high - low) * static_cast<double>(random_()) / 4294967296.0; }
   /// Two turns either way; every third within 1e-5 of ±π.
   double angle() {
     if (++count_ % 3 != 0) return within(-12, 12);
@@ -39,12 +37,8 @@ class Draw {
 };
 
 /// Laws of time, written out.
-inline Jet sine(double t) {
-  return {0.7 + 0.3 * std::sin(2 * t), 0.6 * std::cos(2 * t), -1.2 * std::sin(2 * t)};
-}
-inline Jet steady(double) {
-  return {-1.3, 0, 0};
-}
+inline Jet sine(double t) { return {0.7 + 0.3 * std::sin(2 * t), 0.6 * std::cos(2 * t), -1.2 * std::sin(2 * t)}; }
+inline Jet steady(double) { return {-1.3, 0, 0}; }
 
 /// What carries a marker. A stiffening body has displacements of second order.
 enum class Carrier { rigid, flexible, stiffening, fixed };
@@ -56,9 +50,7 @@ inline std::string name_of(const Carriers& c) {
   const char* names[] = {"Rigid", "Flexible", "Stiffening", "Ground"};
   return std::string(names[static_cast<int>(c.a)]) + names[static_cast<int>(c.b)];
 }
-inline void PrintTo(const Carriers& c, std::ostream* out) {
-  *out << name_of(c);
-}
+inline void PrintTo(const Carriers& c, std::ostream* out) { *out << name_of(c); }
 /// Every kind on either side; one side at most is fixed.
 inline std::vector<Carriers> all_carriers() {
   std::vector<Carriers> all;
@@ -128,8 +120,7 @@ inline System two_bodies(const Carriers& carriers) {
     s.bodies[at] = cloud(s.bodies[at].name, s.bodies[at].m, carrier == Carrier::stiffening, draw);
     s.markers[at].shape = draw.matrix(2, cloud_modes, 1);
     s.markers[at].slope = draw.matrix(1, cloud_modes, 2);
-    if (carrier == Carrier::stiffening)
-      s.markers[at].second = {draw.symmetric(cloud_modes, 1), draw.symmetric(cloud_modes, 1)};
+    if (carrier == Carrier::stiffening) s.markers[at].second = {draw.symmetric(cloud_modes, 1), draw.symmetric(cloud_modes, 1)};
   }
   return s;
 }

@@ -19,9 +19,7 @@
 
 namespace pintle {
 
-inline void PrintTo(const ImpactFactor& factor, std::ostream* out) {
-  *out << factor.name;
-}
+inline void PrintTo(const ImpactFactor& factor, std::ostream* out) { *out << factor.name; }
 
 }  // namespace pintle
 
@@ -60,22 +58,16 @@ void for_approaches_over_decades(const ImpactFactor& factor, F exam) {
         for (double depth : depths)
           for (double impact_rate : impact_rates)
             for (double ratio : rate_ratios)
-              exam(ImpactLaw{.k = k, .n = n, .chi = factor.chi(e)},
-                   Approach{depth, ratio * impact_rate, impact_rate});
+              exam(ImpactLaw{.k = k, .n = n, .chi = factor.chi(e)}, Approach{depth, ratio * impact_rate, impact_rate});
 }
 
 std::string describe(const ImpactLaw& law, const Approach& at) {
-  return "k " + std::to_string(law.k) + ", n " + std::to_string(law.n) + ", chi " +
-         std::to_string(law.chi) + ", depth " + std::to_string(at.depth * 1e9) + " nm, rate " +
-         std::to_string(at.rate / at.impact_rate) + " of " + std::to_string(at.impact_rate);
+  return "k " + std::to_string(law.k) + ", n " + std::to_string(law.n) + ", chi " + std::to_string(law.chi) + ", depth " +
+         std::to_string(at.depth * 1e9) + " nm, rate " + std::to_string(at.rate / at.impact_rate) + " of " + std::to_string(at.impact_rate);
 }
 
-double elastic_force(const ImpactLaw& law, double depth) {
-  return law.k * std::pow(depth, law.n);
-}
-double damping_factor(const ImpactLaw& law, const Approach& at) {
-  return 1 + law.chi * at.rate / at.impact_rate;
-}
+double elastic_force(const ImpactLaw& law, double depth) { return law.k * std::pow(depth, law.n); }
+double damping_factor(const ImpactLaw& law, const Approach& at) { return 1 + law.chi * at.rate / at.impact_rate; }
 
 // ---- an impact of a free mass, integrated here -----------------------------------------------
 
@@ -97,20 +89,15 @@ Rebound integrate(const ImpactLaw& law, const Impact& impact) {
     const NormalForce f = evaluate(law, {y[0], y[1], impact.speed});
     return Y{y[1], -f.force / impact.mass, f.dissipation};
   };
-  const auto plus = [](const Y& y, double h, const Y& d) {
-    return Y{y[0] + h * d[0], y[1] + h * d[1], y[2] + h * d[2]};
-  };
-  const double length =
-      std::pow(impact.mass * impact.speed * impact.speed / law.k, 1 / (law.n + 1));
+  const auto plus = [](const Y& y, double h, const Y& d) { return Y{y[0] + h * d[0], y[1] + h * d[1], y[2] + h * d[2]}; };
+  const double length = std::pow(impact.mass * impact.speed * impact.speed / law.k, 1 / (law.n + 1));
   constexpr double step = 2e-3;  // in units of length / speed
   Rebound out{0, 0, 0, 0};
   for (Y y{0, impact.speed, 0};;) {
     const double h = step * length / impact.speed;
-    const Y a = rates(y), b = rates(plus(y, h / 2, a)), c = rates(plus(y, h / 2, b)),
-            d = rates(plus(y, h, c));
+    const Y a = rates(y), b = rates(plus(y, h / 2, a)), c = rates(plus(y, h / 2, b)), d = rates(plus(y, h, c));
     Y next;
-    for (std::size_t i = 0; i < y.size(); ++i)
-      next[i] = y[i] + h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
+    for (std::size_t i = 0; i < y.size(); ++i) next[i] = y[i] + h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
     if (next[0] <= 0) {
       const double part = y[0] / (y[0] - next[0]);
       out.restitution = -(y[1] + part * (next[1] - y[1])) / impact.speed;
@@ -164,8 +151,7 @@ TEST_P(NormalLawContract, PushesAsItsFormulaSays) {
     const double factor = std::max(damping_factor(law, at), 0.0);
     // The damping factor is a sum of two terms: rounding counts against the larger.
     const double terms = 1 + std::abs(law.chi * at.rate / at.impact_rate);
-    ASSERT_NEAR(evaluate(law, at).force, size * factor, rounding * size * terms)
-        << describe(law, at);
+    ASSERT_NEAR(evaluate(law, at).force, size * factor, rounding * size * terms) << describe(law, at);
   });
 }
 
@@ -180,15 +166,15 @@ TEST_P(NormalLawContract, DerivativesAreDifferencesOfTheForce) {
     const double size = elastic_force(law, at.depth) * (1 + margin);
 
     const double dd = h * at.depth;
-    const double by_depth = (evaluate(law, {at.depth + dd, at.rate, at.impact_rate}).force -
-                             evaluate(law, {at.depth - dd, at.rate, at.impact_rate}).force) /
-                            (2 * dd);
+    const double by_depth =
+        (evaluate(law, {at.depth + dd, at.rate, at.impact_rate}).force - evaluate(law, {at.depth - dd, at.rate, at.impact_rate}).force) /
+        (2 * dd);
     ASSERT_NEAR(f.d_depth, by_depth, difference * size / at.depth) << describe(law, at);
 
     const double dr = h * at.impact_rate;
-    const double by_rate = (evaluate(law, {at.depth, at.rate + dr, at.impact_rate}).force -
-                            evaluate(law, {at.depth, at.rate - dr, at.impact_rate}).force) /
-                           (2 * dr);
+    const double by_rate =
+        (evaluate(law, {at.depth, at.rate + dr, at.impact_rate}).force - evaluate(law, {at.depth, at.rate - dr, at.impact_rate}).force) /
+        (2 * dr);
     ASSERT_NEAR(f.d_rate, by_rate, difference * size / at.impact_rate) << describe(law, at);
   });
   EXPECT_GT(judged, 0);
@@ -198,12 +184,11 @@ TEST_P(NormalLawContract, StoredPlusLostIsWorkDone) {
   for_approaches_over_decades(GetParam(), [](const ImpactLaw& law, const Approach& at) {
     const NormalForce f = evaluate(law, at);
     const double dd = step_of_difference * at.depth;
-    const double stored_rate = (evaluate(law, {at.depth + dd, at.rate, at.impact_rate}).stored -
-                                evaluate(law, {at.depth - dd, at.rate, at.impact_rate}).stored) /
-                               (2 * dd) * at.rate;
+    const double stored_rate =
+        (evaluate(law, {at.depth + dd, at.rate, at.impact_rate}).stored - evaluate(law, {at.depth - dd, at.rate, at.impact_rate}).stored) /
+        (2 * dd) * at.rate;
     const double size = std::abs(stored_rate) + std::abs(f.dissipation);
-    ASSERT_NEAR(stored_rate + f.dissipation, f.force * at.rate, difference * size)
-        << describe(law, at);
+    ASSERT_NEAR(stored_rate + f.dissipation, f.force * at.rate, difference * size) << describe(law, at);
   });
 }
 
@@ -229,8 +214,7 @@ TEST_P(NormalLawContract, FactorIsDefinedOnItsDomain) {
 TEST_P(NormalLawContract, AsksForMoreLossWhereLessRestitutionIsAsked) {
   const ImpactFactor& factor = GetParam();
   for (std::size_t i = 1; i < restitutions.size(); ++i)
-    EXPECT_GE(factor.chi(restitutions[i - 1]), factor.chi(restitutions[i]))
-        << "e = " << restitutions[i];
+    EXPECT_GE(factor.chi(restitutions[i - 1]), factor.chi(restitutions[i])) << "e = " << restitutions[i];
 }
 
 TEST_P(NormalLawContract, ImpactReboundsWithTheEffectiveRestitution) {
@@ -238,8 +222,7 @@ TEST_P(NormalLawContract, ImpactReboundsWithTheEffectiveRestitution) {
   for (double e : {0.1, 0.3, 0.5, 0.7, 0.9}) {
     const ImpactLaw law{.k = 6.6e10, .n = 1.5, .chi = factor.chi(e)};
     const Rebound rebound = integrate(law, {.mass = 0.14, .speed = 0.3});
-    EXPECT_NEAR(rebound.restitution, effective_restitution(law.chi), integration)
-        << "nominal e = " << e << ", chi = " << law.chi;
+    EXPECT_NEAR(rebound.restitution, effective_restitution(law.chi), integration) << "nominal e = " << e << ", chi = " << law.chi;
   }
 }
 
@@ -248,8 +231,7 @@ TEST_P(NormalLawContract, RestitutionDependsOnNothingButChi) {
   for (double n : exponents)
     for (double k : stiffnesses)
       for (const Impact& impact : {Impact{1e-4, 5.0}, Impact{20.0, 1e-3}})
-        EXPECT_NEAR(integrate({.k = k, .n = n, .chi = chi}, impact).restitution,
-                    effective_restitution(chi), integration)
+        EXPECT_NEAR(integrate({.k = k, .n = n, .chi = chi}, impact).restitution, effective_restitution(chi), integration)
             << "k " << k << ", n " << n << ", mass " << impact.mass << ", speed " << impact.speed;
 }
 
@@ -297,17 +279,13 @@ TEST_P(NormalLawContract, FollowsItsPublishedCurve) {
 
   const bool exact = *key == "chi_exact";
   const auto nominal = table().at("e_in").get<std::vector<double>>();
-  const auto chi =
-      (exact ? table().at(*key) : table().at(*key).at("chi")).get<std::vector<double>>();
+  const auto chi = (exact ? table().at(*key) : table().at(*key).at("chi")).get<std::vector<double>>();
   const auto effective = exact ? nominal : table().at(*key).at("e_out").get<std::vector<double>>();
   ASSERT_EQ(chi.size(), nominal.size());
   ASSERT_EQ(effective.size(), nominal.size());
   for (std::size_t i = 0; i < nominal.size(); ++i) {
-    EXPECT_NEAR(factor.chi(nominal[i]), chi[i], (exact ? table_root : tabulated) * chi[i])
-        << "nominal e = " << nominal[i];
-    EXPECT_NEAR(effective_restitution(factor.chi(nominal[i])), effective[i],
-                table_root * effective[i])
-        << "nominal e = " << nominal[i];
+    EXPECT_NEAR(factor.chi(nominal[i]), chi[i], (exact ? table_root : tabulated) * chi[i]) << "nominal e = " << nominal[i];
+    EXPECT_NEAR(effective_restitution(factor.chi(nominal[i])), effective[i], table_root * effective[i]) << "nominal e = " << nominal[i];
   }
 }
 
@@ -317,13 +295,10 @@ std::string test_name(const testing::TestParamInfo<ImpactFactor>& info) {
     if (c == '-') c = '_';
   return name;
 }
-INSTANTIATE_TEST_SUITE_P(EveryFactor, NormalLawContract,
-                         testing::ValuesIn(impact_factors().begin(), impact_factors().end()),
-                         test_name);
+INSTANTIATE_TEST_SUITE_P(EveryFactor, NormalLawContract, testing::ValuesIn(impact_factors().begin(), impact_factors().end()), test_name);
 
 TEST(ImpactFactors, EveryTableRowIsSatFor) {
-  for (const auto& [name, key] : published)
-    EXPECT_NE(find_impact_factor(name), nullptr) << name << " is judged but not offered";
+  for (const auto& [name, key] : published) EXPECT_NE(find_impact_factor(name), nullptr) << name << " is judged but not offered";
 }
 
 // ---- the spring and damper --------------------------------------------------------------------
@@ -331,9 +306,7 @@ TEST(ImpactFactors, EveryTableRowIsSatFor) {
 // d = 2 ζ √(k m), from light damping to more than critical.
 const std::array damping_ratios{0.0, 1e-3, 0.1, 0.5, 0.99, 1.0, 1.01, 4.0};
 
-ImpactLaw spring_damper(double k, double mass, double zeta) {
-  return {.k = k, .n = 1, .chi = 0, .d = 2 * zeta * std::sqrt(k * mass)};
-}
+ImpactLaw spring_damper(double k, double mass, double zeta) { return {.k = k, .n = 1, .chi = 0, .d = 2 * zeta * std::sqrt(k * mass)}; }
 
 TEST(SpringDamperLaw, IsASpringAndADamperThatDoNotPull) {
   for (double k : stiffnesses)

@@ -32,9 +32,7 @@ bool on_rim(const Point& x) {
   return x.minCoeff() < near || x.maxCoeff() > 1 - near;
 }
 
-double slope(double coarse, double fine) {
-  return std::log2(coarse / fine);
-}
+double slope(double coarse, double fine) { return std::log2(coarse / fine); }
 
 template <class E>
 struct PlaneAccuracy : testing::Test {};
@@ -43,9 +41,7 @@ TYPED_TEST_SUITE(PlaneAccuracy, Kinds);
 // u = (1, ½) sin πx sin πy on the unit square, held on its rim; f = −div σ.
 struct Manufactured {
   Elastic m;
-  Point exact(const Point& x) const {
-    return Point(1, 0.5) * (std::sin(pi * x.x()) * std::sin(pi * x.y()));
-  }
+  Point exact(const Point& x) const { return Point(1, 0.5) * (std::sin(pi * x.x()) * std::sin(pi * x.y())); }
   Point force(const Point& x) const {
     const double s = std::sin(pi * x.x()) * std::sin(pi * x.y());
     const double c = std::cos(pi * x.x()) * std::cos(pi * x.y());
@@ -105,8 +101,7 @@ double lowest_of_sliding_square(int n, bool lumped) {
   Held held;
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
     for (int k = 0; k < 2; ++k)
-      if (on_rim(Point::Constant(0.5) + Point::Unit(k) * (mesh.nodes[i][k] - 0.5)))
-        held[2 * static_cast<int>(i) + k] = 0;
+      if (on_rim(Point::Constant(0.5) + Point::Unit(k) * (mesh.nodes[i][k] - 0.5))) held[2 * static_cast<int>(i) + k] = 0;
   const auto M = assemble<E>(mesh, e, [&](const E& f, const Coords<E>& x) -> Square<E> {
     if (lumped) return lumped_mass(f, x).asDiagonal();
     return mass(f, x);
@@ -146,8 +141,7 @@ double cylinder_error(double nu, int n, bool bent) {
       if (std::abs(mesh.nodes[i][k]) < 1e-12) held[2 * static_cast<int>(i) + k] = 0;
   const auto inside = [](const Point& x) { return std::abs(x.norm() - 1) < 1e-9; };
   const E e = element<E>(m);
-  const Eigen::VectorXd f = side_loads(
-      mesh, sides(mesh, inside), [](const Eigen::Matrix2Xd& x) { return side_pressure(x, 1, 1); });
+  const Eigen::VectorXd f = side_loads(mesh, sides(mesh, inside), [](const Eigen::Matrix2Xd& x) { return side_pressure(x, 1, 1); });
   const Eigen::VectorXd u = solve(assembled_stiffness(mesh, e), f, held);
   const double exact = (1 + nu) / 3 * (1 - 2 * nu + 4);
   double sum = 0;
@@ -199,9 +193,7 @@ double cantilever_tip(int n, Cut cut, const Point& force) {
   });
   const auto tip = [](const Point& x) { return x.x() > 6 - 1e-9; };
   const auto root = [](const Point& x) { return x.x() < 1e-9; };
-  const Eigen::VectorXd f = side_loads(mesh, sides(mesh, tip), [&](const Eigen::Matrix2Xd& x) {
-    return side_load(x, force / 0.02, 0.1);
-  });
+  const Eigen::VectorXd f = side_loads(mesh, sides(mesh, tip), [&](const Eigen::Matrix2Xd& x) { return side_load(x, force / 0.02, 0.1); });
   const E e = element<E>(aluminium, 1, 0.1);
   return f.dot(solve(assembled_stiffness(mesh, e), f, hold(mesh, root)));
 }
@@ -211,8 +203,7 @@ double bending_ratio(int n, Cut cut) {
 }
 
 template <class E>
-inline constexpr bool for_comparison =
-    E::nodes == 3 || E::plane_kind == PlaneKind::quadrilateral4_plain;
+inline constexpr bool for_comparison = E::nodes == 3 || E::plane_kind == PlaneKind::quadrilateral4_plain;
 
 // The published value is a beam's; the clamped edge, which cannot contract, adds 7e-4 of stiffness,
 // and eight elements across a block leave up to 2e-3.
@@ -254,9 +245,7 @@ TEST(Quadrilateral4Plain, IsTooStiffInBendingByItsParasiticShear) {
 }
 
 // Published for three-node triangles: 0.032 (verification of Altair OptiStruct, OS-V 0720).
-TEST(Triangle3, IsAsStiffInBendingAsPublished) {
-  EXPECT_NEAR(bending_ratio<Triangle3>(1, Cut::straight), 0.032, 5e-4);
-}
+TEST(Triangle3, IsAsStiffInBendingAsPublished) { EXPECT_NEAR(bending_ratio<Triangle3>(1, Cut::straight), 0.032, 5e-4); }
 
 // No element of four nodes that passes the patch test can avoid it [MacNeal1987]: a known limit.
 TEST(Quadrilateral4, LocksInTrapezoidsButNotInParallelograms) {

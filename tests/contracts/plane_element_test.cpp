@@ -36,19 +36,17 @@ TYPED_TEST_SUITE(PlaneContract, Kinds);
 // A field of constant strain prescribed on the rim must hold inside, with its stress at every
 // point.
 template <class E>
-void expect_patch(const Mesh<E>& mesh, const Elastic& m, const Field& field,
-                  const Eigen::Vector3d& strain, const std::function<bool(const Point&)>& rim) {
+void expect_patch(const Mesh<E>& mesh, const Elastic& m, const Field& field, const Eigen::Vector3d& strain,
+                  const std::function<bool(const Point&)>& rim) {
   const E e = element<E>(m, 1, 1e-3);
-  const Eigen::VectorXd u = solve(assembled_stiffness(mesh, e), Eigen::VectorXd::Zero(mesh.dofs()),
-                                  hold(mesh, rim, field));
+  const Eigen::VectorXd u = solve(assembled_stiffness(mesh, e), Eigen::VectorXd::Zero(mesh.dofs()), hold(mesh, rim, field));
   Eigen::Vector4d sigma;
   sigma << m.D() * strain, m.Dz() * strain;
   const double size = u.cwiseAbs().maxCoeff();
   int inside = 0;
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     inside += !rim(mesh.nodes[i]);
-    EXPECT_LT((u.segment<2>(2 * static_cast<Eigen::Index>(i)) - field(mesh.nodes[i])).norm(),
-              solved * size);
+    EXPECT_LT((u.segment<2>(2 * static_cast<Eigen::Index>(i)) - field(mesh.nodes[i])).norm(), solved * size);
   }
   EXPECT_GT(inside, 0) << "is there anything to find?";
   for (const auto& cell : mesh.cells) {
@@ -58,28 +56,22 @@ void expect_patch(const Mesh<E>& mesh, const Elastic& m, const Field& field,
   }
 }
 
-const std::vector<Point> membrane_vertices{{0, 0},     {.24, 0},   {.24, .12}, {0, .12},
-                                           {.04, .02}, {.18, .03}, {.16, .08}, {.08, .08}};
-const std::vector<std::array<int, 4>> membrane_quads{
-    {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}};
+const std::vector<Point> membrane_vertices{{0, 0}, {.24, 0}, {.24, .12}, {0, .12}, {.04, .02}, {.18, .03}, {.16, .08}, {.08, .08}};
+const std::vector<std::array<int, 4>> membrane_quads{{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}};
 bool on_membrane_rim(const Point& x) {
   constexpr double near = 1e-9;
   return x.minCoeff() < near || x.x() > 0.24 - near || x.y() > 0.12 - near;
 }
-Point membrane_field(const Point& x) {
-  return 1e-3 * Point(x.x() + x.y() / 2, x.y() + x.x() / 2);
-}
+Point membrane_field(const Point& x) { return 1e-3 * Point(x.x() + x.y() / 2, x.y() + x.x() / 2); }
 
 TYPED_TEST(PlaneContract, PassesThePublishedMembranePatch) {
   const auto mesh = refine<TypeParam>(membrane_vertices, membrane_quads);
   const Elastic m{1e6, 0.25};
   const auto e = element<TypeParam>(m, 1, 1e-3);
-  const Eigen::VectorXd u = solve(assembled_stiffness(mesh, e), Eigen::VectorXd::Zero(mesh.dofs()),
-                                  hold(mesh, on_membrane_rim, membrane_field));
-  const std::array<Point, 4> published{
-      Point{5.00e-5, 4.00e-5}, {1.95e-4, 1.20e-4}, {2.00e-4, 1.60e-4}, {1.20e-4, 1.20e-4}};
-  for (int i = 0; i < 4; ++i)
-    EXPECT_LT((u.segment<2>(2 * (4 + i)) - published[i]).norm(), solved * 1e-4);
+  const Eigen::VectorXd u =
+      solve(assembled_stiffness(mesh, e), Eigen::VectorXd::Zero(mesh.dofs()), hold(mesh, on_membrane_rim, membrane_field));
+  const std::array<Point, 4> published{Point{5.00e-5, 4.00e-5}, {1.95e-4, 1.20e-4}, {2.00e-4, 1.60e-4}, {1.20e-4, 1.20e-4}};
+  for (int i = 0; i < 4; ++i) EXPECT_LT((u.segment<2>(2 * (4 + i)) - published[i]).norm(), solved * 1e-4);
   for (const auto& cell : mesh.cells) {
     const auto s = stress(e, mesh.coords(cell), gather<TypeParam>(cell, u));
     const Eigen::Vector4d printed(1333.33, 1333.33, 400, 0);
@@ -88,8 +80,8 @@ TYPED_TEST(PlaneContract, PassesThePublishedMembranePatch) {
 }
 
 TYPED_TEST(PlaneContract, PassesTheMembranePatchInPlaneStrain) {
-  expect_patch<TypeParam>(refine<TypeParam>(membrane_vertices, membrane_quads), {1e6, 0.25, true},
-                          membrane_field, {1e-3, 1e-3, 1e-3}, on_membrane_rim);
+  expect_patch<TypeParam>(refine<TypeParam>(membrane_vertices, membrane_quads), {1e6, 0.25, true}, membrane_field, {1e-3, 1e-3, 1e-3},
+                          on_membrane_rim);
 }
 
 // Nine squares whose inner nodes, middles of sides and centres are pushed about: sides are curved
@@ -102,13 +94,10 @@ TYPED_TEST(PlaneContract, PassesRandomPatchesWithCurvedSides) {
     const double push = order<TypeParam> == 1 ? 0.06 : 0.025;
     for (Point& x : mesh.nodes)
       if (!rim(x)) x += random.point(push);
-    for (const auto& cell : mesh.cells)
-      ASSERT_GT(nodal_jacobians(TypeParam{}, mesh.coords(cell)).minCoeff(), 0);
-    const Eigen::Matrix2d H =
-        1e-3 * Eigen::Matrix2d{{random(1), random(1)}, {random(1), random(1)}};
+    for (const auto& cell : mesh.cells) ASSERT_GT(nodal_jacobians(TypeParam{}, mesh.coords(cell)).minCoeff(), 0);
+    const Eigen::Matrix2d H = 1e-3 * Eigen::Matrix2d{{random(1), random(1)}, {random(1), random(1)}};
     const Field field = [&](const Point& x) -> Point { return H * x + Point(1e-3, -2e-3); };
-    expect_patch<TypeParam>(mesh, {2, 0.3, trial % 2 == 1}, field,
-                            {H(0, 0), H(1, 1), H(0, 1) + H(1, 0)}, rim);
+    expect_patch<TypeParam>(mesh, {2, 0.3, trial % 2 == 1}, field, {H(0, 0), H(1, 1), H(0, 1) + H(1, 0)}, rim);
   }
 }
 
@@ -129,17 +118,13 @@ Coords<E> distorted(Random& random) {
 TYPED_TEST(PlaneContract, AloneItHasRigidMotionsAndItsSpuriousModesForFree) {
   const auto e = element<TypeParam>({1, 0.3});
   Random random;
-  for (int trial = 0; trial < 20; ++trial)
-    EXPECT_EQ(null_space(stiffness(e, distorted<TypeParam>(random))),
-              3 + TypeParam::spurious_modes);
+  for (int trial = 0; trial < 20; ++trial) EXPECT_EQ(null_space(stiffness(e, distorted<TypeParam>(random))), 3 + TypeParam::spurious_modes);
   const auto square = grid<TypeParam>(1, 1);
-  EXPECT_EQ(null_space(stiffness(e, square.coords(square.cells.front()))),
-            3 + TypeParam::spurious_modes);
+  EXPECT_EQ(null_space(stiffness(e, square.coords(square.cells.front()))), 3 + TypeParam::spurious_modes);
 }
 
 TYPED_TEST(PlaneContract, TwoThatShareASideHaveRigidMotionsAlone) {
-  const Eigen::MatrixXd K =
-      assembled_stiffness(grid<TypeParam>(2, 1), element<TypeParam>({1, 0.3}));
+  const Eigen::MatrixXd K = assembled_stiffness(grid<TypeParam>(2, 1), element<TypeParam>({1, 0.3}));
   EXPECT_EQ(null_space(K), 3);
 }
 
@@ -152,11 +137,9 @@ TYPED_TEST(PlaneContract, EnergyOfConstantStrainIsThatOfAnyMaterial) {
   Random random;
   const Coords<TypeParam> x = distorted<TypeParam>(random);
   double area = 0;
-  for_quadrature<TypeParam>(
-      [&](const Point& xi, double weight) { area += weight * determinant(e, x, xi); });
+  for_quadrature<TypeParam>([&](const Point& xi, double weight) { area += weight * determinant(e, x, xi); });
   Eigen::Matrix<double, TypeParam::dofs, 3> u;
-  for (int i = 0; i < TypeParam::nodes; ++i)
-    u.template middleRows<2>(2 * i) << x(0, i), 0, x(1, i), 0, x(1, i), 0;
+  for (int i = 0; i < TypeParam::nodes; ++i) u.template middleRows<2>(2 * i) << x(0, i), 0, x(1, i), 0, x(1, i), 0;
   const Eigen::Matrix3d energy = u.transpose() * stiffness(e, x) * u;
   EXPECT_LT((energy - 0.3 * area * e.p.material.D).norm(), rounding * energy.norm());
 }
@@ -183,8 +166,7 @@ TYPED_TEST(PlaneContract, NumberingMayStartAtAnyCorner) {
   expect_same(mass(e, turned), mass(e, x));
   expect_same(skew_mass(e, turned), skew_mass(e, x));
   expect_same(lumped_mass(e, turned).asDiagonal(), lumped_mass(e, x).asDiagonal());
-  const Eigen::Matrix<double, 1, TypeParam::nodes> J = nodal_jacobians(e, x),
-                                                   Jt = nodal_jacobians(e, turned);
+  const Eigen::Matrix<double, 1, TypeParam::nodes> J = nodal_jacobians(e, x), Jt = nodal_jacobians(e, turned);
   EXPECT_NEAR(J[1], Jt[0], rounding);
 }
 
@@ -192,9 +174,7 @@ TYPED_TEST(PlaneContract, NumberingMayStartAtAnyCorner) {
 TYPED_TEST(PlaneContract, JacobianAtACornerIsThatOfItsTwoSides) {
   constexpr int c = corners<TypeParam>;
   auto mesh = grid<TypeParam>(1, 1);
-  mesh = mapped(mesh, [](const Point& x) -> Point {
-    return {3 * x.x() + x.y() * 0.5, 2 * x.y() - x.x() * 0.1};
-  });
+  mesh = mapped(mesh, [](const Point& x) -> Point { return {3 * x.x() + x.y() * 0.5, 2 * x.y() - x.x() * 0.1}; });
   const Coords<TypeParam> x = mesh.coords(mesh.cells.front());
   const auto J = nodal_jacobians(TypeParam{}, x);
   for (int i = 0; i < c; ++i) {
@@ -204,9 +184,7 @@ TYPED_TEST(PlaneContract, JacobianAtACornerIsThatOfItsTwoSides) {
 }
 
 TYPED_TEST(PlaneContract, JacobianIsNegativeForClockwiseNodes) {
-  auto mesh = mapped(grid<TypeParam>(1, 1), [](const Point& x) -> Point {
-    return {-x.x(), x.y()};
-  });
+  auto mesh = mapped(grid<TypeParam>(1, 1), [](const Point& x) -> Point { return {-x.x(), x.y()}; });
   EXPECT_LT(nodal_jacobians(TypeParam{}, mesh.coords(mesh.cells.front())).maxCoeff(), 0);
 }
 
@@ -251,8 +229,7 @@ TYPED_TEST(PlaneContract, LumpedMassIsPositiveAndKeepsTheMass) {
   for (int trial = 0; trial < 50; ++trial) {
     const Coords<TypeParam> x = distorted<TypeParam>(random);
     double volume = 0;
-    for_quadrature<TypeParam>(
-        [&](const Point& xi, double w) { volume += w * determinant(e, x, xi) * 0.01; });
+    for_quadrature<TypeParam>([&](const Point& xi, double w) { volume += w * determinant(e, x, xi) * 0.01; });
     const Freedoms<TypeParam> m = lumped_mass(e, x);
     EXPECT_GT(m.minCoeff(), 0);
     EXPECT_NEAR(m.sum(), 2 * 7800 * volume, rounding * m.sum());
@@ -290,8 +267,7 @@ TYPED_TEST(QuadraticPlane, LumpedMassIsInProportionToTheConsistentDiagonal) {
   constexpr int n = TypeParam::nodes;
   const double corner = n == 6 ? 1.5 / 57 : n == 8 ? 3.0 / 76 : 1.0 / 36;
   const double middle = n == 6 ? 8.0 / 57 : n == 8 ? 16.0 / 76 : 4.0 / 36;
-  for (int i = 0; i < n; ++i)
-    EXPECT_NEAR(m[2 * i], i < corners<TypeParam> ? corner : i < 8 ? middle : 16.0 / 36, rounding);
+  for (int i = 0; i < n; ++i) EXPECT_NEAR(m[2 * i], i < corners<TypeParam> ? corner : i < 8 ? middle : 16.0 / 36, rounding);
 }
 
 }  // namespace

@@ -18,16 +18,13 @@
 /// the framework's.
 namespace pintle::patch {
 
-using Kinds = testing::Types<Triangle3, Triangle6, Quadrilateral4, Quadrilateral4Plain,
-                             Quadrilateral8, Quadrilateral8Reduced, Quadrilateral9>;
+using Kinds =
+    testing::Types<Triangle3, Triangle6, Quadrilateral4, Quadrilateral4Plain, Quadrilateral8, Quadrilateral8Reduced, Quadrilateral9>;
 
 using LinearKinds = testing::Types<Triangle3, Quadrilateral4, Quadrilateral4Plain>;
-using QuadraticKinds =
-    testing::Types<Triangle6, Quadrilateral8, Quadrilateral8Reduced, Quadrilateral9>;
-using QuadrilateralKinds = testing::Types<Quadrilateral4, Quadrilateral4Plain, Quadrilateral8,
-                                          Quadrilateral8Reduced, Quadrilateral9>;
-using QuadraticQuadrilateralKinds =
-    testing::Types<Quadrilateral8, Quadrilateral8Reduced, Quadrilateral9>;
+using QuadraticKinds = testing::Types<Triangle6, Quadrilateral8, Quadrilateral8Reduced, Quadrilateral9>;
+using QuadrilateralKinds = testing::Types<Quadrilateral4, Quadrilateral4Plain, Quadrilateral8, Quadrilateral8Reduced, Quadrilateral9>;
+using QuadraticQuadrilateralKinds = testing::Types<Quadrilateral8, Quadrilateral8Reduced, Quadrilateral9>;
 
 template <class E>
 inline constexpr bool triangular = E::nodes == 3 || E::nodes == 6;
@@ -41,18 +38,14 @@ struct Elastic {
   bool plane_strain = false;
   double shear() const { return E / (2 * (1 + nu)); }
   /// λ of σ = 2μ ε + λ tr ε 1 in the plane.
-  double lame() const {
-    return plane_strain ? E * nu / (1 + nu) / (1 - 2 * nu) : E * nu / (1 - nu * nu);
-  }
+  double lame() const { return plane_strain ? E * nu / (1 + nu) / (1 - 2 * nu) : E * nu / (1 - nu * nu); }
   Eigen::Matrix3d D() const {
     const double l = lame(), g = shear();
     Eigen::Matrix3d out;
     out << l + 2 * g, l, 0, l, l + 2 * g, 0, 0, 0, g;
     return out;
   }
-  Eigen::RowVector3d Dz() const {
-    return plane_strain ? Eigen::RowVector3d(lame(), lame(), 0) : Eigen::RowVector3d::Zero().eval();
-  }
+  Eigen::RowVector3d Dz() const { return plane_strain ? Eigen::RowVector3d(lame(), lame(), 0) : Eigen::RowVector3d::Zero().eval(); }
 };
 
 template <class E>
@@ -83,8 +76,7 @@ Mesh<E> refine(const std::vector<Point>& vertices, const std::vector<std::array<
   Mesh<E> mesh{vertices, {}};
   std::map<std::pair<int, int>, int> middles;
   const auto middle = [&](int a, int b) {
-    const auto [at, fresh] =
-        middles.try_emplace(std::minmax(a, b), static_cast<int>(mesh.nodes.size()));
+    const auto [at, fresh] = middles.try_emplace(std::minmax(a, b), static_cast<int>(mesh.nodes.size()));
     if (fresh) mesh.nodes.push_back((vertices[a] + vertices[b]) / 2);
     return at->second;
   };
@@ -92,13 +84,10 @@ Mesh<E> refine(const std::vector<Point>& vertices, const std::vector<std::array<
     std::array<int, E::nodes> cell{};
     for (int i = 0; i < corners<E>; ++i) cell[i] = corner[i];
     if constexpr (order<E> == 2)
-      for (int i = 0; i < corners<E>; ++i)
-        cell[corners<E> + i] = middle(corner[i], corner[(i + 1) % corners<E>]);
+      for (int i = 0; i < corners<E>; ++i) cell[corners<E> + i] = middle(corner[i], corner[(i + 1) % corners<E>]);
     if constexpr (E::nodes == 9) {
       cell[8] = static_cast<int>(mesh.nodes.size());
-      mesh.nodes.push_back(
-          (vertices[corner[0]] + vertices[corner[1]] + vertices[corner[2]] + vertices[corner[3]]) /
-          4);
+      mesh.nodes.push_back((vertices[corner[0]] + vertices[corner[1]] + vertices[corner[2]] + vertices[corner[3]]) / 4);
     }
     mesh.cells.push_back(cell);
   };
@@ -143,8 +132,7 @@ Eigen::SparseMatrix<double> assemble(const Mesh<E>& mesh, const E& e, const Verb
   for (const auto& cell : mesh.cells) {
     const Square<E> K = matrix(e, mesh.coords(cell));
     for (int i = 0; i < E::dofs; ++i)
-      for (int j = 0; j < E::dofs; ++j)
-        entries.emplace_back(2 * cell[i / 2] + i % 2, 2 * cell[j / 2] + j % 2, K(i, j));
+      for (int j = 0; j < E::dofs; ++j) entries.emplace_back(2 * cell[i / 2] + i % 2, 2 * cell[j / 2] + j % 2, K(i, j));
   }
   Eigen::SparseMatrix<double> out(mesh.dofs(), mesh.dofs());
   out.setFromTriplets(entries.begin(), entries.end());
@@ -164,8 +152,7 @@ using Held = std::map<int, double>;
 
 template <class E>
 Held hold(
-    const Mesh<E>& mesh, const std::function<bool(const Point&)>& where,
-    const Field& value = [](const Point&) { return Point(0, 0); }) {
+    const Mesh<E>& mesh, const std::function<bool(const Point&)>& where, const Field& value = [](const Point&) { return Point(0, 0); }) {
   Held held;
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
     if (where(mesh.nodes[i]))
@@ -183,8 +170,7 @@ inline Eigen::SparseMatrix<double> selection(Eigen::Index dofs, const Held& held
   return P;
 }
 
-inline Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& load,
-                             const Held& held) {
+inline Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& load, const Held& held) {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(K.rows());
   for (const auto& [freedom, value] : held) u[freedom] = value;
   const Eigen::SparseMatrix<double> P = selection(K.rows(), held);
@@ -194,8 +180,7 @@ inline Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& K, const Eigen::
 }
 
 /// The lowest eigenvalue of K φ = λ M φ, by inverse iteration.
-inline double lowest(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& M,
-                     const Held& held) {
+inline double lowest(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& M, const Held& held) {
   const Eigen::SparseMatrix<double> P = selection(K.rows(), held);
   const Eigen::SparseMatrix<double> k = P.transpose() * K * P, m = P.transpose() * M * P;
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(k);
@@ -225,8 +210,7 @@ Freedoms<E> gather(const std::array<int, E::nodes>& cell, const Eigen::VectorXd&
 /// square.
 template <class E>
 void for_quadrature(const std::function<void(const Point& xi, double weight)>& visit) {
-  const double a = std::sqrt(5 - 2 * std::sqrt(10.0 / 7)) / 3,
-               b = std::sqrt(5 + 2 * std::sqrt(10.0 / 7)) / 3;
+  const double a = std::sqrt(5 - 2 * std::sqrt(10.0 / 7)) / 3, b = std::sqrt(5 + 2 * std::sqrt(10.0 / 7)) / 3;
   const double wa = (322 + 13 * std::sqrt(70.0)) / 900, wb = (322 - 13 * std::sqrt(70.0)) / 900;
   const std::array<double, 5> at{-b, -a, 0, a, b}, w{wb, wa, 128.0 / 225, wa, wb};
   for (int i = 0; i < 5; ++i)
@@ -269,8 +253,7 @@ void for_points(const Mesh<E>& mesh, const E& e, Visit visit) {
 /// Sides of which both ends meet `where`: nodes in order, ends then middle, counter-clockwise about
 /// the cell.
 template <class E>
-std::vector<std::vector<int>> sides(const Mesh<E>& mesh,
-                                    const std::function<bool(const Point&)>& where) {
+std::vector<std::vector<int>> sides(const Mesh<E>& mesh, const std::function<bool(const Point&)>& where) {
   std::vector<std::vector<int>> out;
   for (const auto& cell : mesh.cells)
     for (int i = 0; i < corners<E>; ++i) {
@@ -284,16 +267,13 @@ std::vector<std::vector<int>> sides(const Mesh<E>& mesh,
 
 /// Adds what `load(side)` gives for each side.
 template <class E, class Load>
-Eigen::VectorXd side_loads(const Mesh<E>& mesh, const std::vector<std::vector<int>>& list,
-                           Load load) {
+Eigen::VectorXd side_loads(const Mesh<E>& mesh, const std::vector<std::vector<int>>& list, Load load) {
   Eigen::VectorXd f = Eigen::VectorXd::Zero(mesh.dofs());
   for (const auto& nodes : list) {
     Eigen::Matrix2Xd x(2, static_cast<Eigen::Index>(nodes.size()));
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      x.col(static_cast<Eigen::Index>(i)) = mesh.nodes[nodes[i]];
+    for (std::size_t i = 0; i < nodes.size(); ++i) x.col(static_cast<Eigen::Index>(i)) = mesh.nodes[nodes[i]];
     const Eigen::VectorXd share = load(x);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      f.segment<2>(2 * nodes[i]) += share.segment<2>(2 * static_cast<Eigen::Index>(i));
+    for (std::size_t i = 0; i < nodes.size(); ++i) f.segment<2>(2 * nodes[i]) += share.segment<2>(2 * static_cast<Eigen::Index>(i));
   }
   return f;
 }

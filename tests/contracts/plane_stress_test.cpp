@@ -23,9 +23,7 @@ TYPED_TEST_SUITE(PlaneStress, Kinds);
 template <class E>
 Mesh<E> turned_rectangle(double angle) {
   const Eigen::Rotation2Dd turn(angle);
-  return mapped(grid<E>(1, 1), [turn](const Point& x) -> Point {
-    return turn * Point(2 * x.x() - 1, x.y() - 0.5);
-  });
+  return mapped(grid<E>(1, 1), [turn](const Point& x) -> Point { return turn * Point(2 * x.x() - 1, x.y() - 0.5); });
 }
 
 // ---- stress of pure bending ---------------------------------------------------------------------
@@ -64,11 +62,8 @@ BendingError bending_error() {
     const Stress<E> s = stress(e, x, u);
     const auto at_points = stress_points(e, x);
     const auto at_nodes = nodal_stress(e, s);
-    for (int p = 0; p < E::points; ++p)
-      worst.points =
-          std::max(worst.points, (s.col(p) - bent_stress(at_points.col(p))).norm() / size);
-    for (int i = 0; i < E::nodes; ++i)
-      worst.nodes = std::max(worst.nodes, (at_nodes.col(i) - bent_stress(x.col(i))).norm() / size);
+    for (int p = 0; p < E::points; ++p) worst.points = std::max(worst.points, (s.col(p) - bent_stress(at_points.col(p))).norm() / size);
+    for (int i = 0; i < E::nodes; ++i) worst.nodes = std::max(worst.nodes, (at_nodes.col(i) - bent_stress(x.col(i))).norm() / size);
   }
   return worst;
 }
@@ -77,8 +72,7 @@ BendingError bending_error() {
 // incompatible modes, whose strain must be in the stress.
 template <class E>
 struct BendingStress : testing::Test {};
-using BendingKinds = testing::Types<Triangle6, Quadrilateral4, Quadrilateral8,
-                                    Quadrilateral8Reduced, Quadrilateral9>;
+using BendingKinds = testing::Types<Triangle6, Quadrilateral4, Quadrilateral8, Quadrilateral8Reduced, Quadrilateral9>;
 TYPED_TEST_SUITE(BendingStress, BendingKinds);
 
 TYPED_TEST(BendingStress, IsExactAtPointsAndNodesOfARectangle) {
@@ -87,22 +81,18 @@ TYPED_TEST(BendingStress, IsExactAtPointsAndNodesOfARectangle) {
   EXPECT_LT(worst.nodes, rounding);
 }
 
-TEST(Quadrilateral4Plain, ShowsShearInBendingWhereThereIsNone) {
-  EXPECT_GT(bending_error<Quadrilateral4Plain>().points, 0.3);
-}
+TEST(Quadrilateral4Plain, ShowsShearInBendingWhereThereIsNone) { EXPECT_GT(bending_error<Quadrilateral4Plain>().points, 0.3); }
 
 // ---- points and nodes ---------------------------------------------------------------------------
 
 TYPED_TEST(PlaneStress, PointsAreWhereTheShapesPutThem) {
-  const auto mesh = mapped(turned_rectangle<TypeParam>(0.2), [](const Point& x) -> Point {
-    return x + 0.05 * Point(x.y() * x.y(), x.x() * x.y());
-  });
+  const auto mesh =
+      mapped(turned_rectangle<TypeParam>(0.2), [](const Point& x) -> Point { return x + 0.05 * Point(x.y() * x.y(), x.x() * x.y()); });
   const TypeParam e;
   const auto x = mesh.coords(mesh.cells.front());
   const Eigen::Map<const Freedoms<TypeParam>> nodal(x.data());
   const auto xi = reference_points(e);
-  for (int p = 0; p < TypeParam::points; ++p)
-    EXPECT_LT((stress_points(e, x).col(p) - shape(e, x, xi.col(p)) * nodal).norm(), rounding);
+  for (int p = 0; p < TypeParam::points; ++p) EXPECT_LT((stress_points(e, x).col(p) - shape(e, x, xi.col(p)) * nodal).norm(), rounding);
 }
 
 // Where the nodes are in the reference cell: there one shape is 1 and the others 0.
@@ -112,16 +102,14 @@ Point reference_node(int i) {
     const std::array<Point, 6> at{Point{0, 0}, {1, 0}, {0, 1}, {.5, 0}, {.5, .5}, {0, .5}};
     return at[i];
   } else {
-    const std::array<Point, 9> at{Point{-1, -1}, {1, -1}, {1, 1},  {-1, 1}, {0, -1},
-                                  {1, 0},        {0, 1},  {-1, 0}, {0, 0}};
+    const std::array<Point, 9> at{Point{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}, {0, 0}};
     return at[i];
   }
 }
 
 TYPED_TEST(PlaneStress, ShapesAreOneAtTheirNodeAndZeroAtTheOthers) {
   for (int i = 0; i < TypeParam::nodes; ++i) {
-    const auto N =
-        shape(TypeParam{}, Coords<TypeParam>::Zero().eval(), reference_node<TypeParam>(i));
+    const auto N = shape(TypeParam{}, Coords<TypeParam>::Zero().eval(), reference_node<TypeParam>(i));
     for (int j = 0; j < TypeParam::nodes; ++j) EXPECT_EQ(N(0, 2 * j), i == j ? 1 : 0);
   }
 }
@@ -135,8 +123,7 @@ TYPED_TEST(PlaneStress, LinearFieldReachesTheNodesUnchanged) {
   Stress<TypeParam> s;
   for (int p = 0; p < TypeParam::points; ++p) s.col(p) = field(reference_points(e).col(p));
   const auto nodal = nodal_stress(e, s);
-  for (int i = 0; i < TypeParam::nodes; ++i)
-    EXPECT_LT((nodal.col(i) - field(reference_node<TypeParam>(i))).norm(), 10 * rounding);
+  for (int i = 0; i < TypeParam::nodes; ++i) EXPECT_LT((nodal.col(i) - field(reference_node<TypeParam>(i))).norm(), 10 * rounding);
 }
 
 // ξ² is 1/3 at the 2 × 2 Gauss points: what lies between them and the sides is not followed.
@@ -148,8 +135,7 @@ TYPED_TEST_SUITE(NinePoints, NinePointKinds);
 TYPED_TEST(NinePoints, NodesAreToldByTheFieldThroughFourGaussPoints) {
   const TypeParam e;
   Stress<TypeParam> s;
-  for (int p = 0; p < TypeParam::points; ++p)
-    s.col(p).setConstant(reference_points(e)(0, p) * reference_points(e)(0, p));
+  for (int p = 0; p < TypeParam::points; ++p) s.col(p).setConstant(reference_points(e)(0, p) * reference_points(e)(0, p));
   EXPECT_LT((nodal_stress(e, s).array() - 1.0 / 3).abs().maxCoeff(), rounding);
 }
 
@@ -174,9 +160,7 @@ TEST(VonMises, IsTheStressOfTensionAndRootThreeOfShear) {
   EXPECT_NEAR(von_mises({0, 0, 0, 7}), 7, rounding);
 }
 
-TEST(VonMises, IsZeroUnderPressureFromAllSides) {
-  EXPECT_EQ(von_mises({-1e9, -1e9, 0, -1e9}), 0);
-}
+TEST(VonMises, IsZeroUnderPressureFromAllSides) { EXPECT_EQ(von_mises({-1e9, -1e9, 0, -1e9}), 0); }
 
 TEST(Principal, AreEigenvaluesAndDirectionOfTheTensor) {
   for (double angle : {-1.5, -0.7, 0.0, 0.3, 1.2, 1.55}) {
@@ -200,9 +184,7 @@ struct Resultant {
   Point force{0, 0};
   double moment = 0;  ///< about the origin
 };
-double cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
+double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 Resultant resultant(const Eigen::Matrix2Xd& side, const Eigen::VectorXd& load) {
   Resultant out;
   for (Eigen::Index i = 0; i < side.cols(); ++i) {
@@ -236,8 +218,7 @@ TEST(SideLoad, HasResultantAndMomentOfTheTractionOnAParabola) {
     const Parabola parabola{0.8, rise, 0.7, {3, -2}};
     const Point traction(5, -2);
     const double thickness = 0.1;
-    const Resultant found =
-        resultant(parabola.side(), side_load(parabola.side(), traction, thickness));
+    const Resultant found = resultant(parabola.side(), side_load(parabola.side(), traction, thickness));
     const auto [length, second] = std::pair(parabola.lengths()[0], parabola.lengths()[1]);
     const Point first = parabola.place({0, rise * (1 - second / length)}) * length;
     EXPECT_LT((found.force - thickness * length * traction).norm(), 1e-11) << rise;
@@ -279,12 +260,9 @@ TYPED_TEST(PlaneStress, PressureOnAClosedOutlineBalancesAndWorksOnTheVolume) {
                   const Point a = mesh.nodes[side[0]], b = mesh.nodes[side[1]];
                   return std::min(std::abs(a.x() - b.x()), std::abs(a.y() - b.y())) > 1e-9;
                 });
-  mesh = mapped(mesh, [](const Point& x) -> Point {
-    return x + 0.1 * Point(std::sin(3 * x.y() + 1), x.x() * x.x() - x.x() * x.y());
-  });
+  mesh = mapped(mesh, [](const Point& x) -> Point { return x + 0.1 * Point(std::sin(3 * x.y() + 1), x.x() * x.x() - x.x() * x.y()); });
   const double pressure = 4, thickness = 0.2;
-  const Eigen::VectorXd f = side_loads(
-      mesh, list, [&](const Eigen::Matrix2Xd& x) { return side_pressure(x, pressure, thickness); });
+  const Eigen::VectorXd f = side_loads(mesh, list, [&](const Eigen::Matrix2Xd& x) { return side_pressure(x, pressure, thickness); });
   Resultant sum;
   double work = 0, volume = 0;
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {

@@ -32,8 +32,7 @@ inline Eigen::Vector3d port_motion(const SampleBody& body, int port, const Eigen
   if (static_cast<std::size_t>(port) < nodes) {
     const auto node = static_cast<std::size_t>(body.port_nodes[static_cast<std::size_t>(port)]);
     Eigen::Vector3d motion = Eigen::Vector3d::Zero();
-    motion.head(begin[node + 1] - begin[node]) =
-        u.segment(begin[node], begin[node + 1] - begin[node]);
+    motion.head(begin[node + 1] - begin[node]) = u.segment(begin[node], begin[node + 1] - begin[node]);
     return motion;
   }
   const RimPort& rim = body.rims[static_cast<std::size_t>(port) - nodes];
@@ -65,12 +64,9 @@ inline SampleBody on_nodes(FeModel model, int a, int b) {
 }
 
 /// Steel strip of 10 mm × 4 mm.
-inline BeamEuler euler_strip(double rotary = 0) {
-  return {2e11 * 4e-5, 2e11 * 3.2e-10 / 6, 7800 * 4e-5, rotary * 7800 * 3.2e-10 / 6};
-}
+inline BeamEuler euler_strip(double rotary = 0) { return {2e11 * 4e-5, 2e11 * 3.2e-10 / 6, 7800 * 4e-5, rotary * 7800 * 3.2e-10 / 6}; }
 
-inline SampleBody euler_beam(int elements = 10, const Eigen::Vector2d& from = {0.1, -0.2},
-                             const Eigen::Vector2d& to = {0.5, 0.1}) {
+inline SampleBody euler_beam(int elements = 10, const Eigen::Vector2d& from = {0.1, -0.2}, const Eigen::Vector2d& to = {0.5, 0.1}) {
   return on_nodes(chain(euler_strip(), elements, from, to), 0, elements);
 }
 
@@ -80,8 +76,7 @@ inline SampleBody timoshenko_bracket() {
   Eigen::Matrix2Xd x(2, 2 * leg + 1);
   Block<BeamTimoshenko> block{{{8e7, 1.6e4, 2.5e7, 3.1, 6e-4}}, {}, {}};
   for (int i = 0; i <= 2 * leg; ++i)
-    x.col(i) = i <= leg ? Eigen::Vector2d(0.06 * i, 0.02 * i)
-                        : Eigen::Vector2d(0.3 - 0.03 * (i - leg), 0.1 + 0.05 * (i - leg));
+    x.col(i) = i <= leg ? Eigen::Vector2d(0.06 * i, 0.02 * i) : Eigen::Vector2d(0.3 - 0.03 * (i - leg), 0.1 + 0.05 * (i - leg));
   for (int i = 0; i < 2 * leg; ++i) {
     block.nodes.insert(block.nodes.end(), {i, i + 1});
     block.cells.push_back(i);
@@ -109,8 +104,7 @@ inline SampleBody plate_on_edges(Coupling coupling) {
 /// Ports at nodes of plane elements: they have no rotation.
 inline SampleBody plate_on_nodes() {
   const Plate p = plate(4, 2, CellShape::triangle6, bent_rectangle(0.2, 0.05));
-  return on_nodes(model_of(p, steel(PlaneState::strain)), p.nodes.at("left")[1],
-                  p.nodes.at("right")[2]);
+  return on_nodes(model_of(p, steel(PlaneState::strain)), p.nodes.at("left")[1], p.nodes.at("right")[2]);
 }
 
 /// Nodal matrices, and fields in nodal freedoms as the test makes them from the nodes.

@@ -25,14 +25,9 @@ struct Case {
 
 // A link on a hinge with a damper, under gravity and a torque; angle from +x. By an ODE of our own.
 namespace link {
-constexpr double m = 1.3, J = 0.04, arm = 0.3, g = 9.81, c = 0.05, torque = 0.6, theta0 = 0.4,
-                 w0 = 3;
-inline double acceleration(double theta, double w) {
-  return (torque - c * w - m * g * arm * std::cos(theta)) / (J + m * arm * arm);
-}
-inline VectorXd seen(const VectorXd& y, const Equations& eq) {
-  return (VectorXd(6) << y[2], y[5], eq.lambda, y[6], y[7]).finished();
-}
+constexpr double m = 1.3, J = 0.04, arm = 0.3, g = 9.81, c = 0.05, torque = 0.6, theta0 = 0.4, w0 = 3;
+inline double acceleration(double theta, double w) { return (torque - c * w - m * g * arm * std::cos(theta)) / (J + m * arm * arm); }
+inline VectorXd seen(const VectorXd& y, const Equations& eq) { return (VectorXd(6) << y[2], y[5], eq.lambda, y[6], y[7]).finished(); }
 inline VectorXd truth(double t) {
   const auto f = [](const pintle_oracle::Vec<4>& y, pintle_oracle::Vec<4>& dy) {
     dy = {y[1], acceleration(y[0], y[1]), c * y[1] * y[1], torque * y[1]};
@@ -69,9 +64,7 @@ inline pintle_oracle::Params params() {
   p.start_angle = 0.6;
   return p;
 }
-inline VectorXd seen(const VectorXd& y, const Equations& eq) {
-  return (VectorXd(4) << y[2], y[11], eq.lambda[4], eq.lambda[5]).finished();
-}
+inline VectorXd seen(const VectorXd& y, const Equations& eq) { return (VectorXd(4) << y[2], y[11], eq.lambda[4], eq.lambda[5]).finished(); }
 inline VectorXd truth(double t) {
   const auto i = pintle_oracle::ideal_at(params(), t, 1e-14);
   // λ of the gudgeon pin is the slider's force on the coupler.
@@ -82,21 +75,19 @@ inline Case make() {
   const auto now = pintle_oracle::evaluate_ideal(p, p.start_angle, p.speed);
   Case k{{}, {}, seen, truth};
   k.system.gravity = {0, -p.gravity};
-  k.system.bodies = {{"crank", p.crank_mass, p.crank_inertia},
-                     {"coupler", p.coupler_mass, p.coupler_inertia},
-                     {"slider", p.slider_mass, 1e-4}};
+  k.system.bodies = {
+      {"crank", p.crank_mass, p.crank_inertia}, {"coupler", p.coupler_mass, p.coupler_inertia}, {"slider", p.slider_mass, 1e-4}};
   const double half1 = p.crank / 2, half2 = p.coupler / 2;
   k.system.markers = {{ground, {0, 0}, 0}, {0, {-half1, 0}, 0}, {0, {half1, 0}, 0},
                       {1, {-half2, 0}, 0}, {1, {half2, 0}, 0},  {2, {0, 0}, 0}};
   k.system.joints = {Revolute{0, 1}, Revolute{2, 3}, Revolute{4, 5}, Prismatic{0, 5, 0}};
   k.system.length = p.coupler;
   number(k.system);
-  const Vector2d u(std::cos(p.start_angle), std::sin(p.start_angle)),
-      v(std::cos(now.phi), std::sin(now.phi));
+  const Vector2d u(std::cos(p.start_angle), std::sin(p.start_angle)), v(std::cos(now.phi), std::sin(now.phi));
   k.start.y.setZero(k.system.n_y());
   k.start.y.head<9>() << half1 * u, p.start_angle, p.crank * u + half2 * v, now.phi, now.x, 0, 0;
-  k.start.y.segment<9>(9) << half1 * p.speed * perp(u), p.speed,
-      p.crank * p.speed * perp(u) + half2 * now.phi_rate * perp(v), now.phi_rate, now.x_rate, 0, 0;
+  k.start.y.segment<9>(9) << half1 * p.speed * perp(u), p.speed, p.crank * p.speed * perp(u) + half2 * now.phi_rate * perp(v), now.phi_rate,
+      now.x_rate, 0, 0;
   return k;
 }
 }  // namespace crank

@@ -86,8 +86,9 @@ std::vector<double> left_of_order(const Coefficients& k, const VectorXd& w, int 
         return;
       }
       for (std::size_t i = first; i < smaller.size() && root.nodes + smaller[i].nodes <= p; ++i)
-        self(self, i, Tree{root.nodes + smaller[i].nodes, root.density * smaller[i].density,
-                           root.weight * (k.A * smaller[i].weight.matrix()).array()});
+        self(self, i,
+             Tree{root.nodes + smaller[i].nodes, root.density * smaller[i].density,
+                  root.weight * (k.A * smaller[i].weight.matrix()).array()});
     };
     grow(grow, 0, {1, 1.0, Eigen::ArrayXd::Ones(k.c.size())});
   }
@@ -133,8 +134,7 @@ TEST_P(TableauContract, IfItClosesTheLastStageIsTheEnd) {
 // ---- schemes ----------------------------------------------------------------------------------
 
 void expect_order(double order, const std::vector<double>& h, const std::vector<double>& error) {
-  EXPECT_GT(slope(h, error), order - order_slack)
-      << "errors from " << error.front() << " to " << error.back();
+  EXPECT_GT(slope(h, error), order - order_slack) << "errors from " << error.front() << " to " << error.back();
 }
 class SchemeContract : public testing::TestWithParam<std::tuple<Tableau, Constraints>> {
  protected:
@@ -235,7 +235,8 @@ TEST_P(QuarticInsideSteps, HasFifthOrder) {
   }
   expect_order(5, h, error);
 }
-INSTANTIATE_TEST_SUITE_P(Each, QuarticInsideSteps, testing::Values("dopri5", "rkf45"), [](const auto& each) { return std::string(each.param); });
+INSTANTIATE_TEST_SUITE_P(Each, QuarticInsideSteps, testing::Values("dopri5", "rkf45"),
+                         [](const auto& each) { return std::string(each.param); });
 
 // The cubic through the powers at both ends alone errs by a hundred times as much inside as at the ends, and more at finer tolerances.
 TEST_P(LedgerInsideSteps, ErrsNoMoreThanAtTheirEnds) {
@@ -357,8 +358,7 @@ TEST_P(SchemeContract, ConservativeRunReverses) {
 }
 
 const auto all = testing::ValuesIn(tableaus().begin(), tableaus().end());
-INSTANTIATE_TEST_SUITE_P(Each, TableauContract, all,
-                         [](const auto& each) { return std::string(each.param.name); });
+INSTANTIATE_TEST_SUITE_P(Each, TableauContract, all, [](const auto& each) { return std::string(each.param.name); });
 const auto both = testing::Values(Constraints::projection, Constraints::partitioning);
 INSTANTIATE_TEST_SUITE_P(Each, SchemeContract, testing::Combine(all, both), [](const auto& each) {
   const bool projection = std::get<1>(each.param) == Constraints::projection;

@@ -16,14 +16,10 @@ using namespace pintle;
 
 const char* word(End e) {
   switch (e) {
-    case End::finished:
-      return "finished";
-    case End::warned:
-      return "warned";
-    case End::stopped:
-      return "stopped";
-    case End::rejected:
-      return "refused";
+    case End::finished: return "finished";
+    case End::warned: return "warned";
+    case End::stopped: return "stopped";
+    case End::rejected: return "refused";
   }
   return "";
 }

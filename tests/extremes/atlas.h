@@ -20,7 +20,7 @@ enum class End {
   finished,  ///< Status::finished and no warning
   warned,    ///< Status::finished, with a warning
   stopped,   ///< any other Status, with a reason
-  rejected    ///< a SceneError or AssemblyError, before the run
+  rejected   ///< a SceneError or AssemblyError, before the run
 };
 const char* word(End);
 

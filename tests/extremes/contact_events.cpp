@@ -109,8 +109,8 @@ Finding strike_at_once(int n, bool one_bar) {
   if (a.run->impacts.size() != static_cast<std::size_t>(n)) return count_wrong(a, static_cast<std::size_t>(n));
   double wrong = 0;
   for (const pintle::Impact& i : a.run->impacts)
-    wrong = std::max({wrong, off(i.begin, c / 0.1), off(i.separation, 0.1 * po::restitution(b.chi)),
-                      off(i.end - i.begin, po::duration(b)), off(i.deepest, po::deepest(b)), off(i.lost, po::loss(b))});
+    wrong = std::max({wrong, off(i.begin, c / 0.1), off(i.separation, 0.1 * po::restitution(b.chi)), off(i.end - i.begin, po::duration(b)),
+                      off(i.deepest, po::deepest(b)), off(i.lost, po::loss(b))});
   if (one_bar) wrong = std::max(wrong, std::abs(a.last("bar.angle")) * 1e3);
   return measured(a, wrong, 1e-6);
 }
@@ -181,12 +181,11 @@ Finding ends_near(double offset, bool onset) {
   constexpr double v = 0.25, gap = 0x1p-10;  // binary: it strikes at 2⁻⁸ s to the last bit
   const po::Bounce b{.mass = m, .speed = v, .stiffness = K};
   const double event = gap / v + (onset ? 0 : po::duration(b)), until = event + offset;
-  const Attempt a = attempt(text(Puck{
-      .clearance = gap, .law = elastic, .velocity = {v, 0}, .until = until, .every = onset ? event / 4 : until, .tolerance = 1e-12}));
+  const Attempt a = attempt(text(
+      Puck{.clearance = gap, .law = elastic, .velocity = {v, 0}, .until = until, .every = onset ? event / 4 : until, .tolerance = 1e-12}));
   if (!a.whole()) return ended(a);
   const double place = onset ? until * v : gap - offset * v;
-  double wrong =
-      std::max({std::abs(a.last("bush.ex") - place) / gap, std::abs(a.last("puck.vx") - (onset ? v : -v)) / v, a.open_books()});
+  double wrong = std::max({std::abs(a.last("bush.ex") - place) / gap, std::abs(a.last("puck.vx") - (onset ? v : -v)) / v, a.open_books()});
   return measured(a, wrong, 1e-8);
 }
 
@@ -201,8 +200,7 @@ Finding outputs_at_onset() {
   if (fine.run->impacts.size() != 1 || coarse.run->impacts.size() != 1) return count_wrong(fine, 1);
   const pintle::Impact &i = fine.run->impacts[0], &j = coarse.run->impacts[0];
   return worst(
-      {measured(fine, std::max({off(i.begin, j.begin), off(i.end, j.end), off(i.separation, j.separation), off(i.deepest, j.deepest)}),
-                0),
+      {measured(fine, std::max({off(i.begin, j.begin), off(i.end, j.end), off(i.separation, j.separation), off(i.deepest, j.deepest)}), 0),
        measured(fine, off(i.begin, 0x1p-8), 1e-12)});
 }
 

@@ -174,8 +174,12 @@ Axis deep_start() {
       axis.cases.push_back({.value = d,
                             .label = printed("%g m", d),
                             .what = loss ? "with loss" : "without loss",
-                            .end = d > 0.9e-3 ? End::rejected : d < 1e-15 ? End::warned : End::finished,  // warned: a hundredth of the depth is rounding
-                            .says = d > 0.9e-3 ? "tenth of its radius" : d < 1e-15 ? "rounding alone may leave" : "",
+                            .end = d > 0.9e-3  ? End::rejected
+                                   : d < 1e-15 ? End::warned
+                                               : End::finished,  // warned: a hundredth of the depth is rounding
+                            .says = d > 0.9e-3  ? "tenth of its radius"
+                                    : d < 1e-15 ? "rounding alone may leave"
+                                                : "",
                             .run = [=] { return from_within(d, loss); }});
   return axis;
 }
@@ -191,13 +195,8 @@ Finding from_wall(double offset, Going going) {
   const double inside = std::max(offset, 0.0), stored = K * std::pow(inside, 2.5) / 2.5;
   const Pair start{-(gap + offset), 0};
   if (going == Going::along) {
-    const Attempt a = attempt(text(Puck{.clearance = gap,
-                                        .bearing_radius = bearing,
-                                        .law = elastic,
-                                        .at = start,
-                                        .velocity = {0, v},
-                                        .until = 0.05,
-                                        .tolerance = 1e-12}));
+    const Attempt a = attempt(text(Puck{
+        .clearance = gap, .bearing_radius = bearing, .law = elastic, .at = start, .velocity = {0, v}, .until = 0.05, .tolerance = 1e-12}));
     if (!a.whole()) return ended(a);
     const double r0 = gap + offset;
     double low = inside, high = gap;  // v² (1 − r0²/r²) m/2 + stored = K δ^2.5/2.5 at the deepest
@@ -253,8 +252,9 @@ Axis start_at_the_wall() {
       {}};
   for (const double offset : {-1e-9, -1e-15, 0.0, 1e-15, 1e-9, 1e-6})
     for (const auto& [going, what] : {std::pair{Going::into, "into"}, std::pair{Going::away, "away"}, std::pair{Going::along, "along"}})
-      axis.cases.push_back(
-          {.value = offset, .label = printed("%g m", offset), .what = what, .run = [=, going = going] { return from_wall(offset, going); }});
+      axis.cases.push_back({.value = offset, .label = printed("%g m", offset), .what = what, .run = [=, going = going] {
+                              return from_wall(offset, going);
+                            }});
   for (const double P : {1e-9, 1e-3, 1.0, 1e3})
     axis.cases.push_back({.value = 0, .label = "0 m", .what = printed("laid, %g N", P), .run = [=] { return laid_on_wall(P); }});
   return axis;

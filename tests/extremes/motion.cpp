@@ -50,10 +50,32 @@ double off_the_pendulum(const Attempt& a, const Rod& r) {
 }
 
 Atlas axes_of_motion() {
-  return {rigid_speed(),    clearance_speed(), blade_speed(),  start_spin(),     turns(),          mass_ratio(),    inertia_ratio(),
-          driven_mass_ratio(), light_on_stiff_spring(), chain_links(), many_clearances(), slenderness(), poisson_ratio(), modes_kept(),
-          part_stiffness(), modal_damping(),   damping(),      step_asked(),     tolerance_axis(), gravity_axis(),  run_length(),
-          output_interval(), units(),          flat_starts(),  dead_centres(),   assembly_limit()};
+  return {rigid_speed(),
+          clearance_speed(),
+          blade_speed(),
+          start_spin(),
+          turns(),
+          mass_ratio(),
+          inertia_ratio(),
+          driven_mass_ratio(),
+          light_on_stiff_spring(),
+          chain_links(),
+          many_clearances(),
+          slenderness(),
+          poisson_ratio(),
+          modes_kept(),
+          part_stiffness(),
+          modal_damping(),
+          damping(),
+          step_asked(),
+          tolerance_axis(),
+          gravity_axis(),
+          run_length(),
+          output_interval(),
+          units(),
+          flat_starts(),
+          dead_centres(),
+          assembly_limit()};
 }
 
 }  // namespace extremes

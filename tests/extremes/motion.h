@@ -16,9 +16,9 @@ Case past(double value, const std::string& label, const std::string& what, End e
 
 /// A rigid rod of 1 kg, its pin at the world's origin 1 m from its mass centre.
 struct Rod {
-  double gravity = 9.81, inertia = 0.01;    ///< along −y [m/s²]; about the mass centre [kg m²]
-  double angle = 0, speed = 0;              ///< at the start, from the x axis [rad, rad/s]
-  double until = 2, every = 0;              ///< [s]; 0: a tenth of the run
+  double gravity = 9.81, inertia = 0.01;                       ///< along −y [m/s²]; about the mass centre [kg m²]
+  double angle = 0, speed = 0;                                 ///< at the start, from the x axis [rad, rad/s]
+  double until = 2, every = 0;                                 ///< [s]; 0: a tenth of the run
   std::string tolerance = "1e-8", method = "auto", more = {};  ///< more: of `run`, from a comma on
 };
 std::string text(const Rod&);

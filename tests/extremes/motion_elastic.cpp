@@ -85,11 +85,16 @@ Finding deflection_of(Cantilever c, double bound) {
 }  // namespace
 
 Axis slenderness() {
-  Axis axis{"slenderness", "A clamped beam of 20 elements, length over height of its section; along x, or askew.",
-            "its first frequency against Euler's closed form, and in a run its deflection under a force that rises slowly against F L³/3EI; relative.",
-            "1e-6 for Euler's beam, and Timoshenko's what shear and rotary inertia take, 4 (h/L)²; of the run 1e-4, what a slow rise leaves; to both "
-            "what rounding of the stretch leaves of bending, ten times 20 EA L²/3EI units in the last place, of a frequency along x none. Past 1e5 what is found "
-            "differs between processors: a frequency within 1 %, which is what the residual may be, or a refusal.", {}};
+  Axis axis{"slenderness",
+            "A clamped beam of 20 elements, length over height of its section; along x, or askew.",
+            "its first frequency against Euler's closed form, and in a run its deflection under a force that rises slowly against F "
+            "L³/3EI; relative.",
+            "1e-6 for Euler's beam, and Timoshenko's what shear and rotary inertia take, 4 (h/L)²; of the run 1e-4, what a slow rise "
+            "leaves; to both "
+            "what rounding of the stretch leaves of bending, ten times 20 EA L²/3EI units in the last place, of a frequency along x none. "
+            "Past 1e5 what is found "
+            "differs between processors: a frequency within 1 %, which is what the residual may be, or a refusal.",
+            {}};
   const std::string unheld = "more than ten thousand times as long as thick";
   const auto rounding = [](double s) { return 10 * 20 * std::numeric_limits<double>::epsilon() * 4 * s * s; };
   const auto add = [&](double s, const char* what, auto run) {
@@ -102,16 +107,22 @@ Axis slenderness() {
     add(s, "Timoshenko", [s] { return frequency_of({.height = 1 / s, .theory = "timoshenko"}, s > 1e5 ? 1e-2 : 4 / (s * s) + 1e-6); });
   }
   for (const double s : {1e1, 1e2, 1e3, 1e4})
-    add(s, "Euler, askew", [=] { return frequency_of({.end = "[0.6, 0.8]", .height = 1 / s, .theory = "euler, rotary inertia: false"}, 1e-6 + rounding(s)); });
-  axis.cases.push_back({1e5, "1e+05", "Euler, askew", End::rejected, unheld, [] { return frequency_of({.end = "[0.6, 0.8]", .height = 1e-5}, 1); }});
+    add(s, "Euler, askew",
+        [=] { return frequency_of({.end = "[0.6, 0.8]", .height = 1 / s, .theory = "euler, rotary inertia: false"}, 1e-6 + rounding(s)); });
+  axis.cases.push_back(
+      {1e5, "1e+05", "Euler, askew", End::rejected, unheld, [] { return frequency_of({.end = "[0.6, 0.8]", .height = 1e-5}, 1); }});
   for (const double s : {1e2, 1e4, 1e5, 1e6}) add(s, "run", [=] { return deflection_of({.height = 1 / s}, 1e-4 + rounding(s)); });
   return axis;
 }
 
 Axis poisson_ratio() {
-  Axis axis{"Poisson's ratio, plane strain", "A link of 1 m, 0.1 m high, clamped, its end pulled across, of 40 × 4 cells; an element that locks says so.",
-            "deflection of the end against beam theory, E/(1 − ν²) and shear; relative.", "3 %: the clamped end is no beam; of what locks, that it is not softer.", {}};
-  for (const char* element : {"quadrilateral4", "quadrilateral8", "quadrilateral8-reduced", "quadrilateral9", "triangle6", "quadrilateral4-plain", "triangle3"})
+  Axis axis{"Poisson's ratio, plane strain",
+            "A link of 1 m, 0.1 m high, clamped, its end pulled across, of 40 × 4 cells; an element that locks says so.",
+            "deflection of the end against beam theory, E/(1 − ν²) and shear; relative.",
+            "3 %: the clamped end is no beam; of what locks, that it is not softer.",
+            {}};
+  for (const char* element :
+       {"quadrilateral4", "quadrilateral8", "quadrilateral8-reduced", "quadrilateral9", "triangle6", "quadrilateral4-plain", "triangle3"})
     for (const double nu : {0.3, 0.49, 0.4999, 0.499999}) {
       const bool locks = std::string(element) == "quadrilateral4-plain" || std::string(element) == "triangle3";
       if (locks && nu < 0.4) continue;  // there it does not, but bends too little all the same
@@ -141,27 +152,32 @@ run: {until: 1}
 }
 
 Axis modes_kept() {
-  Axis axis{"modes kept", "A clamped beam of 20 elements in a mechanism, its end pushed by a force that rises slowly.",
+  Axis axis{"modes kept",
+            "A clamped beam of 20 elements in a mechanism, its end pushed by a force that rises slowly.",
             "deflection against F L³/3EI, which the static shapes hold alone and all natural modes together; the energy books.",
-            "1e-4, what a slow rise leaves; of books 1e-3.", {}};
+            "1e-4, what a slow rise leaves; of books 1e-3.",
+            {}};
   for (const int n : {0, 1, 5, 57})
-    axis.cases.push_back({static_cast<double>(n), std::to_string(n), "beside the static shapes", End::finished, "", [n] {
-                            return deflection_of({.modes = "{frame: {tangent: A}, craig-bampton: {count: " + std::to_string(n) + "}}"}, 1e-4);
-                          }});
-  axis.cases.push_back({60, "all", "natural", End::finished, "", [] { return deflection_of({.modes = "{frame: {tangent: A}, keep: all}"}, 1e-4); }});
-  axis.cases.push_back({60, "all", "beside the static shapes", End::finished, "", [] {
-                          return deflection_of({.modes = "{frame: {tangent: A}, craig-bampton: {keep: all}}"}, 1e-4);
-                        }});
+    axis.cases.push_back(
+        {static_cast<double>(n), std::to_string(n), "beside the static shapes", End::finished, "",
+         [n] { return deflection_of({.modes = "{frame: {tangent: A}, craig-bampton: {count: " + std::to_string(n) + "}}"}, 1e-4); }});
+  axis.cases.push_back(
+      {60, "all", "natural", End::finished, "", [] { return deflection_of({.modes = "{frame: {tangent: A}, keep: all}"}, 1e-4); }});
+  axis.cases.push_back({60, "all", "beside the static shapes", End::finished, "",
+                        [] { return deflection_of({.modes = "{frame: {tangent: A}, craig-bampton: {keep: all}}"}, 1e-4); }});
   axis.cases.push_back(past(0, "0", "natural", End::rejected, "at least 1", text(Cantilever{.modes = "{frame: {tangent: A}, count: 0}"})));
-  axis.cases.push_back(past(1000, "1000", "natural", End::rejected, "ask for no more than these", text(Cantilever{.modes = "{frame: {tangent: A}, count: 1000}"})));
+  axis.cases.push_back(past(1000, "1000", "natural", End::rejected, "ask for no more than these",
+                            text(Cantilever{.modes = "{frame: {tangent: A}, count: 1000}"})));
   axis.cases.push_back(past(0, "0", "below 1e-3 Hz", End::rejected, "", text(Cantilever{.modes = "{frame: mean axes, below: 1e-3 Hz}"})));
   return axis;
 }
 
 Axis part_stiffness() {
-  Axis axis{"stiffness of a part", "The slider-crank of the paper driven at 150 rad/s, its coupler a damped beam of so much Young's modulus; `method: auto`.",
+  Axis axis{"stiffness of a part",
+            "The slider-crank of the paper driven at 150 rad/s, its coupler a damped beam of so much Young's modulus; `method: auto`.",
             "place of the slider at all times against the rigid closed form, over the crank; of what bends far, the energy books.",
-            "2e-5 from 1e12 Pa on: what generalised-alpha errs by, and the pull in a coupler of 1e12 Pa; of books 1e-3.", {}};
+            "2e-5 from 1e12 Pa on: what generalised-alpha errs by, and the pull in a coupler of 1e12 Pa; of books 1e-3.",
+            {}};
   const auto scene = [](double E, const std::string& damping, const std::string& more) {
     return with(R"(bodies:
   crank: {rigid: {mass: 0.3, inertia: 1e-4}, points: {A: [50 mm, 0]}}
@@ -184,10 +200,11 @@ output: {every: 0.5 ms}
   };
   const std::string damped = "damping: {ratios: 0.01}";
   for (const double E : {1e5, 1e7, 1e9})
-    axis.cases.push_back({E, printed("%g Pa", E), "", E <= 1e7 ? End::stopped : End::warned, "within one frame, where deformation is taken as small", [=] {
-                            const Attempt a = attempt(scene(E, damped, ""));
-                            return a.whole() ? measured(a, a.open_books(), 1e-3) : ended(a);
-                          }});
+    axis.cases.push_back(
+        {E, printed("%g Pa", E), "", E <= 1e7 ? End::stopped : End::warned, "within one frame, where deformation is taken as small", [=] {
+           const Attempt a = attempt(scene(E, damped, ""));
+           return a.whole() ? measured(a, a.open_books(), 1e-3) : ended(a);
+         }});
   for (const double E : {1e11, 1e12, 1e14, 1e16, 1e18, 1e20})
     axis.cases.push_back({E, printed("%g Pa", E), "", End::finished, "", [=] {
                             const Attempt a = attempt(scene(E, damped, ""));
@@ -200,14 +217,17 @@ output: {every: 0.5 ms}
                             }
                             return measured(a, off, 2e-5 * std::max(1.0, 1e12 / E));
                           }});
-  axis.cases.push_back(past(1e18, "1e+18 Pa", "undamped", End::stopped, "max steps reached", scene(1e18, "damping: {ratios: 0}", ", max steps: 20000")));
+  axis.cases.push_back(
+      past(1e18, "1e+18 Pa", "undamped", End::stopped, "max steps reached", scene(1e18, "damping: {ratios: 0}", ", max steps: 20000")));
   return axis;
 }
 
 Axis modal_damping() {
-  Axis axis{"damping of a shape", "A clamped beam with its first shape alone, a force put on its end at once.",
+  Axis axis{"damping of a shape",
+            "A clamped beam with its first shape alone, a force put on its end at once.",
             "the end's motion against the damped oscillator's closed form, over its static deflection.",
-            "1e-4: twenty elements, and a local error of 1e-8 summed over ten periods.", {}};
+            "1e-4: twenty elements, and a local error of 1e-8 summed over ten periods.",
+            {}};
   for (const double zeta : {0.0, 1e-3, 0.5, 1.0, 2.0, 1e2, 1e4, 1e6})
     axis.cases.push_back({zeta, printed("%g", zeta), "", zeta > 1 ? End::warned : End::finished, zeta > 1 ? "over-critical" : "", [zeta] {
                             Cantilever c{.modes = "{frame: {tangent: A}, count: 1}", .damping = "", .law = "0.1"};
@@ -236,8 +256,10 @@ Axis modal_damping() {
                             }
                             return measured(a, off, 1e-4);
                           }});
-  axis.cases.push_back(past(1.5, "1.5", "as a ratio", End::rejected, "must lie between 0 and 1", text(Cantilever{.damping = "{ratios: 1.5}"})));
-  axis.cases.push_back(past(-0.1, "-0.1", "as a ratio", End::rejected, "must lie between 0 and 1", text(Cantilever{.damping = "{ratios: -0.1}"})));
+  axis.cases.push_back(
+      past(1.5, "1.5", "as a ratio", End::rejected, "must lie between 0 and 1", text(Cantilever{.damping = "{ratios: 1.5}"})));
+  axis.cases.push_back(
+      past(-0.1, "-0.1", "as a ratio", End::rejected, "must lie between 0 and 1", text(Cantilever{.damping = "{ratios: -0.1}"})));
   return axis;
 }
 

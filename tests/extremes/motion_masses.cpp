@@ -42,21 +42,27 @@ Finding as_minimal_coordinates(double m, const std::string& method, double bound
 }  // namespace
 
 Axis mass_ratio() {
-  Axis axis{"mass ratio", "Two rods in a chain, released level in gravity; mass of the second over that of the first.",
+  Axis axis{"mass ratio",
+            "Two rods in a chain, released level in gravity; mass of the second over that of the first.",
             "both angles after 1 s against minimal coordinates [rad].",
-            "a hundred times the tolerance of 1e-8; of generalised-alpha what its own error is, 1e-4.", {}};
+            "a hundred times the tolerance of 1e-8; of generalised-alpha what its own error is, 1e-4.",
+            {}};
   for (const double m : {1e-30, 1e-12, 1e-8, 1e-4, 1.0, 1e4, 1e8})
     axis.cases.push_back({m, printed("%g", m), "", End::finished, "", [m] { return as_minimal_coordinates(m, "auto", 1e-6); }});
   for (const double m : {1e12, 1e30})
-    axis.cases.push_back({m, printed("%g", m), "generalized-alpha", End::finished, "", [m] { return as_minimal_coordinates(m, "generalized-alpha", 1e-4); }});
+    axis.cases.push_back({m, printed("%g", m), "generalized-alpha", End::finished, "",
+                          [m] { return as_minimal_coordinates(m, "generalized-alpha", 1e-4); }});
   for (const double m : {1e12, 1e16, 1e30})
     axis.cases.push_back(past(m, printed("%g", m), "", End::stopped, "take method: generalized-alpha", double_pendulum(m, "auto")));
   return axis;
 }
 
 Axis inertia_ratio() {
-  Axis axis{"inertia over mass times distance squared", "A pendulum whose mass is nearly a point: its inertia about the mass centre over m l².",
-            "angles against Jacobi's elliptic functions [rad].", "a hundred times the tolerance of 1e-8; of generalised-alpha 1e-4.", {}};
+  Axis axis{"inertia over mass times distance squared",
+            "A pendulum whose mass is nearly a point: its inertia about the mass centre over m l².",
+            "angles against Jacobi's elliptic functions [rad].",
+            "a hundred times the tolerance of 1e-8; of generalised-alpha 1e-4.",
+            {}};
   for (const double j : {1e2, 1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12})
     axis.cases.push_back({j, printed("%g", j), "", End::finished, "", [j] {
                             const Rod rod{.inertia = j};
@@ -75,8 +81,11 @@ Axis inertia_ratio() {
 }
 
 Axis driven_mass_ratio() {
-  Axis axis{"mass ratio, in a loop", "A slider-crank without gravity, crank and coupler of 1 kg; mass of the slider over theirs.",
-            "the energy books, over the energy in play.", "1e-4: near dead centres a heavy slider amplifies a hundredfold what the tolerance of 1e-8 leaves.", {}};
+  Axis axis{"mass ratio, in a loop",
+            "A slider-crank without gravity, crank and coupler of 1 kg; mass of the slider over theirs.",
+            "the energy books, over the energy in play.",
+            "1e-4: near dead centres a heavy slider amplifies a hundredfold what the tolerance of 1e-8 leaves.",
+            {}};
   const auto scene = [](double m, const std::string& method) {
     return with(R"(bodies:
   crank:   {rigid: {mass: 1, inertia: 1.0e-4}, points: {A: [50 mm, 0]}}
@@ -110,8 +119,11 @@ output: {every: 0.01}
 }
 
 Axis light_on_stiff_spring() {
-  Axis axis{"mass on a spring of 1e12 N/m", "A body held by a spring of 1e12 N/m, displaced by 10 mm; ten periods.",
-            "its place against x₀ cos ωt, over x₀.", "a hundred times the tolerance of 1e-8, for each of ten periods.", {}};
+  Axis axis{"mass on a spring of 1e12 N/m",
+            "A body held by a spring of 1e12 N/m, displaced by 10 mm; ten periods.",
+            "its place against x₀ cos ωt, over x₀.",
+            "a hundred times the tolerance of 1e-8, for each of ten periods.",
+            {}};
   const auto scene = [](double m, double until, const std::string& more) {
     return with(R"(ground: {points: {S: [-1, 0]}}
 bodies: {a: {rigid: {mass: {m}, inertia: {J}}}}
@@ -130,7 +142,8 @@ output: {every: {every}}
                             if (!a.whole()) return ended(a);
                             const auto t = a.column("t"), x = a.column("a.x");
                             double worst = 0;
-                            for (std::size_t i = 0; i < t.size(); ++i) worst = std::max(worst, apart(x[i], 0.01 * std::cos(w * t[i]), 0.01));
+                            for (std::size_t i = 0; i < t.size(); ++i)
+                              worst = std::max(worst, apart(x[i], 0.01 * std::cos(w * t[i]), 0.01));
                             return measured(a, worst, 1e-5);
                           }});
   axis.cases.push_back(past(1e-9, "1e-09 kg", "a run of 1 s", End::stopped, "max steps reached", scene(1e-9, 1, ", max steps: 20000")));
@@ -158,7 +171,8 @@ std::string chain(int n, double until, Angle angle) {
     x += dx, y += dy;
   }
   s << "joints:\n";
-  for (int i = 0; i < n; ++i) s << " j" << i << ": {revolute: [" << (i ? "b" + std::to_string(i - 1) + ".e" : "ground") << ", b" << i << ".t]}\n";
+  for (int i = 0; i < n; ++i)
+    s << " j" << i << ": {revolute: [" << (i ? "b" + std::to_string(i - 1) + ".e" : "ground") << ", b" << i << ".t]}\n";
   s << "start:\n" << start.str() << "run: {until: " << until << "}\noutput: {every: " << until / 4 << "}\n";
   return s.str();
 }
@@ -187,27 +201,36 @@ std::vector<Finding> hanging_chain(int n, double until) {
 }  // namespace
 
 Axis chain_links() {
-  Axis axis{"links of a hanging chain", "Uniform rods of together 1 m and 1 kg, hung up, released from the first shape of Bernoulli's chain.",
-            "the square of the frequency that accelerations show, against j₀,₁²g/4l (of one rod 3g/2l), relative; the energy books of a short run.",
-            "2/n² for links that are no chain, and 1e-4, for swings are not quite small; books 1e-3.", {}};
-  axis.cases.push_back({1, "1", "", End::finished, "", [] {
-                          const Attempt a = attempt(chain(1, 0.1, [](int) { return 1e-4; }));
-                          return measured(a, std::abs(-a.column("b0.alpha").front() / (a.column("b0.angle").front() + pi / 2) / (1.5 * 9.81) - 1), 1e-6);
-                        }});
+  Axis axis{"links of a hanging chain",
+            "Uniform rods of together 1 m and 1 kg, hung up, released from the first shape of Bernoulli's chain.",
+            "the square of the frequency that accelerations show, against j₀,₁²g/4l (of one rod 3g/2l), relative; the energy books of a "
+            "short run.",
+            "2/n² for links that are no chain, and 1e-4, for swings are not quite small; books 1e-3.",
+            {}};
+  axis.cases.push_back(
+      {1, "1", "", End::finished, "", [] {
+         const Attempt a = attempt(chain(1, 0.1, [](int) { return 1e-4; }));
+         return measured(a, std::abs(-a.column("b0.alpha").front() / (a.column("b0.angle").front() + pi / 2) / (1.5 * 9.81) - 1), 1e-6);
+       }});
   for (const auto& [n, until] : {std::pair{10, 1.0}, {100, 0.2}, {1000, 0.01}, {10000, 1e-3}})
-    axis.cases.push_back({static_cast<double>(n), std::to_string(n), "", End::finished, "", [n = n, until = until] { return worst(hanging_chain(n, until)); }});
+    axis.cases.push_back({static_cast<double>(n), std::to_string(n), "", End::finished, "",
+                          [n = n, until = until] { return worst(hanging_chain(n, until)); }});
   return axis;
 }
 
 Axis many_clearances() {
-  Axis axis{"clearances at once", "So many pucks, each in a bearing of its own, dropped from heights of their own; elastic walls.",
-            "times of all first impacts against √(2h/g), relative; the energy books.", "1e-7 for times, 1e-5 for books.", {}};
+  Axis axis{"clearances at once",
+            "So many pucks, each in a bearing of its own, dropped from heights of their own; elastic walls.",
+            "times of all first impacts against √(2h/g), relative; the energy books.",
+            "1e-7 for times, 1e-5 for books.",
+            {}};
   const auto scene = [](int n) {
     std::string s = "gravity: [0, -9.81]\nbodies:\n", joints = "joints:\n", start = "start:\n";
     for (int i = 0; i < n; ++i) {
       const std::string id = std::to_string(i);
       s += " b" + id + ": {rigid: {mass: 0.1, inertia: 1e-5}}\n";
-      joints += " j" + id + ": {revolute: [ground, b" + id + "], clearance: {radial: 1 mm, bearing radius: 10 mm, bearing: ground, normal: {hertz: {stiffness: 1e9}}}}\n";
+      joints += " j" + id + ": {revolute: [ground, b" + id +
+                "], clearance: {radial: 1 mm, bearing radius: 10 mm, bearing: ground, normal: {hertz: {stiffness: 1e9}}}}\n";
       start += " j" + id + ": {eccentricity: [0, " + number(-1e-3 + (i + 1) * 1.5e-3 / n) + "]}\n b" + id + ": {angle: 0, speed: 0}\n";
     }
     return s + joints + start + "run: {until: 0.0179, tolerance: 1e-9}\noutput: {every: 0.00179}\n";
@@ -221,7 +244,8 @@ Axis many_clearances() {
                               if (double& t = first[static_cast<std::size_t>(i.contact)]; t < 0) t = i.begin;
                             double off = 0;
                             for (int i = 0; i < n; ++i)
-                              off = std::max(off, std::abs(first[static_cast<std::size_t>(i)] / std::sqrt(2 * (i + 1) * 1.5e-3 / n / 9.81) - 1));
+                              off = std::max(off,
+                                             std::abs(first[static_cast<std::size_t>(i)] / std::sqrt(2 * (i + 1) * 1.5e-3 / n / 9.81) - 1));
                             return worst({measured(a, off, 1e-7), measured(a, a.open_books(), 1e-5)});
                           }});
   return axis;

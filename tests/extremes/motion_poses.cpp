@@ -22,7 +22,8 @@ struct FourBar {
 
 /// Uniform enough: crank and rocker of one inertia about their pins, the coupler's centre at its middle.
 std::string text(const FourBar& m) {
-  return with(R"(ground: {points: {A: [0, 0], D: [{d}, 0]}}
+  return with(
+      R"(ground: {points: {A: [0, 0], D: [{d}, 0]}}
 bodies:
   crank:   {rigid: {mass: 1, inertia: 0.01, center: [{a2}, 0]}, points: {A: [0, 0], B: [{a}, 0]}, pose: {angle: {angle}}}
   coupler: {rigid: {mass: 1, inertia: 0.1, center: [{b2}, 0]}, points: {B: [0, 0], C: [{b}, 0]}, pose: {at: [{bx}, {by}], angle: {coupler}}}
@@ -36,23 +37,23 @@ joints:
 run: {until: {until}, method: {method}}
 output: {every: {every}}
 )",
-              {{"a", number(m.a)},
-               {"b", number(m.b)},
-               {"c", number(m.c)},
-               {"d", number(m.d)},
-               {"a2", number(m.a / 2)},
-               {"b2", number(m.b / 2)},
-               {"c2", number(m.c / 2)},
-               {"bx", number(m.a * std::cos(m.angle))},
-               {"by", number(m.a * std::sin(m.angle))},
-               {"angle", number(m.angle)},
-               {"coupler", number(m.coupler)},
-               {"rocker", number(m.rocker)},
-               {"moves", m.driven ? "drivers: {motor: {angle: [ground, crank], law: \"" + number(m.angle) + " + " + number(m.speed) + "*t\"}}"
-                                  : "start: {crank: {angle: " + number(m.angle) + ", speed: " + number(m.speed) + "}}"},
-               {"until", number(m.until)},
-               {"method", m.method},
-               {"every", number(m.until / 20)}});
+      {{"a", number(m.a)},
+       {"b", number(m.b)},
+       {"c", number(m.c)},
+       {"d", number(m.d)},
+       {"a2", number(m.a / 2)},
+       {"b2", number(m.b / 2)},
+       {"c2", number(m.c / 2)},
+       {"bx", number(m.a * std::cos(m.angle))},
+       {"by", number(m.a * std::sin(m.angle))},
+       {"angle", number(m.angle)},
+       {"coupler", number(m.coupler)},
+       {"rocker", number(m.rocker)},
+       {"moves", m.driven ? "drivers: {motor: {angle: [ground, crank], law: \"" + number(m.angle) + " + " + number(m.speed) + "*t\"}}"
+                          : "start: {crank: {angle: " + number(m.angle) + ", speed: " + number(m.speed) + "}}"},
+       {"until", number(m.until)},
+       {"method", m.method},
+       {"every", number(m.until / 20)}});
 }
 
 FourBar parallelogram(double off) { return {.a = 0.2, .b = 0.5, .c = 0.2, .d = 0.5, .angle = 0, .coupler = off, .rocker = -off}; }
@@ -73,10 +74,13 @@ FourBar placed(FourBar m) {
 }  // namespace
 
 Axis flat_starts() {
-  Axis axis{"flat start of a parallelogram", "A parallelogram four-bar that starts flat, where its motions branch, from rough poses so far off; free or driven.",
-            "it goes on as a parallelogram, whose inertia is constant: crank and rocker at 5t, or both as driven; what stops at a flat pose it drives "
+  Axis axis{"flat start of a parallelogram",
+            "A parallelogram four-bar that starts flat, where its motions branch, from rough poses so far off; free or driven.",
+            "it goes on as a parallelogram, whose inertia is constant: crank and rocker at 5t, or both as driven; what stops at a flat "
+            "pose it drives "
             "through says so and is a parallelogram up to there [rad].",
-            "1e-5: how near to flat it comes is known to the root of rounding.", {}};
+            "1e-5: how near to flat it comes is known to the root of rounding.",
+            {}};
   for (const double off : {0.0, 1e-12, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5})
     for (const bool driven : {false, true})
       axis.cases.push_back({off, printed("%g rad", off), driven ? "driven" : "free", End::warned, "the start is a singular pose", [=] {
@@ -89,25 +93,28 @@ Axis flat_starts() {
   FourBar through = parallelogram(0);
   through.angle = 1, through.rocker = 1, through.driven = true, through.until = 3;
   for (const char* method : {"auto", "generalized-alpha"})
-    axis.cases.push_back({1, "1 rad", std::string("driven through flat at six speeds, ") + method, End::finished, "", [=] {
-                            std::vector<Finding> all;  // an explicit method goes on as a parallelogram or stops there, by rounding
-                            for (const double speed : {4.7, 4.9, 5.0, 5.1, 5.3, 6.0}) {
-                              FourBar m = through;
-                              m.method = method, m.speed = speed;
-                              const Attempt a = attempt(text(m));
-                              const bool stops = a.end == End::stopped && a.said.find("a singular pose") != std::string::npos && m.method == "auto";
-                              if (stops && a.trouble.empty())
-                                all.push_back({End::finished, "", "", apart(a.last("rocker.angle"), a.last("crank.angle")), 1e-5});
-                              else
-                                all.push_back(a.whole() ? measured(a, apart(a.last("rocker.angle"), a.last("crank.angle")), 1e-5) : ended(a));
-                            }
-                            return worst(all);
-                          }});
+    axis.cases.push_back(
+        {1, "1 rad", std::string("driven through flat at six speeds, ") + method, End::finished, "", [=] {
+           std::vector<Finding> all;  // an explicit method goes on as a parallelogram or stops there, by rounding
+           for (const double speed : {4.7, 4.9, 5.0, 5.1, 5.3, 6.0}) {
+             FourBar m = through;
+             m.method = method, m.speed = speed;
+             const Attempt a = attempt(text(m));
+             const bool stops = a.end == End::stopped && a.said.find("a singular pose") != std::string::npos && m.method == "auto";
+             if (stops && a.trouble.empty())
+               all.push_back({End::finished, "", "", apart(a.last("rocker.angle"), a.last("crank.angle")), 1e-5});
+             else
+               all.push_back(a.whole() ? measured(a, apart(a.last("rocker.angle"), a.last("crank.angle")), 1e-5) : ended(a));
+           }
+           return worst(all);
+         }});
   FourBar free = through;
   free.driven = false;
   axis.cases.push_back({1, "1 rad", "free through flat", End::finished, "", [free] {
                           const Attempt a = attempt(text(free));
-                          return a.whole() ? measured(a, std::max(apart(a.last("crank.angle"), 16), apart(a.last("rocker.angle"), 16)), 1e-5) : ended(a);
+                          return a.whole()
+                                     ? measured(a, std::max(apart(a.last("crank.angle"), 16), apart(a.last("rocker.angle"), 16)), 1e-5)
+                                     : ended(a);
                         }});
   FourBar locked{.a = 0.2, .b = 0.2, .c = 0.2, .d = 0.6, .angle = 0, .rocker = pi};
   axis.cases.push_back(past(0, "0 rad", "locked: ground as long as all bars", End::stopped, "", text(locked)));
@@ -115,8 +122,11 @@ Axis flat_starts() {
 }
 
 Axis dead_centres() {
-  Axis axis{"dead centres", "Four-bars through and up to poses where a link comes into line with another.",
-            "a driven crank-rocker: the rocker against two triangles [rad]; free ones: the energy books.", "1e-8 driven; books 1e-5.", {}};
+  Axis axis{"dead centres",
+            "Four-bars through and up to poses where a link comes into line with another.",
+            "a driven crank-rocker: the rocker against two triangles [rad]; free ones: the energy books.",
+            "1e-8 driven; books 1e-5.",
+            {}};
   const FourBar rocker = placed({.driven = true, .until = 3});
   axis.cases.push_back({0, "crank-rocker", "driven", End::finished, "", [=] {
                           const Attempt a = attempt(text(rocker));
@@ -142,23 +152,27 @@ Axis dead_centres() {
   toggle.driven = true;
   for (const char* method : {"auto", "generalized-alpha"}) {
     toggle.method = method;
-    axis.cases.push_back(past(1, "double rocker", std::string("driven to its toggle, ") + method, End::stopped, "a dead centre: the driver \"motor\" cannot move past 1.659 rad", text(toggle)));
+    axis.cases.push_back(past(1, "double rocker", std::string("driven to its toggle, ") + method, End::stopped,
+                              "a dead centre: the driver \"motor\" cannot move past 1.659 rad", text(toggle)));
   }
   const FourBar deltoid = placed({.a = 0.3, .b = 0.5, .c = 0.5, .d = 0.3, .angle = 1, .driven = false, .until = 3, .method = "dopri5"});
-  axis.cases.push_back({2, "deltoid", "free, folds", End::finished, "", [deltoid] {  // coupler and rocker could turn together with the crank at rest
-                          const Attempt a = attempt(text(deltoid));
-                          if (!a.whole()) return ended(a);
-                          return measured(a, a.last("crank.angle") > 4 * pi ? a.open_books() : 1, 1e-5);
-                        }});
+  axis.cases.push_back(
+      {2, "deltoid", "free, folds", End::finished, "", [deltoid] {  // coupler and rocker could turn together with the crank at rest
+         const Attempt a = attempt(text(deltoid));
+         if (!a.whole()) return ended(a);
+         return measured(a, a.last("crank.angle") > 4 * pi ? a.open_books() : 1, 1e-5);
+       }});
   FourBar apart_bars{.a = 0.1, .b = 0.1, .c = 0.1, .d = 0.6};
   axis.cases.push_back(past(3, "too short", "", End::rejected, "cannot close", text(apart_bars)));
   return axis;
 }
 
 Axis assembly_limit() {
-  Axis axis{"limit of assembly", "A truss of two bars between supports 1 m apart, in gravity; by how much the bars are longer than half of that.",
+  Axis axis{"limit of assembly",
+            "A truss of two bars between supports 1 m apart, in gravity; by how much the bars are longer than half of that.",
             "the thrust at its apex against m g/4h·L, h by Pythagoras: relative.",
-            "1e-13 over the excess, for the square of h is known to rounding, and 1e-9.", {}};
+            "1e-13 over the excess, for the square of h is known to rounding, and 1e-9.",
+            {}};
   const auto scene = [](double excess) {
     const double l = 0.5 * (1 + excess), h = l * l > 0.25 ? std::sqrt((l - 0.5) * (l + 0.5)) : 0.0;
     return with(R"(gravity: [0, -9.81]
@@ -172,13 +186,18 @@ joints:
   Q: {revolute: [right.Q, ground.Q]}
 run: {until: 0.1}
 )",
-                {{"l", number(l)}, {"l2", number(l / 2)}, {"h", number(h)}, {"angle", number(1.3 * std::atan2(h, 0.5))}, {"down", number(-1.3 * std::atan2(h, 0.5))}});
+                {{"l", number(l)},
+                 {"l2", number(l / 2)},
+                 {"h", number(h)},
+                 {"angle", number(1.3 * std::atan2(h, 0.5))},
+                 {"down", number(-1.3 * std::atan2(h, 0.5))}});
   };
   for (const double excess : {1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10})
     axis.cases.push_back({excess, printed("%g", excess), "", End::finished, "", [=] {
                             const Attempt a = attempt(scene(excess));
                             const double l = 0.5 * (1 + excess), h = std::sqrt((l - 0.5) * (l + 0.5)), thrust = 9.81 * 0.25 / h;
-                            return a.whole() ? measured(a, std::abs(std::abs(a.last("T.fx on right")) / thrust - 1), 1e-9 + 1e-13 / excess) : ended(a);
+                            return a.whole() ? measured(a, std::abs(std::abs(a.last("T.fx on right")) / thrust - 1), 1e-9 + 1e-13 / excess)
+                                             : ended(a);
                           }});
   axis.cases.push_back(past(1e-12, "1e-12", "", End::stopped, "J unexplained", scene(1e-12)));
   axis.cases.push_back(past(-1e-12, "-1e-12", "flat", End::stopped, "", scene(-1e-12)));

@@ -60,10 +60,12 @@ double off_by_energy(const Attempt& a, double spin) {
 }  // namespace
 
 Axis rigid_speed() {
-  Axis axis{"speed, rigid", "The slider-crank of the paper, its pins ideal, spun up at the outer dead centre and left alone for two turns' time.",
+  Axis axis{"speed, rigid",
+            "The slider-crank of the paper, its pins ideal, spun up at the outer dead centre and left alone for two turns' time.",
             "speed of the crank at each of its angles by conservation of energy, and the times at which it passes them by a quadrature; "
             "closed forms of the kinematics. The worse, relative.",
-            "a hundred times the tolerance of 1e-8.", {}};
+            "a hundred times the tolerance of 1e-8.",
+            {}};
   for (const double n : {1e-9, 1e-3, 1.0, 1e3, 1e4, 1e5, 1e7, 1e12, 1e30})
     axis.cases.push_back({n, printed("%g rpm", n), "", End::finished, "", [n] {
                             const Attempt a = attempt(slider_crank(n * rpm, 2, ""));
@@ -75,9 +77,12 @@ Axis rigid_speed() {
 }
 
 Axis clearance_speed() {
-  Axis axis{"speed, with a clearance",
-            "The same with a clearance of 10 µm in the gudgeon pin, steel on steel, Lankarani and Nikravesh's law; a third of a turn's time.",
-            "the energy books, over the energy in play.", "a thousand times the tolerance of 1e-8: an error for every impact and rebound.", {}};
+  Axis axis{
+      "speed, with a clearance",
+      "The same with a clearance of 10 µm in the gudgeon pin, steel on steel, Lankarani and Nikravesh's law; a third of a turn's time.",
+      "the energy books, over the energy in play.",
+      "a thousand times the tolerance of 1e-8: an error for every impact and rebound.",
+      {}};
   const std::string pin =
       ", clearance: {radial: 10 um, bearing radius: 10 mm, bearing: slider, "
       "normal: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}}";
@@ -118,9 +123,11 @@ output: {points: [blade.tip], every: {every}}
 }  // namespace
 
 Axis blade_speed() {
-  Axis axis{"speed, flexible", "A steel blade of 50 mm on a shaft that turns steadily; all of its modes, critically damped, `stiffening: rotation`.",
+  Axis axis{"speed, flexible",
+            "A steel blade of 50 mm on a shaft that turns steadily; all of its modes, critically damped, `stiffening: rotation`.",
             "how far its tip moves out, against the closed form of a linear bar, tan(kL)/k − L with k = Ω√(ρ/E); relative.",
-            "1e-4: a bar that stretches without turning stays linear, and six elements err by (kL/6)²/12.", {}};
+            "1e-4: a bar that stretches without turning stays linear, and six elements err by (kL/6)²/12.",
+            {}};
   const double until = 4e-3;
   for (const double n : {1e2, 1e3, 1e4, 3e4, 1e5})
     axis.cases.push_back({n, printed("%g rpm", n), "", End::finished, "", [=] {
@@ -135,28 +142,35 @@ Axis blade_speed() {
 }
 
 Axis start_spin() {
-  Axis axis{"spin at the start", "A rod hinged to the ground, in no gravity, spinning steadily for a thousand radians and for 3e5.",
-            "its angle, ωt: relative.", "a hundred times the tolerance of 1e-8; of 3e5 rad, run at 1e-6, a thousand times.", {}};
+  Axis axis{"spin at the start",
+            "A rod hinged to the ground, in no gravity, spinning steadily for a thousand radians and for 3e5.",
+            "its angle, ωt: relative.",
+            "a hundred times the tolerance of 1e-8; of 3e5 rad, run at 1e-6, a thousand times.",
+            {}};
   for (const double w : {1.0, 1e3, 1e6, 1e9})
     axis.cases.push_back({w, printed("%g rad/s", w), "", End::finished, "", [w] {
                             const Attempt a = attempt(text(Rod{.gravity = 0, .speed = w, .until = 1000 / w}));
                             return a.whole() ? measured(a, apart(a.last("rod.angle"), 1000, 1000), 1e-6) : ended(a);
                           }});
   axis.cases.push_back({1e6, "1e6 rad/s", "3e5 rad", End::finished, "", [] {
-                          const Attempt a = attempt(text(Rod{.gravity = 0, .speed = 1e6, .until = 0.3, .tolerance = "1e-6", .method = "verner87"}));
+                          const Attempt a =
+                              attempt(text(Rod{.gravity = 0, .speed = 1e6, .until = 0.3, .tolerance = "1e-6", .method = "verner87"}));
                           return a.whole() ? measured(a, apart(a.last("rod.angle"), 3e5, 3e5), 1e-3) : ended(a);
                         }});
   return axis;
 }
 
 Axis turns() {
-  Axis axis{"turns gone by", "The same from an angle that stands for so many turns gone by, for ten radians more.",
+  Axis axis{"turns gone by",
+            "The same from an angle that stands for so many turns gone by, for ten radians more.",
             "how far it turns, of ten radians: relative.",
-            "a hundred times the tolerance, and four times the spacing of doubles there.", {}};
+            "a hundred times the tolerance, and four times the spacing of doubles there.",
+            {}};
   for (const double angle : {0.0, 1e3, 1e5, 1e6, 1e7})
     axis.cases.push_back({angle, printed("%g rad", angle), "", End::finished, "", [angle] {
                             const Attempt a = attempt(text(Rod{.gravity = 0, .angle = angle, .speed = 10, .until = 1}));
-                            return a.whole() ? measured(a, apart(a.last("rod.angle") - angle, 10, 10), 1e-6 + 4 * 2.2e-16 * angle) : ended(a);
+                            return a.whole() ? measured(a, apart(a.last("rod.angle") - angle, 10, 10), 1e-6 + 4 * 2.2e-16 * angle)
+                                             : ended(a);
                           }});
   for (const double angle : {1e9, 1e12, 1e15})
     axis.cases.push_back(past(angle, printed("%g rad", angle), "", End::stopped, "begin again from this state with angles in one turn",

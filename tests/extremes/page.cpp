@@ -97,8 +97,8 @@ std::string page_text(const std::vector<Rows>& tables, const std::string& left_o
         "| axis | holds | of the bound, at worst | past it |\n|---|---|---|---|\n";
   for (const Rows& rows : tables) {
     const std::string& name = rows.front().axis->name;
-    md << "| [" << name << "](#" << anchor(name) << ") | " << range(rows, true) << " | " << printed("%.0f %%", 100 * worst_share(rows)) << " | "
-       << in_cell(past(rows)) << " |\n";
+    md << "| [" << name << "](#" << anchor(name) << ") | " << range(rows, true) << " | " << printed("%.0f %%", 100 * worst_share(rows))
+       << " | " << in_cell(past(rows)) << " |\n";
   }
   for (const Rows& rows : tables) {
     const Axis& axis = *rows.front().axis;
@@ -135,8 +135,8 @@ int main(int argc, char** argv) try {
       }
       rows.push_back(row(axis, c));
       const std::string wrong = rows.back().wrong();
-      std::cout << (wrong.empty() ? "ok    " : "FALSE ") << axis.name << " | " << line(rows.back()) << printed(" | %.2f s", rows.back().seconds)
-                << (wrong.empty() ? "" : "  <- " + wrong) << std::endl;
+      std::cout << (wrong.empty() ? "ok    " : "FALSE ") << axis.name << " | " << line(rows.back())
+                << printed(" | %.2f s", rows.back().seconds) << (wrong.empty() ? "" : "  <- " + wrong) << std::endl;
       bad += !wrong.empty();
     }
     if (!rows.empty()) tables.push_back(std::move(rows));

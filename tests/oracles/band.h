@@ -16,10 +16,7 @@ struct Band {
   Eigen::MatrixXd entry;
   std::vector<int> pivot = {};
 
-  Band(int size, int diagonals)
-      : n(size),
-        width(std::min(diagonals, size - 1)),
-        entry(Eigen::MatrixXd::Zero(3 * width + 1, size)) {}
+  Band(int size, int diagonals) : n(size), width(std::min(diagonals, size - 1)), entry(Eigen::MatrixXd::Zero(3 * width + 1, size)) {}
   double& operator()(int i, int j) { return entry(2 * width + i - j, j); }
 
   void factor() {
@@ -33,8 +30,7 @@ struct Band {
       for (int j = k; j <= k + right && p != k; ++j) std::swap((*this)(k, j), (*this)(p, j));
       auto multiplier = entry.col(k).segment(2 * width + 1, below);
       multiplier /= (*this)(k, k);
-      for (int j = k + 1; j <= k + right; ++j)
-        entry.col(j).segment(2 * width + k + 1 - j, below) -= (*this)(k, j) * multiplier;
+      for (int j = k + 1; j <= k + right; ++j) entry.col(j).segment(2 * width + k + 1 - j, below) -= (*this)(k, j) * multiplier;
     }
   }
 

@@ -52,12 +52,10 @@ void add_stage(const BeamMesh& m, const Internal& in, int i, double h, Band& J) 
     for (int c = 0; c < K.cols(); ++c)
       for (int r = 0; r < K.rows(); ++r)
         for (int j = 0; j < stages; ++j)
-          J(stages * (m.first[e] + r) + i, stages * (m.first[e] + c) + j) +=
-              h * h * gauss.A2(i, j) * K(r, c);
+          J(stages * (m.first[e] + r) + i, stages * (m.first[e] + c) + j) += h * h * gauss.A2(i, j) * K(r, c);
   }
   for (int c = 0; c < m.free; ++c)
-    for (BeamSparse::InnerIterator it(m.Mz, c); it; ++it)
-      J(stages * static_cast<int>(it.row()) + i, stages * c + i) += it.value();
+    for (BeamSparse::InnerIterator it(m.Mz, c); it; ++it) J(stages * static_cast<int>(it.row()) + i, stages * c + i) += it.value();
 }
 
 /// One Newton iteration for the stages' accelerations.
@@ -67,8 +65,7 @@ double improve(const BeamMesh& m, Run& run, double h) {
   Eigen::MatrixXd residual(stages, m.free);
   for (int i = 0; i < stages; ++i) {
     const double t = run.t + gauss.c[i] * h;
-    const BeamVector z =
-        run.z + gauss.c[i] * h * run.v + h * h * run.a * gauss.A2.row(i).transpose();
+    const BeamVector z = run.z + gauss.c[i] * h * run.v + h * h * run.a * gauss.A2.row(i).transpose();
     const Internal in = internal(m, m.T * z + held(m, t, &SectionMotion::place), true);
     add_stage(m, in, i, h, J);
     const BeamVector given = m.M * held(m, t, &SectionMotion::acceleration);
@@ -86,8 +83,8 @@ void advance(const BeamMesh& m, Run& run, double h) {
   double change = 1;
   for (int i = 0; i < newton_most && change > newton_end; ++i) change = improve(m, run, h);
   if (!(change <= newton_end))
-    throw std::runtime_error("exact beam: Newton's method fails in the step from t = " +
-                             text(run.t) + " s; shorten the step of " + text(h) + " s");
+    throw std::runtime_error("exact beam: Newton's method fails in the step from t = " + text(run.t) + " s; shorten the step of " +
+                             text(h) + " s");
   run.z += h * run.v + h * h * run.a * gauss.bA;
   run.v += h * run.a * gauss.b;
 }
@@ -100,8 +97,7 @@ BeamFrame frame(const BeamMesh& m, const Run& run) {
 
   Band mass(m.free, m.width);
   for (int c = 0; c < m.free; ++c)
-    for (BeamSparse::InnerIterator it(m.Mz, c); it; ++it)
-      mass(static_cast<int>(it.row()), c) += it.value();
+    for (BeamSparse::InnerIterator it(m.Mz, c); it; ++it) mass(static_cast<int>(it.row()), c) += it.value();
   mass.factor();
   const BeamVector a = mass.solve(m.T.transpose() * (m.load - in.force - m.M * given).eval());
   const BeamVector support = m.M * (m.T * a + given) + in.force - m.load;
@@ -109,8 +105,7 @@ BeamFrame frame(const BeamMesh& m, const Run& run) {
   const BeamVector p = m.M * rate;
   Vector3d momentum = Vector3d::Zero();
   for (int i = 0; i < m.nodes; ++i)
-    momentum += Vector3d(p[3 * i], p[3 * i + 1],
-                         u[3 * i] * p[3 * i + 1] - u[3 * i + 1] * p[3 * i] + p[3 * i + 2]);
+    momentum += Vector3d(p[3 * i], p[3 * i + 1], u[3 * i] * p[3 * i + 1] - u[3 * i + 1] * p[3 * i] + p[3 * i + 2]);
   return {.t = run.t,
           .place = Eigen::Map<const Places>(u.data(), 3, m.nodes),
           .rate = Eigen::Map<const Places>(rate.data(), 3, m.nodes),
@@ -138,8 +133,7 @@ MotionLaw crank_pin(const Vector2d& centre, double radius, std::function<Vector3
   return [centre, radius, turn = std::move(turn)](double t) {
     const Vector3d angle = turn(t);
     const Vector2d e(std::cos(angle[0]), std::sin(angle[0])), n(-e[1], e[0]);
-    SectionMotion at{
-        .place = {0, 0, angle[0]}, .rate = {0, 0, angle[1]}, .acceleration = {0, 0, angle[2]}};
+    SectionMotion at{.place = {0, 0, angle[0]}, .rate = {0, 0, angle[1]}, .acceleration = {0, 0, angle[2]}};
     at.place.head<2>() = centre + radius * e;
     at.rate.head<2>() = radius * angle[1] * n;
     at.acceleration.head<2>() = radius * (angle[2] * n - angle[1] * angle[1] * e);
@@ -148,9 +142,7 @@ MotionLaw crank_pin(const Vector2d& centre, double radius, std::function<Vector3
 }
 
 Places static_shape(const ExactBeam& beam, const BeamStart& start, int load_steps) {
-  if (load_steps < 1)
-    throw std::invalid_argument("exact beam: load_steps = " + std::to_string(load_steps) +
-                                ", must be ≥ 1");
+  if (load_steps < 1) throw std::invalid_argument("exact beam: load_steps = " + std::to_string(load_steps) + ", must be ≥ 1");
   const BeamMesh m = build(beam, start);
   const BeamVector g = held(m, 0, &SectionMotion::place);
   BeamVector z = initial(m, start).z;
@@ -165,36 +157,27 @@ Places static_shape(const ExactBeam& beam, const BeamStart& start, int load_step
           for (int r = 0; r < Ke.rows(); ++r) K(m.first[e] + r, m.first[e] + c) += Ke(r, c);
       }
       K.factor();
-      const BeamVector dz =
-          K.solve(m.T.transpose() * (m.load * (double(step) / load_steps) - in.force).eval());
+      const BeamVector dz = K.solve(m.T.transpose() * (m.load * (double(step) / load_steps) - in.force).eval());
       z += dz;
       change = size_of_step(m, dz);
     }
     if (!(change <= newton_end))
-      throw std::runtime_error("exact beam: no equilibrium at load step " + text(step) + " of " +
-                               std::to_string(load_steps) +
+      throw std::runtime_error("exact beam: no equilibrium at load step " + text(step) + " of " + std::to_string(load_steps) +
                                "; hold the ends or take more load steps");
   }
   const BeamVector u = m.T * z + g;
   return Eigen::Map<const Places>(u.data(), 3, m.nodes);
 }
 
-std::vector<BeamFrame> simulate(const ExactBeam& beam, const BeamStart& start,
-                                const std::vector<double>& times, double step) {
-  if (!(step > 0))
-    throw std::invalid_argument("exact beam: step = " + text(step) + " s, must be > 0");
+std::vector<BeamFrame> simulate(const ExactBeam& beam, const BeamStart& start, const std::vector<double>& times, double step) {
+  if (!(step > 0)) throw std::invalid_argument("exact beam: step = " + text(step) + " s, must be > 0");
   const BeamMesh m = build(beam, start);
   StartCoordinates at = initial(m, start);
-  Run run{.t = 0,
-          .z = std::move(at.z),
-          .v = std::move(at.rate),
-          .a = Eigen::MatrixXd::Zero(m.free, stages)};
+  Run run{.t = 0, .z = std::move(at.z), .v = std::move(at.rate), .a = Eigen::MatrixXd::Zero(m.free, stages)};
   std::vector<BeamFrame> frames;
   for (const double until : times) {
     const double from = run.t;
-    if (!(until >= from))
-      throw std::invalid_argument("exact beam: times must ascend from 0; t = " + text(until) +
-                                  " s does not");
+    if (!(until >= from)) throw std::invalid_argument("exact beam: times must ascend from 0; t = " + text(until) + " s does not");
     const int steps = static_cast<int>(std::ceil((until - from) / step * (1 - 1e-12)));
     for (int i = 0; i < steps; ++i) {
       advance(m, run, (until - from) / steps);
@@ -210,13 +193,11 @@ Place place_at(const ExactBeam& beam, const Places& places, double s) {
   const int e = std::min(static_cast<int>(at), beam.elements - 1);
   const ShapeValues shape = shape_at(beam.degree, at - e, 0);
   Place sum = Place::Zero();
-  for (int i = 0; i <= beam.degree; ++i)
-    sum += shape.value[std::size_t(i)] * places.col(e * beam.degree + i);
+  for (int i = 0; i <= beam.degree; ++i) sum += shape.value[std::size_t(i)] * places.col(e * beam.degree + i);
   return sum;
 }
 
-Converged converge(ExactBeam beam, const BeamStart& start, const std::vector<double>& times,
-                   double step, double tolerance, int doublings) {
+Converged converge(ExactBeam beam, const BeamStart& start, const std::vector<double>& times, double step, double tolerance, int doublings) {
   std::vector<BeamFrame> coarse = simulate(beam, start, times, step);
   for (int i = 0; i < doublings; ++i) {
     beam.elements *= 2;
@@ -231,8 +212,7 @@ Converged converge(ExactBeam beam, const BeamStart& start, const std::vector<dou
     if (change <= tolerance) return {beam, std::move(fine), step, change};
     coarse = std::move(fine);
   }
-  throw std::runtime_error("exact beam: not converged with " + std::to_string(beam.elements) +
-                           " elements and steps of " + text(step) +
+  throw std::runtime_error("exact beam: not converged with " + std::to_string(beam.elements) + " elements and steps of " + text(step) +
                            " s; start finer or allow more doublings");
 }
 

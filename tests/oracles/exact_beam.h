@@ -39,10 +39,10 @@ struct BeamEnd {
 };
 
 struct ExactBeam {
-  double length;           ///< [m]
-  double EA, EI, GA;       ///< GA with its shear factor [N], [N m²], [N]
-  double rhoA, rhoI;       ///< [kg/m], [kg m]
-  BeamEnd a = {}, b = {};  ///< at s = 0 and s = length
+  double length;                                      ///< [m]
+  double EA, EI, GA;                                  ///< GA with its shear factor [N], [N m²], [N]
+  double rhoA, rhoI;                                  ///< [kg/m], [kg m]
+  BeamEnd a = {}, b = {};                             ///< at s = 0 and s = length
   Eigen::Vector2d gravity = Eigen::Vector2d::Zero();  ///< [m/s²]
   int elements = 8, degree = 3;                       ///< degree 1, 2 or 3
 };
@@ -54,8 +54,7 @@ using BeamStart = std::function<SectionMotion(double s)>;
 BeamStart rigid_start(const Place& place_a, const Place& rate_a = Place::Zero());
 
 /// Law of a pin on a circle; `turn` gives [angle, rate, acceleration] of the crank at t.
-MotionLaw crank_pin(const Eigen::Vector2d& centre, double radius,
-                    std::function<Eigen::Vector3d(double t)> turn);
+MotionLaw crank_pin(const Eigen::Vector2d& centre, double radius, std::function<Eigen::Vector3d(double t)> turn);
 
 /// What a run reports at a time.
 struct BeamFrame {
@@ -73,8 +72,7 @@ Places static_shape(const ExactBeam&, const BeamStart& start, int load_steps = 1
 /// Frames at `times` (ascending, ≥ 0; the run begins at 0). The steps between two times are equal,
 /// none longer than `step`.
 /// @throws as `static_shape`.
-std::vector<BeamFrame> simulate(const ExactBeam&, const BeamStart& start,
-                                const std::vector<double>& times, double step);
+std::vector<BeamFrame> simulate(const ExactBeam&, const BeamStart& start, const std::vector<double>& times, double step);
 
 /// Section at arc length s between the nodes, by the elements' own interpolation.
 Place place_at(const ExactBeam&, const Places&, double s);
@@ -88,7 +86,6 @@ struct Converged {
   std::vector<BeamFrame> frames;
   double step, change;  ///< change: the last one, by length
 };
-Converged converge(ExactBeam, const BeamStart& start, const std::vector<double>& times, double step,
-                   double tolerance, int doublings = 6);
+Converged converge(ExactBeam, const BeamStart& start, const std::vector<double>& times, double step, double tolerance, int doublings = 6);
 
 }  // namespace pintle_oracle

@@ -18,16 +18,14 @@ using ElementVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
 
 /// Gauss' rule of 1 to 4 points.
 std::vector<ShapeValues> rule(int degree, int points) {
-  const double near = std::sqrt(3.0 / 7 - 2.0 / 7 * std::sqrt(1.2)),
-               far = std::sqrt(3.0 / 7 + 2.0 / 7 * std::sqrt(1.2)), part = std::sqrt(30.0) / 36;
-  const std::vector<std::pair<double, double>> rules[] = {
-      {{0, 2}},
-      {{-std::sqrt(1.0 / 3), 1}, {std::sqrt(1.0 / 3), 1}},
-      {{-std::sqrt(0.6), 5.0 / 9}, {0, 8.0 / 9}, {std::sqrt(0.6), 5.0 / 9}},
-      {{-far, 0.5 - part}, {-near, 0.5 + part}, {near, 0.5 + part}, {far, 0.5 - part}}};
+  const double near = std::sqrt(3.0 / 7 - 2.0 / 7 * std::sqrt(1.2)), far = std::sqrt(3.0 / 7 + 2.0 / 7 * std::sqrt(1.2)),
+               part = std::sqrt(30.0) / 36;
+  const std::vector<std::pair<double, double>> rules[] = {{{0, 2}},
+                                                          {{-std::sqrt(1.0 / 3), 1}, {std::sqrt(1.0 / 3), 1}},
+                                                          {{-std::sqrt(0.6), 5.0 / 9}, {0, 8.0 / 9}, {std::sqrt(0.6), 5.0 / 9}},
+                                                          {{-far, 0.5 - part}, {-near, 0.5 + part}, {near, 0.5 + part}, {far, 0.5 - part}}};
   std::vector<ShapeValues> result;
-  for (const auto& [x, w] : rules[points - 1])
-    result.push_back(shape_at(degree, 0.5 * (1 + x), 0.5 * w));
+  for (const auto& [x, w] : rules[points - 1]) result.push_back(shape_at(degree, 0.5 * (1 + x), 0.5 * w));
   return result;
 }
 
@@ -37,8 +35,7 @@ struct Strained {
   ElementMatrix tangent;
   double energy = 0;
 };
-Strained strained(const ExactBeam& beam, const std::vector<ShapeValues>& points, double l,
-                  const Eigen::Ref<const BeamVector>& u) {
+Strained strained(const ExactBeam& beam, const std::vector<ShapeValues>& points, double l, const Eigen::Ref<const BeamVector>& u) {
   const int nodes = beam.degree + 1, n = 3 * nodes;
   Strained sum{ElementVector::Zero(n), ElementMatrix::Zero(n, n)};
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 12> B(3, n), DB(3, n);
@@ -88,17 +85,13 @@ void judge(const ExactBeam& b) {
   const auto want = [](bool good, const std::string& what) {
     if (!good) throw std::invalid_argument("exact beam: " + what);
   };
-  want(b.length > 0 && b.EA > 0 && b.EI > 0 && b.GA > 0 && b.rhoA > 0 && b.rhoI > 0,
-       "length, EA, EI, GA, rhoA and rhoI must be > 0");
-  want(b.degree >= 1 && b.degree <= 3,
-       "degree = " + std::to_string(b.degree) + ", must be 1, 2 or 3");
-  want(b.elements * b.degree >= 2,
-       "elements = " + std::to_string(b.elements) + ", must give two spans of nodes or more");
+  want(b.length > 0 && b.EA > 0 && b.EI > 0 && b.GA > 0 && b.rhoA > 0 && b.rhoI > 0, "length, EA, EI, GA, rhoA and rhoI must be > 0");
+  want(b.degree >= 1 && b.degree <= 3, "degree = " + std::to_string(b.degree) + ", must be 1, 2 or 3");
+  want(b.elements * b.degree >= 2, "elements = " + std::to_string(b.elements) + ", must give two spans of nodes or more");
   for (const BeamEnd* e : {&b.a, &b.b}) {
     want(e->mass >= 0, "an end's mass = " + text(e->mass) + ", must be ≥ 0");
     want(e->hold != Hold::slide || e->line.norm() > 0, "the line of a slide must have a direction");
-    want(!e->law || e->hold == Hold::hinge || e->hold == Hold::clamp,
-         "an end with a law must be a hinge or a clamp");
+    want(!e->law || e->hold == Hold::hinge || e->hold == Hold::clamp, "an end with a law must be a hinge or a clamp");
   }
 }
 
@@ -114,11 +107,9 @@ void validate_start(const BeamMesh& m) {
       const Vector2d n = Vector2d(-e.line[1], e.line[0]).normalized();
       slip.head<2>() = n * n.dot(slip.head<2>());
     }
-    if (off.norm() > 1e-9 * m.beam.length ||
-        slip.norm() > 1e-9 * (is.rate.norm() + held_at.rate.norm()))
-      throw std::invalid_argument(std::string("exact beam: end ") + (end == 0 ? "A" : "B") +
-                                  " starts off its support by " + text(off.norm()) + " m, " +
-                                  text(slip.norm()) + " m/s; start it with the support");
+    if (off.norm() > 1e-9 * m.beam.length || slip.norm() > 1e-9 * (is.rate.norm() + held_at.rate.norm()))
+      throw std::invalid_argument(std::string("exact beam: end ") + (end == 0 ? "A" : "B") + " starts off its support by " +
+                                  text(off.norm()) + " m, " + text(slip.norm()) + " m/s; start it with the support");
   }
 }
 
@@ -168,8 +159,7 @@ void add_mass(BeamMesh& m) {
         m.load.segment<3>(row) += v * m.beam.rhoA * g;
         for (int j = 0; j <= m.beam.degree; ++j)
           for (int k = 0; k < 3; ++k)
-            entries.emplace_back(row + k, 3 * (e * m.beam.degree + j) + k,
-                                 v * at.value[std::size_t(j)] * density[k]);
+            entries.emplace_back(row + k, 3 * (e * m.beam.degree + j) + k, v * at.value[std::size_t(j)] * density[k]);
       }
   for (int end = 0; end < 2; ++end) {
     const BeamEnd& e = end == 0 ? m.beam.a : m.beam.b;
@@ -232,8 +222,7 @@ BeamVector held(const BeamMesh& m, double t, Place SectionMotion::*part) {
   for (int end = 0; end < 2; ++end) {
     const Hold hold = (end == 0 ? m.beam.a : m.beam.b).hold;
     if (hold == Hold::free) continue;
-    g.segment(end * (3 * m.nodes - 3), hold == Hold::clamp ? 3 : 2) =
-        (prescribed(m, end, t).*part).head(hold == Hold::clamp ? 3 : 2);
+    g.segment(end * (3 * m.nodes - 3), hold == Hold::clamp ? 3 : 2) = (prescribed(m, end, t).*part).head(hold == Hold::clamp ? 3 : 2);
   }
   return g;
 }
@@ -256,8 +245,7 @@ double size_of_step(const BeamMesh& m, const BeamVector& dz) {
   if (!dz.allFinite()) return std::numeric_limits<double>::infinity();
   const BeamVector du = m.T * dz;
   const auto places = Eigen::Map<const Places>(du.data(), 3, m.nodes);
-  return std::max(places.topRows<2>().cwiseAbs().maxCoeff() / m.beam.length,
-                  places.row(2).cwiseAbs().maxCoeff());
+  return std::max(places.topRows<2>().cwiseAbs().maxCoeff() / m.beam.length, places.row(2).cwiseAbs().maxCoeff());
 }
 
 StartCoordinates initial(const BeamMesh& m, const BeamStart& start) {
@@ -267,8 +255,7 @@ StartCoordinates initial(const BeamMesh& m, const BeamStart& start) {
     u.segment<3>(3 * i) = at.place;
     rate.segment<3>(3 * i) = at.rate;
   }
-  return {m.T.transpose() * (u - held(m, 0, &SectionMotion::place)),
-          m.T.transpose() * (rate - held(m, 0, &SectionMotion::rate))};
+  return {m.T.transpose() * (u - held(m, 0, &SectionMotion::place)), m.T.transpose() * (rate - held(m, 0, &SectionMotion::rate))};
 }
 
 }  // namespace pintle_oracle

@@ -15,22 +15,15 @@ using Eigen::Vector3d;
 using Matrix26 = Eigen::Matrix<double, 2, 6>;
 
 // Gauss–Legendre on [0, 1], exact to degree 7: ρA JᵀJ is of degree 6 in ξ.
-constexpr double gauss_at[4] = {0.069431844202973712, 0.330009478207571868, 0.669990521792428132,
-                                0.930568155797026288};
-constexpr double gauss_weight[4] = {0.173927422568726929, 0.326072577431273071,
-                                    0.326072577431273071, 0.173927422568726929};
+constexpr double gauss_at[4] = {0.069431844202973712, 0.330009478207571868, 0.669990521792428132, 0.930568155797026288};
+constexpr double gauss_weight[4] = {0.173927422568726929, 0.326072577431273071, 0.326072577431273071, 0.173927422568726929};
 
-Vector2d quarter_turn(const Vector2d& v) {
-  return {-v.y(), v.x()};
-}
+Vector2d quarter_turn(const Vector2d& v) { return {-v.y(), v.x()}; }
 
 /// Sines and cosines of a state, for all points of the coupler.
 struct Pose {
   Pose(const Params& p, const Y& y)
-      : crank(std::cos(y[0]), std::sin(y[0])),
-        along(std::cos(y[1]), std::sin(y[1])),
-        across(quarter_turn(along)),
-        length(p.coupler) {}
+      : crank(std::cos(y[0]), std::sin(y[0])), along(std::cos(y[1]), std::sin(y[1])), across(quarter_turn(along)), length(p.coupler) {}
   Vector2d crank, along, across;  // units along the crank, along the chord, left of it
   double length;
 };
@@ -49,16 +42,12 @@ Point point(const Params& p, const Pose& at, const Y& y, double xi) {
   const Vector2d arm_rate = along_rate * at.along + across_rate * at.across;  // seen on the chord
   Point out;
   out.r = p.crank * at.crank + arm;
-  out.drift =
-      -p.crank * y[6] * y[6] * at.crank - y[7] * y[7] * arm + 2 * y[7] * quarter_turn(arm_rate);
-  out.J << p.crank * quarter_turn(at.crank), quarter_turn(arm), xi * at.along, n2 * at.across,
-      n4 * at.across, Vector2d::Zero();
+  out.drift = -p.crank * y[6] * y[6] * at.crank - y[7] * y[7] * arm + 2 * y[7] * quarter_turn(arm_rate);
+  out.J << p.crank * quarter_turn(at.crank), quarter_turn(arm), xi * at.along, n2 * at.across, n4 * at.across, Vector2d::Zero();
   return out;
 }
 
-Vector6 rates(const Y& y) {
-  return Eigen::Map<const Vector6>(y.data() + freedoms);
-}
+Vector6 rates(const Y& y) { return Eigen::Map<const Vector6>(y.data() + freedoms); }
 
 Inertia inertia(const Params& p, const Pose& at, const Y& y) {
   Inertia out{Matrix6::Zero(), Vector6::Zero(), Vector6::Zero()};
@@ -151,16 +140,12 @@ Beam beam(const Params& p) {
   const double length = p.coupler;
   for (int g = 0; g < 4; ++g) {
     const double xi = gauss_at[g];
-    const Eigen::Matrix<double, 2, 3> N{
-        {xi, 0, 0}, {0, length * xi * (1 - xi) * (1 - xi), length * xi * xi * (xi - 1)}};
+    const Eigen::Matrix<double, 2, 3> N{{xi, 0, 0}, {0, length * xi * (1 - xi) * (1 - xi), length * xi * xi * (xi - 1)}};
     out.mass += gauss_weight[g] * p.rho_a * length * N.transpose() * N;
   }
   out.stiffness(0, 0) = p.ea / length;
-  out.stiffness.bottomRightCorner<2, 2>() << 4 * p.ei / length, 2 * p.ei / length,
-      2 * p.ei / length, 4 * p.ei / length;
-  out.omega = Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3d>(out.stiffness, out.mass)
-                  .eigenvalues()
-                  .cwiseSqrt();
+  out.stiffness.bottomRightCorner<2, 2>() << 4 * p.ei / length, 2 * p.ei / length, 2 * p.ei / length, 4 * p.ei / length;
+  out.omega = Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3d>(out.stiffness, out.mass).eigenvalues().cwiseSqrt();
   // ζ = α/2ω + βω/2 at the two lowest.
   const double w1 = out.omega[0], w2 = out.omega[1], spread = (w2 - w1) * (w2 + w1);
   out.alpha = 2 * w1 * w2 * (p.zeta[0] * w2 - p.zeta[1] * w1) / spread;
@@ -176,9 +161,7 @@ Model::Model(const Params& from)
       side(from.bearing_on_slider ? 1 : -1),
       lever(from.bearing_on_slider ? from.bearing_radius - from.clearance : from.bearing_radius) {}
 
-Inertia inertia(const Params& p, const Y& y) {
-  return inertia(p, Pose(p, y), y);
-}
+Inertia inertia(const Params& p, const Y& y) { return inertia(p, Pose(p, y), y); }
 
 Gap gap(const Model& m, const Y& y) {
   const Point b = point(m.p, Pose(m.p, y), y, 1);
@@ -226,9 +209,7 @@ Sample evaluate(const Model& m, const State& s) {
   out.normal = c.normal, out.friction = c.friction, out.slip = c.slip;
   out.kinetic = 0.5 * rates(y).dot(inertia(m.p, at, y).mass * rates(y));
   out.gravity = m.p.crank_mass * m.p.gravity * m.p.crank / 2 * at.crank.y();
-  for (int i = 0; i < 4; ++i)
-    out.gravity += gauss_weight[i] * m.p.rho_a * m.p.coupler * m.p.gravity *
-                   point(m.p, at, y, gauss_at[i]).r.y();
+  for (int i = 0; i < 4; ++i) out.gravity += gauss_weight[i] * m.p.rho_a * m.p.coupler * m.p.gravity * point(m.p, at, y, gauss_at[i]).r.y();
   const Vector3d strain(y[2], y[3], y[4]);
   out.strain = 0.5 * strain.dot(m.coupler.stiffness * strain);
   out.contact = 0.4 * c.elastic * std::max(0.0, g.depth);

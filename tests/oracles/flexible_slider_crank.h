@@ -37,16 +37,16 @@ namespace pintle_oracle::flexible {
 struct Params {
   double crank = 0.05, coupler = 0.12;                               ///< lengths [m]
   double crank_mass = 0.3, coupler_mass = 0.21, slider_mass = 0.14;  ///< [kg]
-  double crank_inertia = 1e-4;  ///< about its mass centre, at mid-length [kg m²]
-  double gravity = 9.81;        ///< along −y [m/s²]
-  double young = 207e9, poisson = 0.3, diameter = 0.01;  ///< [Pa], –, of the coupler [m]
-  double rho_a = coupler_mass / coupler;                 ///< ρA [kg/m]
-  double ea = young * std::numbers::pi * diameter * diameter / 4;  ///< [N]
-  double ei = ea * diameter * diameter / 16;                       ///< [N m²]
-  double zeta[2] = {0, 0};       ///< ratios at the beam's two lowest frequencies, –
-  double clearance = 1e-5;       ///< 0: an ideal pin, and nothing of what follows is used [m]
-  double bearing_radius = 0.01;  ///< [m]
-  double stiffness =             ///< K [N/m^1.5]
+  double crank_inertia = 1e-4;                                       ///< about its mass centre, at mid-length [kg m²]
+  double gravity = 9.81;                                             ///< along −y [m/s²]
+  double young = 207e9, poisson = 0.3, diameter = 0.01;              ///< [Pa], –, of the coupler [m]
+  double rho_a = coupler_mass / coupler;                             ///< ρA [kg/m]
+  double ea = young * std::numbers::pi * diameter * diameter / 4;    ///< [N]
+  double ei = ea * diameter * diameter / 16;                         ///< [N m²]
+  double zeta[2] = {0, 0};                                           ///< ratios at the beam's two lowest frequencies, –
+  double clearance = 1e-5;                                           ///< 0: an ideal pin, and nothing of what follows is used [m]
+  double bearing_radius = 0.01;                                      ///< [m]
+  double stiffness =                                                 ///< K [N/m^1.5]
       hertz_stiffness(bearing_radius - clearance, bearing_radius, young, poisson, true);
   double chi = lankarani_nikravesh(0.9);  ///< –
   double mu = 0, v0 = 1e-3, v1 = 1e-2;    ///< –, [m/s], [m/s]

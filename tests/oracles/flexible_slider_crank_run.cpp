@@ -14,13 +14,11 @@ using Eigen::Vector3d;
 Vec<size> scales(const Model& m) {
   const Params& p = m.p;
   const double c = m.ideal ? p.crank : p.clearance;
-  const double v =
-      std::max(std::abs(p.speed), std::sqrt(p.gravity / p.crank)) * std::sqrt(c * p.crank);
+  const double v = std::max(std::abs(p.speed), std::sqrt(p.gravity / p.crank)) * std::sqrt(c * p.crank);
   const double energy = p.slider_mass * v * v;
   const Vector3d strain = (2 * energy * m.coupler.stiffness.diagonal().cwiseInverse()).cwiseSqrt();
   const double turn = v / p.coupler;
-  return {c / p.crank, c / p.coupler, strain[0], strain[1], strain[2], c,      v / p.crank, turn,
-          v,           turn,          turn,      v,         energy,    energy, energy};
+  return {c / p.crank, c / p.coupler, strain[0], strain[1], strain[2], c, v / p.crank, turn, v, turn, turn, v, energy, energy, energy};
 }
 
 /// One run: the mode (touching or not) is constant within a step and changes at located events.
@@ -64,9 +62,7 @@ struct Runner {
     for (int i = 1; i <= 8; ++i) {
       const double u = i / 8.0, w = u * u * (3 - 2 * u);
       const Vector2d e =
-          i == 8 ? b.e
-                 : Vector2d(a.e + w * (b.e - a.e) + h * u * (1 - u) * (1 - u) * a.e_rate -
-                            h * u * u * (1 - u) * b.e_rate);
+          i == 8 ? b.e : Vector2d(a.e + w * (b.e - a.e) + h * u * (1 - u) * (1 - u) * a.e_rate - h * u * u * (1 - u) * b.e_rate);
       if ((e.norm() > m.p.clearance) != s.touching) return i;
     }
     return 0;
@@ -164,8 +160,7 @@ struct Runner {
 
 }  // namespace
 
-Result simulate(const Model& m, const Options& o, const State& from,
-                const std::vector<double>& times) {
+Result simulate(const Model& m, const Options& o, const State& from, const std::vector<double>& times) {
   Runner runner{.m = m, .o = o};
   State& s = runner.s;
   s = from;

@@ -11,8 +11,8 @@ struct Turn {
 /// U(ψ).
 struct FourBar {
   double ground, crank, coupler, rocker;  ///< lengths [m]
-  bool open = true;  ///< the rocker's end is left of the line from the crank's end to the rocker's
-                     ///< pivot; false: right of it, the crossed assembly
+  bool open = true;                       ///< the rocker's end is left of the line from the crank's end to the rocker's
+                                          ///< pivot; false: right of it, the crossed assembly
 };
 struct FourBarMotion {
   Turn coupler, rocker;

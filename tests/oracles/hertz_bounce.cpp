@@ -40,8 +40,7 @@ double quadrature(const F& f, double length) {
   for (int i = -64 * 6; i <= 64 * 6; ++i) {
     const double x = i * step, s = 0.5 * std::numbers::pi * std::sinh(x);
     const double w = length / (1 + std::exp(-2 * s));
-    const double weight =
-        0.5 * length * 0.5 * std::numbers::pi * std::cosh(x) / (std::cosh(s) * std::cosh(s));
+    const double weight = 0.5 * length * 0.5 * std::numbers::pi * std::cosh(x) / (std::cosh(s) * std::cosh(s));
     if (w > 0 && weight > 0) sum += weight * f(w);
   }
   return sum * step;
@@ -59,18 +58,12 @@ double restitution(double chi) {
   return 0.5 * (low + high);
 }
 
-double depth_at(const Bounce& b, double u) {
-  return depth_from(b, from_onset(b.chi, 1 - u));
-}
+double depth_at(const Bounce& b, double u) { return depth_from(b, from_onset(b.chi, 1 - u)); }
 
-double deepest(const Bounce& b) {
-  return depth_at(b, 0);
-}
+double deepest(const Bounce& b) { return depth_at(b, 0); }
 
 double peak_force(const Bounce& b) {
-  const auto force = [&](double u) {
-    return b.stiffness * std::pow(depth_at(b, u), b.exponent) * (1 + b.chi * u);
-  };
+  const auto force = [&](double u) { return b.stiffness * std::pow(depth_at(b, u), b.exponent) * (1 + b.chi * u); };
   double low = 0, high = 1;
   const double golden = 0.5 * (std::sqrt(5.0) - 1);
   for (int i = 0; i < 80; ++i) {
@@ -84,17 +77,14 @@ double peak_force(const Bounce& b) {
 }
 
 double time_to_deepest(const Bounce& b) {
-  const auto slowness = [&](double w) {
-    return 1 / (std::pow(depth_from(b, from_onset(b.chi, w)), b.exponent) * (1 + b.chi * (1 - w)));
-  };
+  const auto slowness = [&](double w) { return 1 / (std::pow(depth_from(b, from_onset(b.chi, w)), b.exponent) * (1 + b.chi * (1 - w))); };
   return b.mass * b.speed / b.stiffness * quadrature(slowness, 1);
 }
 
 double duration(const Bounce& b) {
   const double e = restitution(b.chi);
   const auto slowness = [&](double w) {
-    return 1 /
-           (std::pow(depth_from(b, from_rebound(b.chi, e, w)), b.exponent) * (1 + b.chi * (w - e)));
+    return 1 / (std::pow(depth_from(b, from_rebound(b.chi, e, w)), b.exponent) * (1 + b.chi * (w - e)));
   };
   return time_to_deepest(b) + b.mass * b.speed / b.stiffness * quadrature(slowness, e);
 }

@@ -11,7 +11,7 @@ struct Bounce {
   double chi = 0;                          ///< ≥ 0
 };
 
-double restitution(double chi);  ///< root of χ(1 + e) = ln[(1 + χ)/(1 − χ e)] in (0, 1]
+double restitution(double chi);            ///< root of χ(1 + e) = ln[(1 + χ)/(1 − χ e)] in (0, 1]
 double depth_at(const Bounce&, double u);  ///< −e ≤ u ≤ 1 [m]
 double deepest(const Bounce&);             ///< [m]
 double peak_force(const Bounce&);          ///< [N]

@@ -47,23 +47,19 @@ Result run(const Params& p, double t_end, double tolerance, Method method = Meth
   return r;
 }
 
-double relative(double a, double b) {
-  return std::abs(a - b) / std::max({std::abs(a), std::abs(b), 1e-300});
-}
+double relative(double a, double b) { return std::abs(a - b) / std::max({std::abs(a), std::abs(b), 1e-300}); }
 
 /// Impacts whose times and speeds agree to 1e-6.
 std::size_t agreeing(const Result& a, const Result& b) {
   std::size_t n = 0;
-  while (n < a.impacts.size() && n < b.impacts.size() &&
-         relative(a.impacts[n].begin, b.impacts[n].begin) < 1e-6 &&
+  while (n < a.impacts.size() && n < b.impacts.size() && relative(a.impacts[n].begin, b.impacts[n].begin) < 1e-6 &&
          relative(a.impacts[n].approach, b.impacts[n].approach) < 1e-6)
     ++n;
   return n;
 }
 
 void report(const std::string& name, const Params& p, double t_end, int shown_impacts = 6) {
-  std::printf("\n### %s, %g s\n\nK = %.6e N/m^1.5, chi = %.6f\n\n", name.c_str(), t_end,
-              p.stiffness, p.chi);
+  std::printf("\n### %s, %g s\n\nK = %.6e N/m^1.5, chi = %.6f\n\n", name.c_str(), t_end, p.stiffness, p.chi);
   std::printf(
       "| tol | E(0) | E(end) | stored | hysteresis | friction | shown by slip in use | drive "
       "| contacts | of these ended | before the first over 1 ms | ledger | steps | evaluations | "
@@ -76,33 +72,27 @@ void report(const std::string& name, const Params& p, double t_end, int shown_im
     std::printf(
         "| %.0e | %.9f | %.9f | %.3e | %.9e | %.9e | %.9e | %.7g | %d | %d | %d | %.1e | %ld | %ld "
         "| %.2f | %.0f |\n",
-        tolerance, r.energy_start, r.energy, r.stored, r.hysteresis, r.friction, r.shown, r.drive,
-        r.stats.impacts, r.ended(), r.settled, r.ledger, r.stats.steps, r.stats.evaluations,
-        r.seconds * 1e3, r.seconds * 1e9 / static_cast<double>(r.stats.evaluations));
+        tolerance, r.energy_start, r.energy, r.stored, r.hysteresis, r.friction, r.shown, r.drive, r.stats.impacts, r.ended(), r.settled,
+        r.ledger, r.stats.steps, r.stats.evaluations, r.seconds * 1e3, r.seconds * 1e9 / static_cast<double>(r.stats.evaluations));
     std::fflush(stdout);
   }
   const Result &a = all[2], &b = all[3];
   const Result other = run(p, t_end, 1e-11, Method::rkf45);
-  const double change =
-      std::max(relative(a.hysteresis, b.hysteresis), relative(other.hysteresis, b.hysteresis));
-  std::printf("\nRKF45 at 1e-11: E(end) %.9f, hysteresis %.9e, %d impacts, %ld evaluations.\n",
-              other.energy, other.hysteresis, other.stats.impacts, other.stats.evaluations);
+  const double change = std::max(relative(a.hysteresis, b.hysteresis), relative(other.hysteresis, b.hysteresis));
+  std::printf("\nRKF45 at 1e-11: E(end) %.9f, hysteresis %.9e, %d impacts, %ld evaluations.\n", other.energy, other.hysteresis,
+              other.stats.impacts, other.stats.evaluations);
   std::printf(
       "Agreeing impacts (1e-11 | 1e-12, and RKF45): %zu and %zu of %d. Hysteresis changes by "
       "%.1e: %s. Count %s.\n\n",
-      agreeing(a, b), agreeing(other, b), b.stats.impacts, change,
-      change < 1e-4 ? "converged" : "NOT converged",
-      a.stats.impacts == b.stats.impacts && other.stats.impacts == b.stats.impacts
-          ? "converged"
-          : "NOT converged");
+      agreeing(a, b), agreeing(other, b), b.stats.impacts, change, change < 1e-4 ? "converged" : "NOT converged",
+      a.stats.impacts == b.stats.impacts && other.stats.impacts == b.stats.impacts ? "converged" : "NOT converged");
   std::printf(
       "| begin [s] | approach [m/s] | separation [m/s] | duration [s] | deepest [m] | peak "
       "[N] | hysteresis [J] | friction [J] |\n|---|---|---|---|---|---|---|---|\n");
   for (int i = 0; i < shown_impacts && i < static_cast<int>(b.impacts.size()); ++i) {
     const Impact& x = b.impacts[static_cast<std::size_t>(i)];
-    std::printf("| %.12e | %.10e | %.10e | %.6e | %.8e | %.8e | %.8e | %.8e |%s\n", x.begin,
-                x.approach, x.separation, x.end - x.begin, x.deepest, x.peak_force, x.loss,
-                x.friction_loss, x.finished ? "" : " (unfinished)");
+    std::printf("| %.12e | %.10e | %.10e | %.6e | %.8e | %.8e | %.8e | %.8e |%s\n", x.begin, x.approach, x.separation, x.end - x.begin,
+                x.deepest, x.peak_force, x.loss, x.friction_loss, x.finished ? "" : " (unfinished)");
   }
 }
 
@@ -110,8 +100,7 @@ Params slider_crank(double clearance, double speed, double e, bool internal = tr
   Params p;
   p.clearance = clearance;
   p.speed = speed;
-  p.stiffness =
-      hertz_stiffness(p.bearing_radius - clearance, p.bearing_radius, 207e9, 0.3, internal);
+  p.stiffness = hertz_stiffness(p.bearing_radius - clearance, p.bearing_radius, 207e9, 0.3, internal);
   p.chi = lankarani_nikravesh(e);
   return p;
 }
@@ -125,8 +114,7 @@ int main(int argc, char** argv) {
   if (wanted("table2"))
     for (const bool internal : {true, false})
       for (const double speed : {50.0, 100.0, 150.0, 200.0}) {
-        std::snprintf(name, sizeof name, "Table 2: %g rad/s, c = 0.01 mm, e = 0.8, %s radius",
-                      speed, internal ? "internal" : "external");
+        std::snprintf(name, sizeof name, "Table 2: %g rad/s, c = 0.01 mm, e = 0.8, %s radius", speed, internal ? "internal" : "external");
         report(name, slider_crank(1e-5, speed, 0.8, internal), 0.05);
       }
   if (wanted("clearance"))
@@ -134,8 +122,7 @@ int main(int argc, char** argv) {
       for (const double c : {1e-5, 1e-4, 5e-4})
         for (const double t_end : {0.05, 1.0}) {
           if (!internal && t_end > 0.5) continue;
-          std::snprintf(name, sizeof name,
-                        "Clearance size: c = %g mm, 150 rad/s, e = 0.8, %s radius", c * 1e3,
+          std::snprintf(name, sizeof name, "Clearance size: c = %g mm, 150 rad/s, e = 0.8, %s radius", c * 1e3,
                         internal ? "internal" : "external");
           report(name, slider_crank(c, 150, 0.8, internal), t_end, t_end > 0.5 ? 0 : 12);
         }
@@ -147,8 +134,7 @@ int main(int argc, char** argv) {
           for (const double t_end : {0.02, 0.1}) {
             Params p = slider_crank(2e-3, 300, e);
             p.mu = mu, p.slip = slip;
-            std::snprintf(name, sizeof name,
-                          "Fig. 9: c = 2 mm, 300 rad/s, e = %g, mu = %g, %s slip", e, mu,
+            std::snprintf(name, sizeof name, "Fig. 9: c = 2 mm, 300 rad/s, e = %g, mu = %g, %s slip", e, mu,
                           slip == Slip::material ? "material" : "geometric");
             report(name, p, t_end, t_end > 0.05 ? 0 : 6);
           }
@@ -160,9 +146,8 @@ int main(int argc, char** argv) {
           Params p = slider_crank(2e-3, 300, e);
           p.mu = 0.01;
           if (near) p.start_e[0] = -(p.clearance - 1e-8);
-          std::snprintf(name, sizeof name,
-                        "Fig. 11: %s start, c = 2 mm, 300 rad/s, mu = 0.01, e = %g",
-                        near ? "near-wall" : "concentric", e);
+          std::snprintf(name, sizeof name, "Fig. 11: %s start, c = 2 mm, 300 rad/s, mu = 0.01, e = %g", near ? "near-wall" : "concentric",
+                        e);
           report(name, p, t_end, t_end > 0.05 ? 0 : 6);
         }
   if (wanted("driven")) {
@@ -173,8 +158,7 @@ int main(int argc, char** argv) {
           Params p = slider_crank(first ? 1e-5 : 5e-4, speed, e);
           p.driven = true;
           p.mu = first ? 0 : 0.1;
-          std::snprintf(name, sizeof name, "Fig. 3: driven 5000 rpm, c = %g mm, mu = %g, e = %g",
-                        p.clearance * 1e3, p.mu, e);
+          std::snprintf(name, sizeof name, "Fig. 3: driven 5000 rpm, c = %g mm, mu = %g, e = %g", p.clearance * 1e3, p.mu, e);
           report(name, p, t_end, t_end > 0.02 ? 0 : 6);
         }
   }

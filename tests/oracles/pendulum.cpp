@@ -34,9 +34,7 @@ Jacobi jacobi(double u, double k) {
   return {sn, cn, std::sqrt((1 - k * k) + k * k * cn * cn)};
 }
 
-double period(const Pendulum& p) {
-  return 4 * elliptic_k(std::sin(std::abs(p.release) / 2)) * std::sqrt(p.length / p.gravity);
-}
+double period(const Pendulum& p) { return 4 * elliptic_k(std::sin(std::abs(p.release) / 2)) * std::sqrt(p.length / p.gravity); }
 
 Swing evaluate(const Pendulum& p, double t) {
   const double k = std::sin(p.release / 2), rate0 = std::sqrt(p.gravity / p.length);
@@ -51,26 +49,21 @@ Swing evaluate(const Pendulum& p, double t) {
   return s;
 }
 
-double equivalent_length(double mass, double inertia, double centre) {
-  return centre + inertia / (mass * centre);
-}
+double equivalent_length(double mass, double inertia, double centre) { return centre + inertia / (mass * centre); }
 
 void rhs(const DoublePendulum& p, const Vec<4>& y, Vec<4>& dy) {
-  const double m11 =
-      p.inertia[0] + p.mass[0] * p.centre[0] * p.centre[0] + p.mass[1] * p.length * p.length;
+  const double m11 = p.inertia[0] + p.mass[0] * p.centre[0] * p.centre[0] + p.mass[1] * p.length * p.length;
   const double m22 = p.inertia[1] + p.mass[1] * p.centre[1] * p.centre[1];
   const double h = p.mass[1] * p.length * p.centre[1];
   const double m12 = h * std::cos(y[0] - y[1]), turn = h * std::sin(y[0] - y[1]);
-  const double f1 = -turn * y[3] * y[3] -
-                    (p.mass[0] * p.centre[0] + p.mass[1] * p.length) * p.gravity * std::sin(y[0]);
+  const double f1 = -turn * y[3] * y[3] - (p.mass[0] * p.centre[0] + p.mass[1] * p.length) * p.gravity * std::sin(y[0]);
   const double f2 = turn * y[2] * y[2] - p.mass[1] * p.centre[1] * p.gravity * std::sin(y[1]);
   const double det = m11 * m22 - m12 * m12;
   dy = {y[2], y[3], (m22 * f1 - m12 * f2) / det, (m11 * f2 - m12 * f1) / det};
 }
 
 double energy(const DoublePendulum& p, const Vec<4>& y) {
-  const double m11 =
-      p.inertia[0] + p.mass[0] * p.centre[0] * p.centre[0] + p.mass[1] * p.length * p.length;
+  const double m11 = p.inertia[0] + p.mass[0] * p.centre[0] * p.centre[0] + p.mass[1] * p.length * p.length;
   const double m22 = p.inertia[1] + p.mass[1] * p.centre[1] * p.centre[1];
   const double m12 = p.mass[1] * p.length * p.centre[1] * std::cos(y[0] - y[1]);
   return 0.5 * (m11 * y[2] * y[2] + m22 * y[3] * y[3]) + m12 * y[2] * y[3] -

@@ -48,14 +48,11 @@ Eigen::Matrix3Xd functions(double s, int m) {
 RowVectorXd lean_of(const RotatingBeam& beam, const Rule& rule) {
   RowVectorXd lean = beam.lean_tip * functions(1, 2).row(0);
   if (beam.lean)
-    for (int i = 0; i < points; ++i)
-      lean += rule.weight[i] * beam.lean(rule.s[i]) * functions(rule.s[i], 2).row(0);
+    for (int i = 0; i < points; ++i) lean += rule.weight[i] * beam.lean(rule.s[i]) * functions(rule.s[i], 2).row(0);
   return lean;
 }
 
-MatrixXd product(double factor, const RowVectorXd& a, const RowVectorXd& b) {
-  return factor * a.transpose() * b;
-}
+MatrixXd product(double factor, const RowVectorXd& a, const RowVectorXd& b) { return factor * a.transpose() * b; }
 
 /// Of v, then u.
 struct Matrices {
@@ -76,8 +73,7 @@ Matrices matrices(const RotatingBeam& beam) {
     auto K = out.K.topLeftCorner(shapes, shapes);
     K += product(ds, v.row(2), v.row(2)) + product(ds * pull, v.row(1), v.row(1)) - w2 * mass;
     if (beam.lacking) K -= product(ds * beam.lacking(s), v.row(1) - lean, v.row(1) - lean);
-    out.K.bottomRightCorner(shapes, shapes) +=
-        product(ds * beam.EA, u.row(1), u.row(1)) - w2 * along;
+    out.K.bottomRightCorner(shapes, shapes) += product(ds * beam.EA, u.row(1), u.row(1)) - w2 * along;
     const MatrixXd coriolis = product(2 * beam.w * ds, v.row(0), u.row(0));
     out.G.topRightCorner(shapes, shapes) += coriolis;
     out.G.bottomLeftCorner(shapes, shapes) -= coriolis.transpose();
@@ -90,8 +86,7 @@ Matrices matrices(const RotatingBeam& beam) {
 VectorXd squares(const RotatingBeam& beam) {
   const Matrices m = matrices(beam);
   if (!(beam.EA > 0))
-    return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(m.K.topLeftCorner(shapes, shapes),
-                                                              m.M.topLeftCorner(shapes, shapes),
+    return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(m.K.topLeftCorner(shapes, shapes), m.M.topLeftCorner(shapes, shapes),
                                                               Eigen::EigenvaluesOnly)
         .eigenvalues();
   const Eigen::Index n = 2 * shapes;
@@ -109,9 +104,7 @@ VectorXd squares(const RotatingBeam& beam) {
 namespace {
 
 // ∫ (s − ½) v ds over the moment of inertia, 1/12.
-double mean_turn(double s) {
-  return 12 * (s - 0.5);
-}
+double mean_turn(double s) { return 12 * (s - 0.5); }
 
 }  // namespace
 

@@ -21,33 +21,27 @@ struct Rkf45 {
                                      {1932.0 / 2197, -7200.0 / 2197, 7296.0 / 2197},
                                      {439.0 / 216, -8, 3680.0 / 513, -845.0 / 4104},
                                      {-8.0 / 27, 2, -3544.0 / 2565, 1859.0 / 4104, -11.0 / 40}};
-  static constexpr double b[6] = {16.0 / 135,      0,         6656.0 / 12825,
-                                  28561.0 / 56430, -9.0 / 50, 2.0 / 55};
-  static constexpr double e[7] = {1.0 / 360, 0, -128.0 / 4275, -2197.0 / 75240, 1.0 / 50,
-                                  2.0 / 55,  0};  ///< fifth less fourth order
+  static constexpr double b[6] = {16.0 / 135, 0, 6656.0 / 12825, 28561.0 / 56430, -9.0 / 50, 2.0 / 55};
+  static constexpr double e[7] = {1.0 / 360, 0, -128.0 / 4275, -2197.0 / 75240, 1.0 / 50, 2.0 / 55, 0};  ///< fifth less fourth order
 };
 
 /// Dormand–Prince, 6 stages and the first of the next step.
 struct Dopri54 {
   static constexpr bool fsal = true;
-  static constexpr double a[6][5] = {
-      {},
-      {1.0 / 5},
-      {3.0 / 40, 9.0 / 40},
-      {44.0 / 45, -56.0 / 15, 32.0 / 9},
-      {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
-      {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656}};
-  static constexpr double b[6] = {35.0 / 384,     0,        500.0 / 1113, 125.0 / 192,
-                                  -2187.0 / 6784, 11.0 / 84};
-  static constexpr double e[7] = {71.0 / 57600,      0,          -71.0 / 16695, 71.0 / 1920,
-                                  -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+  static constexpr double a[6][5] = {{},
+                                     {1.0 / 5},
+                                     {3.0 / 40, 9.0 / 40},
+                                     {44.0 / 45, -56.0 / 15, 32.0 / 9},
+                                     {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+                                     {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656}};
+  static constexpr double b[6] = {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84};
+  static constexpr double e[7] = {71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
 };
 
 /// One step of size h from y, where k1 = f(y). @returns the number of evaluations of f.
 /// `k_end` = f(y_new) is filled by pairs that need it (fsal).
 template <class Pair, int D, int N, class F>
-int embedded_step(const F& f, const Vec<N>& y, const Vec<N>& k1, double h, Vec<N>& y_new,
-                  Vec<N>& k_end, Vec<N>& error) {
+int embedded_step(const F& f, const Vec<N>& y, const Vec<N>& k1, double h, Vec<N>& y_new, Vec<N>& k_end, Vec<N>& error) {
   Vec<N> k[6];
   k[0] = k1;
   Vec<N> stage{};
@@ -85,9 +79,7 @@ double error_ratio(const Vec<N>& error, const Vec<N>& scale, double tolerance) {
 }
 
 /// Factor for the next step size after a step of that error ratio.
-inline double step_factor(double ratio) {
-  return ratio > 0 ? std::clamp(0.9 * std::pow(ratio, -0.2), 0.2, 5.0) : 5.0;
-}
+inline double step_factor(double ratio) { return ratio > 0 ? std::clamp(0.9 * std::pow(ratio, -0.2), 0.2, 5.0) : 5.0; }
 
 /// Plain adaptive integration of y′ = f(y) over a span, by Dormand–Prince. Scale of component i:
 /// scale[i] + |y[i]|.

@@ -130,8 +130,8 @@ Sample evaluate(const Model& m, const State& s) {
   out.slip = f.slip, out.geometric_slip = f.geometric_slip;
   const Y& y = s.y;
   const double m12 = m.coupling * (g.c1 * g.c2 + g.s1 * g.s2);
-  out.energy = 0.5 * (m.m11 * y[3] * y[3] + m.m22 * y[4] * y[4] + m.m33 * y[5] * y[5]) +
-               m12 * y[3] * y[4] + m.weight1 * g.s1 + m.weight2 * g.s2;
+  out.energy =
+      0.5 * (m.m11 * y[3] * y[3] + m.m22 * y[4] * y[4] + m.m33 * y[5] * y[5]) + m12 * y[3] * y[4] + m.weight1 * g.s1 + m.weight2 * g.s2;
   out.stored = 0.4 * f.elastic * std::max(0.0, f.depth);
   out.ledger = out.energy + out.stored + y[6] + y[7] - y[9];
   return out;
@@ -143,14 +143,12 @@ Y interpolate(const Y& a, const Y& da, const Y& b, const Y& db, double h, double
   for (int i = 0; i < 3; ++i) {
     const double v = h * a[3 + i], w = 0.5 * h * h * da[3 + i], w1 = 0.5 * h * h * db[3 + i];
     const double d = b[i] - a[i] - v - w, dv = h * b[3 + i] - v - 2 * w, dw = w1 - w;
-    const double k3 = 10 * d - 4 * dv + dw, k4 = -15 * d + 7 * dv - 2 * dw,
-                 k5 = 6 * d - 3 * dv + dw;
+    const double k3 = 10 * d - 4 * dv + dw, k4 = -15 * d + 7 * dv - 2 * dw, k5 = 6 * d - 3 * dv + dw;
     y[i] = a[i] + u * (v + u * (w + u * (k3 + u * (k4 + u * k5))));
     y[3 + i] = (v + u * (2 * w + u * (3 * k3 + u * (4 * k4 + u * 5 * k5)))) / h;
   }
   for (int i = dynamic; i < size; ++i) {
-    const double d = b[i] - a[i], k2 = 3 * d - h * (2 * da[i] + db[i]),
-                 k3 = h * (da[i] + db[i]) - 2 * d;
+    const double d = b[i] - a[i], k2 = 3 * d - h * (2 * da[i] + db[i]), k3 = h * (da[i] + db[i]) - 2 * d;
     y[i] = a[i] + u * (h * da[i] + u * (k2 + u * k3));
   }
   return y;
@@ -196,8 +194,7 @@ struct Runner {
     const Geometry &a = before, &b = after;
     const double dx = b.ex - a.ex, dy = b.ey - a.ey;
     for (int i = 1; i <= 8; ++i) {
-      const double u = i / 8.0, w = u * u * (3 - 2 * u), p = u * (1 - u) * (1 - u),
-                   q = u * u * (u - 1);
+      const double u = i / 8.0, w = u * u * (3 - 2 * u), p = u * (1 - u) * (1 - u), q = u * u * (u - 1);
       const double x = i == 8 ? b.ex : a.ex + w * dx + h * (p * a.ux + q * b.ux);
       const double z = i == 8 ? b.ey : a.ey + w * dy + h * (p * a.uy + q * b.uy);
       if ((x * x + z * z > m.c * m.c) != s.touching) return i;
@@ -249,13 +246,10 @@ struct Runner {
     const Geometry g = geometry(m, y);
     const Contact f = contact(m, g, y[4], s.latch);
     const double r = std::hypot(g.ex, g.ey), across = g.uy * f.nx - g.ux * f.ny;
-    const double ax = m.side * (-m.l1 * (g.s1 * dy[3] + g.c1 * y[3] * y[3]) -
-                                m.l2 * (g.s2 * dy[4] + g.c2 * y[4] * y[4]) - dy[5]);
-    const double ay = m.side * (m.l1 * (g.c1 * dy[3] - g.s1 * y[3] * y[3]) +
-                                m.l2 * (g.c2 * dy[4] - g.s2 * y[4] * y[4]));
+    const double ax = m.side * (-m.l1 * (g.s1 * dy[3] + g.c1 * y[3] * y[3]) - m.l2 * (g.s2 * dy[4] + g.c2 * y[4] * y[4]) - dy[5]);
+    const double ay = m.side * (m.l1 * (g.c1 * dy[3] - g.s1 * y[3] * y[3]) + m.l2 * (g.c2 * dy[4] - g.s2 * y[4] * y[4]));
     const double rate2 = ax * f.nx + ay * f.ny + across * across / r;
-    return {f.depth, f.rate, f.normal,
-            1.5 * f.rate * (1 + m.chi * f.rate / s.latch) + f.depth * m.chi * rate2 / s.latch};
+    return {f.depth, f.rate, f.normal, 1.5 * f.rate * (1 + m.chi * f.rate / s.latch) + f.depth * m.chi * rate2 / s.latch};
   }
 
   /// Deepest point and greatest force, refined inside the step by interpolation.
@@ -335,30 +329,24 @@ struct Runner {
 };
 
 template <class Pair>
-Stats run(const Params& p, const Options& o, double t_end, State& s,
-          const std::function<void(const Impact&)>& on_impact,
+Stats run(const Params& p, const Options& o, double t_end, State& s, const std::function<void(const Impact&)>& on_impact,
           const std::function<void(const Sample&)>& on_sample) {
-  Runner<Pair> runner{
-      .m = Model(p), .o = o, .s = s, .on_impact = on_impact, .on_sample = on_sample};
+  Runner<Pair> runner{.m = Model(p), .o = o, .s = s, .on_impact = on_impact, .on_sample = on_sample};
   const double c = p.clearance, w = std::max(std::abs(p.speed), std::sqrt(p.gravity / p.crank));
   const double v = w * std::sqrt(c * p.crank), energy = p.slider_mass * v * v;
-  runner.scale = {c / p.crank, c / p.coupler, c,      v / p.crank, v / p.coupler,
-                  v,           energy,        energy, energy,      energy};
+  runner.scale = {c / p.crank, c / p.coupler, c, v / p.crank, v / p.coupler, v, energy, energy, energy, energy};
   runner.run(t_end);
   return runner.stats;
 }
 
 }  // namespace
 
-double hertz_stiffness(double journal_radius, double bearing_radius, double young, double nu,
-                       bool internal) {
+double hertz_stiffness(double journal_radius, double bearing_radius, double young, double nu, bool internal) {
   const double sum = internal ? bearing_radius - journal_radius : bearing_radius + journal_radius;
   return 4 * young / (6 * (1 - nu * nu)) * std::sqrt(journal_radius * bearing_radius / sum);
 }
 
-double lankarani_nikravesh(double e) {
-  return 0.75 * (1 - e * e);
-}
+double lankarani_nikravesh(double e) { return 0.75 * (1 - e * e); }
 
 State start(const Params& p) {
   const double side = p.bearing_on_slider ? 1 : -1;
@@ -376,16 +364,11 @@ State start(const Params& p) {
   return s;
 }
 
-Sample evaluate(const Params& p, const State& s) {
-  return evaluate(Model(p), s);
-}
+Sample evaluate(const Params& p, const State& s) { return evaluate(Model(p), s); }
 
-double rhs(const Params& p, const State& s, Y& dy) {
-  return derivative(Model(p), s.y, s.touching, s.latch, dy);
-}
+double rhs(const Params& p, const State& s, Y& dy) { return derivative(Model(p), s.y, s.touching, s.latch, dy); }
 
-Stats simulate(const Params& p, const Options& o, double t_end, State& state,
-               const std::function<void(const Impact&)>& on_impact,
+Stats simulate(const Params& p, const Options& o, double t_end, State& state, const std::function<void(const Impact&)>& on_impact,
                const std::function<void(const Sample&)>& on_sample) {
   return o.method == Method::rkf45 ? run<Rkf45>(p, o, t_end, state, on_impact, on_sample)
                                    : run<Dopri54>(p, o, t_end, state, on_impact, on_sample);

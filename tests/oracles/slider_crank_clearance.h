@@ -26,12 +26,12 @@ enum class Method { rkf45, dopri54 };
 struct Params {
   double crank = 0.05, coupler = 0.12;                               ///< lengths [m]
   double crank_mass = 0.3, coupler_mass = 0.21, slider_mass = 0.14;  ///< [kg]
-  double crank_inertia = 1e-4, coupler_inertia = 2.5e-4;  ///< about mass centres [kg m²]
-  double gravity = 9.81;                                  ///< along −y [m/s²]
-  double clearance = 1e-5, bearing_radius = 0.01;         ///< [m]
-  double stiffness = 0;                                   ///< K [N/m^1.5]
-  double chi = 0;                                         ///< –
-  double mu = 0, v0 = 1e-3, v1 = 1e-2;                    ///< –, [m/s], [m/s]
+  double crank_inertia = 1e-4, coupler_inertia = 2.5e-4;             ///< about mass centres [kg m²]
+  double gravity = 9.81;                                             ///< along −y [m/s²]
+  double clearance = 1e-5, bearing_radius = 0.01;                    ///< [m]
+  double stiffness = 0;                                              ///< K [N/m^1.5]
+  double chi = 0;                                                    ///< –
+  double mu = 0, v0 = 1e-3, v1 = 1e-2;                               ///< –, [m/s], [m/s]
   Slip slip = Slip::material;
   bool bearing_on_slider = true;
   bool driven = false;         ///< crank held at its starting speed by a torque
@@ -41,8 +41,7 @@ struct Params {
 };
 
 /// K = 4/(3(h+h)) √R of like materials; internal: R = RᵢRⱼ/(Rⱼ − Rᵢ), else RᵢRⱼ/(Rᵢ + Rⱼ).
-double hertz_stiffness(double journal_radius, double bearing_radius, double young, double nu,
-                       bool internal);
+double hertz_stiffness(double journal_radius, double bearing_radius, double young, double nu, bool internal);
 double lankarani_nikravesh(double e);  ///< χ = 3(1 − e²)/4
 
 /// y = (θ, φ, x, rates of these, hysteresis loss, friction loss, the same as the slip in use shows
@@ -104,8 +103,7 @@ double rhs(const Params&, const State&, Y& dy);
 /// rounding; contact forces act between them only. Samples come from quintic interpolation of q, q̇,
 /// q̈ across steps. Allocates nothing. `rhs` above sets its constants up again at each call;
 /// `simulate` does so once.
-Stats simulate(const Params&, const Options&, double t_end, State& state,
-               const std::function<void(const Impact&)>& on_impact = {},
+Stats simulate(const Params&, const Options&, double t_end, State& state, const std::function<void(const Impact&)>& on_impact = {},
                const std::function<void(const Sample&)>& on_sample = {});
 
 /// The same mechanism without clearance: one freedom.

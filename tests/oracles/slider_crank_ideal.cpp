@@ -34,8 +34,7 @@ Ideal evaluate_ideal(const Params& p, double angle, double speed) {
   const double m12 = h * (k.c1 * k.c2 + k.s1 * k.s2), turn = h * (k.s1 * k.c2 - k.c1 * k.s2);
   // T = ½ M(θ) θ̇², M′ its slope in θ, V = weight₁ sin θ + weight₂ sin φ.
   const double mass = m11 + 2 * m12 * k.phi1 + m22 * k.phi1 * k.phi1 + p.slider_mass * k.x1 * k.x1;
-  const double slope = 2 * (-turn * (1 - k.phi1) * k.phi1 + m12 * k.phi2 + m22 * k.phi1 * k.phi2 +
-                            p.slider_mass * k.x1 * k.x2);
+  const double slope = 2 * (-turn * (1 - k.phi1) * k.phi1 + m12 * k.phi2 + m22 * k.phi1 * k.phi2 + p.slider_mass * k.x1 * k.x2);
   const double load = 0.5 * slope * speed * speed + weight1 * k.c1 + weight2 * k.c2 * k.phi1;
   Ideal out{};
   out.angle = angle, out.speed = speed;
@@ -48,20 +47,15 @@ Ideal evaluate_ideal(const Params& p, double angle, double speed) {
   out.pin_force[0] = -p.slider_mass * out.x_acceleration;
   // The coupler's own equation, moments about the crank pin.
   out.pin_force[1] =
-      ((m12 * out.acceleration + m22 * phi_acceleration - turn * speed * speed + weight2 * k.c2) /
-           p.coupler +
-       out.pin_force[0] * k.s2) /
+      ((m12 * out.acceleration + m22 * phi_acceleration - turn * speed * speed + weight2 * k.c2) / p.coupler + out.pin_force[0] * k.s2) /
       k.c2;
   out.energy = 0.5 * mass * speed * speed + weight1 * k.s1 + weight2 * k.s2;
   return out;
 }
 
 Ideal ideal_at(const Params& p, double t, double tolerance) {
-  const auto f = [&](const Vec<2>& y, Vec<2>& dy) {
-    dy = {y[1], evaluate_ideal(p, y[0], y[1]).acceleration};
-  };
-  const Vec<2> y =
-      integrate_tightly<2>(f, {p.start_angle, p.speed}, t, tolerance, {1.0, std::abs(p.speed) + 1});
+  const auto f = [&](const Vec<2>& y, Vec<2>& dy) { dy = {y[1], evaluate_ideal(p, y[0], y[1]).acceleration}; };
+  const Vec<2> y = integrate_tightly<2>(f, {p.start_angle, p.speed}, t, tolerance, {1.0, std::abs(p.speed) + 1});
   return evaluate_ideal(p, y[0], y[1]);
 }
 

@@ -13,11 +13,11 @@
 namespace pintle_oracle {
 
 struct LinkMotion {
-  double theta, psi, phi, x;                 ///< [rad], [m]
-  double phi_rate, x_rate;                   ///< [rad/s], [m/s]
+  double theta, psi, phi, x;  ///< [rad], [m]
+  double phi_rate, x_rate;    ///< [rad/s], [m/s]
   double theta_acceleration, psi_acceleration, x_acceleration;
-  double tension;                            ///< of the link, from the slider's balance along x [N]; cos ψ ≠ 0
-  double energy;                             ///< kinetic and gravity [J]
+  double tension;  ///< of the link, from the slider's balance along x [N]; cos ψ ≠ 0
+  double energy;   ///< kinetic and gravity [J]
 };
 
 /// @param y  θ, ψ and their rates

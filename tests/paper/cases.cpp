@@ -31,27 +31,18 @@ Change output(double every, double until, double tol) {
   };
 }
 
-double energy(const Energies& e) {
-  return e.kinetic + e.gravity + e.strain;
-}
-double loss(const Run& r) {
-  return energy(r.first) - energy(r.last);
-}
+double energy(const Energies& e) { return e.kinetic + e.gravity + e.strain; }
+double loss(const Run& r) { return energy(r.first) - energy(r.last); }
 int ended(const Run& r) {
-  return static_cast<int>(
-      std::ranges::count_if(r.impacts, [](const Impact& i) { return std::isfinite(i.end); }));
+  return static_cast<int>(std::ranges::count_if(r.impacts, [](const Impact& i) { return std::isfinite(i.end); }));
 }
 
 Vector scaled(Vector v, double by) {
   for (double& x : v) x *= by;
   return v;
 }
-Vector column(const Run& r, const std::string& name, double by) {
-  return scaled(r.trajectory.column(name), by);
-}
-Vector ms(const Run& r) {
-  return column(r, "t [s]", 1e3);
-}
+Vector column(const Run& r, const std::string& name, double by) { return scaled(r.trajectory.column(name), by); }
+Vector ms(const Run& r) { return column(r, "t [s]", 1e3); }
 Vector energies(const Run& r) {
   Vector e = r.ledger.column("kinetic [J]");
   for (const char* other : {"gravity [J]", "strain [J]"})
@@ -94,8 +85,7 @@ Vector while_touching(const Run& r, const std::string& name, double by) {
 }
 Curve circle(const std::string& label, double radius) {
   Curve c{label, {}, {}, true};
-  for (int i = 0; i <= 360; ++i)
-    c.x.push_back(radius * std::cos(i * pi / 180)), c.y.push_back(radius * std::sin(i * pi / 180));
+  for (int i = 0; i <= 360; ++i) c.x.push_back(radius * std::cos(i * pi / 180)), c.y.push_back(radius * std::sin(i * pi / 180));
   return c;
 }
 Curve orbit(const std::string& label, const Run& r, double by) {
@@ -110,14 +100,12 @@ std::string six_headers(const std::string& first) {
 std::string printed_row() {
   std::string s = "| *printed* |";
   for (const Printed& p : in_print)
-    s +=
-        p.loss > 0 ? printed(" *%d; %.1f mJ* |", p.collisions, 1e3 * p.loss) : printed(" *%d* |", p.collisions);
+    s += p.loss > 0 ? printed(" *%d; %.1f mJ* |", p.collisions, 1e3 * p.loss) : printed(" *%d* |", p.collisions);
   return s + "\n";
 }
 /// One row: contacts that ended and loss, of the six cases under one change.
 std::string six_row(const std::string& first, const Change& change, bool judge) {
-  constexpr std::array<double, 4> after{0.5775, 2.3100, 5.1973,
-                                        9.2393};  // printed energies at 50 ms
+  constexpr std::array<double, 4> after{0.5775, 2.3100, 5.1973, 9.2393};  // printed energies at 50 ms
   std::string s = "| " + first + " |";
   int inside = 0;
   std::size_t k = 0;
@@ -126,8 +114,7 @@ std::string six_row(const std::string& first, const Change& change, bool judge) 
       scene.output.every = 0.05;
       change(scene);
     });
-    s += r.status == Status::failed ? std::string(" fails |")
-                                    : printed(" %d; %.3g mJ |", ended(r), 1e3 * loss(r));
+    s += r.status == Status::failed ? std::string(" fails |") : printed(" %d; %.3g mJ |", ended(r), 1e3 * loss(r));
     if (k < 4) inside += std::abs(r.first.kinetic - loss(r) - after[k]) <= 5e-5;
     ++k;
   }

@@ -21,11 +21,11 @@ struct Printed {
   int collisions;
 };
 const std::array<Printed, 6> in_print{{{"table2_050", "50 rad/s, 0.01 mm", 0.5777, 0.0002, 29},
-                                      {"table2_100", "100 rad/s, 0.01 mm", 2.3108, 0.0008, 22},
-                                      {"table2_150", "150 rad/s, 0.01 mm", 5.1992, 0.0019, 4},
-                                      {"table2_200", "200 rad/s, 0.01 mm", 9.2431, 0.0038, 3},
-                                      {"fig05_clearance_010", "150 rad/s, 0.1 mm", 0, 0, 19},
-                                      {"fig05_clearance_050", "150 rad/s, 0.5 mm", 0, 0, 33}}};
+                                       {"table2_100", "100 rad/s, 0.01 mm", 2.3108, 0.0008, 22},
+                                       {"table2_150", "150 rad/s, 0.01 mm", 5.1992, 0.0019, 4},
+                                       {"table2_200", "200 rad/s, 0.01 mm", 9.2431, 0.0038, 3},
+                                       {"fig05_clearance_010", "150 rad/s, 0.1 mm", 0, 0, 19},
+                                       {"fig05_clearance_050", "150 rad/s, 0.5 mm", 0, 0, 33}}};
 
 Run run(const std::string& name, const Change& change = {}, const Overrides& set = {});
 SceneClearance& clearance(Scene& s);

@@ -15,8 +15,8 @@ namespace paper {
 namespace {
 
 std::string page_text(Page& page) {
-  figure3(page), figure4(page), figures5_and_6(page), table2(page), figure9(page), figure11(page),
-      figure12(page), table3(page), findings(page), clearance_models(page);
+  figure3(page), figure4(page), figures5_and_6(page), table2(page), figure9(page), figure11(page), figure12(page), table3(page),
+      findings(page), clearance_models(page);
   std::ostringstream md;
   md << "# The results of Ebrahimi, Salahshoor and Moradi (2017)\n\n"
         "Every result of *Characterization of the effect of joint clearance on the energy "
@@ -39,9 +39,7 @@ std::string page_text(Page& page) {
         "through "
         "its ends.\n\n"
         "## Side by side\n\n| result | paper | here, converged | difference |\n|---|---|---|---|\n";
-  for (const Row& r : page.summary)
-    md << "| " << r.result << " | " << r.paper << " | " << r.ours << " | " << r.difference
-       << " |\n";
+  for (const Row& r : page.summary) md << "| " << r.result << " | " << r.paper << " | " << r.ours << " | " << r.difference << " |\n";
   md << "\n" << page.text.str();
   return md.str();
 }
@@ -63,36 +61,29 @@ void check_flexible(Judge& expect, const std::map<std::string, Run>& runs) {
     expect(printed("%.6f", energy(r.first)) == "5.203125", name + " starts with 5.203125 J");
     const double open = r.worst_unexplained / energy(r.first);
     const bool other_speed = name.ends_with("geometric");
-    expect(other_speed ? std::abs(open) > 1e-6 : std::abs(open) < 1e-9,
-           printed("%s leaves %.1e unexplained", name.c_str(), open));
+    expect(other_speed ? std::abs(open) > 1e-6 : std::abs(open) < 1e-9, printed("%s leaves %.1e unexplained", name.c_str(), open));
   }
   const Impact &hard = rigid.impacts.front(), &soft = flexible.impacts.front();
   expect(soft.deepest < 0.8 * hard.deepest && soft.lost < 0.5 * hard.lost,
-         printed("Fig. 12: the first impact goes %.2f µm deep, with the flexible coupler %.2f",
-           1e6 * hard.deepest, 1e6 * soft.deepest));
+         printed("Fig. 12: the first impact goes %.2f µm deep, with the flexible coupler %.2f", 1e6 * hard.deepest, 1e6 * soft.deepest));
   expect(flexible.last.lost > rigid.last.lost,
-         printed("Fig. 12: the flexible coupler loses %.3f mJ, the rigid one %.3f mJ",
-           1e3 * flexible.last.lost, 1e3 * rigid.last.lost));
+         printed("Fig. 12: the flexible coupler loses %.3f mJ, the rigid one %.3f mJ", 1e3 * flexible.last.lost, 1e3 * rigid.last.lost));
   expect(ended(rigid) == 10 && ended(flexible) == 5, "Fig. 12: 10 contacts end, flexible 5");
   const double first = loss(runs.at("table3_case1"));
-  expect(std::abs(first / 2.650649e-3 - 1) < 0.05,
-         printed("Table 3, case 1 loses %.3f mJ, printed 2.651", 1e3 * first));
+  expect(std::abs(first / 2.650649e-3 - 1) < 0.05, printed("Table 3, case 1 loses %.3f mJ, printed 2.651", 1e3 * first));
   const double second = loss(runs.at("table3_case2")), third = loss(runs.at("table3_case3"));
   expect(first < third && third < second,
-         printed("Table 3: the losses have the printed order, %.3f, %.1f, %.1f mJ", 1e3 * first,
-           1e3 * second, 1e3 * third));
+         printed("Table 3: the losses have the printed order, %.3f, %.1f, %.1f mJ", 1e3 * first, 1e3 * second, 1e3 * third));
   const Run ideal = run("fig12_flexible_ideal", output(0.05, 1, 1e-9));
   const double late = ideal.last.lost - ledger_at(ideal, "coupler.lost to damping [J]", 0.05);
-  expect(std::abs(late / 0.536e-3 - 1) < 0.1,
-         printed("ideal joints lose %.3f mJ from 50 ms to 1 s; printed 0.536 in case 3", 1e3 * late));
+  expect(std::abs(late / 0.536e-3 - 1) < 0.1, printed("ideal joints lose %.3f mJ from 50 ms to 1 s; printed 0.536 in case 3", 1e3 * late));
 }
 
 int check() {
   Judge expect;
   std::map<std::string, Run> runs;
   for (const auto& entry : std::filesystem::directory_iterator(source / "examples/paper"))
-    if (const std::string name = entry.path().stem().string();
-        entry.path().extension() == ".yaml") {
+    if (const std::string name = entry.path().stem().string(); entry.path().extension() == ".yaml") {
       const Run& r = runs[name] = run(name, [](Scene& s) {
         s.run.until = std::min(s.run.until, 0.05);
         s.output.every = 1e-3;
@@ -107,22 +98,17 @@ int check() {
       expect(printed("%.4f", energy(r.first)) == printed("%.4f", in_print[k].energy),
              printed("%s starts with %.4f J", in_print[k].what, in_print[k].energy));
       expect(std::abs(loss(r) / in_print[k].loss - 1) < 0.15,
-             printed("%s loses %.4f mJ, printed %.1f", in_print[k].what, 1e3 * loss(r),
-               1e3 * in_print[k].loss));
+             printed("%s loses %.4f mJ, printed %.1f", in_print[k].what, 1e3 * loss(r), 1e3 * in_print[k].loss));
     }
-    expect(ended(r) == counts[k], printed("%s: %d contacts end, %d converged, %d printed",
-                                    in_print[k].what, ended(r), counts[k], in_print[k].collisions));
+    expect(ended(r) == counts[k],
+           printed("%s: %d contacts end, %d converged, %d printed", in_print[k].what, ended(r), counts[k], in_print[k].collisions));
     expect(std::abs(r.worst_unexplained) < 1e-8 * energy(r.first),
-           printed("%s: the ledger closes to %.1e", in_print[k].what,
-             std::abs(r.worst_unexplained) / energy(r.first)));
+           printed("%s: the ledger closes to %.1e", in_print[k].what, std::abs(r.worst_unexplained) / energy(r.first)));
   }
   const Run slow = run("fig09_friction_geometric");
-  expect(std::abs(slow.unexplained + 1.217) < 0.01,
-         printed("fig09_friction_geometric leaves %.4f J unexplained", slow.unexplained));
-  const Run far = run("fig11_concentric", output(1e-3, 0.02, 1e-10)),
-            near = run("fig11_near_wall", output(1e-3, 0.02, 1e-10));
-  expect(loss(far) > 5 * loss(near),
-         printed("Fig. 11: the concentric start loses %.3f J, the other %.3f J", loss(far), loss(near)));
+  expect(std::abs(slow.unexplained + 1.217) < 0.01, printed("fig09_friction_geometric leaves %.4f J unexplained", slow.unexplained));
+  const Run far = run("fig11_concentric", output(1e-3, 0.02, 1e-10)), near = run("fig11_near_wall", output(1e-3, 0.02, 1e-10));
+  expect(loss(far) > 5 * loss(near), printed("Fig. 11: the concentric start loses %.3f J, the other %.3f J", loss(far), loss(near)));
   return expect.failures + check_models() > 0;
 }
 

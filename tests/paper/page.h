@@ -15,12 +15,10 @@ struct Page {
   std::ostringstream text;
 };
 
-const std::string converging_head =
-    " 1e-9 | 1e-10 | 1e-11 | 1e-11, Fehlberg |\n|---|---|---|---|---|\n";
+const std::string converging_head = " 1e-9 | 1e-10 | 1e-11 | 1e-11, Fehlberg |\n|---|---|---|---|---|\n";
 /// Four cells: a value at tolerance 1e-9, 1e-10 and 1e-11 by Dormand-Prince, and at 1e-11 by
 /// Fehlberg.
-std::string converging(const std::string& scene, const Overrides& set,
-                       const std::function<std::string(const Run&)>& value);
+std::string converging(const std::string& scene, const Overrides& set, const std::function<std::string(const Run&)>& value);
 
 /// Gone from kinetic, gravity and what the contact stores.
 double gone(const Run&, double t);

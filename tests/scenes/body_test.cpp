@@ -53,7 +53,8 @@ void expect_words(const std::string& message, std::initializer_list<const char*>
 class BadFile : public testing::Test {
  protected:
   void SetUp() override {
-    folder = std::filesystem::path(testing::TempDir()) / ("pintle_bad_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    folder = std::filesystem::path(testing::TempDir()) /
+             ("pintle_bad_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     std::filesystem::create_directories(folder);
   }
   void TearDown() override { std::filesystem::remove_all(folder); }
@@ -86,7 +87,8 @@ TEST(Body, SpinAndWeightStretchARodAsTheirClosedForms) {
 }
 
 TEST(Body, SupportsShareReactionsThatBalanceTheLoad) {
-  const StaticReport r = solved(beam("    supports: {A: pinned, B: [y]}\n", "static: {loads: {p: {at: B, force: [100, 0]}, q: {line load: [0, -10]}, t: {at: A, torque: 6}}}\n"));
+  const StaticReport r = solved(beam("    supports: {A: pinned, B: [y]}\n",
+                                     "static: {loads: {p: {at: B, force: [100, 0]}, q: {line load: [0, -10]}, t: {at: A, torque: 6}}}\n"));
   Eigen::Vector3d sum = r.load;
   for (const SupportReaction& s : r.reactions) sum += s.resultant;
   EXPECT_NEAR(sum.norm(), 0, 1e-9 * r.load.norm());
@@ -94,14 +96,18 @@ TEST(Body, SupportsShareReactionsThatBalanceTheLoad) {
 }
 
 TEST(Body, GivenMassSetsTheDensity) {
-  const Scene scene = read_scene_text("bodies:\n  part:\n    plate: {thickness: 10 mm, young: 1e9, poisson: 0.3, mass: 3 kg, link: {disc: {diameter: 0.2, bore: 0.1}}}\n", "t");
+  const Scene scene = read_scene_text(
+      "bodies:\n  part:\n    plate: {thickness: 10 mm, young: 1e9, poisson: 0.3, mass: 3 kg, link: {disc: {diameter: 0.2, bore: 0.1}}}\n",
+      "t");
   const ElasticBody e = elastic_body(scene, scene.bodies[0]);
   EXPECT_NEAR(rigid_inertia(e.model, e.M).m, 3, 1e-12);
 }
 
 TEST(Body, WithoutModesIsRigidInAMechanismWithTheInertiaOfItsShape) {
-  const Scene scene = read_scene_text(plate("link: {eye bar: {length: 0.2, width: 0.03, eyes: [{bore: 0.03, outer: 0.06}, {bore: 0.02, outer: 0.04}]}}",
-                                      "    points: {A: {hole: eye 1}, B: {hole: eye 2}}\n"), "t");
+  const Scene scene =
+      read_scene_text(plate("link: {eye bar: {length: 0.2, width: 0.03, eyes: [{bore: 0.03, outer: 0.06}, {bore: 0.02, outer: 0.04}]}}",
+                            "    points: {A: {hole: eye 1}, B: {hole: eye 2}}\n"),
+                      "t");
   const Model model = build(scene);
   const Body& body = model.system.bodies[0];
   EXPECT_EQ(model.system.n(), 3);
@@ -139,12 +145,15 @@ TEST(Body, DrawnBeamBendsWithItsSections) {
 }
 
 TEST(BadBody, StaticsWithoutSupportsOrWithTooFewAreRefused) {
-  expect_words(complaint(beam("", "static: {loads: {p: {at: B, force: [1, 0]}}}\n")), {"test.yaml", "\"rod\"", "no supports", "supports: {"});
-  expect_words(complaint(beam("    supports: {A: pinned}\n", "static: {loads: {p: {at: B, force: [1, 0]}}}\n")), {"test.yaml", "rod", "turn"});
+  expect_words(complaint(beam("", "static: {loads: {p: {at: B, force: [1, 0]}}}\n")),
+               {"test.yaml", "\"rod\"", "no supports", "supports: {"});
+  expect_words(complaint(beam("    supports: {A: pinned}\n", "static: {loads: {p: {at: B, force: [1, 0]}}}\n")),
+               {"test.yaml", "rod", "turn"});
 }
 
 TEST(BadBody, MoreModesThanFreedomsAreRefusedWithBothNumbers) {
-  const std::string text = "bodies:\n  rod:\n    beam: {from: A, to: B, section: {circle: 0.1}, elements: 1, " + steel + "}\n    points: {A: [0, 0], B: [2, 0]}\n";
+  const std::string text = "bodies:\n  rod:\n    beam: {from: A, to: B, section: {circle: 0.1}, elements: 1, " + steel +
+                           "}\n    points: {A: [0, 0], B: [2, 0]}\n";
   expect_words(complaint(text, ".", 9), {"rod", "9", "3"});
   expect_words(complaint(text + "    supports: {A: fixed}\n", ".", 9), {"rod", "9", "3"});
   EXPECT_EQ(complaint(text, ".", 3), "");
@@ -157,17 +166,22 @@ TEST(BadBody, HoleThatNoGroupNamesIsRefusedWithTheGroupsThereAre) {
 }
 
 TEST(BadBody, PointWhereNoNodeIsIsRefusedWithTheNearest) {
-  expect_words(complaint(plate("grid: {corners: [[0, 0], [1, 0], [1, 1], [0, 1]], cells: [4, 4]}", "    points: {A: [0.3, 0.3]}\n")), {"points.A", "nearest", "(0.25, 0.25)"});
-  expect_words(complaint("bodies:\n  rod:\n    beam: {from: A, to: B, section: {circle: 0.1}, " + steel + "}\n    points: {A: [0, 0], B: [2, 0], C: [1, 0.1]}\n"), {"points.C", "axis"});
+  expect_words(complaint(plate("grid: {corners: [[0, 0], [1, 0], [1, 1], [0, 1]], cells: [4, 4]}", "    points: {A: [0.3, 0.3]}\n")),
+               {"points.A", "nearest", "(0.25, 0.25)"});
+  expect_words(complaint("bodies:\n  rod:\n    beam: {from: A, to: B, section: {circle: 0.1}, " + steel +
+                         "}\n    points: {A: [0, 0], B: [2, 0], C: [1, 0.1]}\n"),
+               {"points.C", "axis"});
 }
 
 TEST(BadBody, BarsHingedInALineHaveNoModes) {
-  expect_words(complaint("bodies:\n  rod:\n    beam: {from: A, to: B, section: {circle: 0.1}, elements: 10, theory: bar, " + steel + "}\n    points: {A: [0, 0], B: [1, 0]}\n    supports: {A: fixed}\n"), {"rod", "without stiffness"});
+  expect_words(complaint("bodies:\n  rod:\n    beam: {from: A, to: B, section: {circle: 0.1}, elements: 10, theory: bar, " + steel +
+                         "}\n    points: {A: [0, 0], B: [1, 0]}\n    supports: {A: fixed}\n"),
+               {"rod", "without stiffness"});
 }
 
 std::string blade(const std::string& height, const std::string& end) {
-  return "bodies:\n  blade:\n    beam: {from: A, to: B, section: {rectangle: [" + height + ", 0.01]}, elements: 20, theory: euler, " + steel +
-         "}\n    points: {A: [0, 0], B: " + end + "}\n    supports: {A: fixed}\n";
+  return "bodies:\n  blade:\n    beam: {from: A, to: B, section: {rectangle: [" + height + ", 0.01]}, elements: 20, theory: euler, " +
+         steel + "}\n    points: {A: [0, 0], B: " + end + "}\n    supports: {A: fixed}\n";
 }
 
 // Askew, its stiffness to bending is lost in the rounding of its stiffness to stretch: 1e-13 of it is taken for none.
@@ -194,7 +208,8 @@ TEST(Body, SupportsThatLeaveAMotionLeaveTheModesAsked) {
 }
 
 TEST(BadBody, DampingThatWouldFeedAModeIsRefused) {
-  expect_words(complaint(beam("    supports: {A: fixed}\n    damping: {rayleigh: {ratios: [0.2, 0.001]}}\n")), {"damping", "mode 6", "ratio -0.28", "feed"});
+  expect_words(complaint(beam("    supports: {A: fixed}\n    damping: {rayleigh: {ratios: [0.2, 0.001]}}\n")),
+               {"damping", "mode 6", "ratio -0.28", "feed"});
 }
 
 TEST(BadBody, OutlineIsNoHole) {
@@ -202,17 +217,22 @@ TEST(BadBody, OutlineIsNoHole) {
 }
 
 TEST(BadBody, PressureThatARigidRimSwallowsIsRefused) {
-  expect_words(complaint(plate("link: {disc: {diameter: 0.2, bore: 0.1}}", "    points: {A: {hole: bore}}\n    supports: {outline: fixed}\n", "static: {loads: {p: {on: bore, pressure: 1 MPa}}}\n")), {"loads.p", "rigid", "average"});
+  expect_words(
+      complaint(plate("link: {disc: {diameter: 0.2, bore: 0.1}}", "    points: {A: {hole: bore}}\n    supports: {outline: fixed}\n",
+                      "static: {loads: {p: {on: bore, pressure: 1 MPa}}}\n")),
+      {"loads.p", "rigid", "average"});
 }
 
 TEST(Body, RayleighDampingIsOfTheBodyAndNotOfTheTable) {
-  const Scene scene = read_scene_text(beam("    modes: {frame: tangent, count: 4}\n    damping: {rayleigh: {ratios: [0.01, 0.01]}}\n"), "t");
+  const Scene scene =
+      read_scene_text(beam("    modes: {frame: tangent, count: 4}\n    damping: {rayleigh: {ratios: [0.01, 0.01]}}\n"), "t");
   const ElasticBody e = elastic_body(scene, scene.bodies[0]);
   const ModesReport r = modes_of(scene, e, 4);
   EXPECT_NEAR(r.reduced->zeta[0], 0.01, 1e-12);
   EXPECT_NEAR(r.reduced->zeta[1], 0.01, 1e-12);
   const Rayleigh c = rayleigh(r.reduced->modes.omega[0], 0.01, r.reduced->modes.omega[1], 0.01);
-  for (int i = 0; i < 4; ++i) EXPECT_NEAR(r.natural.zeta[i], c.alpha / (2 * r.natural.modes.omega[i]) + c.beta * r.natural.modes.omega[i] / 2, 1e-12);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(r.natural.zeta[i], c.alpha / (2 * r.natural.modes.omega[i]) + c.beta * r.natural.modes.omega[i] / 2, 1e-12);
 }
 
 TEST_F(BadFile, WithAClockwiseCellHasNoHoleForIt) {

@@ -115,7 +115,9 @@ TEST(MasslessLinkModel, SaysInHowManyOutputsItPushed) {
   const auto normal = w.column("gudgeon pin.normal [N]");
   const auto pushed = std::count_if(normal.begin(), normal.end(), [](double N) { return N < 0; });
   ASSERT_GT(pushed, 0);
-  const auto says = [&](const std::string& text) { return text.find("in " + std::to_string(pushed) + " of 501 outputs") != std::string::npos; };
+  const auto says = [&](const std::string& text) {
+    return text.find("in " + std::to_string(pushed) + " of 501 outputs") != std::string::npos;
+  };
   EXPECT_EQ(std::ranges::count_if(w.run.warnings, says), 1);
 }
 
@@ -304,7 +306,8 @@ TEST(OneWord, SaysWhatTheModelDoesNotUse) {
   Scene s = with_model(ClearanceModel::massless_link, {.clearance = 1e-4, .friction = 0.1});
   const pintle::Model link = build(s);
   EXPECT_NE(link.clearances[0].find("not used: normal, friction"), std::string::npos) << link.clearances[0];
-  EXPECT_EQ(std::ranges::count_if(link.warnings, [](const std::string& w) { return w.find("friction is left out") != std::string::npos; }), 1);
+  EXPECT_EQ(std::ranges::count_if(link.warnings, [](const std::string& w) { return w.find("friction is left out") != std::string::npos; }),
+            1);
   s.joints[2].clearance->model = ClearanceModel::contact;
   s.joints[2].clearance->damping = 1;
   EXPECT_NE(build(s).clearances[0].find("not used: damping"), std::string::npos);

@@ -44,10 +44,7 @@ TEST(JournalStart, AnywhereInTheGapIsAsInMinimalCoordinates) {
     for (const double turn : {0.3, 1.9, 3.5, 5.1}) {
       SCOPED_TRACE(std::to_string(radius) + " c at " + std::to_string(turn));
       const double e = radius * 5e-4;
-      expect_as_oracle({.clearance = 5e-4,
-                        .friction = 0.02,
-                        .eccentricity = {e * std::cos(turn), e * std::sin(turn)},
-                        .until = 4e-3},
+      expect_as_oracle({.clearance = 5e-4, .friction = 0.02, .eccentricity = {e * std::cos(turn), e * std::sin(turn)}, .until = 4e-3},
                        few_impacts);
     }
 }
@@ -55,19 +52,14 @@ TEST(JournalStart, AnywhereInTheGapIsAsInMinimalCoordinates) {
 TEST(JournalStart, NearlyAtTheWallIsAsInMinimalCoordinates) {
   // The paper's second start, 1e-8 m from the wall.
   for (const double side : {-1.0, 1.0})
-    expect_as_oracle({.clearance = 2e-3,
-                      .speed = 300,
-                      .restitution = 0.9,
-                      .friction = 0.01,
-                      .eccentricity = {side * (2e-3 - 1e-8), 0},
-                      .until = 2e-3},
-                     few_impacts);
+    expect_as_oracle(
+        {.clearance = 2e-3, .speed = 300, .restitution = 0.9, .friction = 0.01, .eccentricity = {side * (2e-3 - 1e-8), 0}, .until = 2e-3},
+        few_impacts);
 }
 
 TEST(JournalStart, ExactlyAtTheWallBeginsOneContactOrNone) {
   for (const double side : {-1.0, 1.0}) {
-    const Whole w = run(scene(SliderCrank{
-        .clearance = 2e-3, .speed = 300, .eccentricity = {side * 2e-3, 0}, .until = 1e-3}));
+    const Whole w = run(scene(SliderCrank{.clearance = 2e-3, .speed = 300, .eccentricity = {side * 2e-3, 0}, .until = 1e-3}));
     ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
     // The slider is being slowed: the coupler's journal is pressed to the −x wall of its bearing.
     EXPECT_EQ(w.run.impacts.size(), side < 0 ? 1u : 0u);
@@ -77,17 +69,14 @@ TEST(JournalStart, ExactlyAtTheWallBeginsOneContactOrNone) {
 TEST(JournalStart, DeepInTheWallIsAsInMinimalCoordinates) {
   // Without hysteresis: at rest in the wall there is no approach speed to scale it by.
   for (const double depth : {1e-8, 1e-6, 2e-5})
-    expect_as_oracle(
-        {.clearance = 5e-4, .restitution = 1, .eccentricity = {0, 5e-4 + depth}, .until = 2e-3},
-        few_impacts);
+    expect_as_oracle({.clearance = 5e-4, .restitution = 1, .eccentricity = {0, 5e-4 + depth}, .until = 2e-3}, few_impacts);
 }
 
 TEST(JournalStart, DeepInTheWallLatchesTheSpeedThatReachesThere) {
   // At rest there, no approach speed is known; ½ m v² = k δ^2.5/2.5 with the reduced mass of coupler and
   // slider gives one, and the contact parts in a time like that of an impact.
   const double depth = 1e-6;
-  const Whole w = run(scene(SliderCrank{
-      .clearance = 5e-4, .eccentricity = {0, 5e-4 + depth}, .until = 1e-3, .tolerance = 1e-10}));
+  const Whole w = run(scene(SliderCrank{.clearance = 5e-4, .eccentricity = {0, 5e-4 + depth}, .until = 1e-3, .tolerance = 1e-10}));
   ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
   ASSERT_FALSE(w.run.impacts.empty());
   EXPECT_EQ(w.run.impacts[0].begin, 0);
@@ -171,8 +160,7 @@ TEST_P(HeadOn, BounceIsThatOfTheClosedForm) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Bearing, HeadOn, testing::Bool(),
-                         [](const auto& i) { return i.param ? "OnTheGround" : "OnThePuck"; });
+INSTANTIATE_TEST_SUITE_P(Bearing, HeadOn, testing::Bool(), [](const auto& i) { return i.param ? "OnTheGround" : "OnThePuck"; });
 
 // The last digit of the clock is then longer than the time in which the wall is told from the gap.
 TEST(LateClock, HasTheImpactsOfAnEarlyOne) {
@@ -195,20 +183,17 @@ TEST(LateClock, HasTheImpactsOfAnEarlyOne) {
 }
 
 TEST(Restitution, OfOneKeepsTheEnergyThroughEveryImpact) {
-  const Whole w = run(
-      scene(SliderCrank{.clearance = 5e-4, .restitution = 1, .until = 0.02, .tolerance = 1e-11}));
+  const Whole w = run(scene(SliderCrank{.clearance = 5e-4, .restitution = 1, .until = 0.02, .tolerance = 1e-11}));
   ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
   ASSERT_GE(w.run.impacts.size(), 10u);
   EXPECT_EQ(w.run.last.lost, 0);
-  for (const double e : w.run.ledger.column("stored [J]"))
-    EXPECT_NEAR(e, w.run.first.stored(), 1e-8 * w.run.first.stored());
+  for (const double e : w.run.ledger.column("stored [J]")) EXPECT_NEAR(e, w.run.first.stored(), 1e-8 * w.run.first.stored());
 }
 
 TEST(Restitution, OfZeroLosesTheMostAndBalances) {
   double before = 1e300;
   for (const double e : {0.0, 0.4, 0.8, 0.95}) {
-    const Whole w = run(scene(
-        SliderCrank{.clearance = 5e-4, .restitution = e, .until = 1.2e-3, .tolerance = 1e-10}));
+    const Whole w = run(scene(SliderCrank{.clearance = 5e-4, .restitution = e, .until = 1.2e-3, .tolerance = 1e-10}));
     ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
     ASSERT_FALSE(w.run.impacts.empty());
     EXPECT_LT(w.run.impacts[0].separation, w.run.impacts[0].approach);
@@ -226,8 +211,7 @@ pintle::Scene worn_everywhere(double c, double friction) {
   pintle::Scene s = scene(SliderCrank{.clearance = c, .until = 0.01, .tolerance = 1e-10});
   s.joints[0].clearance = clearance("ground", c, 0.8);
   s.joints[1].clearance = clearance("coupler", c, 0.8);
-  for (std::size_t i = 0; i < 3 && friction > 0; ++i)
-    s.joints[i].clearance->friction = pintle::SceneFriction{friction, 1e-3, 1e-2, {}, {}};
+  for (std::size_t i = 0; i < 3 && friction > 0; ++i) s.joints[i].clearance->friction = pintle::SceneFriction{friction, 1e-3, 1e-2, {}, {}};
   return s;
 }
 
@@ -269,7 +253,8 @@ pintle::Scene loaded_contact(double speed, double restitution, double load) {
   s.ground = {point("O", 0)};
   s.bodies = {body("journal", 1, 0.01, {point("P", 0)})};
   const double radial = 1e-4;
-  s.joints = {joint("bearing", JointKind::revolute, "ground.O", "journal.P"), joint("guide", JointKind::prismatic, "ground.O", "journal.P")};
+  s.joints = {joint("bearing", JointKind::revolute, "ground.O", "journal.P"),
+              joint("guide", JointKind::prismatic, "ground.O", "journal.P")};
   s.joints[0].clearance = clearance("ground", radial, restitution);
   s.start_journals = {{"bearing", {radial - 1e-7 * speed, 0}, {speed, 0}, {}}};
   const auto rise = [load](double t) {
@@ -282,7 +267,8 @@ pintle::Scene loaded_contact(double speed, double restitution, double load) {
 }
 std::size_t doubts_of_slow_contact(const Whole& w) {
   return static_cast<std::size_t>(std::ranges::count_if(w.run.warnings, [](const std::string& text) {
-    return text.find("\"bearing\"") != std::string::npos && text.find("pressed in") != std::string::npos && text.find("slowest impact") != std::string::npos;
+    return text.find("\"bearing\"") != std::string::npos && text.find("pressed in") != std::string::npos &&
+           text.find("slowest impact") != std::string::npos;
   }));
 }
 

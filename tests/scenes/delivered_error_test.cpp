@@ -25,7 +25,8 @@ enum Kind { places, speeds, forces, energies, kinds };
 
 /// By the unit of a column; none of time, of what is no motion or force.
 int kind_of(const std::string& header) {
-  static const std::map<std::string, Kind> units{{"[m]", places}, {"[rad]", places}, {"[m/s]", speeds}, {"[rad/s]", speeds}, {"[N]", forces}, {"[N m]", forces}, {"[J]", energies}};
+  static const std::map<std::string, Kind> units{{"[m]", places}, {"[rad]", places}, {"[m/s]", speeds}, {"[rad/s]", speeds},
+                                                 {"[N]", forces}, {"[N m]", forces}, {"[J]", energies}};
   const std::size_t at = header.find('[');
   const auto found = at == std::string::npos ? units.end() : units.find(header.substr(at));
   return found == units.end() || header.starts_with("unexplained") ? kinds : found->second;
@@ -59,7 +60,10 @@ struct Mechanism {
 
 Run run_by(const Mechanism& m, const std::string& method, const std::string& tolerance) {
   Overrides set = m.set;
-  for (const auto& [key, value] : {std::pair<std::string, std::string>{"run.method", method}, {"run.tolerance", tolerance}, {"output.frames", "0"}, {"output.every", "5 ms"}})
+  for (const auto& [key, value] : {std::pair<std::string, std::string>{"run.method", method},
+                                   {"run.tolerance", tolerance},
+                                   {"output.frames", "0"},
+                                   {"output.every", "5 ms"}})
     set.emplace_back(key, value);
   const Scene scene = read_scene(std::string(PINTLE_SOURCE_DIR) + "/examples/" + m.file, set);
   const Model model = build(scene);
@@ -104,7 +108,9 @@ INSTANTIATE_TEST_SUITE_P(Each, Delivered,
                                          Promise{"dopri5", {"1e-5", "1e-6", "1e-7", "1e-8"}, {20, 100, 60, 20}},
                                          Promise{"verner87", {"1e-6", "1e-8", "1e-10"}, {20, 100, 60, 20}},
                                          Promise{"generalized-alpha", {"1e-4", "1e-5", "1e-6"}, {1e3, 1e4, 5e3, 1e3}}),
-                         [](const auto& each) { return each.param.method == "generalized-alpha" ? std::string("alpha") : each.param.method; });
+                         [](const auto& each) {
+                           return each.param.method == "generalized-alpha" ? std::string("alpha") : each.param.method;
+                         });
 
 }  // namespace
 }  // namespace pintle_scenes::delivered_error_test

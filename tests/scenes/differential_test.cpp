@@ -82,7 +82,9 @@ TEST(Differential, SharesCouplesByVirtualWork) {
   ASSERT_TRUE(rest.found) << rest.reason;
   EXPECT_NEAR(rest.table.column("brake.torque on sun [N m]").at(0), -load / 4, 1e-12);
   // On the arm: the load and what both differentials leave to it, on the planet nothing in all.
-  EXPECT_NEAR(rest.table.column("sun and planet.torque on planet [N m]").at(0) + rest.table.column("planet and ring.torque on planet [N m]").at(0), 0, 1e-12);
+  EXPECT_NEAR(
+      rest.table.column("sun and planet.torque on planet [N m]").at(0) + rest.table.column("planet and ring.torque on planet [N m]").at(0),
+      0, 1e-12);
 }
 
 TEST(Differential, WithoutACageTurnsAgainstTheGround) {

@@ -19,8 +19,13 @@ TEST(EndingEvent, FinishesTheRunInOrderWithItsReasonAndALastRow) {
     Model model = build(s);
     model.scheme.events.push_back([](const System& system) {
       const Eigen::Index speed = system.n() + 2;
-      return single_event({"one radian", [speed](const State& x) { return Guard{x.y[2] - 1, x.y[speed]}; }, Direction::rising,
-                           [](State&) { return EventOutcome{.change = EventOutcome::Change::nothing, .end = "the crank has turned by a radian"}; }});
+      return single_event(
+          {"one radian",
+           [speed](const State& x) {
+             return Guard{x.y[2] - 1, x.y[speed]};
+           },
+           Direction::rising,
+           [](State&) { return EventOutcome{.change = EventOutcome::Change::nothing, .end = "the crank has turned by a radian"}; }});
     });
     const pintle::Run run = simulate(s, model, assemble(s, model));
     EXPECT_EQ(run.status, Status::finished) << run.reason;

@@ -16,8 +16,8 @@ namespace {
 using namespace pintle;
 using std::numbers::pi;
 
-constexpr double solved = 1e-10;    ///< relative: Newton's method to the end, a few sums of rounding
-constexpr double contact = 1e-7;    ///< relative: depth of a stiff contact beside the coordinates it is a difference of
+constexpr double solved = 1e-10;  ///< relative: Newton's method to the end, a few sums of rounding
+constexpr double contact = 1e-7;  ///< relative: depth of a stiff contact beside the coordinates it is a difference of
 
 struct Found {
   Model model;
@@ -74,8 +74,8 @@ TEST(Equilibrium, AHangingChainTakesTheShapeOfItsFunicular) {
     s.bodies.push_back(link("link " + std::to_string(i), mass, length));
     s.bodies.back().at = {span * part, -2 * part * (1 - part)};
     s.bodies.back().angle = -1 + 2 * part;
-    s.joints.push_back(joint("pin " + std::to_string(i), JointKind::revolute,
-                             i == 0 ? "ground.L" : "link " + std::to_string(i - 1) + ".B", "link " + std::to_string(i) + ".A"));
+    s.joints.push_back(joint("pin " + std::to_string(i), JointKind::revolute, i == 0 ? "ground.L" : "link " + std::to_string(i - 1) + ".B",
+                             "link " + std::to_string(i) + ".A"));
   }
   s.joints.push_back(joint("last pin", JointKind::revolute, "link 11.B", "ground.R"));
   const auto angle = [&](double pull, int j) { return std::atan(weight * (j + 0.5 - n / 2.0) / pull); };
@@ -185,7 +185,8 @@ TEST(Equilibrium, ADoublyHingedDoorHangsInBothHinges) {
   s.ground = {point("low", 0), point("high", 0, height)};
   s.bodies = {body("door", mass, 5, {point("low", 0), point("high", 0, height)})};
   s.bodies[0].center = {width / 2, height / 2};
-  s.joints = {joint("lower hinge", JointKind::revolute, "ground.low", "door.low"), joint("upper hinge", JointKind::revolute, "ground.high", "door.high")};
+  s.joints = {joint("lower hinge", JointKind::revolute, "ground.low", "door.low"),
+              joint("upper hinge", JointKind::revolute, "ground.high", "door.high")};
   const Found f = rest_of(s);
   ASSERT_TRUE(f.rest.found) << f.rest.reason;
   EXPECT_NEAR(f.value("upper hinge.fx on door [N]"), -weight * width / 2 / height, 1e-9 * weight);

@@ -19,12 +19,7 @@ constexpr double same = 1e-8;         // of the largest value
 constexpr double same_smooth = 1e-9;  // without impacts
 
 SliderCrank striking() {
-  return {.clearance = 5e-4,
-          .angle = 0.4,
-          .friction = 0.05,
-          .eccentricity = {1e-4, -2e-4},
-          .until = 6e-3,
-          .tolerance = 1e-12};
+  return {.clearance = 5e-4, .angle = 0.4, .friction = 0.05, .eccentricity = {1e-4, -2e-4}, .until = 6e-3, .tolerance = 1e-12};
 }
 
 std::vector<double> plus(std::vector<double> v, double x) {
@@ -36,8 +31,7 @@ std::vector<double> times(std::vector<double> v, double x) {
   return v;
 }
 
-void expect_same_impacts(const Whole& a, const Whole& b, double per_time = 1,
-                         double per_speed = 1) {
+void expect_same_impacts(const Whole& a, const Whole& b, double per_time = 1, double per_speed = 1) {
   ASSERT_GE(a.run.impacts.size(), 3u);
   ASSERT_EQ(a.run.impacts.size(), b.run.impacts.size());
   for (std::size_t i = 0; i < a.run.impacts.size(); ++i) {
@@ -56,11 +50,9 @@ TEST(World, ShiftedAndTurnedWithGravityChangesNothing) {
   ASSERT_EQ(b.run.status, Status::finished) << b.run.reason;
   for (const char* name : {"crank.angle [rad]", "coupler.angle [rad]"})
     EXPECT_LT(relative_difference(plus(b.column(name), -turn), a.column(name)), same) << name;
-  for (const char* name :
-       {"crank.speed [rad/s]", "coupler.speed [rad/s]", "gudgeon pin.rate [m/s]"})
+  for (const char* name : {"crank.speed [rad/s]", "coupler.speed [rad/s]", "gudgeon pin.rate [m/s]"})
     EXPECT_LT(relative_difference(b.column(name), a.column(name)), same) << name;
-  const auto x = a.column("slider.x [m]"), bx = b.column("slider.x [m]"),
-             by = b.column("slider.y [m]");
+  const auto x = a.column("slider.x [m]"), bx = b.column("slider.x [m]"), by = b.column("slider.y [m]");
   for (std::size_t i = 0; i < x.size(); ++i) {
     EXPECT_NEAR(bx[i], dx + c * x[i], same);
     EXPECT_NEAR(by[i], dy + d * x[i], same);
@@ -99,9 +91,7 @@ TEST(Scene, OrderOfAJointsTwoPointsOnlyTurnsItsForceRound) {
   std::swap(s.joints[1].a, s.joints[1].b);
   const Whole b = run(s);
   EXPECT_LT(relative_difference(b.column("slider.x [m]"), a.column("slider.x [m]")), same_smooth);
-  EXPECT_LT(relative_difference(times(b.column("crank pin.fx on crank [N]"), -1),
-                                a.column("crank pin.fx on coupler [N]")),
-            same_smooth);
+  EXPECT_LT(relative_difference(times(b.column("crank pin.fx on crank [N]"), -1), a.column("crank pin.fx on coupler [N]")), same_smooth);
 }
 
 // Lengths, masses and times measured in other units: every quantity times a power of these three.
@@ -145,16 +135,13 @@ TEST(Scene, ScaledInLengthMassAndTimeMovesAlike) {
 
 TEST(Weld, OfTwoBodiesIsOneBody) {
   // A pendulum of two rods: end to end, turned 0.6 rad to each other.
-  const double turn = 0.6, c = std::cos(turn), d = std::sin(turn), m1 = 1, m2 = 0.5, j1 = 0.1,
-               j2 = 0.03;
+  const double turn = 0.6, c = std::cos(turn), d = std::sin(turn), m1 = 1, m2 = 0.5, j1 = 0.1, j2 = 0.03;
   pintle::Scene two;
   two.gravity = {0, -9.81};
-  two.bodies = {body("rod", m1, j1, {point("P", -0.3), point("end", 0.3)}),
-                body("tip", m2, j2, {point("near", -0.2)})};
+  two.bodies = {body("rod", m1, j1, {point("P", -0.3), point("end", 0.3)}), body("tip", m2, j2, {point("near", -0.2)})};
   two.bodies[0].at = {0.3, 0};
   two.bodies[1].at = {0.6 + 0.2 * c, 0.2 * d}, two.bodies[1].angle = turn;
-  two.joints = {joint("pivot", JointKind::revolute, "ground", "rod.P"),
-                joint("clamp", JointKind::weld, "rod.end", "tip.near")};
+  two.joints = {joint("pivot", JointKind::revolute, "ground", "rod.P"), joint("clamp", JointKind::weld, "rod.end", "tip.near")};
   two.joints[1].angle = turn;
   two.start_bodies = {start_angle("rod", 0, 3)};
   two.run.until = 2, two.run.tolerance = 1e-12;
@@ -170,8 +157,7 @@ TEST(Weld, OfTwoBodiesIsOneBody) {
   for (const char* constraints : {"projection", "partitioning"}) {
     one.run.constraints = two.run.constraints = constraints;
     const Whole a = run(two), b = run(one);
-    for (const char* name : {"rod.angle [rad]", "rod.speed [rad/s]", "rod.x [m]",
-                             "pivot.fx on rod [N]", "pivot.fy on rod [N]"})
+    for (const char* name : {"rod.angle [rad]", "rod.speed [rad/s]", "rod.x [m]", "pivot.fx on rod [N]", "pivot.fy on rod [N]"})
       EXPECT_LT(relative_difference(a.column(name), b.column(name)), same_smooth) << name;
   }
 }
@@ -187,9 +173,7 @@ TEST(SlotWithAngleHeld, IsAPrismaticJoint) {
     const Whole b = run(s);
     for (const char* name : {"crank.angle [rad]", "coupler.speed [rad/s]", "slider.x [m]"})
       EXPECT_LT(relative_difference(b.column(name), a.column(name)), same) << name;
-    EXPECT_LT(
-        relative_difference(b.column("guide.fy on slider [N]"), a.column("guide.fy on slider [N]")),
-        100 * same);
+    EXPECT_LT(relative_difference(b.column("guide.fy on slider [N]"), a.column("guide.fy on slider [N]")), 100 * same);
     EXPECT_EQ(b.ledger("square.work in [J]"), 0);
   }
 }
@@ -220,8 +204,7 @@ TEST(Clearance, TendingToZeroTendsToTheIdealPin) {
     const auto x = w.column("slider.x [m]"), x0 = ideal.column("slider.x [m]");
     // The slider is off by the gap and by what the crank lags: losses go as c, so does the lag.
     for (std::size_t i = 0; i < x.size(); ++i) EXPECT_LT(std::abs(x[i] - x0[i]), 5 * c) << c;
-    const double speed =
-        relative_difference(w.column("crank.speed [rad/s]"), ideal.column("crank.speed [rad/s]"));
+    const double speed = relative_difference(w.column("crank.speed [rad/s]"), ideal.column("crank.speed [rad/s]"));
     EXPECT_LT(speed, 0.5 * speed_before) << c;
     speed_before = speed;
   }

@@ -33,7 +33,8 @@ TEST(ParallelCranks, HaveTheSameForcesByGeneralisedAlphaAsByAnExplicitPair) {
       s.run.method = "generalized-alpha", s.run.tolerance = tolerance;
       const Whole implicit = run(s);
       ASSERT_EQ(implicit.run.status, Status::finished) << implicit.run.reason;
-      for (const std::string& warning : implicit.run.warnings) EXPECT_FALSE(warning.find("generalised-alpha") != std::string::npos) << warning;
+      for (const std::string& warning : implicit.run.warnings)
+        EXPECT_FALSE(warning.find("generalised-alpha") != std::string::npos) << warning;
       const auto &a = implicit.run.trajectory, &b = by_pair.run.trajectory;
       ASSERT_EQ(a.data.size(), b.data.size());
       double peak = 0, apart = 0;

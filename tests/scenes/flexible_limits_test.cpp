@@ -63,19 +63,16 @@ struct Shake {
   double x, y, omega;
   double at(double t) const { return (1 - std::cos(omega * t)) / 2; }
   std::string text() const {
-    const auto law = [&](double f) {
-      return "\"" + std::to_string(f) + "*(1 - cos(" + std::to_string(omega) + "*t))/2\"";
-    };
+    const auto law = [&](double f) { return "\"" + std::to_string(f) + "*(1 - cos(" + std::to_string(omega) + "*t))/2\""; };
     return "[" + law(x) + ", " + law(y) + "]";
   }
 };
 
 /// Displacement of port b of a body held at port a, in all its freedoms by Newmark's average
 /// acceleration, at rest at t = 0; every h, 2 × count + 1.
-Eigen::Matrix2Xd newmark(const pintle::ElasticBody& e, const std::string& a, const std::string& b,
-                         const Shake& shake, double h, int count) {
-  const MatrixXd K = MatrixXd(pintle::independent(e.model, e.K)),
-                 M = MatrixXd(pintle::independent(e.model, e.M));
+Eigen::Matrix2Xd newmark(const pintle::ElasticBody& e, const std::string& a, const std::string& b, const Shake& shake, double h,
+                         int count) {
+  const MatrixXd K = MatrixXd(pintle::independent(e.model, e.K)), M = MatrixXd(pintle::independent(e.model, e.M));
   const auto& held = e.model.port(a)->freedom;
   const auto& shaken = e.model.port(b)->freedom;
   MatrixXd V = MatrixXd::Identity(K.rows(), K.cols() - 3);  // freedoms that are not held
@@ -83,8 +80,7 @@ Eigen::Matrix2Xd newmark(const pintle::ElasticBody& e, const std::string& a, con
   for (int i = 0; i < K.rows(); ++i)
     if (std::find(held, held + 3, i) == held + 3) V.col(n++) = VectorXd::Unit(K.rows(), i);
   const MatrixXd k = V.transpose() * K * V, m = V.transpose() * M * V;
-  const VectorXd f = V.transpose() * (shake.x * VectorXd::Unit(K.rows(), shaken[0]) +
-                                      shake.y * VectorXd::Unit(K.rows(), shaken[1]));
+  const VectorXd f = V.transpose() * (shake.x * VectorXd::Unit(K.rows(), shaken[0]) + shake.y * VectorXd::Unit(K.rows(), shaken[1]));
   const Eigen::LLT<MatrixXd> mass(m), solver(m + h * h / 4 * k);
   VectorXd u = VectorXd::Zero(n), v = u, acc = mass.solve(f * shake.at(0));
   Eigen::Matrix2Xd out(2, count + 1);
@@ -102,15 +98,13 @@ Eigen::Matrix2Xd newmark(const pintle::ElasticBody& e, const std::string& a, con
 }
 
 /// The same with the leading error, of order h², taken out by a run with half the step.
-Eigen::Matrix2Xd full_response(const pintle::ElasticBody& e, const Shake& shake, double until,
-                               int outputs) {
+Eigen::Matrix2Xd full_response(const pintle::ElasticBody& e, const Shake& shake, double until, int outputs) {
   constexpr int between = 200;
   const double h = until / (outputs * between);
   const Eigen::Matrix2Xd coarse = newmark(e, "A", "B", shake, h, outputs * between),
                          fine = newmark(e, "A", "B", shake, h / 2, 2 * outputs * between);
   Eigen::Matrix2Xd out(2, outputs + 1);
-  for (int i = 0; i <= outputs; ++i)
-    out.col(i) = (4 * fine.col(2 * i * between) - coarse.col(i * between)) / 3;
+  for (int i = 0; i <= outputs; ++i) out.col(i) = (4 * fine.col(2 * i * between) - coarse.col(i * between)) / 3;
   return out;
 }
 
@@ -122,12 +116,10 @@ std::vector<double> errors(const std::vector<std::string>& keeps, const Shake& s
   std::vector<double> out;
   Eigen::Matrix2Xd expected;
   for (const std::string& keep : keeps) {
-    const std::string scene =
-        "ground: {points: {O: [0, 0]}}\nbodies:\n" + body_text("part", keys(keep)) +
-        "joints: {root: {weld: [ground.O, part.A]}}\nforces: {shake: {force: " + shake.text() +
-        ", at: part.B}}\nrun: {until: " + std::to_string(until) +
-        ", tolerance: 1e-12}\noutput: {every: " + std::to_string(until / outputs) +
-        ", points: [part.B]}\n";
+    const std::string scene = "ground: {points: {O: [0, 0]}}\nbodies:\n" + body_text("part", keys(keep)) +
+                              "joints: {root: {weld: [ground.O, part.A]}}\nforces: {shake: {force: " + shake.text() +
+                              ", at: part.B}}\nrun: {until: " + std::to_string(until) +
+                              ", tolerance: 1e-12}\noutput: {every: " + std::to_string(until / outputs) + ", points: [part.B]}\n";
     const Whole w = finished(scene);
     if (expected.size() == 0) {
       const pintle::Scene s = scene_of(scene);
@@ -155,19 +147,17 @@ void expect_convergence(const std::vector<double>& errors) {
 }
 
 TEST(FlexibleLimit, WeldedBeamWithMoreShapesMeetsTheWholeModel) {
-  expect_convergence(errors({"count: 1", "count: 2", "count: 4", "count: 8", "keep: all"},
-                            {2e3, 500, 3000}, 4e-3, [](const std::string& keep) {
-                              FlexibleBeam beam;
-                              beam.modes = "{frame: tangent, " + keep + "}";
-                              return text(beam);
-                            }));
+  expect_convergence(
+      errors({"count: 1", "count: 2", "count: 4", "count: 8", "keep: all"}, {2e3, 500, 3000}, 4e-3, [](const std::string& keep) {
+        FlexibleBeam beam;
+        beam.modes = "{frame: tangent, " + keep + "}";
+        return text(beam);
+      }));
 }
 
 TEST(FlexibleLimit, PlateWeldedByAHoleWithMoreShapesMeetsTheWholeModel) {
-  expect_convergence(errors(
-      {"count: 1", "count: 2", "count: 4", "count: 8", "count: 16", "count: 32", "keep: all"},
-      {2e3, 500, 3000}, 1e-3,
-      [](const std::string& keep) { return holed_plate("{frame: {tangent: A}, " + keep + "}"); }));
+  expect_convergence(errors({"count: 1", "count: 2", "count: 4", "count: 8", "count: 16", "count: 32", "keep: all"}, {2e3, 500, 3000}, 1e-3,
+                            [](const std::string& keep) { return holed_plate("{frame: {tangent: A}, " + keep + "}"); }));
 }
 
 TEST(FlexibleLimit, MovingCouplerWithMoreShapesMeetsTheCompleteBasis) {
@@ -195,11 +185,9 @@ TEST(FlexibleLimit, MovingCouplerWithMoreShapesMeetsTheCompleteBasis) {
 
 /// Largest distance between a point of one run and another point of another.
 double distance(const Whole& a, const std::string& p, const Whole& b, const std::string& q) {
-  const auto ax = a.column(p + ".x [m]"), ay = a.column(p + ".y [m]"), bx = b.column(q + ".x [m]"),
-             by = b.column(q + ".y [m]");
+  const auto ax = a.column(p + ".x [m]"), ay = a.column(p + ".y [m]"), bx = b.column(q + ".x [m]"), by = b.column(q + ".y [m]");
   double most = 0;
-  for (std::size_t i = 0; i < ax.size(); ++i)
-    most = std::max(most, std::hypot(ax[i] - bx[i], ay[i] - by[i]));
+  for (std::size_t i = 0; i < ax.size(); ++i) most = std::max(most, std::hypot(ax[i] - bx[i], ay[i] - by[i]));
   return most;
 }
 
@@ -212,17 +200,14 @@ TEST(FlexibleLimit, HalvesWeldedTogetherMoveAsTheWhole) {
     FlexibleBeam beam;
     beam.modes = "{frame: tangent, keep: all}";
     return "bodies:\n" + body_text("rod", text(beam)) +
-           "joints: {root: {weld: [ground, rod.A]}}\nforces: {shake: {force: " +
-           Shake{4 * force, force, 3000}.text() +
+           "joints: {root: {weld: [ground, rod.A]}}\nforces: {shake: {force: " + Shake{4 * force, force, 3000}.text() +
            ", at: rod.B}}\nrun: {until: 2e-3, tolerance: 1e-13}\noutput: {every: 5e-5, points: "
            "[rod.M, rod.B]}\n";
   };
   const auto halves = [](double force) {
     FlexibleBeam beam;
-    beam.length = 0.06, beam.mass = 0.105, beam.elements = 2,
-    beam.modes = "{frame: tangent, keep: all}";
-    return "bodies:\n" + body_text("near", text(beam)) +
-           body_text("far", text(beam) + "pose: {at: [0.06, 0]}\n") +
+    beam.length = 0.06, beam.mass = 0.105, beam.elements = 2, beam.modes = "{frame: tangent, keep: all}";
+    return "bodies:\n" + body_text("near", text(beam)) + body_text("far", text(beam) + "pose: {at: [0.06, 0]}\n") +
            "joints: {root: {weld: [ground, near.A]}, cut: {weld: [near.B, far.A]}}\nforces: "
            "{shake: {force: " +
            Shake{4 * force, force, 3000}.text() +
@@ -233,8 +218,7 @@ TEST(FlexibleLimit, HalvesWeldedTogetherMoveAsTheWhole) {
   for (const double force : {0.005, 0.5, 50.}) {
     const Whole one = finished(whole(force)), two = finished(halves(force));
     bent.push_back(deflection(one, "rod.B"));
-    off.push_back(
-        std::max(distance(one, "rod.M", two, "near.B"), distance(one, "rod.B", two, "far.B")));
+    off.push_back(std::max(distance(one, "rod.M", two, "near.B"), distance(one, "rod.B", two, "far.B")));
   }
   EXPECT_LE(off.front(), linear * bent.front());
   for (const double slope : slopes(bent, off)) EXPECT_NEAR(slope, 2, order);
@@ -263,8 +247,7 @@ TEST(FlexibleSliderCrank, OfOneElementMovesAsItsOwnDerivationSays) {
     for (std::size_t i = 0; i < 6; ++i) {
       std::vector<double> expected;
       for (const pf::Sample& s : oracle.samples) expected.push_back(s.state.y[i]);
-      EXPECT_LE(relative_difference(w.column(names[i]), expected), motion)
-          << names[i] << (damped ? ", damped" : "");
+      EXPECT_LE(relative_difference(w.column(names[i]), expected), motion) << names[i] << (damped ? ", damped" : "");
     }
     std::vector<double> strain;
     for (const pf::Sample& s : oracle.samples) strain.push_back(s.strain);
@@ -272,8 +255,7 @@ TEST(FlexibleSliderCrank, OfOneElementMovesAsItsOwnDerivationSays) {
     if (damped) {
       std::vector<double> lost;
       for (const pf::Sample& s : oracle.samples) lost.push_back(s.state.y[14]);
-      EXPECT_LE(relative_difference(w.run.ledger.column("coupler.lost to damping [J]"), lost),
-                motion);
+      EXPECT_LE(relative_difference(w.run.ledger.column("coupler.lost to damping [J]"), lost), motion);
     }
   }
 }
@@ -306,8 +288,7 @@ void expect_decay(const std::string& scene, const std::vector<double>& amplitude
   const int begin = w.model.system.eta_begin[0];
   double largest = 0;
   for (const double a : amplitudes) largest = std::max(largest, std::abs(a));
-  for (std::size_t i = 0; i < amplitudes.size(); ++i)
-    w.assembly.start.y[begin + static_cast<int>(i)] = amplitudes[i];
+  for (std::size_t i = 0; i < amplitudes.size(); ++i) w.assembly.start.y[begin + static_cast<int>(i)] = amplitudes[i];
   w.run = pintle::simulate(s, w.model, w.assembly);
   ASSERT_EQ(w.run.status, Status::finished);
 
@@ -322,8 +303,7 @@ void expect_decay(const std::string& scene, const std::vector<double>& amplitude
     }
   }
   const auto lost = w.run.ledger.column("rod.lost to damping [J]");
-  for (std::size_t k = 0; k < t.size(); ++k)
-    EXPECT_NEAR(lost[k], energy[0] - energy[k], enough * energy[0]) << t[k];
+  for (std::size_t k = 0; k < t.size(); ++k) EXPECT_NEAR(lost[k], energy[0] - energy[k], enough * energy[0]) << t[k];
   EXPECT_GT(lost.back(), 0.1 * energy[0]);
   EXPECT_LE(std::abs(w.run.worst_unexplained), enough * energy[0]);
 }
@@ -332,18 +312,15 @@ std::string damped_rod(const std::string& frame, const std::string& damping) {
   FlexibleBeam beam;
   beam.modes = "{frame: " + frame + ", count: 4}";
   beam.more = "damping: {" + damping + "}\n";
-  return "run: {until: 4e-3, tolerance: 1e-12}\noutput: {every: 1e-4}\nbodies:\n" +
-         body_text("rod", text(beam));
+  return "run: {until: 4e-3, tolerance: 1e-12}\noutput: {every: 1e-4}\nbodies:\n" + body_text("rod", text(beam));
 }
 
-const char* const dampings[] = {"rayleigh: {ratios: [0.02, 0.05]}", "ratios: [0.1, 0.02, 0, 0.3]",
-                                "rayleigh: {alpha: 300, beta: 1e-6}"};
+const char* const dampings[] = {"rayleigh: {ratios: [0.02, 0.05]}", "ratios: [0.1, 0.02, 0, 0.3]", "rayleigh: {alpha: 300, beta: 1e-6}"};
 
 TEST(FlexibleDamping, ShapesOfAHeldBodyDieAwayEachByItsRatio) {
   for (const char* damping : dampings) {
     SCOPED_TRACE(damping);
-    expect_decay(damped_rod("tangent", damping) + "joints: {root: {weld: [ground, rod.A]}}\n",
-                 {1e-3, 5e-4, -3e-4, 2e-4});
+    expect_decay(damped_rod("tangent", damping) + "joints: {root: {weld: [ground, rod.A]}}\n", {1e-3, 5e-4, -3e-4, 2e-4});
   }
 }
 
@@ -367,8 +344,7 @@ TEST(FlexibleDamping, LedgerOfAMovingCouplerCloses) {
     const Whole w = finished(text(FlexibleCrank{text(beam), 150, 0.05, 1e-10}));
     EXPECT_LE(std::abs(w.run.worst_unexplained), closing * w.run.energy_in_play) << frame;
     // A loss a thousand times as large cannot be missing from it.
-    EXPECT_GE(w.ledger("coupler.lost to damping [J]"), 1e3 * closing * w.run.energy_in_play)
-        << frame;
+    EXPECT_GE(w.ledger("coupler.lost to damping [J]"), 1e3 * closing * w.run.energy_in_play) << frame;
   }
 }
 

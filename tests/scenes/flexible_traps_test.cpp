@@ -63,8 +63,9 @@ std::string complaint(const std::string& text) {
 
 /// A beam of EI = ρA = 1 from A to B, 1 m along x, of 20 elements.
 std::string unit_beam(const std::string& modes, const std::string& more = "", double EA = 1e6) {
-  return "bodies:\n  beam:\n    beam: {from: A, to: B, theory: euler, rotary inertia: false, section: {area: 1, second moment: " + std::to_string(1 / EA) +
-         "}, young: " + std::to_string(EA) + ", poisson: 0, density: 1}\n    points: {A: [0, 0], B: [1, 0]}\n    modes: " + modes + "\n" + more;
+  return "bodies:\n  beam:\n    beam: {from: A, to: B, theory: euler, rotary inertia: false, section: {area: 1, second moment: " +
+         std::to_string(1 / EA) + "}, young: " + std::to_string(EA) +
+         ", poisson: 0, density: 1}\n    points: {A: [0, 0], B: [1, 0]}\n    modes: " + modes + "\n" + more;
 }
 const char* const clamp = "joints: {root: {weld: [ground, beam.A]}}\n";
 const double first = 1.8751040687 * 1.8751040687;  ///< of the cantilever [rad/s]: cos β cosh β = −1
@@ -106,9 +107,10 @@ TEST(FlexibleTraps, ARunWarnsOfASpinThatComesInItsCourse) {
 
 TEST(FlexibleTraps, ARunEndsWhereABodyBendsByMoreThanItsSize) {
   const auto blade = [](const std::string& stiffening) {
-    return ran(unit_beam("{frame: {tangent: A}, count: 3}", "    stiffening: " + stiffening + "\n") +
-               "joints: {axle: {revolute: [ground, beam.A]}}\ndrivers: {motor: {angle: [ground, beam.A], law: " + std::to_string(1.2 * first) +
-               "*t}}\nforces: {side: {force: [0, 3e-3], at: beam.B, follows: true}}\nrun: {until: 8, tolerance: 1e-6}\n");
+    return ran(
+        unit_beam("{frame: {tangent: A}, count: 3}", "    stiffening: " + stiffening + "\n") +
+        "joints: {axle: {revolute: [ground, beam.A]}}\ndrivers: {motor: {angle: [ground, beam.A], law: " + std::to_string(1.2 * first) +
+        "*t}}\nforces: {side: {force: [0, 3e-3], at: beam.B, follows: true}}\nrun: {until: 8, tolerance: 1e-6}\n");
   };
   const Ran linear = blade("none");
   EXPECT_EQ(linear.run.status, Status::failed);
@@ -124,11 +126,17 @@ TEST(FlexibleTraps, ARunEndsWhereABodyBendsByMoreThanItsSize) {
 std::string struck(const std::string& modes, const std::string& law) {
   return "bodies:\n"
          "  crank: {rigid: {mass: 0.3, inertia: 1e-4}, points: {O: [0, 0], A: [50 mm, 0]}}\n"
-         "  rod:\n    beam: {from: A, to: B, section: {circle: 10 mm}, theory: euler, rotary inertia: false, elements: 40, young: 207 GPa, poisson: 0.3, mass: 0.21}\n"
-         "    points: {A: [0, 0], B: [120 mm, 0]}\n    modes: " + modes + "\n"
+         "  rod:\n    beam: {from: A, to: B, section: {circle: 10 mm}, theory: euler, rotary inertia: false, elements: 40, young: 207 GPa, "
+         "poisson: 0.3, mass: 0.21}\n"
+         "    points: {A: [0, 0], B: [120 mm, 0]}\n    modes: " +
+         modes +
+         "\n"
          "  slider: {rigid: {mass: 0.14, inertia: 1e-4}}\n"
          "joints:\n  main: {revolute: [ground, crank.O]}\n  pin: {revolute: [crank.A, rod.A]}\n"
-         "  gudgeon: {revolute: [rod.B, slider], clearance: {radial: 0.01 mm, bearing radius: 10 mm, bearing: slider, normal: {lankarani-nikravesh: {restitution: 0.9, " + law + "}}}}\n"
+         "  gudgeon: {revolute: [rod.B, slider], clearance: {radial: 0.01 mm, bearing radius: 10 mm, bearing: slider, normal: "
+         "{lankarani-nikravesh: {restitution: 0.9, " +
+         law +
+         "}}}}\n"
          "  guide: {prismatic: [ground, slider]}\nstart: {crank: {angle: 0, speed: 150}}\nrun: {until: 1 ms}\n";
 }
 const char* const steel = "young: 207 GPa, poisson: 0.3";
@@ -179,7 +187,10 @@ TEST(FlexibleTraps, ARigidOverhangAlongItsAxisIsNotSaidToBeMendedByOneShape) {
 TEST(FlexibleTraps, ARecordedStressWithoutAShapeThatStretchesIsDoubtedOnce) {
   const std::string words = "no shape of \"beam\" stretches: its section force N is recorded as nothing";
   const auto warnings_of = [&](const std::string& modes, const std::string& output) {
-    const std::vector<std::string> all = build(scene_of(unit_beam(modes) + "joints: {foot: {revolute: [ground, beam.A]}, head: {slot: [ground, beam.B]}}\nrun: {until: 1}\n" + output)).warnings;
+    const std::vector<std::string> all =
+        build(scene_of(unit_beam(modes) +
+                       "joints: {foot: {revolute: [ground, beam.A]}, head: {slot: [ground, beam.B]}}\nrun: {until: 1}\n" + output))
+            .warnings;
     return std::count_if(all.begin(), all.end(), [&](const std::string& w) { return w.find(words) != std::string::npos; });
   };
   EXPECT_EQ(warnings_of("{frame: {chord: [A, B]}, count: 3}", "output: {stress: [beam.A, beam.B]}\n"), 1);
@@ -193,8 +204,9 @@ TEST(FlexibleTraps, ARecordedPointOfABodyThatStiffensComesNearerAsItBends) {
   // Under a force at its end w = δ(3x² − x³)/2, and ½∫w′² = 0.6 δ².
   const double force = 0.03, bent = force / 3;
   for (const char* stiffening : {"rotation", "axial", "none"}) {
-    const Scene scene = scene_of(unit_beam("{frame: {tangent: A}, craig-bampton: {count: 0}}", std::string("    stiffening: ") + stiffening + "\n") + clamp +
-                                 "forces: {side: {force: [0, " + std::to_string(force) + "], at: beam.B}}\nrun: {until: 1}\noutput: {points: [beam.B]}\n");
+    const Scene scene = scene_of(
+        unit_beam("{frame: {tangent: A}, craig-bampton: {count: 0}}", std::string("    stiffening: ") + stiffening + "\n") + clamp +
+        "forces: {side: {force: [0, " + std::to_string(force) + "], at: beam.B}}\nrun: {until: 1}\noutput: {points: [beam.B]}\n");
     const Model model = build(scene);
     const Equilibrium rest = find_equilibrium(scene, model, assemble(scene, model));
     ASSERT_TRUE(rest.found) << rest.reason;
@@ -214,7 +226,8 @@ TEST(FlexibleTraps, ARecordedPointThatAJointHoldsIsWhereTheJointIs) {
 }
 
 TEST(FlexibleTraps, RunJsonListsTheFrequencyAndDampingOfEachShape) {
-  const Scene scene = scene_of(unit_beam("{frame: {tangent: A}, count: 2}", "    damping: {ratios: [0.01, 0.03]}\n") + clamp + "run: {until: 0.01}\n");
+  const Scene scene =
+      scene_of(unit_beam("{frame: {tangent: A}, count: 2}", "    damping: {ratios: [0.01, 0.03]}\n") + clamp + "run: {until: 0.01}\n");
   const Model model = build(scene);
   const Assembly assembly = assemble(scene, model);
   const auto body = nlohmann::json::parse(run_json(scene, model, assembly, simulate(scene, model, assembly)))["flexible bodies"][0];
@@ -231,10 +244,15 @@ TEST(BuiltOrder, NamesTheSameThingsInSceneAndSystem) {
   const std::string gap = "clearance: {radial: 1 mm, bearing radius: 20 mm, bearing: b, normal: {hertz: {stiffness: 1e9}}";
   const Scene scene = scene_of(
       "bodies: {a: {rigid: {mass: 1, inertia: 1}}, b: {rigid: {mass: 1, inertia: 1}}, c: {rigid: {mass: 1, inertia: 1}}}\n"
-      "joints:\n  one: {revolute: [a, b], " + gap + "}}\n  two: {revolute: [ground, a]}\n  three: {revolute: [b, c], " + gap + ", model: massless link}}\n"
-      "  four: {slot: [ground, c]}\n  five: {revolute: [ground, b], " + gap + "}}\n"
+      "joints:\n  one: {revolute: [a, b], " +
+      gap + "}}\n  two: {revolute: [ground, a]}\n  three: {revolute: [b, c], " + gap +
+      ", model: massless link}}\n"
+      "  four: {slot: [ground, c]}\n  five: {revolute: [ground, b], " +
+      gap +
+      "}}\n"
       "drivers: {six: {angle: [ground, a], law: t}, seven: {angle: [ground, c], law: t}}\n"
-      "forces: {eight: {force: [1, 0], at: a}, nine: {torque: 1, on: b}, ten: {spring: [ground, b], stiffness: 3, free length: 0.1}}\nrun: {until: 1}\n");
+      "forces: {eight: {force: [1, 0], at: a}, nine: {torque: 1, on: b}, ten: {spring: [ground, b], stiffness: 3, free length: 0.1}}\nrun: "
+      "{until: 1}\n");
   const Model model = build(scene);
   ASSERT_EQ(model.order.joints.size(), scene.joints.size());
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
@@ -242,15 +260,18 @@ TEST(BuiltOrder, NamesTheSameThingsInSceneAndSystem) {
     EXPECT_EQ(names[static_cast<std::size_t>(model.order.joints[i])], scene.joints[i].name);
   }
   ASSERT_EQ(model.order.drivers.size(), scene.drivers.size());
-  for (std::size_t i = 0; i < scene.drivers.size(); ++i) EXPECT_EQ(model.system.joint_names[static_cast<std::size_t>(model.order.drivers[i])], scene.drivers[i].name);
+  for (std::size_t i = 0; i < scene.drivers.size(); ++i)
+    EXPECT_EQ(model.system.joint_names[static_cast<std::size_t>(model.order.drivers[i])], scene.drivers[i].name);
   ASSERT_EQ(model.order.loads.size(), scene.loads.size());
-  for (std::size_t i = 0; i < scene.loads.size(); ++i) EXPECT_EQ(model.system.force_names[static_cast<std::size_t>(model.order.loads[i])], scene.loads[i].name);
+  for (std::size_t i = 0; i < scene.loads.size(); ++i)
+    EXPECT_EQ(model.system.force_names[static_cast<std::size_t>(model.order.loads[i])], scene.loads[i].name);
 }
 
 TEST(ModesLeftOut, AreThoseThatTheSceneExcites) {
   const auto shapes = [](const std::string& modes) {
     return build(scene_of(unit_beam(modes) + "joints: {foot: {revolute: [ground, beam.A]}, head: {slot: [ground, beam.B]}}\n"
-                          "forces: {side: {force: [0, \"sin(3*t)\"], at: beam.B}}\nrun: {until: 1}\n")).flexible.at(0);
+                                             "forces: {side: {force: [0, \"sin(3*t)\"], at: beam.B}}\nrun: {until: 1}\n"))
+        .flexible.at(0);
   };
   const FlexibleReport unsaid = shapes("{frame: chord}"), automatic = shapes("{frame: chord, keep: auto}");
   ASSERT_TRUE(unsaid.choice);
@@ -278,7 +299,8 @@ TEST(FrameLeftOut, IsTiedToWhatHoldsTheBodyWhereModesAreChosenByTheScene) {
 TEST(BentStart, SwingsFromTheShapeThatDisplacesAPointWithTheLeastStrain) {
   const double bent = 1e-3;
   const auto released = [&](int count) {
-    return ran(unit_beam("{frame: {tangent: A}, count: " + std::to_string(count) + "}") + clamp + "start: {beam: {deflection: {B: [0, 1 mm]}}}\n" +
+    return ran(unit_beam("{frame: {tangent: A}, count: " + std::to_string(count) + "}") + clamp +
+               "start: {beam: {deflection: {B: [0, 1 mm]}}}\n" +
                "run: {until: 4, tolerance: 1e-11, method: dopri5}\noutput: {every: 0.05, points: [beam.B]}\n");
   };
   const Ran one = released(1);
@@ -304,18 +326,25 @@ TEST(BentStart, SaysWhatItRefuses) {
   const auto starting = [](const std::string& start, const std::string& modes = "{frame: {tangent: A}, count: 3}") {
     return complaint(unit_beam(modes) + clamp + "start: {beam: {" + start + "}}\nrun: {until: 0.01}\n");
   };
-  EXPECT_NE(starting("deflection: {A: [0, 1 mm]}").find("start.beam.deflection.A: the shapes of \"beam\" cannot displace it by (0, 0.001) m; nearest is (0, 0) m"), std::string::npos)
+  EXPECT_NE(starting("deflection: {A: [0, 1 mm]}")
+                .find("start.beam.deflection.A: the shapes of \"beam\" cannot displace it by (0, 0.001) m; nearest is (0, 0) m"),
+            std::string::npos)
       << starting("deflection: {A: [0, 1 mm]}");
   EXPECT_NE(starting("modes: [1, 2, 3, 4]").find("gives 4 modal coordinates, but \"beam\" keeps 3 shapes"), std::string::npos);
   EXPECT_NE(starting("modes: [1], deflection: {B: [0, 1]}").find("keep one of them"), std::string::npos);
   EXPECT_NE(starting("deflection: {C: [0, 1]}").find("has no point \"C\""), std::string::npos) << starting("deflection: {C: [0, 1]}");
   EXPECT_NE(starting("deflecton: {B: [0, 1]}").find("Did you mean \"deflection\"?"), std::string::npos);
-  EXPECT_NE(complaint("bodies: {b: {rigid: {mass: 1, inertia: 1}}}\nstart: {b: {modes: [1]}}\nrun: {until: 1}\n").find("is asked of a rigid body"), std::string::npos);
-  EXPECT_NE(complaint("bodies: {b: {rigid: {mass: 1, inertia: 1}}}\nstart: equilibrum\nrun: {until: 1}\n").find("Did you mean \"equilibrium\"?"), std::string::npos);
+  EXPECT_NE(complaint("bodies: {b: {rigid: {mass: 1, inertia: 1}}}\nstart: {b: {modes: [1]}}\nrun: {until: 1}\n")
+                .find("is asked of a rigid body"),
+            std::string::npos);
+  EXPECT_NE(
+      complaint("bodies: {b: {rigid: {mass: 1, inertia: 1}}}\nstart: equilibrum\nrun: {until: 1}\n").find("Did you mean \"equilibrium\"?"),
+      std::string::npos);
 }
 
 TEST(BentStart, IsKeptInTheSceneAsFilledIn) {
-  for (const char* start : {"start: equilibrium\n", "start: {beam: {deflection: {B: [0, 1e-3]}}}\n", "start: {beam: {modes: [1e-3, 2e-3]}}\n"}) {
+  for (const char* start :
+       {"start: equilibrium\n", "start: {beam: {deflection: {B: [0, 1e-3]}}}\n", "start: {beam: {modes: [1e-3, 2e-3]}}\n"}) {
     const Scene scene = scene_of(unit_beam("{frame: {tangent: A}, count: 3}") + clamp + start + "run: {until: 1}\n");
     const Scene again = read_scene_text(scene.filled_in, "again.json");
     EXPECT_EQ(again.filled_in, scene.filled_in);
@@ -327,7 +356,8 @@ TEST(BentStart, IsKeptInTheSceneAsFilledIn) {
 TEST(RestingStart, StaysWhereTheMechanismRests) {
   // Its own weight and a force at the end bend the cantilever by ρAg/8 + P/3 of EI, less what four modes leave out: 1e-3.
   const Ran r = ran("gravity: [0, -0.08]\n" + unit_beam("{frame: {tangent: A}, count: 4}") + clamp +
-                    "forces: {side: {force: [0, -0.03], at: beam.B}}\nstart: equilibrium\nrun: {until: 20, tolerance: 1e-8}\noutput: {points: [beam.B]}\n");
+                    "forces: {side: {force: [0, -0.03], at: beam.B}}\nstart: equilibrium\nrun: {until: 20, tolerance: 1e-8}\noutput: "
+                    "{points: [beam.B]}\n");
   const auto u = r.column("beam.B.uy [m]");
   EXPECT_NEAR(u.front(), -0.02, 2e-3 * 0.02);
   for (const double now : u) EXPECT_NEAR(now, u.front(), 1e-9 * 0.02);
@@ -335,8 +365,9 @@ TEST(RestingStart, StaysWhereTheMechanismRests) {
 }
 
 TEST(RestingStart, MovesAsDriversHaveIt) {
-  const Ran r = ran("bodies: {arm: {rigid: {mass: 1, inertia: 0.1}, points: {O: [0, 0]}}}\njoints: {pin: {revolute: [ground, arm.O]}}\n"
-                    "drivers: {motor: {angle: [ground, arm], law: 3*t}}\nstart: equilibrium\nrun: {until: 1}\n");
+  const Ran r =
+      ran("bodies: {arm: {rigid: {mass: 1, inertia: 0.1}, points: {O: [0, 0]}}}\njoints: {pin: {revolute: [ground, arm.O]}}\n"
+          "drivers: {motor: {angle: [ground, arm], law: 3*t}}\nstart: equilibrium\nrun: {until: 1}\n");
   EXPECT_NEAR(r.column("arm.speed [rad/s]").front(), 3, 1e-12);
 }
 
@@ -357,9 +388,11 @@ TEST(LinearizedStart, OfASpinningBladeHasThePublishedFrequencies) {
   const double mesh = 0.5 / (20 * 20), published = 1.3e-5;
   for (const char* stiffening : {"rotation", "axial"})
     for (const auto& [w, flap] : {std::pair{2.0, 4.1373}, {6.0, 7.3604}}) {
-      const Scene scene = scene_of(unit_beam("{frame: {tangent: A}, craig-bampton: {count: 8}}", std::string("    stiffening: ") + stiffening + "\n") +
-                                   "  hub: {rigid: {mass: 1, inertia: 1}}\njoints: {axle: {revolute: [ground, hub]}, root: {weld: [hub, beam.A]}}\n"
-                                   "drivers: {motor: {angle: [ground, hub], law: " + std::to_string(w) + "*t}}\nrun: {until: 1}\n");
+      const Scene scene =
+          scene_of(unit_beam("{frame: {tangent: A}, craig-bampton: {count: 8}}", std::string("    stiffening: ") + stiffening + "\n") +
+                   "  hub: {rigid: {mass: 1, inertia: 1}}\njoints: {axle: {revolute: [ground, hub]}, root: {weld: [hub, beam.A]}}\n"
+                   "drivers: {motor: {angle: [ground, hub], law: " +
+                   std::to_string(w) + "*t}}\nrun: {until: 1}\n");
       const Model model = build(scene);
       const Linearization lin = linearize(scene, model, linearized_start(scene, model, assemble(scene, model)).state);
       double lowest = 1e300;
@@ -369,8 +402,9 @@ TEST(LinearizedStart, OfASpinningBladeHasThePublishedFrequencies) {
 }
 
 TEST(LinearizedStart, SaysWhatBendingItLeavesOutWhereNothingIsSteady) {
-  const Scene scene = scene_of(unit_beam("{frame: {tangent: A}, count: 2}") +
-                               "joints: {axle: {revolute: [ground, beam.A]}}\ndrivers: {motor: {angle: [ground, beam.A], law: t + 0.5*t^2}}\nrun: {until: 1}\n");
+  const Scene scene = scene_of(
+      unit_beam("{frame: {tangent: A}, count: 2}") +
+      "joints: {axle: {revolute: [ground, beam.A]}}\ndrivers: {motor: {angle: [ground, beam.A], law: t + 0.5*t^2}}\nrun: {until: 1}\n");
   const Model model = build(scene);
   const LinearizedStart start = linearized_start(scene, model, assemble(scene, model));
   // A load α x ρA bends the end by 11/120 of α; two modes leave out a thousandth.

@@ -48,8 +48,7 @@ Vector3d momenta_of_plate(const pintle::Scene& scene, const System& system, cons
   const auto body = pintle::mechanism_body(scene, pintle::elastic_body(scene, scene.bodies[0]));
   const auto& model = body.elastic.model;
   const int n = system.n(), modes = system.bodies[0].modes();
-  const VectorXd u = body.modes.shapes * y.segment(3, modes),
-                 du = body.modes.shapes * y.segment(n + 3, modes);
+  const VectorXd u = body.modes.shapes * y.segment(3, modes), du = body.modes.shapes * y.segment(n + 3, modes);
   const Eigen::Rotation2Dd A(y[2]);
   VectorXd turned_place(model.N()), velocity(model.N()), along[2];
   for (VectorXd& a : along) a.setZero(model.N());
@@ -57,17 +56,14 @@ Vector3d momenta_of_plate(const pintle::Scene& scene, const System& system, cons
     const Eigen::Index i = model.begin[static_cast<std::size_t>(k)];
     const Vector2d d = A * (model.x.col(k) - body.centre + u.segment<2>(i));
     turned_place.segment<2>(i) = pintle::perp(y.segment<2>(0) + d);
-    velocity.segment<2>(i) =
-        y.segment<2>(n) + y[n + 2] * pintle::perp(d) + A * Vector2d(du.segment<2>(i));
+    velocity.segment<2>(i) = y.segment<2>(n) + y[n + 2] * pintle::perp(d) + A * Vector2d(du.segment<2>(i));
     along[0][i] = along[1][i + 1] = 1;
   }
   const VectorXd mv = body.elastic.M * velocity;
   return {along[0].dot(mv), along[1].dot(mv), turned_place.dot(mv)};
 }
 
-double energy(const System& system, const VectorXd& y) {
-  return kinetic_energy(system, y, 0) + strain_energy(system, y, 0);
-}
+double energy(const System& system, const VectorXd& y) { return kinetic_energy(system, y, 0) + strain_energy(system, y, 0); }
 
 /// Natural frequencies of a free body of the shapes kept, at rest and straight, ascending [rad/s].
 VectorXd frequencies(const pintle::Body& body) {
@@ -75,9 +71,7 @@ VectorXd frequencies(const pintle::Body& body) {
   MatrixXd mass = MatrixXd::Identity(f.omega.size(), f.omega.size());
   mass -= f.S.transpose() * f.S / body.m + f.h.transpose() * f.h / body.J;
   const MatrixXd stiffness = f.omega.cwiseAbs2().asDiagonal();
-  return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(stiffness, mass)
-      .eigenvalues()
-      .cwiseSqrt();
+  return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(stiffness, mass).eigenvalues().cwiseSqrt();
 }
 
 struct Free {
@@ -137,9 +131,7 @@ Drift drift_over(Free& f, double periods, double tolerance) {
 
 /// What Dormand–Prince damps: on the imaginary axis |R(iy)|² = 1 − y⁶/1800 + …, of energy, in each
 /// step, if all of it vibrated at the highest frequency; twice that for steps of unequal length.
-double damped(const Free& f, const Drift& d) {
-  return 2 * d.steps * std::pow(f.highest * d.step, 6) / 1800;
-}
+double damped(const Free& f, const Drift& d) { return 2 * d.steps * std::pow(f.highest * d.step, 6) / 1800; }
 
 // Fifth order, steps as the fifth root of the tolerance: the loss of energy is in proportion to the
 // tolerance, the drift of momenta, which has no one sign, falls with it or faster.
@@ -174,9 +166,7 @@ std::string beam(const std::string& modes, const std::string& more = "") {
 constexpr double plate_length = 0.21;  ///< [m]
 
 TEST(FreeBody, MomentaOfAPlateAreThoseOfItsElements) {
-  for (const char* modes :
-       {"{frame: {tangent: A}, count: 5}", "{frame: {chord: [A, B]}, keep: all}",
-        "{frame: mean axes, count: 9}"}) {
+  for (const char* modes : {"{frame: {tangent: A}, count: 5}", "{frame: {chord: [A, B]}, keep: all}", "{frame: mean axes, count: 9}"}) {
     const Free f = freed(holed_plate(modes), plate_length);
     const System& system = f.model.system;
     const Vector3d p = momenta(system, f.start.y), q = momenta_of_plate(f.scene, system, f.start.y);
@@ -194,9 +184,7 @@ TEST(FreeBody, SpinningPlateKeepsMomentaAndEnergyOverTenThousandPeriods) {
   expect_kept(freed(holed_plate("{frame: mean axes, count: 1}"), plate_length), 1e4, true, 1e-7);
 }
 
-TEST(FreeBody, SpinningBeamInAFrameAtItsEndKeepsMomentaAndEnergy) {
-  expect_kept(freed(beam("{frame: tangent, count: 2}"), 1), 1e3, false);
-}
+TEST(FreeBody, SpinningBeamInAFrameAtItsEndKeepsMomentaAndEnergy) { expect_kept(freed(beam("{frame: tangent, count: 2}"), 1), 1e3, false); }
 
 TEST(FreeBody, SpinningPlateInAFrameAtItsHoleKeepsMomentaAndEnergy) {
   expect_kept(freed(holed_plate("{frame: {tangent: A}, count: 2}"), plate_length), 1e3, false);
@@ -204,9 +192,7 @@ TEST(FreeBody, SpinningPlateInAFrameAtItsHoleKeepsMomentaAndEnergy) {
 
 TEST(FreeBody, SpinningBeamThatStiffensKeepsMomentaAndEnergy) {
   for (const char* frame : {"tangent", "chord"})
-    expect_kept(
-        freed(beam(std::string("{frame: ") + frame + ", count: 2}", "stiffening: rotation"), 1),
-        1e3, false);
+    expect_kept(freed(beam(std::string("{frame: ") + frame + ", count: 2}", "stiffening: rotation"), 1), 1e3, false);
 }
 
 }  // namespace

@@ -34,11 +34,9 @@ std::vector<Whole> runs(const std::vector<std::string>& frames, Text text_of) {
 
 /// Every run puts the points where the first does, and `bending` displaces one by far more than
 /// that.
-void expect_same(const std::vector<Whole>& runs, const std::vector<std::string>& points,
-                 double bending) {
+void expect_same(const std::vector<Whole>& runs, const std::vector<std::string>& points, double bending) {
   for (std::size_t i = 1; i < runs.size(); ++i)
-    for (const std::string& point : points)
-      EXPECT_LE(apart(runs[i], runs[0], point), same * size) << "tie " << i << ", " << point;
+    for (const std::string& point : points) EXPECT_LE(apart(runs[i], runs[0], point), same * size) << "tie " << i << ", " << point;
   EXPECT_GE(bending, seen * size);
 }
 
@@ -82,10 +80,8 @@ TEST(Gauge, BeamCouplerWithClearanceMovesAlikeThroughItsFirstImpact) {
 }
 
 TEST(Gauge, MeshedPlateWithHolesMovesAlikeUnderEveryTie) {
-  const auto all =
-      runs({"{chord: [A, B]}", "{tangent: A}", "mean axes"}, [](const std::string& frame) {
-        return text(tilted(holed_plate("{frame: " + frame + ", keep: all}"), 0.001));
-      });
+  const auto all = runs({"{chord: [A, B]}", "{tangent: A}", "mean axes"},
+                        [](const std::string& frame) { return text(tilted(holed_plate("{frame: " + frame + ", keep: all}"), 0.001)); });
   expect_same(all, {"coupler.A", "coupler.B"}, deflection(all[1], "coupler.B"));
 }
 
@@ -120,8 +116,7 @@ std::vector<Whole> rotors(int elements, const std::string& stiffening) {
 
 /// Largest difference between ties at the rod's end, of its deflection.
 double unlike(const std::vector<Whole>& rotors) {
-  return std::max(apart(rotors[1], rotors[0], "rod.B"), apart(rotors[2], rotors[0], "rod.B")) /
-         deflection(rotors[0], "rod.B");
+  return std::max(apart(rotors[1], rotors[0], "rod.B"), apart(rotors[2], rotors[0], "rod.B")) / deflection(rotors[0], "rod.B");
 }
 
 TEST(Gauge, FastRotorsTiesMeetAsItsMeshIsRefinedIfItStiffens) {
@@ -130,8 +125,7 @@ TEST(Gauge, FastRotorsTiesMeetAsItsMeshIsRefinedIfItStiffens) {
   // up to the square of spin over frequency. Stiffening by all loads puts it right, with the
   // tension of each element constant along it: errors fall with the square of the elements' length.
   constexpr double little = 1e-3, order = 0.2;
-  const std::vector<double> elements{2, 6},
-      off{unlike(rotors(2, "axial")), unlike(rotors(6, "axial"))};
+  const std::vector<double> elements{2, 6}, off{unlike(rotors(2, "axial")), unlike(rotors(6, "axial"))};
   EXPECT_LE(off[1], little);
   EXPECT_NEAR(slopes(elements, off)[0], -2, order);
   EXPECT_GE(unlike(rotors(6, "none")), 10 * little);  // else there was nothing to put right
@@ -144,13 +138,12 @@ TEST(Gauge, TiesDifferByTheSquareOfTheDeflection) {
   const auto shaken = [](const std::string& frame, double force) {
     FlexibleBeam beam = stiff_beam(frame);
     beam.elements = 4, beam.at = 0.25;
-    return run_text(
-        "ground: {points: {O: [0, 0]}}\nbodies:\n" + body_text("rod", text(beam)) +
-        "joints:\n  pin: {revolute: [ground.O, rod.A]}\n  slide: {slot: [ground.O, rod.B]}\n"
-        "forces: {push: {force: [0, \"" +
-        std::to_string(force) +
-        "*sin(20000*t)\"], at: rod.M}}\nrun: {until: 4e-4, tolerance: 1e-12}\n"
-        "output: {every: 2e-5, points: [rod.M, rod.B]}\n");
+    return run_text("ground: {points: {O: [0, 0]}}\nbodies:\n" + body_text("rod", text(beam)) +
+                    "joints:\n  pin: {revolute: [ground.O, rod.A]}\n  slide: {slot: [ground.O, rod.B]}\n"
+                    "forces: {push: {force: [0, \"" +
+                    std::to_string(force) +
+                    "*sin(20000*t)\"], at: rod.M}}\nrun: {until: 4e-4, tolerance: 1e-12}\n"
+                    "output: {every: 2e-5, points: [rod.M, rod.B]}\n");
   };
   for (const char* frame : {"tangent", "mean axes"}) {
     std::vector<double> bent, differ;

@@ -18,8 +18,7 @@ std::string arm(const std::string& modes, const std::string& rest) {
 }
 
 bool warns(const std::vector<std::string>& warnings, const std::string& of) {
-  return std::any_of(warnings.begin(), warnings.end(),
-                     [&](const std::string& w) { return w.find(of) != std::string::npos; });
+  return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& w) { return w.find(of) != std::string::npos; });
 }
 
 Run run_of(const std::string& text) {
@@ -29,9 +28,10 @@ Run run_of(const std::string& text) {
 }
 
 TEST(Laws, ThatActAfterALongRestAreNotPassedOver) {
-  const auto run = run_of(arm("    modes: {frame: tangent, count: 3}\n",
-                             "forces: {k: {force: [\"0\", \"100 N*step(t, 0.3 s, 0.301 s)*(1 - step(t, 0.304 s, 0.305 s))\"], at: arm.B}}\n"
-                             "run: {until: 1 s}\n"));
+  const auto run =
+      run_of(arm("    modes: {frame: tangent, count: 3}\n",
+                 "forces: {k: {force: [\"0\", \"100 N*step(t, 0.3 s, 0.301 s)*(1 - step(t, 0.304 s, 0.305 s))\"], at: arm.B}}\n"
+                 "run: {until: 1 s}\n"));
   EXPECT_EQ(run.status, Status::finished);
   // 0.4 N s at the tip, where each shape weighs a quarter of the beam, 40.5 g: at most p²/2m = 1.98 J a shape, and the first,
   // whose period is twelve times as long as the pulse, takes nearly all of its own.
@@ -48,8 +48,9 @@ TEST(Laws, OfADriverThatWaitsAreFollowed) {
 }
 
 TEST(Rest, OfAHeldBodyIsNoFault) {
-  const auto run = run_of("gravity: [0, -9.81]\nbodies: {arm: {rigid: {mass: 0.162, inertia: 0.003, center: [0.25, 0]}, points: {A: [0, 0]}}}\n"
-                         "joints: {w: {weld: [ground, arm.A]}}\nrun: {until: 0.1 s}\n");
+  const auto run = run_of(
+      "gravity: [0, -9.81]\nbodies: {arm: {rigid: {mass: 0.162, inertia: 0.003, center: [0.25, 0]}, points: {A: [0, 0]}}}\n"
+      "joints: {w: {weld: [ground, arm.A]}}\nrun: {until: 0.1 s}\n");
   EXPECT_EQ(run.status, Status::finished) << run.reason;
 }
 
@@ -57,7 +58,8 @@ TEST(Weld, TakesTheWholeTurnsOfThePosesAsTheyAre) {
   std::string text = "bodies:\n";
   for (int i = 0; i < 4; ++i) {
     const double x[] = {0, 0.1, 0.1, 0}, y[] = {0, 0, 0.1, 0.1};
-    text += "  b" + std::to_string(i) + ":\n    beam: {from: a, to: b, section: {circle: 5 mm}, young: 200 GPa, poisson: 0.3, density: 7800, elements: 4}\n"
+    text += "  b" + std::to_string(i) +
+            ":\n    beam: {from: a, to: b, section: {circle: 5 mm}, young: 200 GPa, poisson: 0.3, density: 7800, elements: 4}\n"
             "    points: {a: [0, 0], b: [0.1, 0]}\n    modes: {craig-bampton: {count: 1}}\n    pose: {at: [" +
             std::to_string(x[i]) + ", " + std::to_string(y[i]) + "], angle: " + std::to_string(90 * i) + " deg}\n";
   }
@@ -84,8 +86,10 @@ TEST(Warning, ComesWhereAWeldClampsNormalModesOfAnotherHolding) {
 
 TEST(Warning, ComesWhereRotationStiffensABodyHeldElsewhere) {
   const auto warnings = [](const std::string& frame) {
-    return build(read_scene_text(arm("    modes: {frame: " + frame + ", craig-bampton: {count: 2}}\n    stiffening: rotation\n",
-                                     "run: {until: 1 s}\n"), "scene.yaml")).warnings;
+    return build(read_scene_text(
+                     arm("    modes: {frame: " + frame + ", craig-bampton: {count: 2}}\n    stiffening: rotation\n", "run: {until: 1 s}\n"),
+                     "scene.yaml"))
+        .warnings;
   };
   EXPECT_TRUE(warns(warnings("mean axes"), "take axial"));
   EXPECT_TRUE(warns(warnings("{tangent: B}"), "take axial"));

@@ -81,7 +81,8 @@ joints:
 drivers: {motor: {angle: [ground, crank], law: "90 deg + 30*t"}}
 run: {until: 0.02}
 output: {every: 10 us}
-)", "driven.yaml");
+)",
+                                            "driven.yaml");
   s.run.method = "dopri5";
   const std::vector<double> wanted = run(s).column("motor.torque on crank [N m]");
   for (const double tolerance : {1e-6, 1e-8}) {
@@ -161,9 +162,12 @@ pintle::Scene damped_pendulum(const char* method, double tolerance, double dampi
       "gravity: [0, -9.81]\n"
       "bodies: {rod: {rigid: {mass: 1, inertia: 0.01, center: [0.3, 0]}, points: {O: [0, 0]}}}\n"
       "joints: {pin: {revolute: [ground, rod.O]}}\n"
-      "forces: {brake: {torsion spring: [ground, rod], damping: " + std::to_string(damping) + "}}\n"
-      "start: {rod: {x: 0, y: 0, angle: 0, speed: 0}}\n"
-      "run: {until: 2}\n", "damped.yaml");
+      "forces: {brake: {torsion spring: [ground, rod], damping: " +
+          std::to_string(damping) +
+          "}}\n"
+          "start: {rod: {x: 0, y: 0, angle: 0, speed: 0}}\n"
+          "run: {until: 2}\n",
+      "damped.yaml");
   s.run.method = method, s.run.tolerance = tolerance;
   return s;
 }
@@ -238,7 +242,8 @@ std::string taken(pintle::Scene s, double tolerance, double until, double every,
 }
 
 TEST(Auto, TakesHighOrderWhereTheMotionIsSmoothTheToleranceFineAndStepsAreMany) {
-  const pintle::Scene smooth = scene(SliderCrank{.clearance = 0, .method = "auto"}), worn = scene(SliderCrank{.clearance = 5e-4, .method = "auto"});
+  const pintle::Scene smooth = scene(SliderCrank{.clearance = 0, .method = "auto"}),
+                      worn = scene(SliderCrank{.clearance = 5e-4, .method = "auto"});
   EXPECT_EQ(taken(smooth, 1e-8, 10, 1), "verner87");
   EXPECT_EQ(taken(smooth, 1e-8, 0.1, 0.1), "dopri5");
   EXPECT_EQ(taken(smooth, 1e-5, 10, 1), "dopri5");

@@ -47,7 +47,8 @@ TEST(Inverse, TheTorqueOnAFourBarIsThatOfVirtualPower) {
   EXPECT_TRUE(a.found.by_algebra);
   for (std::size_t k = 0; k < a.times().size(); k += 7) {
     const double t = a.times()[k];
-    EXPECT_NEAR(a.effort()[k], crank_torque(bars, {0.3 + 12 * t - 2.5 * t * t, 12 - 5 * t, -5}, masses, 9.81), closed_form * a.largest()) << t;
+    EXPECT_NEAR(a.effort()[k], crank_torque(bars, {0.3 + 12 * t - 2.5 * t * t, 12 - 5 * t, -5}, masses, 9.81), closed_form * a.largest())
+        << t;
   }
 }
 
@@ -114,7 +115,7 @@ TEST(Inverse, TheThrustOfAJackBalancesMoments) {
     // length² = 1 + |J|² − 2 J·(cos θ, sin θ)
     const double t = a.times()[k], l = start + 0.1 * t + 0.1 * t * t, v = 0.1 + 0.2 * t, gx = 0.5, gy = -0.6, g2 = gx * gx + gy * gy;
     const double theta = std::acos((1 + g2 - l * l) / (2 * std::sqrt(g2))) + std::atan2(gy, gx);
-    const double arm = gx * std::sin(theta) - gy * std::cos(theta);   // l dl/dθ
+    const double arm = gx * std::sin(theta) - gy * std::cos(theta);  // l dl/dθ
     const double w = l * v / arm, bend = gx * std::cos(theta) + gy * std::sin(theta);
     const double alpha = (v * v + l * 0.2 - bend * w * w) / arm;
     const double thrust = (J * alpha + 20 * 9.81 * 0.5 * std::cos(theta)) / (arm / l);
@@ -122,9 +123,7 @@ TEST(Inverse, TheThrustOfAJackBalancesMoments) {
   }
 }
 
-TEST(Inverse, ASceneWithoutDriversIsRefused) {
-  EXPECT_THROW(answer_to(pendulum(Hanging::by_pin, 1)), SceneError);
-}
+TEST(Inverse, ASceneWithoutDriversIsRefused) { EXPECT_THROW(answer_to(pendulum(Hanging::by_pin, 1)), SceneError); }
 
 // --- bodies that bend ---
 
@@ -139,9 +138,11 @@ bodies:
     points: {A: [0, 0], C: [0.4, 0], B: [0.4, 0.2]}
     modes: {frame: {tangent: A}, craig-bampton: {count: 2}}
 joints: {hub: {revolute: [ground.O, arm.A]}}
-drivers: {motor: {angle: [ground.O, arm.A], law: ")" + law + R"("}}
+drivers: {motor: {angle: [ground.O, arm.A], law: ")" +
+         law + R"("}}
 output: {points: [arm.B]}
-run: {until: )" + std::to_string(until) + R"(, tolerance: 1e-10}
+run: {until: )" +
+         std::to_string(until) + R"(, tolerance: 1e-10}
 )";
 }
 

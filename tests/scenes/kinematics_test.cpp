@@ -97,8 +97,8 @@ TEST(Kinematics, AParallelogramStaysOneThroughItsFlatPoses) {
     s.run.until = 4, s.output.every = every;
     const auto run = driven(s);
     ASSERT_EQ(run.status, Status::finished) << run.reason;
-    const auto coupler = run.trajectory.column("coupler.angle [rad]"), rocker = run.trajectory.column("rocker.angle [rad]"), t = run.trajectory.column("t [s]"),
-               speed = run.trajectory.column("rocker.speed [rad/s]");
+    const auto coupler = run.trajectory.column("coupler.angle [rad]"), rocker = run.trajectory.column("rocker.angle [rad]"),
+               t = run.trajectory.column("t [s]"), speed = run.trajectory.column("rocker.speed [rad/s]");
     for (std::size_t k = 0; k < t.size(); ++k) {
       EXPECT_NEAR(coupler[k], 0, 1e-7) << t[k];  // at the line itself second order in a step of 1e-3
       EXPECT_NEAR(rocker[k], pi / 4 + pi * t[k], 1e-7) << t[k];
@@ -132,7 +132,8 @@ TEST(Kinematics, RowsThatRepeatOthersAreNoObstacle) {
   s.drivers.push_back(angle_driver("second motor", "ground", "crank 2", law(0.5, 2)));
   const auto run = driven(s);
   ASSERT_EQ(run.status, Status::finished) << run.reason;
-  const auto t = run.trajectory.column("t [s]"), x = run.trajectory.column("platform.x [m]"), a = run.trajectory.column("platform.ay [m/s^2]");
+  const auto t = run.trajectory.column("t [s]"), x = run.trajectory.column("platform.x [m]"),
+             a = run.trajectory.column("platform.ay [m/s^2]");
   for (std::size_t k = 0; k < t.size(); ++k) {
     EXPECT_NEAR(x[k], 0.2 * std::cos(0.5 + 2 * t[k]), closed_form);
     EXPECT_NEAR(a[k], -0.8 * std::sin(0.5 + 2 * t[k]), 1e-8);

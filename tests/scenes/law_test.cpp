@@ -134,14 +134,16 @@ TEST(TimeLaws, AnyWhoseValueHasAPoleIsRefusedWithItsTime) {
       EXPECT_TRUE(says(message, c.law) && says(message, c.when) && says(message, "finite")) << c.law << ": " << message;
       EXPECT_EQ(says(message, ":17: drivers.motor"), driver) << message;
     }
-  for (const char* law : {"sqrt(abs(t - 0.5003))", "log(abs(t - 0.5003))"}) EXPECT_TRUE(says(refusal(driven(angle_law(law))), "0.5003")) << law;
+  for (const char* law : {"sqrt(abs(t - 0.5003))", "log(abs(t - 0.5003))"})
+    EXPECT_TRUE(says(refusal(driven(angle_law(law))), "0.5003")) << law;
 }
 
 TEST(TimeLaws, OnesThatStayFiniteAreNoPoles) {
   for (const char* law : {"tan(t)", "1/(t + 1e-3)", "1/((t - 0.5)^2 + 1e-4)", "if(t < 0.4, 1/(t - 0.4 - 1e-3), -1000)", "sqrt((t - 0.5)^2)",
                           "if(abs(t - 0.5) < 1e-3, 1000, 1/abs(t - 0.5))", "log(abs(t - 0.5003))", "t/(t + 1)", "sqrt(abs(t - 0.5003))"})
     EXPECT_EQ(refusal(pushed(torque_law(law))), "") << law;
-  for (const char* law : {"tan(t)", "1/(t + 1e-2)", "abs(t - 0.3)^1.7", "atan(100*(t - 0.5))"}) EXPECT_EQ(refusal(driven(angle_law(law))), "") << law;
+  for (const char* law : {"tan(t)", "1/(t + 1e-2)", "abs(t - 0.3)^1.7", "atan(100*(t - 0.5))"})
+    EXPECT_EQ(refusal(driven(angle_law(law))), "") << law;
 }
 
 // The host's own functions cannot be looked into: there the run ends at the pole and names the law.
@@ -154,7 +156,9 @@ TEST(TimeLaws, APoleThatOnlyTheRunMeetsIsNamedWithItsLine) {
   s.run.tolerance = 1e-3;
   const Whole w = run(s);
   EXPECT_EQ(w.run.status, Status::failed);
-  EXPECT_TRUE(says(w.run.reason, "t = 0.523") && says(w.run.reason, "tan(3 t)") && says(w.run.reason, "\"motor\"") && says(w.run.reason, ":17)")) << w.run.reason;
+  EXPECT_TRUE(says(w.run.reason, "t = 0.523") && says(w.run.reason, "tan(3 t)") && says(w.run.reason, "\"motor\"") &&
+              says(w.run.reason, ":17)"))
+      << w.run.reason;
   const auto ends = [](double t) { return t < 0.6 ? Jet{t, 1, 0} : Jet{std::nan(""), 0, 0}; };
   const Whole n = run(driven({ends, "mine", false}));
   EXPECT_EQ(n.run.status, Status::failed);

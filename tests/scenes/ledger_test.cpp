@@ -26,9 +26,7 @@ struct Case {
   const char* name;
   SliderCrank options;
 };
-void PrintTo(const Case& c, std::ostream* out) {
-  *out << c.name;
-}
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 const Case cases[] = {
     {"Table2At50", {.speed = 50}},
@@ -39,19 +37,11 @@ const Case cases[] = {
     {"HalfMillimetre", {.clearance = 5e-4}},
     {"HalfMillimetreForASecond", {.clearance = 5e-4, .until = 1}},
     {"FrictionNone", {.clearance = 2e-3, .speed = 300, .restitution = 0.9, .until = 0.1}},
-    {"FrictionOneHundredth",
-     {.clearance = 2e-3, .speed = 300, .restitution = 0.9, .friction = 0.01, .until = 0.1}},
-    {"FrictionOneTenth",
-     {.clearance = 2e-3, .speed = 300, .restitution = 0.9, .friction = 0.1, .until = 0.1}},
-    {"FrictionThreeTenths",
-     {.clearance = 2e-3, .speed = 300, .restitution = 0.9, .friction = 0.3, .until = 0.1}},
+    {"FrictionOneHundredth", {.clearance = 2e-3, .speed = 300, .restitution = 0.9, .friction = 0.01, .until = 0.1}},
+    {"FrictionOneTenth", {.clearance = 2e-3, .speed = 300, .restitution = 0.9, .friction = 0.1, .until = 0.1}},
+    {"FrictionThreeTenths", {.clearance = 2e-3, .speed = 300, .restitution = 0.9, .friction = 0.3, .until = 0.1}},
     {"DrivenAt5000rpm",
-     {.clearance = 5e-4,
-      .speed = 5000 * M_PI / 30,
-      .restitution = 0.9,
-      .friction = 0.1,
-      .driven = true,
-      .until = 0.012}},
+     {.clearance = 5e-4, .speed = 5000 * M_PI / 30, .restitution = 0.9, .friction = 0.1, .driven = true, .until = 0.012}},
 };
 
 class PaperLedger : public testing::TestWithParam<std::tuple<Case, const char*>> {};
@@ -64,27 +54,16 @@ TEST_P(PaperLedger, LeavesNothingUnexplained) {
   EXPECT_LT(std::abs(w.run.worst_unexplained), books * w.run.first.stored());
   EXPECT_LT(w.run.worst_position, 1e-10);
   EXPECT_LT(w.run.worst_velocity, 1e-10);
-  RecordProperty("unexplained", std::to_string(std::log10(std::abs(w.run.worst_unexplained) /
-                                                          w.run.first.stored())));
+  RecordProperty("unexplained", std::to_string(std::log10(std::abs(w.run.worst_unexplained) / w.run.first.stored())));
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, PaperLedger,
-                         testing::Combine(testing::ValuesIn(cases),
-                                          testing::Values("dopri5", "rkf45")),
-                         [](const auto& i) {
-                           return std::string(std::get<0>(i.param).name) + "_" +
-                                  std::get<1>(i.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(Cases, PaperLedger, testing::Combine(testing::ValuesIn(cases), testing::Values("dopri5", "rkf45")),
+                         [](const auto& i) { return std::string(std::get<0>(i.param).name) + "_" + std::get<1>(i.param); });
 
 TEST(PaperLedger, GeometricSlidingSpeedHidesTheWorkThatTheOracleFinds) {
   // Until 6 ms all impacts are reproducible; what the law's own speed shows, and does not, is too.
-  const SliderCrank o{.clearance = 2e-3,
-                      .speed = 300,
-                      .restitution = 0.9,
-                      .friction = 0.1,
-                      .geometric = true,
-                      .until = 6e-3,
-                      .tolerance = 1e-11};
+  const SliderCrank o{
+      .clearance = 2e-3, .speed = 300, .restitution = 0.9, .friction = 0.1, .geometric = true, .until = 6e-3, .tolerance = 1e-11};
   const Whole w = run(scene(o));
   po::State s = po::start(oracle(o));
   po::simulate(oracle(o), po::Options{.tolerance = 1e-12}, o.until, s);
@@ -96,8 +75,7 @@ TEST(PaperLedger, GeometricSlidingSpeedHidesTheWorkThatTheOracleFinds) {
 }
 
 TEST(PaperLedger, OverItsBoundHasItsOwnStatusAndKeepsEverything) {
-  pintle::Scene s = scene(SliderCrank{
-      .clearance = 2e-3, .speed = 300, .friction = 0.1, .geometric = true, .until = 6e-3});
+  pintle::Scene s = scene(SliderCrank{.clearance = 2e-3, .speed = 300, .friction = 0.1, .geometric = true, .until = 6e-3});
   const Whole over = run(s);
   EXPECT_EQ(over.run.status, Status::ledger_over_bound);
   EXPECT_NE(over.run.reason.find("unexplained"), std::string::npos) << over.run.reason;
@@ -159,8 +137,7 @@ TEST(Driver, PutsInTheEnergyThatTheClosedFormGains) {
   s.run.until = 1.5, s.run.tolerance = 1e-11;
   const Whole w = run(s);
   const double t = 1.5,
-               gained = po::energy(f, {0.4 + 2 * t + 3 * t * t, 2 + 6 * t, 6}, links, 9.81) -
-                        po::energy(f, {0.4, 2, 6}, links, 9.81);
+               gained = po::energy(f, {0.4 + 2 * t + 3 * t * t, 2 + 6 * t, 6}, links, 9.81) - po::energy(f, {0.4, 2, 6}, links, 9.81);
   EXPECT_NEAR(w.ledger("motor.work in [J]"), gained, closed_form * std::abs(gained));
   EXPECT_NEAR(w.run.unexplained, 0, closed_form * std::abs(gained));
 }
@@ -175,8 +152,7 @@ TEST(Load, WorkIsForceTimesPath) {
   const auto reach = [&](std::size_t row) {  // 3 x_P − 2 y_P
     const double a = w.column("puck.angle [rad]")[row];
     const double c = std::cos(a), d = std::sin(a);
-    return 3 * (w.column("puck.x [m]")[row] + 0.1 * c - 0.05 * d) -
-           2 * (w.column("puck.y [m]")[row] + 0.1 * d + 0.05 * c);
+    return 3 * (w.column("puck.x [m]")[row] + 0.1 * c - 0.05 * d) - 2 * (w.column("puck.y [m]")[row] + 0.1 * d + 0.05 * c);
   };
   const double work = reach(w.run.trajectory.rows() - 1) - reach(0);
   EXPECT_NEAR(w.ledger("pull.work in [J]"), work, closed_form * std::abs(work));

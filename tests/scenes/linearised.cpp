@@ -41,8 +41,7 @@ VectorXd measure(const System& system) {
 /// Freely chosen motion about a pose.
 class About {
  public:
-  About(const System& system, const State& at, double w)
-      : system_(system), at_(at), w_(w), eq_(system), D_(measure(system)) {
+  About(const System& system, const State& at, double w) : system_(system), at_(at), w_(w), eq_(system), D_(measure(system)) {
     pose(system, at.t, at.y, eq_);
     const MatrixXd J = scaled_jacobian();
     const Eigen::ColPivHouseholderQR<MatrixXd> qr(J.transpose());
@@ -117,8 +116,7 @@ class About {
       Eigen::Map<VectorXd>(x, system_.n()) -= D_.cwiseProduct(change);
       return change.lpNorm<Eigen::Infinity>();
     };
-    if (!onto_constraints(system_, to.t, to.y, eq_, factor, subtract))
-      throw std::runtime_error("the constraints cannot be met");
+    if (!onto_constraints(system_, to.t, to.y, eq_, factor, subtract)) throw std::runtime_error("the constraints cannot be met");
   }
   /// Speeds of what turns with the drive.
   VectorXd turning(const VectorXd& y) const {
@@ -181,9 +179,7 @@ VectorXd frequencies(const SmallMotion& motion) {
   return Eigen::Map<VectorXd>(found.data(), static_cast<Index>(found.size()));
 }
 
-double growth(const SmallMotion& motion) {
-  return exponents(motion).real().maxCoeff();
-}
+double growth(const SmallMotion& motion) { return exponents(motion).real().maxCoeff(); }
 
 Eigen::Vector2d place_of(const pintle::Model& model, const State& state, const std::string& point) {
   pintle::Equations eq(model.system);

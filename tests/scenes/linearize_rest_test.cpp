@@ -47,14 +47,14 @@ TEST(LinearizeAtRest, StartThatIsNoEquilibriumIsSaidToBeNone) {
 
 // Under a motor that would turn the guide the bead rests at the end of its spring, as if the guide stood.
 TEST(LinearizeAtRest, DriversAndLoadsAreHeld) {
-  const pintle::Linearization lin = about_rest(scene_of(
-      "bodies:\n"
-      "  arm: {rigid: {mass: 1, inertia: 0.2}}\n"
-      "  bead: {rigid: {mass: 0.5, inertia: 0.01}, pose: {at: [0.64, 0]}}\n"
-      "joints: {axle: {revolute: [ground, arm]}, slide: {prismatic: [arm, bead]}}\n"
-      "drivers: {motor: {angle: [ground, arm], law: 3*t}}\n"
-      "forces: {k: {spring: [arm, bead], stiffness: 12.5, free length: 0.6}}\n"
-      "run: {until: 1}\n"));
+  const pintle::Linearization lin =
+      about_rest(scene_of("bodies:\n"
+                          "  arm: {rigid: {mass: 1, inertia: 0.2}}\n"
+                          "  bead: {rigid: {mass: 0.5, inertia: 0.01}, pose: {at: [0.64, 0]}}\n"
+                          "joints: {axle: {revolute: [ground, arm]}, slide: {prismatic: [arm, bead]}}\n"
+                          "drivers: {motor: {angle: [ground, arm], law: 3*t}}\n"
+                          "forces: {k: {spring: [arm, bead], stiffness: 12.5, free length: 0.6}}\n"
+                          "run: {until: 1}\n"));
   ASSERT_EQ(lin.modes.size(), 1U);
   EXPECT_NEAR(lin.modes[0].root.imag(), 5, 1e-8);  // not √(25 − 9)
   EXPECT_EQ(lin.coefficients, pintle::Coefficients::constant);
@@ -64,7 +64,9 @@ TEST(Linearize, DoorOnTwoHingesSwingsAsOnOne) {
   const auto door = [](const std::string& more) {
     pintle::Scene scene = scene_of(
         "bodies: {door: {rigid: {mass: 3, inertia: 0.4}, points: {A: [-0.5, 0]}, pose: {at: [0.5, 0]}}}\n"
-        "joints: {one: {revolute: [ground, door.A]}" + more + "}\n"
+        "joints: {one: {revolute: [ground, door.A]}" +
+        more +
+        "}\n"
         "forces: {closer: {torsion spring: [ground, door], stiffness: 20, damping: 1}}\n");
     const pintle::Model model = build(scene);
     return linearize(scene, model, assemble(scene, model).start);

@@ -67,18 +67,20 @@ struct About {
 
 /// A body of mass m that slides along x on a spring and damper.
 std::string slider(double m, double k, double c) {
-  return "bodies: {block: {rigid: {mass: " + std::to_string(m) + ", inertia: 1}, pose: {at: [1, 0]}}}\n"
+  return "bodies: {block: {rigid: {mass: " + std::to_string(m) +
+         ", inertia: 1}, pose: {at: [1, 0]}}}\n"
          "joints: {guide: {prismatic: [ground, block]}}\n"
-         "forces: {k: {spring: [ground, block], stiffness: " + std::to_string(k) + ", damping: " + std::to_string(c) +
-         ", free length: 1}}\n";
+         "forces: {k: {spring: [ground, block], stiffness: " +
+         std::to_string(k) + ", damping: " + std::to_string(c) + ", free length: 1}}\n";
 }
 
 // ---- closed forms ----
 
 TEST(Linearize, PendulumSwingsWithItsClosedFormAndNoDampingAtAll) {
-  const About a("gravity: [0, -9.81]\n"
-                "bodies: {rod: {rigid: {mass: 2, inertia: 0.3}, points: {P: [0, 0.7]}}}\n"
-                "joints: {hinge: {revolute: [ground, rod.P]}}\n");
+  const About a(
+      "gravity: [0, -9.81]\n"
+      "bodies: {rod: {rigid: {mass: 2, inertia: 0.3}, points: {P: [0, 0.7]}}}\n"
+      "joints: {hinge: {revolute: [ground, rod.P]}}\n");
   ASSERT_EQ(a.lin.modes.size(), 1U);
   EXPECT_NEAR(a.lin.modes[0].root.imag(), std::sqrt(2 * 9.81 * 0.7 / (0.3 + 2 * 0.49)), rounding);
   EXPECT_EQ(a.lin.modes[0].root.real(), 0);
@@ -120,9 +122,10 @@ TEST(Linearize, DamperGivesTheDampingRatioAndBeyondItTwoDecays) {
 }
 
 TEST(Linearize, InvertedPendulumGrowsByName) {
-  const About a("gravity: [0, -9.81]\n"
-                "bodies: {rod: {rigid: {mass: 1, inertia: 0.02}, points: {P: [0, -0.5]}, pose: {at: [0, 0.5]}}}\n"
-                "joints: {hinge: {revolute: [ground, rod.P]}}\n");
+  const About a(
+      "gravity: [0, -9.81]\n"
+      "bodies: {rod: {rigid: {mass: 1, inertia: 0.02}, points: {P: [0, -0.5]}, pose: {at: [0, 0.5]}}}\n"
+      "joints: {hinge: {revolute: [ground, rod.P]}}\n");
   ASSERT_EQ(a.lin.modes.size(), 2U);
   int growing = 0;
   for (const pintle::LinearMode& m : a.lin.modes) {
@@ -134,10 +137,11 @@ TEST(Linearize, InvertedPendulumGrowsByName) {
 }
 
 TEST(Linearize, WhatNothingHoldsIsNamedZeroBesideStiffModes) {
-  const About a("bodies:\n"
-                "  a: {rigid: {mass: 1, inertia: 0.1}}\n"
-                "  b: {rigid: {mass: 3, inertia: 0.1}, pose: {at: [1, 0]}}\n"
-                "forces: {k: {spring: [a, b], stiffness: 3e9, free length: 1}}\n");
+  const About a(
+      "bodies:\n"
+      "  a: {rigid: {mass: 1, inertia: 0.1}}\n"
+      "  b: {rigid: {mass: 3, inertia: 0.1}, pose: {at: [1, 0]}}\n"
+      "forces: {k: {spring: [a, b], stiffness: 3e9, free length: 1}}\n");
   int roots = 0;
   for (const pintle::LinearMode& m : a.lin.modes) {
     if (m.kind != Kind::zero) continue;
@@ -215,8 +219,12 @@ std::string bead(double w) {
          "  arm: {rigid: {mass: 1, inertia: 0.2}}\n"
          "  bead: {rigid: {mass: 0.5, inertia: 0.01}, pose: {at: [0.64, 0]}}\n"
          "joints: {axle: {revolute: [ground, arm]}, slide: {prismatic: [arm, bead]}}\n"
-         "drivers: {motor: {angle: [ground, arm], law: " + std::to_string(w) + "*t}}\n"
-         "forces: {k: {spring: [arm, bead], stiffness: 12.5, free length: " + std::to_string(r - m * w * w * r / k) + "}}\n"
+         "drivers: {motor: {angle: [ground, arm], law: " +
+         std::to_string(w) +
+         "*t}}\n"
+         "forces: {k: {spring: [arm, bead], stiffness: 12.5, free length: " +
+         std::to_string(r - m * w * w * r / k) +
+         "}}\n"
          "start: {bead: {at: [0.64, 0]}}\n";
 }
 
@@ -256,16 +264,20 @@ std::string blade(double w, const std::string& stiffening) {
          "           section: {area: 1, second moment: 1e-6}, young: 1e6, poisson: 0, density: 1}\n"
          "    points: {A: [0, 0], B: [1, 0]}\n"
          "    modes: {frame: {tangent: A}, craig-bampton: {count: 5}}\n"
-         "    stiffening: " + stiffening + "\n"
+         "    stiffening: " +
+         stiffening +
+         "\n"
          "    pose: {at: [1, 0]}\n"
          "joints: {axle: {revolute: [ground, hub]}, root: {weld: [hub.P, blade.A]}}\n"
-         "drivers: {motor: {angle: [ground, hub], law: " + std::to_string(w) + "*t}}\n"
+         "drivers: {motor: {angle: [ground, hub], law: " +
+         std::to_string(w) +
+         "*t}}\n"
          "run: {until: 1}\n";
 }
 
 TEST(Linearize, CantileverHasItsFrequencies) {
   const std::vector<double> f = About(blade(0, "none")).frequencies();
-  const double want[] = {3.516015268, 22.03449156, 61.69721441};  // (βL)², cos βL cosh βL = −1
+  const double want[] = {3.516015268, 22.03449156, 61.69721441};                   // (βL)², cos βL cosh βL = −1
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(f[k], want[k], 2e-5 * want[k]);  // 20 elements: (βL/20)⁴/720 at most
 }
 

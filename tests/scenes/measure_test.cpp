@@ -108,12 +108,11 @@ TEST(Measure, OfADrivenSliderCrankAgreesWithMinimalCoordinates) {
   }
   const po::Ideal end = po::evaluate_ideal(p, 7.5, 150), start = po::evaluate_ideal(p, 0, 150),
                   mid = po::evaluate_ideal(p, 150 * 0.0123, 150);
-  const Outcome got =
-      outcome(driven,
-              {"x of slider at 12.3 ms", "rms torque of motor", "peak force at gudgeon pin", "peak torque of the motor", "work of motor",
-               "energy lost", "work of motor after 12.3 ms", "impacts", "peak eccentricity at gudgeon pin",
-               "longest free flight at gudgeon pin", "vx of slider at 12.3 ms", "force x at gudgeon pin at 12.3 ms"},
-              ideal);
+  const Outcome got = outcome(driven,
+                              {"x of slider at 12.3 ms", "rms torque of motor", "peak force at gudgeon pin", "peak torque of the motor",
+                               "work of motor", "energy lost", "work of motor after 12.3 ms", "impacts", "peak eccentricity at gudgeon pin",
+                               "longest free flight at gudgeon pin", "vx of slider at 12.3 ms", "force x at gudgeon pin at 12.3 ms"},
+                              ideal);
   const std::vector<double> expected{mid.x,      std::sqrt(torque2),      force, drive, end.energy - start.energy,
                                      0,          end.energy - mid.energy, 0,     0,     0,
                                      mid.x_rate, -mid.pin_force[0]};

@@ -14,23 +14,18 @@ using namespace pintle;
 
 PointRef ref(const std::string& text) {
   const auto dot = text.find('.');
-  return dot == std::string::npos ? PointRef{text, "", {}}
-                                  : PointRef{text.substr(0, dot), text.substr(dot + 1), {}};
+  return dot == std::string::npos ? PointRef{text, "", {}} : PointRef{text.substr(0, dot), text.substr(dot + 1), {}};
 }
 
-ScenePoint point(const std::string& name, double x, double y, double angle) {
-  return {name, {x, y}, angle, {}};
-}
+ScenePoint point(const std::string& name, double x, double y, double angle) { return {name, {x, y}, angle, {}}; }
 
-SceneBody body(const std::string& name, double mass, double inertia,
-               std::vector<ScenePoint> points) {
+SceneBody body(const std::string& name, double mass, double inertia, std::vector<ScenePoint> points) {
   SceneBody b;
   b.name = name, b.mass = mass, b.inertia = inertia, b.points = std::move(points);
   return b;
 }
 
-SceneJoint joint(const std::string& name, JointKind kind, const std::string& a,
-                 const std::string& b) {
+SceneJoint joint(const std::string& name, JointKind kind, const std::string& a, const std::string& b) {
   SceneJoint j;
   j.name = name, j.kind = kind, j.a = ref(a), j.b = ref(b);
   return j;
@@ -51,13 +46,12 @@ Law wave(double mean, double amplitude, double omega) {
           "wave", false};
 }
 
-SceneDriver angle_driver(const std::string& name, const std::string& a, const std::string& b,
-                         Law law) {
+SceneDriver angle_driver(const std::string& name, const std::string& a, const std::string& b, Law law) {
   return {name, DriverKind::angle, ref(a), ref(b), std::move(law), {}};
 }
 
-SceneLoad spring(const std::string& name, const std::string& a, const std::string& b,
-                 double stiffness, double damping, double free_length) {
+SceneLoad spring(const std::string& name, const std::string& a, const std::string& b, double stiffness, double damping,
+                 double free_length) {
   return {name, SceneSpring{ref(a), ref(b), stiffness, damping, free_length}, {}};
 }
 
@@ -75,8 +69,7 @@ StartBody start_angle(const std::string& name, double angle, double speed) {
   return s;
 }
 
-StartBody start_at(const std::string& name, double x, double y, double angle, double vx, double vy,
-                   double speed) {
+StartBody start_at(const std::string& name, double x, double y, double angle, double vx, double vy, double speed) {
   StartBody s = start_angle(name, angle, speed);
   s.x = x, s.y = y, s.vx = vx, s.vy = vy;
   return s;
@@ -95,20 +88,17 @@ Scene scene(const SliderCrank& o) {
   s.gravity = {0, -9.81};
   s.ground = {point("O", 0)};
   s.bodies = {body("crank", 0.3, 1e-4, {point("O", -0.025), point("A", 0.025)}),
-              body("coupler", 0.21, 2.5e-4, {point("A", -0.06), point("B", 0.06)}),
-              body("slider", 0.14, 1e-4, {point("P", 0)})};
+              body("coupler", 0.21, 2.5e-4, {point("A", -0.06), point("B", 0.06)}), body("slider", 0.14, 1e-4, {point("P", 0)})};
   const double phi = -std::asin(0.05 * std::sin(o.angle) / 0.12);
   const double x = 0.05 * std::cos(o.angle), y = 0.05 * std::sin(o.angle);
   s.bodies[0].at = {x / 2, y / 2}, s.bodies[0].angle = o.angle;
   s.bodies[1].at = {x + 0.06 * std::cos(phi), y / 2}, s.bodies[1].angle = phi;
   s.bodies[2].at = {x + 0.12 * std::cos(phi), 0};
-  s.joints = {joint("main bearing", JointKind::revolute, "ground.O", "crank.O"),
-              joint("crank pin", JointKind::revolute, "crank.A", "coupler.A"),
-              joint("gudgeon pin", JointKind::revolute, "coupler.B", "slider.P"),
-              joint("guide", JointKind::prismatic, "ground.O", "slider.P")};
+  s.joints = {
+      joint("main bearing", JointKind::revolute, "ground.O", "crank.O"), joint("crank pin", JointKind::revolute, "crank.A", "coupler.A"),
+      joint("gudgeon pin", JointKind::revolute, "coupler.B", "slider.P"), joint("guide", JointKind::prismatic, "ground.O", "slider.P")};
   if (o.clearance > 0) {
-    SceneClearance c =
-        clearance(o.bearing_on_slider ? "slider" : "coupler", o.clearance, o.restitution);
+    SceneClearance c = clearance(o.bearing_on_slider ? "slider" : "coupler", o.clearance, o.restitution);
     if (o.friction > 0) {
       c.friction.emplace();
       c.friction->coefficient = o.friction;
@@ -130,8 +120,7 @@ Scene scene(const SliderCrank& o) {
 pintle_oracle::Params oracle(const SliderCrank& o) {
   pintle_oracle::Params p;
   p.clearance = o.clearance;
-  p.stiffness = pintle_oracle::hertz_stiffness(p.bearing_radius - o.clearance, p.bearing_radius,
-                                               207e9, 0.3, true);
+  p.stiffness = pintle_oracle::hertz_stiffness(p.bearing_radius - o.clearance, p.bearing_radius, 207e9, 0.3, true);
   p.chi = pintle_oracle::lankarani_nikravesh(o.restitution);
   p.mu = o.friction;
   p.slip = o.geometric ? pintle_oracle::Slip::geometric : pintle_oracle::Slip::material;
@@ -171,15 +160,13 @@ Scene double_pendulum(const pintle_oracle::DoublePendulum& p, const pintle_oracl
               body("lower", p.mass[1], p.inertia[1], {point("top", 0)})};
   s.bodies[0].center = {p.centre[0], 0}, s.bodies[1].center = {p.centre[1], 0};
   s.bodies[1].at = {p.length * std::sin(y[0]), -p.length * std::cos(y[0])};
-  s.joints = {joint("pivot", JointKind::revolute, "ground.P", "upper.top"),
-              joint("elbow", JointKind::revolute, "upper.end", "lower.top")};
-  s.start_bodies = {start_angle("upper", y[0] - quarter, y[2]),
-                    start_angle("lower", y[1] - quarter, y[3])};
+  s.joints = {joint("pivot", JointKind::revolute, "ground.P", "upper.top"), joint("elbow", JointKind::revolute, "upper.end", "lower.top")};
+  s.start_bodies = {start_angle("upper", y[0] - quarter, y[2]), start_angle("lower", y[1] - quarter, y[3])};
   return s;
 }
 
-Scene four_bar(const pintle_oracle::FourBar& f, const pintle_oracle::LinkMass (&links)[3],
-               double gravity, double start, double rate, double accel) {
+Scene four_bar(const pintle_oracle::FourBar& f, const pintle_oracle::LinkMass (&links)[3], double gravity, double start, double rate,
+               double accel) {
   const auto m = pintle_oracle::evaluate(f, {start, rate, accel});
   const double lengths[3] = {f.crank, f.coupler, f.rocker};
   const double angles[3] = {start, m.coupler.angle, m.rocker.angle};
@@ -188,17 +175,14 @@ Scene four_bar(const pintle_oracle::FourBar& f, const pintle_oracle::LinkMass (&
   s.gravity = {0, -gravity};
   s.ground = {point("A", 0), point("D", f.ground)};
   for (int i = 0; i < 3; ++i) {
-    s.bodies.push_back(body(names[i], links[i].mass, links[i].inertia,
-                            {point("near", 0), point("far", lengths[i])}));
+    s.bodies.push_back(body(names[i], links[i].mass, links[i].inertia, {point("near", 0), point("far", lengths[i])}));
     s.bodies.back().center = {links[i].fraction * lengths[i], 0};
     s.bodies.back().angle = angles[i];
   }
   s.bodies[1].at = {f.crank * std::cos(start), f.crank * std::sin(start)};
   s.bodies[2].at = {f.ground, 0};
-  s.joints = {joint("A", JointKind::revolute, "ground.A", "crank.near"),
-              joint("B", JointKind::revolute, "crank.far", "coupler.near"),
-              joint("C", JointKind::revolute, "coupler.far", "rocker.far"),
-              joint("D", JointKind::revolute, "ground.D", "rocker.near")};
+  s.joints = {joint("A", JointKind::revolute, "ground.A", "crank.near"), joint("B", JointKind::revolute, "crank.far", "coupler.near"),
+              joint("C", JointKind::revolute, "coupler.far", "rocker.far"), joint("D", JointKind::revolute, "ground.D", "rocker.near")};
   s.drivers = {angle_driver("motor", "ground.A", "crank.near", law(start, rate, accel))};
   return s;
 }
@@ -208,8 +192,7 @@ Scene andrews() {
   const auto data = nlohmann::json::parse(file);
   const auto& geometry = data["rigid_body_geometry"];
   const auto q = data["initial"]["q"].get<std::vector<double>>();
-  const double beta = q[0], theta = q[1], gamma = q[2], phi = q[3], delta = q[4], omega = q[5],
-               epsilon = q[6];
+  const double beta = q[0], theta = q[1], gamma = q[2], phi = q[3], delta = q[4], omega = q[5], epsilon = q[6];
   const double angle[7] = {beta, beta + theta, gamma, phi + delta, delta, omega + epsilon, epsilon};
 
   Scene s;
@@ -223,8 +206,7 @@ Scene andrews() {
     const std::string number = std::to_string(i), name = std::string("K").append(number);
     const auto& b = geometry["bodies"][name];
     const auto& p = data["parameters"];
-    SceneBody made =
-        body(name, p[std::string("m").append(number)], p[std::string("i").append(number)], {});
+    SceneBody made = body(name, p[std::string("m").append(number)], p[std::string("i").append(number)], {});
     made.center = b["com"].get<Pair>();
     made.at = pins.at(b["origin"]);
     made.angle = angle[i - 1];
@@ -236,19 +218,16 @@ Scene andrews() {
     }
     s.bodies.push_back(made);
   }
-  for (const auto& [name, reaction] :
-       data["joint_reactions_t0.03_Cartesian_model_N(lambda of constraint pos_a-pos_b=0; force on "
-            "body of a = J^T lam)"]
-           .items()) {
+  for (const auto& [name, reaction] : data["joint_reactions_t0.03_Cartesian_model_N(lambda of constraint pos_a-pos_b=0; force on "
+                                           "body of a = J^T lam)"]
+                                          .items()) {
     // "E:K2-K3"
     const auto colon = name.find(':'), dash = name.find('-');
     const std::string pin = name.substr(0, colon);
-    s.joints.push_back(joint(name, JointKind::revolute,
-                             name.substr(colon + 1, dash - colon - 1) + "." + pin,
-                             name.substr(dash + 1) + "." + pin));
+    s.joints.push_back(
+        joint(name, JointKind::revolute, name.substr(colon + 1, dash - colon - 1) + "." + pin, name.substr(dash + 1) + "." + pin));
   }
-  s.loads = {spring("spring", "K3.D", "ground.C", 4530, 0, 0.07785),
-             torque("drive", "K1", law(0.033))};
+  s.loads = {spring("spring", "K3.D", "ground.C", 4530, 0, 0.07785), torque("drive", "K1", law(0.033))};
   for (const SceneBody& b : s.bodies)
     if (b.name == "K1") s.start_bodies = {start_angle("K1", b.angle, 0)};
   s.run.until = 0.03;
@@ -264,11 +243,9 @@ Scene sundials_slider_crank() {
   const double q = M_PI / 2, p = -M_PI / 6;
   s.bodies[0].angle = q;
   s.bodies[1].angle = p, s.bodies[1].at = {std::cos(p), 0};
-  s.joints = {joint("main bearing", JointKind::revolute, "ground", "crank.O"),
-              joint("crank pin", JointKind::revolute, "crank.A", "rod.A"),
+  s.joints = {joint("main bearing", JointKind::revolute, "ground", "crank.O"), joint("crank pin", JointKind::revolute, "crank.A", "rod.A"),
               joint("guide", JointKind::slot, "ground", "rod")};
-  s.loads = {spring("spring", "crank.half", "rod.half", 1, 1, 1),
-             force("push", "rod.end", law(1), law(0))};
+  s.loads = {spring("spring", "crank.half", "rod.half", 1, 1, 1), force("push", "rod.end", law(1), law(0))};
   s.start_bodies = {start_angle("crank", q, 0)};
   s.run.until = 10;
   return s;
@@ -280,11 +257,9 @@ Scene floating_chain(double damping) {
               body("two", 0.5, 0.01, {point("A", -0.15), point("B", 0.15, 0.05)}),
               body("three", 2, 0.05, {point("B", -0.1), point("S", 0.3, -0.1)})};
   s.bodies[1].at = {0.35, 0}, s.bodies[2].at = {0.6, 0.05};
-  s.joints = {joint("pin A", JointKind::revolute, "one.A", "two.A"),
-              joint("pin B", JointKind::revolute, "two.B", "three.B")};
+  s.joints = {joint("pin A", JointKind::revolute, "one.A", "two.A"), joint("pin B", JointKind::revolute, "two.B", "three.B")};
   s.loads = {spring("strut", "one.S", "three.S", 200, damping, 0.6)};
-  s.start_bodies = {start_at("one", 0, 0, 0, 0.3, -0.2, 4), start_angle("two", 0, -3),
-                    start_angle("three", 0, 2)};
+  s.start_bodies = {start_at("one", 0, 0, 0, 0.3, -0.2, 4), start_angle("two", 0, -3), start_angle("three", 0, 2)};
   s.run.until = 2;
   return s;
 }
@@ -301,8 +276,7 @@ Scene moved(Scene s, double dx, double dy, double turn) {
   for (SceneBody& b : s.bodies) b.at = shifted(b.at), b.angle += turn;
   for (StartBody& b : s.start_bodies)
     if (b.angle) *b.angle += turn;
-  for (StartJournal& j : s.start_journals)
-    j.eccentricity = turned(j.eccentricity), j.speed = turned(j.speed);
+  for (StartJournal& j : s.start_journals) j.eccentricity = turned(j.eccentricity), j.speed = turned(j.speed);
   return s;
 }
 
@@ -313,8 +287,7 @@ Scene mirrored(Scene s) {
   };
   flip(s.gravity);
   flip_points(s.ground);
-  for (SceneBody& b : s.bodies)
-    flip_points(b.points), flip(b.at), flip(b.center), b.angle = -b.angle;
+  for (SceneBody& b : s.bodies) flip_points(b.points), flip(b.at), flip(b.center), b.angle = -b.angle;
   for (SceneJoint& j : s.joints) j.angle = -j.angle;
   for (StartBody& b : s.start_bodies) {
     for (auto* x : {&b.y, &b.vy, &b.angle, &b.speed})
@@ -324,9 +297,7 @@ Scene mirrored(Scene s) {
   return s;
 }
 
-std::vector<double> Whole::column(const std::string& name) const {
-  return run.trajectory.column(name);
-}
+std::vector<double> Whole::column(const std::string& name) const { return run.trajectory.column(name); }
 
 Whole run(const Scene& s) {
   Whole w;

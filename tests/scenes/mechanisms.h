@@ -18,25 +18,20 @@ namespace pintle_scenes {
 /// "crank.A", "crank" or "ground"
 pintle::PointRef ref(const std::string& text);
 pintle::ScenePoint point(const std::string& name, double x, double y = 0, double angle = 0);
-pintle::SceneBody body(const std::string& name, double mass, double inertia,
-                       std::vector<pintle::ScenePoint> points);
-pintle::SceneJoint joint(const std::string& name, pintle::JointKind kind, const std::string& a,
-                         const std::string& b);
+pintle::SceneBody body(const std::string& name, double mass, double inertia, std::vector<pintle::ScenePoint> points);
+pintle::SceneJoint joint(const std::string& name, pintle::JointKind kind, const std::string& a, const std::string& b);
 /// value + rate t + ½ accel t²
 pintle::Law law(double value, double rate = 0, double accel = 0);
 /// mean + amplitude sin(omega t)
 pintle::Law wave(double mean, double amplitude, double omega);
-pintle::SceneDriver angle_driver(const std::string& name, const std::string& a,
-                                 const std::string& b, pintle::Law law);
-pintle::SceneLoad spring(const std::string& name, const std::string& a, const std::string& b,
-                         double stiffness, double damping, double free_length);
+pintle::SceneDriver angle_driver(const std::string& name, const std::string& a, const std::string& b, pintle::Law law);
+pintle::SceneLoad spring(const std::string& name, const std::string& a, const std::string& b, double stiffness, double damping,
+                         double free_length);
 pintle::SceneLoad torque(const std::string& name, const std::string& on, pintle::Law law);
-pintle::SceneLoad force(const std::string& name, const std::string& at, pintle::Law x,
-                        pintle::Law y, bool follows = false);
+pintle::SceneLoad force(const std::string& name, const std::string& at, pintle::Law x, pintle::Law y, bool follows = false);
 /// What is pinned down of a body at t = 0.
 pintle::StartBody start_angle(const std::string& name, double angle, double speed);
-pintle::StartBody start_at(const std::string& name, double x, double y, double angle, double vx,
-                           double vy, double speed);
+pintle::StartBody start_at(const std::string& name, double x, double y, double angle, double vx, double vy, double speed);
 
 // --- mechanisms ---
 
@@ -74,8 +69,8 @@ pintle::Scene double_pendulum(const pintle_oracle::DoublePendulum&, const pintle
 
 /// Bodies "crank", "coupler", "rocker"; joints A, B, C, D around the loop; the crank's angle is
 /// start + rate t + ½ accel t² by the driver "motor".
-pintle::Scene four_bar(const pintle_oracle::FourBar&, const pintle_oracle::LinkMass (&)[3],
-                       double gravity, double start, double rate, double accel);
+pintle::Scene four_bar(const pintle_oracle::FourBar&, const pintle_oracle::LinkMass (&)[3], double gravity, double start, double rate,
+                       double accel);
 
 /// Andrews' squeezing mechanism, bodies K1 … K7, joints named as in tests/data/andrews.json.
 pintle::Scene andrews();

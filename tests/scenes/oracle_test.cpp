@@ -37,8 +37,7 @@ Expected expected(const SliderCrank& o, const std::vector<double>& times) {
     if (t > state.t) po::simulate(p, options, t, state);
     out.samples.push_back(po::evaluate(p, state));
   }
-  po::simulate(p, options, times.back(), whole,
-               [&](const po::Impact& i) { out.impacts.push_back(i); });
+  po::simulate(p, options, times.back(), whole, [&](const po::Impact& i) { out.impacts.push_back(i); });
   return out;
 }
 
@@ -55,9 +54,7 @@ struct Case {
   SliderCrank options;
 };
 
-void PrintTo(const Case& c, std::ostream* out) {
-  *out << c.name;
-}
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 // Spans end soon after the first impacts, before the journal stays at the wall, where there is such
 // an end.
@@ -72,17 +69,10 @@ const Case cases[] = {
     {"GeometricFriction", 4, {.clearance = 2e-3, .speed = 300, .restitution = 0.9, .friction = 0.1, .geometric = true, .until = 6e-3}},
     {"BearingOnCoupler", 4, {.clearance = 0.5e-3, .friction = 0.05, .bearing_on_slider = false, .until = 8e-3}},
     {"EccentricStart", 3, {.clearance = 0.5e-3, .angle = 0.7, .friction = 0.02, .eccentricity = {-2e-4, 3e-4}, .until = 8e-3}},
-    {"DrivenAt5000rpm",
-     3,
-     {.clearance = 0.5e-3,
-      .speed = 5000 * M_PI / 30,
-      .friction = 0.1,
-      .driven = true,
-      .until = 1.5e-3}},
+    {"DrivenAt5000rpm", 3, {.clearance = 0.5e-3, .speed = 5000 * M_PI / 30, .friction = 0.1, .driven = true, .until = 1.5e-3}},
 };
 
-class PaperSliderCrank : public testing::TestWithParam<std::tuple<Case, const char*, const char*>> {
-};
+class PaperSliderCrank : public testing::TestWithParam<std::tuple<Case, const char*, const char*>> {};
 
 TEST_P(PaperSliderCrank, MovesAndStrikesAsInMinimalCoordinates) {
   auto [c, method, constraints] = GetParam();
@@ -129,12 +119,10 @@ TEST_P(PaperSliderCrank, MovesAndStrikesAsInMinimalCoordinates) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, PaperSliderCrank,
-                         testing::Combine(testing::ValuesIn(cases),
-                                          testing::Values("dopri5", "rkf45"),
+                         testing::Combine(testing::ValuesIn(cases), testing::Values("dopri5", "rkf45"),
                                           testing::Values("projection", "partitioning")),
                          [](const auto& i) {
-                           return std::string(std::get<0>(i.param).name) + "_" +
-                                  std::get<1>(i.param) + "_" + std::get<2>(i.param);
+                           return std::string(std::get<0>(i.param).name) + "_" + std::get<1>(i.param) + "_" + std::get<2>(i.param);
                          });
 
 // Through a dozen impacts a run errs by no more than a few tolerances, whatever the order of its scheme: the kinks where forces
@@ -159,14 +147,10 @@ TEST(PaperSliderCrank, LossOfContactIsNotFollowedByAnOnsetAtOnce) {
   for (const char* method : {"dopri5", "rkf45"})
     for (const char* constraints : {"projection", "partitioning"})
       for (const double tolerance : {1e-8, 1e-9, 1e-10, 1e-11, 1e-12}) {
-        const Whole w = run(scene(SliderCrank{.speed = 50,
-                                              .until = 4e-3,
-                                              .tolerance = tolerance,
-                                              .method = method,
-                                              .constraints = constraints}));
+        const Whole w =
+            run(scene(SliderCrank{.speed = 50, .until = 4e-3, .tolerance = tolerance, .method = method, .constraints = constraints}));
         SCOPED_TRACE(std::string(method) + ", " + constraints + ", " + std::to_string(tolerance));
-        for (const pintle::Impact& i : w.run.impacts)
-          EXPECT_FALSE(i.end - i.begin < 1e-12) << "begins " << i.begin;
+        for (const pintle::Impact& i : w.run.impacts) EXPECT_FALSE(i.end - i.begin < 1e-12) << "begins " << i.begin;
         EXPECT_EQ(w.run.impacts.size(), 8u);  // of the independent model, converged
       }
 }
@@ -176,44 +160,24 @@ TEST(PaperSliderCrank, LossOfContactIsNotFollowedByAnOnsetAtOnce) {
 constexpr double force_in_contact = 1e-5;
 
 TEST(PaperSliderCrank, DrivingTorqueWithClearanceIsThatOfMinimalCoordinates) {
-  SliderCrank o{.clearance = 0.5e-3,
-                .speed = 5000 * M_PI / 30,
-                .friction = 0.1,
-                .driven = true,
-                .until = 1.5e-3,
-                .tolerance = 1e-11};
+  SliderCrank o{.clearance = 0.5e-3, .speed = 5000 * M_PI / 30, .friction = 0.1, .driven = true, .until = 1.5e-3, .tolerance = 1e-11};
   const Whole w = run(scene(o));
   const Expected e = expected(o, w.column("t [s]"));
-  EXPECT_LT(relative_difference(w.column("motor.torque on crank [N m]"),
-                                series(e, [](const po::Sample& s) { return s.torque; })),
+  EXPECT_LT(relative_difference(w.column("motor.torque on crank [N m]"), series(e, [](const po::Sample& s) { return s.torque; })),
             force_in_contact);
-  EXPECT_LT(relative_difference(w.column("gudgeon pin.normal [N]"),
-                                series(e, [](const po::Sample& s) { return s.normal; })),
+  EXPECT_LT(relative_difference(w.column("gudgeon pin.normal [N]"), series(e, [](const po::Sample& s) { return s.normal; })),
             force_in_contact);
-  EXPECT_NEAR(w.ledger("motor.work in [J]"), e.samples.back().state.y[9],
-              force_in_contact * std::abs(e.samples.back().state.y[9]));
+  EXPECT_NEAR(w.ledger("motor.work in [J]"), e.samples.back().state.y[9], force_in_contact * std::abs(e.samples.back().state.y[9]));
 }
 
 TEST(PaperSliderCrank, EccentricityAndSlidingAreThoseOfMinimalCoordinates) {
-  SliderCrank o{.clearance = 2e-3,
-                .speed = 300,
-                .restitution = 0.9,
-                .friction = 0.1,
-                .until = 6e-3,
-                .tolerance = 1e-11};
+  SliderCrank o{.clearance = 2e-3, .speed = 300, .restitution = 0.9, .friction = 0.1, .until = 6e-3, .tolerance = 1e-11};
   const Whole w = run(scene(o));
   const Expected e = expected(o, w.column("t [s]"));
-  EXPECT_LT(relative_difference(w.column("gudgeon pin.ex [m]"),
-                                series(e, [](const po::Sample& s) { return s.e[0]; })),
-            motion);
-  EXPECT_LT(relative_difference(w.column("gudgeon pin.ey [m]"),
-                                series(e, [](const po::Sample& s) { return s.e[1]; })),
-            motion);
-  EXPECT_LT(relative_difference(w.column("gudgeon pin.sliding [m/s]"),
-                                series(e, [](const po::Sample& s) { return s.slip; })),
-            motion);
-  EXPECT_LT(relative_difference(w.column("gudgeon pin.friction [N]"),
-                                series(e, [](const po::Sample& s) { return s.friction; })),
+  EXPECT_LT(relative_difference(w.column("gudgeon pin.ex [m]"), series(e, [](const po::Sample& s) { return s.e[0]; })), motion);
+  EXPECT_LT(relative_difference(w.column("gudgeon pin.ey [m]"), series(e, [](const po::Sample& s) { return s.e[1]; })), motion);
+  EXPECT_LT(relative_difference(w.column("gudgeon pin.sliding [m/s]"), series(e, [](const po::Sample& s) { return s.slip; })), motion);
+  EXPECT_LT(relative_difference(w.column("gudgeon pin.friction [N]"), series(e, [](const po::Sample& s) { return s.friction; })),
             force_in_contact);
 }
 
@@ -224,12 +188,7 @@ constexpr double smooth = 1e-9;  // a hundred times the tolerance below, over so
 class IdealSliderCrank : public testing::TestWithParam<bool> {};
 
 TEST_P(IdealSliderCrank, MotionJointForceAndTorqueAreThoseOfOneFreedom) {
-  const SliderCrank o{.clearance = 0,
-                      .angle = 0.3,
-                      .driven = GetParam(),
-                      .until = 0.1,
-                      .tolerance = 1e-12,
-                      .outputs = 50};
+  const SliderCrank o{.clearance = 0, .angle = 0.3, .driven = GetParam(), .until = 0.1, .tolerance = 1e-12, .outputs = 50};
   const Whole w = run(scene(o));
   ASSERT_EQ(w.run.status, pintle::Status::finished) << w.run.reason;
   std::vector<po::Ideal> ideal;
@@ -254,8 +213,7 @@ TEST_P(IdealSliderCrank, MotionJointForceAndTorqueAreThoseOfOneFreedom) {
     check("crank.alpha [rad/s^2]", [](const po::Ideal& i) { return i.acceleration; });
 }
 
-INSTANTIATE_TEST_SUITE_P(FreeAndDriven, IdealSliderCrank, testing::Bool(),
-                         [](const auto& i) { return i.param ? "Driven" : "Free"; });
+INSTANTIATE_TEST_SUITE_P(FreeAndDriven, IdealSliderCrank, testing::Bool(), [](const auto& i) { return i.param ? "Driven" : "Free"; });
 
 // --- pendulums ---
 
@@ -263,9 +221,7 @@ struct PendulumRun {
   Hanging hanging;
   const char *method, *constraints;
 };
-void PrintTo(const PendulumRun& r, std::ostream* out) {
-  *out << r.method;
-}
+void PrintTo(const PendulumRun& r, std::ostream* out) { *out << r.method; }
 class OnePendulum : public testing::TestWithParam<PendulumRun> {};
 
 // The body's turn of a pendulum held by a link is not that of the rod: take the place of its end.
@@ -276,9 +232,8 @@ TEST_P(OnePendulum, IsWherePublishedAndHasTheForceOfTheClosedForm) {
   s.run.method = method, s.run.constraints = constraints;
   const Whole w = run(s);
   ASSERT_EQ(w.run.status, pintle::Status::finished) << w.run.reason;
-  const auto t = w.column("t [s]"), x = w.column("bob.x [m]"), y = w.column("bob.y [m]"),
-             angle = w.column("bob.angle [rad]"), fx = w.column("rod.fx on bob [N]"),
-             fy = w.column("rod.fy on bob [N]");
+  const auto t = w.column("t [s]"), x = w.column("bob.x [m]"), y = w.column("bob.y [m]"), angle = w.column("bob.angle [rad]"),
+             fx = w.column("rod.fx on bob [N]"), fy = w.column("rod.fy on bob [N]");
   constexpr double published = 1e-9;  // as the benchmark's values are asked for
   for (std::size_t i = 0; i < t.size(); ++i) {
     const po::Swing swing = po::evaluate(po::Pendulum{.release = -M_PI / 2}, t[i]);
@@ -300,16 +255,13 @@ TEST_P(OnePendulum, IsWherePublishedAndHasTheForceOfTheClosedForm) {
   EXPECT_NEAR(by_pin ? std::sin(angle.back()) : y.back(), -0.9614192050991237, published);
 }
 
-INSTANTIATE_TEST_SUITE_P(Held, OnePendulum,
-                         testing::Values(PendulumRun{Hanging::by_link, "dopri5", "projection"},
-                                         PendulumRun{Hanging::by_link, "rkf45", "partitioning"},
-                                         PendulumRun{Hanging::by_pin, "dopri5", "partitioning"},
-                                         PendulumRun{Hanging::by_pin, "rkf45", "projection"}),
-                         [](const auto& i) {
-                           return std::string(i.param.hanging == Hanging::by_link ? "Link"
-                                                                                  : "Pin") +
-                                  "_" + i.param.method + "_" + i.param.constraints;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Held, OnePendulum,
+    testing::Values(PendulumRun{Hanging::by_link, "dopri5", "projection"}, PendulumRun{Hanging::by_link, "rkf45", "partitioning"},
+                    PendulumRun{Hanging::by_pin, "dopri5", "partitioning"}, PendulumRun{Hanging::by_pin, "rkf45", "projection"}),
+    [](const auto& i) {
+      return std::string(i.param.hanging == Hanging::by_link ? "Link" : "Pin") + "_" + i.param.method + "_" + i.param.constraints;
+    });
 
 TEST(DoublePendulum, SwingsAsInItsTwoAngles) {
   // Not chaotic in so short a time: neighbouring motions part by less than a hundred times.
@@ -324,8 +276,8 @@ TEST(DoublePendulum, SwingsAsInItsTwoAngles) {
     s.run.constraints = constraints;
     const Whole w = run(s);
     ASSERT_EQ(w.run.status, pintle::Status::finished) << w.run.reason;
-    const auto t = w.column("t [s]"), upper = w.column("upper.angle [rad]"),
-               lower = w.column("lower.angle [rad]"), rate = w.column("lower.speed [rad/s]");
+    const auto t = w.column("t [s]"), upper = w.column("upper.angle [rad]"), lower = w.column("lower.angle [rad]"),
+               rate = w.column("lower.speed [rad/s]");
     for (std::size_t i = 0; i < t.size(); ++i) {
       const po::Vec<4> y = po::evaluate(p, start, t[i]);
       EXPECT_NEAR(upper[i], y[0] - M_PI / 2, 1e-8);
@@ -383,8 +335,7 @@ TEST_P(FourBarByDriver, HasTheKinematicsAndTorqueOfTheClosedForm) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Constraints, FourBarByDriver,
-                         testing::Values("projection", "partitioning"),
+INSTANTIATE_TEST_SUITE_P(Constraints, FourBarByDriver, testing::Values("projection", "partitioning"),
                          [](const auto& i) { return std::string(i.param); });
 
 }  // namespace

@@ -39,9 +39,7 @@ struct Case {
   bool geometric = false, bearing_on_slider = true;
 };
 
-void PrintTo(const Case& c, std::ostream* out) {
-  *out << c.name;
-}
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 const Case cases[] = {
     {"Fig12Flexible", "fig12_flexible", 0.7e-3, 5, 1e-5, 0, 0.04},
@@ -55,8 +53,7 @@ const Case cases[] = {
 };
 
 Scene scene(const Case& c) {
-  Scene s = pintle::read_scene(std::filesystem::path(PINTLE_SOURCE_DIR) / "examples/paper" /
-                                   (std::string(c.scene) + ".yaml"),
+  Scene s = pintle::read_scene(std::filesystem::path(PINTLE_SOURCE_DIR) / "examples/paper" / (std::string(c.scene) + ".yaml"),
                                {{"zeta", std::to_string(c.zeta)}});
   s.run.until = c.until, s.run.tolerance = 1e-12;
   s.output.every = c.until / 60, s.output.frames = 0;
@@ -87,8 +84,7 @@ pf::Result expected(const Case& c, const std::vector<double>& times) {
 
 /// Largest difference over the largest value of a column that the oracle has as `value`.
 template <class Value>
-double difference(const pintle::Table& ours, const char* name, const pf::Result& theirs,
-                  Value value) {
+double difference(const pintle::Table& ours, const char* name, const pf::Result& theirs, Value value) {
   std::vector<double> want;
   for (const pf::Sample& s : theirs.samples) want.push_back(value(s));
   return relative_difference(ours.column(name), want);
@@ -100,10 +96,7 @@ void expect_motion(const Whole& w, const pf::Result& e, double within) {
       {"coupler.A.turn [rad]", 3}, {"coupler.B.turn [rad]", 4},  {"slider.x [m]", 5},
       {"crank.speed [rad/s]", 6},  {"coupler.speed [rad/s]", 7}, {"slider.vx [m/s]", 11}};
   for (const auto& [name, i] : coordinates)
-    EXPECT_LT(difference(w.run.trajectory, name, e,
-                         [i = i](const pf::Sample& s) { return s.state.y[i]; }),
-              within)
-        << name;
+    EXPECT_LT(difference(w.run.trajectory, name, e, [i = i](const pf::Sample& s) { return s.state.y[i]; }), within) << name;
 }
 
 void expect_energies(const Whole& w, const pf::Result& e, double within) {
@@ -138,12 +131,8 @@ TEST_P(PaperFlexible, MovesBendsAndLosesAsTheIndependentModel) {
   expect_motion(w, e, motion);
   expect_energies(w, e, motion);
   if (c.mu > 0) expect_friction(w, e, motion);
-  EXPECT_LT(difference(w.run.trajectory, "gudgeon pin.ex [m]", e,
-                       [](const pf::Sample& s) { return s.e.x(); }),
-            motion);
-  EXPECT_LT(difference(w.run.trajectory, "gudgeon pin.ey [m]", e,
-                       [](const pf::Sample& s) { return s.e.y(); }),
-            motion);
+  EXPECT_LT(difference(w.run.trajectory, "gudgeon pin.ex [m]", e, [](const pf::Sample& s) { return s.e.x(); }), motion);
+  EXPECT_LT(difference(w.run.trajectory, "gudgeon pin.ey [m]", e, [](const pf::Sample& s) { return s.e.y(); }), motion);
 }
 
 TEST_P(PaperFlexible, StrikesAsTheIndependentModel) {
@@ -171,8 +160,7 @@ TEST_P(PaperFlexible, StrikesAsTheIndependentModel) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, PaperFlexible, testing::ValuesIn(cases),
-                         [](const auto& i) { return std::string(i.param.name); });
+INSTANTIATE_TEST_SUITE_P(Cases, PaperFlexible, testing::ValuesIn(cases), [](const auto& i) { return std::string(i.param.name); });
 
 TEST(PaperFlexibleIdeal, MovesBendsAndLosesAsTheIndependentModel) {
   for (const double zeta : {0.0, 0.04}) {
@@ -183,12 +171,8 @@ TEST(PaperFlexibleIdeal, MovesBendsAndLosesAsTheIndependentModel) {
     const pf::Result e = expected(c, w.column("t [s]"));
     expect_motion(w, e, smooth);
     expect_energies(w, e, smooth);
-    for (const auto& [name, k] : {std::pair{"gudgeon pin.fx on slider [N]", 0},
-                                  std::pair{"gudgeon pin.fy on slider [N]", 1}})
-      EXPECT_LT(difference(w.run.trajectory, name, e,
-                           [k = k](const pf::Sample& x) { return -x.pin_force[k]; }),
-                smooth)
-          << name;
+    for (const auto& [name, k] : {std::pair{"gudgeon pin.fx on slider [N]", 0}, std::pair{"gudgeon pin.fy on slider [N]", 1}})
+      EXPECT_LT(difference(w.run.trajectory, name, e, [k = k](const pf::Sample& x) { return -x.pin_force[k]; }), smooth) << name;
   }
 }
 

@@ -28,16 +28,7 @@ constexpr double order = 0.1;
 
 // ---- a slender beam of unit length, mass and EI ----
 
-ExactBeam exact(double EA = 1e4) {
-  return {.length = 1,
-          .EA = EA,
-          .EI = 1,
-          .GA = 0.375 * EA,
-          .rhoA = 1,
-          .rhoI = 1 / EA,
-          .a = {},
-          .b = {}};
-}
+ExactBeam exact(double EA = 1e4) { return {.length = 1, .EA = EA, .EI = 1, .GA = 0.375 * EA, .rhoA = 1, .rhoI = 1 / EA, .a = {}, .b = {}}; }
 
 /// The same as body `rod`, ends A and B, middle M.
 struct Rod {
@@ -103,8 +94,7 @@ double elastica_error(double load, const Rod& rod) {
   std::ostringstream s;
   s << "bodies:\n"
     << text(rod) << "joints: {wall: {weld: [ground, rod.A]}}\n"
-    << "forces: {load: {force: [0, " << load
-    << "*t], at: rod.B}}\nrun: {until: 1}\noutput: {points: [rod.B]}\n";
+    << "forces: {load: {force: [0, " << load << "*t], at: rod.B}}\nrun: {until: 1}\noutput: {points: [rod.B]}\n";
   const pintle::Scene scene = scene_of(s.str());
   const pintle::Model model = build(scene);
   pintle::State state = assemble(scene, model).start;
@@ -117,24 +107,20 @@ double elastica_error(double load, const Rod& rod) {
   beam.elements = 16;
   beam.a.hold = Hold::clamp;
   beam.b.load = {0, load, 0};
-  const Vector2d want = static_shape(beam, pintle_oracle::rigid_start(Vector3d::Zero()), 20 * steps)
-                            .rightCols<1>()
-                            .head<2>();
+  const Vector2d want = static_shape(beam, pintle_oracle::rigid_start(Vector3d::Zero()), 20 * steps).rightCols<1>().head<2>();
   return (place_of(model, state, on_piece("rod", rod.pieces, rod.pieces, "B")) - want).norm();
 }
 
 TEST(Pieces, OfALoadedCantileverConvergeToTheElasticaWithOrderTwo) {
   const std::vector<double> pieces{2, 4, 8};  // tip at 0.30 of the length
   std::vector<double> errors;
-  for (const double n : pieces)
-    errors.push_back(elastica_error(1, {.pieces = static_cast<int>(n), .EA = 1e6}));
+  for (const double n : pieces) errors.push_back(elastica_error(1, {.pieces = static_cast<int>(n), .EA = 1e6}));
   for (const double slope : slopes(pieces, errors)) EXPECT_NEAR(slope, -2, order);
 }
 
 TEST(Pieces, OfACantileverBentOverComeNearTheElastica) {
   const double load = 10;  // tip at 0.81 of the length
-  const double one = elastica_error(load, {.pieces = 1, .EA = 1e6}),
-               four = elastica_error(load, {.pieces = 4, .EA = 1e6});
+  const double one = elastica_error(load, {.pieces = 1, .EA = 1e6}), four = elastica_error(load, {.pieces = 4, .EA = 1e6});
   EXPECT_GT(one, 0.1);
   EXPECT_LT(four, one / 16);
 }
@@ -143,9 +129,7 @@ TEST(Pieces, OfACantileverBentOverComeNearTheElastica) {
 TEST(Pieces, ThatStiffenConvergeToTheElasticaWithOrderFour) {
   const std::vector<double> pieces{2, 4, 8};
   std::vector<double> errors;
-  for (const double n : pieces)
-    errors.push_back(
-        elastica_error(1, {.pieces = static_cast<int>(n), .stiffening = "axial", .EA = 1e6}));
+  for (const double n : pieces) errors.push_back(elastica_error(1, {.pieces = static_cast<int>(n), .stiffening = "axial", .EA = 1e6}));
   for (const double slope : slopes(pieces, errors)) EXPECT_NEAR(slope, -4, order);
 }
 
@@ -157,8 +141,7 @@ TEST(Pieces, OfAPendulumConvergeToTheExactBeamWithOrderTwo) {
   ExactBeam beam = exact();
   beam.a.hold = Hold::hinge;
   beam.gravity = {0, -g};
-  const auto frames =
-      simulate(beam, pintle_oracle::rigid_start(Vector3d::Zero()), times(until, outputs), step);
+  const auto frames = simulate(beam, pintle_oracle::rigid_start(Vector3d::Zero()), times(until, outputs), step);
   double bent = 0;  // tip from the tangent at the hinge
   for (const BeamFrame& f : frames) {
     const double angle = f.place(2, 0);
@@ -173,10 +156,8 @@ TEST(Pieces, OfAPendulumConvergeToTheExactBeamWithOrderTwo) {
     std::ostringstream s;
     s << "gravity: [0, " << -g << "]\nbodies:\n"
       << text(rod) << "joints: {pin: {revolute: [ground, rod.A]}}\n"
-      << "run: {until: " << until << "}\noutput: {every: " << until / outputs
-      << ", points: [rod.B]}\n";
-    errors.push_back(apart(path(run_text(s.str()), on_piece("rod", rod.pieces, rod.pieces, "B")),
-                           path(beam, frames, 1)));
+      << "run: {until: " << until << "}\noutput: {every: " << until / outputs << ", points: [rod.B]}\n";
+    errors.push_back(apart(path(run_text(s.str()), on_piece("rod", rod.pieces, rod.pieces, "B")), path(beam, frames, 1)));
   }
   EXPECT_NEAR(slopes(pieces, errors)[0], -2, order);
   EXPECT_LT(errors[1], 0.01 * bent);
@@ -192,20 +173,17 @@ struct BendingCoupler {
   std::vector<BeamFrame> frames;
   BendingCoupler() {
     beam.a = {.hold = Hold::hinge, .law = pintle_oracle::crank_pin({0, 0}, radius, [](double t) {
-                                     return Vector3d(drive * t * t * t, 3 * drive * t * t,
-                                                     6 * drive * t);
+                                     return Vector3d(drive * t * t * t, 3 * drive * t * t, 6 * drive * t);
                                    })};
     beam.b = {.hold = Hold::slide, .law = {}, .line = {1, 0}, .mass = slider};
-    frames =
-        simulate(beam, pintle_oracle::rigid_start({radius, 0, 0}), times(until, outputs), 0.01);
+    frames = simulate(beam, pintle_oracle::rigid_start({radius, 0, 0}), times(until, outputs), 0.01);
   }
   /// Largest distance of the coupler's middle from where the exact beam has it.
   double error(Rod rod) const {
     rod.x = radius;
     std::ostringstream s;
     s << "bodies:\n  crank: {rigid: {mass: 1, inertia: 1}, points: {A: [" << radius << ", 0]}}\n"
-      << text(rod) << "  slider: {rigid: {mass: " << slider << ", inertia: 1}, pose: {at: ["
-      << 1 + radius
+      << text(rod) << "  slider: {rigid: {mass: " << slider << ", inertia: 1}, pose: {at: [" << 1 + radius
       << ", 0]}}\n"
          "joints:\n"
          "  axle: {revolute: [ground, crank]}\n"
@@ -217,9 +195,7 @@ struct BendingCoupler {
       << "*t^3}}\n"
          "run: {until: "
       << until << "}\noutput: {every: " << until / outputs << ", points: [rod.M]}\n";
-    return apart(
-        path(run_text(s.str()), on_piece("rod", rod.pieces, std::max(1, rod.pieces / 2), "M")),
-        path(beam, frames, 0.5));
+    return apart(path(run_text(s.str()), on_piece("rod", rod.pieces, std::max(1, rod.pieces / 2), "M")), path(beam, frames, 0.5));
   }
 };
 
@@ -231,8 +207,7 @@ TEST(Pieces, OfACouplerConvergeToTheExactBeamWithOrderTwo) {
   for (const double slope : slopes(pieces, errors)) EXPECT_NEAR(slope, -2, order);
   double off = 0;  // middle from the chord
   for (const BeamFrame& f : coupler.frames) {
-    const Vector2d a = f.place.col(0).head<2>(),
-                   along = (f.place.rightCols<1>().head<2>() - a).normalized();
+    const Vector2d a = f.place.col(0).head<2>(), along = (f.place.rightCols<1>().head<2>() - a).normalized();
     const Vector2d middle = place_at(coupler.beam, f.place, 0.5).head<2>() - a;
     off = std::max(off, std::abs(along.x() * middle.y() - along.y() * middle.x()));
   }
@@ -269,8 +244,8 @@ struct SpinUp {
   static Vector3d turn(double t) {
     const double k = 2 * pi / rise;
     if (t >= rise) return {speed * (t - rise / 2), speed, 0};
-    return {speed / rise * (t * t / 2 + (std::cos(k * t) - 1) / (k * k)),
-            speed / rise * (t - std::sin(k * t) / k), speed / rise * (1 - std::cos(k * t))};
+    return {speed / rise * (t * t / 2 + (std::cos(k * t) - 1) / (k * k)), speed / rise * (t - std::sin(k * t) / k),
+            speed / rise * (1 - std::cos(k * t))};
   }
 };
 constexpr double interval = 0.1;
@@ -329,10 +304,7 @@ std::vector<double> exact_lead(double EA) {
   beam.elements = 3;
   beam.a = {.hold = Hold::clamp, .law = pintle_oracle::crank_pin({0, 0}, 0, SpinUp::turn)};
   const int outputs = static_cast<int>(std::lround(SpinUp::until / interval));
-  return lead(path(beam,
-                   simulate(beam, pintle_oracle::rigid_start(Vector3d::Zero()),
-                            times(SpinUp::until, outputs), 0.01),
-                   beam.length));
+  return lead(path(beam, simulate(beam, pintle_oracle::rigid_start(Vector3d::Zero()), times(SpinUp::until, outputs), 0.01), beam.length));
 }
 double largest(const std::vector<double>& values, double from = 0) {
   double most = 0;
@@ -351,10 +323,9 @@ TEST(SpinUp, ABladeThatStiffensBendsBackAndReturnsToItsLine) {
   const double lag = largest(want);
   // Slopes reach 1.4 times deflection over length; what second order leaves is their square.
   const double tolerance = std::pow(1.4 * lag / SpinUp::length, 2) * lag;
-  const SpinUp ways[] = {
-      {},
-      {.modes = "{frame: {chord: [A, B]}, craig-bampton: {count: 4}}"},
-      {.modes = "{frame: mean axes, craig-bampton: {count: 4}}", .stiffening = "axial"}};
+  const SpinUp ways[] = {{},
+                         {.modes = "{frame: {chord: [A, B]}, craig-bampton: {count: 4}}"},
+                         {.modes = "{frame: mean axes, craig-bampton: {count: 4}}", .stiffening = "axial"}};
   for (const SpinUp& way : ways) {
     const std::vector<double> got = lead(way);
     EXPECT_LT(largest_difference(got, want), tolerance) << way.modes;
@@ -373,10 +344,7 @@ TEST(SpinUp, ABladeInPiecesReturnsWithoutStiffening) {
   const double EA = 2.8e5;
   const std::vector<double> want = exact_lead(EA);
   const double lag = largest(want);
-  SpinUp o{.EA = EA,
-           .modes = "{frame: chord, craig-bampton: {count: 0}}",
-           .stiffening = "none",
-           .pieces = 2};
+  SpinUp o{.EA = EA, .modes = "{frame: chord, craig-bampton: {count: 0}}", .stiffening = "none", .pieces = 2};
   const double coarse = largest_difference(lead(o), want);
   o.pieces = 4;
   const std::vector<double> got = lead(o);

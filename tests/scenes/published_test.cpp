@@ -15,16 +15,10 @@ namespace {
 struct Combination {
   const char *method, *constraints;
 };
-const Combination combinations[] = {{"dopri5", "projection"},
-                                    {"dopri5", "partitioning"},
-                                    {"rkf45", "projection"},
-                                    {"rkf45", "partitioning"}};
-void PrintTo(const Combination& c, std::ostream* out) {
-  *out << c.method << " " << c.constraints;
-}
-std::string name_of(const testing::TestParamInfo<Combination>& i) {
-  return std::string(i.param.method) + "_" + i.param.constraints;
-}
+const Combination combinations[] = {
+    {"dopri5", "projection"}, {"dopri5", "partitioning"}, {"rkf45", "projection"}, {"rkf45", "partitioning"}};
+void PrintTo(const Combination& c, std::ostream* out) { *out << c.method << " " << c.constraints; }
+std::string name_of(const testing::TestParamInfo<Combination>& i) { return std::string(i.param.method) + "_" + i.param.constraints; }
 
 // --- Andrews ---
 
@@ -46,13 +40,10 @@ class Andrews : public testing::TestWithParam<Combination> {
   }
   // beta, Theta, gamma, phi, delta, Omega, epsilon from the bodies' angles, or their derivatives.
   static std::vector<double> published_order(const Whole& w, const std::string& of) {
-    const auto k = [&](int i) {
-      return w.last(std::string("K").append(std::to_string(i)).append(of));
-    };
+    const auto k = [&](int i) { return w.last(std::string("K").append(std::to_string(i)).append(of)); };
     return {k(1), k(2) - k(1), k(3), k(4) - k(5), k(5), k(6) - k(7), k(7)};
   }
-  static void expect_near(const std::vector<double>& got, const std::vector<double>& want,
-                          double relative, const char* what) {
+  static void expect_near(const std::vector<double>& got, const std::vector<double>& want, double relative, const char* what) {
     double worst = 0;
     for (std::size_t i = 0; i < want.size(); ++i) {
       EXPECT_NEAR(got[i], want[i], relative * std::abs(want[i])) << what << " " << i;
@@ -102,11 +93,8 @@ TEST_P(Andrews, StartsWithThePublishedAccelerations) {
   s.run.until = 1e-5;
   const Whole w = run(s);
   const auto a = data()["initial"]["a"].get<std::vector<double>>();
-  const auto first = [&](int i) {
-    return w.column(std::string("K").append(std::to_string(i)).append(".alpha [rad/s^2]")).front();
-  };
-  const double got[7] = {first(1), first(2) - first(1), first(3), first(4) - first(5),
-                         first(5), first(6) - first(7), first(7)};
+  const auto first = [&](int i) { return w.column(std::string("K").append(std::to_string(i)).append(".alpha [rad/s^2]")).front(); };
+  const double got[7] = {first(1), first(2) - first(1), first(3), first(4) - first(5), first(5), first(6) - first(7), first(7)};
   // The published start closes the loops to 1e-16; the equations' condition takes some digits.
   for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(got[i], a[i], 1e-9 * std::abs(a[0])) << i;
 }
@@ -181,8 +169,7 @@ struct Row {
 };
 
 TEST(Table2, InitialEnergiesAreThePrintedOnesToAllDigits) {
-  for (const auto& [speed, energy] :
-       {std::pair{50.0, 0.5777}, {100.0, 2.3108}, {150.0, 5.1992}, {200.0, 9.2431}}) {
+  for (const auto& [speed, energy] : {std::pair{50.0, 0.5777}, {100.0, 2.3108}, {150.0, 5.1992}, {200.0, 9.2431}}) {
     pintle::Scene s = scene(SliderCrank{.speed = speed, .until = 1e-5});
     EXPECT_NEAR(run(s).run.first.stored(), energy, 0.5e-4) << speed << " rad/s";
   }
@@ -199,9 +186,7 @@ TEST(Table2, InitialEnergiesAreThoseOfTheFormula) {
 }
 
 class Table2At : public testing::TestWithParam<Row> {};
-void PrintTo(const Row& r, std::ostream* out) {
-  *out << r.speed << " rad/s";
-}
+void PrintTo(const Row& r, std::ostream* out) { *out << r.speed << " rad/s"; }
 
 // Losses are printed with one or two digits; 15 per cent or the rounding of the print, whichever is
 // more. What the paper calls energy leaves out what the contact stores.
@@ -225,13 +210,10 @@ TEST_P(Table2At, LossIsWithinFifteenPerCentOfThePrintedOne) {
   EXPECT_EQ(w.run.impacts.size(), static_cast<std::size_t>(stats.impacts));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Speeds, Table2At,
-    testing::Values(Row{50, 0.5777, 0.0002, 0.5e-4}, Row{100, 2.3108, 0.0008, 0.5e-4},
-                    Row{150, 5.1992, 0.0019, 0.5e-4}, Row{200, 9.2431, 0.0038, 0.5e-4}),
-    [](const auto& i) {
-      return std::string("RadPerSecond").append(std::to_string(static_cast<int>(i.param.speed)));
-    });
+INSTANTIATE_TEST_SUITE_P(Speeds, Table2At,
+                         testing::Values(Row{50, 0.5777, 0.0002, 0.5e-4}, Row{100, 2.3108, 0.0008, 0.5e-4},
+                                         Row{150, 5.1992, 0.0019, 0.5e-4}, Row{200, 9.2431, 0.0038, 0.5e-4}),
+                         [](const auto& i) { return std::string("RadPerSecond").append(std::to_string(static_cast<int>(i.param.speed))); });
 
 }  // namespace
 }  // namespace pintle_scenes::published_test

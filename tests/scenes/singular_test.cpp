@@ -32,7 +32,8 @@ Scene equal_slider_crank(double angle) {
 Scene two_drivers(Law left, Law right) {
   Scene s = parallelograms(1, 0.5, 0, 2);
   s.start_bodies.clear();
-  s.drivers = {angle_driver("motor", "ground.G0", "crank0.A", std::move(left)), angle_driver("other motor", "ground.G1", "crank1.A", std::move(right))};
+  s.drivers = {angle_driver("motor", "ground.G0", "crank0.A", std::move(left)),
+               angle_driver("other motor", "ground.G1", "crank1.A", std::move(right))};
   return s;
 }
 Law late(double begin) {
@@ -200,7 +201,8 @@ TEST(ParallelCranks, AreLastinglyRedundantInPosesAlongTheAxes) {
         const Model model = build(s);
         const Assembly a = assemble(s, model);
         ASSERT_EQ(static_cast<int>(a.redundant.size()), n - 2);
-        for (const Redundancy& r : a.redundant) EXPECT_TRUE(r.permanent) << row_text(model.system, r.joint, r.row) << " " << angle << " " << turn;
+        for (const Redundancy& r : a.redundant)
+          EXPECT_TRUE(r.permanent) << row_text(model.system, r.joint, r.row) << " " << angle << " " << turn;
         for (std::size_t row = 0; row < a.shared.size(); ++row) EXPECT_TRUE(a.shared[row]) << row << " " << angle << " " << turn;
         for (const std::string& warning : warnings_of(model, a)) EXPECT_FALSE(says(warning, "singular")) << warning;
       }
@@ -264,7 +266,8 @@ TEST(EllipticTrammel, MovesWithAnExtraLink) {
 TEST(TwoDrivers, ThatAgreeRunAndBearTheWeightTogether) {
   const Whole w = run(two_drivers(law(0.5, 1), law(0.5, 1)));
   EXPECT_EQ(w.run.status, Status::finished) << w.run.reason;
-  const auto a = w.column("motor.torque on crank0 [N m]"), b = w.column("other motor.torque on crank1 [N m]"), angle = w.column("crank0.angle [rad]");
+  const auto a = w.column("motor.torque on crank0 [N m]"), b = w.column("other motor.torque on crank1 [N m]"),
+             angle = w.column("crank0.angle [rad]");
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i] + b[i], 2 * g * std::cos(angle[i]), 1e-6);
 }
 

@@ -26,9 +26,7 @@ constexpr double pi = std::numbers::pi;
 
 // Pull that varies along beams of n elements is constant in each: of order 2, and the error of a
 // frequency not above 1/(2n²) at the spins used here.
-double mesh(int n) {
-  return 0.5 / (n * n);
-}
+double mesh(int n) { return 0.5 / (n * n); }
 // The last of the published figures: 5e-5 of 4.1 and 5e-5 of 22.
 constexpr double published = 1.3e-5;
 // Differences of accelerations over a step of 1e-5: 1e-10 of truncation, 1e-16/1e-5 of rounding
@@ -111,18 +109,12 @@ struct Steady {
   State state;
   SmallMotion motion;
 };
-Steady spun(const Blade& b) {
-  return Steady(text(b), b.w);
-}
+Steady spun(const Blade& b) { return Steady(text(b), b.w); }
 
 // ---- rotating cantilever ----
 
 const std::vector<std::pair<std::string, std::string>> complete_stiffening = {
-    {"tangent", "rotation"},
-    {"chord", "rotation"},
-    {"tangent", "axial"},
-    {"chord", "axial"},
-    {"mean axes", "axial"}};
+    {"tangent", "rotation"}, {"chord", "rotation"}, {"tangent", "axial"}, {"chord", "axial"}, {"mean axes", "axial"}};
 
 TEST(RotatingCantilever, HasThePublishedFrequenciesUnderEveryTie) {
   for (const auto& [conditions, stiffening] : complete_stiffening)
@@ -132,10 +124,8 @@ TEST(RotatingCantilever, HasThePublishedFrequenciesUnderEveryTie) {
       const VectorXd f = frequencies(spun(blade).motion);
       // Bending alone: chord² = flap² − w². The pull's error is relative to flap².
       const double tolerance = 2 * (mesh(blade.elements) + published);
-      EXPECT_NEAR(f[0] * f[0], spin.first * spin.first - spin.w * spin.w,
-                  tolerance * spin.first * spin.first);
-      EXPECT_NEAR(f[1] * f[1], spin.second * spin.second - spin.w * spin.w,
-                  tolerance * spin.second * spin.second);
+      EXPECT_NEAR(f[0] * f[0], spin.first * spin.first - spin.w * spin.w, tolerance * spin.first * spin.first);
+      EXPECT_NEAR(f[1] * f[1], spin.second * spin.second - spin.w * spin.w, tolerance * spin.second * spin.second);
     }
 }
 
@@ -143,15 +133,9 @@ TEST(RotatingCantilever, OnAHubOfItsOwnLengthAgreesWithTheIndependentModel) {
   for (const auto& [conditions, stiffening] : complete_stiffening)
     for (const double w : {2.0, 10.0}) {
       SCOPED_TRACE(conditions + ", " + stiffening + ", " + std::to_string(w));
-      const Blade blade{.w = w,
-                        .hub = 1,
-                        .conditions = conditions,
-                        .keep = "craig-bampton: {count: 20}",
-                        .stiffening = stiffening};
-      const VectorXd f = frequencies(spun(blade).motion),
-                     want = squares(RotatingBeam{w, 1, blade.EA});
-      for (int k = 0; k < 3; ++k)
-        EXPECT_NEAR(f[k] * f[k], want[k], 2 * mesh(blade.elements) * (want[k] + w * w)) << k;
+      const Blade blade{.w = w, .hub = 1, .conditions = conditions, .keep = "craig-bampton: {count: 20}", .stiffening = stiffening};
+      const VectorXd f = frequencies(spun(blade).motion), want = squares(RotatingBeam{w, 1, blade.EA});
+      for (int k = 0; k < 3; ++k) EXPECT_NEAR(f[k] * f[k], want[k], 2 * mesh(blade.elements) * (want[k] + w * w)) << k;
     }
 }
 
@@ -159,8 +143,7 @@ TEST(RotatingCantilever, ConvergesWithOrderTwoInTheMesh) {
   const double want = squares(RotatingBeam{10, 1, 1e6})[1];
   std::vector<double> errors;
   for (const int n : {10, 20, 40}) {
-    const Blade blade{
-        .w = 10, .hub = 1, .conditions = "chord", .keep = "craig-bampton: {count: 20}", .elements = n};
+    const Blade blade{.w = 10, .hub = 1, .conditions = "chord", .keep = "craig-bampton: {count: 20}", .elements = n};
     const double f = frequencies(spun(blade).motion)[1];
     errors.push_back(std::abs(f * f - want));
   }
@@ -181,12 +164,9 @@ TEST(RotatingCantilever, CoriolisForcesCoupleBendingWithStretch) {
     const Blade blade{.w = w, .keep = "keep: all", .stiffening = "none", .elements = 20, .EA = EA};
     const VectorXd f = frequencies(spun(blade).motion);
     const double coupling = 4 * w * w / (pi * pi / 4 * EA);
-    EXPECT_NEAR((bending[0] - f[0] * f[0]) / bending[0], coupling, 0.2 * coupling)
-        << EA;  // the next modes' share
+    EXPECT_NEAR((bending[0] - f[0] * f[0]) / bending[0], coupling, 0.2 * coupling) << EA;  // the next modes' share
     for (int k = 0; k < 2; ++k)
-      EXPECT_NEAR(f[k] * f[k], want[k],
-                  (std::pow(blade.elements, -4) + coupling * mesh(blade.elements)) * want[k])
-          << EA;
+      EXPECT_NEAR(f[k] * f[k], want[k], (std::pow(blade.elements, -4) + coupling * mesh(blade.elements)) * want[k]) << EA;
   }
 }
 
@@ -208,26 +188,19 @@ TEST(RotatingCantilever, WithoutStiffeningSoftensAndDivergesAboveItsFirstFrequen
 // a frame that follows the bending has part of it by itself: the pull acts on slopes from the clamp
 // but is lacking on slopes from the frame.
 TEST(RotatingCantilever, WithoutStiffeningIsAsSoftAsItsTieMakesIt) {
-  const std::pair<std::string, BeamFrameTie> ties[] = {{"tangent", BeamFrameTie::tangent},
-                                                       {"chord", BeamFrameTie::chord},
-                                                       {"mean axes", BeamFrameTie::mean_axes}};
+  const std::pair<std::string, BeamFrameTie> ties[] = {
+      {"tangent", BeamFrameTie::tangent}, {"chord", BeamFrameTie::chord}, {"mean axes", BeamFrameTie::mean_axes}};
   for (const auto& [conditions, modelled] : ties)
     for (const double w : {2.0, 6.0, 10.0})
       for (const double hub : {0.0, 1.0}) {
         SCOPED_TRACE(conditions + ", " + std::to_string(w) + ", " + std::to_string(hub));
         const VectorXd want = squares(without_stiffening({w, hub}, modelled));
-        const Blade blade{.w = w,
-                          .hub = hub,
-                          .conditions = conditions,
-                          .keep = "keep: all",
-                          .stiffening = "none",
-                          .elements = 20};
+        const Blade blade{.w = w, .hub = hub, .conditions = conditions, .keep = "keep: all", .stiffening = "none", .elements = 20};
         const SmallMotion motion = spun(blade).motion;
         // Stretch couples too, by less than 2e-4 of w² or of the square.
         const double tolerance = 2e-4 + std::pow(blade.elements, -4);
         const double f = frequencies(motion)[0], g = growth(motion);
-        EXPECT_NEAR(want[0] > 0 ? f * f : -g * g, want[0],
-                    tolerance * (std::abs(want[0]) + 2 * w * w));
+        EXPECT_NEAR(want[0] > 0 ? f * f : -g * g, want[0], tolerance * (std::abs(want[0]) + 2 * w * w));
       }
 }
 
@@ -238,8 +211,7 @@ TEST(RotatingCantilever, UnderMeanAxesStiffensWithoutThePullOfItsRootUnlessAxial
     const VectorXd want = squares(without_pull_of_clamp(RotatingBeam{w}));
     const Blade blade{.w = w, .conditions = "mean axes", .stiffening = "rotation"};
     const VectorXd f = frequencies(spun(blade).motion);
-    for (int k = 0; k < 2; ++k)
-      EXPECT_NEAR(f[k] * f[k], want[k], 2 * mesh(blade.elements) * (want[k] + 2 * w * w)) << w;
+    for (int k = 0; k < 2; ++k) EXPECT_NEAR(f[k] * f[k], want[k], 2 * mesh(blade.elements) * (want[k] + 2 * w * w)) << w;
     EXPECT_LT(f[0] * f[0], squares(RotatingBeam{w})[0] - 0.05 * w * w);
   }
 }
@@ -261,8 +233,7 @@ TEST(RotatingCantilever, StretchesAsItsClosedForm) {
 // ---- column ----
 
 /// A beam of EI = ρA = L = 1 hinged at both ends, one sliding, pushed there by P.
-std::string column(double P, const std::string& conditions, const std::string& stiffening,
-                   int pieces = 1) {
+std::string column(double P, const std::string& conditions, const std::string& stiffening, int pieces = 1) {
   std::ostringstream s;
   s.precision(17);
   s << "bodies:\n"
@@ -295,12 +266,9 @@ TEST(Column, LoadAlongItChangesTheSquareOfItsFrequencyInProportion) {
   for (const std::string conditions : {"chord", "tangent", "mean axes"})
     for (const double share : {-2.0, 0.0, 0.5, 0.95}) {
       const VectorXd f = frequencies(Steady(column(share * euler, conditions, "axial")).motion);
-      EXPECT_NEAR(f[0] * f[0], std::pow(pi, 4) * (1 - share),
-                  column_error * std::pow(pi, 4) * (1 + std::abs(share)))
+      EXPECT_NEAR(f[0] * f[0], std::pow(pi, 4) * (1 - share), column_error * std::pow(pi, 4) * (1 + std::abs(share)))
           << conditions << share;
-      EXPECT_NEAR(f[1] * f[1], std::pow(2 * pi, 4) * (1 - share / 4),
-                  column_error * std::pow(2 * pi, 4))
-          << conditions << share;
+      EXPECT_NEAR(f[1] * f[1], std::pow(2 * pi, 4) * (1 - share / 4), column_error * std::pow(2 * pi, 4)) << conditions << share;
     }
 }
 
@@ -308,8 +276,7 @@ TEST(Column, BeyondEulersLoadGrows) {
   for (const std::string conditions : {"chord", "tangent", "mean axes"})
     for (const double share : {1.05, 1.5}) {
       const double g = growth(Steady(column(share * pi * pi, conditions, "axial")).motion);
-      EXPECT_NEAR(g * g, std::pow(pi, 4) * (share - 1), column_error * std::pow(pi, 4))
-          << conditions << share;
+      EXPECT_NEAR(g * g, std::pow(pi, 4) * (share - 1), column_error * std::pow(pi, 4)) << conditions << share;
     }
 }
 
@@ -327,8 +294,7 @@ TEST(Column, InPiecesBucklesWithoutStiffeningAndConvergesWithOrderTwo) {
   const double share = 0.5, want = std::pow(pi, 4) * (1 - share);
   std::vector<double> pieces{4, 8, 16}, errors;
   for (const double n : pieces) {
-    const VectorXd f =
-        frequencies(Steady(column(share * pi * pi, "chord", "none", static_cast<int>(n))).motion);
+    const VectorXd f = frequencies(Steady(column(share * pi * pi, "chord", "none", static_cast<int>(n))).motion);
     errors.push_back(f[0] * f[0] - want);
   }
   for (const double slope : slopes(pieces, errors)) EXPECT_NEAR(slope, -2, 0.1);

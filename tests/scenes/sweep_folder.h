@@ -16,9 +16,10 @@ namespace fs = std::filesystem;
 /// A folder of its own, gone at the end.
 class SweepFolder {
  public:
-  SweepFolder() : path_(fs::temp_directory_path() / ("pintle-sweep-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" +
-                                                std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "-" +
-                                                std::to_string(std::hash<std::thread::id>()(std::this_thread::get_id())))) {
+  SweepFolder()
+      : path_(fs::temp_directory_path() / ("pintle-sweep-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
+                                           "-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "-" +
+                                           std::to_string(std::hash<std::thread::id>()(std::this_thread::get_id())))) {
     fs::remove_all(path_);
     fs::create_directories(path_);
   }

@@ -16,8 +16,18 @@ namespace pintle::sweep_journal_test {
 namespace {
 
 Row sample_row() {
-  return {7, "failed", "a \"reason\", µ", {1.0 / 3, std::nan(""), std::numeric_limits<double>::infinity(), 5e-324}, {"N", "", "m", "J"},
-          0.1 + 0.2, 1e-17, 123, 4, "0.1", 0.5, 0.25};
+  return {7,
+          "failed",
+          "a \"reason\", µ",
+          {1.0 / 3, std::nan(""), std::numeric_limits<double>::infinity(), 5e-324},
+          {"N", "", "m", "J"},
+          0.1 + 0.2,
+          1e-17,
+          123,
+          4,
+          "0.1",
+          0.5,
+          0.25};
 }
 
 TEST(SweepJournal, NumbersComeBackToTheBit) {
@@ -58,7 +68,10 @@ TEST(SweepJournal, ATornLastLineIsCutOffAndItsCaseIsOpenAgain) {
   for (std::size_t cut : {second, second + 1, second + 30, whole.size() - 1}) {
     std::ofstream(path, std::ios::binary | std::ios::trunc) << whole.substr(0, cut);
     EXPECT_EQ(read_journals(folder / "", 42, 10).size(), 1u);
-    { Journal journal(path, 42); journal.append(r); }
+    {
+      Journal journal(path, 42);
+      journal.append(r);
+    }
     EXPECT_EQ(contents(path), whole);
     EXPECT_EQ(read_journals(folder / "", 42, 10).size(), 2u);
   }

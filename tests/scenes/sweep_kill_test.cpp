@@ -81,16 +81,21 @@ class SweepKilled : public testing::Test {
     folder_ = fs::temp_directory_path() / ("pintle-killed-" + std::to_string(::getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
-    std::ofstream(folder_ / "study.yaml") << "scene: " PINTLE_SOURCE_DIR "/examples/paper/fig05_clearance_001.yaml\n"
-                                             "set: {run.tolerance: 1e-7, length: 4 ms}\n"
-                                             "measure: {lost: energy lost, x: x of slider at 3 ms}\n"
-                                             "sweep: {latin hypercube: {count: " << cases << ", seed: 7, "
-                                             "clearance: {from: 0.01 mm, to: 0.5 mm, scale: log}, speed: {from: 50 rad/s, to: 200 rad/s}}}\n";
+    std::ofstream(folder_ / "study.yaml")
+        << "scene: " PINTLE_SOURCE_DIR
+           "/examples/paper/fig05_clearance_001.yaml\n"
+           "set: {run.tolerance: 1e-7, length: 4 ms}\n"
+           "measure: {lost: energy lost, x: x of slider at 3 ms}\n"
+           "sweep: {latin hypercube: {count: "
+        << cases
+        << ", seed: 7, "
+           "clearance: {from: 0.01 mm, to: 0.5 mm, scale: log}, speed: {from: 50 rad/s, to: 200 rad/s}}}\n";
   }
   void TearDown() override { fs::remove_all(folder_); }
 
   /// @param enough  when to kill it  @returns exit code; −9: killed before it ended
-  int run(const Command& command, const std::function<bool()>& enough = [] { return false; }) {
+  int run(
+      const Command& command, const std::function<bool()>& enough = [] { return false; }) {
     const pid_t child = start(command, folder_ / "log");
     for (;;) {
       int status = 0;
@@ -157,9 +162,7 @@ class SweepKilled : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(SweepKilled, TenTimesItLosesNothingAndRunsNothingTwice) {
-  kill_ten_times({}, {"--threads", "2"});
-}
+TEST_F(SweepKilled, TenTimesItLosesNothingAndRunsNothingTwice) { kill_ten_times({}, {"--threads", "2"}); }
 
 TEST_F(SweepKilled, TenTimesUnderMpiItLosesNothingAndRunsNothingTwice) {
   if (std::string(PINTLE_MPIRUN).empty()) GTEST_SKIP() << "built without MPI";
@@ -184,14 +187,17 @@ int open_to_networks(const std::string& program) {
   std::error_code gone;
   for (const auto& process : fs::directory_iterator("/proc", gone)) {
     if (fs::read_symlink(process.path() / "exe", gone) != fs::canonical(program)) continue;
-    for (const auto& file : fs::directory_iterator(process.path() / "fd", gone)) count += listening.contains(fs::read_symlink(file.path(), gone).string());
+    for (const auto& file : fs::directory_iterator(process.path() / "fd", gone))
+      count += listening.contains(fs::read_symlink(file.path(), gone).string());
   }
   return count;
 }
 
 TEST_F(SweepKilled, OnOneMachineNoProcessListensToTheNetwork) {
   if (std::string(PINTLE_MPIRUN).empty()) GTEST_SKIP() << "built without MPI";
-  const Command command{PINTLE_MPIRUN, "--allow-run-as-root", "--oversubscribe", "-n", "2", PINTLE_PROGRAM, "sweep", folder_ / "study.yaml", "-q", "--out", folder_ / "out"};
+  const Command command{
+      PINTLE_MPIRUN, "--allow-run-as-root", "--oversubscribe", "-n", "2", PINTLE_PROGRAM, "sweep", folder_ / "study.yaml", "-q",
+      "--out",       folder_ / "out"};
   const pid_t child = start(command, folder_ / "log");
   while (journalled(folder_ / "out").size() < 2) {
     ASSERT_EQ(::waitpid(child, nullptr, WNOHANG), 0) << contents(folder_ / "log");

@@ -12,9 +12,7 @@ std::string all_said(const TradeReport& r) {
   return s;
 }
 
-bool says(const TradeReport& r, const std::string& words) {
-  return all_said(r).find(words) != std::string::npos;
-}
+bool says(const TradeReport& r, const std::string& words) { return all_said(r).find(words) != std::string::npos; }
 
 std::string rejected(const fs::path& study) {
   try {
@@ -51,7 +49,8 @@ TEST(TradeAdvice, ASettingIsNotMoreAccurateThanTheSameAtAFinerTolerance) {
   r.plan = plan, r.quantities = {"value"}, r.units = {"N"};
   r.reference.of = {QuantityReference{.value = 1, .error = 1e-5, .converged = true}};
   // With one element the model errs by 2.6 %, which errors of computing happen to cancel at 1e-4.
-  r.points = {point(20, 0.026, 1e-5), point(1, 0.54, 1e-5), point(2, 0.006, 1e-5), point(4, 0.026, 1e-5), point(3, 0.2, 1e-5), point(5, 0.009, 1e-5), point(8, 0.004, 1e-5)};
+  r.points = {point(20, 0.026, 1e-5), point(1, 0.54, 1e-5),  point(2, 0.006, 1e-5), point(4, 0.026, 1e-5),
+              point(3, 0.2, 1e-5),    point(5, 0.009, 1e-5), point(8, 0.004, 1e-5)};
   for (std::size_t i = 1; i < 7; ++i) r.points[i].at = {(i - 1) % 3, (i - 1) / 3};
   answer(r);
   ASSERT_TRUE(r.recommended);

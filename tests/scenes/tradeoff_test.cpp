@@ -119,7 +119,8 @@ TEST(Tradeoff, ABudgetIsKept) {
   TradePlan plan;
   std::vector<std::string> many;
   for (int i = 1; i <= 40; ++i) many.push_back(std::to_string(i));
-  plan.axes = {axis("tolerance", "run.tolerance", {"1e-2", "1e-3", "1e-4", "1e-5", "1e-6"}), axis("elements", "bodies.rod.beam.elements", many)};
+  plan.axes = {axis("tolerance", "run.tolerance", {"1e-2", "1e-3", "1e-4", "1e-5", "1e-6"}),
+               axis("elements", "bodies.rod.beam.elements", many)};
   plan.budget = 1;
   plan.error = 0.01;
   int runs = 0;
@@ -168,7 +169,8 @@ TEST(Tradeoff, AChaoticQuantityIsJudgedByItsStatisticsAndARegularOneBesideItIsNo
 
 TEST(Tradeoff, OfAPendulumTheReferenceAndEveryErrorAreHonestAgainstTheClosedForm) {
   // From the horizontal it hangs straight down after K(sin 45°) √(L/g), L = (J + m l²)/(m l): there the angle is −π/2.
-  const double length = (0.01 + 0.5 * 0.04) / (0.5 * 0.2), quarter = std::comp_ellint_1(std::sqrt(0.5)) * std::sqrt(length / 9.81), exact = -std::acos(0.0);
+  const double length = (0.01 + 0.5 * 0.04) / (0.5 * 0.2), quarter = std::comp_ellint_1(std::sqrt(0.5)) * std::sqrt(length / 9.81),
+               exact = -std::acos(0.0);
   const CaseSource source{"pendulum.yaml", pendulum, {}};
   const std::string at = "angle of rod at " + std::to_string(quarter) + " s";
   const double given = std::stod(std::to_string(quarter)), speed = std::sqrt(2 * 9.81 / length);
@@ -197,7 +199,8 @@ TEST(Tradeoff, OfAPendulumTheReferenceAndEveryErrorAreHonestAgainstTheClosedForm
 }
 
 TEST(Tradeoff, ADoublePendulumIsFoundChaoticAfterAWhileAndRegularBefore) {
-  const CaseSource source{"double.yaml", R"(
+  const CaseSource source{"double.yaml",
+                          R"(
 gravity: [0, -9.81]
 bodies:
   upper: {rigid: {mass: 1 kg, inertia: 0.02 kg m^2}, points: {A: [-0.25, 0], B: [0.25, 0]}}
@@ -207,7 +210,8 @@ joints:
   elbow: {revolute: [upper.B, lower.B]}
 start: {upper: {angle: 120 deg}, lower: {angle: 100 deg}}
 run: {until: 25 s}
-)", {}};
+)",
+                          {}};
   TradePlan plan;
   plan.axes = {axis("tolerance", "run.tolerance", {"1e-7"})};
   plan.ensemble = 4;
@@ -266,7 +270,8 @@ tradeoff:
   EXPECT_EQ(again.values, best.values);
   EXPECT_EQ(common_scene(recommended).run.tolerance, tolerance_of(plan, best.set));
   set_trust({});
-  for (const char* file : {"tradeoff.csv", "tradeoff.json", "tradeoff.svg", "tradeoff.md"}) EXPECT_GT(fs::file_size(out / file), 100U) << file;
+  for (const char* file : {"tradeoff.csv", "tradeoff.json", "tradeoff.svg", "tradeoff.md"})
+    EXPECT_GT(fs::file_size(out / file), 100U) << file;
 }
 
 TEST(Tradeoff, WhatIsWrongInAStudyIsNamed) {

@@ -71,7 +71,8 @@ Scene stiff_chain() {
 
 Scene flexible(const std::string& method, const std::string& stiffening, double clearance) {
   FlexibleCrank o;
-  o.coupler = text(FlexibleBeam{.modes = "{frame: chord, count: 4}", .more = "damping: {ratios: 0.02}\n" + (stiffening.empty() ? "" : "stiffening: " + stiffening + "\n")});
+  o.coupler = text(FlexibleBeam{.modes = "{frame: chord, count: 4}",
+                                .more = "damping: {ratios: 0.02}\n" + (stiffening.empty() ? "" : "stiffening: " + stiffening + "\n")});
   o.clearance = clearance, o.tolerance = 1e-6, o.angle = 0.3;
   Scene s = scene_of(text(o));
   s.run.method = method;
@@ -102,10 +103,10 @@ std::vector<Case> cases() {
                    }});
   }
   all.push_back({"alpha_sparse_redundant", [] { return cranks(20, "generalized-alpha"); }, 40});
-  all.push_back({"auto_switches", stiff_chain, 150,
-                 [](Scheme& s) { s.tableau = find_tableau("dopri5"), s.switch_below = 1; }, switch_over});
-  all.push_back({"auto_falls_back", [] { return cranks(2, "verner87"); }, 60,
-                 [](Scheme& s) { s.fallback = find_tableau("dopri5"); }, fall_back});
+  all.push_back(
+      {"auto_switches", stiff_chain, 150, [](Scheme& s) { s.tableau = find_tableau("dopri5"), s.switch_below = 1; }, switch_over});
+  all.push_back(
+      {"auto_falls_back", [] { return cranks(2, "verner87"); }, 60, [](Scheme& s) { s.fallback = find_tableau("dopri5"); }, fall_back});
   return all;
 }
 
@@ -142,7 +143,8 @@ std::string bytes(const State& state, const Equations& eq) {
   for (const Eigen::VectorXd* v : {&state.y, &eq.a, &eq.lambda, &eq.C, &eq.f})
     out.append(reinterpret_cast<const char*>(v->data()), sizeof(double) * static_cast<std::size_t>(v->size()));
   for (const ContactEffect& c : eq.contact)
-    for (const double* x : {&c.gap.depth, &c.gap.rate, &c.normal.force, &c.friction}) out.append(reinterpret_cast<const char*>(x), sizeof *x);
+    for (const double* x : {&c.gap.depth, &c.gap.rate, &c.normal.force, &c.friction})
+      out.append(reinterpret_cast<const char*>(x), sizeof *x);
   return out;
 }
 
@@ -225,7 +227,8 @@ TEST_P(Undisturbed, RunsEndTheSameWhateverIsWritten) {
   EXPECT_EQ(rows[0], rows[1]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Undisturbed, testing::ValuesIn(cases()), [](const testing::TestParamInfo<Case>& c) { return c.param.name; });
+INSTANTIATE_TEST_SUITE_P(Scenes, Undisturbed, testing::ValuesIn(cases()),
+                         [](const testing::TestParamInfo<Case>& c) { return c.param.name; });
 
 }  // namespace
 }  // namespace pintle_scenes::undisturbed_test

@@ -34,8 +34,9 @@ std::string text_of(double x) {
 }
 
 std::string beam(const std::string& through, const std::string& points, const std::string& more = "") {
-  return "bodies:\n  frame:\n    beam: {through: [" + through + "], section: {rectangle: [10 mm, 20 mm]}, theory: euler, rotary inertia: false, " + steel + more +
-         "}\n    points: {" + points + "}\n";
+  return "bodies:\n  frame:\n    beam: {through: [" + through +
+         "], section: {rectangle: [10 mm, 20 mm]}, theory: euler, rotary inertia: false, " + steel + more + "}\n    points: {" + points +
+         "}\n";
 }
 
 ElasticBody made(const std::string& text, const std::filesystem::path& folder = ".") {
@@ -101,7 +102,8 @@ TEST(BeamPath, JoinsWhereverItPassesOnePointAgain) {
 
 TEST(BeamPath, ThatCrossesItselfWhereNoPointIsWarnsWithBothStretches) {
   const std::string eight = beam("A, B, C, D", "A: [-1, -1], B: [1, 1], C: [1, -1], D: [-1, 1]");
-  expect_words(warnings(eight), {"meets itself at (0, 0) m", "between A and B", "between C and D", "not joined", "give the body a point there"});
+  expect_words(warnings(eight),
+               {"meets itself at (0, 0) m", "between A and B", "between C and D", "not joined", "give the body a point there"});
   EXPECT_EQ(warnings(beam("A, B, C, D", "A: [-1, -1], B: [1, 1], C: [1, -1], D: [0.1, 0]")), "");
 }
 
@@ -111,12 +113,14 @@ TEST(BeamPath, ThatRunsBackOnItselfIsRefused) {
 }
 
 TEST(BeamPath, ThatPassesTwoPointsAtOnePlaceMustSayWhetherItJoins) {
-  expect_words(refusal(beam("A, B, C, E", "A: [0, 0], B: [1, 0], C: [1, 1], E: [0, 0]")), {"passes A and E", "both lie at (0, 0) m", "move one"});
+  expect_words(refusal(beam("A, B, C, E", "A: [0, 0], B: [1, 0], C: [1, 1], E: [0, 0]")),
+               {"passes A and E", "both lie at (0, 0) m", "move one"});
   EXPECT_EQ(refusal(beam("A, B, C, A", "A: [0, 0], B: [1, 0], C: [1, 1], E: [0, 0]")), "");
 }
 
 TEST(BeamPath, CutIntoPiecesMayNotPassAPointTwice) {
-  const std::string text = beam("A, B, C, D", "A: [-1, -1], B: [1, 1], C: [1, -1], D: [-1, 1], M: [0, 0]", ", pieces: 3") + "    modes: {frame: chord, craig-bampton: {count: 0}}\n";
+  const std::string text = beam("A, B, C, D", "A: [-1, -1], B: [1, 1], C: [1, -1], D: [-1, 1], M: [0, 0]", ", pieces: 3") +
+                           "    modes: {frame: chord, craig-bampton: {count: 0}}\n";
   try {
     with_pieces(read_scene_text(text, "test.yaml"));
     FAIL() << "it is cut, and open at M";
@@ -128,16 +132,22 @@ TEST(BeamPath, CutIntoPiecesMayNotPassAPointTwice) {
 class PlateFile : public testing::Test {
  protected:
   void SetUp() override {
-    folder = std::filesystem::path(testing::TempDir()) / ("pintle_plate_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    folder = std::filesystem::path(testing::TempDir()) /
+             ("pintle_plate_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     std::filesystem::create_directories(folder);
   }
   void TearDown() override { std::filesystem::remove_all(folder); }
-  std::string plate(const std::string& inp, const std::string& more = "", const std::string& points = "", const std::string& rest = "") const {
+  std::string plate(const std::string& inp, const std::string& more = "", const std::string& points = "",
+                    const std::string& rest = "") const {
     std::ofstream(folder / "part.inp") << inp;
     return "bodies:\n  part:\n    plate: {file: part.inp, thickness: 5 mm, " + steel + more + "}\n" + points + rest;
   }
-  std::string rejected(const std::string& inp, const std::string& more = "", const std::string& points = "") const { return refusal(plate(inp, more, points), folder); }
-  std::string warned(const std::string& inp, const std::string& more = "", const std::string& points = "") const { return warnings(plate(inp, more, points), folder); }
+  std::string rejected(const std::string& inp, const std::string& more = "", const std::string& points = "") const {
+    return refusal(plate(inp, more, points), folder);
+  }
+  std::string warned(const std::string& inp, const std::string& more = "", const std::string& points = "") const {
+    return warnings(plate(inp, more, points), folder);
+  }
   std::filesystem::path folder;
 };
 
@@ -147,24 +157,29 @@ TEST_F(PlateFile, WithAFaultyMeshIsRefusedWithTheCells) {
   EXPECT_EQ(rejected(two_cells), "");
   EXPECT_EQ(warned(two_cells), "");
   expect_words(rejected(two_cells + "7,2,3,6,5\n"), {"test.yaml:2", "bodies.part", "cells 2 and 7", "twice"});
-  expect_words(warned("*NODE\n1,0,0\n2,1,0\n3,2,0\n4,0,1\n5,1,1\n6,2,1\n7,1,1\n*ELEMENT, TYPE=CPS4\n1,1,2,5,4\n2,2,3,6,7\n"), {"from nodes 2 and 5 and from nodes 7 and 2", "slit", "merge", "at node 2", "hinge"});
-  expect_words(rejected("*NODE\n1,0,0\n2,1,0\n3,2,0\n4,0,1\n5,1,1\n6,2,1\n7,1,1\n8,1,0\n*ELEMENT, TYPE=CPS4\n1,1,2,5,4\n2,8,3,6,7\n"), {"2 pieces", "merge nodes"});
+  expect_words(warned("*NODE\n1,0,0\n2,1,0\n3,2,0\n4,0,1\n5,1,1\n6,2,1\n7,1,1\n*ELEMENT, TYPE=CPS4\n1,1,2,5,4\n2,2,3,6,7\n"),
+               {"from nodes 2 and 5 and from nodes 7 and 2", "slit", "merge", "at node 2", "hinge"});
+  expect_words(rejected("*NODE\n1,0,0\n2,1,0\n3,2,0\n4,0,1\n5,1,1\n6,2,1\n7,1,1\n8,1,0\n*ELEMENT, TYPE=CPS4\n1,1,2,5,4\n2,8,3,6,7\n"),
+               {"2 pieces", "merge nodes"});
 }
 
 TEST_F(PlateFile, CardsThatMakeAnotherBodyAreRefusedByLine) {
-  for (const char* card : {"*EQUATION\n2\n1,1,1.,3,1,-1.\n", "*TIE, NAME=t\na,b\n", "*MPC\nBEAM,1,2\n", "*RIGID BODY, ELSET=all, REF NODE=1\n", "*EMBEDDED ELEMENT\nall\n",
-                           "*SPRING, ELSET=s\n\n100.\n"}) {
+  for (const char* card : {"*EQUATION\n2\n1,1,1.,3,1,-1.\n", "*TIE, NAME=t\na,b\n", "*MPC\nBEAM,1,2\n",
+                           "*RIGID BODY, ELSET=all, REF NODE=1\n", "*EMBEDDED ELEMENT\nall\n", "*SPRING, ELSET=s\n\n100.\n"}) {
     const std::string word = std::string(card).substr(0, std::string(card).find_first_of(",\n"));
     expect_words(rejected(two_cells + card), {"part.inp:11: ", word.c_str(), "not read"});
   }
 }
 
 TEST_F(PlateFile, CardsThatTheSceneAnswersAreWarnedOfAndOutputIsNot) {
-  expect_words(warned(two_cells + "*BOUNDARY\n1,1,2\n*CLOAD\n3,1,5.\n"), {"*BOUNDARY (part.inp:11) and *CLOAD (part.inp:13)", "those of the scene hold"});
+  expect_words(warned(two_cells + "*BOUNDARY\n1,1,2\n*CLOAD\n3,1,5.\n"),
+               {"*BOUNDARY (part.inp:11) and *CLOAD (part.inp:13)", "those of the scene hold"});
   expect_words(warned(two_cells + "*COUPLING, REF NODE=1, SURFACE=s\n*KINEMATIC\n"), {"*COUPLING (part.inp:11)", "hole: NAME"});
   expect_words(warned(two_cells + "*WHATEVER\n1,2\n"), {"*WHATEVER (part.inp:11)", "not known"});
   expect_words(warned(two_cells + "*MATERIAL,NAME=s\n*PLASTIC\n1,0\n"), {"*PLASTIC (part.inp:12)", "linear"});
-  EXPECT_EQ(warned("*HEADING\n a title\n** a comment\n" + two_cells + "*STEP\n*STATIC\n*NODE FILE\nU\n*EL FILE\nS\n*OUTPUT, FIELD\n*END STEP\n"), "");
+  EXPECT_EQ(
+      warned("*HEADING\n a title\n** a comment\n" + two_cells + "*STEP\n*STATIC\n*NODE FILE\nU\n*EL FILE\nS\n*OUTPUT, FIELD\n*END STEP\n"),
+      "");
 }
 
 TEST_F(PlateFile, MaterialAndThicknessThatContradictTheSceneAreWarnedOf) {
@@ -176,7 +191,8 @@ TEST_F(PlateFile, MaterialAndThicknessThatContradictTheSceneAreWarnedOf) {
   expect_words(warned(section("4.", "200000.", "0.3"), ", unit: mm"), {"part.inp:14", "thickness 4", "0.004 m", "0.005 m"});
   expect_words(warned(section("5.", "70000.", "0.3"), ", unit: mm"), {"part.inp:12", "7e+04", "2e+11 Pa"});
   expect_words(warned(section("5.", "200000.", "0.33"), ", unit: mm"), {"part.inp:12", "0.33", "0.3;"});
-  expect_words(warned(two_cells + "*ELSET, ELSET=r\n2\n*SOLID SECTION, ELSET=all, MATERIAL=steel\n*SOLID SECTION, ELSET=r, MATERIAL=alu\n"), {"2 materials", "steel", "alu"});
+  expect_words(warned(two_cells + "*ELSET, ELSET=r\n2\n*SOLID SECTION, ELSET=all, MATERIAL=steel\n*SOLID SECTION, ELSET=r, MATERIAL=alu\n"),
+               {"2 materials", "steel", "alu"});
 }
 
 TEST_F(PlateFile, OfPlaneStrainMustBeAskedFor) {
@@ -217,18 +233,21 @@ std::string ring(int n) {
   std::ostringstream s;
   s << std::setprecision(17) << "*NODE\n";
   for (int i = 0; i < n; ++i)
-    for (int k = 0; k < 2; ++k) s << 2 * i + k + 1 << "," << 10 * (k + 1) * std::cos(2 * pi * i / n) << "," << 10 * (k + 1) * std::sin(2 * pi * i / n) << "\n";
+    for (int k = 0; k < 2; ++k)
+      s << 2 * i + k + 1 << "," << 10 * (k + 1) * std::cos(2 * pi * i / n) << "," << 10 * (k + 1) * std::sin(2 * pi * i / n) << "\n";
   s << "*ELEMENT, TYPE=CPS4\n";
-  for (int i = 0; i < n; ++i) s << i + 1 << "," << 2 * i + 1 << "," << 2 * i + 2 << "," << 2 * ((i + 1) % n) + 2 << "," << 2 * ((i + 1) % n) + 1 << "\n";
-  s << "*NSET, NSET=whole, GENERATE\n1," << 2 * n - 1 << ",2\n*NSET, NSET=half, GENERATE\n1," << n + 1 << ",2\n*NSET, NSET=tenth, GENERATE\n1," << n / 5 + 1
-    << ",2\n";
+  for (int i = 0; i < n; ++i)
+    s << i + 1 << "," << 2 * i + 1 << "," << 2 * i + 2 << "," << 2 * ((i + 1) % n) + 2 << "," << 2 * ((i + 1) % n) + 1 << "\n";
+  s << "*NSET, NSET=whole, GENERATE\n1," << 2 * n - 1 << ",2\n*NSET, NSET=half, GENERATE\n1," << n + 1
+    << ",2\n*NSET, NSET=tenth, GENERATE\n1," << n / 5 + 1 << ",2\n";
   return s.str();
 }
 
 TEST_F(PlateFile, HalfARimIsNoHole) {
   const auto point = [](const std::string& name) { return "    points: {P: {hole: " + name + ", coupling: rigid}}\n"; };
   EXPECT_EQ(warned(ring(40), ", unit: mm", point("whole")), "");
-  expect_words(rejected(ring(40), ", unit: mm", point("half")), {"points.P", "\"half\" covers 180 of 360 deg", "radius 0.01 m", "whole rim"});
+  expect_words(rejected(ring(40), ", unit: mm", point("half")),
+               {"points.P", "\"half\" covers 180 of 360 deg", "radius 0.01 m", "whole rim"});
   expect_words(warned(ring(40), ", unit: mm", point("tenth")), {"covers 36 of 360 deg", "middle of that arc"});
 }
 
@@ -248,10 +267,11 @@ TEST(RimShape, OfARoundHoleIsItsCircle) {
 
 // A warning of the mesh reaches the model of a mechanism, and so run, check and run.json.
 TEST_F(PlateFile, DoubtsReachTheMechanism) {
-  const std::string text = plate(two_cells + "*BOUNDARY\n1,1,2\n", "", "    points: {A: [0, 0]}\n",
-                                 "joints:\n  pin: {revolute: [ground, part.A]}\n\n");
+  const std::string text =
+      plate(two_cells + "*BOUNDARY\n1,1,2\n", "", "    points: {A: [0, 0]}\n", "joints:\n  pin: {revolute: [ground, part.A]}\n\n");
   const Model model = build(read_scene_text(text, (folder / "test.yaml").string(), {}, folder));
-  const bool told = std::any_of(model.warnings.begin(), model.warnings.end(), [](const std::string& w) { return w.find("*BOUNDARY") != std::string::npos; });
+  const bool told = std::any_of(model.warnings.begin(), model.warnings.end(),
+                                [](const std::string& w) { return w.find("*BOUNDARY") != std::string::npos; });
   EXPECT_TRUE(told);
 }
 

@@ -118,7 +118,8 @@ std::optional<double> growth_of(const Model& model, const State& from, const End
 }
 
 /// @returns nothing where errors have grown too much to tell
-std::optional<Verdict> compared(const Model& model, const Model& other, const Assembly& assembly, double tolerance, const Ends& ends, double seconds, std::string& why) {
+std::optional<Verdict> compared(const Model& model, const Model& other, const Assembly& assembly, double tolerance, const Ends& ends,
+                                double seconds, std::string& why) {
   constexpr double other_directions = 10, telling = 0.05;
   const auto& [until, one, two] = ends;
   const State& start = assembly.start;
@@ -131,7 +132,8 @@ std::optional<Verdict> compared(const Model& model, const Model& other, const As
   const double within = other_directions * *growth * (allowed(one, tolerance) + allowed(two, tolerance)) + 1e-9 * *growth;
   if (!(within < telling)) return why = "errors grow too much", std::nullopt;
   const double rate = std::max(one.fastest, two.fastest), difference = apart(model.system, one.state.y, two.state.y, rate);
-  const std::string what = name(model.scheme) + " and " + name(other.scheme) + " end " + number(difference) + " apart at t = " + number(until) + ", " + number(within) + " allowed";
+  const std::string what = name(model.scheme) + " and " + name(other.scheme) + " end " + number(difference) +
+                           " apart at t = " + number(until) + ", " + number(within) + " allowed";
   if (!(difference <= within) && branches) return skipped("it starts where motions branch, which is warned of");
   if (!(difference <= within)) return Verdict{false, "two methods disagree", what, 0, 0};
   const bool moved = apart(model.system, one.state.y, start.y, rate) > 10 * within;

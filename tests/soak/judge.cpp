@@ -53,9 +53,7 @@ std::string kind_of(const std::string& whole) {
   return out.substr(0, 120);
 }
 
-Verdict bad(const std::string& outcome, const std::string& detail) {
-  return {false, outcome, detail, 0, 0};
-}
+Verdict bad(const std::string& outcome, const std::string& detail) { return {false, outcome, detail, 0, 0}; }
 
 /// Name of the first column that holds a number that is not finite.
 std::string unfinite(const Table& t) {
@@ -219,16 +217,11 @@ Verdict judge(const std::string& text, Question question, bool twice, double sec
     const Model model = build(scene);
     const Assembly assembly = assemble(scene, model);
     switch (question) {
-      case Question::run:
-        return validate_run(scene, model, assembly, twice, seconds);
-      case Question::statics:
-        return validate_statics(scene, model, assembly);
-      case Question::kinematics:
-        return validate_driven(scene, model, kinematics(scene, model, assembly, stop_after(seconds)));
-      case Question::inverse:
-        return validate_driven(scene, model, inverse(scene, model, assembly, stop_after(seconds)).run);
-      case Question::linearize:
-        return validate_linear(scene, linearize(scene, model, assembly.start));
+      case Question::run: return validate_run(scene, model, assembly, twice, seconds);
+      case Question::statics: return validate_statics(scene, model, assembly);
+      case Question::kinematics: return validate_driven(scene, model, kinematics(scene, model, assembly, stop_after(seconds)));
+      case Question::inverse: return validate_driven(scene, model, inverse(scene, model, assembly, stop_after(seconds)).run);
+      case Question::linearize: return validate_linear(scene, linearize(scene, model, assembly.start));
       case Question::agree: {
         Verdict v = agreement(scene, model, assembly, seconds);
         v.seconds = processor_time();

@@ -301,17 +301,10 @@ class Drawing {
     std::ostringstream s;
     s.precision(17);
     switch (chance_.below(4)) {
-      case 0:
-        s << mean + size * chance_.either_way(1);
-        break;
-      case 1:
-        s << mean << " + " << size << "*sin(" << rate << "*t)";
-        break;
-      case 2:
-        s << mean << " + " << size * rate * chance_.either_way(1) << "*t";
-        break;
-      default:
-        s << mean << " + " << size << "*step(t, 0, " << 1 / rate << ")";
+      case 0: s << mean + size * chance_.either_way(1); break;
+      case 1: s << mean << " + " << size << "*sin(" << rate << "*t)"; break;
+      case 2: s << mean << " + " << size * rate * chance_.either_way(1) << "*t"; break;
+      default: s << mean << " + " << size << "*step(t, 0, " << 1 / rate << ")";
     }
     return "\"" + s.str() + "\"";
   }
@@ -356,9 +349,7 @@ class Drawing {
         s << "{force: [" << law(0, chance_.decades(-1, 2), pace()) << ", " << law(0, chance_.decades(-1, 2), pace()) << "], at: " << g.text
           << ", follows: " << (chance_.one_in(2) ? "true" : "false") << "}";
         break;
-      case 1:
-        s << "{torque: " << law(0, drawn_.size * chance_.decades(-1, 2), pace()) << ", on: " << g.text << "}";
-        break;
+      case 1: s << "{torque: " << law(0, drawn_.size * chance_.decades(-1, 2), pace()) << ", on: " << g.text << "}"; break;
       case 2: {
         const Attachment h = some(a);
         s << "{spring: [" << h.text << ", " << g.text << "], stiffness: " << stiffness << ", damping: " << damping
@@ -383,8 +374,6 @@ class Drawing {
 
 }  // namespace
 
-std::string random_scene(std::uint64_t seed) {
-  return Drawing(seed).text(seed);
-}
+std::string random_scene(std::uint64_t seed) { return Drawing(seed).text(seed); }
 
 }  // namespace soak

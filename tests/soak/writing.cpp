@@ -110,12 +110,8 @@ class Writing {
 
 }  // namespace
 
-double pace(double size, Chance& chance) {
-  return std::sqrt(9.81 / size) * chance.decades(-0.5, 1);
-}
+double pace(double size, Chance& chance) { return std::sqrt(9.81 / size) * chance.decades(-0.5, 1); }
 
-std::string written(const std::string& title, const Drawn& drawn, Chance& chance) {
-  return Writing(drawn, chance).all(title);
-}
+std::string written(const std::string& title, const Drawn& drawn, Chance& chance) { return Writing(drawn, chance).all(title); }
 
 }  // namespace soak

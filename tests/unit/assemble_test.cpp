@@ -38,9 +38,7 @@ Law steady(double start, double rate) {
   return {[=](double t) { return Jet{start + rate * t, rate, 0}; }, "", false};
 }
 
-SceneJoint pin(const std::string& name, PointRef a, PointRef b) {
-  return joint(name, JointKind::revolute, std::move(a), std::move(b));
-}
+SceneJoint pin(const std::string& name, PointRef a, PointRef b) { return joint(name, JointKind::revolute, std::move(a), std::move(b)); }
 StartBody start_angle(const std::string& body, double angle) {
   StartBody s;
   s.body = body;
@@ -64,16 +62,14 @@ SceneDriver drive(const std::string& name, const std::string& body, Law law) {
 
 Scene slider_crank(double crank, double coupler, double angle) {
   Scene s;
-  s.bodies = {rod("crank", crank, {0.02, -0.01}, angle + 0.2),
-              rod("coupler", coupler, {0, 0.1}, 0)};
+  s.bodies = {rod("crank", crank, {0.02, -0.01}, angle + 0.2), rod("coupler", coupler, {0, 0.1}, 0)};
   SceneBody slider;
   slider.name = "slider";
   slider.mass = 0.5;
   slider.inertia = 1e-3;
   slider.at = {crank + coupler, 0.03};
   s.bodies.push_back(slider);
-  s.joints = {pin("bearing", {"ground", "", {}}, {"crank", "A", {}}),
-              pin("crank pin", {"crank", "B", {}}, {"coupler", "A", {}}),
+  s.joints = {pin("bearing", {"ground", "", {}}, {"crank", "A", {}}), pin("crank pin", {"crank", "B", {}}, {"coupler", "A", {}}),
               pin("gudgeon pin", {"coupler", "B", {}}, {"slider", "", {}}),
               joint("guide", JointKind::prismatic, {"ground", "", {}}, {"slider", "", {}})};
   s.start_bodies = {start_angle("crank", angle)};
@@ -83,12 +79,9 @@ Scene slider_crank(double crank, double coupler, double angle) {
 Scene four_bar(double ground, double crank, double coupler, double rocker) {
   Scene s;
   s.ground = {{"C", {ground, 0}, 0, {}}};
-  s.bodies = {rod("crank", crank, {0, 0}, 1.0), rod("coupler", coupler, {0, 0.1}, 0.2),
-              rod("rocker", rocker, {ground, 0}, 1.5)};
-  s.joints = {pin("p1", {"ground", "", {}}, {"crank", "A", {}}),
-              pin("p2", {"crank", "B", {}}, {"coupler", "A", {}}),
-              pin("p3", {"coupler", "B", {}}, {"rocker", "B", {}}),
-              pin("p4", {"ground", "C", {}}, {"rocker", "A", {}})};
+  s.bodies = {rod("crank", crank, {0, 0}, 1.0), rod("coupler", coupler, {0, 0.1}, 0.2), rod("rocker", rocker, {ground, 0}, 1.5)};
+  s.joints = {pin("p1", {"ground", "", {}}, {"crank", "A", {}}), pin("p2", {"crank", "B", {}}, {"coupler", "A", {}}),
+              pin("p3", {"coupler", "B", {}}, {"rocker", "B", {}}), pin("p4", {"ground", "C", {}}, {"rocker", "A", {}})};
   return s;
 }
 struct Put {
@@ -110,9 +103,7 @@ std::string complaint(const Scene& scene) {
   }
   return "";
 }
-bool says(const std::string& message, const std::string& part) {
-  return message.find(part) != std::string::npos;
-}
+bool says(const std::string& message, const std::string& part) { return message.find(part) != std::string::npos; }
 
 // ---- poses ------------------------------------------------------------------------------------
 
@@ -134,8 +125,7 @@ TEST(Assemble, RoughPoseChoosesTheBranchOfAFourBar) {
   for (const bool open : {true, false}) {
     Scene s = four_bar(0.4, 0.1, 0.35, 0.3);
     s.start_bodies = {start_angle("crank", 1.0)};
-    const auto truth =
-        evaluate(pintle_oracle::FourBar{0.4, 0.1, 0.35, 0.3, open}, pintle_oracle::Turn{1.0, 0, 0});
+    const auto truth = evaluate(pintle_oracle::FourBar{0.4, 0.1, 0.35, 0.3, open}, pintle_oracle::Turn{1.0, 0, 0});
     ASSERT_TRUE(truth.closes);
     s.bodies[1].angle = truth.coupler.angle + 0.3;
     s.bodies[2].angle = truth.rocker.angle - 0.3;
@@ -148,9 +138,7 @@ TEST(Assemble, RoughPoseChoosesTheBranchOfAFourBar) {
 // Forty rods of 0.1 m thrown about, between pivots 3 m apart.
 TEST(Assemble, ClosesAChainOfFortyLinksFromAPoorPose) {
   std::mt19937 random(3);
-  const auto within = [&](double r) {
-    return r * (static_cast<double>(random()) / 2147483648.0 - 1);
-  };
+  const auto within = [&](double r) { return r * (static_cast<double>(random()) / 2147483648.0 - 1); };
   Scene s;
   s.ground = {{"end", {3, 0}, 0, {}}};
   PointRef last{"ground", "", {}};
@@ -273,17 +261,14 @@ TEST(Assemble, SpeedsFollowADriver) {
 
 TEST(Assemble, NamesAJointThatCannotClose) {
   const std::string message = complaint(four_bar(1.0, 0.1, 0.2, 0.3));
-  EXPECT_TRUE(says(message, "\"p1\"") || says(message, "\"p2\"") || says(message, "\"p3\"") ||
-              says(message, "\"p4\""))
-      << message;
+  EXPECT_TRUE(says(message, "\"p1\"") || says(message, "\"p2\"") || says(message, "\"p3\"") || says(message, "\"p4\"")) << message;
   EXPECT_TRUE(says(message, "cannot close")) << message;
   EXPECT_TRUE(says(message, " m remains")) << message;
 }
 
 TEST(Assemble, NamesBothOfTwoDriversThatContradict) {
   Scene s = four_bar(0.4, 0.1, 0.35, 0.3);
-  s.drivers = {drive("motor", "crank", constant(1.0)),
-               drive("other motor", "crank", constant(1.2))};
+  s.drivers = {drive("motor", "crank", constant(1.0)), drive("other motor", "crank", constant(1.2))};
   const std::string message = complaint(s);
   EXPECT_TRUE(says(message, "\"motor\"")) << message;
   EXPECT_TRUE(says(message, "\"other motor\"")) << message;
@@ -291,8 +276,7 @@ TEST(Assemble, NamesBothOfTwoDriversThatContradict) {
 
 TEST(Assemble, NamesBothDriversWhenOnlyTheirSpeedsContradict) {
   Scene s = four_bar(0.4, 0.1, 0.35, 0.3);
-  s.drivers = {drive("motor", "crank", steady(1.0, 5)),
-               drive("other motor", "crank", steady(1.0, 6))};
+  s.drivers = {drive("motor", "crank", steady(1.0, 5)), drive("other motor", "crank", steady(1.0, 6))};
   const std::string message = complaint(s);
   EXPECT_TRUE(says(message, "\"motor\"")) << message;
   EXPECT_TRUE(says(message, "\"other motor\"")) << message;
@@ -323,8 +307,7 @@ TEST(Assemble, NamesTheIdleRowOfAParallelogramWithAThirdLink) {
 
 TEST(Assemble, TwoDriversThatAgreeAreRedundantNotWrong) {
   Scene s = four_bar(0.4, 0.1, 0.35, 0.3);
-  s.drivers = {drive("motor", "crank", steady(1.0, 5)),
-               drive("other motor", "crank", steady(1.0, 5))};
+  s.drivers = {drive("motor", "crank", steady(1.0, 5)), drive("other motor", "crank", steady(1.0, 5))};
   const Put p = put(s);
   EXPECT_EQ(p.assembly.rank, 9);
   ASSERT_EQ(p.assembly.redundant.size(), 1u);

@@ -47,7 +47,8 @@ TEST(BadFlexible, JointsHoldPointsThatTheBodyHas) {
 }
 
 TEST(BadFlexible, HolesAreThoseOfTheMesh) {
-  expect_one_line(said_of(disc("C: {hole: bor}", "    modes: {count: 3}\n")), "scene.yaml:4: bodies.part.points.C", {"no group \"bor\"", "\"bore\"?"});
+  expect_one_line(said_of(disc("C: {hole: bor}", "    modes: {count: 3}\n")), "scene.yaml:4: bodies.part.points.C",
+                  {"no group \"bor\"", "\"bore\"?"});
 }
 
 TEST(BadFlexible, FramesHoldTheBody) {
@@ -78,7 +79,8 @@ TEST(BadFlexible, CraigBamptonNeedsPoints) {
 }
 
 TEST(BadFlexible, MoreModesThanThereAreAreRefusedWithBothNumbers) {
-  expect_one_line(said_of(beam("    modes: {frame: chord, count: 400}\n")), "scene.yaml:5: bodies.rod.modes", {"400 modes asked for", "has "});
+  expect_one_line(said_of(beam("    modes: {frame: chord, count: 400}\n")), "scene.yaml:5: bodies.rod.modes",
+                  {"400 modes asked for", "has "});
 }
 
 TEST(BadFlexible, APlatesPointHasNoDirectionToHold) {
@@ -100,16 +102,19 @@ TEST(BadFlexible, ABodyAloneIsItsPointAtTheOrigin) {
 
 TEST(BadFlexible, StressIsOfMaterial) {
   const std::string with = "output: {stress: [part.C]}\n";
-  expect_one_line(said_of(disc("C: {hole: bore}", "    modes: {count: 3}\n" + with)), "scene.yaml:6: output.stress", {"the middle of a hole, where no material is", "name a point of the plate"});
+  expect_one_line(said_of(disc("C: {hole: bore}", "    modes: {count: 3}\n" + with)), "scene.yaml:6: output.stress",
+                  {"the middle of a hole, where no material is", "name a point of the plate"});
 }
 
 TEST(BadFlexible, LumpedMassMustLeaveTheFrameInertia) {
   // A section's turn carries no mass in it, and the frame turns with that of the root.
   const auto rod = [](const std::string& matrix) {
-    return "bodies:\n  rod:\n    beam: {from: A, to: B, section: {circle: 10 mm}, theory: euler, rotary inertia: false, elements: 2, " + steel_keys +
-           "}\n    points: {A: [0, 0], B: [1, 0]}\n    mass matrix: " + matrix + "\n    modes: {frame: {tangent: A}, keep: all}\nrun: {until: 1 s}\n";
+    return "bodies:\n  rod:\n    beam: {from: A, to: B, section: {circle: 10 mm}, theory: euler, rotary inertia: false, elements: 2, " +
+           steel_keys + "}\n    points: {A: [0, 0], B: [1, 0]}\n    mass matrix: " + matrix +
+           "\n    modes: {frame: {tangent: A}, keep: all}\nrun: {until: 1 s}\n";
   };
-  expect_one_line(said_of(rod("lumped")), "scene.yaml:2: bodies.rod", {"leave the frame no inertia", "consistent mass matrix", "another frame or fewer shapes"});
+  expect_one_line(said_of(rod("lumped")), "scene.yaml:2: bodies.rod",
+                  {"leave the frame no inertia", "consistent mass matrix", "another frame or fewer shapes"});
   EXPECT_EQ(said_of(rod("consistent")), "");
 }
 
@@ -125,10 +130,10 @@ TEST(BadFlexible, DampingAboveCriticalAndStiffeningOfRigidBodiesAreRefused) {
 }
 
 TEST(BadFlexible, BadScenesAreRefusedAlikeWhereModesAreChosen) {
-  expect_one_line(said_of(beam("    modes: {frame: chord, keep: auto}\n", "joints: {pin: {revolute: [ground, rod.N]}}\n")), "scene.yaml:6: joints.pin",
-                  {"\"rod\" has no point \"N\""});
-  expect_one_line(said_of(grid("    modes: {frame: chord, keep: auto}\n", "joints: {j: {weld: [ground, part.A]}}\n")), "scene.yaml:6: joints.j",
-                  {"a point of a plate"});
+  expect_one_line(said_of(beam("    modes: {frame: chord, keep: auto}\n", "joints: {pin: {revolute: [ground, rod.N]}}\n")),
+                  "scene.yaml:6: joints.pin", {"\"rod\" has no point \"N\""});
+  expect_one_line(said_of(grid("    modes: {frame: chord, keep: auto}\n", "joints: {j: {weld: [ground, part.A]}}\n")),
+                  "scene.yaml:6: joints.j", {"a point of a plate"});
 }
 
 }  // namespace

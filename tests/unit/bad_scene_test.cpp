@@ -23,39 +23,24 @@ void expect_refused(const std::vector<Spoiled>& all) {
 }
 
 TEST(BadScene, OverrideOfAnUnknownParameterSuggestsTheNearest) {
-  expect_says(refusal_of(slider_crank, {{"clearence", "1 mm"}}),
-              {"scene.yaml: --set clearence", "Did you mean \"clearance\"?"});
-  expect_says(refusal_of(slider_crank, {{"clearance", "1 kg"}}),
-              {"--set clearance", "a mass [kg]", "a length [m]"});
+  expect_says(refusal_of(slider_crank, {{"clearence", "1 mm"}}), {"scene.yaml: --set clearence", "Did you mean \"clearance\"?"});
+  expect_says(refusal_of(slider_crank, {{"clearance", "1 kg"}}), {"--set clearance", "a mass [kg]", "a length [m]"});
 }
 
 TEST(BadScene, MisspeltKeySuggestsTheNearest) {
   expect_refused({
       {"gravity:", "gravty:", "scene.yaml:2: gravty: ", {"Did you mean \"gravity\"?"}},
-      {"mass: 0.30 kg",
-       "mas: 0.30 kg",
-       "scene.yaml:8: bodies.crank.rigid.mas: ",
-       {"unknown key \"mas\"", "\"mass\""}},
-      {"bearing radius",
-       "bearing raduis",
-       "scene.yaml:18: joints.pin.clearance.bearing raduis: ",
-       {"Did you mean \"bearing radius\"?"}},
-      {"revolute: [ground",
-       "revolut: [ground",
-       "scene.yaml:13: joints.main.revolut: ",
-       {"Did you mean \"revolute\"?"}},
+      {"mass: 0.30 kg", "mas: 0.30 kg", "scene.yaml:8: bodies.crank.rigid.mas: ", {"unknown key \"mas\"", "\"mass\""}},
+      {"bearing radius", "bearing raduis", "scene.yaml:18: joints.pin.clearance.bearing raduis: ", {"Did you mean \"bearing radius\"?"}},
+      {"revolute: [ground", "revolut: [ground", "scene.yaml:13: joints.main.revolut: ", {"Did you mean \"revolute\"?"}},
       {"tolerance", "zzz", "scene.yaml:34: run.zzz: ", {"Known here: until, method"}},
       {"rkf45", "rk45", "scene.yaml:34: run.method: ", {"\"rk45\"", "dopri5", "generalized-alpha", "mean"}},
       {"title:", "Title:", "scene.yaml:1: Title: ", {"Did you mean \"title\"?"}},
-      {"  crank: {angle",
-       "  krank: {angle",
-       "scene.yaml:32: start.krank: ",
-       {"Did you mean \"crank\"?"}},
+      {"  crank: {angle", "  krank: {angle", "scene.yaml:32: start.krank: ", {"Did you mean \"crank\"?"}},
   });
 }
 
-constexpr const char* normal_law =
-    "      normal: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}\n";
+constexpr const char* normal_law = "      normal: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}\n";
 
 TEST(BadScene, ModelsOfAClearanceAreThree) {
   expect_refused({
@@ -67,10 +52,7 @@ TEST(BadScene, ModelsOfAClearanceAreThree) {
        "bearing: slider\n      stiffness: 3 N",
        "scene.yaml:20: joints.pin.clearance.stiffness: ",
        {"\"3 N\" is a force [N]"}},
-      {"bearing: slider",
-       "bearing: slider\n      damping: -1",
-       "scene.yaml:20: joints.pin.clearance.damping: ",
-       {"negative"}},
+      {"bearing: slider", "bearing: slider\n      damping: -1", "scene.yaml:20: joints.pin.clearance.damping: ", {"negative"}},
   });
 }
 
@@ -83,10 +65,7 @@ TEST(BadScene, MissingKeyIsNamedWithAnExample) {
        "      model: spring-damper\n      stiffness: 1 kN/mm\n",
        "scene.yaml:16: joints.pin.clearance: ",
        {"normal: {lankarani-nikravesh:", "or both stiffness and damping"}},
-      {"restitution: 0.8, ",
-       "",
-       "scene.yaml:20: joints.pin.clearance.normal.lankarani-nikravesh: ",
-       {"restitution: 0.8"}},
+      {"restitution: 0.8, ", "", "scene.yaml:20: joints.pin.clearance.normal.lankarani-nikravesh: ", {"restitution: 0.8"}},
       {", young: 207 GPa", "", "scene.yaml:20: ", {"add young and poisson, or stiffness"}},
       {", free length: 50 mm", "", "scene.yaml:29: forces.coil: ", {"free length: 50 mm"}},
       {"{revolute: [ground, crank.O]}",
@@ -102,24 +81,15 @@ TEST(BadScene, WrongDimensionNamesBoth) {
        "radial: 2 kg",
        "scene.yaml:17: joints.pin.clearance.radial: ",
        {"\"2 kg\" is a mass [kg]; expected a length [m]"}},
-      {"[-25 mm, 0]",
-       "[-25 s, 0]",
-       "scene.yaml:9: bodies.crank.points.O[1]: ",
-       {"a time [s]; expected a length [m]"}},
-      {"law: speed*t",
-       "law: 5 mm",
-       "scene.yaml:25: drivers.motor.law: ",
-       {"a length [m]; expected an angle [rad]"}},
+      {"[-25 mm, 0]", "[-25 s, 0]", "scene.yaml:9: bodies.crank.points.O[1]: ", {"a time [s]; expected a length [m]"}},
+      {"law: speed*t", "law: 5 mm", "scene.yaml:25: drivers.motor.law: ", {"a length [m]; expected an angle [rad]"}},
       {"2*pi/3", "2*pi/3 s", "scene.yaml:10: bodies.crank.pose.angle: ", {"two ways"}},
   });
 }
 
 TEST(BadScene, ValuesOutOfRangeAreRefusedWithTheRule) {
   expect_refused({
-      {"0.30 kg",
-       "-0.30 kg",
-       "scene.yaml:8: bodies.crank.rigid.mass: ",
-       {"\"-0.30 kg\" must be greater than 0"}},
+      {"0.30 kg", "-0.30 kg", "scene.yaml:8: bodies.crank.rigid.mass: ", {"\"-0.30 kg\" must be greater than 0"}},
       {"1.0e-4}\n", "0}\n", "scene.yaml:8: bodies.crank.rigid.inertia: ", {"greater than 0"}},
       {"0.30 kg", ".nan", "scene.yaml:8: bodies.crank.rigid.mass: ", {"\".nan\""}},
       {"0.30 kg", "1e999 kg", "scene.yaml:8: bodies.crank.rigid.mass: ", {"too large"}},
@@ -127,10 +97,7 @@ TEST(BadScene, ValuesOutOfRangeAreRefusedWithTheRule) {
        "radial: 10 mm",
        "scene.yaml:17: joints.pin.clearance.radial: ",
        {"must be less than the bearing radius \"10 mm\""}},
-      {"radial: clearance",
-       "radial: 0",
-       "scene.yaml:17: joints.pin.clearance.radial: ",
-       {"greater than 0"}},
+      {"radial: clearance", "radial: 0", "scene.yaml:17: joints.pin.clearance.radial: ", {"greater than 0"}},
       {"restitution: 0.8", "restitution: 1.2", "scene.yaml:20: ", {"between 0 and 1"}},
       {"poisson: 0.3", "poisson: 0.7", "scene.yaml:20: ", {"between -1 and 0.5"}},
       {"v1: 10 mm/s", "v1: 1 mm/s", "scene.yaml:21: ", {"v0 must be less than v1"}},
@@ -145,28 +112,13 @@ TEST(BadScene, ValuesOutOfRangeAreRefusedWithTheRule) {
 
 TEST(BadScene, KeysThatDoNotBelongTogetherAreRefused) {
   expect_refused({
-      {"crank.O]}",
-       "crank.O], angle: 0}",
-       "scene.yaml:13: joints.main.angle: ",
-       {"does not belong to revolute but to prismatic or weld"}},
-      {"crank.O]}",
-       "crank.O], slot: [ground, crank]}",
-       "scene.yaml:13: joints.main: ",
-       {"revolute and slot at once"}},
-      {"on: crank}",
-       "on: crank, at: crank.A}",
-       "scene.yaml:28: forces.brake.at: ",
-       {"belong to torque but to force"}},
+      {"crank.O]}", "crank.O], angle: 0}", "scene.yaml:13: joints.main.angle: ", {"does not belong to revolute but to prismatic or weld"}},
+      {"crank.O]}", "crank.O], slot: [ground, crank]}", "scene.yaml:13: joints.main: ", {"revolute and slot at once"}},
+      {"on: crank}", "on: crank, at: crank.A}", "scene.yaml:28: forces.brake.at: ", {"belong to torque but to force"}},
       {"pin: {ecc", "guide: {ecc", "scene.yaml:33: start.guide: ", {"has no clearance"}},
       {"x: 1 mm}", "x: 1 mm, at: [0, 0]}", "scene.yaml:32: start.crank.x: ", {"said twice"}},
-      {"x: 1 mm}",
-       "eccentricity: [0, 0]}",
-       "scene.yaml:32: start.crank.eccentricity: ",
-       {"belongs to a joint"}},
-      {"bearing: slider",
-       "bearing: ground",
-       "scene.yaml:19: joints.pin.clearance.bearing: ",
-       {"write crank or slider"}},
+      {"x: 1 mm}", "eccentricity: [0, 0]}", "scene.yaml:32: start.crank.eccentricity: ", {"belongs to a joint"}},
+      {"bearing: slider", "bearing: ground", "scene.yaml:19: joints.pin.clearance.bearing: ", {"write crank or slider"}},
       {"poisson: 0.3}", "poisson: 0.3, stiffness: 1e9}", "scene.yaml:20: ", {"give either"}},
       {"lankarani-nikravesh", "hertz", "scene.yaml:20: ", {"leave restitution out"}},
   });
@@ -190,27 +142,15 @@ TEST(BadScene, ParametersAreJudged) {
   expect_refused({
       {"clearance: 0.01", "mm: 0.01", "scene.yaml:4: parameters.mm: ", {"is a unit"}},
       {"clearance: 0.01", "t: 0.01", "scene.yaml:4: parameters.t: ", {"is the time"}},
-      {"clearance: 0.01 mm",
-       "clearance: speed*1 s",
-       "scene.yaml:4: parameters.clearance: ",
-       {"write speed above clearance"}},
-      {"radial: clearance",
-       "radial: clarance",
-       "scene.yaml:17: joints.pin.clearance.radial: ",
-       {"Did you mean \"clearance\"?"}},
+      {"clearance: 0.01 mm", "clearance: speed*1 s", "scene.yaml:4: parameters.clearance: ", {"write speed above clearance"}},
+      {"radial: clearance", "radial: clarance", "scene.yaml:17: joints.pin.clearance.radial: ", {"Did you mean \"clearance\"?"}},
   });
 }
 
 TEST(BadScene, LawsMustBeFiniteThroughoutTheRun) {
   expect_refused({
-      {"law: speed*t",
-       "law: 1/(t - 0.025)",
-       "scene.yaml:25: drivers.motor.law: ",
-       {"not a finite number at t = 0.025 s"}},
-      {"law: speed*t",
-       "law: sqrt(t)",
-       "scene.yaml:25: drivers.motor.law: ",
-       {"no finite speed and acceleration at t = 0 s"}},
+      {"law: speed*t", "law: 1/(t - 0.025)", "scene.yaml:25: drivers.motor.law: ", {"not a finite number at t = 0.025 s"}},
+      {"law: speed*t", "law: sqrt(t)", "scene.yaml:25: drivers.motor.law: ", {"no finite speed and acceleration at t = 0 s"}},
   });
 }
 
@@ -276,8 +216,7 @@ TEST(BadFile, ThatIsNoSceneIsRefusedAtOnce) {
   expect_says(refusal_of_file(folder.write("notes.yaml", "# nothing\n---\n")), {"is empty"});
   expect_says(refusal_of_file(folder.path), {"is a directory"});
   expect_says(refusal_of_file(folder.path / "none.yaml"), {"none.yaml: there is no such file"});
-  expect_says(refusal_of_file(folder.write("bin.yaml", std::string("a: 1\nb\0c", 8))),
-              {"bin.yaml:2: is not text"});
+  expect_says(refusal_of_file(folder.write("bin.yaml", std::string("a: 1\nb\0c", 8))), {"bin.yaml:2: is not text"});
   expect_says(refusal_of_file(folder.write("latin.yaml", "title: caf\xe9\n")), {":1: is not text"});
   expect_says(refusal_of_file("/dev/zero"), {"not an ordinary file"});
   const fs::path big = folder.write("big.yaml", "title: big\n");
@@ -292,12 +231,10 @@ TEST(BadFile, TableIsJudgedAgainstTheRun) {
   const auto with_law = [&](const std::string& law) {
     return refusal_of_file(folder.write("s.yaml", with("law: speed*t", "law: " + law)));
   };
-  expect_says(with_law("{table: short.csv}"),
-              {"s.yaml:25: drivers.motor.law", "0.02 s", "0.05 s", "shorten run.until"});
+  expect_says(with_law("{table: short.csv}"), {"s.yaml:25: drivers.motor.law", "0.02 s", "0.05 s", "shorten run.until"});
   expect_says(with_law("{table: nan.csv}"), {"nan.csv:2: drivers.motor.law", "not finite"});
   expect_says(with_law("{table: none.csv}"), {"none.csv", "drivers.motor.law", "no such file"});
-  expect_says(with_law("{table: short.csv, interpolation: linear}"),
-              {"drivers.motor.law.interpolation", "write spline"});
+  expect_says(with_law("{table: short.csv, interpolation: linear}"), {"drivers.motor.law.interpolation", "write spline"});
   expect_says(with_law("{table: short.csv, time unit: mm}"), {"time unit", "a length [m]"});
 }
 

@@ -26,8 +26,7 @@ struct Chain {
   MatrixXd assembled(F matrix) const {
     MatrixXd sum = MatrixXd::Zero(dofs(), dofs());
     for (int i = 0; i < static_cast<int>(elements.size()); ++i)
-      sum.block(i * E::dofs_per_node, i * E::dofs_per_node, E::dofs, E::dofs) +=
-          matrix(elements[static_cast<std::size_t>(i)], coords(i));
+      sum.block(i * E::dofs_per_node, i * E::dofs_per_node, E::dofs, E::dofs) += matrix(elements[static_cast<std::size_t>(i)], coords(i));
     return sum;
   }
   MatrixXd K() const {
@@ -37,8 +36,7 @@ struct Chain {
     return assembled([](const E& e, const Coords<E>& c) -> MatrixXd { return mass(e, c); });
   }
   MatrixXd lumped() const {
-    return assembled(
-        [](const E& e, const Coords<E>& c) -> MatrixXd { return lumped_mass(e, c).asDiagonal(); });
+    return assembled([](const E& e, const Coords<E>& c) -> MatrixXd { return lumped_mass(e, c).asDiagonal(); });
   }
   /// K_g of a pull that varies along the chain, s from its first node.
   MatrixXd K_g(const std::function<double(double)>& pull) const {
@@ -54,15 +52,12 @@ struct Chain {
 template <class E>
 Chain<E> chain(const E& e, int n, double length, double angle = 0) {
   Chain<E> c{std::vector<E>(static_cast<std::size_t>(n), e), Eigen::Matrix2Xd(2, n + 1)};
-  for (int i = 0; i <= n; ++i)
-    c.x.col(i) = length * i / n * Vector2d(std::cos(angle), std::sin(angle));
+  for (int i = 0; i <= n; ++i) c.x.col(i) = length * i / n * Vector2d(std::cos(angle), std::sin(angle));
   return c;
 }
 
 using Freedom = std::vector<int>;
-inline MatrixXd kept(const MatrixXd& A, const Freedom& free) {
-  return A(free, free);
-}
+inline MatrixXd kept(const MatrixXd& A, const Freedom& free) { return A(free, free); }
 /// Which freedoms remain; `held` counts from the end when negative.
 inline Freedom all_but(int n, std::vector<int> held) {
   Freedom free;
@@ -80,8 +75,7 @@ inline Freedom bending(int n, std::vector<int> held) {
 }
 inline VectorXd frequencies(const MatrixXd& K, const MatrixXd& M) {
   // Of the inverse pencil, so that M may have zeros; largest first there is lowest first here.
-  const VectorXd inverse =
-      Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(M, K).eigenvalues().reverse();
+  const VectorXd inverse = Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(M, K).eigenvalues().reverse();
   return inverse.cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
 }
 

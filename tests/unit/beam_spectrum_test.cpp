@@ -18,9 +18,7 @@ constexpr double order = 0.1;
 constexpr double printed = 1e-5;
 
 /// The limit that values of second order on n and 2n elements tend to, to fourth order.
-double limit(double coarse, double fine) {
-  return fine + (fine - coarse) / 3;
-}
+double limit(double coarse, double fine) { return fine + (fine - coarse) / 3; }
 
 const BeamEuler euler{.EA = 3e6, .EI = 200, .rhoA = 0.8};
 const BeamTimoshenko timoshenko{.EA = 3e6, .EI = 200, .kGA = 1e4, .rhoA = 0.8, .rhoI = 0.01};
@@ -30,8 +28,7 @@ const BeamTimoshenko timoshenko{.EA = 3e6, .EI = 200, .kGA = 1e4, .rhoA = 0.8, .
 /// βL of the mode near `guess`: cos βL cosh βL = `sign` (−1 clamped–free, 1 free–free).
 double beta_root(double guess, double sign) {
   for (int i = 0; i < 20; ++i) {
-    const double c = std::cos(guess), s = std::sin(guess), C = std::cosh(guess),
-                 S = std::sinh(guess);
+    const double c = std::cos(guess), s = std::sin(guess), C = std::cosh(guess), S = std::sinh(guess);
     guess -= (c * C - sign) / (c * S - s * C);
   }
   return guess;
@@ -104,8 +101,8 @@ TEST(Beam, DeepBeamOfNafemsHasItsPublishedFrequencies) {
     ShearFactor factor;
     double f[3];
   };
-  for (const Case& k : {Case{ShearFactor::cowper, {42.6449, 148.149, 283.468}},
-                        Case{ShearFactor::five_sixths, {42.609, 147.786, 282.363}}}) {
+  for (const Case& k :
+       {Case{ShearFactor::cowper, {42.6449, 148.149, 283.468}}, Case{ShearFactor::five_sixths, {42.609, 147.786, 282.363}}}) {
     const VectorXd coarse = deep_beam_frequencies(deep_beam(k.factor), 40);
     const VectorXd fine = deep_beam_frequencies(deep_beam(k.factor), 80);
     for (int i = 0; i < 3; ++i) {
@@ -177,8 +174,7 @@ TEST(Beam, SpinningCantileverHasItsPublishedFlapwiseFrequencies) {
   struct Case {
     double eta, first, second;
   };
-  for (const Case& k :
-       {Case{2, 4.1373, 22.6149}, Case{6, 7.3604, 26.8091}, Case{10, 11.2023, 33.6404}}) {
+  for (const Case& k : {Case{2, 4.1373, 22.6149}, Case{6, 7.3604, 26.8091}, Case{10, 11.2023, 33.6404}}) {
     const auto pull = [&](double s) { return k.eta * k.eta * (1 - s * s) / 2; };
     const auto on = [&](int n) {  // the pull's parabola becomes n chords: second order
       const Chain<BeamEuler> c = chain(e, n, 1.0);

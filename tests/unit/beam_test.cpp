@@ -43,16 +43,12 @@ void expect_cantilever_closed_forms(const E& e, double shear_flexibility) {
       EXPECT_NEAR(u.tail<1>()[0], rotation, 100 * rounding * std::abs(rotation));
     };
     f.tail<3>() << 5 * n + 70 * t, 0;
-    expect_tip(70 * L / e.EA, 5 * (L * L * L / (3 * EI) + shear_flexibility * L),
-               5 * L * L / (2 * EI));
+    expect_tip(70 * L / e.EA, 5 * (L * L * L / (3 * EI) + shear_flexibility * L), 5 * L * L / (2 * EI));
     f.tail<3>() << 0, 0, 5;
     expect_tip(0, 5 * L * L / (2 * EI), 5 * L / EI);
     f.setZero();
-    for (int i = 0; i < elements; ++i)
-      f.segment<6>(3 * i) += line_load(e, c.coords(i), Vector2d(5 * n + 70 * t));
-    expect_tip(70 * L * L / (2 * e.EA),
-               5 * (std::pow(L, 4) / (8 * EI) + shear_flexibility * L * L / 2),
-               5 * L * L * L / (6 * EI));
+    for (int i = 0; i < elements; ++i) f.segment<6>(3 * i) += line_load(e, c.coords(i), Vector2d(5 * n + 70 * t));
+    expect_tip(70 * L * L / (2 * e.EA), 5 * (std::pow(L, 4) / (8 * EI) + shear_flexibility * L * L / 2), 5 * L * L * L / (6 * EI));
   }
 }
 TEST(Beam, CantileverTipsAreExactForForceMomentAndUniformLoad) {
@@ -63,8 +59,7 @@ TEST(Beam, CantileverTipsAreExactForForceMomentAndUniformLoad) {
 // One element, height 1e-4 of the length: an element that locks would be 1e7 times too stiff.
 TEST(Beam, SlenderTimoshenkoBeamDoesNotLock) {
   const double h = 1e-4, young = 2e11, b = 0.01, EI = young * b * h * h * h / 12;
-  const BeamTimoshenko e{young * b * h, EI, young / 3 * b * h, 7800 * b * h,
-                         7800 * b * h * h * h / 12};
+  const BeamTimoshenko e{young * b * h, EI, young / 3 * b * h, 7800 * b * h, 7800 * b * h * h * h / 12};
   for (int n : {1, 10}) {
     const Chain<BeamTimoshenko> c = chain(e, n, 1.0);
     VectorXd f = VectorXd::Zero(c.dofs());
@@ -80,9 +75,7 @@ TEST(Beam, RigidInShearTimoshenkoIsEulerWithRotaryInertia) {
   const Coords<BeamEuler> x = chain(a, 1, 1.7, 0.4).x;
   Stress<BeamEuler> f = Stress<BeamEuler>::Zero();
   f << 30, 40, 5, 6, 7, 8;
-  const auto same = [](const auto& p, const auto& q) {
-    EXPECT_LT((p - q).cwiseAbs().maxCoeff(), rounding * p.cwiseAbs().maxCoeff());
-  };
+  const auto same = [](const auto& p, const auto& q) { EXPECT_LT((p - q).cwiseAbs().maxCoeff(), rounding * p.cwiseAbs().maxCoeff()); };
   same(stiffness(a, x), stiffness(b, x));
   same(mass(a, x), mass(b, x));
   same(skew_mass(a, x), skew_mass(b, x));
@@ -99,17 +92,15 @@ TEST(Beam, SectionForcesOfACantileverAreThoseOfStatics) {
   f.tail<3>() << 5 * n + 70 * t, 0;
   const VectorXd u = cantilever(c, f);
   for (int i = 0; i < 4; ++i) {
-    const Stress<BeamTimoshenko> s =
-        stress(timoshenko, c.coords(i), Freedoms<BeamTimoshenko>(u.segment<6>(3 * i)));
+    const Stress<BeamTimoshenko> s = stress(timoshenko, c.coords(i), Freedoms<BeamTimoshenko>(u.segment<6>(3 * i)));
     for (int end : {0, 1}) {
       EXPECT_NEAR(s(0, end), 70, 70 * 1e-10);  // the axis is 1e3 times stiffer than the bending
       EXPECT_NEAR(s(1, end), 5, 5 * 1e-10);
       EXPECT_NEAR(s(2, end), 5 * (L - L * (i + end) / 4), 5 * L * 1e-10);
     }
     const double xi = 0.5, step = 0.01;
-    const double turning = (rotation(timoshenko, c.coords(i), xi + step) -
-                            rotation(timoshenko, c.coords(i), xi - step))
-                               .dot(u.segment<6>(3 * i));
+    const double turning =
+        (rotation(timoshenko, c.coords(i), xi + step) - rotation(timoshenko, c.coords(i), xi - step)).dot(u.segment<6>(3 * i));
     EXPECT_GT(turning, 0);  // strain −y θ′ at y = −½h is a pull
   }
 }
@@ -119,8 +110,7 @@ TEST(Beam, LineLoadIsTheLoadsWorkOnTheShapes) {
   const Vector2d q(3, -2);
   Freedoms<BeamTimoshenko> sum = Freedoms<BeamTimoshenko>::Zero();
   const int n = 1000;  // middle points: 1/24 n² of the change of slope, here below 1e-6
-  for (int i = 0; i < n; ++i)
-    sum += shape(timoshenko, x, Vector2d((i + 0.5) / n, 0)).transpose() * q * 1.7 / n;
+  for (int i = 0; i < n; ++i) sum += shape(timoshenko, x, Vector2d((i + 0.5) / n, 0)).transpose() * q * 1.7 / n;
   EXPECT_LT((sum - line_load(timoshenko, x, q)).cwiseAbs().maxCoeff(), 1e-6);
 }
 
@@ -130,16 +120,13 @@ TEST(Beam, LineLoadIsTheLoadsWorkOnTheShapes) {
 TEST(Beam, TaperedCantileverConvergesToTheIntegralOfItsFlexibility) {
   const double L = 2, h0 = 0.2, h1 = 0.1, b = 0.05, young = 7e10, F = 100;
   const double d = (h0 - h1) / L;  // ∫ (L − s)²/h³ ds with L − s = (h − h₁)/d
-  const double integral = (std::log(h0 / h1) + 2 * h1 * (1 / h0 - 1 / h1) -
-                           h1 * h1 / 2 * (1 / (h0 * h0) - 1 / (h1 * h1))) /
-                          (d * d * d);
+  const double integral = (std::log(h0 / h1) + 2 * h1 * (1 / h0 - 1 / h1) - h1 * h1 / 2 * (1 / (h0 * h0) - 1 / (h1 * h1))) / (d * d * d);
   const double across = F * 12 / (young * b) * integral;
   const double along = F / (young * b) * std::log(h0 / h1) / d;
   const auto errors = [&](int n) {
     Chain<BeamEuler> c = chain(BeamEuler{}, n, L);
     for (int i = 0; i < n; ++i) {
-      const SectionShape cut =
-          between(RectangleSection{h0, b}, RectangleSection{h1, b}, (i + 0.5) / n);
+      const SectionShape cut = between(RectangleSection{h0, b}, RectangleSection{h1, b}, (i + 0.5) / n);
       const Section s = section(cut, ShearFactor::five_sixths, 0.3);
       c.elements[static_cast<std::size_t>(i)] = {young * s.A, young * s.I, 2700 * s.A, 0};
     }

@@ -70,24 +70,28 @@ bodies:
     plate: {link: {eye bar: {length: 100 mm, width: 12 mm, eyes: [{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]}},
             thickness: 5 mm, young: 200 GPa, poisson: 0.3, density: 7800 kg/m^3, element: triangle3, size: 10 mm, hole size: 5 mm}
     points: {A: {hole: eye 1, coupling: rigid}, B: {hole: eye 2, coupling: rigid}, M: [50 mm, 6 mm]}
-    modes: {frame: {chord: [A, B]}, craig-bampton: {count: 2}})" + rest;
+    modes: {frame: {chord: [A, B]}, craig-bampton: {count: 2}})" +
+                     rest;
 const string grid = R"(
 bodies:
   rod:
     plate: {grid: {corners: [[0, 0], [100 mm, 0], [100 mm, 10 mm], [0, 10 mm]], cells: [10, 2]},
             thickness: 5 mm, young: 200 GPa, poisson: 0.3, density: 7800 kg/m^3}
     points: {A: [0, 0], B: [100 mm, 0], M: [50 mm, 0]}
-    modes: {frame: {chord: [A, B]}, free: {count: 2}})" + rest;
+    modes: {frame: {chord: [A, B]}, free: {count: 2}})" +
+                    rest;
 const string beam = R"(
 bodies:
   rod:
     beam: {from: A, to: B, section: {rectangle: [10 mm, 5 mm]}, young: 200 GPa, poisson: 0.3, density: 7800 kg/m^3, elements: 8}
     points: {A: [0, 0], M: [50 mm, 0], B: [100 mm, 0]}
-    modes: {frame: {chord: [A, B]}, craig-bampton: {count: 2}})" + rest;
+    modes: {frame: {chord: [A, B]}, craig-bampton: {count: 2}})" +
+                    rest;
 /// The grid of another material, the plate of another shape.
 string ply(const string& constants) {
   return "{grid: {corners: [[0, 0], [100 mm, 0], [100 mm, 10 mm], [0, 10 mm]], cells: [10, 2]}, thickness: 5 mm, density: 1600 kg/m^3, "
-         "orthotropic: " + constants + "}";
+         "orthotropic: " +
+         constants + "}";
 }
 string link(const string& shape) {
   return "{link: {" + shape + "}, thickness: 5 mm, young: 200 GPa, poisson: 0.3, density: 7800 kg/m^3, element: triangle3, size: 10 mm}";
@@ -174,21 +178,36 @@ TEST(BodyStore, EachKeyOfAPlateMakesItsOwnBody) {
 
 TEST(BodyStore, EachKeyOfABeamMakesItsOwnBody) {
   auto changes = modes;
-  for (const auto& change : std::vector<std::pair<string, string>>{
-           {"beam.section", "{rectangle: [11 mm, 5 mm]}"}, {"beam.section", "{rectangle: [10 mm, 6 mm]}"}, {"beam.section", "{circle: 10 mm}"},
-           {"beam.section", "{tube: [10 mm, 6 mm]}"}, {"beam.section", "{i: {height: 10 mm, width: 8 mm, web: 1 mm, flange: 2 mm}}"},
-           {"beam.taper to", "{rectangle: [8 mm, 5 mm]}"}, {"beam.theory", "euler"}, {"beam.shear factor", "5/6"}, {"beam.rotary inertia", "false"},
-           {"beam.young", "201 GPa"}, {"beam.poisson", "0.31"}, {"beam.density", "7801 kg/m^3"}, {"beam.mass", "0.1 kg"}, {"beam.elements", "9"},
-           {"points.M", "[40 mm, 0]"}, {"lumps", "{M: {mass: 0.1 kg}}"}, {"lumps", "{M: {mass: 0.1 kg, inertia: 1e-5 kg m^2}}"},
-           {"lumps", "{B: {mass: 0.1 kg}}"}})
+  for (const auto& change :
+       std::vector<std::pair<string, string>>{{"beam.section", "{rectangle: [11 mm, 5 mm]}"},
+                                              {"beam.section", "{rectangle: [10 mm, 6 mm]}"},
+                                              {"beam.section", "{circle: 10 mm}"},
+                                              {"beam.section", "{tube: [10 mm, 6 mm]}"},
+                                              {"beam.section", "{i: {height: 10 mm, width: 8 mm, web: 1 mm, flange: 2 mm}}"},
+                                              {"beam.taper to", "{rectangle: [8 mm, 5 mm]}"},
+                                              {"beam.theory", "euler"},
+                                              {"beam.shear factor", "5/6"},
+                                              {"beam.rotary inertia", "false"},
+                                              {"beam.young", "201 GPa"},
+                                              {"beam.poisson", "0.31"},
+                                              {"beam.density", "7801 kg/m^3"},
+                                              {"beam.mass", "0.1 kg"},
+                                              {"beam.elements", "9"},
+                                              {"points.M", "[40 mm, 0]"},
+                                              {"lumps", "{M: {mass: 0.1 kg}}"},
+                                              {"lumps", "{M: {mass: 0.1 kg, inertia: 1e-5 kg m^2}}"},
+                                              {"lumps", "{B: {mass: 0.1 kg}}"}})
     changes.push_back(change);
   expect_the_same(beam, changes);
 }
 
 TEST(BodyStore, WhatIsNoPartOfABodyMakesNoOther) {
   BodyStore store;
-  for (const auto& [key, value] : Overrides{{"title", "other"}, {"bodies.rod.pose", "{at: [1 mm, 0]}"}, {"bodies.rod.damping", "{ratios: 0.03}"},
-                                            {"run.until", "20 ms"}, {"gravity", "[0, -9.81]"}}) {
+  for (const auto& [key, value] : Overrides{{"title", "other"},
+                                            {"bodies.rod.pose", "{at: [1 mm, 0]}"},
+                                            {"bodies.rod.damping", "{ratios: 0.03}"},
+                                            {"run.until", "20 ms"},
+                                            {"gravity", "[0, -9.81]"}}) {
     const Scene scene = read_scene_text(beam, "scene.yaml", {{key, value}});
     EXPECT_TRUE(bits(build(scene, store)) == bits(build(scene))) << key;
   }
@@ -209,7 +228,8 @@ TEST(BodyStore, ModesThatTheMotionChoosesAreThoseOfEachScene) {
 /// A folder of its own with a drawing of a trapezium, gone at the end.
 class Drawn {
  public:
-  Drawn() : path_(fs::temp_directory_path() / ("pintle-store-" + std::to_string(std::chrono::steady_clock::now().time_since_epoch().count()))) {
+  Drawn()
+      : path_(fs::temp_directory_path() / ("pintle-store-" + std::to_string(std::chrono::steady_clock::now().time_since_epoch().count()))) {
     fs::create_directories(path_);
   }
   ~Drawn() { fs::remove_all(path_); }
@@ -268,7 +288,9 @@ TEST(BodyStore, CasesThatShareBodiesInFourThreadsEndAsCasesAlone) {
   std::vector<Measure> measures(1);
   measures[0].name = "x", measures[0].words = "greatest x of rod.B";
   std::vector<Outcome> alone(6), shared(6);
-  const auto set = [](std::size_t k) { return Overrides{{"gravity", "[0, -" + std::to_string(k + 5) + "]"}, {"run.until", k == 3 ? "-1" : "1 ms"}}; };
+  const auto set = [](std::size_t k) {
+    return Overrides{{"gravity", "[0, -" + std::to_string(k + 5) + "]"}, {"run.until", k == 3 ? "-1" : "1 ms"}};
+  };
   for (std::size_t k = 0; k < alone.size(); ++k) alone[k] = run_case(source, set(k), measures);
   BodyStore store;
   CaseLimits limits;

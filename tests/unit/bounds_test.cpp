@@ -35,13 +35,17 @@ struct Bounds : testing::Test {
   }
 
   void plate(const string& file) const {
-    write("s/plate.yaml", "bodies: {arm: {plate: {file: " + file + ", thickness: 5 mm, young: 207 GPa, poisson: 0.3, density: 7850},\n"
-                          "  points: {O: [0, 0]}}}\njoints: {j: {revolute: [ground, arm.O]}}\nrun: {until: 1e-6}\n");
+    write("s/plate.yaml", "bodies: {arm: {plate: {file: " + file +
+                              ", thickness: 5 mm, young: 207 GPa, poisson: 0.3, density: 7850},\n"
+                              "  points: {O: [0, 0]}}}\njoints: {j: {revolute: [ground, arm.O]}}\nrun: {until: 1e-6}\n");
   }
   void pendulum(const string& table) const {
-    write("s/rod.yaml", "gravity: [0, -9.81]\nbodies: {rod: {rigid: {mass: 1 kg, inertia: 1}, points: {O: [-1, 0]}, pose: {at: [1, 0]}}}\n"
-                        "joints: {pin: {revolute: [ground, rod.O]}}\nforces: {push: {torque: {table: " + table + "}, on: rod}}\n"
-                        "run: {until: 0.1 s}\noutput: {every: 10 ms, states: 0.05 s}\n");
+    write("s/rod.yaml",
+          "gravity: [0, -9.81]\nbodies: {rod: {rigid: {mass: 1 kg, inertia: 1}, points: {O: [-1, 0]}, pose: {at: [1, 0]}}}\n"
+          "joints: {pin: {revolute: [ground, rod.O]}}\nforces: {push: {torque: {table: " +
+              table +
+              "}, on: rod}}\n"
+              "run: {until: 0.1 s}\noutput: {every: 10 ms, states: 0.05 s}\n");
   }
   /// What the program prints, and its exit code behind it.
   string pintle(const string& arguments) const {
@@ -95,8 +99,9 @@ TEST_F(Bounds, ASweepRefusesTheCaseAndGoesOn) {
   write("s/b.geo", square);
   write("s/endless.geo", "For i In {1:1e9}\nx = i;\nEndFor\n" + square);
   plate("b.geo");
-  write("s/study.yaml", "scene: plate.yaml\nmeasure: {a: final angle of arm}\nset: {gravity: [0, 0]}\n"
-                        "sweep: {grid: {bodies.arm.plate.file: [b.geo, a.geo, ../c.geo, endless.geo]}}\n");
+  write("s/study.yaml",
+        "scene: plate.yaml\nmeasure: {a: final angle of arm}\nset: {gravity: [0, 0]}\n"
+        "sweep: {grid: {bodies.arm.plate.file: [b.geo, a.geo, ../c.geo, endless.geo]}}\n");
   says(pintle("sweep study.yaml -q -o out --threads 2 --mesh-time 1s"), "exit 0");
   EXPECT_FALSE(ran());
   const string table = sweep_table("out");
@@ -134,10 +139,13 @@ TEST_F(Bounds, CtrlCEndsAMeshAtOnce) {
   write("s/endless.geo", "For i In {1:1e9}\nx = i;\nEndFor\n" + square);
   plate("b.geo");
   write("s/b.geo", square);
-  write("s/study.yaml", "scene: plate.yaml\nmeasure: {a: final angle of arm}\nset: {gravity: [0, 0]}\n"
-                        "sweep: {list: [{bodies.arm.plate.file: b.geo}, {bodies.arm.plate.file: endless.geo}]}\n");
+  write("s/study.yaml",
+        "scene: plate.yaml\nmeasure: {a: final angle of arm}\nset: {gravity: [0, 0]}\n"
+        "sweep: {list: [{bodies.arm.plate.file: b.geo}, {bodies.arm.plate.file: endless.geo}]}\n");
   const auto begin = std::chrono::steady_clock::now();
-  const string said = pintle("sweep study.yaml -q -o out --threads 1 & p=$!; until grep -q finished out/journal-0.txt 2>/dev/null; do sleep 0.1; done; sleep 0.5; kill -INT $p; wait $p; echo ended $? #");
+  const string said = pintle(
+      "sweep study.yaml -q -o out --threads 1 & p=$!; until grep -q finished out/journal-0.txt 2>/dev/null; do sleep 0.1; done; sleep 0.5; "
+      "kill -INT $p; wait $p; echo ended $? #");
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
   says(said, "ended 6");
   std::ifstream in(folder / "s/out/journal-0.txt");

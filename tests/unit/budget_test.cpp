@@ -138,8 +138,7 @@ TEST(Budget, RigidMechanismHasNothingFlexible) {
   EXPECT_EQ(system.n(), 9);
   EXPECT_EQ(system.n(), system.n_rigid());
   for (const Body& b : system.bodies) EXPECT_FALSE(b.flex);
-  for (const Marker& m : system.markers)
-    EXPECT_EQ(m.shape.size() + m.slope.size() + m.second[0].size() + m.second[1].size(), 0);
+  for (const Marker& m : system.markers) EXPECT_EQ(m.shape.size() + m.slope.size() + m.second[0].size() + m.second[1].size(), 0);
   const Equations eq(system);
   EXPECT_TRUE(eq.flexible.empty());
   for (const auto& B : eq.B_eta) EXPECT_EQ(B.size(), 0);
@@ -179,7 +178,7 @@ const Setting settings[] = {
 struct Method {
   const char *name, *constraints;
 };
-const Method schemes[] = {{"rkf45", "projection"},   {"rkf45", "partitioning"},           {"dopri5", "projection"},
+const Method schemes[] = {{"rkf45", "projection"},    {"rkf45", "partitioning"},  {"dopri5", "projection"},
                           {"dopri5", "partitioning"}, {"verner87", "projection"}, {"generalized-alpha", "projection"}};
 
 // Only two things may allocate after the first steps: the list of impacts as it doubles, and
@@ -249,11 +248,9 @@ TEST(Budget, AStepTakesSixEvaluations) {
     const Counts before = run.counts();
     for (int i = 0; i < 500; ++i) ASSERT_TRUE(run.advance(10));
     const Counts after = run.counts();
-    EXPECT_EQ(after.evaluations - before.evaluations,
-              6 * (after.steps + after.rejected - before.steps - before.rejected));
+    EXPECT_EQ(after.evaluations - before.evaluations, 6 * (after.steps + after.rejected - before.steps - before.rejected));
     // A factorization an evaluation, and up to three more where the end is projected.
-    EXPECT_LE(after.factorizations - before.factorizations,
-              1.5 * static_cast<double>(after.evaluations - before.evaluations));
+    EXPECT_LE(after.factorizations - before.factorizations, 1.5 * static_cast<double>(after.evaluations - before.evaluations));
   }
 }
 

@@ -40,9 +40,15 @@ struct Command {
   const char* input;
   Words more;
 };
-const Command commands[]{{"kinematics", "scene.yaml", {}}, {"inverse", "scene.yaml", {}}, {"statics", "scene.yaml", {}}, {"linearize", "scene.yaml", {}},
-                         {"modes", "plate.yaml", {"--count", "1", "--frames", "2"}}, {"static", "plate.yaml", {}}, {"mesh", "plate.yaml", {}},
-                         {"tradeoff", "scene.yaml", {"--quantity", "work of motor", "--budget", "50 ms", "--repeats", "1"}}, {"sweep", "study.yaml", {"--threads", "2"}}};
+const Command commands[]{{"kinematics", "scene.yaml", {}},
+                         {"inverse", "scene.yaml", {}},
+                         {"statics", "scene.yaml", {}},
+                         {"linearize", "scene.yaml", {}},
+                         {"modes", "plate.yaml", {"--count", "1", "--frames", "2"}},
+                         {"static", "plate.yaml", {}},
+                         {"mesh", "plate.yaml", {}},
+                         {"tradeoff", "scene.yaml", {"--quantity", "work of motor", "--budget", "50 ms", "--repeats", "1"}},
+                         {"sweep", "study.yaml", {"--threads", "2"}}};
 
 class Commands : public testing::TestWithParam<Command> {
  protected:
@@ -61,8 +67,8 @@ class Commands : public testing::TestWithParam<Command> {
   Ended run_program(const std::string& fault) {
     fs::remove_all(results());
     fs::create_directory(results());
-    Words environment{"LD_PRELOAD=" PINTLE_FAULTS, "PINTLE_FAULT_UNDER=" + results().string(), "PINTLE_FAULT_LOG=" + (folder_.path() / "counts").string(),
-                      "OPENBLAS_NUM_THREADS=1"};
+    Words environment{"LD_PRELOAD=" PINTLE_FAULTS, "PINTLE_FAULT_UNDER=" + results().string(),
+                      "PINTLE_FAULT_LOG=" + (folder_.path() / "counts").string(), "OPENBLAS_NUM_THREADS=1"};
     if (!fault.empty()) environment.push_back("PINTLE_FAULT=" + fault);
     return run(folder_.path() / "log", command(), environment);
   }
@@ -110,7 +116,8 @@ class Commands : public testing::TestWithParam<Command> {
       EXPECT_EQ(contents(out() / "sweep.csv"), table_);
       return;
     }
-    if (fs::exists(out()) && end.complained.find("out of memory: after t =") != std::string::npos) {  // an end that is written like any other
+    if (fs::exists(out()) &&
+        end.complained.find("out of memory: after t =") != std::string::npos) {  // an end that is written like any other
       EXPECT_NE(contents(out() / (GetParam().verb + std::string(".json"))).find("out of memory"), std::string::npos);
     } else if (fs::exists(out())) {
       EXPECT_TRUE(std::ranges::includes(names(out()), names_)) << "not whole";
@@ -123,7 +130,8 @@ class Commands : public testing::TestWithParam<Command> {
   void try_fault(const std::string& call, long k, const std::string& what, bool must_fail = false) {
     const std::string fault = call + ":" + std::to_string(k) + ":" + what;
     const Ended end = run_program(fault);
-    SCOPED_TRACE(fault + ": exit code " + std::to_string(end.code) + ", signal " + std::to_string(end.signal) + ", said: " + end.complained);
+    SCOPED_TRACE(fault + ": exit code " + std::to_string(end.code) + ", signal " + std::to_string(end.signal) +
+                 ", said: " + end.complained);
     expect_nothing_lost(end, must_fail);
   }
 
@@ -183,13 +191,15 @@ TEST_P(Commands, StoppedBySignalEndWithSixAndAWord) {
   const std::pair<int, const char*> signals[]{{SIGINT, "Ctrl-C"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}};
   // Much longer than any test waits.
   const std::string verb = GetParam().verb;
-  Words longer{"--set", "run.until=4000 s", "--set", "run.max steps=2000000000", "--set", "output.every=1 ms", "--set", "output.frames=null"};
+  Words longer{"--set", "run.until=4000 s",  "--set", "run.max steps=2000000000",
+               "--set", "output.every=1 ms", "--set", "output.frames=null"};
   if (GetParam().input == std::string("plate.yaml")) longer = {"--set", "n=200"};
   Words all = command();
   if (verb == "tradeoff") all[static_cast<std::size_t>(std::ranges::find(all, "--budget") - all.begin()) + 1] = "1 h";
   if (verb == "statics" || verb == "linearize") {  // of a body whose shapes take long
     std::string text = plate;
-    text.replace(text.find("    supports"), text.find("static:") - text.find("    supports"), "    points: {O: [0, 0]}\n    modes: {frame: {tangent: O}, count: 4}\n");
+    text.replace(text.find("    supports"), text.find("static:") - text.find("    supports"),
+                 "    points: {O: [0, 0]}\n    modes: {frame: {tangent: O}, count: 4}\n");
     text.resize(text.find("static:"));
     folder_.write("scene.yaml", text + "joints: {pin: {revolute: [ground, plate.O]}}\n");
     longer = {"--set", "n=200"};

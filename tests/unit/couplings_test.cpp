@@ -31,9 +31,7 @@ constexpr double rounding = 1e-12;
 const BeamEuler beam{2e8, 1500, 8, 1e-3};
 const Bar bar{1e8, 4};
 
-double largest(const MatrixXd& A) {
-  return A.cwiseAbs().maxCoeff();
-}
+double largest(const MatrixXd& A) { return A.cwiseAbs().maxCoeff(); }
 
 /// A ring about (0.4, −0.2) whose hole has a port in its middle.
 struct Ring {
@@ -41,8 +39,7 @@ struct Ring {
   RimPort rim;
   FeModel model;
 };
-Ring ported_ring(Coupling coupling, CellShape shape = CellShape::quadrilateral8,
-                 const Vector2d& off = Vector2d::Zero()) {
+Ring ported_ring(Coupling coupling, CellShape shape = CellShape::quadrilateral8, const Vector2d& off = Vector2d::Zero()) {
   const Vector2d center(0.4, -0.2);
   Plate p = pintle::plate(10, 2, shape, ring(0.1, 0.3, 0.3, 2 * M_PI, center), true);
   Group group{"hole", p.nodes["bottom"], p.edge["bottom"]};
@@ -55,9 +52,7 @@ Ring ported_ring(Coupling coupling, CellShape shape = CellShape::quadrilateral8,
 
 class Couplings : public testing::TestWithParam<Coupling> {};
 INSTANTIATE_TEST_SUITE_P(Both, Couplings, testing::Values(Coupling::rigid, Coupling::average),
-                         [](const auto& at) {
-                           return at.param == Coupling::rigid ? "rigid" : "average";
-                         });
+                         [](const auto& at) { return at.param == Coupling::rigid ? "rigid" : "average"; });
 
 TEST_P(Couplings, RigidMotionOfTheBodyStaysRigidAndFree) {
   for (const Vector2d& off : {Vector2d(0, 0), Vector2d(0.03, -0.02)}) {
@@ -86,8 +81,7 @@ TEST_P(Couplings, TheCoupledMatrixIsLtALAndKeepsOnePattern) {
     const MatrixXd written = L.transpose() * MatrixXd(A) * L;
     EXPECT_LT(largest(MatrixXd(ours) - written), rounding * largest(written));
     ASSERT_EQ(ours.nonZeros(), K.nonZeros());
-    EXPECT_TRUE(
-        std::equal(K.innerIndexPtr(), K.innerIndexPtr() + K.nonZeros(), ours.innerIndexPtr()));
+    EXPECT_TRUE(std::equal(K.innerIndexPtr(), K.innerIndexPtr() + K.nonZeros(), ours.innerIndexPtr()));
   }
 }
 
@@ -122,8 +116,7 @@ TEST(RigidCoupling, TheRimMovesAsARingAboutItsPort) {
   const int* f = r.model.port("eye")->freedom;
   for (const int node : r.rim.nodes) {
     const Vector2d arm = r.model.x.col(node) - r.rim.x;
-    const Vector2d expected =
-        Vector2d(free[f[0]], free[f[1]]) + free[f[2]] * Vector2d(-arm.y(), arm.x());
+    const Vector2d expected = Vector2d(free[f[0]], free[f[1]]) + free[f[2]] * Vector2d(-arm.y(), arm.x());
     EXPECT_LT((u.segment<2>(2 * node) - expected).norm(), rounding);
   }
 }
@@ -162,8 +155,7 @@ TEST(AverageCoupling, ThePortMovesAsTheRimDoesInWeightedLeastSquares) {
 }
 
 TEST(AverageCoupling, TwoNodesAreRimEnough) {
-  FeModel m =
-      model_of(plate(1, 1, CellShape::quadrilateral4, rectangle(1, 1)), steel(PlaneState::stress));
+  FeModel m = model_of(plate(1, 1, CellShape::quadrilateral4, rectangle(1, 1)), steel(PlaneState::stress));
   add_ports(m, {}, {{"pair", {0.5, 0}, {0, 1}, {1, 1}, Coupling::average}});
   const VectorXd free = random_vector(m.n(), 17), u = nodal(m, free);
   const int* f = m.port("pair")->freedom;
@@ -183,8 +175,7 @@ TEST(Ports, WrongRimsAndNamesAreRefused) {
   const Vector2d o(0, 0);
   const RimPort a{"A", o, {0, 1, 2}, {1, 1, 1}, Coupling::rigid};
   RimPort b{"B", o, {2, 3}, {1, 1}, Coupling::average};
-  EXPECT_TRUE(
-      says(words({}, {a, b}), "\"B\" at (0, 0): its rim shares node 2 with that of port \"A\""));
+  EXPECT_TRUE(says(words({}, {a, b}), "\"B\" at (0, 0): its rim shares node 2 with that of port \"A\""));
   b.nodes = {3};
   b.weights = {1};
   EXPECT_TRUE(says(words({}, {b}), "at least two"));
@@ -207,10 +198,7 @@ TEST(Ports, ARimWhoseNodesCoincideIsRefused) {
   Matrix2Xd x(2, 3);
   x << 0, 1, 1, 0, 0, 0;
   FeModel m = fe_model(x, {Block<Bar>{{bar}, {0, 1, 0, 2}, {0, 1}}});
-  EXPECT_TRUE(says(refusal([&] {
-                     add_ports(m, {}, {{"A", {1, 0}, {1, 2}, {1, 1}, Coupling::rigid}});
-                   }),
-                   "coincide"));
+  EXPECT_TRUE(says(refusal([&] { add_ports(m, {}, {{"A", {1, 0}, {1, 2}, {1, 1}, Coupling::rigid}}); }), "coincide"));
 }
 
 TEST(Ports, AddingThemTwiceIsRefused) {
@@ -233,18 +221,15 @@ TEST(PlaneBlocks, CellsBecomeTheElementOfTheirShapeOrTheOneNamed) {
   Mesh mesh = plate(3, 2, CellShape::quadrilateral4, rectangle(1, 1)).mesh;
   const PlaneProperties p = steel(PlaneState::stress);
   EXPECT_TRUE(std::holds_alternative<Block<Quadrilateral4>>(plane_blocks(mesh, p, "")[0]));
-  EXPECT_TRUE(std::holds_alternative<Block<Quadrilateral4Plain>>(
-      plane_blocks(mesh, p, "quadrilateral4-plain")[0]));
-  EXPECT_TRUE(says(refusal([&] { plane_blocks(mesh, p, "triangle6"); }),
-                   "the mesh has quadrilateral4 cells"));
+  EXPECT_TRUE(std::holds_alternative<Block<Quadrilateral4Plain>>(plane_blocks(mesh, p, "quadrilateral4-plain")[0]));
+  EXPECT_TRUE(says(refusal([&] { plane_blocks(mesh, p, "triangle6"); }), "the mesh has quadrilateral4 cells"));
   EXPECT_TRUE(says(refusal([&] { plane_blocks(mesh, p, "quad4"); }), "known are triangle3"));
   // A quadrilateral cut in two stands among the others, under their name too, and counts on.
   Cells& cells = mesh.cells[0];
   const std::vector<int> last(cells.nodes.end() - 4, cells.nodes.end());
   cells.nodes.resize(cells.nodes.size() - 4);
   cells.numbers.pop_back();
-  mesh.cells.push_back(
-      {CellShape::triangle3, {last[0], last[1], last[2], last[0], last[2], last[3]}, {6, 7}});
+  mesh.cells.push_back({CellShape::triangle3, {last[0], last[1], last[2], last[0], last[2], last[3]}, {6, 7}});
   for (const char* name : {"", "quadrilateral4-plain"}) {
     const std::vector<AnyBlock> blocks = plane_blocks(mesh, p, name);
     ASSERT_EQ(blocks.size(), 2u);
@@ -270,8 +255,8 @@ TEST(PlaneBlocks, NegativeDensityAndThicknessAreRefused) {
 TEST(PlaneBlocks, EveryNamedElementMakesABlock) {
   for (const std::string& name : element_names()) {
     const std::string shape = name.substr(0, name.find('-'));
-    for (const CellShape s : {CellShape::triangle3, CellShape::triangle6, CellShape::quadrilateral4,
-                              CellShape::quadrilateral8, CellShape::quadrilateral9})
+    for (const CellShape s :
+         {CellShape::triangle3, CellShape::triangle6, CellShape::quadrilateral4, CellShape::quadrilateral8, CellShape::quadrilateral9})
       if (shape == name_of(s)) {
         const Mesh mesh = plate(1, 1, s, rectangle(1, 1)).mesh;
         EXPECT_EQ(plane_blocks(mesh, steel(PlaneState::stress), name).size(), 1u) << name;
@@ -306,10 +291,7 @@ TEST(RimWeights, AreLengthsOfTheRimThatBelongToEachNode) {
 TEST(RimWeights, ABareSetOfNodesIsNoRim) {
   const Plate p = plate(1, 1, CellShape::quadrilateral4, rectangle(1, 1));
   EXPECT_TRUE(says(refusal([&] { rim_weights(p.mesh, {"set", {0, 1}, {}}); }), "no sides"));
-  EXPECT_TRUE(says(refusal([&] {
-                     rim_weights(p.mesh, {"edge", {0, 1, 3}, p.edge.at("bottom")});
-                   }),
-                   "node 3"));
+  EXPECT_TRUE(says(refusal([&] { rim_weights(p.mesh, {"edge", {0, 1, 3}, p.edge.at("bottom")}); }), "node 3"));
 }
 
 }  // namespace

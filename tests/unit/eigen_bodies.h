@@ -42,8 +42,7 @@ inline Pencil chain(int n, bool walls) {
 }
 inline VectorXd chain_lambda(int n, bool walls) {
   return VectorXd::NullaryExpr(n, [&](Index i) {
-    const double s = walls ? std::sin(pi * static_cast<double>(i + 1) / (2 * (n + 1)))
-                           : std::sin(pi * static_cast<double>(i) / (2 * n));
+    const double s = walls ? std::sin(pi * static_cast<double>(i + 1) / (2 * (n + 1))) : std::sin(pi * static_cast<double>(i) / (2 * n));
     return 4 * s * s;
   });
 }
@@ -56,9 +55,7 @@ inline Pencil membrane(int c) {
     for (int j = 0; j < c; ++j) {
       k.emplace_back(id(i, j), id(i, j), 4);
       m.emplace_back(id(i, j), id(i, j), 1);
-      const auto couple = [&](int other) {
-        k.emplace_back(id(i, j), other, -1), k.emplace_back(other, id(i, j), -1);
-      };
+      const auto couple = [&](int other) { k.emplace_back(id(i, j), other, -1), k.emplace_back(other, id(i, j), -1); };
       if (i + 1 < c) couple(id(i + 1, j));
       if (j + 1 < c) couple(id(i, j + 1));
     }
@@ -86,17 +83,15 @@ Pencil membrane_stress(int nx, int ny, bool wraps, bool held, Map map) {
   D /= 0.91;
   for (int i = 0; i < nx; ++i)
     for (int j = 0; j < ny; ++j) {
-      const int node[4] = {i * (ny + 1) + j, ((i + 1) % columns) * (ny + 1) + j,
-                           ((i + 1) % columns) * (ny + 1) + j + 1, i * (ny + 1) + j + 1};
+      const int node[4] = {i * (ny + 1) + j, ((i + 1) % columns) * (ny + 1) + j, ((i + 1) % columns) * (ny + 1) + j + 1,
+                           i * (ny + 1) + j + 1};
       Eigen::Matrix<double, 2, 4> x;
       for (int a = 0; a < 4; ++a)
-        x.col(a) = map((i + (a == 1 || a == 2)) / static_cast<double>(nx),
-                       (j + (a > 1)) / static_cast<double>(ny));
+        x.col(a) = map((i + (a == 1 || a == 2)) / static_cast<double>(nx), (j + (a > 1)) / static_cast<double>(ny));
       Eigen::Matrix<double, 8, 8> Ke = Eigen::Matrix<double, 8, 8>::Zero(), Me = Ke;
       for (int g = 0; g < 4; ++g) {
         const double r = (g % 2 ? 1 : -1) / std::sqrt(3.0), s = (g / 2 ? 1 : -1) / std::sqrt(3.0);
-        const Eigen::Vector4d N{(1 - r) * (1 - s) / 4, (1 + r) * (1 - s) / 4, (1 + r) * (1 + s) / 4,
-                                (1 - r) * (1 + s) / 4};
+        const Eigen::Vector4d N{(1 - r) * (1 - s) / 4, (1 + r) * (1 - s) / 4, (1 + r) * (1 + s) / 4, (1 - r) * (1 + s) / 4};
         Eigen::Matrix<double, 4, 2> d;
         d << s - 1, r - 1, 1 - s, -1 - r, 1 + s, 1 + r, -1 - s, 1 - r;
         const Eigen::Matrix2d jacobian = x * d / 4;
@@ -123,12 +118,10 @@ Pencil membrane_stress(int nx, int ny, bool wraps, bool held, Map map) {
   return {from(k, n), from(m, n)};
 }
 inline Pencil square(int c, bool held) {
-  return membrane_stress(c, c, false, held,
-                         [](double r, double s) { return Eigen::Vector2d(r, s); });
+  return membrane_stress(c, c, false, held, [](double r, double s) { return Eigen::Vector2d(r, s); });
 }
 inline Pencil strip(bool held) {
-  return membrane_stress(100, 8, false, held,
-                         [](double r, double s) { return Eigen::Vector2d(10 * r, s); });
+  return membrane_stress(100, 8, false, held, [](double r, double s) { return Eigen::Vector2d(10 * r, s); });
 }
 /// Free ring: modes of two lobes and more come in pairs.
 inline Pencil ring(int around, int across) {
@@ -140,10 +133,8 @@ inline Pencil ring(int around, int across) {
 inline Pencil beam(int elements, bool clamped) {
   const double l = 1.0 / elements;
   Eigen::Matrix4d k, m;
-  k << 12, 6 * l, -12, 6 * l, 6 * l, 4 * l * l, -6 * l, 2 * l * l, -12, -6 * l, 12, -6 * l, 6 * l,
-      2 * l * l, -6 * l, 4 * l * l;
-  m << 156, 22 * l, 54, -13 * l, 22 * l, 4 * l * l, 13 * l, -3 * l * l, 54, 13 * l, 156, -22 * l,
-      -13 * l, -3 * l * l, -22 * l, 4 * l * l;
+  k << 12, 6 * l, -12, 6 * l, 6 * l, 4 * l * l, -6 * l, 2 * l * l, -12, -6 * l, 12, -6 * l, 6 * l, 2 * l * l, -6 * l, 4 * l * l;
+  m << 156, 22 * l, 54, -13 * l, 22 * l, 4 * l * l, 13 * l, -3 * l * l, 54, 13 * l, 156, -22 * l, -13 * l, -3 * l * l, -22 * l, 4 * l * l;
   k /= l * l * l;
   m *= l / 420;
   Triplets K, M;
@@ -165,8 +156,7 @@ inline Pencil both(const Pencil& a, const Pencil& b) {
     for (int j = 0; j < A.outerSize(); ++j)
       for (Sparse::InnerIterator x(A, j); x; ++x) t.emplace_back(x.row(), j, x.value());
     for (int j = 0; j < B.outerSize(); ++j)
-      for (Sparse::InnerIterator x(B, j); x; ++x)
-        t.emplace_back(A.rows() + x.row(), A.rows() + j, x.value());
+      for (Sparse::InnerIterator x(B, j); x; ++x) t.emplace_back(A.rows() + x.row(), A.rows() + j, x.value());
     return from(t, static_cast<int>(A.rows() + B.rows()));
   };
   return {join(a.K, b.K), join(a.M, b.M)};

@@ -46,19 +46,13 @@ struct Named {
   int count, zero;
 };
 std::vector<Named> named_bodies() {
-  return {{"clamped strip", strip(true), 12, 0},
-          {"free strip", strip(false), 15, 3},
-          {"free square", square(20, false), 20, 3},
-          {"ring", ring(60, 5), 25, 3},
-          {"free beam", beam(250, false), 8, 2},
-          {"clamped beam", beam(250, true), 8, 0},
-          {"membrane", membrane(25), 30, 0},
-          {"two squares", both(square(15, false), square(15, false)), 20, 6}};
+  return {{"clamped strip", strip(true), 12, 0},     {"free strip", strip(false), 15, 3},
+          {"free square", square(20, false), 20, 3}, {"ring", ring(60, 5), 25, 3},
+          {"free beam", beam(250, false), 8, 2},     {"clamped beam", beam(250, true), 8, 0},
+          {"membrane", membrane(25), 30, 0},         {"two squares", both(square(15, false), square(15, false)), 20, 6}};
 }
 
-double gap_from_identity(const MatrixXd& A) {
-  return (A - MatrixXd::Identity(A.rows(), A.cols())).cwiseAbs().maxCoeff();
-}
+double gap_from_identity(const MatrixXd& A) { return (A - MatrixXd::Identity(A.rows(), A.cols())).cwiseAbs().maxCoeff(); }
 
 TEST(EigenLowest, PairsAreOrthonormalAscendingAndSmallInResidual) {
   for (const Named& b : named_bodies()) {
@@ -67,17 +61,14 @@ TEST(EigenLowest, PairsAreOrthonormalAscendingAndSmallInResidual) {
     EXPECT_EQ(pairs.missed, 0) << b.name;
     EXPECT_TRUE(pairs.checked) << b.name;
     EXPECT_EQ(pairs.zero, b.zero) << b.name;
-    EXPECT_LT(gap_from_identity(pairs.shapes.transpose() * b.pencil.M * pairs.shapes), orthogonal)
-        << b.name;
+    EXPECT_LT(gap_from_identity(pairs.shapes.transpose() * b.pencil.M * pairs.shapes), orthogonal) << b.name;
     for (Index j = 0; j < b.count; ++j) {
       EXPECT_LE(pairs.lambda[std::max<Index>(j - 1, 0)], pairs.lambda[j]) << b.name;
       const VectorXd phi = pairs.shapes.col(j), load = b.pencil.M * phi;
       const double off = (b.pencil.K * phi - pairs.lambda[j] * load).norm();
       // Rounding of Kφ, some eps λmax/λ, lies above 1e-9 for fine beams only: λmax/λ = 1e10.
-      const double rounding =
-          2e-16 * b.pencil.K.diagonal().cwiseQuotient(b.pencil.M.diagonal()).maxCoeff();
-      EXPECT_LT(off, (2e-9 * std::abs(pairs.lambda[j]) + 10 * rounding) * load.norm())
-          << b.name << " " << j;
+      const double rounding = 2e-16 * b.pencil.K.diagonal().cwiseQuotient(b.pencil.M.diagonal()).maxCoeff();
+      EXPECT_LT(off, (2e-9 * std::abs(pairs.lambda[j]) + 10 * rounding) * load.norm()) << b.name << " " << j;
       Index at = 0;
       phi.cwiseAbs().maxCoeff(&at);
       EXPECT_GT(phi[at], 0) << b.name;
@@ -89,8 +80,7 @@ TEST(EigenLowest, MeetsSpectraOnClampedFreeAndSymmetricBodies) {
   for (const Named& b : named_bodies()) {
     const Index n = b.pencil.K.rows();
     const EigenPairs pairs = lowest(b.pencil, b.count);
-    const double largest = b.pencil.K.diagonal().sum() / b.pencil.M.diagonal().sum(),
-                 mu = -1e-6 * largest;
+    const double largest = b.pencil.K.diagonal().sum() / b.pencil.M.diagonal().sum(), mu = -1e-6 * largest;
     using Solve = Spectra::SymShiftInvert<double, Eigen::Sparse, Eigen::Sparse>;
     using Product = Spectra::SparseSymMatProd<double>;
     Solve solve(b.pencil.K, b.pencil.M);
@@ -99,18 +89,13 @@ TEST(EigenLowest, MeetsSpectraOnClampedFreeAndSymmetricBodies) {
     Spectra::SymGEigsShiftSolver<Solve, Product, Spectra::GEigsMode::ShiftInvert> spectra(
         solve, product, more, static_cast<int>(std::min<Index>(n, 4 * more)), mu);
     spectra.init();
-    ASSERT_EQ(spectra.compute(Spectra::SortRule::LargestMagn, 1000, 1e-14,
-                              Spectra::SortRule::SmallestAlge),
-              more)
-        << b.name;
+    ASSERT_EQ(spectra.compute(Spectra::SortRule::LargestMagn, 1000, 1e-14, Spectra::SortRule::SmallestAlge), more) << b.name;
     const VectorXd theirs = spectra.eigenvalues().head(b.count);
     for (Index j = 0; j < b.count; ++j)
-      EXPECT_NEAR(pairs.lambda[j], theirs[j], same * std::max(std::abs(theirs[j]), 1e-6 * largest))
-          << b.name << " " << j;
+      EXPECT_NEAR(pairs.lambda[j], theirs[j], same * std::max(std::abs(theirs[j]), 1e-6 * largest)) << b.name << " " << j;
     // Their vectors lie in the span of ours, as far as the last cluster is complete in both.
     Index whole = b.count - 1;
-    while (whole > 0 && pairs.lambda[whole] - pairs.lambda[whole - 1] < 1e-3 * pairs.lambda[whole])
-      --whole;
+    while (whole > 0 && pairs.lambda[whole] - pairs.lambda[whole - 1] < 1e-3 * pairs.lambda[whole]) --whole;
     const MatrixXd V = spectra.eigenvectors().leftCols(whole);
     const MatrixXd inside = pairs.shapes.leftCols(whole).transpose() * b.pencil.M * V;
     EXPECT_LT(gap_from_identity(inside.transpose() * inside), 1e-8) << b.name;
@@ -124,8 +109,7 @@ TEST(EigenLowest, MeetsClosedForms) {
         if (p > n) continue;
         const EigenPairs pairs = lowest(chain(n, walls), p);
         const VectorXd exact = chain_lambda(n, walls);
-        for (Index j = 0; j < p; ++j)
-          EXPECT_NEAR(pairs.lambda[j], exact[j], same * exact[j] + 1e-14) << n << " " << p;
+        for (Index j = 0; j < p; ++j) EXPECT_NEAR(pairs.lambda[j], exact[j], same * exact[j] + 1e-14) << n << " " << p;
       }
   const EigenPairs doubles = lowest(membrane(22), 40);
   EXPECT_LT((doubles.lambda - membrane_lambda(22).head(40)).cwiseAbs().maxCoeff(), same * 0.02);
@@ -141,10 +125,7 @@ TEST(EigenLowest, FindsEveryPairOfASmallBody) {
 
 TEST(EigenLowest, SolvesForAQuarterOfAMiddlingBody) {
   const EigenPairs pairs = lowest(chain(600, true), 200);
-  EXPECT_LT(((pairs.lambda - chain_lambda(600, true).head(200)).array() /
-             chain_lambda(600, true).head(200).array())
-                .abs()
-                .maxCoeff(),
+  EXPECT_LT(((pairs.lambda - chain_lambda(600, true).head(200)).array() / chain_lambda(600, true).head(200).array()).abs().maxCoeff(),
             same);
 }
 
@@ -180,8 +161,7 @@ TEST(EigenLowest, AGivenShiftChangesNothing) {
     options.shift = shift;
     const EigenPairs pairs = eigen_lowest(a.K, a.M, options);
     ASSERT_TRUE(pairs.converged) << shift;
-    for (Index j = 3; j < 8; ++j)
-      EXPECT_NEAR(pairs.lambda[j], chosen.lambda[j], same * chosen.lambda[j]) << shift;
+    for (Index j = 3; j < 8; ++j) EXPECT_NEAR(pairs.lambda[j], chosen.lambda[j], same * chosen.lambda[j]) << shift;
   }
 }
 
@@ -198,8 +178,7 @@ TEST(EigenLowest, ScalesWithTheUnits) {
   for (double factor : {1e-9, 1e9}) {
     const EigenPairs other = lowest({factor * a.K, a.M / factor}, 8);
     EXPECT_EQ(other.zero, 3);
-    for (Index j = 3; j < 8; ++j)
-      EXPECT_NEAR(other.lambda[j] / (factor * factor), one.lambda[j], same * one.lambda[j]);
+    for (Index j = 3; j < 8; ++j) EXPECT_NEAR(other.lambda[j] / (factor * factor), one.lambda[j], same * one.lambda[j]);
   }
 }
 
@@ -235,8 +214,7 @@ TEST(EigenLowest, RefusesMoreModesThanThereAre) {
 TEST(EigenLowest, RefusesAFreedomWithNeitherStiffnessNorMass) {
   for (int n : {9, 900}) {
     Pencil a = chain(n, true);
-    a.K.coeffRef(3, 3) = a.K.coeffRef(3, 2) = a.K.coeffRef(2, 3) = a.K.coeffRef(3, 4) =
-        a.K.coeffRef(4, 3) = 0;
+    a.K.coeffRef(3, 3) = a.K.coeffRef(3, 2) = a.K.coeffRef(2, 3) = a.K.coeffRef(3, 4) = a.K.coeffRef(4, 3) = 0;
     a.M.coeffRef(3, 3) = 0;
     EXPECT_THROW(lowest(a, 2), std::runtime_error) << n;
   }
@@ -270,9 +248,7 @@ TEST(EigenBelow, FindsThoseBelowAndNoOther) {
 TEST(Sturm, CountsWhatDenseAlgebraFinds) {
   std::mt19937 draw(11);
   for (const Pencil& a : {square(9, false), ring(24, 3), beam(60, true), membrane(14)}) {
-    const VectorXd all =
-        Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(MatrixXd(a.K), MatrixXd(a.M))
-            .eigenvalues();
+    const VectorXd all = Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(MatrixXd(a.K), MatrixXd(a.M)).eigenvalues();
     std::uniform_real_distribution<double> in(0, 1);
     for (int i = 0; i < 12; ++i) {
       const double at = all[all.size() - 1] * std::pow(in(draw), 3);
@@ -294,30 +270,26 @@ TEST(Subspace, StartedClearOfModesMissesThem) {
   for (int i = 0; i < 20; ++i) space.step();
   space.project();
   const VectorXd exact = chain_lambda(500, true);
-  for (Index j = 0; j < 4; ++j)
-    EXPECT_NEAR(1 / space.theta()[j], exact[j] + 1e-9, same * exact[j] + 1e-15);
+  for (Index j = 0; j < 4; ++j) EXPECT_NEAR(1 / space.theta()[j], exact[j] + 1e-9, same * exact[j] + 1e-15);
   EXPECT_EQ(negative_eigenvalues(a.K - 0.5 * (exact[3] + exact[4]) * a.M), 8);
   // Other loads mend it.
   space.restart(8);
   space.add_loads(random_loads(a.M, 4, 2));
   for (int i = 0; i < 12; ++i) space.step();
   space.project();
-  for (Index j = 0; j < 8; ++j)
-    EXPECT_NEAR(1 / space.theta()[j], exact[j / 2] + 1e-9, same * exact[j / 2] + 1e-15);
+  for (Index j = 0; j < 8; ++j) EXPECT_NEAR(1 / space.theta()[j], exact[j / 2] + 1e-9, same * exact[j / 2] + 1e-15);
 }
 
 // Sixteen equal squares: each eigenvalue sixteen times, more than a block is wide.
 TEST(EigenLowest, FindsEigenvaluesRepeatedMoreOftenThanABlockIsWide) {
   Pencil a = square(5, true);
   for (int i = 0; i < 4; ++i) a = both(a, a);
-  const VectorXd one = Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(
-                           MatrixXd(square(5, true).K), MatrixXd(square(5, true).M))
-                           .eigenvalues();
+  const VectorXd one =
+      Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(MatrixXd(square(5, true).K), MatrixXd(square(5, true).M)).eigenvalues();
   for (int p : {6, 20, 32}) {
     const EigenPairs pairs = lowest(a, p);
     ASSERT_TRUE(pairs.converged) << pairs.reason;
-    for (Index j = 0; j < p; ++j)
-      EXPECT_NEAR(pairs.lambda[j], one[j / 16], same * one[j / 16]) << p << " " << j;
+    for (Index j = 0; j < p; ++j) EXPECT_NEAR(pairs.lambda[j], one[j / 16], same * one[j / 16]) << p << " " << j;
   }
 }
 

@@ -13,15 +13,9 @@ const Scene& whole() {
   static const Scene scene = read_scene_text(elastic_scene, "scene.yaml");
   return scene;
 }
-const SceneElastic& elastic(const Scene& scene, std::size_t body) {
-  return *scene.bodies.at(body).elastic;
-}
-const SceneBeam& beam(const Scene& scene, std::size_t body) {
-  return std::get<SceneBeam>(elastic(scene, body).shape);
-}
-const ScenePlate& plate(const Scene& scene, std::size_t body) {
-  return std::get<ScenePlate>(elastic(scene, body).shape);
-}
+const SceneElastic& elastic(const Scene& scene, std::size_t body) { return *scene.bodies.at(body).elastic; }
+const SceneBeam& beam(const Scene& scene, std::size_t body) { return std::get<SceneBeam>(elastic(scene, body).shape); }
+const ScenePlate& plate(const Scene& scene, std::size_t body) { return std::get<ScenePlate>(elastic(scene, body).shape); }
 SceneBeam beam_with(const std::string& keys) {
   const Scene scene = read_scene_text(with_beam(keys + ", " + steel_keys), "scene.yaml");
   return beam(scene, 0);
@@ -73,17 +67,14 @@ TEST(ElasticReader, FillsATaperedBeamOfANamedMaterial) {
 }
 
 TEST(ElasticReader, FillsEverySection) {
-  const auto section = [](const std::string& keys) {
-    return beam_with("section: {" + keys + "}").section;
-  };
+  const auto section = [](const std::string& keys) { return beam_with("section: {" + keys + "}").section; };
   const auto rectangle = std::get<RectangleSection>(section("rectangle: [20 mm, 5 mm]"));
   EXPECT_EQ(rectangle.height, 0.02);
   EXPECT_EQ(rectangle.width, 0.005);
   const auto tube = std::get<TubeSection>(section("tube: [20 mm, 16 mm]"));
   EXPECT_EQ(tube.outer, 0.02);
   EXPECT_EQ(tube.inner, 0.016);
-  const auto given =
-      std::get<GivenSection>(section("area: 2 cm^2, second moment: 1e4 mm^4, shear factor: 0.4"));
+  const auto given = std::get<GivenSection>(section("area: 2 cm^2, second moment: 1e4 mm^4, shear factor: 0.4"));
   EXPECT_DOUBLE_EQ(given.area, 2e-4);
   EXPECT_DOUBLE_EQ(given.second_moment, 1e-8);
   EXPECT_EQ(given.fibre, 0);
@@ -119,17 +110,15 @@ TEST(ElasticReader, FillsAPlate) {
 }
 
 TEST(ElasticReader, FillsEveryLink) {
-  const auto link = [](const std::string& keys) {
-    return std::get<Link>(plate_with("link: {" + keys + "}").shape);
-  };
+  const auto link = [](const std::string& keys) { return std::get<Link>(plate_with("link: {" + keys + "}").shape); };
   EXPECT_EQ(std::get<StraightBar>(link("bar: {length: 1 m, width: 2 cm}")).width, 0.02);
   const auto taper = std::get<TaperedBar>(link("tapered bar: {length: 10, widths: [5, 1]}"));
   EXPECT_EQ(taper.width_left, 5);
   EXPECT_EQ(taper.width_right, 1);
   EXPECT_EQ(std::get<Disc>(link("disc: {diameter: 10 cm, bore: 2 cm}")).bore, 0.02);
-  const auto triangle = std::get<Triangle>(
-      link("triangle: {centers: [[0, 0], [1, 0], [0, 1]], eyes: [{bore: 0.1, outer: 0.2}, "
-           "{bore: 0.1, outer: 0.2}, {bore: 0.15, outer: 0.3}]}"));
+  const auto triangle =
+      std::get<Triangle>(link("triangle: {centers: [[0, 0], [1, 0], [0, 1]], eyes: [{bore: 0.1, outer: 0.2}, "
+                              "{bore: 0.1, outer: 0.2}, {bore: 0.15, outer: 0.3}]}"));
   EXPECT_EQ(triangle.center[2], Eigen::Vector2d(0, 1));
   EXPECT_EQ(triangle.eye[2].bore, 0.15);
 }
@@ -164,8 +153,7 @@ TEST(ElasticReader, FillsModes) {
   const SceneModes& mean = elastic(whole(), 3).modes.value();
   EXPECT_EQ(mean.frame, Frame::mean_axes);
   EXPECT_EQ(mean.keep.effective_mass, 0.95);
-  const Scene free =
-      read_scene_text(spoiled("effective mass: 0.95", "free: {count: 6}"), "scene.yaml");
+  const Scene free = read_scene_text(spoiled("effective mass: 0.95", "free: {count: 6}"), "scene.yaml");
   EXPECT_EQ(elastic(free, 3).modes->method, Method::free);
   EXPECT_EQ(elastic(free, 3).modes->keep.count, 6);
 }
@@ -200,8 +188,7 @@ TEST(ElasticReader, FillsStiffeningAndPieces) {
 }
 
 TEST(ElasticReader, FillsThePointsWhoseStressIsRecorded) {
-  const Scene scene = read_scene_text(
-      elastic_scene + "output: {stress: [coupler.B, rocker.tip], points: [rocker.C]}\n", "s.yaml");
+  const Scene scene = read_scene_text(elastic_scene + "output: {stress: [coupler.B, rocker.tip], points: [rocker.C]}\n", "s.yaml");
   ASSERT_EQ(scene.output.stress.size(), 2u);
   EXPECT_EQ(scene.output.stress[1].body + scene.output.stress[1].point, "rockertip");
   EXPECT_EQ(scene.output.stress[1].place.key, "output.stress[2]");
@@ -240,9 +227,7 @@ TEST(ElasticReader, FillsLumpsAndSupports) {
   ASSERT_EQ(coupler.lumps.size(), 1u);
   EXPECT_EQ(coupler.lumps[0].mass, 0.1);
   EXPECT_EQ(coupler.lumps[0].inertia, 1e-5);
-  const auto held = [](const SceneSupport& s) {
-    return std::string(s.x ? "x" : "") + (s.y ? "y" : "") + (s.rotation ? "r" : "");
-  };
+  const auto held = [](const SceneSupport& s) { return std::string(s.x ? "x" : "") + (s.y ? "y" : "") + (s.rotation ? "r" : ""); };
   EXPECT_EQ(held(coupler.supports.at(0)), "xyr");
   EXPECT_EQ(held(coupler.supports.at(1)), "y");
   EXPECT_EQ(held(elastic(whole(), 1).supports.at(1)), "xr");
@@ -273,31 +258,24 @@ TEST(ElasticReader, FillsAStaticCase) {
 }
 
 TEST(ElasticReader, LoadsTheOnlyBodyOfElementsWithoutItsName) {
-  const Scene scene = read_scene_text(with_beam("section: {circle: 1 mm}, " + steel_keys) +
-                                          "static: {loads: {snow: {line load: [0, -100 N/m]}}}\n",
-                                      "scene.yaml");
+  const Scene scene = read_scene_text(
+      with_beam("section: {circle: 1 mm}, " + steel_keys) + "static: {loads: {snow: {line load: [0, -100 N/m]}}}\n", "scene.yaml");
   EXPECT_EQ(scene.statics->body, "rod");
   EXPECT_EQ(scene.statics->loads[0].kind, SceneStaticLoad::Kind::line);
   EXPECT_EQ(scene.statics->loads[0].vector, (Pair{0, -100}));
 }
 
 TEST(ElasticReader, FilledInSceneReadsBackToTheSameScene) {
-  std::vector<std::string> scenes{elastic_scene,
-                                  spoiled("effective mass: 0.95", "free: {count: 6}"),
+  std::vector<std::string> scenes{elastic_scene, spoiled("effective mass: 0.95", "free: {count: 6}"),
                                   spoiled("frame: chord", "frame: tangent"),
-                                  spoiled("young: [140 GPa, 10 GPa], poisson: 0.3",
-                                          "young: [140e9, 10e9, 9e9], poisson: [0.3, 0.2, 0.1]")};
+                                  spoiled("young: [140 GPa, 10 GPa], poisson: 0.3", "young: [140e9, 10e9, 9e9], poisson: [0.3, 0.2, 0.1]")};
   for (const char* section :
-       {"rectangle: [2 cm, 1 cm]", "tube: [2 cm, 1 cm]",
-        "area: 1 cm^2, second moment: 1 cm^4, fibre: 5 mm, shear factor: 0.8"})
+       {"rectangle: [2 cm, 1 cm]", "tube: [2 cm, 1 cm]", "area: 1 cm^2, second moment: 1 cm^4, fibre: 5 mm, shear factor: 0.8"})
     for (const char* theory : {"timoshenko, shear factor: 5/6", "euler", "bar"})
-      scenes.push_back(with_beam("section: {" + std::string(section) + "}, theory: " + theory +
-                                 ", " + steel_keys));
-  for (const char* link :
-       {"bar: {length: 1, width: 0.1}", "disc: {diameter: 1, bore: 0.1}",
-        "tapered bar: {length: 10, widths: [5, 1]}",
-        "triangle: {centers: [[0, 0], [1, 0], [0, 1]], eyes: [{bore: 0.1, outer: "
-        "0.2}, {bore: 0.1, outer: 0.2}, {bore: 0.15, outer: 0.3}]}"})
+      scenes.push_back(with_beam("section: {" + std::string(section) + "}, theory: " + theory + ", " + steel_keys));
+  for (const char* link : {"bar: {length: 1, width: 0.1}", "disc: {diameter: 1, bore: 0.1}", "tapered bar: {length: 10, widths: [5, 1]}",
+                           "triangle: {centers: [[0, 0], [1, 0], [0, 1]], eyes: [{bore: 0.1, outer: "
+                           "0.2}, {bore: 0.1, outer: 0.2}, {bore: 0.15, outer: 0.3}]}"})
     scenes.push_back(with_plate("link: {" + std::string(link) + "}"));
   for (const std::string& text : scenes) {
     const Scene scene = read_scene_text(text, "scene.yaml");

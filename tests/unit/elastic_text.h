@@ -69,8 +69,7 @@ inline std::string spoiled(const std::string& from, const std::string& to) {
 
 /// A beam from A (0, 0) to B (1, 0) with more keys of its own.
 inline std::string with_beam(const std::string& keys) {
-  return "bodies:\n  rod:\n    beam: {from: A, to: B, " + keys +
-         "}\n    points: {A: [0, 0], B: [1, 0]}\n";
+  return "bodies:\n  rod:\n    beam: {from: A, to: B, " + keys + "}\n    points: {A: [0, 0], B: [1, 0]}\n";
 }
 inline const std::string steel_keys = "young: 207 GPa, poisson: 0.3, density: 7850 kg/m^3";
 /// A plate of 1 mm steel with more keys of its own.
@@ -84,8 +83,7 @@ struct Spoiled {
   std::vector<std::string> says;
 };
 
-inline void expect_one_line(const std::string& said, const std::string& place,
-                            const std::vector<std::string>& parts) {
+inline void expect_one_line(const std::string& said, const std::string& place, const std::vector<std::string>& parts) {
   EXPECT_TRUE(said.starts_with(place)) << said;
   EXPECT_EQ(said.find('\n'), std::string::npos) << "more than one line: " << said;
   expect_says(said, parts);

@@ -26,7 +26,8 @@ Words run_command(const fs::path& scene, const fs::path& out, Words more = {}) {
 /// 1 ms of the example.
 const Words shortly{"--set", "run.until=1 ms", "--set", "output.frames=null"};
 /// Much longer than any test waits.
-const Words for_long{"--set", "run.until=4000 s", "--set", "output.frames=null", "--set", "output.every=1 ms", "--set", "run.max steps=2000000000"};
+const Words for_long{"--set", "run.until=4000 s",  "--set", "output.frames=null",
+                     "--set", "output.every=1 ms", "--set", "run.max steps=2000000000"};
 
 bool whole_rows(const std::string& text) { return !text.empty() && text.back() == '\n'; }
 
@@ -36,7 +37,8 @@ nlohmann::json report_in(const fs::path& folder) { return nlohmann::json::parse(
 bool has_rows(const fs::path& folder) {
   for (int k = 0; k < 1000; ++k, std::this_thread::sleep_for(std::chrono::milliseconds(10)))
     for (const auto& entry : fs::directory_iterator(folder))
-      if (std::error_code error; entry.is_directory() && fs::file_size(entry.path() / "trajectory.csv", error) > 100'000 && !error) return true;
+      if (std::error_code error; entry.is_directory() && fs::file_size(entry.path() / "trajectory.csv", error) > 100'000 && !error)
+        return true;
   return false;
 }
 
@@ -107,8 +109,8 @@ TEST(Ending, TheFolderOfAKilledRunIsNeverWrittenTo) {
 TEST(Ending, ALimitOnTheSizeOfFilesEndsTheRunInOrder) {
   const Folder folder;
   const fs::path log = folder.path() / "log", out = folder.path() / "out";
-  const Ended end = run(log, {"/bin/bash", "-c", "ulimit -f 400; exec \"$@\"", "bash", PINTLE_PROGRAM, "run", example, "-o", out.string(), "--set", "run.until=9 ms",
-                              "--set", "output.every=3 us", "--set", "output.frames=null"});
+  const Ended end = run(log, {"/bin/bash", "-c", "ulimit -f 400; exec \"$@\"", "bash", PINTLE_PROGRAM, "run", example, "-o", out.string(),
+                              "--set", "run.until=9 ms", "--set", "output.every=3 us", "--set", "output.frames=null"});
   EXPECT_EQ(end.signal, 0) << "SIGXFSZ";
   EXPECT_EQ(end.code, 1) << end.complained;
   EXPECT_NE(end.complained.find("ulimit -f"), std::string::npos) << end.complained;
@@ -123,8 +125,8 @@ TEST(Ending, ALimitOnTheSizeOfFilesEndsTheRunInOrder) {
 TEST(Ending, ALimitThatTheRowsMustPassRefusesTheRunBeforeItIsComputed) {
   const Folder folder;
   const fs::path out = folder.path() / "out";
-  const Ended end = run(folder.path() / "log", {"/bin/bash", "-c", "ulimit -f 400; exec \"$@\"", "bash", PINTLE_PROGRAM, "run", example, "-o", out.string(),
-                                                "--set", "run.until=20 s", "--set", "output.every=3 us"});
+  const Ended end = run(folder.path() / "log", {"/bin/bash", "-c", "ulimit -f 400; exec \"$@\"", "bash", PINTLE_PROGRAM, "run", example,
+                                                "-o", out.string(), "--set", "run.until=20 s", "--set", "output.every=3 us"});
   EXPECT_EQ(end.code, 1) << end.complained;
   EXPECT_NE(end.complained.find("trajectory.csv needs at least"), std::string::npos) << end.complained;
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 2) << "the two logs alone";
@@ -138,9 +140,10 @@ TEST(Ending, ADiskThatFillsKeepsItsRowsAndStatesAndSaysWhere) {
   const std::string mount = "mount -t tmpfs -o size=400k none '" + disk.string() + "'";
   if (run(log, {"/usr/bin/unshare", "-rm", "/bin/sh", "-c", mount}).code != 0) GTEST_SKIP() << "no file system can be mounted here";
   // The clearances of the example make a row of some 750 bytes every 3 us; a state every 100 us.
-  const Ended end = run(log, {"/usr/bin/unshare", "-rm", "/bin/bash", "-c", mount + " && { \"$@\"; code=$?; cp -r '" + disk.string() + "' '" + kept.string() + "'; exit $code; }", "bash",
-                              PINTLE_PROGRAM, "run", example, "-o", (disk / "out").string(), "--set", "run.until=9 ms", "--set", "output.every=3 us",
-                              "--set", "output.states=100 us", "--set", "output.frames=null"});
+  const Ended end = run(log, {"/usr/bin/unshare", "-rm", "/bin/bash", "-c",
+                              mount + " && { \"$@\"; code=$?; cp -r '" + disk.string() + "' '" + kept.string() + "'; exit $code; }", "bash",
+                              PINTLE_PROGRAM, "run", example, "-o", (disk / "out").string(), "--set", "run.until=9 ms", "--set",
+                              "output.every=3 us", "--set", "output.states=100 us", "--set", "output.frames=null"});
   EXPECT_EQ(end.code, 1) << end.complained;
   EXPECT_NE(end.complained.find((disk / "out.part-").string()), std::string::npos) << end.complained;
   EXPECT_NE(end.complained.find("make room"), std::string::npos) << end.complained;
@@ -170,8 +173,9 @@ TEST(Ending, ADiskThatFillsKeepsItsRowsAndStatesAndSaysWhere) {
 TEST(Ending, AReaderThatGoesAwayIsAnErrorAndNoSignal) {
   const Folder folder;
   const fs::path log = folder.path() / "log", out = folder.path() / "out";
-  const Ended end = run(log, {"/bin/bash", "-c", "(sleep 0.1; \"$@\"; echo $? > " + (folder.path() / "code").string() + ") | true", "bash", PINTLE_PROGRAM, "run",
-                              example, "-o", out.string(), "--set", "run.until=1 ms", "--set", "output.frames=null"});
+  const Ended end =
+      run(log, {"/bin/bash", "-c", "(sleep 0.1; \"$@\"; echo $? > " + (folder.path() / "code").string() + ") | true", "bash",
+                PINTLE_PROGRAM, "run", example, "-o", out.string(), "--set", "run.until=1 ms", "--set", "output.frames=null"});
   EXPECT_EQ(contents(folder.path() / "code"), "1\n");
   EXPECT_NE(end.complained.find("standard output"), std::string::npos) << end.complained;
   EXPECT_TRUE(fs::exists(out / "run.json"));
@@ -183,8 +187,9 @@ TEST(Ending, MemoryThatRowsWouldFillDoesNotGrowWithThem) {
 #endif
   const Folder folder;
   // 3·10⁵ rows of 57 numbers: 140 MB as numbers, as much again as text.
-  const Ended end = run(folder.path() / "log", {"/bin/bash", "-c", "ulimit -v 400000; exec \"$@\"", "bash", PINTLE_PROGRAM, "run", example, "-o", (folder.path() / "out").string(),
-                                                "--set", "run.until=3 ms", "--set", "output.every=10 ns", "--set", "output.frames=null"});
+  const Ended end = run(folder.path() / "log", {"/bin/bash", "-c", "ulimit -v 400000; exec \"$@\"", "bash", PINTLE_PROGRAM, "run", example,
+                                                "-o", (folder.path() / "out").string(), "--set", "run.until=3 ms", "--set",
+                                                "output.every=10 ns", "--set", "output.frames=null"});
   EXPECT_EQ(end.code, 0) << end.complained;
 }
 
@@ -209,7 +214,9 @@ output: {states: 5e-6}
     ASSERT_EQ(end.code, 0) << end.complained;
     EXPECT_EQ(contents(out(threads) / "trajectory.csv"), contents(out("1") / "trajectory.csv")) << threads;
     const std::string state = (out(threads) / "states" / "00001.state").string();
-    const Ended rest = run(folder.path() / "log", run_command(scene, folder.path() / ("rest" + threads), {"--restart", state, "--set", "run.until=2e-5"}), {"OPENBLAS_NUM_THREADS=1"});
+    const Ended rest =
+        run(folder.path() / "log", run_command(scene, folder.path() / ("rest" + threads), {"--restart", state, "--set", "run.until=2e-5"}),
+            {"OPENBLAS_NUM_THREADS=1"});
     EXPECT_EQ(rest.code, 0) << rest.complained;
   }
 }
@@ -226,8 +233,8 @@ TEST(Names, ASlashAtTheEndOfTheFolderIsNoPartOfItsName) {
 // Latin-1, a line's end, quotes, an emoji, as long as names can be.
 TEST(Names, FilesAndFoldersOfAnyNameAreWritten) {
   const Folder folder;
-  for (const std::string& name : {std::string("K\xfcrbel"), std::string("two\nlines"), std::string("\"quoted\" 'twice'"), std::string("\xf0\x9f\x98\x80"),
-                                  std::string(255, 'x'), std::string("-q"), std::string("a,b;c")}) {
+  for (const std::string& name : {std::string("K\xfcrbel"), std::string("two\nlines"), std::string("\"quoted\" 'twice'"),
+                                  std::string("\xf0\x9f\x98\x80"), std::string(255, 'x'), std::string("-q"), std::string("a,b;c")}) {
     const fs::path scene = folder.write(name.substr(0, 200) + ".yaml", contents(example)), out = folder.path() / "results" / name;
     const Ended end = run(folder.path() / "log", run_command(scene, out, shortly));
     EXPECT_EQ(end.code, 0) << name << ": " << end.complained;
@@ -253,7 +260,8 @@ TEST(Names, ANameThatIsTooLongOrAFolderThatCannotBeWrittenIsRefusedAtOnce) {
 TEST(Names, TitlesThatAreNotUtf8AreRefusedWithTheirLine) {
   const Folder folder;
   std::string text = contents(example);
-  for (const std::string& wrong : {std::string("K\xfcrbel"), std::string("\xed\xa0\x80"), std::string("\xe0\x80\x80"), std::string("\xf4\x90\x80\x80")}) {
+  for (const std::string& wrong :
+       {std::string("K\xfcrbel"), std::string("\xed\xa0\x80"), std::string("\xe0\x80\x80"), std::string("\xf4\x90\x80\x80")}) {
     const fs::path scene = folder.write("scene.yaml", "\ntitle: " + wrong + "\n" + text.substr(text.find("gravity:")));
     const Ended end = run(folder.path() / "log", run_command(scene, folder.path() / "out", shortly));
     EXPECT_EQ(end.code, 2) << end.complained;
@@ -284,7 +292,8 @@ drivers:
   "trajectory": {angle: [ground, d], law: t^2}
 run: {until: 1}
 )");
-  const Ended end = run(folder.path() / "log", {PINTLE_PROGRAM, "inverse", scene.string(), "-o", (folder.path() / "out").string(), "--json"});
+  const Ended end =
+      run(folder.path() / "log", {PINTLE_PROGRAM, "inverse", scene.string(), "-o", (folder.path() / "out").string(), "--json"});
   ASSERT_EQ(end.code, 0) << end.complained;
   const auto drivers = nlohmann::json::parse(end.said)["drivers"];
   ASSERT_EQ(drivers.size(), 4U);

@@ -19,9 +19,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-double energy(const BeamFrame& f) {
-  return f.kinetic + f.strain + f.potential;
-}
+double energy(const BeamFrame& f) { return f.kinetic + f.strain + f.potential; }
 /// A beam bent and turning in flight.
 BeamStart thrown(const ExactBeam& beam) {
   return [L = beam.length](double s) {
@@ -37,8 +35,7 @@ TEST(ExactBeam, FlyingFreelyKeepsItsMomenta) {
   const auto frames = simulate(beam, thrown(beam), {0, 0.5, 1}, 0.01);
   EXPECT_GT((frames[2].place - frames[0].place).norm(), beam.length);
   const double size = std::sqrt(2 * 1.2 * frames[0].kinetic);
-  for (const BeamFrame& f : frames)
-    EXPECT_LT((f.momentum - frames[0].momentum).norm(), rounding * size) << f.t;
+  for (const BeamFrame& f : frames) EXPECT_LT((f.momentum - frames[0].momentum).norm(), rounding * size) << f.t;
 }
 
 /// A soft beam hung at A.
@@ -82,9 +79,7 @@ TEST(ExactBeam, StiffPendulumSwingsAsARigidBody) {
   beam.EA = beam.GA = beam.EI = 1e9;
   const double L = beam.length, centre = L / 2;
   const double inertia = beam.rhoA * L * L * L / 12 + beam.rhoI * L;
-  const Pendulum rigid{.length = equivalent_length(beam.rhoA * L, inertia, centre),
-                       .gravity = 9.81,
-                       .release = pi / 2};
+  const Pendulum rigid{.length = equivalent_length(beam.rhoA * L, inertia, centre), .gravity = 9.81, .release = pi / 2};
   for (const BeamFrame& f : simulate(beam, flat(), {0.3, 0.8, 1.3}, 0.01)) {
     const Swing want = evaluate(rigid, f.t);
     // Weight over EA, EI/L² and GA is 1e-8; a swing later that is a few times as much.
@@ -98,15 +93,11 @@ TEST(ExactBeam, SpinningBeamStaysStretched) {
   ExactBeam beam{.length = 10, .EA = 2.8e7, .EI = 1.4e4, .GA = 1e7, .rhoA = 1.2, .rhoI = 6e-4};
   const double w = 60, k = w * std::sqrt(beam.rhoA / beam.EA);
   const auto radius = [&](double s) { return std::sin(k * s) / (k * std::cos(k * beam.length)); };
-  beam.a = {.hold = Hold::clamp,
-            .law = crank_pin({0, 0}, 0, [w](double t) { return Vector3d(w * t, w, 0); })};
-  const BeamStart start = [&](double s) {
-    return SectionMotion{.place = {radius(s), 0, 0}, .rate = {0, w * radius(s), w}};
-  };
+  beam.a = {.hold = Hold::clamp, .law = crank_pin({0, 0}, 0, [w](double t) { return Vector3d(w * t, w, 0); })};
+  const BeamStart start = [&](double s) { return SectionMotion{.place = {radius(s), 0, 0}, .rate = {0, w * radius(s), w}}; };
   for (const BeamFrame& f : simulate(beam, start, {0.02, 0.1}, 2.5e-4)) {
     const double r = radius(beam.length);
-    EXPECT_NEAR(tip(f.place).head<2>().norm() - beam.length, r - beam.length,
-                1e-6 * (r - beam.length));
+    EXPECT_NEAR(tip(f.place).head<2>().norm() - beam.length, r - beam.length, 1e-6 * (r - beam.length));
     EXPECT_NEAR(tip(f.place)[2], w * f.t, 1e-9);
     // What holds A pulls with ρA w² ∫ r ds.
     const double pull = beam.rhoA * w * w * (1 / std::cos(k * beam.length) - 1) / (k * k);
@@ -124,8 +115,7 @@ Mechanism slider_crank(ExactBeam beam, double line, double drive) {
   Mechanism m{.beam = beam, .start = {}};
   // The crank starts from rest on the line, smoothly.
   m.beam.a = {.hold = Hold::hinge, .law = crank_pin({0, 0}, m.crank, [line, drive](double t) {
-                                     return Vector3d(line + drive * t * t * t, 3 * drive * t * t,
-                                                     6 * drive * t);
+                                     return Vector3d(line + drive * t * t * t, 3 * drive * t * t, 6 * drive * t);
                                    })};
   m.beam.b = {.hold = Hold::slide, .line = {std::cos(line), std::sin(line)}, .mass = 0.5};
   m.start = rigid_start({m.crank * std::cos(line), m.crank * std::sin(line), line});
@@ -138,8 +128,7 @@ TEST(ExactBeam, StiffCouplerMovesAsSliderCrankKinematicsSay) {
   const Mechanism m = slider_crank(beam, 0, 3);
   for (const BeamFrame& f : simulate(m.beam, m.start, {0.4, 0.8, 1}, 0.005)) {
     const SliderCrankMotion want =
-        evaluate(SliderCrank{.crank = m.crank, .coupler = beam.length},
-                 Turn{.angle = 3 * f.t * f.t * f.t, .rate = 9 * f.t * f.t});
+        evaluate(SliderCrank{.crank = m.crank, .coupler = beam.length}, Turn{.angle = 3 * f.t * f.t * f.t, .rate = 9 * f.t * f.t});
     EXPECT_NEAR(tip(f.place)[0], want.x, 1e-6) << f.t;  // inertia forces over EA and EI
     EXPECT_NEAR(tip(f.place)[1], 0, rounding) << f.t;
     EXPECT_NEAR(tip(f.rate)[0], want.x_rate, 1e-4) << f.t;
@@ -149,8 +138,7 @@ TEST(ExactBeam, StiffCouplerMovesAsSliderCrankKinematicsSay) {
 TEST(ExactBeam, TurningTheWorldTurnsTheMotion) {
   const double turn = 0.7;
   const Mechanism level = slider_crank(soft(), 0, 3), inclined = slider_crank(soft(), turn, 3);
-  const BeamFrame a = simulate(level.beam, level.start, {1}, 0.01)[0],
-                  b = simulate(inclined.beam, inclined.start, {1}, 0.01)[0];
+  const BeamFrame a = simulate(level.beam, level.start, {1}, 0.01)[0], b = simulate(inclined.beam, inclined.start, {1}, 0.01)[0];
   const Eigen::Matrix2d A = Eigen::Rotation2D<double>(turn).toRotationMatrix();
   EXPECT_LT((b.place.topRows<2>() - A * a.place.topRows<2>()).norm(), 1e-9);  // Newton's end
   EXPECT_LT((b.support_a.head<2>() - A * a.support_a.head<2>()).norm(), 1e-9 * level.beam.EA);

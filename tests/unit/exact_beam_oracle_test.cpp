@@ -47,11 +47,9 @@ TEST(ExactBeam, TangentIsTheDerivativeOfItsForce) {
       slope.segment(mesh.first[e], K.rows()) += K * along.segment(mesh.first[e], K.cols());
     }
     const double h = 1e-5;
-    const Internal up = internal(mesh, u + h * along, false),
-                   down = internal(mesh, u - h * along, false);
+    const Internal up = internal(mesh, u + h * along, false), down = internal(mesh, u - h * along, false);
     EXPECT_LT((slope - (up.force - down.force) / (2 * h)).norm(), difference * slope.norm());
-    EXPECT_NEAR(at.force.dot(along), (up.energy - down.energy) / (2 * h),
-                difference * at.force.norm() * along.norm());
+    EXPECT_NEAR(at.force.dot(along), (up.energy - down.energy) / (2 * h), difference * at.force.norm() * along.norm());
   }
 }
 
@@ -60,8 +58,7 @@ TEST(ExactBeam, TangentIsTheDerivativeOfItsForce) {
 TEST(ExactBeam, EndCoupleRollsItIntoACircle) {
   ExactBeam beam{.length = 2, .EA = 1e8, .EI = 3, .GA = 1e8, .rhoA = 1, .rhoI = 1};
   for (beam.degree = 1; beam.degree <= 3; ++beam.degree) {
-    const Place end =
-        tip(static_shape(cantilever(beam, {0, 0, 2 * pi * beam.EI / beam.length}), flat()));
+    const Place end = tip(static_shape(cantilever(beam, {0, 0, 2 * pi * beam.EI / beam.length}), flat()));
     EXPECT_NEAR(end[0], 0, rounding * beam.length) << beam.degree;
     EXPECT_NEAR(end[1], 0, rounding * beam.length) << beam.degree;
     EXPECT_NEAR(end[2], 2 * pi, rounding) << beam.degree;
@@ -97,9 +94,7 @@ Place shoot(const ExactBeam& beam, double station) {
   };
   double m = 0;
   for (const double part : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
-    const auto rest = [&](double couple) {
-      return at(part, couple, beam.length)[3] - part * beam.b.load[2];
-    };
+    const auto rest = [&](double couple) { return at(part, couple, beam.length)[3] - part * beam.b.load[2]; };
     double before = m - 0.1, rest_before = rest(before), now = rest(m);
     for (int i = 0; i < 30 && now != rest_before && std::abs(now) > 1e-14; ++i) {
       const double next = m - now * (m - before) / (now - rest_before);
@@ -154,8 +149,7 @@ TEST(ExactBeam, SmallLoadDeflectsAsTimoshenkoSays) {
   beam.b.mass = 0.75;
   const double L = beam.length, q = beam.rhoA * beam.gravity[1];
   const double P = small + beam.b.mass * beam.gravity[1];
-  const double want = P * (L * L * L / (3 * beam.EI) + L / beam.GA) +
-                      q * (L * L * L * L / (8 * beam.EI) + L * L / (2 * beam.GA));
+  const double want = P * (L * L * L / (3 * beam.EI) + L / beam.GA) + q * (L * L * L * L / (8 * beam.EI) + L * L / (2 * beam.GA));
   EXPECT_NEAR(tip(static_shape(beam, flat(), 1))[1], want, 1e-8 * std::abs(want));
 }
 
@@ -178,15 +172,12 @@ double measured_period(ExactBeam beam, int n) {
   const Mode mode = pinned_mode(beam, n);
   const BeamStart start = [&mode](double s) {
     const double speed = 1e-5;  // the frequency follows its square
-    return SectionMotion{
-        .place = {s, 0, 0},
-        .rate = {0, speed * std::sin(mode.k * s), speed * mode.turn * std::cos(mode.k * s)}};
+    return SectionMotion{.place = {s, 0, 0}, .rate = {0, speed * std::sin(mode.k * s), speed * mode.turn * std::cos(mode.k * s)}};
   };
   const double T = 2 * pi / mode.w, before = 1.999 * T, after = 2.001 * T;
   const auto frames = simulate(beam, start, {before, after}, T / 50);
   const double s = 0.5 * beam.length / n;
-  const double y0 = place_at(beam, frames[0].place, s)[1],
-               y1 = place_at(beam, frames[1].place, s)[1];
+  const double y0 = place_at(beam, frames[0].place, s)[1], y1 = place_at(beam, frames[1].place, s)[1];
   return (before * y1 - after * y0) / (y1 - y0) / 2;
 }
 
@@ -194,8 +185,7 @@ double measured_period(ExactBeam beam, int n) {
 TEST(ExactBeam, PinnedBeamVibratesAsTimoshenkoSays) {
   ExactBeam beam = soft();
   beam.elements = 16;
-  for (const int n : {1, 2, 3})
-    EXPECT_NEAR(measured_period(beam, n) * pinned_mode(beam, n).w / (2 * pi), 1, 1e-6) << n;
+  for (const int n : {1, 2, 3}) EXPECT_NEAR(measured_period(beam, n) * pinned_mode(beam, n).w / (2 * pi), 1, 1e-6) << n;
 }
 
 TEST(ExactBeam, FrequenciesConvergeWithTwiceTheDegree) {
@@ -255,9 +245,7 @@ TEST(ExactBeam, RefusesAStartOffItsSupports) {
   ExactBeam beam = soft();
   beam.a.hold = Hold::hinge;
   beam.b.hold = Hold::slide;
-  const auto refuses = [&beam](const BeamStart& start) {
-    EXPECT_THROW(simulate(beam, start, {0}, 0.1), std::invalid_argument);
-  };
+  const auto refuses = [&beam](const BeamStart& start) { EXPECT_THROW(simulate(beam, start, {0}, 0.1), std::invalid_argument); };
   refuses(rigid_start({0, 0, 0}, {1e-3, 0, 0}));  // A moves off its hinge
   refuses(rigid_start({0, 0, 0}, {0, 0, 1e-3}));  // B moves off its line
   beam.a.law = crank_pin({1, 0}, 0.5, [](double) { return Vector3d::Zero(); });

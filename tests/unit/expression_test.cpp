@@ -14,13 +14,10 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double rounding = 1e-12;  // relative to the size of the terms summed
 
-const Parameters parameters{{"clearance", {1e-5, dimension::length}},
-                            {"speed", {150, dimension::angular_speed}},
-                            {"turns", {3, dimension::number}}};
+const Parameters parameters{
+    {"clearance", {1e-5, dimension::length}}, {"speed", {150, dimension::angular_speed}}, {"turns", {3, dimension::number}}};
 
-double value(const char* text, const Dimension& d) {
-  return read_quantity(text, d, parameters);
-}
+double value(const char* text, const Dimension& d) { return read_quantity(text, d, parameters); }
 
 std::string refusal(const char* text, const Dimension& d = dimension::length) {
   try {
@@ -41,8 +38,7 @@ std::string law_refusal(const char* text, const Dimension& d) {
 }
 
 void expect_says(const std::string& said, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts)
-    EXPECT_NE(said.find(part), std::string::npos) << "\"" << said << "\" lacks \"" << part << "\"";
+  for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << "\"" << said << "\" lacks \"" << part << "\"";
 }
 
 TEST(Quantity, UnitsConvertToSIToTheLastBit) {
@@ -94,9 +90,7 @@ TEST(Quantity, ParametersKeepTheirDimension) {
   EXPECT_DOUBLE_EQ(value("turns*30 deg", dimension::angle), pi / 2);
 }
 
-TEST(Quantity, PlainFractionOfAUnitIsAFraction) {
-  EXPECT_DOUBLE_EQ(value("1/2 mm", dimension::length), 5e-4);
-}
+TEST(Quantity, PlainFractionOfAUnitIsAFraction) { EXPECT_DOUBLE_EQ(value("1/2 mm", dimension::length), 5e-4); }
 
 TEST(Quantity, UnitAfterADivisionIsRefusedAsAmbiguous) {
   expect_says(refusal("10 mm/2 mm"), {"two ways", "/(2*mm)"});
@@ -167,51 +161,38 @@ struct ClosedForm {
 
 using std::atan, std::cos, std::exp, std::log, std::pow, std::sin, std::sqrt, std::tan;
 const std::vector<ClosedForm> closed_forms{
-    ClosedForm{"3*t^2 - t + 4", [](double t) { return 3 * t * t - t + 4; },
-               [](double t) { return 6 * t - 1; }, [](double) { return 6; }},
-    ClosedForm{"sin(5*t)", [](double t) { return sin(5 * t); },
-               [](double t) { return 5 * cos(5 * t); }, [](double t) { return -25 * sin(5 * t); }},
-    ClosedForm{"cos(t^2)", [](double t) { return cos(t * t); },
-               [](double t) { return -2 * t * sin(t * t); },
+    ClosedForm{"3*t^2 - t + 4", [](double t) { return 3 * t * t - t + 4; }, [](double t) { return 6 * t - 1; }, [](double) { return 6; }},
+    ClosedForm{"sin(5*t)", [](double t) { return sin(5 * t); }, [](double t) { return 5 * cos(5 * t); },
+               [](double t) { return -25 * sin(5 * t); }},
+    ClosedForm{"cos(t^2)", [](double t) { return cos(t * t); }, [](double t) { return -2 * t * sin(t * t); },
                [](double t) { return -2 * sin(t * t) - 4 * t * t * cos(t * t); }},
-    ClosedForm{"tan(t)", [](double t) { return tan(t); },
-               [](double t) { return 1 / pow(cos(t), 2); },
+    ClosedForm{"tan(t)", [](double t) { return tan(t); }, [](double t) { return 1 / pow(cos(t), 2); },
                [](double t) { return 2 * sin(t) / pow(cos(t), 3); }},
-    ClosedForm{"asin(t)", [](double t) { return std::asin(t); },
-               [](double t) { return 1 / sqrt(1 - t * t); },
+    ClosedForm{"asin(t)", [](double t) { return std::asin(t); }, [](double t) { return 1 / sqrt(1 - t * t); },
                [](double t) { return t / pow(1 - t * t, 1.5); }},
-    ClosedForm{"acos(t)", [](double t) { return std::acos(t); },
-               [](double t) { return -1 / sqrt(1 - t * t); },
+    ClosedForm{"acos(t)", [](double t) { return std::acos(t); }, [](double t) { return -1 / sqrt(1 - t * t); },
                [](double t) { return -t / pow(1 - t * t, 1.5); }},
-    ClosedForm{"atan(2*t)", [](double t) { return atan(2 * t); },
-               [](double t) { return 2 / (1 + 4 * t * t); },
+    ClosedForm{"atan(2*t)", [](double t) { return atan(2 * t); }, [](double t) { return 2 / (1 + 4 * t * t); },
                [](double t) { return -16 * t / pow(1 + 4 * t * t, 2); }},
-    ClosedForm{"atan2(sin(3*t), cos(3*t))", [](double t) { return std::remainder(3 * t, 2 * pi); },
-               [](double) { return 3; }, [](double) { return 0; }},
-    ClosedForm{"sqrt(1 + t)", [](double t) { return sqrt(1 + t); },
-               [](double t) { return 0.5 / sqrt(1 + t); },
+    ClosedForm{"atan2(sin(3*t), cos(3*t))", [](double t) { return std::remainder(3 * t, 2 * pi); }, [](double) { return 3; },
+               [](double) { return 0; }},
+    ClosedForm{"sqrt(1 + t)", [](double t) { return sqrt(1 + t); }, [](double t) { return 0.5 / sqrt(1 + t); },
                [](double t) { return -0.25 / pow(1 + t, 1.5); }},
     ClosedForm{"exp(-2*t)/(1 + t)", [](double t) { return exp(-2 * t) / (1 + t); },
                [](double t) { return -exp(-2 * t) * (3 + 2 * t) / pow(1 + t, 2); },
                [](double t) { return exp(-2 * t) * (4 * t * t + 12 * t + 10) / pow(1 + t, 3); }},
-    ClosedForm{"log(1 + t^2)", [](double t) { return log(1 + t * t); },
-               [](double t) { return 2 * t / (1 + t * t); },
+    ClosedForm{"log(1 + t^2)", [](double t) { return log(1 + t * t); }, [](double t) { return 2 * t / (1 + t * t); },
                [](double t) { return 2 * (1 - t * t) / pow(1 + t * t, 2); }},
-    ClosedForm{"2^t", [](double t) { return pow(2, t); },
-               [](double t) { return log(2) * pow(2, t); },
+    ClosedForm{"2^t", [](double t) { return pow(2, t); }, [](double t) { return log(2) * pow(2, t); },
                [](double t) { return log(2) * log(2) * pow(2, t); }},
-    ClosedForm{"t^2.5", [](double t) { return pow(t, 2.5); },
-               [](double t) { return 2.5 * pow(t, 1.5); },
+    ClosedForm{"t^2.5", [](double t) { return pow(t, 2.5); }, [](double t) { return 2.5 * pow(t, 1.5); },
                [](double t) { return 3.75 * pow(t, 0.5); }},
     ClosedForm{"abs(0.3 - t)*min(t, 9)", [](double t) { return std::abs(0.3 - t) * t; },
-               [](double t) { return t < 0.3 ? 0.3 - 2 * t : 2 * t - 0.3; },
-               [](double t) { return t < 0.3 ? -2 : 2; }},
-    ClosedForm{"if(t < 0.5, t, 1 - t^2)", [](double t) { return t < 0.5 ? t : 1 - t * t; },
-               [](double t) { return t < 0.5 ? 1 : -2 * t; },
+               [](double t) { return t < 0.3 ? 0.3 - 2 * t : 2 * t - 0.3; }, [](double t) { return t < 0.3 ? -2 : 2; }},
+    ClosedForm{"if(t < 0.5, t, 1 - t^2)", [](double t) { return t < 0.5 ? t : 1 - t * t; }, [](double t) { return t < 0.5 ? 1 : -2 * t; },
                [](double t) { return t < 0.5 ? 0 : -2; }},
     ClosedForm{"step(t, 0, 1)", [](double t) { return t * t * t * (10 - 15 * t + 6 * t * t); },
-               [](double t) { return 30 * t * t * (1 - 2 * t + t * t); },
-               [](double t) { return 60 * t * (1 - 3 * t + 2 * t * t); }}};
+               [](double t) { return 30 * t * t * (1 - 2 * t + t * t); }, [](double t) { return 60 * t * (1 - 3 * t + 2 * t * t); }}};
 
 class LawDerivative : public testing::TestWithParam<ClosedForm> {};
 
@@ -280,8 +261,7 @@ TEST(Law, RunsOnManyThreadsAtOnce) {
 
 TEST(ParameterName, MayNotHideAUnitAFunctionOrTime) {
   EXPECT_EQ(fault_of_name("clearance_2"), "");
-  for (const char* name : {"t", "pi", "mm", "N", "sin", "step", "2a", "a b", ""})
-    EXPECT_NE(fault_of_name(name), "") << name;
+  for (const char* name : {"t", "pi", "mm", "N", "sin", "step", "2a", "a b", ""}) EXPECT_NE(fault_of_name(name), "") << name;
 }
 
 TEST(Units, AllReadBackByTheirName) {

@@ -48,8 +48,7 @@ MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
 }
 
 int dense_count(const Sparse& A) {
-  return static_cast<int>(
-      (Eigen::SelfAdjointEigenSolver<MatrixXd>(MatrixXd(A)).eigenvalues().array() < 0).count());
+  return static_cast<int>((Eigen::SelfAdjointEigenSolver<MatrixXd>(MatrixXd(A)).eigenvalues().array() < 0).count());
 }
 
 TEST(Factor, SolvesForAnyNumberOfRightHandSides) {
@@ -120,9 +119,7 @@ TEST(Factor, NamesTheColumnThatIsNotPositive) {
   EXPECT_EQ(factor.pivot(), -1);
 }
 
-TEST(Factor, RefusesARectangle) {
-  EXPECT_THROW(Factor().compute(Sparse(3, 4)), std::invalid_argument);
-}
+TEST(Factor, RefusesARectangle) { EXPECT_THROW(Factor().compute(Sparse(3, 4)), std::invalid_argument); }
 
 TEST(NegativeEigenvalues, AreCountedAsDenseAlgebraCounts) {
   // 15 × 12 points fit a few supernodes, 60 × 8 a long chain of them.
@@ -131,8 +128,7 @@ TEST(NegativeEigenvalues, AreCountedAsDenseAlgebraCounts) {
     Sparse one(A.rows(), A.rows());
     one.setIdentity();
     for (double shift : {-0.5, 0.31, 1.07, 2.213, 3.9717, 5.01, 7.7, 20.0})
-      EXPECT_EQ(negative_eigenvalues(A - shift * one), dense_count(A - shift * one))
-          << nx << " by " << ny << ", " << shift;
+      EXPECT_EQ(negative_eigenvalues(A - shift * one), dense_count(A - shift * one)) << nx << " by " << ny << ", " << shift;
   }
 }
 
@@ -160,8 +156,7 @@ TEST(NegativeEigenvalues, AreTheSameInABorrowedOrder) {
   one.setIdentity();
   Factor factor;
   ASSERT_TRUE(factor.compute(A + 2 * one));
-  EXPECT_EQ(negative_eigenvalues(A - 1.234 * one, factor.supernodes()),
-            negative_eigenvalues(A - 1.234 * one));
+  EXPECT_EQ(negative_eigenvalues(A - 1.234 * one, factor.supernodes()), negative_eigenvalues(A - 1.234 * one));
 }
 
 }  // namespace

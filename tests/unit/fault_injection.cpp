@@ -47,7 +47,10 @@ __attribute__((constructor)) void read_environment() {
     if (std::strcmp(call, names[c]) == 0) which = static_cast<Call>(c);
   goes_on = std::strcmp(how, "on") == 0;
   error_number = std::atoi(what);
-  fault = std::strcmp(what, "short") == 0 ? Fault::half : std::strcmp(what, "kill") == 0 ? Fault::kill : std::strcmp(what, "kill-after") == 0 ? Fault::kill_after : Fault::error;
+  fault = std::strcmp(what, "short") == 0        ? Fault::half
+          : std::strcmp(what, "kill") == 0       ? Fault::kill
+          : std::strcmp(what, "kill-after") == 0 ? Fault::kill_after
+                                                 : Fault::error;
 }
 
 __attribute__((destructor)) void write_counts() {
@@ -187,7 +190,9 @@ void* malloc(std::size_t size) noexcept { return fails_for_memory() ? nullptr : 
 void* calloc(std::size_t n, std::size_t size) noexcept { return fails_for_memory() ? nullptr : __libc_calloc(n, size); }
 void* realloc(void* old, std::size_t size) noexcept { return fails_for_memory() ? nullptr : __libc_realloc(old, size); }
 void* memalign(std::size_t alignment, std::size_t size) noexcept { return fails_for_memory() ? nullptr : __libc_memalign(alignment, size); }
-void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept { return fails_for_memory() ? nullptr : __libc_memalign(alignment, size); }
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+  return fails_for_memory() ? nullptr : __libc_memalign(alignment, size);
+}
 int posix_memalign(void** out, std::size_t alignment, std::size_t size) noexcept {
   if (fails_for_memory()) return ENOMEM;
   *out = __libc_memalign(alignment, size);

@@ -41,8 +41,19 @@ class Faults : public testing::Test {
   Ended run_program(const std::string& fault, const Words& more = {}) {
     fs::remove_all(folder_.path() / "results");
     fs::create_directory(folder_.path() / "results");
-    const Words command{PINTLE_PROGRAM, "run", PINTLE_SOURCE_DIR "/examples/slider_crank_clearance.yaml", "--set", "run.until=3 ms", "--set", "output.every=3 us",
-                        "--set", "output.frames=null", "--set", "output.states=1 ms", "-o", out().string()};
+    const Words command{PINTLE_PROGRAM,
+                        "run",
+                        PINTLE_SOURCE_DIR "/examples/slider_crank_clearance.yaml",
+                        "--set",
+                        "run.until=3 ms",
+                        "--set",
+                        "output.every=3 us",
+                        "--set",
+                        "output.frames=null",
+                        "--set",
+                        "output.states=1 ms",
+                        "-o",
+                        out().string()};
     Words environment{"LD_PRELOAD=" PINTLE_FAULTS, "PINTLE_FAULT_UNDER=" + (folder_.path() / "results").string(),
                       "PINTLE_FAULT_LOG=" + (folder_.path() / "counts").string()};
     if (!fault.empty()) environment.push_back("PINTLE_FAULT=" + fault);
@@ -79,7 +90,8 @@ class Faults : public testing::Test {
 
   /// Nothing is lost: whole results, or a folder that is named and readable, or nothing where nothing had been computed.
   void expect_nothing_lost(const Ended& end, const std::string& fault) {
-    SCOPED_TRACE(fault + ": exit code " + std::to_string(end.code) + ", signal " + std::to_string(end.signal) + ", said: " + end.complained);
+    SCOPED_TRACE(fault + ": exit code " + std::to_string(end.code) + ", signal " + std::to_string(end.signal) +
+                 ", said: " + end.complained);
     const bool killed = end.signal == SIGKILL;
     if (end.code == 0) {
       EXPECT_TRUE(is_whole(out()));

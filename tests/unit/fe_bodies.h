@@ -39,9 +39,7 @@ inline Plate plate(int nx, int ny, CellShape shape, const Map& map, bool closed 
   const int columns = closed ? 2 * nx : 2 * nx + 1;
   std::vector<int> number(static_cast<std::size_t>(columns * (2 * ny + 1)), -1);
   std::vector<Eigen::Vector2d> x;
-  const auto node = [&](int i, int j) -> int& {
-    return number[static_cast<std::size_t>((i % columns) + columns * j)];
-  };
+  const auto node = [&](int i, int j) -> int& { return number[static_cast<std::size_t>((i % columns) + columns * j)]; };
   for (int j = 0; j <= 2 * ny; ++j)
     for (int i = 0; i < columns; ++i) {
       const int odd = i % 2 + j % 2;
@@ -84,9 +82,7 @@ inline Plate plate(int nx, int ny, CellShape shape, const Map& map, bool closed 
     Cells sides{second ? CellShape::line3 : CellShape::line2, {}, {}};
     std::vector<int>& along = made.nodes[name];
     for (int k = 0; k < count; ++k) {
-      const auto next = [&](int h) {
-        return node(at.first + h * step.first, at.second + h * step.second);
-      };
+      const auto next = [&](int h) { return node(at.first + h * step.first, at.second + h * step.second); };
       along.push_back(next(0));
       sides.nodes.insert(sides.nodes.end(), {next(0), next(2)});
       if (second) {
@@ -121,8 +117,8 @@ inline Map rectangle(double length, double height) {
 }
 /// Ring or sector between two radii about `center`; s runs clockwise from `from` over `angle`, so
 /// that cells run counter-clockwise and "bottom" is the hole's rim.
-inline Map ring(double inner, double outer, double from, double angle,
-                Eigen::Vector2d center = Eigen::Vector2d::Zero(), double grading = 1) {
+inline Map ring(double inner, double outer, double from, double angle, Eigen::Vector2d center = Eigen::Vector2d::Zero(),
+                double grading = 1) {
   return [=](double s, double t) -> Eigen::Vector2d {
     const double r = inner + (outer - inner) * std::pow(t, grading), a = from - angle * s;
     return center + r * Eigen::Vector2d(std::cos(a), std::sin(a));
@@ -133,8 +129,7 @@ inline PlaneProperties steel(PlaneState state, double poisson = 0.3) {
   return {plane_material({Isotropic{2e11, poisson}, 7800}, state), 7800, 0.01};
 }
 
-inline FeModel model_of(const Plate& p, const PlaneProperties& properties,
-                        std::string_view element = "") {
+inline FeModel model_of(const Plate& p, const PlaneProperties& properties, std::string_view element = "") {
   return fe_model(p.mesh.x, plane_blocks(p.mesh, properties, element));
 }
 
@@ -148,14 +143,11 @@ std::string refusal(const std::function<void()>& act) {
   }
   return "nothing was refused";
 }
-inline bool says(const std::string& words, const std::string& part) {
-  return words.find(part) != std::string::npos;
-}
+inline bool says(const std::string& words, const std::string& part) { return words.find(part) != std::string::npos; }
 
 /// Elements of one kind in a row from `from` to `to`.
 template <class E>
-FeModel chain(const E& e, int count, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
-              std::vector<Lump> lumps = {}) {
+FeModel chain(const E& e, int count, const Eigen::Vector2d& from, const Eigen::Vector2d& to, std::vector<Lump> lumps = {}) {
   Eigen::Matrix2Xd x(2, count + 1);
   Block<E> block{{e}, {}, {}};
   for (int i = 0; i <= count; ++i) x.col(i) = from + (to - from) * i / count;
@@ -173,10 +165,8 @@ struct Quarter {
   Supports supports;
   double thickness;
 
-  Quarter(double inner, double outer, int round, int across, CellShape shape, PlaneState state,
-          double grading = 1)
-      : plate(pintle::plate(round, across, shape,
-                            ring(inner, outer, M_PI / 2, M_PI / 2, {0, 0}, grading))),
+  Quarter(double inner, double outer, int round, int across, CellShape shape, PlaneState state, double grading = 1)
+      : plate(pintle::plate(round, across, shape, ring(inner, outer, M_PI / 2, M_PI / 2, {0, 0}, grading))),
         model(model_of(plate, steel(state))),
         thickness(steel(state).thickness) {
     for (const int i : plate.nodes["left"]) hold(supports, model, i, true, false, false);

@@ -30,27 +30,20 @@ constexpr double rounding = 1e-12;
 const BeamEuler beam{2e8, 1500, 8, 1e-3};
 const Bar bar{1e8, 4};
 
-double largest(const MatrixXd& A) {
-  return A.cwiseAbs().maxCoeff();
-}
+double largest(const MatrixXd& A) { return A.cwiseAbs().maxCoeff(); }
 
 /// A triangle of two beams and a bar; the third node of the chain hangs on bars alone.
 FeModel frame(std::vector<Lump> lumps = {}) {
   Matrix2Xd x(2, 4);
   x << 0, 1.1, 0.4, 2.0, 0, 0.2, 0.9, 0.7;
-  return fe_model(x,
-                  {Block<BeamEuler>{{beam}, {0, 1, 1, 2}, {0, 1}},
-                   Block<Bar>{{bar}, {2, 0, 1, 3, 2, 3}, {2, 3, 4}}},
-                  std::move(lumps));
+  return fe_model(x, {Block<BeamEuler>{{beam}, {0, 1, 1, 2}, {0, 1}}, Block<Bar>{{bar}, {2, 0, 1, 3, 2, 3}, {2, 3, 4}}}, std::move(lumps));
 }
 
 FeModel body(const std::string& name) {
   const PlaneProperties p = steel(PlaneState::strain);
   if (name == "frame") return frame({{1, {3, 0.2}}, {3, {5, 0}}});
-  if (name == "triangle6")
-    return model_of(plate(3, 2, CellShape::triangle6, bent_rectangle(2, 1)), p);
-  if (name == "quadrilateral4")
-    return model_of(plate(4, 3, CellShape::quadrilateral4, bent_rectangle(2, 1)), p);
+  if (name == "triangle6") return model_of(plate(3, 2, CellShape::triangle6, bent_rectangle(2, 1)), p);
+  if (name == "quadrilateral4") return model_of(plate(4, 3, CellShape::quadrilateral4, bent_rectangle(2, 1)), p);
   return model_of(plate(12, 2, CellShape::quadrilateral8, ring(0.1, 0.3, 1, 2 * M_PI), true), p);
 }
 const char* const bodies[] = {"frame", "triangle6", "quadrilateral4", "quadrilateral8"};
@@ -67,20 +60,15 @@ MatrixXd written_out(const FeModel& m, const Of& of) {
             for (int k = 0; k < E::nodes; ++k)
               for (int d = 0; d < E::dofs_per_node; ++d)
                 gather(k * E::dofs_per_node + d,
-                       m.begin[static_cast<std::size_t>(
-                           block.nodes[static_cast<std::size_t>(e * E::nodes + k)])] +
-                           d) = 1;
-            A += gather.transpose() * MatrixXd(of(block.element(e), block.coords(e, m.x), gather)) *
-                 gather;
+                       m.begin[static_cast<std::size_t>(block.nodes[static_cast<std::size_t>(e * E::nodes + k)])] + d) = 1;
+            A += gather.transpose() * MatrixXd(of(block.element(e), block.coords(e, m.x), gather)) * gather;
           }
         },
         any);
   return A;
 }
 
-TEST(FeModel, ANodeTurnsOnlyWhereABeamMeetsIt) {
-  EXPECT_EQ(frame().begin, (std::vector<int>{0, 3, 6, 9, 11}));
-}
+TEST(FeModel, ANodeTurnsOnlyWhereABeamMeetsIt) { EXPECT_EQ(frame().begin, (std::vector<int>{0, 3, 6, 9, 11})); }
 
 TEST(FeModel, ANodeThatNoElementUsesIsRefusedByNumberAndPlace) {
   Matrix2Xd x(2, 3);
@@ -99,19 +87,12 @@ TEST(FeModel, WrongCountsAndNumbersAreRefused) {
   x << 0, 1, 0, 0;
   EXPECT_TRUE(says(refusal([&] { fe_model(x, {Block<Bar>{{bar}, {0, 2}, {0}}}); }), "node 2"));
   EXPECT_TRUE(says(refusal([&] { fe_model(x, {Block<Bar>{{bar}, {0, 1, 0}, {0}}}); }), "multiple"));
-  EXPECT_TRUE(says(refusal([&] {
-                     fe_model(x, {Block<Bar>{{bar, bar}, {0, 1}, {0}}});
-                   }),
-                   "2 properties for 1"));
-  EXPECT_TRUE(says(refusal([&] {
-                     fe_model(x, {Block<Bar>{{bar}, {0, 1}, {0}}}, {{1, {-1, 0}}});
-                   }),
-                   "negative"));
+  EXPECT_TRUE(says(refusal([&] { fe_model(x, {Block<Bar>{{bar, bar}, {0, 1}, {0}}}); }), "2 properties for 1"));
+  EXPECT_TRUE(says(refusal([&] { fe_model(x, {Block<Bar>{{bar}, {0, 1}, {0}}}, {{1, {-1, 0}}}); }), "negative"));
 }
 
 class Bodies : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(All, Bodies, testing::ValuesIn(bodies),
-                         [](const auto& at) { return std::string(at.param); });
+INSTANTIATE_TEST_SUITE_P(All, Bodies, testing::ValuesIn(bodies), [](const auto& at) { return std::string(at.param); });
 
 TEST_P(Bodies, MatricesAreTheSumsOfTheirElements) {
   const FeModel m = body(GetParam());
@@ -129,22 +110,12 @@ TEST_P(Bodies, MatricesAreTheSumsOfTheirElements) {
   const auto agree = [](const Sparse& ours, const MatrixXd& written) {
     EXPECT_LT(largest(MatrixXd(ours) - written), rounding * largest(written));
   };
-  agree(assembler.stiffness(), written_out(m, [](const auto& e, const auto& x, const MatrixXd&) {
-          return stiffness(e, x);
-        }));
-  agree(assembler.mass(), lumps + written_out(m, [](const auto& e, const auto& x, const MatrixXd&) {
-                            return mass(e, x);
-                          }));
+  agree(assembler.stiffness(), written_out(m, [](const auto& e, const auto& x, const MatrixXd&) { return stiffness(e, x); }));
+  agree(assembler.mass(), lumps + written_out(m, [](const auto& e, const auto& x, const MatrixXd&) { return mass(e, x); }));
   agree(assembler.mass(MassKind::lumped),
-        lumps + written_out(m, [](const auto& e, const auto& x, const MatrixXd&) {
-          return MatrixXd(lumped_mass(e, x).asDiagonal());
-        }));
-  agree(assembler.skew_mass(),
-        skew_lumps + written_out(m, [](const auto& e, const auto& x, const MatrixXd&) {
-          return skew_mass(e, x);
-        }));
-  agree(assembler.geometric_stiffness(u),
-        written_out(m, [&]<class E>(const E& e, const Coords<E>& x, const MatrixXd& gather) {
+        lumps + written_out(m, [](const auto& e, const auto& x, const MatrixXd&) { return MatrixXd(lumped_mass(e, x).asDiagonal()); }));
+  agree(assembler.skew_mass(), skew_lumps + written_out(m, [](const auto& e, const auto& x, const MatrixXd&) { return skew_mass(e, x); }));
+  agree(assembler.geometric_stiffness(u), written_out(m, [&]<class E>(const E& e, const Coords<E>& x, const MatrixXd& gather) {
           return geometric_stiffness(e, x, stress(e, x, Freedoms<E>(gather * u)));
         }));
 }
@@ -162,19 +133,15 @@ TEST_P(Bodies, RigidMotionsCostNoEnergyAndCarryTheMass) {
   const std::string name = GetParam();
   if (name == "frame") {
     mass = beam.rhoA * ((m.x.col(1) - m.x.col(0)).norm() + (m.x.col(2) - m.x.col(1)).norm()) +
-           bar.rhoA * ((m.x.col(2) - m.x.col(0)).norm() + (m.x.col(3) - m.x.col(1)).norm() +
-                       (m.x.col(3) - m.x.col(2)).norm()) +
-           8;
+           bar.rhoA * ((m.x.col(2) - m.x.col(0)).norm() + (m.x.col(3) - m.x.col(1)).norm() + (m.x.col(3) - m.x.col(2)).norm()) + 8;
   } else if (name != "quadrilateral8") {
     mass = 7800 * 0.01 * 2;  // the bump moves no boundary
   } else {
     // Sides are parabolas through the circle: area between polygon and 2/3 of each circular
     // sagitta.
     for (const double r : {0.1, 0.3}) {
-      const double half = M_PI / 12, chord = 2 * r * std::sin(half),
-                   sagitta = r * (1 - std::cos(half));
-      const double area =
-          12 * (r * r * std::sin(half) * std::cos(half) + 2.0 / 3 * chord * sagitta);
+      const double half = M_PI / 12, chord = 2 * r * std::sin(half), sagitta = r * (1 - std::cos(half));
+      const double area = 12 * (r * r * std::sin(half) * std::cos(half) + 2.0 / 3 * chord * sagitta);
       mass += (r == 0.1 ? -1 : 1) * area * 7800 * 0.01;
     }
   }
@@ -191,13 +158,10 @@ TEST_P(Bodies, StiffnessMassSkewAndGeometricStiffnessHaveOnePattern) {
   for (Eigen::Index j = 0; j < K.cols(); ++j)
     for (int k = K.outerIndexPtr()[j]; k + 1 < K.outerIndexPtr()[j + 1]; ++k)
       ASSERT_LT(K.innerIndexPtr()[k], K.innerIndexPtr()[k + 1]) << "column " << j;
-  for (const Sparse& other : {assembler.mass(), assembler.skew_mass(),
-                              assembler.geometric_stiffness(VectorXd::Ones(m.N()))}) {
+  for (const Sparse& other : {assembler.mass(), assembler.skew_mass(), assembler.geometric_stiffness(VectorXd::Ones(m.N()))}) {
     ASSERT_EQ(other.nonZeros(), K.nonZeros());
-    EXPECT_TRUE(
-        std::equal(K.innerIndexPtr(), K.innerIndexPtr() + K.nonZeros(), other.innerIndexPtr()));
-    EXPECT_TRUE(
-        std::equal(K.outerIndexPtr(), K.outerIndexPtr() + K.cols() + 1, other.outerIndexPtr()));
+    EXPECT_TRUE(std::equal(K.innerIndexPtr(), K.innerIndexPtr() + K.nonZeros(), other.innerIndexPtr()));
+    EXPECT_TRUE(std::equal(K.outerIndexPtr(), K.outerIndexPtr() + K.cols() + 1, other.outerIndexPtr()));
   }
 }
 
@@ -209,8 +173,7 @@ TEST_P(Bodies, TheOrderOfElementsDoesNotMatter) {
         [&]<class E>(Block<E>& block) {
           Block<E> turned = block;
           for (int e = 0; e < block.size(); ++e)
-            std::copy_n(block.nodes.begin() + e * E::nodes, E::nodes,
-                        turned.nodes.end() - (e + 1) * E::nodes);
+            std::copy_n(block.nodes.begin() + e * E::nodes, E::nodes, turned.nodes.end() - (e + 1) * E::nodes);
           block = turned;
         },
         any);
@@ -226,8 +189,7 @@ TEST(Assembler, RenumberedNodesGiveTheSameMatrixRenumbered) {
   std::iota(to.begin(), to.end(), 0);
   std::shuffle(to.begin(), to.end(), std::mt19937(3));
   Plate q = p;
-  for (std::size_t i = 0; i < count; ++i)
-    q.mesh.x.col(to[i]) = p.mesh.x.col(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < count; ++i) q.mesh.x.col(to[i]) = p.mesh.x.col(static_cast<Eigen::Index>(i));
   for (int& node : q.mesh.cells[0].nodes) node = to[static_cast<std::size_t>(node)];
   const MatrixXd K(Assembler(m).stiffness());
   const FeModel renumbered = model_of(q, steel(PlaneState::stress));
@@ -236,15 +198,13 @@ TEST(Assembler, RenumberedNodesGiveTheSameMatrixRenumbered) {
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j)
       worst = std::max(worst, largest(Kq.block<2, 2>(2 * to[i], 2 * to[j]) -
-                                      K.block<2, 2>(static_cast<Eigen::Index>(2 * i),
-                                                    static_cast<Eigen::Index>(2 * j))));
+                                      K.block<2, 2>(static_cast<Eigen::Index>(2 * i), static_cast<Eigen::Index>(2 * j))));
   EXPECT_LT(worst, rounding * largest(K));
 }
 
 // Along a line of n cells 3n + 1 pairs of nodes share a cell; in a grid both ways at once.
 TEST(Assembler, StoresTheNodesThatShareACellAndNoOthers) {
-  const FeModel m =
-      model_of(plate(7, 5, CellShape::quadrilateral4, rectangle(2, 1)), steel(PlaneState::stress));
+  const FeModel m = model_of(plate(7, 5, CellShape::quadrilateral4, rectangle(2, 1)), steel(PlaneState::stress));
   EXPECT_EQ(Assembler(m).stiffness().nonZeros(), 4 * (3 * 7 + 1) * (3 * 5 + 1));
 }
 

@@ -40,8 +40,10 @@ struct Contained : testing::Test {
   static void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
 
   std::string said_of_table(const std::string& name) const {
-    return said("{title: t, bodies: {a: {rigid: {mass: 1 kg, inertia: 1}}}, joints: {j: {revolute: [ground, a]}}, "
-                "forces: {f: {torque: {table: \"" + name + "\"}, on: a}}, run: {until: 1 s}}");
+    return said(
+        "{title: t, bodies: {a: {rigid: {mass: 1 kg, inertia: 1}}}, joints: {j: {revolute: [ground, a]}}, "
+        "forces: {f: {torque: {table: \"" +
+        name + "\"}, on: a}}, run: {until: 1 s}}");
   }
   std::string said_of_mesh(const std::string& name) const {
     return said("{bodies: {a: {plate: {file: \"" + name + "\", thickness: 1 mm, young: 1 GPa, poisson: 0.3, density: 1}}}}");
@@ -68,9 +70,7 @@ struct Contained : testing::Test {
 void says(const std::string& said, const std::string& part) {
   EXPECT_NE(said.find(part), std::string::npos) << "\"" << said << "\" lacks \"" << part << "\"";
 }
-void hides(const std::string& said, const std::string& part) {
-  EXPECT_EQ(said.find(part), std::string::npos) << "\"" << said << "\"";
-}
+void hides(const std::string& said, const std::string& part) { EXPECT_EQ(said.find(part), std::string::npos) << "\"" << said << "\""; }
 
 TEST_F(Contained, TablesLieInTheScenesFolderOrBelow) {
   EXPECT_EQ(said_of_table("inside.csv"), "accepted");
@@ -79,7 +79,7 @@ TEST_F(Contained, TablesLieInTheScenesFolderOrBelow) {
   fs::create_symlink("../inside.csv", scene() / "sub/link.csv");
   EXPECT_EQ(said_of_table("sub/link.csv"), "accepted");
   for (const std::string& name : {std::string("../outside.csv"), (folder / "outside.csv").string(), std::string("sub/../../outside.csv"),
-                                 std::string("/proc/self/environ"), std::string("../nothing.csv")}) {
+                                  std::string("/proc/self/environ"), std::string("../nothing.csv")}) {
     says(said_of_table(name), "forces.f.torque.table");
     says(said_of_table(name), "--allow-path");
   }

@@ -72,8 +72,7 @@ const Shape shapes[] = {
 struct Tie {
   const char *name, *text;
 };
-const Tie ties[] = {
-    {"MeanAxes", "mean axes"}, {"Tangent", "{tangent: A}"}, {"Chord", "{chord: [A, B]}"}};
+const Tie ties[] = {{"MeanAxes", "mean axes"}, {"Tangent", "{tangent: A}"}, {"Chord", "{chord: [A, B]}"}};
 
 using Case = std::tuple<Shape, Tie, const char*>;
 std::string case_name(const Case& c) {
@@ -87,13 +86,11 @@ constexpr int part = 1;  // its index; body 0 is rigid
 // Forces of nothing make markers of its points.
 System make_system(const Case& c) {
   const auto& [shape, conditions, stiffening] = c;
-  std::string text =
-      "gravity: [1.5, -9.8]\nbodies:\n  rigid: {rigid: {mass: 2, inertia: 0.3}}\n  part:\n";
-  text += std::string(shape.text) + conditions.text + "}\n    stiffening: " + stiffening +
-          "\n    damping: {ratios: [0.02, 0.1, 0]}\nforces:\n";
+  std::string text = "gravity: [1.5, -9.8]\nbodies:\n  rigid: {rigid: {mass: 2, inertia: 0.3}}\n  part:\n";
+  text +=
+      std::string(shape.text) + conditions.text + "}\n    stiffening: " + stiffening + "\n    damping: {ratios: [0.02, 0.1, 0]}\nforces:\n";
   for (const char* point : shape.points)
-    text +=
-        "  at " + std::string(point) + ": {force: [0, 0], at: part." + point + ", follows: true}\n";
+    text += "  at " + std::string(point) + ": {force: [0, 0], at: part." + point + ", follows: true}\n";
   System s = build(read_scene_text(text, "test.yaml")).system;
   s.forces.clear();
   s.force_names.clear();
@@ -119,8 +116,7 @@ class FlexibleBody : public testing::TestWithParam<Case> {
   // Shapes are bent alike in energy, the lowest by a few centimetres at a few decimetres a second.
   VectorXd random_y() {
     VectorXd y = VectorXd::Zero(system.n_y());
-    const VectorXd reach =
-        std::sqrt(body.m) * body.flex->omega[0] * body.flex->omega.cwiseInverse();
+    const VectorXd reach = std::sqrt(body.m) * body.flex->omega[0] * body.flex->omega.cwiseInverse();
     y.head<6>() << draw.pose(), draw.pose();
     y.segment(6, n) = draw.matrix(n, 1, 0.01).cwiseProduct(reach);
     y.segment<6>(n_q) << draw.rates(), draw.rates();
@@ -216,9 +212,7 @@ TEST_P(FlexibleBody, MassMatrixIsTheHessianOfKineticEnergy) {
       return kinetic_energy(system, at, part);
     };
     for (int i = 0; i < 3 + n; ++i)
-      for (int j = 0; j < 3 + n; ++j)
-        EXPECT_NEAR(M(i, j) / (w[i] * w[j]), T(i, j) - T(i, -1) - T(j, -1), 10 * rounding)
-            << i << ", " << j;
+      for (int j = 0; j < 3 + n; ++j) EXPECT_NEAR(M(i, j) / (w[i] * w[j]), T(i, j) - T(i, -1) - T(j, -1), 10 * rounding) << i << ", " << j;
   }
 }
 
@@ -233,8 +227,7 @@ TEST_P(FlexibleBody, VelocityTermsAreThoseOfTheLagrangian) {
       return later;
     };
     const VectorXd rate = slope_of([&](double t) { return momentum(after(t)); });
-    const VectorXd by_place =
-        gradient(y, [&](const VectorXd& at) { return kinetic_energy(system, at, part); });
+    const VectorXd by_place = gradient(y, [&](const VectorXd& at) { return kinetic_energy(system, at, part); });
     expect_close(forces(bare, y), by_place - rate, difference);
   }
 }
@@ -242,9 +235,7 @@ TEST_P(FlexibleBody, VelocityTermsAreThoseOfTheLagrangian) {
 TEST_P(FlexibleBody, GravityIsTheSlopeOfTheWeightOfItsMassCentre) {
   for (int k = 0; k < draws; ++k) {
     const VectorXd y = random_y();
-    const VectorXd slopes = gradient(y, [&](const VectorXd& at) {
-      return body.m * system.gravity.dot(mass_centre(system, at, part));
-    });
+    const VectorXd slopes = gradient(y, [&](const VectorXd& at) { return body.m * system.gravity.dot(mass_centre(system, at, part)); });
     expect_close(forces(system, y) - forces(without_gravity(system), y), slopes, difference);
   }
 }
@@ -254,13 +245,11 @@ TEST_P(FlexibleBody, ElasticForceIsTheSlopeOfStrainEnergyAndDampingTakesItsLoss)
   undamped.bodies[part].flex->zeta.setZero();
   for (int k = 0; k < draws; ++k) {
     const VectorXd y = random_y();
-    const VectorXd slopes =
-        gradient(y, [&](const VectorXd& at) { return -strain_energy(system, at, part); });
+    const VectorXd slopes = gradient(y, [&](const VectorXd& at) { return -strain_energy(system, at, part); });
     expect_close(forces(undamped, y) - forces(without_elasticity(undamped), y), slopes, difference);
     const VectorXd damping = forces(system, y) - forces(undamped, y);
     const double loss = damping_loss(system, y, part);
-    EXPECT_NEAR(-damping.dot(taken(y.segment(n_q, n_q))), loss,
-                rounding * (loss + forces(undamped, y).norm() * std::sqrt(body.m)));
+    EXPECT_NEAR(-damping.dot(taken(y.segment(n_q, n_q))), loss, rounding * (loss + forces(undamped, y).norm() * std::sqrt(body.m)));
   }
 }
 
@@ -371,8 +360,7 @@ TEST_P(FlexibleBody, StoredEnergyFallsByWhatDampingTakes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, FlexibleBody,
-                         testing::Combine(testing::ValuesIn(shapes), testing::ValuesIn(ties),
-                                          testing::Values("none", "rotation", "axial")),
+                         testing::Combine(testing::ValuesIn(shapes), testing::ValuesIn(ties), testing::Values("none", "rotation", "axial")),
                          [](const auto& p) { return case_name(p.param); });
 
 }  // namespace

@@ -47,8 +47,7 @@ constexpr int coarse = 16, fine = 192;  // 102 and 9650 freedoms
 
 /// A mechanism ready to run and all that runs it.
 struct Ready {
-  explicit Ready(const Scene& scene)
-      : model(build(scene)), run(model.system, model.scheme, assemble(scene, model).start) {}
+  explicit Ready(const Scene& scene) : model(build(scene)), run(model.system, model.scheme, assemble(scene, model).start) {}
   Model model;
   Integrator run;
 };
@@ -66,8 +65,7 @@ TEST(FlexibleBudget, NothingOfFiniteElementSizeOutlivesTheBuild) {
   constexpr double spare = 1000;  // blocks come up to 16 bytes longer than asked for
   bytes_kept(fine, "axial");      // what libraries keep for themselves, once
   for (const char* stiffening : {"none", "axial"}) {
-    const long with_coarse = bytes_kept(coarse, stiffening),
-               with_fine = bytes_kept(fine, stiffening);
+    const long with_coarse = bytes_kept(coarse, stiffening), with_fine = bytes_kept(fine, stiffening);
     EXPECT_NEAR(static_cast<double>(with_fine - with_coarse), 0, spare) << stiffening;
     EXPECT_GT(with_coarse, 10000);
   }
@@ -85,8 +83,7 @@ TEST(FlexibleBudget, EvaluationsDoNotDependOnTheMesh) {
     for (int k = 0; k < 200; ++k) ASSERT_TRUE(ready.run.advance(1));
     const Counts after = ready.run.counts();
     evaluations[i] = after.evaluations - before.evaluations;
-    EXPECT_EQ(evaluations[i++],
-              6 * (after.steps + after.rejected - before.steps - before.rejected));
+    EXPECT_EQ(evaluations[i++], 6 * (after.steps + after.rejected - before.steps - before.rejected));
   }
   // Rejected steps, a few in a hundred, fall where the frequencies of the mesh put them.
   EXPECT_NEAR(static_cast<double>(evaluations[0]) / static_cast<double>(evaluations[1]), 1, 0.1);

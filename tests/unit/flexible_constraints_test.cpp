@@ -20,9 +20,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-std::string reference(int link, const char* point) {
-  return link < 0 ? "ground" : "link " + std::to_string(link) + "." + point;
-}
+std::string reference(int link, const char* point) { return link < 0 ? "ground" : "link " + std::to_string(link) + "." + point; }
 
 /// Beams hung in a row, every third link rigid; each fourth joint is a weld, the others are pins. A
 /// spring from the first to the last.
@@ -34,17 +32,14 @@ System chain(int links, const std::string& stiffening) {
                                  : "    beam: {from: A, to: B, section: {rectangle: [8 mm, 5 mm]}, "
                                    "elements: 6, young: 70 GPa, poisson: 0.33, density: 2700}\n"
                                    "    modes: {frame: " +
-                                       std::string(i % 2 == 0 ? "chord" : "mean axes") +
-                                       ", count: 4}\n    stiffening: " + stiffening +
+                                       std::string(i % 2 == 0 ? "chord" : "mean axes") + ", count: 4}\n    stiffening: " + stiffening +
                                        "\n    damping: {ratios: 0.01}\n");
     bodies += "    points: {A: [0, 0], B: [0.12, 0]}\n";
-    joints += "  joint " + std::to_string(i) + (i % 4 == 3 ? ": {weld: [" : ": {revolute: [") +
-              reference(i - 1, "B") + ", " + reference(i, "A") + "]}\n";
+    joints += "  joint " + std::to_string(i) + (i % 4 == 3 ? ": {weld: [" : ": {revolute: [") + reference(i - 1, "B") + ", " +
+              reference(i, "A") + "]}\n";
   }
-  return build(read_scene_text("gravity: [0, -9.81]\nbodies:\n" + bodies + "joints:\n" + joints +
-                                   "forces:\n  s: {spring: [link 0.B, " +
-                                   reference(links - 1, "B") +
-                                   "], stiffness: 500, damping: 2, free length: 0.1}\n",
+  return build(read_scene_text("gravity: [0, -9.81]\nbodies:\n" + bodies + "joints:\n" + joints + "forces:\n  s: {spring: [link 0.B, " +
+                                   reference(links - 1, "B") + "], stiffness: 500, damping: 2, free length: 0.1}\n",
                                "chain.yaml"))
       .system;
 }
@@ -83,8 +78,7 @@ MatrixXd whole_matrix(const System& system, const Equations& eq) {
     K.block(e.begin, at, e.n, 3) = M.bottomLeftCorner(e.n, 3);
     K.block(e.begin, e.begin, e.n, e.n) = M.bottomRightCorner(e.n, e.n);
   }
-  visit_jacobian(
-      eq, [&](int row, int column, double v) { K(n + row, column) = K(column, n + row) = v; });
+  visit_jacobian(eq, [&](int row, int column, double v) { K(n + row, column) = K(column, n + row) = v; });
   return K;
 }
 
@@ -110,13 +104,9 @@ TEST_P(FlexibleChain, AccelerationsAndReactionsAreThoseOfADenseSolve) {
     const MatrixXd K = whole_matrix(system, eq);
     VectorXd unit(n + rows);
     unit.head(n) = K.diagonal().head(n).cwiseSqrt().cwiseInverse();
-    unit.tail(rows) =
-        (K.bottomLeftCorner(rows, n) * unit.head(n).asDiagonal()).rowwise().norm().cwiseInverse();
-    const VectorXd x = MatrixXd(unit.asDiagonal() * K * unit.asDiagonal())
-                           .partialPivLu()
-                           .solve(unit.cwiseProduct(right));
-    const VectorXd a = eq.a.cwiseQuotient(unit.head(n)),
-                   lambda = eq.lambda.cwiseQuotient(unit.tail(rows));
+    unit.tail(rows) = (K.bottomLeftCorner(rows, n) * unit.head(n).asDiagonal()).rowwise().norm().cwiseInverse();
+    const VectorXd x = MatrixXd(unit.asDiagonal() * K * unit.asDiagonal()).partialPivLu().solve(unit.cwiseProduct(right));
+    const VectorXd a = eq.a.cwiseQuotient(unit.head(n)), lambda = eq.lambda.cwiseQuotient(unit.tail(rows));
     // Rounding times the condition number of S, which grows with the square of the links, 1e3 for
     // thirty, and with the ratio of inertias, 1e2.
     constexpr double solved = 1e-11;
@@ -126,11 +116,9 @@ TEST_P(FlexibleChain, AccelerationsAndReactionsAreThoseOfADenseSolve) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Every, FlexibleChain,
-                         testing::Values(ChainCase{5, "none"}, ChainCase{12, "axial"},
-                                         ChainCase{30, "none"}, ChainCase{30, "axial"}),
+                         testing::Values(ChainCase{5, "none"}, ChainCase{12, "axial"}, ChainCase{30, "none"}, ChainCase{30, "axial"}),
                          [](const auto& p) {
-                           return std::to_string(p.param.links) + "Links" +
-                                  (p.param.stiffening[0] == 'n' ? "Linear" : "Stiffening");
+                           return std::to_string(p.param.links) + "Links" + (p.param.stiffening[0] == 'n' ? "Linear" : "Stiffening");
                          });
 
 // ---- projection and partitioning ----------------------------------------------------------------
@@ -180,11 +168,9 @@ End end_of_run(const std::string& modes, const std::string& constraints) {
 // Half a turn of the crank, local errors of 1e-11 of the mechanism's size over some thousand steps;
 // shapes, which bend by 1e-4 of it and turn a hundred times, know themselves to fewer digits.
 TEST(FlexibleSliderCrank, PartitioningAndProjectionGiveTheSameMotion) {
-  for (const char* modes :
-       {"{frame: chord, count: 2}", "{frame: mean axes, count: 2}",
-        "{frame: {tangent: A}, count: 3}", "{frame: chord, count: 2}\n    stiffening: axial"}) {
-    const End projected = end_of_run(modes, "projection"),
-              partitioned = end_of_run(modes, "partitioning");
+  for (const char* modes : {"{frame: chord, count: 2}", "{frame: mean axes, count: 2}", "{frame: {tangent: A}, count: 3}",
+                            "{frame: chord, count: 2}\n    stiffening: axial"}) {
+    const End projected = end_of_run(modes, "projection"), partitioned = end_of_run(modes, "partitioning");
     EXPECT_LT((projected.frames - partitioned.frames).lpNorm<Eigen::Infinity>(), 1e-9) << modes;
     EXPECT_LT((projected.eta - partitioned.eta).norm(), 1e-7 * projected.eta.norm()) << modes;
     EXPECT_GT(projected.eta.norm(), 0) << modes;

@@ -45,8 +45,7 @@ constexpr double EA = young * 0.1 * 0.05, EI = young * 0.05 * 0.001 / 12;
 struct Body {
   Scene scene;
   ElasticBody elastic;
-  explicit Body(const std::string& text)
-      : scene(read_scene_text(text, "test.yaml")), elastic(elastic_body(scene, scene.bodies[0])) {}
+  explicit Body(const std::string& text) : scene(read_scene_text(text, "test.yaml")), elastic(elastic_body(scene, scene.bodies[0])) {}
   Vector2d centre() const {
     const RigidInertia inertia = rigid_inertia(elastic.model, elastic.M);
     return inertia.c / inertia.m;
@@ -64,28 +63,19 @@ ModalModel shapes(const Body& body, const std::vector<Motion>& fields) {
     for (int i = 0; i < model.x.cols(); ++i) {
       const int begin = model.begin[static_cast<std::size_t>(i)];
       const int freedoms = model.begin[static_cast<std::size_t>(i) + 1] - begin;
-      modes.shapes.col(static_cast<Eigen::Index>(k)).segment(begin, freedoms) =
-          fields[k](model.x.col(i)).head(freedoms);
+      modes.shapes.col(static_cast<Eigen::Index>(k)).segment(begin, freedoms) = fields[k](model.x.col(i)).head(freedoms);
     }
   return modes;
 }
 
 /// Along x, free to thin: σx = E.
-Eigen::Vector3d stretch(const Vector2d& x) {
-  return {x.x(), -poisson * x.y(), 0};
-}
+Eigen::Vector3d stretch(const Vector2d& x) { return {x.x(), -poisson * x.y(), 0}; }
 /// τxy = G.
-Eigen::Vector3d shear(const Vector2d& x) {
-  return {x.y(), 0, 0};
-}
+Eigen::Vector3d shear(const Vector2d& x) { return {x.y(), 0, 0}; }
 /// A beam along x of curvature 1 to the left: M = EI.
-Eigen::Vector3d curl(const Vector2d& x) {
-  return {0, x.x() * x.x() / 2, x.x()};
-}
+Eigen::Vector3d curl(const Vector2d& x) { return {0, x.x() * x.x() / 2, x.x()}; }
 /// Of curvature x: M = EI x, V = −EI.
-Eigen::Vector3d cubic(const Vector2d& x) {
-  return {0, x.x() * x.x() * x.x() / 6, x.x() * x.x() / 2};
-}
+Eigen::Vector3d cubic(const Vector2d& x) { return {0, x.x() * x.x() * x.x() / 6, x.x() * x.x() / 2}; }
 
 const Eigen::MatrixXd& field(const DrawnBody& body, const std::string& name) {
   for (const Field& f : body.fields)
@@ -95,9 +85,7 @@ const Eigen::MatrixXd& field(const DrawnBody& body, const std::string& name) {
   return none;
 }
 
-FlexiblePose pose(const VectorXd& eta, const VectorXd& speed) {
-  return {{3, -1}, {0.5, 2}, 0.7, -6, eta, speed};
-}
+FlexiblePose pose(const VectorXd& eta, const VectorXd& speed) { return {{3, -1}, {0.5, 2}, 0.7, -6, eta, speed}; }
 
 TEST(FlexibleDrawing, UnbentBodyIsDrawnWhereItsFrameIs) {
   const Body body(plate);
@@ -107,8 +95,7 @@ TEST(FlexibleDrawing, UnbentBodyIsDrawnWhereItsFrameIs) {
   EXPECT_EQ(drawn.name, "part");
   ASSERT_EQ(drawn.points.cols(), body.elastic.mesh.x.cols());
   for (Eigen::Index i = 0; i < drawn.points.cols(); ++i) {
-    const Vector2d d =
-        Eigen::Rotation2Dd(at.angle) * (body.elastic.mesh.x.col(i) - Vector2d(0.2, 0.1));
+    const Vector2d d = Eigen::Rotation2Dd(at.angle) * (body.elastic.mesh.x.col(i) - Vector2d(0.2, 0.1));
     EXPECT_NEAR((drawn.points.col(i) - at.r - d).norm(), 0, 1e-15);
     const Vector2d v = at.v + at.w * Vector2d(-d.y(), d.x());
     EXPECT_NEAR((field(drawn, "velocity [m/s]").col(i) - v).norm(), 0, 1e-14);
@@ -161,8 +148,7 @@ TEST(FlexibleDrawing, PlateShowsTheStressOfItsStrainHoweverItIsTurned) {
   const FlexibleDrawing drawing(body.elastic, shapes(body, {stretch, shear}), body.centre());
   const DrawnBody drawn = drawing.at(pose(Vector2d(2e-4, -3e-4), Vector2d::Zero()), 1);
   const double sigma = 2e-4 * young, tau = 3e-4 * young / (2 * (1 + poisson));
-  const double radius = std::hypot(sigma / 2, tau),
-               mises = std::sqrt(sigma * sigma + 3 * tau * tau);
+  const double radius = std::hypot(sigma / 2, tau), mises = std::sqrt(sigma * sigma + 3 * tau * tau);
   for (Eigen::Index i = 0; i < drawn.points.cols(); ++i) {
     EXPECT_NEAR(field(drawn, "von Mises [Pa]")(0, i), mises, rounding * mises);
     EXPECT_NEAR(field(drawn, "principal 1 [Pa]")(0, i), sigma / 2 + radius, rounding * mises);
@@ -177,13 +163,10 @@ TEST(FlexibleDrawing, BeamShowsBendingAcrossItsHeightAndItsSectionForces) {
   const double epsilon = -1e-5, kappa = 4e-4;
   FlexiblePose at = pose(Vector2d(epsilon, kappa), Vector2d::Zero());
   const DrawnBody drawn = drawing.at(at, 1);
-  const Eigen::MatrixXd forces = field(drawn, "section force [N]"),
-                        moment = field(drawn, "section moment [N m]");
+  const Eigen::MatrixXd forces = field(drawn, "section force [N]"), moment = field(drawn, "section moment [N m]");
   at.eta.setZero();
-  const Eigen::Matrix2Xd x = (Eigen::Rotation2Dd(-at.angle).toRotationMatrix() *
-                              (drawing.at(at, 1).points.colwise() - at.r))
-                                 .colwise() +
-                             body.centre();
+  const Eigen::Matrix2Xd x =
+      (Eigen::Rotation2Dd(-at.angle).toRotationMatrix() * (drawing.at(at, 1).points.colwise() - at.r)).colwise() + body.centre();
   const double scale = young * 0.05 * kappa * 2;
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     const double sigma = young * (epsilon - kappa * x(0, i) * x(1, i));

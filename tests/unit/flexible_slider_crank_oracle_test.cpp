@@ -42,8 +42,7 @@ Y bent(unsigned seed) {
 Vector2d axis(const Params& p, const Y& y, double xi) {
   const double n2 = xi - 2 * xi * xi + xi * xi * xi, n4 = xi * xi * xi - xi * xi;
   const Vector2d u((p.coupler + y[2]) * xi, p.coupler * (n2 * y[3] + n4 * y[4]));
-  return Vector2d(p.crank * std::cos(y[0]), p.crank * std::sin(y[0])) +
-         Eigen::Rotation2Dd(y[1]) * u;
+  return Vector2d(p.crank * std::cos(y[0]), p.crank * std::sin(y[0])) + Eigen::Rotation2Dd(y[1]) * u;
 }
 
 /// ∫ f dξ by Simpson's rule, which leaves 1e-9 of polynomials of degree six.
@@ -51,8 +50,7 @@ template <class F>
 double along_axis(F f) {
   constexpr int panels = 200;
   double sum = 0;
-  for (int i = 0; i <= panels; ++i)
-    sum += (i == 0 || i == panels ? 1 : 2 + 2 * (i % 2)) * f(static_cast<double>(i) / panels);
+  for (int i = 0; i <= panels; ++i) sum += (i == 0 || i == panels ? 1 : 2 + 2 * (i % 2)) * f(static_cast<double>(i) / panels);
   return sum / (3 * panels);
 }
 
@@ -64,12 +62,9 @@ double kinetic_energy(const Params& p, const Y& y, const Vector6& rate) {
     before[i] -= h * rate[static_cast<int>(i)];
     after[i] += h * rate[static_cast<int>(i)];
   }
-  const double coupler = along_axis([&](double xi) {
-    return ((axis(p, after, xi) - axis(p, before, xi)) / (2 * h)).squaredNorm();
-  });
+  const double coupler = along_axis([&](double xi) { return ((axis(p, after, xi) - axis(p, before, xi)) / (2 * h)).squaredNorm(); });
   const double crank = p.crank_inertia + p.crank_mass * p.crank * p.crank / 4;
-  return 0.5 *
-         (p.coupler_mass * coupler + crank * rate[0] * rate[0] + p.slider_mass * rate[5] * rate[5]);
+  return 0.5 * (p.coupler_mass * coupler + crank * rate[0] * rate[0] + p.slider_mass * rate[5] * rate[5]);
 }
 
 double gravity_energy(const Params& p, const Y& y) {
@@ -91,8 +86,7 @@ std::vector<double> instants(double end, int count) {
 /// Largest departure of the ledger from its first value, relative to that.
 double opening(const Result& run) {
   double worst = 0;
-  for (const Sample& s : run.samples)
-    worst = std::max(worst, std::abs(s.ledger / run.samples.front().ledger - 1));
+  for (const Sample& s : run.samples) worst = std::max(worst, std::abs(s.ledger / run.samples.front().ledger - 1));
   return worst;
 }
 
@@ -126,14 +120,12 @@ TEST(FlexibleSliderCrankOracle, VelocityTermsAreThoseOfLagrangesEquations) {
     Vector6 expected = Vector6::Zero();  // Ṁ q̇ − ∂T/∂q
     for (std::size_t i = 0; i < freedoms; ++i) {
       const int row = static_cast<int>(i);
-      const Matrix6 slope =
-          (inertia(p, moved(y, i, h)).mass - inertia(p, moved(y, i, -h)).mass) / (2 * h);
+      const Matrix6 slope = (inertia(p, moved(y, i, h)).mass - inertia(p, moved(y, i, -h)).mass) / (2 * h);
       expected += rate[row] * (slope * rate);
       expected[row] -= 0.5 * rate.dot(slope * rate);
     }
     const Vector6 found = inertia(p, y).velocity;
-    for (int i = 0; i < freedoms; ++i)
-      EXPECT_NEAR(found[i], expected[i], difference * expected.cwiseAbs().maxCoeff()) << i;
+    for (int i = 0; i < freedoms; ++i) EXPECT_NEAR(found[i], expected[i], difference * expected.cwiseAbs().maxCoeff()) << i;
   }
 }
 
@@ -147,10 +139,8 @@ TEST(FlexibleSliderCrankOracle, WeightIsTheFallOfGravitysEnergy) {
     const double size_of = found.cwiseAbs().maxCoeff();
     EXPECT_NEAR(evaluate(p, s).gravity, gravity_energy(p, s.y), difference * size_of);
     for (std::size_t i = 0; i < freedoms; ++i)
-      EXPECT_NEAR(
-          found[static_cast<int>(i)],
-          -(gravity_energy(p, moved(s.y, i, h)) - gravity_energy(p, moved(s.y, i, -h))) / (2 * h),
-          difference * size_of)
+      EXPECT_NEAR(found[static_cast<int>(i)], -(gravity_energy(p, moved(s.y, i, h)) - gravity_energy(p, moved(s.y, i, -h))) / (2 * h),
+                  difference * size_of)
           << i;
   }
 }
@@ -159,8 +149,7 @@ TEST(FlexibleSliderCrankOracle, FrequenciesAreThoseOfOneElementOnPins) {
   const Params p;
   const double bending = std::sqrt(p.ei / (p.rho_a * std::pow(p.coupler, 4)));
   const double axial = std::sqrt(p.ea / p.rho_a) / p.coupler;
-  const Vector3d expected(std::sqrt(120) * bending, std::sqrt(2520) * bending,
-                          std::sqrt(3) * axial);
+  const Vector3d expected(std::sqrt(120) * bending, std::sqrt(2520) * bending, std::sqrt(3) * axial);
   EXPECT_LE((beam(p).omega - expected).cwiseQuotient(expected).cwiseAbs().maxCoeff(), rounding);
 }
 
@@ -188,10 +177,8 @@ TEST(FlexibleSliderCrankOracle, AccelerationsKeepAnIdealPinOnTheSlide) {
   for (std::size_t i = 0; i < size; ++i) before[i] -= h * dy[i], after[i] += h * dy[i];
   close_loop(p, before);
   close_loop(p, after);
-  for (const std::size_t i : {7u, 11u})
-    EXPECT_NEAR(dy[i], (after[i] - before[i]) / (2 * h), difference * std::abs(dy[i])) << i;
-  EXPECT_NEAR(p.slider_mass * dy[11], -evaluate(p, s).pin_force.x(),
-              rounding * std::abs(p.slider_mass * dy[11]));
+  for (const std::size_t i : {7u, 11u}) EXPECT_NEAR(dy[i], (after[i] - before[i]) / (2 * h), difference * std::abs(dy[i])) << i;
+  EXPECT_NEAR(p.slider_mass * dy[11], -evaluate(p, s).pin_force.x(), rounding * std::abs(p.slider_mass * dy[11]));
 }
 
 TEST(FlexibleSliderCrankOracle, LedgerOfAnIdealPinCloses) {
@@ -205,14 +192,12 @@ TEST(FlexibleSliderCrankOracle, LedgerOfAnIdealPinCloses) {
 TEST(FlexibleSliderCrankOracle, LedgerOfAClearancePinClosesThroughImpacts) {
   for (const bool bearing_on_slider : {true, false})
     for (const Slip slip : {Slip::material, Slip::geometric}) {
-      const Params p{
-          .zeta = {0.04, 0.04}, .mu = 0.1, .slip = slip, .bearing_on_slider = bearing_on_slider};
+      const Params p{.zeta = {0.04, 0.04}, .mu = 0.1, .slip = slip, .bearing_on_slider = bearing_on_slider};
       const Result run = simulate(p, {}, start(p), instants(2e-3, 40));
       ASSERT_TRUE(run.completed);
       EXPECT_GE(run.impacts.size(), 4u);
       EXPECT_LE(opening(run), closing);
-      for (const std::size_t loss : {12u, 13u, 14u})
-        EXPECT_GT(std::abs(run.end.y[loss]), plain) << loss;  // the geometric slip's is a gain
+      for (const std::size_t loss : {12u, 13u, 14u}) EXPECT_GT(std::abs(run.end.y[loss]), plain) << loss;  // the geometric slip's is a gain
     }
 }
 
@@ -235,8 +220,7 @@ TEST(FlexibleSliderCrankOracle, RunContinuedIsTheSameRun) {
   const Result part = simulate(p, {}, start(p), {0.5 * (second.begin + second.end)});
   ASSERT_TRUE(part.end.touching);
   const Result rest = simulate(p, {}, part.end, {5e-4});
-  for (std::size_t i = 0; i < dynamic; ++i)
-    EXPECT_NEAR(rest.end.y[i], whole.end.y[i], difference * std::abs(whole.end.y[i])) << i;
+  for (std::size_t i = 0; i < dynamic; ++i) EXPECT_NEAR(rest.end.y[i], whole.end.y[i], difference * std::abs(whole.end.y[i])) << i;
 }
 
 /// The rigid mechanism with the same bodies.
@@ -265,11 +249,7 @@ pintle_oracle::Params rigid(const Params& p) {
 TEST(FlexibleSliderCrankOracle, ContactOfAStraightCouplerIsThatOfARigidOne) {
   for (const bool bearing_on_slider : {true, false})
     for (const Slip slip : {Slip::material, Slip::geometric}) {
-      const Params p{.mu = 0.1,
-                     .slip = slip,
-                     .bearing_on_slider = bearing_on_slider,
-                     .start_angle = 1,
-                     .start_e = {6e-6, 9e-6}};
+      const Params p{.mu = 0.1, .slip = slip, .bearing_on_slider = bearing_on_slider, .start_angle = 1, .start_e = {6e-6, 9e-6}};
       State s = start(p);
       ASSERT_TRUE(s.touching);
       s.latch = 0.2;
@@ -325,8 +305,7 @@ TEST(FlexibleSliderCrankOracle, FirstImpactOfAStiffCouplerIsTheRigidOnes) {
   Params p{.mu = 0.1};
   pintle_oracle::State state = pintle_oracle::start(rigid(p));
   std::vector<pintle_oracle::Impact> impacts;
-  pintle_oracle::simulate(rigid(p), {}, until, state,
-                          [&](const pintle_oracle::Impact& i) { impacts.push_back(i); });
+  pintle_oracle::simulate(rigid(p), {}, until, state, [&](const pintle_oracle::Impact& i) { impacts.push_back(i); });
   const pintle_oracle::Impact& expected = impacts.at(0);
   p.ea *= 1e5, p.ei *= 1e5;
   const Impact found = simulate(p, {}, start(p), {until}).impacts.at(0);

@@ -28,9 +28,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double through_statics = 1e-9;
 // Beams of n elements whose pull varies: it is constant in an element, which is of order 2, and the
 // error of a frequency no more than 1/(2n²) even at the fastest spin here.
-double mesh(int n) {
-  return 0.5 / (n * n);
-}
+double mesh(int n) { return 0.5 / (n * n); }
 // The last of the published figures: 5e-5 of 4.1 and 5e-5 of 22.
 constexpr double published = 1.3e-5;
 
@@ -52,9 +50,7 @@ struct Reduced {
   ModalModel modes;
 
   Foreshortening inertia() const { return inertia_foreshortening(c, M, conditions, modes); }
-  std::array<MatrixXd, 2> at(int port) const {
-    return port_foreshortening(c, conditions, modes)[static_cast<std::size_t>(port)];
-  }
+  std::array<MatrixXd, 2> at(int port) const { return port_foreshortening(c, conditions, modes)[static_cast<std::size_t>(port)]; }
   MatrixXd stiffness() const { return modes.omega.cwiseAbs2().asDiagonal(); }
 };
 Reduced beam(int elements, ReferenceConditions conditions, const Keep& keep = {.count = 8}, Vector2d to = {1, 0}) {
@@ -63,12 +59,8 @@ Reduced beam(int elements, ReferenceConditions conditions, const Keep& keep = {.
   return {std::move(model), conditions, keep};
 }
 
-VectorXd eigenvalues(const MatrixXd& A) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(A).eigenvalues();
-}
-double size_of(const MatrixXd& A) {
-  return A.cwiseAbs().maxCoeff();
-}
+VectorXd eigenvalues(const MatrixXd& A) { return Eigen::SelfAdjointEigenSolver<MatrixXd>(A).eigenvalues(); }
+double size_of(const MatrixXd& A) { return A.cwiseAbs().maxCoeff(); }
 /// Least P > 0 at which K − P F is singular.
 double buckling_load(const Reduced& body, const MatrixXd& F) {
   const VectorXd root = body.modes.omega.cwiseInverse();
@@ -112,8 +104,7 @@ TEST(SpinningCantilever, ConvergesWithOrderTwoInTheMesh) {
 /// whose right edge follows one that stands `arm` ahead of it. EI = ρA = 1.
 FeModel strip(double arm, Coupling right = Coupling::rigid, int cells = 40) {
   const double height = 0.02, thickness = 0.01;
-  const Plate p = plate(cells, 2, CellShape::quadrilateral8,
-                        [=](double s, double t) { return Vector2d(s, height * (t - 0.5)); });
+  const Plate p = plate(cells, 2, CellShape::quadrilateral8, [=](double s, double t) { return Vector2d(s, height * (t - 0.5)); });
   const double density = 1 / (thickness * height);
   const double young = 12 / (thickness * std::pow(height, 3));
   const Material material{Isotropic{young, 0.3}, density};
@@ -174,8 +165,7 @@ MatrixXd slopes(const Reduced& body, int elements) {
     const double l = body.model.x(0, e + 1) - body.model.x(0, e);
     for (int g = 0; g < 3; ++g) {
       const double s = at[g];
-      const Eigen::RowVector4d d(6 * s * (s - 1) / l, 1 + s * (3 * s - 4), 6 * s * (1 - s) / l,
-                                 s * (3 * s - 2));
+      const Eigen::RowVector4d d(6 * s * (s - 1) / l, 1 + s * (3 * s - 4), 6 * s * (1 - s) / l, s * (3 * s - 2));
       MatrixXd w(4, phi.cols());
       w << phi.middleRows(3 * e + 1, 2), phi.middleRows(3 * e + 4, 2);
       const Eigen::RowVectorXd slope = d * w;
@@ -229,8 +219,7 @@ TEST(FreeBeam, UnderOppositePullsIsThatOfNodalFreedoms) {
   const Chain<BeamEuler> direct = chain(unit_beam, elements, 1.0);
   const Freedom bends = bending(direct.dofs(), {});
   const MatrixXd K = kept(direct.K() + direct.K_g([=](double) { return pull; }), bends);
-  const VectorXd expected =
-      Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(K, kept(direct.M(), bends)).eigenvalues();
+  const VectorXd expected = Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(K, kept(direct.M(), bends)).eigenvalues();
 
   const Reduced body = beam(elements, mean_axes, {.all = true});
   const RigidInertia rigid = rigid_inertia(body.model, body.M);
@@ -242,8 +231,7 @@ TEST(FreeBeam, UnderOppositePullsIsThatOfNodalFreedoms) {
   A.block(0, 1, 1, k) = pull / std::sqrt(J) * (body.modes.ports.row(4) - body.modes.ports.row(1));
   const VectorXd ours = eigenvalues(A.selfadjointView<Eigen::Upper>());
   // Nodal freedoms have one motion more, along y, which nothing resists.
-  for (int i = 0; i < 4; ++i)
-    EXPECT_NEAR(ours[i], expected[i + 1], through_statics * expected[4]) << i;
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(ours[i], expected[i + 1], through_statics * expected[4]) << i;
 }
 
 // Pulled at one end it is accelerated, and the pull falls to nothing at the other.
@@ -269,8 +257,8 @@ TEST(FreeBeam, KeepsItsMassCentre) {
 // ---- any body ----
 
 void for_any_body(const std::function<void(const SampleBody&, const Reduced&)>& claim) {
-  for (const SampleBody& body : {timoshenko_bracket(), plate_on_edges(Coupling::rigid),
-                                 plate_on_edges(Coupling::average), plate_on_nodes()})
+  for (const SampleBody& body :
+       {timoshenko_bracket(), plate_on_edges(Coupling::rigid), plate_on_edges(Coupling::average), plate_on_nodes()})
     for (const ReferenceConditions& conditions : {tangent, chord, mean_axes})
       if (conditions.kind != ReferenceConditions::tangent || body.turns()) claim(body, {body.model, conditions});
 }
@@ -314,8 +302,7 @@ VectorXd rims_turned(const SampleBody& body, const VectorXd& a, const VectorXd& 
     const int port = static_cast<int>(k);
     const double turns = port_motion(body, port, a)[2] * port_motion(body, port, b)[2];
     for (const int node : rim.nodes)
-      c.segment<2>(body.model.begin[static_cast<std::size_t>(node)]) =
-          -turns * (body.model.x.col(node) - rim.x);
+      c.segment<2>(body.model.begin[static_cast<std::size_t>(node)]) = -turns * (body.model.x.col(node) - rim.x);
   }
   return c;
 }
@@ -342,14 +329,11 @@ TEST(Foreshortening, IsTheWorkOnTheDisplacementOfLeastEnergy) {
 
     const MatrixXd loads = MatrixXd::Identity(n, n);
     const std::vector<MatrixXd> F = foreshortening(reduced.c, reduced.conditions, reduced.modes, loads);
-    for (int i = 0; i < n; ++i)
-      EXPECT_NEAR(F[static_cast<std::size_t>(i)](0, 1), psi[i], through_statics * size_of(psi));
+    for (int i = 0; i < n; ++i) EXPECT_NEAR(F[static_cast<std::size_t>(i)](0, 1), psi[i], through_statics * size_of(psi));
   });
 }
 
-TEST(Foreshortening, OfABodyWithoutShapesIsEmpty) {
-  EXPECT_EQ(beam(4, mean_axes, {.count = 0}).inertia().j.size(), 0);
-}
+TEST(Foreshortening, OfABodyWithoutShapesIsEmpty) { EXPECT_EQ(beam(4, mean_axes, {.count = 0}).inertia().j.size(), 0); }
 
 TEST(Foreshortening, SaysWhatItRefuses) {
   const Reduced body = beam(4, mean_axes);

@@ -49,9 +49,7 @@ void expect_refused(const std::string& text, const std::string& said) {
   EXPECT_TRUE(all.starts_with("\"" + text + "\"" + said)) << all;
 }
 
-double number(const std::string& text) {
-  return read_quantity(text, dimension::number);
-}
+double number(const std::string& text) { return read_quantity(text, dimension::number); }
 
 // From weak to strong; those in one row bind alike.
 const std::vector<std::vector<std::string>> rows{{"||"}, {"&&"}, {"<", "<=", ">", ">=", "==", "!="}, {"+", "-"}, {"*", "/"}, {"^"}};
@@ -251,8 +249,18 @@ TEST(Parser, RefusesWordsThatNoTextIsSpelledTo) {
   using Kind = Word::Kind;
   const Word open{Kind::open, "(", 1}, close{Kind::close, ")", 2}, a{Kind::name, "a", 3}, sin{Kind::function, "sin", 4},
       unknown_sign{Kind::sign, "!", 5};
-  for (const std::vector<Word>& words : std::vector<std::vector<Word>>{
-           {}, {open}, {close}, {a, close}, {open, a}, {a, a}, {sin}, {sin, a}, {sin, open}, {sin, open, a}, {sin, a, a, close}, {a, unknown_sign, a}})
+  for (const std::vector<Word>& words : std::vector<std::vector<Word>>{{},
+                                                                       {open},
+                                                                       {close},
+                                                                       {a, close},
+                                                                       {open, a},
+                                                                       {a, a},
+                                                                       {sin},
+                                                                       {sin, a},
+                                                                       {sin, open},
+                                                                       {sin, open, a},
+                                                                       {sin, a, a, close},
+                                                                       {a, unknown_sign, a}})
     EXPECT_THROW(parse(words), ExpressionError);
 }
 

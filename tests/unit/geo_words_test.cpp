@@ -23,13 +23,14 @@ TEST(GeoFile, WhatIsWrongIsSaidWithItsLineAndARemedy) {
     std::string script, line;
     std::vector<std::string> said;
   };
-  for (const Case& c : std::vector<Case>{{"SystemCall \"true\";", ":3: ", {"--trust-geo"}},
-                                         {"Include \"../outside.geo\";", ":3: ", {"--allow-path " + folder.string(), "outside.geo"}},
-                                         {"Merge \"" + (folder / "outside.geo").string() + "\";", ":3: ", {"--allow-path " + folder.string()}},
-                                         {"Include \"none.geo\";", ":3: ", {"none.geo", "no such file"}},
-                                         {"Printf(\"a\") > \"" + (folder / "made").string() + "\";", ":3: ", {"writes no files", "--trust-geo"}},
-                                         {"Point(2)={1,0,0;", ":3: ", {"syntax error"}},
-                                         {"x = nothing + 1;", ":3: ", {"Unknown variable"}}}) {
+  for (const Case& c :
+       std::vector<Case>{{"SystemCall \"true\";", ":3: ", {"--trust-geo"}},
+                         {"Include \"../outside.geo\";", ":3: ", {"--allow-path " + folder.string(), "outside.geo"}},
+                         {"Merge \"" + (folder / "outside.geo").string() + "\";", ":3: ", {"--allow-path " + folder.string()}},
+                         {"Include \"none.geo\";", ":3: ", {"none.geo", "no such file"}},
+                         {"Printf(\"a\") > \"" + (folder / "made").string() + "\";", ":3: ", {"writes no files", "--trust-geo"}},
+                         {"Point(2)={1,0,0;", ":3: ", {"syntax error"}},
+                         {"x = nothing + 1;", ":3: ", {"Unknown variable"}}}) {
     const fs::path file = inner / "drawing.geo";
     std::ofstream(file) << "// a drawing\nPoint(1)={0,0,0};\n" + c.script + "\n";
     std::string said = "read";

@@ -12,30 +12,24 @@ std::atomic<long> allocations{0}, in_use{0};
   allocations.fetch_add(1, std::memory_order_relaxed);
   in_use.fetch_add(static_cast<long>(size), std::memory_order_relaxed);
 }
-[[maybe_unused]] void give(std::size_t size) {
-  in_use.fetch_sub(static_cast<long>(size), std::memory_order_relaxed);
-}
+[[maybe_unused]] void give(std::size_t size) { in_use.fetch_sub(static_cast<long>(size), std::memory_order_relaxed); }
 }  // namespace
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define PINTLE_SANITIZED 1
 #elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || \
-    __has_feature(memory_sanitizer)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
 #define PINTLE_SANITIZED 1
 #endif
 #endif
 
 #if defined(PINTLE_SANITIZED)  // owns malloc, and offers a hook
-extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*,
-                                                                  std::size_t),
-                                                         void (*)(const volatile void*));
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t), void (*)(const volatile void*));
 extern "C" std::size_t __sanitizer_get_allocated_size(const volatile void*);
-[[maybe_unused]] const int hooked = __sanitizer_install_malloc_and_free_hooks(
-    [](const volatile void*, std::size_t size) { take(size); },
-    [](const volatile void* p) {
-      if (p) give(__sanitizer_get_allocated_size(p));
-    });
+[[maybe_unused]] const int hooked = __sanitizer_install_malloc_and_free_hooks([](const volatile void*, std::size_t size) { take(size); },
+                                                                              [](const volatile void* p) {
+                                                                                if (p) give(__sanitizer_get_allocated_size(p));
+                                                                              });
 constexpr bool knows_sizes = true;
 #elif defined(__GLIBC__)
 #include <malloc.h>
@@ -67,9 +61,7 @@ void* memalign(std::size_t alignment, std::size_t size) noexcept {
   take(malloc_usable_size(p));
   return p;
 }
-void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
-  return memalign(alignment, size);
-}
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept { return memalign(alignment, size); }
 int posix_memalign(void** p, std::size_t alignment, std::size_t size) noexcept {
   *p = memalign(alignment, size);
   return *p ? 0 : ENOMEM;
@@ -86,22 +78,14 @@ void* operator new(std::size_t size) {
   if (void* p = std::malloc(size)) return p;
   throw std::bad_alloc();
 }
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 constexpr bool knows_sizes = false;
 #endif
 
 namespace pintle {
 
-long heap_allocations() {
-  return allocations;
-}
-long heap_in_use() {
-  return knows_sizes ? in_use.load() : -1;
-}
+long heap_allocations() { return allocations; }
+long heap_in_use() { return knows_sizes ? in_use.load() : -1; }
 
 }  // namespace pintle

@@ -94,16 +94,13 @@ TEST(HertzStiffness, OfASteelJournalInItsBearingIsThePublishedOne) {
 TEST(HertzStiffness, OfASphereOnAPlaneIsReachedFromBothSides) {
   const double radius = 0.02, young = 70e9, nu = 0.33, flat = 1e12;  // [m], [Pa], –, [m]
   const double on_plane = 2 * young / (3 * (1 - nu * nu)) * std::sqrt(radius);
-  for (bool internal : {true, false})
-    EXPECT_NEAR(hertz_stiffness(radius, flat, young, nu, young, nu, internal) / on_plane, 1,
-                rounding);
+  for (bool internal : {true, false}) EXPECT_NEAR(hertz_stiffness(radius, flat, young, nu, young, nu, internal) / on_plane, 1, rounding);
 }
 
 TEST(HertzStiffness, OfEqualSpheresIsThatOfHalfTheRadius) {
   const double radius = 0.02, young = 70e9, nu = 0.33;
-  EXPECT_NEAR(hertz_stiffness(radius, radius, young, nu, young, nu, false) /
-                  (2 * young / (3 * (1 - nu * nu)) * std::sqrt(radius / 2)),
-              1, rounding);
+  EXPECT_NEAR(hertz_stiffness(radius, radius, young, nu, young, nu, false) / (2 * young / (3 * (1 - nu * nu)) * std::sqrt(radius / 2)), 1,
+              rounding);
 }
 
 TEST(HertzStiffness, GrowsAsTheBearingCloses) {
@@ -122,8 +119,7 @@ TEST(HertzStiffness, PutsTheTwoSolidsInSeries) {
     return hertz_stiffness(9e-3, 10e-3, young_i, nu_i, young_j, nu_j, true);
   };
   const double both = stiffness(207e9, 0.3, 70e9, 0.33);
-  const double first = stiffness(207e9, 0.3, rigid, 0.3),
-               second = stiffness(rigid, 0.3, 70e9, 0.33);
+  const double first = stiffness(207e9, 0.3, rigid, 0.3), second = stiffness(rigid, 0.3, 70e9, 0.33);
   EXPECT_NEAR(both * (1 / first + 1 / second), 1, rounding);
 }
 

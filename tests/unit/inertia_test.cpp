@@ -40,39 +40,33 @@ struct Particle {
 };
 
 // Exact for degree 9 in each direction: products of two biquadratic fields on distorted cells.
-const double gauss_at[] = {-0.906179845938663993, -0.538469310105683091, 0, 0.538469310105683091,
-                           0.906179845938663993};
-const double gauss_weight[] = {0.236926885056189088, 0.478628670499366468, 0.568888888888888889,
-                               0.478628670499366468, 0.236926885056189088};
+const double gauss_at[] = {-0.906179845938663993, -0.538469310105683091, 0, 0.538469310105683091, 0.906179845938663993};
+const double gauss_weight[] = {0.236926885056189088, 0.478628670499366468, 0.568888888888888889, 0.478628670499366468,
+                               0.236926885056189088};
 
 template <class E>
 MatrixXd element_shapes(const FeModel& model, const Block<E>& block, int i, const MatrixXd& phi) {
   MatrixXd u(E::dofs, phi.cols());
   for (int k = 0; k < E::nodes; ++k) {
-    const auto node =
-        static_cast<std::size_t>(block.nodes[static_cast<std::size_t>(i * E::nodes + k)]);
-    u.middleRows(k * E::dofs_per_node, E::dofs_per_node) =
-        phi.middleRows(model.begin[node], E::dofs_per_node);
+    const auto node = static_cast<std::size_t>(block.nodes[static_cast<std::size_t>(i * E::nodes + k)]);
+    u.middleRows(k * E::dofs_per_node, E::dofs_per_node) = phi.middleRows(model.begin[node], E::dofs_per_node);
   }
   return u;
 }
 
 /// A section with rotary inertia ρI per length is two fibres at ±√(I/A) that turn with it.
 template <class E>
-void add_line(std::vector<Particle>& all, const FeModel& model, const Block<E>& block,
-              const MatrixXd& phi) {
+void add_line(std::vector<Particle>& all, const FeModel& model, const Block<E>& block, const MatrixXd& phi) {
   for (int i = 0; i < block.size(); ++i) {
     const E& e = block.element(i);
     const Coords<E> x = block.coords(i, model.x);
     const MatrixXd u = element_shapes(model, block, i, phi);
-    const Vector2d axis = x.col(1) - x.col(0), along = axis.normalized(),
-                   across(-along.y(), along.x());
+    const Vector2d axis = x.col(1) - x.col(0), along = axis.normalized(), across(-along.y(), along.x());
     const double fibre = std::sqrt(e.rhoI / e.rhoA);
     for (int g = 0; g < 5; ++g) {
       const double xi = (1 + gauss_at[g]) / 2;
       for (const double side : {-fibre, fibre}) {
-        Particle p{
-            e.rhoA * axis.norm() * gauss_weight[g] / 4, x.col(0) + xi * axis + side * across, {}};
+        Particle p{e.rhoA * axis.norm() * gauss_weight[g] / 4, x.col(0) + xi * axis + side * across, {}};
         p.shape = (shape(e, x, {xi, 0}) - side * along * rotation(e, x, xi)) * u;
         all.push_back(p);
       }
@@ -82,8 +76,7 @@ void add_line(std::vector<Particle>& all, const FeModel& model, const Block<E>& 
 
 /// Triangles are folded squares: (s, t) → (s, t(1 − s)), with the Jacobian 1 − s.
 template <class E>
-void add_plane(std::vector<Particle>& all, const FeModel& model, const Block<E>& block,
-               const MatrixXd& phi) {
+void add_plane(std::vector<Particle>& all, const FeModel& model, const Block<E>& block, const MatrixXd& phi) {
   const bool triangle = E::nodes == 3 || E::nodes == 6;
   for (int i = 0; i < block.size(); ++i) {
     const E& e = block.element(i);
@@ -110,8 +103,7 @@ void add_plane(std::vector<Particle>& all, const FeModel& model, const Block<E>&
 }
 
 /// A lump with inertia is two halves that turn about its node, far enough apart to have it.
-void add_lump(std::vector<Particle>& all, const FeModel& model, const Lump& lump,
-              const MatrixXd& phi) {
+void add_lump(std::vector<Particle>& all, const FeModel& model, const Lump& lump, const MatrixXd& phi) {
   const int f = model.begin[static_cast<std::size_t>(lump.node)];
   const double arm = std::sqrt(lump.mass.J / lump.mass.m);
   for (const double side : {-arm, arm}) {
@@ -123,8 +115,7 @@ void add_lump(std::vector<Particle>& all, const FeModel& model, const Lump& lump
 
 /// Lumped elements are a mass at each of their nodes.
 template <class E>
-void add_lumped(std::vector<Particle>& all, const FeModel& model, const Block<E>& block,
-                const MatrixXd& phi) {
+void add_lumped(std::vector<Particle>& all, const FeModel& model, const Block<E>& block, const MatrixXd& phi) {
   for (int i = 0; i < block.size(); ++i) {
     const Freedoms<E> m = lumped_mass(block.element(i), block.coords(i, model.x));
     for (int k = 0; k < E::nodes; ++k) {
@@ -187,8 +178,7 @@ MatrixXd mass_matrix(const RigidInertia& r, const FlexInertia& f, const VectorXd
 }
 
 /// Docs' inertia terms on the right-hand side, elastic and damping ones left out.
-VectorXd inertia_force(const RigidInertia& r, const FlexInertia& f, const VectorXd& q,
-                       const VectorXd& s) {
+VectorXd inertia_force(const RigidInertia& r, const FlexInertia& f, const VectorXd& q, const VectorXd& s) {
   const auto n = f.omega.size();
   const VectorXd eta = q.tail(n), rate = s.tail(n);
   const Matrix2d A = turn(q[2]);
@@ -202,8 +192,7 @@ VectorXd inertia_force(const RigidInertia& r, const FlexInertia& f, const Vector
 
 SampleBody plate_of(CellShape cells, const char* element = "") {
   const Plate p = plate(4, 2, cells, bent_rectangle(0.2, 0.05));
-  return on_nodes(model_of(p, steel(PlaneState::stress), element), p.nodes.at("left")[1],
-                  p.nodes.at("right")[0]);
+  return on_nodes(model_of(p, steel(PlaneState::stress), element), p.nodes.at("left")[1], p.nodes.at("right")[0]);
 }
 
 struct Subject {
@@ -212,9 +201,7 @@ struct Subject {
   ReferenceConditions conditions;
   MassKind kind = MassKind::consistent;
 };
-void PrintTo(const Subject& s, std::ostream* out) {
-  *out << s.name;
-}
+void PrintTo(const Subject& s, std::ostream* out) { *out << s.name; }
 constexpr ReferenceConditions chord{ReferenceConditions::chord, 0, 1}, tangent{ReferenceConditions::tangent, 0, -1}, mean{};
 using enum CellShape;
 const Subject subjects[] = {
@@ -222,9 +209,7 @@ const Subject subjects[] = {
     {"TimoshenkoBracketChord", timoshenko_bracket, chord},
     {"TimoshenkoBracketMeanAxes", timoshenko_bracket, mean},
     {"TimoshenkoBracketLumped", timoshenko_bracket, tangent, MassKind::lumped},
-    {"PlateOnRigidEdgesTangent",
-     [] { return plate_on_edges(Coupling::rigid); },
-     {ReferenceConditions::tangent, 1, -1}},
+    {"PlateOnRigidEdgesTangent", [] { return plate_on_edges(Coupling::rigid); }, {ReferenceConditions::tangent, 1, -1}},
     {"PlateOnAveragedEdgesMeanAxes", [] { return plate_on_edges(Coupling::average); }, mean},
     {"PlateOnEdgesLumped", [] { return plate_on_edges(Coupling::rigid); }, chord, MassKind::lumped},
     {"PlateOnNodesChord", plate_on_nodes, chord},
@@ -233,8 +218,7 @@ const Subject subjects[] = {
     {"Quadrilateral4", [] { return plate_of(quadrilateral4); }, mean},
     {"Quadrilateral4Plain", [] { return plate_of(quadrilateral4, "quadrilateral4-plain"); }, chord},
     {"Quadrilateral8", [] { return plate_of(quadrilateral8); }, chord},
-    {"Quadrilateral8Reduced", [] { return plate_of(quadrilateral8, "quadrilateral8-reduced"); },
-     mean},
+    {"Quadrilateral8Reduced", [] { return plate_of(quadrilateral8, "quadrilateral8-reduced"); }, mean},
     {"Quadrilateral9", [] { return plate_of(quadrilateral9); }, mean},
     {"Quadrilateral9Lumped", [] { return plate_of(quadrilateral9); }, mean, MassKind::lumped},
 };
@@ -259,27 +243,22 @@ class Inertia : public testing::TestWithParam<Subject> {
   }();
   const MassKind kind = GetParam().kind;
   const Sparse M = Assembler(body.model).mass(kind), G = skew_mass(body.model, M, kind);
-  const ModalModel modes = craig_bampton(component(body.model, kind == MassKind::lumped), {0, 1},
-                                         GetParam().conditions, {.count = 3});
+  const ModalModel modes = craig_bampton(component(body.model, kind == MassKind::lumped), {0, 1}, GetParam().conditions, {.count = 3});
   const RigidInertia rigid = rigid_inertia(body.model, M);
   const FlexInertia flex = flex_inertia(body.model, M, G, modes);
   const std::vector<Particle> material = particles(body.model, modes.shapes, kind);
   std::mt19937 random{7};
 
-  double within(double reach) {
-    return reach * (2 * (static_cast<double>(random()) / 4294967296.0) - 1);
-  }
+  double within(double reach) { return reach * (2 * (static_cast<double>(random()) / 4294967296.0) - 1); }
   /// Coordinates or speeds; deformation a tenth of the body's size.
   VectorXd draw() {
     VectorXd v(3 + modes.omega.size());
     v << within(1), within(1), within(3), VectorXd::Zero(modes.omega.size());
-    for (Eigen::Index k = 0; k < modes.omega.size(); ++k)
-      v[3 + k] = within(0.02) / modes.shapes.col(k).cwiseAbs().maxCoeff();
+    for (Eigen::Index k = 0; k < modes.omega.size(); ++k) v[3 + k] = within(0.02) / modes.shapes.col(k).cwiseAbs().maxCoeff();
     return v;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Every, Inertia, testing::ValuesIn(subjects),
-                         [](const auto& p) { return std::string(p.param.name); });
+INSTANTIATE_TEST_SUITE_P(Every, Inertia, testing::ValuesIn(subjects), [](const auto& p) { return std::string(p.param.name); });
 
 TEST_P(Inertia, OfTheUndeformedBodyIsThatOfItsMaterial) {
   RigidInertia sum;
@@ -296,8 +275,7 @@ TEST_P(Inertia, OfTheUndeformedBodyIsThatOfItsMaterial) {
 // S, j, h and G by their definitions; ΦᵀMΦ = 1 besides.
 TEST_P(Inertia, OfTheShapesIsThatOfItsMaterial) {
   const auto n = modes.omega.size();
-  MatrixXd S = MatrixXd::Zero(2, n), j = MatrixXd::Zero(1, n), h = j, G_sum = MatrixXd::Zero(n, n),
-           square = G_sum;
+  MatrixXd S = MatrixXd::Zero(2, n), j = MatrixXd::Zero(1, n), h = j, G_sum = MatrixXd::Zero(n, n), square = G_sum;
   for (const Particle& p : material) {
     const Eigen::Matrix2Xd turned = Z.transpose() * p.shape;
     S += p.m * p.shape;
@@ -345,8 +323,7 @@ TEST_P(Inertia, VelocityTermsAreThoseOfTheLagrangian) {
       VectorXd up = q, down = q;
       up[k] += step;
       down[k] -= step;
-      expected[k] +=
-          (kinetic_energy(material, up, s) - kinetic_energy(material, down, s)) / (2 * step);
+      expected[k] += (kinetic_energy(material, up, s) - kinetic_energy(material, down, s)) / (2 * step);
     }
     const VectorXd ours = inertia_force(rigid, flex, q, s);
     EXPECT_LT((ours - expected).norm(), difference * expected.norm());
@@ -369,8 +346,7 @@ TEST_P(Inertia, InvariantsFollowWhenTheBodyAxesAreMoved) {
   // Shapes are carried along: displacements turn, rotations stay.
   ModalModel carried = modes;
   for (std::size_t k = 0; k + 1 < moved.begin.size(); ++k)
-    carried.shapes.middleRows(moved.begin[k], 2) =
-        (A.transpose() * modes.shapes.middleRows(moved.begin[k], 2)).eval();
+    carried.shapes.middleRows(moved.begin[k], 2) = (A.transpose() * modes.shapes.middleRows(moved.begin[k], 2)).eval();
   const Sparse M_moved = Assembler(moved).mass(kind);
   const RigidInertia r = rigid_inertia(moved, M_moved);
   const FlexInertia f = flex_inertia(moved, M_moved, skew_mass(moved, M_moved, kind), carried);
@@ -378,8 +354,7 @@ TEST_P(Inertia, InvariantsFollowWhenTheBodyAxesAreMoved) {
   const double size = std::sqrt(rigid.J / rigid.m) + p.norm(), root = std::sqrt(rigid.m);
   EXPECT_NEAR(r.m, rigid.m, rounding * rigid.m);
   EXPECT_LT((r.c - A.transpose() * (rigid.c - rigid.m * p)).norm(), rounding * rigid.m * size);
-  EXPECT_NEAR(r.J, rigid.J - 2 * p.dot(rigid.c) + rigid.m * p.squaredNorm(),
-              rounding * rigid.m * size * size);
+  EXPECT_NEAR(r.J, rigid.J - 2 * p.dot(rigid.c) + rigid.m * p.squaredNorm(), rounding * rigid.m * size * size);
   EXPECT_LT((f.S - A.transpose() * flex.S).norm(), rounding * root * 10);
   EXPECT_LT((f.j - (flex.j - p.transpose() * flex.S)).norm(), rounding * root * size * 10);
   EXPECT_LT((f.h - (flex.h - (Z * p).transpose() * flex.S)).norm(), rounding * root * size * 10);

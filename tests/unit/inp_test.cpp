@@ -35,9 +35,7 @@ class Deck {
   ~Deck() { fs::remove_all(folder_); }
   Deck(const Deck&) = delete;
   Deck& operator=(const Deck&) = delete;
-  void write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name) << text;
-  }
+  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
   const fs::path& path() const { return path_; }
 
  private:
@@ -47,8 +45,7 @@ class Deck {
 std::vector<long> numbers_of(const Mesh& mesh, const std::string& group) {
   std::vector<long> numbers;
   if (const Group* g = mesh.group(group))
-    for (const int node : g->nodes)
-      numbers.push_back(mesh.node_numbers[static_cast<std::size_t>(node)]);
+    for (const int node : g->nodes) numbers.push_back(mesh.node_numbers[static_cast<std::size_t>(node)]);
   return numbers;
 }
 std::size_t sides_of(const Mesh& mesh, const std::string& group) {
@@ -84,8 +81,7 @@ TEST(InpCalculix, SurfacesAreTheLabelledSides) {
   EXPECT_EQ(numbers_of(mesh, "ends"), (Numbers{1, 3, 4, 6, 9, 11}));
   EXPECT_EQ(sides_of(mesh, "all_round"), 6u) << "no side between the two cells";
   ASSERT_NE(mesh.group("all_round"), nullptr);
-  EXPECT_DOUBLE_EQ(area_left_of(mesh, mesh.group("all_round")->sides), 8)
-      << "4 by 2, the body on the left";
+  EXPECT_DOUBLE_EQ(area_left_of(mesh, mesh.group("all_round")->sides), 8) << "4 by 2, the body on the left";
 }
 
 TEST(InpCalculix, ScaleMultipliesLengths) {
@@ -98,8 +94,7 @@ TEST(InpAbaqus, PartAndAssemblyAreOneBody) {
   EXPECT_EQ(mesh.cell_count(), 3u);
   EXPECT_EQ(mesh.cells.size(), 2u);
   EXPECT_EQ(numbers_of(mesh, "left end"), (Numbers{1, 4}));
-  EXPECT_EQ(numbers_of(mesh, "Set-1").size(), 7u)
-      << "node set and element set of one name are one group";
+  EXPECT_EQ(numbers_of(mesh, "Set-1").size(), 7u) << "node set and element set of one name are one group";
 }
 
 TEST(InpAbaqus, ClockwiseCellIsTurnedAndItsEdgesKeepTheBodyOnTheirLeft) {
@@ -110,8 +105,7 @@ TEST(InpAbaqus, ClockwiseCellIsTurnedAndItsEdgesKeepTheBodyOnTheirLeft) {
   EXPECT_EQ(numbers_of(mesh, "Bottom"), (Numbers{1, 2, 3}));
   for (const Cells& sides : bottom->sides)
     for (std::size_t s = 0; s < sides.size(); ++s)
-      EXPECT_LT(mesh.x(0, sides.nodes[2 * s]), mesh.x(0, sides.nodes[2 * s + 1]))
-          << "left to right";
+      EXPECT_LT(mesh.x(0, sides.nodes[2 * s]), mesh.x(0, sides.nodes[2 * s + 1])) << "left to right";
 }
 
 TEST(InpGmsh, CurvesWrittenAsTrussesAreEdges) {
@@ -123,8 +117,7 @@ TEST(InpGmsh, CurvesWrittenAsTrussesAreEdges) {
   ASSERT_NE(hole, nullptr);
   // n parabolas through three points each of a circle of radius 0.01; the body is outside.
   const double n = static_cast<double>(sides_of(mesh, "pin_hole")), b = M_PI / n;
-  const double parabolas =
-      n * (std::sin(2 * b) / 2 + 4 * std::sin(b) * (1 - std::cos(b)) / 3) * 1e-4;
+  const double parabolas = n * (std::sin(2 * b) / 2 + 4 * std::sin(b) * (1 - std::cos(b)) / 3) * 1e-4;
   EXPECT_NEAR(area_left_of(mesh, hole->sides), -parabolas, 1e-12 * parabolas);
   EXPECT_NE(mesh.group("hole 1"), nullptr) << "the hole without a name gets one";
   EXPECT_EQ(mesh.group("hole 2"), nullptr);
@@ -156,8 +149,7 @@ struct Bad {
   const char* line;   // of the complaint
   const char* words;  // in it
 };
-const std::string square =
-    "*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n*ELEMENT,TYPE=CPS4,ELSET=E\n1,1,2,3,4\n";
+const std::string square = "*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n*ELEMENT,TYPE=CPS4,ELSET=E\n1,1,2,3,4\n";
 
 class InpRefuses : public testing::TestWithParam<Bad> {};
 
@@ -167,50 +159,43 @@ TEST_P(InpRefuses, WithFileAndLine) {
     read_inp(deck.path());
     FAIL() << "was read";
   } catch (const std::invalid_argument& e) {
-    EXPECT_NE(std::string(e.what()).find("deck.inp:" + std::string(GetParam().line) + ":"),
-              std::string::npos)
-        << e.what();
+    EXPECT_NE(std::string(e.what()).find("deck.inp:" + std::string(GetParam().line) + ":"), std::string::npos) << e.what();
     EXPECT_NE(std::string(e.what()).find(GetParam().words), std::string::npos) << e.what();
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Each, InpRefuses,
-    testing::Values(
-        Bad{"NodeDefinedTwice", "*NODE\n3,5,5\n", "9", "node 3 is defined again, first on line 4"},
-        Bad{"ElementDefinedTwice", "*ELEMENT,TYPE=CPS3\n1,1,2,3\n", "9",
-            "element 1 is defined again"},
-        Bad{"UndefinedNode", "*ELEMENT,TYPE=CPS3\n2,1,2,8\n", "9",
-            "node 8, which no *NODE defines"},
-        Bad{"CollapsedElement", "*ELEMENT,TYPE=CPS4\n2,1,2,3,3\n", "9", "twice"},
-        Bad{"TooFewNodes", "*ELEMENT,TYPE=CPS4\n2,1,2,3\n*NSET,NSET=A\n1\n", "9",
-            "has 3 nodes, must have 4"},
-        Bad{"TooManyNodes", "*ELEMENT,TYPE=CPS3\n2,1,2,3,4\n", "9", "more than its 3 nodes"},
-        Bad{"Axisymmetric", "*ELEMENT,TYPE=CAX4\n2,1,2,3,4\n", "8", "axisymmetric"},
-        Bad{"Solid", "*ELEMENT,TYPE=C3D8\n2,1,2,3,4,1,2,3,4\n", "8", "solid"},
-        Bad{"GeneralisedPlaneStrain", "*ELEMENT,TYPE=CPEG4\n", "8", "generalised plane strain"},
-        Bad{"UnknownElement", "*ELEMENT,TYPE=SPRINGA\n2,1,2\n", "8", "is not known"},
-        Bad{"ElementWithoutType", "*ELEMENT\n2,1,2\n", "8", "without TYPE="},
-        Bad{"UnknownNodeInSet", "*NSET,NSET=A\n1,77\n", "9", "names node 77, which is not defined"},
-        Bad{"UnknownSetInSet", "*NSET,NSET=A\n1,elsewhere\n", "9",
-            "there is no node set \"elsewhere\""},
-        Bad{"UnknownElementInSurface", "*SURFACE,NAME=A\n5,S1\n", "9", "names element 5"},
-        Bad{"UnknownSetInSurface", "*SURFACE,NAME=A\nF,S1\n", "9", "there is no element set \"F\""},
-        Bad{"SideThatIsNone", "*SURFACE,NAME=A\nE,S5\n", "9", "\"S5\" is no side"},
-        Bad{"SetThatHoldsItself", "*NSET,NSET=A\nB\n*NSET,NSET=B\nA\n", "8", "contains itself"},
-        Bad{"SetWithoutName", "*NSET\n1\n", "8", "without NSET="},
-        Bad{"WordForANumber", "*NODE\nfive,0,0\n", "9", "\"five\" is no node number"},
-        Bad{"WordForACoordinate", "*NODE\n5,0,here\n", "9", "\"here\" is no coordinate"},
-        Bad{"NotFinite", "*NODE\n5,0,nan\n", "9", "\"nan\" is no coordinate"},
-        Bad{"OutOfThePlane", "*NODE\n5,0,0,0.5\n", "9", "z = 0.5"},
-        Bad{"CylindricalNodes", "*NODE,SYSTEM=C\n5,1,90\n", "8", "SYSTEM=C"},
-        Bad{"GeneratedNodes", "*NGEN\n1,4,1\n", "8", "*NGEN is not read"},
-        Bad{"RangeBackwards", "*NSET,NSET=A,GENERATE\n5,1\n", "9", "GENERATE needs"},
-        Bad{"SecondPart", "*PART,NAME=A\n*END PART\n*PART,NAME=B\n", "10", "a second *PART"},
-        Bad{"MovedInstance", "*INSTANCE,NAME=A,PART=P\n1.,0.,0.\n", "9", "moved or turned"},
-        Bad{"MissingInclude", "*INCLUDE,INPUT=nowhere.inc\n", "8", "there is no file"},
-        Bad{"IncludeOfItself", "*INCLUDE,INPUT=deck.inp\n", "8", "just being read"}),
-    [](const testing::TestParamInfo<Bad>& param) { return std::string(param.param.what); });
+INSTANTIATE_TEST_SUITE_P(Each, InpRefuses,
+                         testing::Values(Bad{"NodeDefinedTwice", "*NODE\n3,5,5\n", "9", "node 3 is defined again, first on line 4"},
+                                         Bad{"ElementDefinedTwice", "*ELEMENT,TYPE=CPS3\n1,1,2,3\n", "9", "element 1 is defined again"},
+                                         Bad{"UndefinedNode", "*ELEMENT,TYPE=CPS3\n2,1,2,8\n", "9", "node 8, which no *NODE defines"},
+                                         Bad{"CollapsedElement", "*ELEMENT,TYPE=CPS4\n2,1,2,3,3\n", "9", "twice"},
+                                         Bad{"TooFewNodes", "*ELEMENT,TYPE=CPS4\n2,1,2,3\n*NSET,NSET=A\n1\n", "9",
+                                             "has 3 nodes, must have 4"},
+                                         Bad{"TooManyNodes", "*ELEMENT,TYPE=CPS3\n2,1,2,3,4\n", "9", "more than its 3 nodes"},
+                                         Bad{"Axisymmetric", "*ELEMENT,TYPE=CAX4\n2,1,2,3,4\n", "8", "axisymmetric"},
+                                         Bad{"Solid", "*ELEMENT,TYPE=C3D8\n2,1,2,3,4,1,2,3,4\n", "8", "solid"},
+                                         Bad{"GeneralisedPlaneStrain", "*ELEMENT,TYPE=CPEG4\n", "8", "generalised plane strain"},
+                                         Bad{"UnknownElement", "*ELEMENT,TYPE=SPRINGA\n2,1,2\n", "8", "is not known"},
+                                         Bad{"ElementWithoutType", "*ELEMENT\n2,1,2\n", "8", "without TYPE="},
+                                         Bad{"UnknownNodeInSet", "*NSET,NSET=A\n1,77\n", "9", "names node 77, which is not defined"},
+                                         Bad{"UnknownSetInSet", "*NSET,NSET=A\n1,elsewhere\n", "9", "there is no node set \"elsewhere\""},
+                                         Bad{"UnknownElementInSurface", "*SURFACE,NAME=A\n5,S1\n", "9", "names element 5"},
+                                         Bad{"UnknownSetInSurface", "*SURFACE,NAME=A\nF,S1\n", "9", "there is no element set \"F\""},
+                                         Bad{"SideThatIsNone", "*SURFACE,NAME=A\nE,S5\n", "9", "\"S5\" is no side"},
+                                         Bad{"SetThatHoldsItself", "*NSET,NSET=A\nB\n*NSET,NSET=B\nA\n", "8", "contains itself"},
+                                         Bad{"SetWithoutName", "*NSET\n1\n", "8", "without NSET="},
+                                         Bad{"WordForANumber", "*NODE\nfive,0,0\n", "9", "\"five\" is no node number"},
+                                         Bad{"WordForACoordinate", "*NODE\n5,0,here\n", "9", "\"here\" is no coordinate"},
+                                         Bad{"NotFinite", "*NODE\n5,0,nan\n", "9", "\"nan\" is no coordinate"},
+                                         Bad{"OutOfThePlane", "*NODE\n5,0,0,0.5\n", "9", "z = 0.5"},
+                                         Bad{"CylindricalNodes", "*NODE,SYSTEM=C\n5,1,90\n", "8", "SYSTEM=C"},
+                                         Bad{"GeneratedNodes", "*NGEN\n1,4,1\n", "8", "*NGEN is not read"},
+                                         Bad{"RangeBackwards", "*NSET,NSET=A,GENERATE\n5,1\n", "9", "GENERATE needs"},
+                                         Bad{"SecondPart", "*PART,NAME=A\n*END PART\n*PART,NAME=B\n", "10", "a second *PART"},
+                                         Bad{"MovedInstance", "*INSTANCE,NAME=A,PART=P\n1.,0.,0.\n", "9", "moved or turned"},
+                                         Bad{"MissingInclude", "*INCLUDE,INPUT=nowhere.inc\n", "8", "there is no file"},
+                                         Bad{"IncludeOfItself", "*INCLUDE,INPUT=deck.inp\n", "8", "just being read"}),
+                         [](const testing::TestParamInfo<Bad>& param) { return std::string(param.param.what); });
 
 TEST(InpRefusesWhole, NoElementNoFileNoScale) {
   EXPECT_THROW(read_inp(Deck("*NODE\n1,0,0\n").path()), std::invalid_argument);
@@ -220,24 +205,23 @@ TEST(InpRefusesWhole, NoElementNoFileNoScale) {
 }
 
 TEST(InpNumbers, MayHaveGapsAndComeInAnyOrder) {
-  const Mesh mesh = read_inp(
-      Deck("*NODE\n900000000,1,1\n7,0,0\n42,1,0\n8,0,1\n"
-           "*ELEMENT,TYPE=CPE4,ELSET=e\n5000000,7,42,900000000,8\n*NSET,NSET=right\n900000000,42\n")
-          .path());
+  const Mesh mesh = read_inp(Deck("*NODE\n900000000,1,1\n7,0,0\n42,1,0\n8,0,1\n"
+                                  "*ELEMENT,TYPE=CPE4,ELSET=e\n5000000,7,42,900000000,8\n*NSET,NSET=right\n900000000,42\n")
+                                 .path());
   EXPECT_EQ(quality(mesh).least_jacobian, 1);
   EXPECT_EQ(mesh.cells[0].numbers, (Numbers{5000000}));
   ASSERT_NE(mesh.group("right"), nullptr);
   for (const int node : mesh.group("right")->nodes) EXPECT_EQ(mesh.x(0, node), 1);
 }
 
-
 const std::string one_triangle = "*NODE\n1,0,0\n2,1,0\n3,0,1\n*ELEMENT,TYPE=CPS3\n7,1,2,3\n";
 constexpr const char* greatest = "9223372036854775807";
 
 TEST(InpNumbers, ARangeUpToTheGreatestNumberEnds) {
   for (const std::string& range : {std::string("1,") + greatest + ",9223372036854775806", std::string("2,") + greatest,
-                                  std::string(greatest) + "," + greatest + "," + greatest}) {
-    const Mesh mesh = read_inp(Deck(one_triangle + "*NSET,NSET=a,GENERATE\n" + range + "\n*ELSET,ELSET=e,GENERATE\n1," + greatest + "\n").path());
+                                   std::string(greatest) + "," + greatest + "," + greatest}) {
+    const Mesh mesh =
+        read_inp(Deck(one_triangle + "*NSET,NSET=a,GENERATE\n" + range + "\n*ELSET,ELSET=e,GENERATE\n1," + greatest + "\n").path());
     EXPECT_EQ(numbers_of(mesh, "e"), (Numbers{1, 2, 3})) << range;
   }
   EXPECT_EQ(numbers_of(read_inp(Deck(one_triangle + "*NSET,NSET=a,GENERATE\n1," + greatest + ",2\n").path()), "a"), (Numbers{1, 3}));
@@ -251,10 +235,10 @@ TEST(InpNumbers, NodesMayHaveTheGreatestNumber) {
 
 TEST(InpNumbers, OnesTooGreatAreRefusedByLine) {
   for (const char* number : {"9223372036854775808", "-1", "0", "1e3", "99999999999999999999999"})
-    for (const std::string& text : {"*NODE\n" + std::string(number) + ",0,0\n", one_triangle + "*ELEMENT,TYPE=CPS3\n" + number + ",1,2,3\n",
-                                   one_triangle + "*ELEMENT,TYPE=CPS3\n8,1,2," + number + "\n",
-                                   one_triangle + "*NSET,NSET=a,GENERATE\n1," + number + "\n",
-                                   one_triangle + "*NSET,NSET=a\n" + number + "\n"})
+    for (const std::string& text :
+         {"*NODE\n" + std::string(number) + ",0,0\n", one_triangle + "*ELEMENT,TYPE=CPS3\n" + number + ",1,2,3\n",
+          one_triangle + "*ELEMENT,TYPE=CPS3\n8,1,2," + number + "\n", one_triangle + "*NSET,NSET=a,GENERATE\n1," + number + "\n",
+          one_triangle + "*NSET,NSET=a\n" + number + "\n"})
       EXPECT_THROW(read_inp(Deck(text).path()), std::invalid_argument) << text;
 }
 

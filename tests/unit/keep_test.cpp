@@ -76,8 +76,7 @@ TEST(Keep, ByEffectiveMassTakesTheFewestModesThatExceedTheShare) {
 }
 
 TEST(Keep, AllGivesAsManyShapesAsFreedomsLessThree) {
-  for (const SampleBody& body :
-       {euler_beam(), plate_on_edges(Coupling::average), plate_on_nodes()}) {
+  for (const SampleBody& body : {euler_beam(), plate_on_edges(Coupling::average), plate_on_nodes()}) {
     const Component c = component(body.model);
     EXPECT_EQ(normal_modes(c, floating, {.all = true}).omega.size(), body.model.n() - 3);
     EXPECT_EQ(normal_modes(c, pinned, {.all = true}).omega.size(), body.model.n() - 3);
@@ -112,8 +111,7 @@ TEST(Keep, AllLeavesOutFreedomsWithoutMass) {
   const MatrixXd Ktt = K(turning, turning), Ktm = K(turning, moving);
   const MatrixXd condensed = K(moving, moving) - Ktm.transpose() * Ktt.llt().solve(Ktm);
   const MatrixXd M = MatrixXd(massless.M)(moving, moving);
-  const VectorXd expected =
-      Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(condensed, M).eigenvalues().cwiseSqrt();
+  const VectorXd expected = Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(condensed, M).eigenvalues().cwiseSqrt();
   const VectorXd omega = normal_modes(massless, clamped, {.all = true}).omega;
   EXPECT_LT((omega - expected).cwiseAbs().maxCoeff(), 1e-9 * expected.maxCoeff());
 }
@@ -137,21 +135,17 @@ void expect_refused(const std::function<void()>& act, const std::vector<std::str
     act();
     ADD_FAILURE() << "accepted; expected: " << words.front();
   } catch (const std::invalid_argument& e) {
-    for (const auto& w : words)
-      EXPECT_NE(std::string(e.what()).find(w), std::string::npos) << e.what();
+    for (const auto& w : words) EXPECT_NE(std::string(e.what()).find(w), std::string::npos) << e.what();
   }
 }
 
 TEST(Refused, MoreModesThanThereAre) {
   const SampleBody body = euler_beam(2);
   const Component c = component(body.model);
-  expect_refused([&] { normal_modes(c, floating, {.count = 9}); },
-                 {"9 modes asked for, the body has 6"});
+  expect_refused([&] { normal_modes(c, floating, {.count = 9}); }, {"9 modes asked for, the body has 6"});
   expect_refused([&] { normal_modes(c, clamped, {.count = 7}); }, {"7 modes asked for", "has 6"});
-  expect_refused([&] { craig_bampton(c, both, clamped, {.count = 4}); },
-                 {"4 modes asked for", "interface", "has 3"});
-  expect_refused([&] { free_modes(c, both, clamped, {.count = 7}); },
-                 {"7 modes asked for", "has 6"});
+  expect_refused([&] { craig_bampton(c, both, clamped, {.count = 4}); }, {"4 modes asked for", "interface", "has 3"});
+  expect_refused([&] { free_modes(c, both, clamped, {.count = 7}); }, {"7 modes asked for", "has 6"});
 }
 
 TEST(Refused, AKeepThatSaysNothingOrTwoThings) {
@@ -161,74 +155,55 @@ TEST(Refused, AKeepThatSaysNothingOrTwoThings) {
   expect_refused([&] { normal_modes(c, floating, {.count = 1, .below = 10.0}); }, {"2 rules"});
   expect_refused([&] { normal_modes(c, floating, {.count = -1}); }, {"count = -1", "at least 0"});
   expect_refused([&] { normal_modes(c, floating, {.below = 0.0}); }, {"below = 0 Hz", "positive"});
-  expect_refused([&] { normal_modes(c, clamped, {.effective_mass = 1.0}); },
-                 {"effective mass = 1", "between 0 and 1"});
+  expect_refused([&] { normal_modes(c, clamped, {.effective_mass = 1.0}); }, {"effective mass = 1", "between 0 and 1"});
 }
 
 TEST(Refused, EffectiveMassOfAFreeBody) {
   const SampleBody body = euler_beam();
   const Component c = component(body.model);
-  for (const auto& reduce :
-       {std::function<void()>([&] { normal_modes(c, floating, {.effective_mass = 0.9}); }),
-        std::function<void()>([&] { free_modes(c, both, clamped, {.effective_mass = 0.9}); })})
+  for (const auto& reduce : {std::function<void()>([&] { normal_modes(c, floating, {.effective_mass = 0.9}); }),
+                             std::function<void()>([&] { free_modes(c, both, clamped, {.effective_mass = 0.9}); })})
     expect_refused(reduce, {"effective mass", "use count or below"});
 }
 
 TEST(Refused, AnEffectiveMassThatTheMeshCannotReach) {
   const SampleBody body = euler_beam(4);
-  expect_refused([&] { normal_modes(component(body.model), clamped, {.effective_mass = 0.999}); },
-                 {"0.999 cannot be reached", "refine"});
+  expect_refused([&] { normal_modes(component(body.model), clamped, {.effective_mass = 0.999}); }, {"0.999 cannot be reached", "refine"});
 }
 
 TEST(Refused, AllModesOfALargeBody) {
   const SampleBody body = euler_beam(most_for_all / 3 + 2);
   const Component c = component(body.model);
-  expect_refused([&] { normal_modes(c, floating, {.all = true}); },
-                 {"too many", "3000", "use count"});
+  expect_refused([&] { normal_modes(c, floating, {.all = true}); }, {"too many", "3000", "use count"});
 }
 
 TEST(Refused, PortsThatAreNotThereOrNamedTwice) {
   const SampleBody body = euler_beam();
   const Component c = component(body.model);
-  expect_refused(
-      [&] {
-        craig_bampton(c, {0, 2}, clamped, {.count = 1});
-      },
-      {"interface port = 2", "has 2 ports"});
+  expect_refused([&] { craig_bampton(c, {0, 2}, clamped, {.count = 1}); }, {"interface port = 2", "has 2 ports"});
   expect_refused([&] { craig_bampton(c, {0, 0}, clamped, {.count = 1}); }, {"\"A\"", "once"});
   expect_refused([&] { free_modes(c, {1, 1}, clamped, {.count = 1}); }, {"\"B\"", "once"});
-  expect_refused(
-      [&] {
-        normal_modes(c, {ReferenceConditions::tangent, -1, -1}, {.count = 1});
-      },
-      {"port a = -1", "has 2 ports"});
+  expect_refused([&] { normal_modes(c, {ReferenceConditions::tangent, -1, -1}, {.count = 1}); }, {"port a = -1", "has 2 ports"});
   expect_refused([&] { normal_modes(c, {ReferenceConditions::chord, 0, 5}, {.count = 1}); }, {"port b = 5"});
-  expect_refused(
-      [&] {
-        normal_modes(c, {ReferenceConditions::chord, 1, 1}, {.count = 1});
-      },
-      {"coincide", "tangent"});
+  expect_refused([&] { normal_modes(c, {ReferenceConditions::chord, 1, 1}, {.count = 1}); }, {"coincide", "tangent"});
 }
 
 TEST(Refused, AnInterfaceThatDoesNotHoldTheBody) {
   const SampleBody body = plate_on_nodes();
   const Component c = component(body.model);
-  expect_refused([&] { craig_bampton(c, {0}, floating, {.count = 2}); },
-                 {"leave a rigid motion", "add a port"});
+  expect_refused([&] { craig_bampton(c, {0}, floating, {.count = 2}); }, {"leave a rigid motion", "add a port"});
   expect_refused([&] { craig_bampton(c, {}, floating, {.count = 2}); }, {"leave a rigid motion"});
 }
 
 TEST(Refused, ABodyInTwoPieces) {
   Eigen::Matrix2Xd x(2, 4);
   x << 0, 0.1, 0.3, 0.4, 0, 0, 0, 0;
-  SampleBody body =
-      on_nodes(fe_model(x, {Block<BeamEuler>{{euler_strip()}, {0, 1, 2, 3}, {0, 1}}}), 0, 1);
+  SampleBody body = on_nodes(fe_model(x, {Block<BeamEuler>{{euler_strip()}, {0, 1, 2, 3}, {0, 1}}}), 0, 1);
   const Component c = component(body.model);
-  for (const auto& reduce :
-       {std::function<void()>([&] { normal_modes(c, floating, {.count = 3}); }),
-        std::function<void()>([&] { normal_modes(c, clamped, {.count = 3}); }),
-        std::function<void()>([&] { craig_bampton(c, both, clamped, {.count = 0}); }),
-        std::function<void()>([&] { free_modes(c, both, clamped, {.count = 0}); })})
+  for (const auto& reduce : {std::function<void()>([&] { normal_modes(c, floating, {.count = 3}); }),
+                             std::function<void()>([&] { normal_modes(c, clamped, {.count = 3}); }),
+                             std::function<void()>([&] { craig_bampton(c, both, clamped, {.count = 0}); }),
+                             std::function<void()>([&] { free_modes(c, both, clamped, {.count = 0}); })})
     EXPECT_THROW(reduce(), std::runtime_error);
 }
 

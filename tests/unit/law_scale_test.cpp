@@ -13,9 +13,7 @@
 namespace pintle::law_scale_test {
 namespace {
 
-LawScale scale(const std::string& text, double until = 1) {
-  return scale_of(read_law(text, dimension::number).at, until);
-}
+LawScale scale(const std::string& text, double until = 1) { return scale_of(read_law(text, dimension::number).at, until); }
 // Of the piece that holds t.
 double length_of_piece(const LawScale& s, double t) {
   const auto end = std::upper_bound(s.pieces.begin(), s.pieces.end(), t);
@@ -39,10 +37,10 @@ TEST(LawScale, FindsTheBreaksOfEveryFunctionThatHasThem) {
                                          {"atan2(t - 0.7, -1)", {0.7}},
                                          {"if((t - 0.5)^2 < 1e-20, 1, 0)", {0.5 - 1e-10, 0.5 + 1e-10}},
                                          {"if(abs(t - 0.3) < 1e-9, 1, 0)", {0.3 - 1e-9, 0.3 + 1e-9}},
-                                         {"max(t, 2*t)", {0}},                    // at 0 the first of the two
-                                         {"if(t < 2, 0, 1)", {}},                 // after the end
-                                         {"if(t < 0.5, max(t, 0.7), 0.7)", {}},   // a kink that is not taken
-                                         {"abs(t - 0.3)^3", {}},                  // twice differentiable
+                                         {"max(t, 2*t)", {0}},                   // at 0 the first of the two
+                                         {"if(t < 2, 0, 1)", {}},                // after the end
+                                         {"if(t < 0.5, max(t, 0.7), 0.7)", {}},  // a kink that is not taken
+                                         {"abs(t - 0.3)^3", {}},                 // twice differentiable
                                          {"abs(if(t < 0.5, 0, t - 0.5))", {0.5}}}) {
     const LawScale s = scale(c.law);
     ASSERT_TRUE(s.known) << c.law;

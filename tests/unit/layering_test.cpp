@@ -43,42 +43,61 @@ const std::vector<Layer> layers{
     {"framework/dynamics/solvers/", {"framework/common/", "framework/dynamics/model/"}},
     {"framework/dynamics/equations/", {"framework/common/", "framework/dynamics/model/", "framework/dynamics/solvers/"}},
     {"framework/dynamics/newton/", {"framework/common/", "framework/dynamics/solvers/", "framework/dynamics/equations/"}},
-    {"framework/integration/explicit/", {"framework/common/", "framework/dynamics/", "framework/integration/archive.h",
-                                         "framework/integration/constraint_treatment.h", "framework/integration/dense_output.h",
-                                         "framework/integration/members.h", "framework/integration/step.h", "framework/integration/stepper.h"}},
-    {"framework/integration/implicit/", {"framework/common/", "framework/dynamics/", "framework/integration/archive.h", "framework/integration/dense_output.h",
-                                         "framework/integration/members.h", "framework/integration/step.h", "framework/integration/stepper.h"}},
-    {"framework/integration/events/", {"framework/common/", "framework/dynamics/", "framework/integration/archive.h", "framework/integration/members.h",
-                                       "framework/integration/scheme.h", "framework/integration/step.h", "framework/integration/stepper.h"}},
+    {"framework/integration/explicit/",
+     {"framework/common/", "framework/dynamics/", "framework/integration/archive.h", "framework/integration/constraint_treatment.h",
+      "framework/integration/dense_output.h", "framework/integration/members.h", "framework/integration/step.h",
+      "framework/integration/stepper.h"}},
+    {"framework/integration/implicit/",
+     {"framework/common/", "framework/dynamics/", "framework/integration/archive.h", "framework/integration/dense_output.h",
+      "framework/integration/members.h", "framework/integration/step.h", "framework/integration/stepper.h"}},
+    {"framework/integration/events/",
+     {"framework/common/", "framework/dynamics/", "framework/integration/archive.h", "framework/integration/members.h",
+      "framework/integration/scheme.h", "framework/integration/step.h", "framework/integration/stepper.h"}},
     {"framework/integration/", {"framework/common/", "framework/dynamics/", "framework/integration/"}},
 
     {"framework/bodies/", {"files/", "meshes/", "framework/common/", "framework/scene/", "framework/component/", "framework/dynamics/"}},
     {"framework/drawing/", {"elements/", "meshes/", "framework/common/", "framework/component/", "framework/bodies/"}},
-    {"framework/mechanism/", {"elements/", "framework/common/", "framework/dynamics/", "framework/integration/", "framework/bodies/", "framework/drawing/"}},
-    {"framework/configuration/", {"framework/common/", "framework/scene/", "framework/dynamics/", "framework/integration/", "framework/mechanism/"}},
-    {"framework/build/", {"framework/common/", "framework/scene/", "framework/component/", "framework/dynamics/model/",
-                          "framework/integration/", "framework/bodies/", "framework/mechanism/", "framework/configuration/"}},
+    {"framework/mechanism/",
+     {"elements/", "framework/common/", "framework/dynamics/", "framework/integration/", "framework/bodies/", "framework/drawing/"}},
+    {"framework/configuration/",
+     {"framework/common/", "framework/scene/", "framework/dynamics/", "framework/integration/", "framework/mechanism/"}},
+    {"framework/build/",
+     {"framework/common/", "framework/scene/", "framework/component/", "framework/dynamics/model/", "framework/integration/",
+      "framework/bodies/", "framework/mechanism/", "framework/configuration/"}},
 
-    {"framework/analysis/simulate/", {"files/", "framework/common/", "framework/scene/", "framework/dynamics/", "framework/integration/", "framework/bodies/",
-                                      "framework/mechanism/", "framework/configuration/", "framework/build/"}},
-    {"framework/analysis/kinematics/", {"framework/common/", "framework/scene/", "framework/dynamics/", "framework/configuration/", "framework/analysis/simulate/"}},
-    {"framework/analysis/linearize/", {"framework/common/", "framework/scene/", "framework/component/eigen/", "framework/dynamics/", "framework/integration/", "framework/bodies/", "framework/mechanism/",
-                                       "framework/configuration/", "framework/analysis/kinematics/"}},
-    {"framework/analysis/natural_modes/", {"framework/common/", "framework/scene/", "framework/component/", "framework/bodies/", "framework/build/"}},
-    {"framework/analysis/static_case/", {"framework/common/", "framework/scene/", "framework/component/", "framework/bodies/", "framework/drawing/"}},
-    {"framework/analysis/cost/", {"framework/common/", "framework/integration/", "framework/mechanism/", "framework/configuration/", "framework/build/"}},
-    {"framework/output/", {"framework/common/", "framework/scene/", "framework/integration/", "framework/mechanism/", "framework/configuration/", "framework/build/", "framework/analysis/"}},
+    {"framework/analysis/simulate/",
+     {"files/", "framework/common/", "framework/scene/", "framework/dynamics/", "framework/integration/", "framework/bodies/",
+      "framework/mechanism/", "framework/configuration/", "framework/build/"}},
+    {"framework/analysis/kinematics/",
+     {"framework/common/", "framework/scene/", "framework/dynamics/", "framework/configuration/", "framework/analysis/simulate/"}},
+    {"framework/analysis/linearize/",
+     {"framework/common/", "framework/scene/", "framework/component/eigen/", "framework/dynamics/", "framework/integration/",
+      "framework/bodies/", "framework/mechanism/", "framework/configuration/", "framework/analysis/kinematics/"}},
+    {"framework/analysis/natural_modes/",
+     {"framework/common/", "framework/scene/", "framework/component/", "framework/bodies/", "framework/build/"}},
+    {"framework/analysis/static_case/",
+     {"framework/common/", "framework/scene/", "framework/component/", "framework/bodies/", "framework/drawing/"}},
+    {"framework/analysis/cost/",
+     {"framework/common/", "framework/integration/", "framework/mechanism/", "framework/configuration/", "framework/build/"}},
+    {"framework/output/",
+     {"framework/common/", "framework/scene/", "framework/integration/", "framework/mechanism/", "framework/configuration/",
+      "framework/build/", "framework/analysis/"}},
 
     {"framework/study/measures/", {"framework/common/", "framework/scene/", "framework/analysis/simulate/"}},
-    {"framework/study/sweep/", {"files/", "framework/common/", "framework/scene/", "framework/bodies/", "framework/analysis/simulate/", "framework/study/case.h", "framework/study/study.h"}},
-    {"framework/study/tradeoff/", {"framework/common/", "framework/scene/", "framework/build/", "framework/analysis/simulate/", "framework/study/study.h"}},
-    {"framework/study/", {"meshes/limits.h", "framework/common/", "framework/scene/", "framework/bodies/", "framework/build/", "framework/study/measures/"}},
+    {"framework/study/sweep/",
+     {"files/", "framework/common/", "framework/scene/", "framework/bodies/", "framework/analysis/simulate/", "framework/study/case.h",
+      "framework/study/study.h"}},
+    {"framework/study/tradeoff/",
+     {"framework/common/", "framework/scene/", "framework/build/", "framework/analysis/simulate/", "framework/study/study.h"}},
+    {"framework/study/",
+     {"meshes/limits.h", "framework/common/", "framework/scene/", "framework/bodies/", "framework/build/", "framework/study/measures/"}},
 
     {"app/", {"files/", "elements/", "contact/", "meshes/", "framework/"}},
     {"examples/", {"elements/", "contact/", "meshes/", "framework/"}},
     {"tests/oracles/", {}},
     {"tests/", {"files/", "elements/", "contact/", "meshes/", "framework/", "app/", "tests/"}},
-    {"benchmarks/", {"elements/", "contact/", "meshes/", "framework/", "tests/oracles/", "tests/paper/plot.h", "tests/scenes/mechanisms.h"}},
+    {"benchmarks/",
+     {"elements/", "contact/", "meshes/", "framework/", "tests/oracles/", "tests/paper/plot.h", "tests/scenes/mechanisms.h"}},
 };
 
 /// A dependency, by how its headers begin, and the only files that may know it.
@@ -87,8 +106,9 @@ struct Foreign {
   Paths may;
 };
 const std::vector<Foreign> foreign{
-    {"vtk", {"framework/drawing/vtk_encoder.cpp", "app/picture.cpp", "app/png.cpp", "app/canvas.h", "app/canvas.cpp",
-             "app/field_picture.cpp", "app/frames.cpp", "tests/unit/vtk_test.cpp"}},
+    {"vtk",
+     {"framework/drawing/vtk_encoder.cpp", "app/picture.cpp", "app/png.cpp", "app/canvas.h", "app/canvas.cpp", "app/field_picture.cpp",
+      "app/frames.cpp", "tests/unit/vtk_test.cpp"}},
     {"yaml-cpp/", {"framework/scene/", "tests/"}},
     {"cholmod", {"framework/dynamics/solvers/sparse_ldl.cpp", "framework/component/"}},
     {"Eigen/CholmodSupport", {"framework/configuration/least_step.cpp"}},
@@ -107,8 +127,7 @@ const std::vector<Foreign> foreign{
 };
 
 bool starts_with_any(std::string_view path, const Paths& prefixes) {
-  return std::any_of(prefixes.begin(), prefixes.end(),
-                     [&](std::string_view p) { return path.starts_with(p); });
+  return std::any_of(prefixes.begin(), prefixes.end(), [&](std::string_view p) { return path.starts_with(p); });
 }
 
 /// @param file    path from the root   @param header  as written   @param quoted  "…" rather than
@@ -121,8 +140,7 @@ bool allowed(std::string_view file, std::string_view header, bool quoted) {
     return true;
   }
   if (header.find('/') == std::string_view::npos) return true;  // a neighbour
-  const auto layer = std::find_if(layers.begin(), layers.end(),
-                                  [&](const Layer& l) { return file.starts_with(l.folder); });
+  const auto layer = std::find_if(layers.begin(), layers.end(), [&](const Layer& l) { return file.starts_with(l.folder); });
   if (layer == layers.end()) return false;
   const auto folder_of = [](std::string_view path) { return path.substr(0, path.rfind('/') + 1); };
   return folder_of(header) == folder_of(file) || starts_with_any(header, layer->may);
@@ -132,8 +150,7 @@ TEST(Layering, EveryIncludeIsAnEdgeOfTheTable) {
   const fs::path root = PINTLE_SOURCE_DIR;
   const std::regex include(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
   int seen = 0;
-  for (const auto* folder :
-       {"elements", "contact", "files", "meshes", "framework", "app", "examples", "benchmarks", "tests"}) {
+  for (const auto* folder : {"elements", "contact", "files", "meshes", "framework", "app", "examples", "benchmarks", "tests"}) {
     if (!fs::exists(root / folder)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       const auto kind = entry.path().extension();
@@ -145,8 +162,7 @@ TEST(Layering, EveryIncludeIsAnEdgeOfTheTable) {
         std::smatch match;
         if (!std::regex_search(line, match, include)) continue;
         ++seen;
-        EXPECT_TRUE(allowed(file, match.str(2), match.str(1) == "\""))
-            << file << ":" << number << ": may not include " << match.str(2);
+        EXPECT_TRUE(allowed(file, match.str(2), match.str(1) == "\"")) << file << ":" << number << ": may not include " << match.str(2);
       }
     }
   }

@@ -34,11 +34,12 @@ struct Written {
 };
 
 Written written(const std::filesystem::path& folder) {
-  const std::string text = "title: x\nparameters: {mass: 12345.5 g, length: 0.125 m}\ngravity: [0, -9.81]\n"
-                           "bodies: {a: {rigid: {mass: mass, inertia: 0.15 kg*m^2}, points: {O: [-length, 0]}}}\n"
-                           "joints: {pin: {revolute: [ground, a.O]}}\n"
-                           "forces: {f: {torque: {table: law.csv, time unit: 1.25 ms, value unit: 1500 N m}, on: a}}\n"
-                           "run: {until: 0.25 s}\noutput: {every: 0.0625 s}\n";
+  const std::string text =
+      "title: x\nparameters: {mass: 12345.5 g, length: 0.125 m}\ngravity: [0, -9.81]\n"
+      "bodies: {a: {rigid: {mass: mass, inertia: 0.15 kg*m^2}, points: {O: [-length, 0]}}}\n"
+      "joints: {pin: {revolute: [ground, a.O]}}\n"
+      "forces: {f: {torque: {table: law.csv, time unit: 1.25 ms, value unit: 1500 N m}, on: a}}\n"
+      "run: {until: 0.25 s}\noutput: {every: 0.0625 s}\n";
   const Scene scene = read_scene_text(text, "scene.yaml", {}, folder);
   const Model model = build(scene);
   const Assembly assembly = assemble(scene, model);
@@ -96,7 +97,8 @@ TEST(Room, SizesAreSaidInThreeDigitsAndTheirUnit) {
 
 // What is said to be needed at least is never more than what is written.
 TEST(Room, TheLeastIsABoundFromBelow) {
-  const Scene scene = read_scene(PINTLE_SOURCE_DIR "/examples/slider_crank_clearance.yaml", {{"run.until", "1 ms"}, {"output.frames", "null"}});
+  const Scene scene =
+      read_scene(PINTLE_SOURCE_DIR "/examples/slider_crank_clearance.yaml", {{"run.until", "1 ms"}, {"output.frames", "null"}});
   const Model model = build(scene);
   const auto run = simulate(scene, model, assemble(scene, model));
   const RoomNeeded needed = room_needed(scene, model);

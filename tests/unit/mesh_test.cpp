@@ -25,8 +25,7 @@ using Eigen::Vector2d;
 
 // A few operations on numbers of one size.
 constexpr double rounding = 1e-12;
-constexpr std::array plane_shapes{CellShape::triangle3, CellShape::triangle6,
-                                  CellShape::quadrilateral4, CellShape::quadrilateral8,
+constexpr std::array plane_shapes{CellShape::triangle3, CellShape::triangle6, CellShape::quadrilateral4, CellShape::quadrilateral8,
                                   CellShape::quadrilateral9};
 const std::array<Vector2d, 4> unit_square{Vector2d{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 const std::array<Vector2d, 4> skew{Vector2d{0, 0}, {3, 0.4}, {2.6, 2}, {-0.3, 1.5}};
@@ -49,10 +48,8 @@ double corner_area(const Mesh& mesh) {
     const int n = nodes_of(c.shape), corners = corners_of(c.shape);
     for (std::size_t k = 0; k < c.size(); ++k)
       for (int i = 0; i < corners; ++i) {
-        const Vector2d a =
-            mesh.x.col(c.nodes[k * static_cast<std::size_t>(n) + static_cast<std::size_t>(i)]);
-        const Vector2d b = mesh.x.col(
-            c.nodes[k * static_cast<std::size_t>(n) + static_cast<std::size_t>((i + 1) % corners)]);
+        const Vector2d a = mesh.x.col(c.nodes[k * static_cast<std::size_t>(n) + static_cast<std::size_t>(i)]);
+        const Vector2d b = mesh.x.col(c.nodes[k * static_cast<std::size_t>(n) + static_cast<std::size_t>((i + 1) % corners)]);
         area += (a.x() * b.y() - a.y() * b.x()) / 2;
       }
   }
@@ -65,8 +62,7 @@ std::size_t side_count(const std::vector<Cells>& blocks) {
 }
 
 TEST(GridMesh, CellsCoverTheQuadrilateralInEveryShape) {
-  const double area = 0.5 * std::abs((skew[2] - skew[0]).x() * (skew[3] - skew[1]).y() -
-                                     (skew[2] - skew[0]).y() * (skew[3] - skew[1]).x());
+  const double area = 0.5 * std::abs((skew[2] - skew[0]).x() * (skew[3] - skew[1]).y() - (skew[2] - skew[0]).y() * (skew[3] - skew[1]).x());
   for (const CellShape shape : plane_shapes) {
     const Mesh mesh = grid_mesh(skew, 5, 3, shape);
     EXPECT_EQ(mesh.cell_count(), corners_of(shape) == 3 ? 30u : 15u);
@@ -141,8 +137,7 @@ TEST(Outline, RunsRoundTheBodyOnceWithTheBodyOnItsLeft) {
         const std::size_t n = static_cast<std::size_t>(nodes_of(c.shape));
         const Vector2d a = mesh.x.col(c.nodes[s * n]), b = mesh.x.col(c.nodes[s * n + 1]);
         area += (a.x() * b.y() - a.y() * b.x()) / 2;
-        const Vector2d middle =
-            n == 3 ? Vector2d(mesh.x.col(c.nodes[s * n + 2])) : Vector2d((a + b) / 2);
+        const Vector2d middle = n == 3 ? Vector2d(mesh.x.col(c.nodes[s * n + 2])) : Vector2d((a + b) / 2);
         EXPECT_LT((middle - (a + b) / 2).norm(), rounding * 5);
       }
     EXPECT_NEAR(area, corner_area(mesh), rounding * area);
@@ -173,8 +168,7 @@ TEST(Pieces, AreWhatNoCellJoins) {
   cells.nodes.erase(cells.nodes.begin() + 4, cells.nodes.begin() + 8);  // the middle one of three
   cells.numbers.erase(cells.numbers.begin() + 1);
   EXPECT_EQ(pieces(mesh, piece), 2);
-  for (Eigen::Index i = 0; i < mesh.x.cols(); ++i)
-    EXPECT_EQ(piece[static_cast<std::size_t>(i)], mesh.x(0, i) < 0.5 ? 0 : 1);
+  for (Eigen::Index i = 0; i < mesh.x.cols(); ++i) EXPECT_EQ(piece[static_cast<std::size_t>(i)], mesh.x(0, i) < 0.5 ? 0 : 1);
 }
 
 TEST(DropUnusedNodes, KeepsPlacesNumbersAndGroups) {
@@ -203,14 +197,11 @@ TEST(Quality, ScaledJacobianIsTheSineOfTheAngle) {
     EXPECT_NEAR(q.least_angle, std::min(angle, M_PI - angle), rounding);
     EXPECT_NEAR(q.greatest_angle, std::max(angle, M_PI - angle), rounding);
   }
-  const double h =
-      0.3;  // height of an isosceles triangle on a base of 1: base angles atan 0.6, the least
+  const double h = 0.3;  // height of an isosceles triangle on a base of 1: base angles atan 0.6, the least
   for (int turn = 0; turn < 3; ++turn) {
     const Vector2d p[] = {{0, 0}, {1, 0}, {0.5, h}};
-    const auto q =
-        quality(one_cell(CellShape::triangle3, {p[turn], p[(turn + 1) % 3], p[(turn + 2) % 3]}));
-    EXPECT_NEAR(q.least_jacobian, std::sin(std::atan(0.6)) / std::sin(M_PI / 3), rounding)
-        << "whatever corner is first";
+    const auto q = quality(one_cell(CellShape::triangle3, {p[turn], p[(turn + 1) % 3], p[(turn + 2) % 3]}));
+    EXPECT_NEAR(q.least_jacobian, std::sin(std::atan(0.6)) / std::sin(M_PI / 3), rounding) << "whatever corner is first";
     EXPECT_NEAR(q.greatest_aspect, 1 / std::hypot(0.5, h), rounding);
   }
 }
@@ -219,8 +210,7 @@ TEST(Quality, StraightSidedCellsOfHigherOrderAreAsGoodAsTheirCorners) {
   for (const auto& [low, high] : {std::pair{CellShape::triangle3, CellShape::triangle6},
                                   {CellShape::quadrilateral4, CellShape::quadrilateral8},
                                   {CellShape::quadrilateral4, CellShape::quadrilateral9}})
-    EXPECT_NEAR(quality(grid_mesh(skew, 2, 2, high)).least_jacobian,
-                quality(grid_mesh(skew, 2, 2, low)).least_jacobian, rounding)
+    EXPECT_NEAR(quality(grid_mesh(skew, 2, 2, high)).least_jacobian, quality(grid_mesh(skew, 2, 2, low)).least_jacobian, rounding)
         << name_of(high);
 }
 
@@ -232,8 +222,7 @@ TEST(Quality, QuarterPointsMakeACornerSingularAndBeyondThemInverted) {
     const Mesh eight = one_cell(CellShape::quadrilateral8, x);
     x.push_back({0.5, 0.5});
     const Mesh nine = one_cell(CellShape::quadrilateral9, x);
-    const Mesh six =
-        one_cell(CellShape::triangle6, {{0, 0}, {1, 0}, {0, 1}, {t, 0}, {0.5, 0.5}, {0, t}});
+    const Mesh six = one_cell(CellShape::triangle6, {{0, 0}, {1, 0}, {0, 1}, {t, 0}, {0.5, 0.5}, {0, t}});
     return std::array{quality(eight), quality(nine), quality(six)};
   };
   for (const auto& q : with_mid_at(0.3)) EXPECT_TRUE(q.inverted.empty());
@@ -255,11 +244,9 @@ TEST(Quality, DoesNotDependOnPlaceTurnOrSize) {
     Mesh mesh = grid_mesh(skew, 3, 2, shape);
     const auto before = quality(mesh);
     const Eigen::Rotation2Dd turn(1.1);
-    mesh.x = ((turn.toRotationMatrix() * mesh.x).array() * 1e-3).matrix().colwise() +
-             Vector2d(0.3, -0.2);
+    mesh.x = ((turn.toRotationMatrix() * mesh.x).array() * 1e-3).matrix().colwise() + Vector2d(0.3, -0.2);
     const auto after = quality(mesh);
-    EXPECT_NEAR(after.least_jacobian, before.least_jacobian, 1e3 * rounding)
-        << "places of 1 for sizes of 1e-3";
+    EXPECT_NEAR(after.least_jacobian, before.least_jacobian, 1e3 * rounding) << "places of 1 for sizes of 1e-3";
     EXPECT_NEAR(after.greatest_aspect, before.greatest_aspect, 1e3 * rounding);
   }
 }
@@ -273,8 +260,7 @@ TEST(Orient, TurnsClockwiseCellsOverAndLeavesOthers) {
     mesh.x.row(0) *= -1;  // mirrored: every cell runs clockwise
     EXPECT_LT(quality(mesh).least_jacobian, 0);
     orient(mesh);
-    EXPECT_NEAR(quality(mesh).least_jacobian, quality(before).least_jacobian, rounding)
-        << name_of(shape);
+    EXPECT_NEAR(quality(mesh).least_jacobian, quality(before).least_jacobian, rounding) << name_of(shape);
     const Group* bottom = mesh.group("bottom");
     for (const Cells& c : bottom->sides)
       for (std::size_t s = 0; s < c.size(); ++s) {
@@ -285,20 +271,17 @@ TEST(Orient, TurnsClockwiseCellsOverAndLeavesOthers) {
 }
 
 TEST(Loops, HolesAreNumberedFromLeftToRightThenFromBelow) {
-  Mesh mesh = grid_mesh(std::array<Vector2d, 4>{Vector2d{0, 0}, {7, 0}, {7, 7}, {0, 7}}, 7, 7,
-                        CellShape::quadrilateral4);
+  Mesh mesh = grid_mesh(std::array<Vector2d, 4>{Vector2d{0, 0}, {7, 0}, {7, 7}, {0, 7}}, 7, 7, CellShape::quadrilateral4);
   Cells kept{CellShape::quadrilateral4, {}, {}};
   for (std::size_t c = 0; c < 49; ++c) {
-    if (c == 5 * 7 + 3 || c == 1 * 7 + 3 || c == 3 * 7 + 5)
-      continue;  // fields (3, 5), (3, 1), (5, 3)
+    if (c == 5 * 7 + 3 || c == 1 * 7 + 3 || c == 3 * 7 + 5) continue;  // fields (3, 5), (3, 1), (5, 3)
     for (std::size_t k = 0; k < 4; ++k) kept.nodes.push_back(mesh.cells[0].nodes[4 * c + k]);
     kept.numbers.push_back(static_cast<long>(c));
   }
   mesh.cells[0] = kept;
   mesh.groups.clear();
   name_loops(mesh, Rim(mesh));
-  const std::pair<const char*, Vector2d> holes[] = {
-      {"hole 1", {3.5, 1.5}}, {"hole 2", {3.5, 5.5}}, {"hole 3", {5.5, 3.5}}};
+  const std::pair<const char*, Vector2d> holes[] = {{"hole 1", {3.5, 1.5}}, {"hole 2", {3.5, 5.5}}, {"hole 3", {5.5, 3.5}}};
   for (const auto& [name, center] : holes) {
     const Group* g = mesh.group(name);
     ASSERT_NE(g, nullptr) << name;
@@ -312,21 +295,19 @@ TEST(Loops, HolesAreNumberedFromLeftToRightThenFromBelow) {
 
 TEST(LinkJudge, RefusesWhatCannotBeMade) {
   const Eye eye{0.02, 0.04};
-  const Link bad[] = {
-      StraightBar{0, 0.1},
-      StraightBar{1, -0.1},
-      StraightBar{NAN, 0.1},
-      TaperedBar{1, 0.1, 0},
-      Disc{0.1, 0.1},
-      Disc{0.1, 0},
-      EyeBar{0.3, 0.05, eye, eye},           // shank wider than the eyes
-      EyeBar{0.03, 0.02, eye, eye},          // eyes overlap
-      EyeBar{0.3, 0.02, {0.04, 0.04}, eye},  // no material round the bore
-      Triangle{{{0, 0}, {0.2, 0}, {0.1, 0}}, {eye, eye, {0.01, 0.03}}},  // the third hidden
-      Triangle{{{0, 0}, {0.2, 0}, {0.01, 0.01}}, {eye, eye, eye}}};
+  const Link bad[] = {StraightBar{0, 0.1},
+                      StraightBar{1, -0.1},
+                      StraightBar{NAN, 0.1},
+                      TaperedBar{1, 0.1, 0},
+                      Disc{0.1, 0.1},
+                      Disc{0.1, 0},
+                      EyeBar{0.3, 0.05, eye, eye},                                       // shank wider than the eyes
+                      EyeBar{0.03, 0.02, eye, eye},                                      // eyes overlap
+                      EyeBar{0.3, 0.02, {0.04, 0.04}, eye},                              // no material round the bore
+                      Triangle{{{0, 0}, {0.2, 0}, {0.1, 0}}, {eye, eye, {0.01, 0.03}}},  // the third hidden
+                      Triangle{{{0, 0}, {0.2, 0}, {0.01, 0.01}}, {eye, eye, eye}}};
   for (const Link& link : bad) EXPECT_THROW(judge(link), std::invalid_argument) << link.index();
-  EXPECT_NO_THROW(judge(Triangle{{{0, 0}, {0.2, 0}, {0.1, -0.2}}, {eye, eye, eye}}))
-      << "in either sense of rotation";
+  EXPECT_NO_THROW(judge(Triangle{{{0, 0}, {0.2, 0}, {0.1, -0.2}}, {eye, eye, eye}})) << "in either sense of rotation";
 }
 
 TEST(LinkDrawing, LoopsCloseAndArcsStayOnTheirCircles) {
@@ -345,8 +326,7 @@ TEST(LinkDrawing, LoopsCloseAndArcsStayOnTheirCircles) {
       for (std::size_t k = 0; k < loop.edges.size(); ++k) {
         const Edge& e = loop.edges[k];
         EXPECT_EQ(e.to, loop.edges[(k + 1) % loop.edges.size()].from);
-        EXPECT_TRUE(!e.arc ||
-                    std::abs((e.from - e.center).norm() - (e.to - e.center).norm()) < rounding);
+        EXPECT_TRUE(!e.arc || std::abs((e.from - e.center).norm() - (e.to - e.center).norm()) < rounding);
         area += (e.from.x() * e.to.y() - e.from.y() * e.to.x()) / 2;
       }
       EXPECT_GT(area, 0);

@@ -66,7 +66,8 @@ struct Mesher : testing::Test {
   /// Gmsh does not wait for its commands, so this waits for one.
   bool ran(std::chrono::milliseconds most = std::chrono::milliseconds(200)) const {
     const auto until = std::chrono::steady_clock::now() + most;
-    while (!fs::exists(folder / "ran") && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    while (!fs::exists(folder / "ran") && std::chrono::steady_clock::now() < until)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     return fs::exists(folder / "ran");
   }
   fs::path folder;
@@ -110,9 +111,9 @@ TEST_F(Mesher, ADrawingRunsNoCommandUnlessTheUserTrustsIt) {
 }
 
 TEST_F(Mesher, ADrawingWritesNothing) {
-  for (const std::string& order : {"Save \"" + (folder / "scene/out.msh").string() + "\";", "Print \"" + (folder / "ran").string() + "\";",
-                                  "Printf(\"x\") > \"" + (folder / "ran").string() + "\";",
-                                  "CreateDir \"" + (folder / "ran").string() + "\";"})
+  for (const std::string& order :
+       {"Save \"" + (folder / "scene/out.msh").string() + "\";", "Print \"" + (folder / "ran").string() + "\";",
+        "Printf(\"x\") > \"" + (folder / "ran").string() + "\";", "CreateDir \"" + (folder / "ran").string() + "\";"})
     said(write("a.geo", square + face + "Mesh 2;\n" + order + "\n"));
   EXPECT_FALSE(ran());
   EXPECT_FALSE(fs::exists(folder / "scene/out.msh"));
@@ -176,9 +177,7 @@ TEST_F(Mesher, ADrawingThatNeedsTooMuchMemoryIsRefused) {
   EXPECT_TRUE(has(words, "--mesh-memory")) << words;
 }
 
-TEST_F(Mesher, ADrawingThatLeavesIsRefused) {
-  EXPECT_TRUE(has(said(write("a.geo", "Exit;\n")), "without a mesh"));
-}
+TEST_F(Mesher, ADrawingThatLeavesIsRefused) { EXPECT_TRUE(has(said(write("a.geo", "Exit;\n")), "without a mesh")); }
 
 /// Processes whose parent is this one, the threads' too.
 std::vector<pid_t> children() {

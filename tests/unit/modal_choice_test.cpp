@@ -21,7 +21,8 @@ const std::string steel = "young: 200 GPa, poisson: 0.3, density: 8000 kg/m^3, t
 
 /// A rod of 1 m, 20 mm high and 10 mm wide, from A to B.
 std::string rod(const std::string& rest) {
-  return "bodies:\n  rod:\n    beam: {from: A, to: B, section: {rectangle: [20 mm, 10 mm]}, " + steel + "}\n    points: {A: [0, 0], B: [1, 0]}\n" + rest;
+  return "bodies:\n  rod:\n    beam: {from: A, to: B, section: {rectangle: [20 mm, 10 mm]}, " + steel +
+         "}\n    points: {A: [0, 0], B: [1, 0]}\n" + rest;
 }
 std::string clamped(const std::string& modes, const std::string& rest) {
   return rod("    modes: " + modes + "\njoints: {root: {weld: [ground, rod.A]}}\n" + rest);
@@ -65,7 +66,8 @@ double integrated(double omega, double zeta, double t_end, double q0, double q1)
   for (int i = 0; i < n; ++i) {
     const double t = i * h;
     const double k1 = v, l1 = a(t, x, v), k2 = v + h / 2 * l1, l2 = a(t + h / 2, x + h / 2 * k1, v + h / 2 * l1);
-    const double k3 = v + h / 2 * l2, l3 = a(t + h / 2, x + h / 2 * k2, v + h / 2 * l2), k4 = v + h * l3, l4 = a(t + h, x + h * k3, v + h * l3);
+    const double k3 = v + h / 2 * l2, l3 = a(t + h / 2, x + h / 2 * k2, v + h / 2 * l2), k4 = v + h * l3,
+                 l4 = a(t + h, x + h * k3, v + h * l3);
     x += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
     v += h / 6 * (l1 + 2 * l2 + 2 * l3 + l4);
   }
@@ -84,7 +86,8 @@ TEST(OscillatorResponse, IsExactForLoadsLinearInTimeWhateverTheDamping) {
 
 TEST(OscillatorResponse, StaysFiniteWhereDampingIsOvercriticalByFar) {
   const std::vector<double> t{0, 1, 2};
-  const Eigen::MatrixXd eta = oscillator_response(Eigen::VectorXd::Constant(1, 1e6), Eigen::VectorXd::Constant(1, 1e3), t, Eigen::MatrixXd::Ones(1, 3));
+  const Eigen::MatrixXd eta =
+      oscillator_response(Eigen::VectorXd::Constant(1, 1e6), Eigen::VectorXd::Constant(1, 1e3), t, Eigen::MatrixXd::Ones(1, 3));
   EXPECT_TRUE(eta.allFinite());
   EXPECT_NEAR(eta(0, 2), 1e-12, 1e-15);  // the static answer
 }
@@ -95,9 +98,11 @@ TEST(RigidRun, LoadsOnABodyAreInEquilibriumWhateverHoldsIt) {
           rod("    modes: {frame: chord, count: 2}\n"
               "  bob: {rigid: {mass: 0.5, inertia: 1e-3}, points: {P: [0.1, 0]}, pose: {at: [1, 0]}}\n"
               "joints:\n  root: {revolute: [rod.A, ground]}\n"
-              "  pin: {revolute: [rod.B, bob], clearance: {radial: 1 mm, bearing radius: 20 mm, bearing: rod, normal: {hertz: {stiffness: 1e9}}, friction: {ambrosio: {coefficient: 0.2}}}}\n"
+              "  pin: {revolute: [rod.B, bob], clearance: {radial: 1 mm, bearing radius: 20 mm, bearing: rod, normal: {hertz: {stiffness: "
+              "1e9}}, friction: {ambrosio: {coefficient: 0.2}}}}\n"
               "drivers: {swing: {angle: [rod.A, ground], law: 0.3 rad*sin(20*t)}}\n"
-              "forces:\n  s: {spring: [ground.C, rod.B], stiffness: 400, damping: 3, free length: 0.4}\n  r: {torsion spring: [rod.B, bob], stiffness: 2}\n"
+              "forces:\n  s: {spring: [ground.C, rod.B], stiffness: 400, damping: 3, free length: 0.4}\n  r: {torsion spring: [rod.B, "
+              "bob], stiffness: 2}\n"
               "  q: {torque: 3*t, on: bob, from: rod.B}\n  f: {force: [5, 3], at: rod.B, follows: true}\nrun: {until: 0.3 s}\n"),
       "t");
   const ElasticBody e = elastic_body(scene, scene.bodies[0]);
@@ -107,13 +112,14 @@ TEST(RigidRun, LoadsOnABodyAreInEquilibriumWhateverHoldsIt) {
   const Eigen::MatrixXd resultant = rigid_motions(e.model).transpose() * loads_on(e), &W = run.bodies[0].factor;
   const Eigen::MatrixXd sum = resultant * W, terms = resultant.cwiseAbs() * W.cwiseAbs();
   EXPECT_LE((sum.array() / terms.array()).abs().maxCoeff(), 1e-9);  // rounding of the accelerations
-  for (Eigen::Index i = 0; i < W.rows(); ++i)
-    EXPECT_GT(W.row(i).lpNorm<Eigen::Infinity>(), 0) << "load " << i << " is missing";
+  for (Eigen::Index i = 0; i < W.rows(); ++i) EXPECT_GT(W.row(i).lpNorm<Eigen::Infinity>(), 0) << "load " << i << " is missing";
 }
 
 TEST(ModalChoice, MovesTheRodAsTwiceTheModesDo) {
   for (const std::string method : {"", "craig-bampton", "free"}) {
-    const auto keeping = [&](const std::string& rule) { return crank("{frame: chord, " + (method.empty() ? rule : method + ": {" + rule + "}") + "}"); };
+    const auto keeping = [&](const std::string& rule) {
+      return crank("{frame: chord, " + (method.empty() ? rule : method + ": {" + rule + "}") + "}");
+    };
     const int count = built(keeping("keep: auto")).flexible[0].choice->count;
     EXPECT_LE(count, 12) << method;
     const auto chosen = ran(keeping("keep: auto")), many = ran(keeping("count: " + std::to_string(2 * count)));
@@ -135,14 +141,16 @@ TEST(ModalChoice, SaysOfEachConsideredModeWhatIsLeftOut) {
   EXPECT_LE(last.left_displacement, c.beyond_displacement + negligible_part);
   if (c.count > 1) {
     const ConsideredMode& before = c.considered[static_cast<std::size_t>(c.count - 2)];
-    EXPECT_TRUE(before.left_energy > c.beyond_energy + negligible_part || before.left_displacement > c.beyond_displacement + negligible_part);
+    EXPECT_TRUE(before.left_energy > c.beyond_energy + negligible_part ||
+                before.left_displacement > c.beyond_displacement + negligible_part);
   }
 }
 
 TEST(ModalChoice, FindsNothingLeftOutByAllModesOfABody) {
   constexpr double rounding = 1e-8;  // of K⁻¹, and of differences of energies
   for (const char* way : {"keep: auto", "craig-bampton: {keep: auto}", "free: {keep: auto}"}) {
-    std::string text = clamped("{frame: {tangent: A}, " + std::string(way) + "}", "gravity: [1, -9.81]\nforces: {p: {force: [100, \"20*sin(300*t)\"], at: rod.B}}\nrun: {until: 0.2}\n");
+    std::string text = clamped("{frame: {tangent: A}, " + std::string(way) + "}",
+                               "gravity: [1, -9.81]\nforces: {p: {force: [100, \"20*sin(300*t)\"], at: rod.B}}\nrun: {until: 0.2}\n");
     text.insert(text.find("theory"), "elements: 5, ");
     const ModalChoice c = *built(text).flexible[0].choice;
     EXPECT_LT(c.considered.size(), static_cast<std::size_t>(considered_modes));
@@ -153,7 +161,10 @@ TEST(ModalChoice, FindsNothingLeftOutByAllModesOfABody) {
 
 TEST(ModalChoice, NeedsTheModeThatAForceShakes) {
   const auto count = [](double frequency) {
-    return built(clamped("{frame: {tangent: A}, keep: auto}", "forces: {p: {force: [0, \"10 N*sin(2*pi*" + std::to_string(frequency) + "/s*t)\"], at: rod.B}}\nrun: {until: 0.5 s}\n")).flexible[0].choice->count;
+    return built(clamped("{frame: {tangent: A}, keep: auto}", "forces: {p: {force: [0, \"10 N*sin(2*pi*" + std::to_string(frequency) +
+                                                                  "/s*t)\"], at: rod.B}}\nrun: {until: 0.5 s}\n"))
+        .flexible[0]
+        .choice->count;
   };
   const double third = cantilever(7.8547574382) / (2 * pi);
   EXPECT_GE(count(third), 3);
@@ -161,7 +172,8 @@ TEST(ModalChoice, NeedsTheModeThatAForceShakes) {
 }
 
 TEST(ModalChoice, LeavesStaticShapesInPlace) {
-  const Model fixed = built(crank("{frame: chord, craig-bampton: {keep: auto}}")), free = built(crank("{frame: chord, free: {keep: auto}}"));
+  const Model fixed = built(crank("{frame: chord, craig-bampton: {keep: auto}}")),
+              free = built(crank("{frame: chord, free: {keep: auto}}"));
   const Model plain = built(crank("{frame: chord, keep: auto}"));
   EXPECT_LT(plain.flexible[0].compliance, 0.999);
   EXPECT_NEAR(fixed.flexible[0].compliance, 1, 1e-6);
@@ -176,15 +188,18 @@ TEST(ModalChoice, KeepsOneModeWhereNothingLoadsTheBody) {
 }
 
 TEST(ModalChoice, FallsBackOnARuleWhereTheRigidMechanismIsOverconstrained) {
-  const Model model = built(rod("    modes: {frame: chord, craig-bampton: {keep: auto}}\nground: {points: {C: [1, 0]}}\n"
-                                "joints: {a: {revolute: [ground, rod.A]}, b: {revolute: [ground.C, rod.B]}}\nrun: {until: 1}\n"));
+  const Model model =
+      built(rod("    modes: {frame: chord, craig-bampton: {keep: auto}}\nground: {points: {C: [1, 0]}}\n"
+                "joints: {a: {revolute: [ground, rod.A]}, b: {revolute: [ground.C, rod.B]}}\nrun: {until: 1}\n"));
   EXPECT_EQ(model.flexible[0].choice->count, without_a_run);
   EXPECT_NE(model.flexible[0].choice->reason.find("by rule"), std::string::npos);
   EXPECT_NE(model.preliminary_run->trouble.find("\"b\" (x) repeats"), std::string::npos);
 }
 
 TEST(ModalChoice, IsMadeForEachPiece) {
-  const std::string text = rod("    modes: {frame: chord, craig-bampton: {keep: auto}}\ngravity: [0, -9.81]\njoints: {a: {revolute: [ground, rod.A]}}\nrun: {until: 0.1}\n");
+  const std::string text =
+      rod("    modes: {frame: chord, craig-bampton: {keep: auto}}\ngravity: [0, -9.81]\njoints: {a: {revolute: [ground, rod.A]}}\nrun: "
+          "{until: 0.1}\n");
   std::string cut = text;
   cut.insert(cut.find("theory"), "pieces: 3, ");
   const Model model = built(cut);
@@ -200,7 +215,8 @@ TEST(FlexibleReport, CoversTheClosedFormsSharesOfACantilever) {
   EXPECT_NEAR(r.compliance, 0, 1e-12);      // no mode stretches the rod
   // The first stretching mode, ω = π/2 √(E/ρ), has 8/π² of the compliance at the end.
   const double stretch = std::sqrt(200e9 / 8000) / 4;
-  const Model two = built(clamped("{frame: {tangent: A}, below: " + std::to_string(1.1 * stretch) + "}", "forces: {p: {force: [1, 0], at: rod.B}}\nrun: {until: 1}\n"));
+  const Model two = built(clamped("{frame: {tangent: A}, below: " + std::to_string(1.1 * stretch) + "}",
+                                  "forces: {p: {force: [1, 0], at: rod.B}}\nrun: {until: 1}\n"));
   EXPECT_NEAR(two.flexible[0].compliance, 8 / (pi * pi), mesh);
   EXPECT_EQ(two.flexible[0].compliance_at, "B, x");
 }
@@ -229,14 +245,17 @@ TEST(PreliminaryRun, EstimatesTheDeflectionOfASuddenWeight) {
 }
 
 TEST(PreliminaryRun, TellsTheFrequencyThatAForceExcites) {
-  const Model model = rehearsed(clamped("{frame: {tangent: A}, count: 4}", "forces: {p: {force: [0, \"10 N*sin(2*pi*40/s*t)\"], at: rod.B}}\nrun: {until: 1 s}\n"));
+  const Model model = rehearsed(
+      clamped("{frame: {tangent: A}, count: 4}", "forces: {p: {force: [0, \"10 N*sin(2*pi*40/s*t)\"], at: rod.B}}\nrun: {until: 1 s}\n"));
   EXPECT_NEAR(model.flexible[0].motion->excited_up_to, 40, 2);  // a window's width
 }
 
 TEST(Imposed, FrequencyIsThatOfTurningOrOfTheAcceleration) {
   const Scene scene = read_scene_text(
       "bodies: {a: {rigid: {mass: 1, inertia: 1}}, b: {rigid: {mass: 1, inertia: 1}}}\n"
-      "drivers:\n  motor: {angle: [ground, a], law: 3000 rpm*t}\n  shaker: {angle: [ground, b], law: 0.1 rad*sin(2*pi*30/s*t)}\nrun: {until: 2}\n", "t");
+      "drivers:\n  motor: {angle: [ground, a], law: 3000 rpm*t}\n  shaker: {angle: [ground, b], law: 0.1 rad*sin(2*pi*30/s*t)}\nrun: "
+      "{until: 2}\n",
+      "t");
   const std::vector<Imposed> found = imposed_frequencies(scene);
   EXPECT_NEAR(found[0].frequency, 50, 1e-9);
   EXPECT_TRUE(found[0].turns && found[0].even);
@@ -246,8 +265,10 @@ TEST(Imposed, FrequencyIsThatOfTurningOrOfTheAcceleration) {
 
 TEST(Doubt, OnModesThatEndBelowTheDriver) {
   const auto turning = [](const char* count) {
-    return built(rod("    modes: {frame: {tangent: A}, count: " + std::string(count) + "}\n    stiffening: rotation\njoints: {root: {revolute: [ground, rod.A]}}\n"
-                     "drivers: {motor: {angle: [ground, rod.A], law: 3000 rpm*t}}\nrun: {until: 0.1}\n")).warnings;
+    return built(rod("    modes: {frame: {tangent: A}, count: " + std::string(count) +
+                     "}\n    stiffening: rotation\njoints: {root: {revolute: [ground, rod.A]}}\n"
+                     "drivers: {motor: {angle: [ground, rod.A], law: 3000 rpm*t}}\nrun: {until: 0.1}\n"))
+        .warnings;
   };
   EXPECT_TRUE(warns(turning("1"), "Hz, but driver \"motor\" turns at 50 Hz; keep more"));
   EXPECT_FALSE(warns(turning("2"), "keep more"));
@@ -257,7 +278,9 @@ TEST(Doubt, OnStiffeningThatSpinWouldBring) {
   // Southwell: ω² = ω₀² + 1.193 Ω² for the first mode of a blade clamped on its axis, by stretching alone.
   const double first = cantilever(1.8751040687), spin = 0.5 * first, raised = std::sqrt(1 + 1.193 * 0.25) - 1;
   const auto blade = [&](double w, const std::string& more) {
-    return rod("    modes: {frame: {tangent: A}, count: 3}\n" + more + "joints: {root: {revolute: [ground, rod.A]}}\nstart: {rod: {angle: 0, speed: " + std::to_string(w) + "}}\nrun: {until: 0.1}\n");
+    return rod("    modes: {frame: {tangent: A}, count: 3}\n" + more +
+               "joints: {root: {revolute: [ground, rod.A]}}\nstart: {rod: {angle: 0, speed: " + std::to_string(w) +
+               "}}\nrun: {until: 0.1}\n");
   };
   const Model quick = built(blade(spin, "")), seen = rehearsed(blade(spin, ""));
   EXPECT_TRUE(warns(quick.warnings, "raise its first frequency by 13.9 %; add stiffening: rotation")) << raised;
@@ -271,7 +294,8 @@ TEST(Doubt, OnStiffeningThatForcesAtPointsWouldBring) {
   // Euler: π²EI/4 at the free end. A pull of a twentieth of that raises ω₁ by some 2.5 %.
   const double pull = pi * pi * EI / 80;
   const auto text = [&](double force, const std::string& more) {
-    return clamped("{frame: {tangent: A}, count: 4}", more + "forces: {p: {force: [" + std::to_string(force) + ", 0], at: rod.B}}\nrun: {until: 0.01}\n");
+    return clamped("{frame: {tangent: A}, count: 4}",
+                   more + "forces: {p: {force: [" + std::to_string(force) + ", 0], at: rod.B}}\nrun: {until: 0.01}\n");
   };
   const Model pulled = rehearsed(text(pull, ""));
   EXPECT_TRUE(warns(pulled.warnings, "add stiffening: axial"));

@@ -47,8 +47,7 @@ TEST(CraigBampton, OfOneTurningPortIsTheModesOfTheBodyClampedThere) {
   const ModalModel modes = normal_modes(c, clamped, {.count = 5});
   ASSERT_EQ(one.omega.size(), 5);
   EXPECT_LT((one.omega - modes.omega).cwiseAbs().maxCoeff(), 1e-8 * modes.omega[4]);
-  EXPECT_LT((one.shapes - modes.shapes).cwiseAbs().maxCoeff(),
-            1e-5 * modes.shapes.cwiseAbs().maxCoeff());
+  EXPECT_LT((one.shapes - modes.shapes).cwiseAbs().maxCoeff(), 1e-5 * modes.shapes.cwiseAbs().maxCoeff());
   EXPECT_LT(one.residual.maxCoeff(), 1e-6) << "they are true modes";
 }
 
@@ -84,8 +83,7 @@ TEST(CraigBampton, FrequenciesFallTowardsThoseOfTheBody) {
   // What a fixed-interface mode left out would have added is of the order of its own frequency
   // ratio squared.
   const VectorXd all = craig_bampton(c, both, floating, {.count = 32}).omega;
-  EXPECT_LT((before - exact).cwiseQuotient(exact).maxCoeff(),
-            std::pow(exact[2] / all[all.size() - 1], 2));
+  EXPECT_LT((before - exact).cwiseQuotient(exact).maxCoeff(), std::pow(exact[2] / all[all.size() - 1], 2));
 }
 
 // Loads on port b of a body clamped at port a, both in the interface.
@@ -105,16 +103,10 @@ TEST(CraigBampton, FlexibilityOfTheHeldBodyIsExactAtItsPorts) {
     const std::vector<int> at{b[0], b[1], b[2]};
     const MatrixXd full = K.llt().solve(MatrixXd::Identity(K.rows(), K.rows()))(at, at);
     MatrixXd shape_at_b(3, m.omega.size());
-    for (Eigen::Index k = 0; k < m.omega.size(); ++k)
-      shape_at_b.col(k) = port_motion(body, 1, m.shapes.col(k));
-    const MatrixXd reduced =
-        shape_at_b * m.omega.cwiseAbs2().cwiseInverse().asDiagonal() * shape_at_b.transpose();
-    EXPECT_LT(
-        (reduced - full)
-            .cwiseQuotient(full.diagonal().cwiseSqrt() * full.diagonal().cwiseSqrt().transpose())
-            .cwiseAbs()
-            .maxCoeff(),
-        through_inverse);
+    for (Eigen::Index k = 0; k < m.omega.size(); ++k) shape_at_b.col(k) = port_motion(body, 1, m.shapes.col(k));
+    const MatrixXd reduced = shape_at_b * m.omega.cwiseAbs2().cwiseInverse().asDiagonal() * shape_at_b.transpose();
+    EXPECT_LT((reduced - full).cwiseQuotient(full.diagonal().cwiseSqrt() * full.diagonal().cwiseSqrt().transpose()).cwiseAbs().maxCoeff(),
+              through_inverse);
   }
 }
 
@@ -150,35 +142,30 @@ TEST(FreeModes, ResponseOfTheAcceleratingBodyIsExact) {
   const ModalModel m = free_modes(c, both, floating, {.count = 1});
   const MatrixXd rigid = rigid_nodal(body.model);
   const MatrixXd M = c.M, K = c.K, Mr = M * rigid;
-  const MatrixXd project = MatrixXd::Identity(M.rows(), M.rows()) -
-                           rigid * (rigid.transpose() * Mr).inverse() * Mr.transpose();
+  const MatrixXd project = MatrixXd::Identity(M.rows(), M.rows()) - rigid * (rigid.transpose() * Mr).inverse() * Mr.transpose();
   MatrixXd load = MatrixXd::Zero(M.rows(), 4);
   int column = 0;
   for (const Port& p : body.model.ports)
     for (int k = 0; k < 2; ++k) load(p.freedom[k], column++) = 1;
-  const MatrixXd orthonormal =
-      rigid.householderQr().householderQ() * MatrixXd::Identity(M.rows(), 3);
+  const MatrixXd orthonormal = rigid.householderQr().householderQ() * MatrixXd::Identity(M.rows(), 3);
   const MatrixXd regular = K + K.diagonal().mean() * orthonormal * orthonormal.transpose();
   const MatrixXd elastic = project * regular.ldlt().solve(project.transpose() * load);
   const MatrixXd full = load.transpose() * elastic;
   const MatrixXd modal = m.shapes.transpose() * load;
-  const MatrixXd reduced =
-      modal.transpose() * m.omega.cwiseAbs2().cwiseInverse().asDiagonal() * modal;
+  const MatrixXd reduced = modal.transpose() * m.omega.cwiseAbs2().cwiseInverse().asDiagonal() * modal;
   EXPECT_LT((reduced - full).norm(), 1e-8 * full.norm());
 }
 
 // ---- effective mass -----------------------------------------------------------------------------
 
 TEST(EffectiveMass, SumsToTheMassThatIsNotHeld) {
-  for (const auto& make :
-       std::vector<std::function<SampleBody()>>{[] { return euler_beam(); }, timoshenko_bracket,
-                                                [] { return plate_on_edges(Coupling::rigid); }}) {
+  for (const auto& make : std::vector<std::function<SampleBody()>>{[] { return euler_beam(); }, timoshenko_bracket,
+                                                                   [] { return plate_on_edges(Coupling::rigid); }}) {
     const SampleBody body = make();
     const Component c = component(body.model);
     const Sparse M = Assembler(body.model).mass();
     for (const ReferenceConditions& conditions : {clamped, pinned}) {
-      const Vector3d sum =
-          effective_mass(body.model, M, normal_modes(c, conditions, {.all = true})).rowwise().sum();
+      const Vector3d sum = effective_mass(body.model, M, normal_modes(c, conditions, {.all = true})).rowwise().sum();
       const RigidInertia r = rigid_inertia(body.model, M);
       const Eigen::Vector2d centre = r.c / r.m;
       MatrixXd rigid = rigid_motions(body.model);
@@ -187,9 +174,7 @@ TEST(EffectiveMass, SumsToTheMassThatIsNotHeld) {
       const MatrixXd held = (B * dense.llt().solve(B.transpose())).inverse();
       const MatrixXd Br = B * rigid;
       const MatrixXd expected = rigid.transpose() * dense * rigid - Br.transpose() * held * Br;
-      EXPECT_LT(
-          (sum - expected.diagonal()).cwiseQuotient(expected.diagonal()).cwiseAbs().maxCoeff(),
-          1e-9);
+      EXPECT_LT((sum - expected.diagonal()).cwiseQuotient(expected.diagonal()).cwiseAbs().maxCoeff(), 1e-9);
     }
   }
 }
@@ -202,11 +187,9 @@ TEST(EffectiveMass, SumsReachMassAndInertiaAsTheMeshIsRefined) {
     const Sparse M = Assembler(body.model).mass();
     const RigidInertia r = rigid_inertia(body.model, M);
     const Vector3d whole(r.m, r.m, r.J - r.c.squaredNorm() / r.m);
-    const MatrixXd mass =
-        effective_mass(body.model, M, normal_modes(component(body.model), clamped, {.all = true}));
+    const MatrixXd mass = effective_mass(body.model, M, normal_modes(component(body.model), clamped, {.all = true}));
     const double missing = 1 - mass.rowwise().sum().cwiseQuotient(whole).minCoeff();
-    EXPECT_LT(missing, 0.35 * before)
-        << elements << " elements: a quarter the element, a quarter the loss";
+    EXPECT_LT(missing, 0.35 * before) << elements << " elements: a quarter the element, a quarter the loss";
     EXPECT_GT(missing, 0);
     before = missing;
   }
@@ -216,8 +199,7 @@ TEST(EffectiveMass, SumsReachMassAndInertiaAsTheMeshIsRefined) {
 TEST(EffectiveMass, OfFreeModesIsZero) {
   const SampleBody body = plate_on_edges(Coupling::average);
   const Sparse M = Assembler(body.model).mass();
-  const MatrixXd mass =
-      effective_mass(body.model, M, normal_modes(component(body.model), floating, {.count = 5}));
+  const MatrixXd mass = effective_mass(body.model, M, normal_modes(component(body.model), floating, {.count = 5}));
   const RigidInertia r = rigid_inertia(body.model, M);
   EXPECT_LT(mass.topRows(2).maxCoeff(), rounding * r.m);
   EXPECT_LT(mass.row(2).maxCoeff(), rounding * r.J);
@@ -249,8 +231,7 @@ TEST(Rayleigh, IsTheDampingMatrixSeenByModes) {
   const Rayleigh r = rayleigh(m.omega[0], 0.01, m.omega[2], 0.03);
   const MatrixXd C = m.shapes.transpose() * (r.alpha * a.M + r.beta * a.K) * m.shapes;
   const VectorXd expected = 2 * ratios(r, m.omega).cwiseProduct(m.omega);
-  EXPECT_LT((C - MatrixXd(expected.asDiagonal())).cwiseAbs().maxCoeff(),
-            1e-8 * expected.maxCoeff());
+  EXPECT_LT((C - MatrixXd(expected.asDiagonal())).cwiseAbs().maxCoeff(), 1e-8 * expected.maxCoeff());
 }
 
 }  // namespace

@@ -30,21 +30,25 @@ std::string joined(const Lines& lines, const std::string& before = "") {
 /// A unit square of two triangles in the plane, number and three nodes of each.
 std::string version_2(const Lines& nodes, const Lines& cells, const std::string& groups = "", std::optional<std::size_t> node_count = {},
                       std::optional<std::size_t> cell_count = {}) {
-  std::string out = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + groups + "$Nodes\n" + std::to_string(node_count.value_or(nodes.size())) + "\n" + joined(nodes) +
-                    "$EndNodes\n$Elements\n" + std::to_string(cell_count.value_or(cells.size())) + "\n";
+  std::string out = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + groups + "$Nodes\n" + std::to_string(node_count.value_or(nodes.size())) +
+                    "\n" + joined(nodes) + "$EndNodes\n$Elements\n" + std::to_string(cell_count.value_or(cells.size())) + "\n";
   for (const std::string& cell : cells) {
     const std::size_t blank = cell.find(' ');
     out += cell.substr(0, blank) + " 2 2 1 1" + cell.substr(blank) + "\n";
   }
   return out + "$EndElements\n";
 }
-std::string version_4(const Lines& nodes, const Lines& cells, std::optional<std::size_t> node_count = {}, std::optional<std::size_t> cell_count = {}) {
-  const auto block = [](std::optional<std::size_t> count, const Lines& of) { return " " + std::to_string(count.value_or(of.size())) + "\n"; };
-  std::string out = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 0\n1 0 0 0 1 1 0 1 1 0\n$EndEntities\n$Nodes\n1 " + std::to_string(nodes.size()) +
-                    " 1 9\n2 1 0" + block(node_count, nodes);
+std::string version_4(const Lines& nodes, const Lines& cells, std::optional<std::size_t> node_count = {},
+                      std::optional<std::size_t> cell_count = {}) {
+  const auto block = [](std::optional<std::size_t> count, const Lines& of) {
+    return " " + std::to_string(count.value_or(of.size())) + "\n";
+  };
+  std::string out = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 0\n1 0 0 0 1 1 0 1 1 0\n$EndEntities\n$Nodes\n1 " +
+                    std::to_string(nodes.size()) + " 1 9\n2 1 0" + block(node_count, nodes);
   for (const std::string& node : nodes) out += node.substr(0, node.find(' ')) + "\n";
   for (const std::string& node : nodes) out += node.substr(node.find(' ') + 1) + "\n";
-  return out + "$EndNodes\n$Elements\n1 " + std::to_string(cells.size()) + " 1 9\n2 1 2" + block(cell_count, cells) + joined(cells) + "$EndElements\n";
+  return out + "$EndNodes\n$Elements\n1 " + std::to_string(cells.size()) + " 1 9\n2 1 2" + block(cell_count, cells) + joined(cells) +
+         "$EndElements\n";
 }
 
 struct Read {

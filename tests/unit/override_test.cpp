@@ -10,9 +10,7 @@
 namespace pintle::override_test {
 namespace {
 
-Scene scene_with(const Overrides& overrides) {
-  return read_scene_text(slider_crank, "scene.yaml", overrides);
-}
+Scene scene_with(const Overrides& overrides) { return read_scene_text(slider_crank, "scene.yaml", overrides); }
 
 /// What is read must not tell whether a value was written in the file or put in by its path.
 TEST(Override, IsTheSameAsWritingItInTheFile) {
@@ -52,8 +50,8 @@ TEST(Override, IsTheSameAsWritingItInTheFile) {
 
 TEST(Override, MakesTheGroupsOnItsWay) {
   std::string bare = slider_crank.substr(0, slider_crank.find("output:"));
-  const Scene scene = read_scene_text(bare, "scene.yaml",
-                                      {{"output.frames", "7"}, {"start.slider.velocity.1", "3"}, {"start.slider.velocity", "[1, 2]"}});
+  const Scene scene =
+      read_scene_text(bare, "scene.yaml", {{"output.frames", "7"}, {"start.slider.velocity.1", "3"}, {"start.slider.velocity", "[1, 2]"}});
   EXPECT_EQ(scene.output.frames, 7);
   ASSERT_EQ(scene.start_bodies.size(), 2u);
   EXPECT_EQ(scene.start_bodies.back().vy, 2);

@@ -50,20 +50,24 @@ class Paths : public testing::Test {
 };
 
 TEST_F(Paths, ASceneOrStudyIsAnOrdinaryFileThatSaysSomething) {
-  for (const auto& [verbs, many] : {std::pair(scene_commands, std::size(scene_commands)), std::pair(study_commands, std::size(study_commands))})
+  for (const auto& [verbs, many] :
+       {std::pair(scene_commands, std::size(scene_commands)), std::pair(study_commands, std::size(study_commands))})
     for (std::size_t k = 0; k < many; ++k) {
-      for (const std::string& path : {at("fifo"), at("folder"), at("empty"), at("none"), std::string("/dev/zero")}) expect_refused({verbs[k], path}, path);
+      for (const std::string& path : {at("fifo"), at("folder"), at("empty"), at("none"), std::string("/dev/zero")})
+        expect_refused({verbs[k], path}, path);
       expect_refused({verbs[k], ""}, "is empty");
     }
 }
 
 TEST_F(Paths, ResultsGoWhereNothingIs) {
-  for (const std::string command : {"run", "statics", "kinematics", "inverse", "linearize", "modes", "static", "mesh", "sweep", "tradeoff"}) {
+  for (const std::string command :
+       {"run", "statics", "kinematics", "inverse", "linearize", "modes", "static", "mesh", "sweep", "tradeoff"}) {
     const std::string input = at(command == "sweep" ? "study.yaml" : command == "tradeoff" ? "trade.yaml" : "scene.yaml");
     expect_refused({command, input, "--out", ""}, "--out");
     // Commands on a body refuse this scene for want of elements; they share the rest with the others.
     if (command == "modes" || command == "static" || command == "mesh") continue;
-    for (const std::string& path : {at("fifo"), at("inside"), at("empty"), std::string("/dev/null"), std::string("/dev/null/x"), at("empty/x"), at("fifo/x")})
+    for (const std::string& path :
+         {at("fifo"), at("inside"), at("empty"), std::string("/dev/null"), std::string("/dev/null/x"), at("empty/x"), at("fifo/x")})
       expect_refused({command, input, "--out", path}, path);
   }
 }
@@ -76,15 +80,20 @@ TEST_F(Paths, OfOptionsAreWhatTheyMustBe) {
     expect_refused({"tradeoff", at("trade.yaml"), "--out", at("out"), "--markdown", path}, path);
   expect_refused({"tradeoff", at("trade.yaml"), "--markdown", ""}, "--markdown");
   expect_refused({"check", at("scene.yaml"), "--allow-path", ""}, "--allow-path");
-  for (const std::string& path : {at("fifo"), at("empty"), at("none")}) expect_refused({"check", at("scene.yaml"), "--allow-path", path}, path);
+  for (const std::string& path : {at("fifo"), at("empty"), at("none")})
+    expect_refused({"check", at("scene.yaml"), "--allow-path", path}, path);
 }
 
 TEST_F(Paths, ASceneOrStudyNamesOrdinaryFilesThatSaySomething) {
   for (const char* name : {"fifo", "folder", "empty", "none"}) {
     folder_.write("table.yaml", std::string("bodies: {wheel: {rigid: {mass: 1, inertia: 1}}}\njoints: {pin: {revolute: [ground, wheel]}}\n"
-                                            "drivers: {motor: {angle: [ground, wheel], law: {table: ") + name + "}}}\nrun: {until: 1e-3}\n");
-    for (const char* command : {"run", "check", "kinematics", "inverse", "statics", "linearize"}) expect_refused(command == std::string("check") ? Words{command, at("table.yaml")} : Words{command, at("table.yaml"), "--out", at("out")}, name);
-    folder_.write("of.yaml", std::string("scene: ") + name + "\nmeasure: {work: work of motor}\nsweep: {grid: {run.tolerance: [1e-6, 1e-7]}}\n");
+                                            "drivers: {motor: {angle: [ground, wheel], law: {table: ") +
+                                    name + "}}}\nrun: {until: 1e-3}\n");
+    for (const char* command : {"run", "check", "kinematics", "inverse", "statics", "linearize"})
+      expect_refused(
+          command == std::string("check") ? Words{command, at("table.yaml")} : Words{command, at("table.yaml"), "--out", at("out")}, name);
+    folder_.write("of.yaml",
+                  std::string("scene: ") + name + "\nmeasure: {work: work of motor}\nsweep: {grid: {run.tolerance: [1e-6, 1e-7]}}\n");
     for (const char* command : study_commands) expect_refused({command, at("of.yaml"), "--out", at("out")}, name);
   }
   for (const std::string kind : {".inp", ".msh", ".geo", ".step", ".stp", ".brep"})
@@ -93,7 +102,8 @@ TEST_F(Paths, ASceneOrStudyNamesOrdinaryFilesThatSaySomething) {
       if (what == "fifo") mkfifo(at(name).c_str(), 0600);
       if (what == "folder") fs::create_directory(at(name));
       if (what == "empty") folder_.write(name, "");
-      folder_.write("mesh.yaml", "bodies: {plate: {plate: {file: " + name + ", thickness: 1 mm, young: 1 GPa, poisson: 0.3, density: 1}}}\n");
+      folder_.write("mesh.yaml",
+                    "bodies: {plate: {plate: {file: " + name + ", thickness: 1 mm, young: 1 GPa, poisson: 0.3, density: 1}}}\n");
       expect_refused({"mesh", at("mesh.yaml"), "--out", at("out")}, name);
       expect_refused({"mesh", at("mesh.yaml"), "--out", at("out")}, "bodies.plate");
     }

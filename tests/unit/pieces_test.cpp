@@ -54,9 +54,7 @@ std::string cut_with(const std::string& from, const std::string& to) {
   if (at == std::string::npos) throw std::logic_error("no \"" + from + "\" in the scene");
   return text.replace(at, from.size(), to);
 }
-Scene pieces_of(const std::string& text) {
-  return with_pieces(read_scene_text(text, "scene.yaml"));
-}
+Scene pieces_of(const std::string& text) { return with_pieces(read_scene_text(text, "scene.yaml")); }
 std::string rejected(const std::string& text) {
   try {
     pieces_of(text);
@@ -69,21 +67,11 @@ const Scene& cut() {
   static const Scene scene = pieces_of(cut_scene);
   return scene;
 }
-const SceneBody& body(const Scene& scene, const std::string& name) {
-  return *std::ranges::find(scene.bodies, name, &SceneBody::name);
-}
-const SceneBeam& beam(const Scene& scene, const std::string& name) {
-  return std::get<SceneBeam>(body(scene, name).elastic->shape);
-}
-const ScenePoint& point(const SceneBody& b, const std::string& name) {
-  return *std::ranges::find(b.points, name, &ScenePoint::name);
-}
-const SceneJoint& joint(const Scene& scene, const std::string& name) {
-  return *std::ranges::find(scene.joints, name, &SceneJoint::name);
-}
-std::string shown(const PointRef& ref) {
-  return ref.body + "." + ref.point;
-}
+const SceneBody& body(const Scene& scene, const std::string& name) { return *std::ranges::find(scene.bodies, name, &SceneBody::name); }
+const SceneBeam& beam(const Scene& scene, const std::string& name) { return std::get<SceneBeam>(body(scene, name).elastic->shape); }
+const ScenePoint& point(const SceneBody& b, const std::string& name) { return *std::ranges::find(b.points, name, &ScenePoint::name); }
+const SceneJoint& joint(const Scene& scene, const std::string& name) { return *std::ranges::find(scene.joints, name, &SceneJoint::name); }
+std::string shown(const PointRef& ref) { return ref.body + "." + ref.point; }
 using Names = std::vector<std::string>;
 
 TEST(Pieces, StandWhereTheBeamStood) {
@@ -135,8 +123,7 @@ TEST(Pieces, AreWeldedWithoutATurn) {
     EXPECT_EQ(j.kind, JointKind::weld);
     EXPECT_EQ(shown(j.a), a);
     EXPECT_EQ(shown(j.b), b);
-    const double turn = point(body(cut(), j.b.body), j.b.point).angle -
-                        point(body(cut(), j.a.body), j.a.point).angle;
+    const double turn = point(body(cut(), j.b.body), j.b.point).angle - point(body(cut(), j.a.body), j.a.point).angle;
     EXPECT_EQ(j.angle, turn);
     EXPECT_EQ(j.place.line, 3);
   };
@@ -173,8 +160,7 @@ TEST(Pieces, ShareTheElements) {
   const auto shares = [](const std::string& text) {
     std::vector<int> out;
     const Scene scene = pieces_of(text);
-    for (int k = 1; k <= 4; ++k)
-      out.push_back(beam(scene, "coupler " + std::to_string(k)).elements);
+    for (int k = 1; k <= 4; ++k) out.push_back(beam(scene, "coupler " + std::to_string(k)).elements);
     return out;
   };
   EXPECT_EQ(shares(cut_scene), (std::vector<int>{4, 3, 4, 3}));
@@ -183,9 +169,7 @@ TEST(Pieces, ShareTheElements) {
 }
 
 TEST(Pieces, CarryTheLumpsAndSupportsOfTheirPoints) {
-  const auto lumps = [](int k) {
-    return body(cut(), "coupler " + std::to_string(k)).elastic->lumps;
-  };
+  const auto lumps = [](int k) { return body(cut(), "coupler " + std::to_string(k)).elastic->lumps; };
   EXPECT_TRUE(lumps(1).empty());
   EXPECT_EQ(lumps(2).at(0).mass, 0.1);
   EXPECT_EQ(lumps(4).at(0).at, "B");
@@ -262,8 +246,7 @@ TEST(Pieces, MakeTheSameBodyElementByElement) {
   const std::string text = cut_with("elements: 14", "elements: 28");
   const Sum parts = sum_of(pieces_of(text)), whole = sum_of(read_scene_text(text, "scene.yaml"));
   ASSERT_EQ(parts.areas.size(), whole.areas.size());
-  for (std::size_t i = 0; i < whole.areas.size(); ++i)
-    EXPECT_NEAR(parts.areas[i], whole.areas[i], rounding * whole.areas[i]);
+  for (std::size_t i = 0; i < whole.areas.size(); ++i) EXPECT_NEAR(parts.areas[i], whole.areas[i], rounding * whole.areas[i]);
   EXPECT_NEAR(parts.mass, whole.mass, rounding * whole.mass);
   EXPECT_NEAR(whole.mass, 3.3, rounding * 3.3) << "3 kg of beam and two lumps";
 }
@@ -310,18 +293,9 @@ TEST(BadPieces, AreRefusedWithPlaceAndRemedy) {
     Names says;
   };
   const std::vector<Case> cases{
-      {"at: coupler.Q",
-       "at: coupler.QQ",
-       "scene.yaml:22: forces.push.at: ",
-       {"has no point \"QQ\"", "\"Q\""}},
-      {"[coupler.K, ground]",
-       "[coupler.K, coupler.A]",
-       "scene.yaml:24: forces.coil: ",
-       {"both ends are on \"coupler\""}},
-      {"M: {at: [2, 0]",
-       "M: {at: [2, 0.001]",
-       "scene.yaml:6: bodies.coupler.points.M: ",
-       {"off the axis", "(2, 0.001) m"}},
+      {"at: coupler.Q", "at: coupler.QQ", "scene.yaml:22: forces.push.at: ", {"has no point \"QQ\"", "\"Q\""}},
+      {"[coupler.K, ground]", "[coupler.K, coupler.A]", "scene.yaml:24: forces.coil: ", {"both ends are on \"coupler\""}},
+      {"M: {at: [2, 0]", "M: {at: [2, 0.001]", "scene.yaml:6: bodies.coupler.points.M: ", {"off the axis", "(2, 0.001) m"}},
       {"[A, K, B]", "[A, K, B, A]", "scene.yaml:3: bodies.coupler: ", {"passes A twice"}},
       {"  slider: {rigid",
        "  coupler 3: {rigid: {mass: 1, inertia: 1}}\n  slider: {rigid",
@@ -346,16 +320,13 @@ TEST(Pieces, MeanTheirPointAtTheOriginByTheBodyAlone) {
     return shown(std::get<SceneTorque>(scene.loads[1].what).b);
   };
   EXPECT_EQ(piece(cut_with("on: coupler.Q", "on: coupler")), "coupler 1.");
-  std::string moved = cut_with("{A: [0, 0], K: [3, 0], B: [3, 4], M: {at: [2, 0]",
-                               "{A: [-2, 0], K: [1, 0], B: [1, 4], M: {at: [0, 0]");
-  moved.replace(moved.find("[3, 0.5]"), 8, "[1, 0.5]")
-      .replace(moved.find("on: coupler.Q"), 13, "on: coupler");
+  std::string moved = cut_with("{A: [0, 0], K: [3, 0], B: [3, 4], M: {at: [2, 0]", "{A: [-2, 0], K: [1, 0], B: [1, 4], M: {at: [0, 0]");
+  moved.replace(moved.find("[3, 0.5]"), 8, "[1, 0.5]").replace(moved.find("on: coupler.Q"), 13, "on: coupler");
   EXPECT_EQ(piece(moved), "coupler 2.");
 }
 
 TEST(BadPieces, WithoutAPointAtTheOriginMustBeMetAtAPoint) {
-  std::string off = cut_with("{A: [0, 0], K: [3, 0], B: [3, 4], M: {at: [2, 0]",
-                             "{A: [0, 1], K: [3, 1], B: [3, 5], M: {at: [2, 1]");
+  std::string off = cut_with("{A: [0, 0], K: [3, 0], B: [3, 4], M: {at: [2, 0]", "{A: [0, 1], K: [3, 1], B: [3, 5], M: {at: [2, 1]");
   off.replace(off.find("[3, 0.5]"), 8, "[3, 1.5]");
   EXPECT_EQ(rejected(off), "accepted");
   const auto said = [&](const std::string& from, const std::string& to) {
@@ -368,8 +339,7 @@ TEST(BadPieces, WithoutAPointAtTheOriginMustBeMetAtAPoint) {
     expect_says(message, remedy);
   };
   expect(said("on: coupler.Q", "on: coupler"), "scene.yaml:23: forces.turn.on: ");
-  expect(said("[ground, coupler.M]", "[ground, coupler]"),
-         "scene.yaml:20: drivers.lift.distance[2]: ");
+  expect(said("[ground, coupler.M]", "[ground, coupler]"), "scene.yaml:20: drivers.lift.distance[2]: ");
   expect(said("coupler.M, ground]", "coupler, ground]"), "scene.yaml:31: output.points[2]: ");
 }
 
@@ -385,10 +355,8 @@ TEST(BadPieces, OfASceneMadeByHandAreJudgedToo) {
     return std::string("accepted");
   };
   expect_says(said([](SceneElastic& e) { e.modes.reset(); }), {"bodies.coupler", "add modes"});
-  expect_says(said([](SceneElastic& e) { std::get<SceneBeam>(e.shape).bar = true; }),
-              {"bodies.coupler", "euler or timoshenko"});
-  expect_says(said([](SceneElastic& e) { std::get<SceneBeam>(e.shape).through = {"A"}; }),
-              {"bodies.coupler", "fewer than two points"});
+  expect_says(said([](SceneElastic& e) { std::get<SceneBeam>(e.shape).bar = true; }), {"bodies.coupler", "euler or timoshenko"});
+  expect_says(said([](SceneElastic& e) { std::get<SceneBeam>(e.shape).through = {"A"}; }), {"bodies.coupler", "fewer than two points"});
 }
 
 }  // namespace

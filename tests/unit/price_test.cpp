@@ -125,7 +125,8 @@ TEST(CostEstimate, OffersWhatTheSceneHasAndNothingElse) {
   EXPECT_TRUE(p.untried.empty());
   const std::vector<std::string> offered = names(p.simpler);
   for (const char* what : {"ideal", "rigid", "half its shapes", "no friction", "tolerance"})
-    EXPECT_TRUE(std::any_of(offered.begin(), offered.end(), [&](const std::string& s) { return s.find(what) != std::string::npos; })) << what;
+    EXPECT_TRUE(std::any_of(offered.begin(), offered.end(), [&](const std::string& s) { return s.find(what) != std::string::npos; }))
+        << what;
   EXPECT_TRUE(std::is_sorted(p.simpler.begin(), p.simpler.end(), [](const Saving& a, const Saving& b) { return a.saved > b.saved; }));
 }
 

@@ -30,7 +30,7 @@ inline std::string contents(const std::filesystem::path& path) {
 }
 
 struct Ended {
-  int code = -1;    ///< -1: it was ended by a signal
+  int code = -1;  ///< -1: it was ended by a signal
   int signal = 0;
   std::string said, complained;  ///< on stdout and stderr
 };

@@ -14,11 +14,11 @@ struct Function {
   Op op;
   std::vector<double> places;  ///< where it is smooth, and bends by 100 at the most
 };
-const Function of_one[]{{Op::negate, {-2, 0, 3}},    {Op::sin, {-4, 0, 1, 9}},  {Op::cos, {-4, 0, 1, 9}},  {Op::tan, {-1, 0, 1}},
-                        {Op::asin, {-0.9, 0, 0.8}},  {Op::acos, {-0.9, 0.8}},   {Op::atan, {-5, 0, 5}},    {Op::sqrt, {0.2, 1, 50}},
-                        {Op::exp, {-3, 0, 2}},       {Op::log, {0.2, 1, 30}},   {Op::abs, {-2, 0.5}},
-                        {Op::smooth, {-1, 0.1, 0.25, 0.4, 0.6, 0.9, 2}}};
-const Function of_two[]{{Op::add, {-2, 0.1, 3}},   {Op::subtract, {-2, 0.1, 3}}, {Op::multiply, {-2, 0.1, 3}}, {Op::divide, {-2, 0.5, 3}},
+const Function of_one[]{{Op::negate, {-2, 0, 3}}, {Op::sin, {-4, 0, 1, 9}},   {Op::cos, {-4, 0, 1, 9}},
+                        {Op::tan, {-1, 0, 1}},    {Op::asin, {-0.9, 0, 0.8}}, {Op::acos, {-0.9, 0.8}},
+                        {Op::atan, {-5, 0, 5}},   {Op::sqrt, {0.2, 1, 50}},   {Op::exp, {-3, 0, 2}},
+                        {Op::log, {0.2, 1, 30}},  {Op::abs, {-2, 0.5}},       {Op::smooth, {-1, 0.1, 0.25, 0.4, 0.6, 0.9, 2}}};
+const Function of_two[]{{Op::add, {-2, 0.1, 3}},  {Op::subtract, {-2, 0.1, 3}}, {Op::multiply, {-2, 0.1, 3}}, {Op::divide, {-2, 0.5, 3}},
                         {Op::power, {0.5, 1, 2}}, {Op::atan2, {-2, 0.5, 3}},    {Op::min, {-2, 3}},           {Op::max, {-2, 3}}};
 
 void expect_held(const Range& r, double x, double beyond) {
@@ -45,7 +45,8 @@ void expect_held(const Function& f, Ranges range, Jets jet) {
 
 TEST(Ranges, HoldEveryFunctionAndItsRateAndLittleMore) {
   for (const Function& f : of_one)
-    expect_held(f, [&](const RangeJet& t) { return apply(f.op, t); }, [&](const Jet& t) { return apply(f.op, t); });
+    expect_held(
+        f, [&](const RangeJet& t) { return apply(f.op, t); }, [&](const Jet& t) { return apply(f.op, t); });
   for (const Function& f : of_two)
     expect_held(
         f, [&](const RangeJet& t) { return apply(f.op, t, apply(Op::multiply, t, t)); },

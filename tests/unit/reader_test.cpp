@@ -71,9 +71,11 @@ TEST(Reader, FillsTheModelOfAClearance) {
 
 TEST(Reader, AsksForNoLawThatAClearanceDoesNotUse) {
   const auto with = [](const std::string& keys) {
-    return read_scene_text("bodies: {bob: {rigid: {mass: 1, inertia: 1}}}\n"
-                           "joints: {pin: {revolute: [ground, bob], clearance: {radial: 1 mm, bearing radius: 1 cm, bearing: bob, " + keys + "}}}\n",
-                           "scene.yaml");
+    return read_scene_text(
+        "bodies: {bob: {rigid: {mass: 1, inertia: 1}}}\n"
+        "joints: {pin: {revolute: [ground, bob], clearance: {radial: 1 mm, bearing radius: 1 cm, bearing: bob, " +
+            keys + "}}}\n",
+        "scene.yaml");
   };
   const Scene link = with("model: massless link");
   EXPECT_EQ(link.joints[0].clearance->normal.bearing.young, 0);
@@ -170,8 +172,7 @@ TEST(SceneFile, ReadsAsTheSameText) {
 TEST(SceneFile, FindsItsTableBesideIt) {
   const Folder folder;
   folder.write("motion.csv", "t, angle\n0, 0\n25, 90\n60, 180\n");
-  const Scene scene = read_scene(folder.write(
-      "s.yaml", with("law: speed*t", "law: {table: motion.csv, time unit: ms, value unit: deg}")));
+  const Scene scene = read_scene(folder.write("s.yaml", with("law: speed*t", "law: {table: motion.csv, time unit: ms, value unit: deg}")));
   EXPECT_DOUBLE_EQ(scene.drivers[0].law.at(0.025).value, pi / 2);
   const Scene again = read_scene(folder.write("again.json", scene.filled_in));
   EXPECT_DOUBLE_EQ(again.drivers[0].law.at(0.025).value, pi / 2);

@@ -54,7 +54,8 @@ Scene grid(int columns, int rows, int held) {
   for (int k = 0; k < held; ++k) {
     const int i = k % (columns + 1), j = k / (columns + 1);
     s.ground.push_back(point(numbered("G", k), i, j));
-    s.joints.push_back(joint(numbered("base", k), JointKind::revolute, numbered("ground.G", k), last[static_cast<std::size_t>(j * (columns + 1) + i)]));
+    s.joints.push_back(
+        joint(numbered("base", k), JointKind::revolute, numbered("ground.G", k), last[static_cast<std::size_t>(j * (columns + 1) + i)]));
   }
   return s;
 }
@@ -92,7 +93,8 @@ TEST(RowSpace, HasTheRankAndTheNullVectorsOfADenseDecomposition) {
     const MatrixXd kernel = svd.matrixV().rightCols(Cq.rows() - rank);
     ASSERT_EQ(static_cast<Eigen::Index>(j.assembly.shared.size()), Cq.rows());
     for (Eigen::Index row = 0; row < Cq.rows(); ++row)
-      EXPECT_EQ(j.assembly.shared[static_cast<std::size_t>(row)], kernel.cols() > 0 && kernel.row(row).norm() > 1e-8) << held << " row " << row;
+      EXPECT_EQ(j.assembly.shared[static_cast<std::size_t>(row)], kernel.cols() > 0 && kernel.row(row).norm() > 1e-8)
+          << held << " row " << row;
   }
 }
 

@@ -60,7 +60,10 @@ struct Feature {
 };
 void PrintTo(const Feature& f, std::ostream* out) { *out << f.name; }
 const Feature features[] = {
-    {"gravity", [](Scene& s) { s.gravity = {0, 0}; }},
+    {"gravity",
+     [](Scene& s) {
+       s.gravity = {0, 0};
+     }},
     {"friction", [](Scene& s) { s.joints[2].clearance->friction.reset(); }},
     {"driver", [](Scene& s) { s.drivers.clear(); }},
     {"force", [](Scene& s) { drop_load(s, "push"); }},

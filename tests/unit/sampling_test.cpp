@@ -54,7 +54,8 @@ TEST(SweepCases, ColumnsAreWalkedInStep) {
   const Cases c = cases("list: {a: [1, 2], b: {from: 3, to: 4, count: 2}}");
   ASSERT_EQ(c.size(), 2u);
   EXPECT_EQ(c.overrides(1), (Overrides{{"a", "2"}, {"b", "4"}}));
-  EXPECT_NE(complaint("list: {a: [1, 2], b: [3]}").find("b: has 1 values, a has 2"), std::string::npos) << complaint("list: {a: [1, 2], b: [3]}");
+  EXPECT_NE(complaint("list: {a: [1, 2], b: [3]}").find("b: has 1 values, a has 2"), std::string::npos)
+      << complaint("list: {a: [1, 2], b: [3]}");
 }
 
 TEST(SweepCases, TooManyValuesAreRefusedBeforeTheyAreMade) {
@@ -64,7 +65,8 @@ TEST(SweepCases, TooManyValuesAreRefusedBeforeTheyAreMade) {
     names += name + ": {from: 0, to: 1}";
     columns += name + ": {from: 0, to: 1, count: 1000000}";
   }
-  for (const std::string& text : {"random: " + names + "}", "latin hypercube: " + names + "}", "list: " + columns + "}", "grid: " + columns + "}"})
+  for (const std::string& text :
+       {"random: " + names + "}", "latin hypercube: " + names + "}", "list: " + columns + "}", "grid: " + columns + "}"})
     EXPECT_NE(complaint("{" + text + "}").find("has more than"), std::string::npos) << text.substr(0, 20);
 }
 
@@ -94,7 +96,8 @@ TEST(SweepCases, APowerTakenByRootsIsThePower) {
 
 TEST(SweepCases, ALatinHypercubeHasOneCaseInEachStratum) {
   for (const int n : {1, 2, 7, 100}) {
-    const Cases c = cases("latin hypercube: {count: " + std::to_string(n) + ", seed: 3, a: {from: -1, to: 4}, b: {from: 1 um, to: 1 mm, scale: log}}");
+    const Cases c =
+        cases("latin hypercube: {count: " + std::to_string(n) + ", seed: 3, a: {from: -1, to: 4}, b: {from: 1 um, to: 1 mm, scale: log}}");
     std::set<int> a, b;
     for (double x : column(c, 0)) a.insert(static_cast<int>((x + 1) / 5 * n));
     for (double x : column(c, 1)) b.insert(static_cast<int>(std::log(x / 1e-6) / std::log(1e3) * n));
@@ -130,11 +133,13 @@ TEST(SweepCases, TheSameStudyGivesTheSameCases) {
   Stream stream(9, "a");
   EXPECT_EQ(stream.uniform(), 0x1.85294f06f1be4p-1);
   EXPECT_EQ(stream.uniform(), 0x1.26e09107ee9efp-1);
-  EXPECT_EQ(column(cases("random: {count: 3, seed: 9, a: {from: 1 mm, to: 2 mm}}"), 0), (std::vector<double>{0.00176008078537, 0.00157593205664, 0.00139598512157}));
+  EXPECT_EQ(column(cases("random: {count: 3, seed: 9, a: {from: 1 mm, to: 2 mm}}"), 0),
+            (std::vector<double>{0.00176008078537, 0.00157593205664, 0.00139598512157}));
 }
 
 TEST(SweepCases, WhatElseVariesDoesNotChangeAName) {
-  const Cases one = cases("random: {count: 20, a: {from: 0, to: 1}}"), two = cases("random: {count: 30, b: {from: 0, to: 1}, a: {from: 0, to: 1}}");
+  const Cases one = cases("random: {count: 20, a: {from: 0, to: 1}}"),
+              two = cases("random: {count: 30, b: {from: 0, to: 1}, a: {from: 0, to: 1}}");
   for (std::size_t k = 0; k < 20; ++k) EXPECT_EQ(one.values[k][0], two.values[k][1]);
 }
 

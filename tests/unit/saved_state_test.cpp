@@ -29,7 +29,8 @@ using namespace pintle;
 TEST(Sha256, MeetsThePublishedExamples) {
   EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"), "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
   EXPECT_EQ(sha256("abcdefghbcdefghicdefghijdefghijkefghijklfghijklmghijklmnhijklmnoijklmnopjklmnopqklmnopqrlmnopqrsmnopqrstnopqrstu"),
             "cf5b16a778af8380036ce59e7b0492370b249b11e8f07a51afac45037afee9d1");
   EXPECT_EQ(sha256(std::string(1'000'000, 'a')), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
@@ -89,7 +90,11 @@ Scene swinging() {
   return s;
 }
 Scene striking(const std::string& method) {
-  return scene({.clearance = 1e-4, .until = 0.01, .tolerance = 1e-6, .method = method, .constraints = method == "rkf45" ? "partitioning" : "projection"});
+  return scene({.clearance = 1e-4,
+                .until = 0.01,
+                .tolerance = 1e-6,
+                .method = method,
+                .constraints = method == "rkf45" ? "partitioning" : "projection"});
 }
 
 TEST(SavedState, ComesBackToTheBit) {
@@ -191,7 +196,7 @@ TEST(SavedState, RefusesBooksThatAreNoEnergies) {
   const Ran ran(swinging());
   const std::string who = identity(ran.scene, ran.model, ran.assembly);
   for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
-    for (double SavedState::* member : {&SavedState::energy_in_play, &SavedState::worst_unexplained, &SavedState::t}) {
+    for (double SavedState::*member : {&SavedState::energy_in_play, &SavedState::worst_unexplained, &SavedState::t}) {
       SavedState state = ran.state;
       state.*member = wrong;
       EXPECT_NE(refusal(ran, state_text(who, state)), "");
@@ -223,7 +228,8 @@ TEST(SavedState, RefusesAnotherSceneMadeInCpp) {
   EXPECT_TRUE(changed([](Scene& s) { s.joints[2].clearance->normal.restitution = 0.7; }));
   EXPECT_TRUE(changed([](Scene& s) { s.run.tolerance *= 2; }));
   EXPECT_TRUE(changed([](Scene& s) { s.start_bodies[0].speed = 149; }));
-  EXPECT_TRUE(changed([](Scene& s) { s.bodies[0].name += "shaft", s.joints[0].b.body = s.joints[1].a.body = s.start_bodies[0].body = s.bodies[0].name; }));
+  EXPECT_TRUE(changed(
+      [](Scene& s) { s.bodies[0].name += "shaft", s.joints[0].b.body = s.joints[1].a.body = s.start_bodies[0].body = s.bodies[0].name; }));
 }
 
 TEST(SavedState, RefusesAnotherLawMadeInCpp) {
@@ -253,7 +259,8 @@ std::string driven(const std::string& more) {
   return "bodies: {rod: {rigid: {mass: 1, inertia: 0.1}, points: {O: [-0.2, 0]}}}\n"
          "joints: {hinge: {revolute: [ground, rod.O]}}\n"
          "drivers: {motor: {angle: [ground, rod], law: {table: saved_state_motion.csv}}}\n"
-         "run: {until: 0.2, method: dopri5}\n" + more;
+         "run: {until: 0.2, method: dopri5}\n" +
+         more;
 }
 
 TEST(SavedState, RefusesAChangedTable) {
@@ -278,8 +285,10 @@ TEST(SavedState, RefusesAChangedTable) {
 
 TEST(SavedState, NamesTheEntriesOfTheSceneThatAreOthers) {
   const auto rod = [](const std::string& mass, const std::string& tolerance) {
-    return Ran(scene_of("bodies: {rod: {rigid: {mass: " + mass + ", inertia: 0.1}, points: {O: [-0.2, 0]}}}\njoints: {hinge: {revolute: [ground, rod.O]}}\n"
-                        "run: {until: 0.1, method: dopri5, tolerance: " + tolerance + "}\n"));
+    return Ran(scene_of("bodies: {rod: {rigid: {mass: " + mass +
+                        ", inertia: 0.1}, points: {O: [-0.2, 0]}}}\njoints: {hinge: {revolute: [ground, rod.O]}}\n"
+                        "run: {until: 0.1, method: dopri5, tolerance: " +
+                        tolerance + "}\n"));
   };
   const std::string text = rod("1", "1e-6").text();
   const std::string mass = refusal(rod("2", "1e-6"), text), both = refusal(rod("2", "1e-7"), text);
@@ -328,7 +337,8 @@ TEST(SavedState, ARunThatGoesOnSaysWhatItHasNotSeen) {
     ran.scene.run.until = 0.011;
     const pintle::Run rest = simulate(ran.scene, ran.model, ran.assembly, {}, &ran.state);
     EXPECT_NE(rest.status, Status::failed) << rest.reason;
-    EXPECT_EQ(std::ranges::count_if(rest.warnings, [](const std::string& w) { return says(w, "this run goes on from 0.01 s"); }), linked ? 1 : 0);
+    EXPECT_EQ(std::ranges::count_if(rest.warnings, [](const std::string& w) { return says(w, "this run goes on from 0.01 s"); }),
+              linked ? 1 : 0);
   }
 }
 

@@ -24,8 +24,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 const Json& schema_json() {
-  static const Json json =
-      Json::parse(std::ifstream(fs::path(PINTLE_SOURCE_DIR) / "docs/scene.schema.json"));
+  static const Json json = Json::parse(std::ifstream(fs::path(PINTLE_SOURCE_DIR) / "docs/scene.schema.json"));
   return json;
 }
 
@@ -33,8 +32,7 @@ const Json& schema_json() {
 void collect(const Json& schema, std::vector<const Json*>& out) {
   out.push_back(&schema);
   if (schema.contains("$ref")) {
-    const std::string name =
-        schema["$ref"].get<std::string>().substr(std::string("#/definitions/").size());
+    const std::string name = schema["$ref"].get<std::string>().substr(std::string("#/definitions/").size());
     collect(schema_json()["definitions"][name], out);
   }
   for (const char* word : {"allOf", "anyOf", "oneOf"})
@@ -56,8 +54,7 @@ std::vector<const Json*> inside(const std::vector<const Json*>& schemas, const s
     if (schema->contains("properties"))
       for (const auto& [name, value] : (*schema)["properties"].items())
         if (any || name == key) out.push_back(&value);
-    if (any && schema->contains("additionalProperties") &&
-        (*schema)["additionalProperties"].is_object())
+    if (any && schema->contains("additionalProperties") && (*schema)["additionalProperties"].is_object())
       out.push_back(&(*schema)["additionalProperties"]);
     if (any && schema->contains("items")) out.push_back(&(*schema)["items"]);
   }
@@ -102,8 +99,7 @@ TEST(SceneSchema, KnowsExactlyTheKeysOfTheReader) {
 TEST(SceneSchema, RequiresExactlyWhatTheReaderRequires) {
   for (const KeyTable& table : key_tables())
     for (const Key& key : table.keys)
-      EXPECT_EQ(required_in(schemas_at(table.path), key.name), key.required)
-          << table.path << "." << key.name;
+      EXPECT_EQ(required_in(schemas_at(table.path), key.name), key.required) << table.path << "." << key.name;
 }
 
 TEST(SceneSchema, OffersExactlyTheChoicesOfTheReader) {
@@ -115,8 +111,7 @@ TEST(SceneSchema, OffersExactlyTheChoicesOfTheReader) {
           for (const Json& word : (*schema)["enum"]) offered.insert(word.get<std::string>());
         if (schema->value("type", Json()) == "boolean") offered = {"false", "true"};
       }
-      EXPECT_EQ(offered, std::set<std::string>(key.choices.begin(), key.choices.end()))
-          << table.path << "." << key.name;
+      EXPECT_EQ(offered, std::set<std::string>(key.choices.begin(), key.choices.end())) << table.path << "." << key.name;
     }
 }
 
@@ -154,8 +149,7 @@ TEST(SceneSchema, HasNoGroupTheReaderLacks) {
 // The tree as an editor sees it: plain scalars that are JSON numbers or truths become those.
 Json as_json(const Yaml& yaml) {
   switch (yaml.kind) {
-    case Yaml::Kind::nothing:
-      return nullptr;
+    case Yaml::Kind::nothing: return nullptr;
     case Yaml::Kind::scalar: {
       const Json value = Json::parse(yaml.text, nullptr, false);
       return value.is_number() || value.is_boolean() ? value : Json(yaml.text);
@@ -165,8 +159,7 @@ Json as_json(const Yaml& yaml) {
       for (const Yaml& item : yaml.items) list.push_back(as_json(item));
       return list;
     }
-    case Yaml::Kind::map:
-      break;
+    case Yaml::Kind::map: break;
   }
   Json map = Json::object();
   for (const Yaml& entry : yaml.items) map[entry.key] = as_json(entry);
@@ -267,8 +260,7 @@ TEST(SceneSchema, AcceptsWhatTheReaderAccepts) {
 }
 
 TEST(SceneSchema, AcceptsEveryExample) {
-  for (const auto& entry :
-       fs::recursive_directory_iterator(fs::path(PINTLE_SOURCE_DIR) / "examples")) {
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(PINTLE_SOURCE_DIR) / "examples")) {
     if (entry.path().extension() != ".yaml" || entry.path().parent_path().filename() == "studies") continue;
     std::ifstream in(entry.path());
     const std::string text((std::istreambuf_iterator<char>(in)), {});
@@ -310,7 +302,9 @@ TEST(SceneSchema, RefusesWithTheReader) {
       {"stress: [rod.A]", "stress: []"},
       {"pieces: 2", "pieces: 0"},
       {"theory: timoshenko, shear factor: 5/6, rotary inertia: false, elements", "theory: bar, elements"},
-      {"    modes: {frame: {chord: [A, B]}, below: 5 kHz}\n    damping: {rayleigh: {ratios: [0.01, 0.02], modes: [1, 3]}}\n    stiffening: axial\n", ""},
+      {"    modes: {frame: {chord: [A, B]}, below: 5 kHz}\n    damping: {rayleigh: {ratios: [0.01, 0.02], modes: [1, 3]}}\n    stiffening: "
+       "axial\n",
+       ""},
       {"    modes: {frame: tangent, keep: all}\n", "    stiffening: axial\n"},
       {"stiffening: axial", "stiffening: all"},
       {"free: {keep: auto}", "free: {keep: auto, count: 3}"},

@@ -70,16 +70,13 @@ inline std::string refusal_of(const std::string& text, const Overrides& override
 }
 
 inline void expect_says(const std::string& said, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts)
-    EXPECT_NE(said.find(part), std::string::npos) << "\"" << said << "\" lacks \"" << part << "\"";
+  for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << "\"" << said << "\" lacks \"" << part << "\"";
 }
 
 // A directory that lives as long as the test.
 struct Folder {
   Folder()
-      : path(fs::temp_directory_path() /
-             (std::string("pintle_reader_") +
-              testing::UnitTest::GetInstance()->current_test_info()->name())) {
+      : path(fs::temp_directory_path() / (std::string("pintle_reader_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
     fs::create_directories(path);
   }
   ~Folder() { fs::remove_all(path); }

@@ -50,8 +50,10 @@ Case door() {
 /// A bar clamped at both its ends.
 Case clamped_twice() {
   Case c;
-  c.system.markers = {{ground, {-half, 0}, 0, {}, {}, {}}, {ground, {half, 0}, 0, {}, {}, {}},
-                      {0, {-half, 0}, 0, {}, {}, {}}, {0, {half, 0}, 0, {}, {}, {}}};
+  c.system.markers = {{ground, {-half, 0}, 0, {}, {}, {}},
+                      {ground, {half, 0}, 0, {}, {}, {}},
+                      {0, {-half, 0}, 0, {}, {}, {}},
+                      {0, {half, 0}, 0, {}, {}, {}}};
   c.system.bodies = {bar(3)};
   c.system.joints = {Weld{0, 2}, Weld{1, 3}};
   finish(c, half);

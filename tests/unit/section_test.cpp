@@ -43,25 +43,20 @@ TEST(Section, AreasAndSecondMomentsAreIntegralsOfTheWidth) {
     EXPECT_NEAR(s.I, I, rounding * I);
     EXPECT_EQ(s.fibre, fibre);
   };
-  const auto strips = [](double a, double b, double width) {
-    return integral(a, b, [&](double y) { return width * y * y; });
-  };
+  const auto strips = [](double a, double b, double width) { return integral(a, b, [&](double y) { return width * y * y; }); };
   expect(RectangleSection{0.2, 0.05}, 0.01, strips(-0.1, 0.1, 0.05), 0.1);
   const double r = 0.03, q = 0.02;
   expect(CircleSection{2 * r}, M_PI * r * r, M_PI * std::pow(r, 4) / 4, r);
-  expect(TubeSection{2 * r, 2 * q}, M_PI * (r * r - q * q),
-         M_PI * (std::pow(r, 4) - std::pow(q, 4)) / 4, r);
-  expect(ISection{0.2, 0.1, 0.008, 0.012}, 2 * 0.1 * 0.012 + 0.176 * 0.008,
-         2 * strips(0.088, 0.1, 0.1) + strips(-0.088, 0.088, 0.008), 0.1);
+  expect(TubeSection{2 * r, 2 * q}, M_PI * (r * r - q * q), M_PI * (std::pow(r, 4) - std::pow(q, 4)) / 4, r);
+  expect(ISection{0.2, 0.1, 0.008, 0.012}, 2 * 0.1 * 0.012 + 0.176 * 0.008, 2 * strips(0.088, 0.1, 0.1) + strips(-0.088, 0.088, 0.008),
+         0.1);
   expect(GivenSection{2e-4, 3e-9, 0.01, {}}, 2e-4, 3e-9, 0.01);
 }
 
 TEST(Section, CowpersFactorsOfSolidSectionsAreThePublishedOnes) {
   for (double nu : {0.0, 0.3, 0.5}) {
-    EXPECT_NEAR(section(RectangleSection{0.2, 0.05}, ShearFactor::cowper, nu).kappa,
-                10 * (1 + nu) / (12 + 11 * nu), rounding);
-    EXPECT_NEAR(section(CircleSection{0.2}, ShearFactor::cowper, nu).kappa,
-                6 * (1 + nu) / (7 + 6 * nu), rounding);
+    EXPECT_NEAR(section(RectangleSection{0.2, 0.05}, ShearFactor::cowper, nu).kappa, 10 * (1 + nu) / (12 + 11 * nu), rounding);
+    EXPECT_NEAR(section(CircleSection{0.2}, ShearFactor::cowper, nu).kappa, 6 * (1 + nu) / (7 + 6 * nu), rounding);
   }
 }
 
@@ -73,19 +68,17 @@ TEST(Section, CowpersFactorOfATubeIsHisIntegralOverTheRing) {
     for (double nu : {0.0, 0.3, 0.5}) {
       const double b = ratio * a, p = 0.75 + nu / 2, alpha = -p * (a * a + b * b);
       const double beta = -p * a * a * b * b, fourth = std::pow(a, 4) - std::pow(b, 4);
-      const double moment = M_PI * (alpha / 4 * fourth + beta / 2 * (a * a - b * b) +
-                                    (std::pow(a, 6) - std::pow(b, 6)) / 24);
+      const double moment = M_PI * (alpha / 4 * fourth + beta / 2 * (a * a - b * b) + (std::pow(a, 6) - std::pow(b, 6)) / 24);
       const double A = M_PI * (a * a - b * b), I = M_PI * fourth / 4;
       // A thin ring is a difference: 1e-3 of it costs three digits.
-      EXPECT_NEAR(section(TubeSection{2 * a, 2 * b}, ShearFactor::cowper, nu).kappa,
-                  cowper(nu, A, I, I, moment), 1000 * rounding);
+      EXPECT_NEAR(section(TubeSection{2 * a, 2 * b}, ShearFactor::cowper, nu).kappa, cowper(nu, A, I, I, moment), 1000 * rounding);
     }
 }
 
 TEST(Section, CowpersFactorOfAThinTubeIsThePublishedOne) {
   for (double nu : {0.0, 0.3, 0.5})
-    EXPECT_NEAR(section(TubeSection{1, 1 - 1e-6}, ShearFactor::cowper, nu).kappa,
-                2 * (1 + nu) / (4 + 3 * nu), 1e-11);  // of second order in the thickness
+    EXPECT_NEAR(section(TubeSection{1, 1 - 1e-6}, ShearFactor::cowper, nu).kappa, 2 * (1 + nu) / (4 + 3 * nu),
+                1e-11);  // of second order in the thickness
 }
 
 // Thin walls: shear flow by balance gives χ's slope along them. Web at y = 0, flanges at x = ±h/2.
@@ -102,27 +95,18 @@ TEST(Section, CowpersFactorOfAnIIsHisIntegralOverThinWalls) {
           return -2 * (1 + nu) * beyond / web - nu * x * x / 2;
         };
         const auto chi_web = [&](double x) { return integral(0, x, web_slope); };
-        const auto flange_slope = [&](double y) {
-          return -2 * (1 + nu) * h / 2 * (b / 2 - y) - (2 + nu) * h / 2 * y;
-        };
-        const auto chi_flange = [&](double y) {
-          return chi_web(h / 2) + integral(0, y, flange_slope);
-        };
-        const double moment =
-            2 * web * integral(0, h / 2, [&](double x) { return x * chi_web(x); }) +
-            4 * flange * integral(0, b / 2, [&](double y) {
-              return h / 2 * (chi_flange(y) + h / 2 * y * y);
-            });
-        EXPECT_NEAR(section(ISection{h + flange, b, web, flange}, ShearFactor::cowper, nu).kappa,
-                    cowper(nu, A, I, I_across, moment), rounding);
+        const auto flange_slope = [&](double y) { return -2 * (1 + nu) * h / 2 * (b / 2 - y) - (2 + nu) * h / 2 * y; };
+        const auto chi_flange = [&](double y) { return chi_web(h / 2) + integral(0, y, flange_slope); };
+        const double moment = 2 * web * integral(0, h / 2, [&](double x) { return x * chi_web(x); }) +
+                              4 * flange * integral(0, b / 2, [&](double y) { return h / 2 * (chi_flange(y) + h / 2 * y * y); });
+        EXPECT_NEAR(section(ISection{h + flange, b, web, flange}, ShearFactor::cowper, nu).kappa, cowper(nu, A, I, I_across, moment),
+                    rounding);
       }
 }
 
 TEST(Section, FiveSixthsIsFiveSixthsAndAGivenFactorIsKept) {
-  for (const SectionShape& s :
-       {SectionShape{RectangleSection{2, 1}}, SectionShape{CircleSection{1}},
-        SectionShape{TubeSection{2, 1}}, SectionShape{ISection{2, 1, .1, .1}},
-        SectionShape{GivenSection{1, 1, 0, {}}}})
+  for (const SectionShape& s : {SectionShape{RectangleSection{2, 1}}, SectionShape{CircleSection{1}}, SectionShape{TubeSection{2, 1}},
+                                SectionShape{ISection{2, 1, .1, .1}}, SectionShape{GivenSection{1, 1, 0, {}}}})
     EXPECT_EQ(section(s, ShearFactor::five_sixths, 0.3).kappa, 5.0 / 6);
   const GivenSection given{1, 1, 0, 0.44};
   EXPECT_EQ(section(given, ShearFactor::cowper, 0.3).kappa, 0.44);
@@ -172,11 +156,7 @@ TEST(Section, ImpossibleSizesAreRefusedByName) {
   reject(GivenSection{1, 1, 0.1, {}}, "at most area·fibre²");
   reject(GivenSection{1, 1, 2, -1.0}, "given section: shear_factor = -1");
   reject(CircleSection{1}, "circle section: poisson = -1", -1);
-  expect_refusal(
-      [] {
-        between(CircleSection{1}, TubeSection{2, 1}, 0.5);
-      },
-      "from circle to tube; both ends must be of one kind");
+  expect_refusal([] { between(CircleSection{1}, TubeSection{2, 1}, 0.5); }, "from circle to tube; both ends must be of one kind");
 }
 
 // ---- materials ----
@@ -228,13 +208,9 @@ TEST(Material, PlaneStressAndStrainAreTheSolidInSpace) {
     const PlaneMaterial m = plane_material({spruce, 450}, state);
     for (int k = 0; k < 3; ++k) {
       const Vector3d strain = Vector3d::Unit(k), stress = m.D * strain;
-      const Matrix2d sigma =
-          A.transpose() * (Matrix2d() << stress[0], stress[2], stress[2], stress[1]).finished() * A;
-      const Matrix2d epsilon =
-          A.transpose() *
-          (Matrix2d() << strain[0], strain[2] / 2, strain[2] / 2, strain[1]).finished() * A;
-      const Eigen::Vector4d in_space =
-          compliance(spruce) * Eigen::Vector4d(sigma(0, 0), sigma(1, 1), m.Dz[k], sigma(0, 1));
+      const Matrix2d sigma = A.transpose() * (Matrix2d() << stress[0], stress[2], stress[2], stress[1]).finished() * A;
+      const Matrix2d epsilon = A.transpose() * (Matrix2d() << strain[0], strain[2] / 2, strain[2] / 2, strain[1]).finished() * A;
+      const Eigen::Vector4d in_space = compliance(spruce) * Eigen::Vector4d(sigma(0, 0), sigma(1, 1), m.Dz[k], sigma(0, 1));
       EXPECT_NEAR(in_space[0], epsilon(0, 0), 10 * rounding);
       EXPECT_NEAR(in_space[1], epsilon(1, 1), 10 * rounding);
       EXPECT_NEAR(in_space[3], 2 * epsilon(0, 1), 10 * rounding);
@@ -292,8 +268,7 @@ TEST(Material, WhatIsNoStableSolidIsRefusedByName) {
   reject(changed([](Orthotropic& m) { m.young_2 = -1; }), "young_2 = -1");
   reject(changed([](Orthotropic& m) { m.shear_12 = 0; }), "shear_12 = 0");
   reject(changed([](Orthotropic& m) { m.poisson_12 = 4; }), "poisson_12 = 4");
-  reject(changed([](Orthotropic& m) { m.young_3.reset(), m.poisson_23.reset(); }),
-         "lacks young_3 poisson_23");
+  reject(changed([](Orthotropic& m) { m.young_3.reset(), m.poisson_23.reset(); }), "lacks young_3 poisson_23");
   reject(changed([](Orthotropic& m) { m.poisson_23 = 1.5; }), "poisson_23 = 1.5");
   reject(changed([](Orthotropic& m) { m.poisson_12 = 3.4, m.poisson_13 = 2; }), "poisson_12 = 3.4");
   Orthotropic flat = spruce;

@@ -72,8 +72,9 @@ TEST(Soundness, GridsAndLinksOfEveryShapeAreSound) {
     expect_sound(grid_mesh(skew, 7, 40, shape), name_of(shape));
     MeshOptions options;
     options.shape = shape;
-    for (const Link& link : {Link{EyeBar{0.12, 0.014, {0.024, 0.038}, {0.012, 0.022}}}, Link{Disc{0.2, 0.19}}, Link{Disc{0.2, 0.1}},
-                             Link{Triangle{{{0, 0}, {0.1, 0}, {0.05, 0.08}}, {{0.01, 0.02}, {0.01, 0.02}, {0.01, 0.02}}}}, Link{TaperedBar{0.1, 0.02, 0.01}}})
+    for (const Link& link :
+         {Link{EyeBar{0.12, 0.014, {0.024, 0.038}, {0.012, 0.022}}}, Link{Disc{0.2, 0.19}}, Link{Disc{0.2, 0.1}},
+          Link{Triangle{{{0, 0}, {0.1, 0}, {0.05, 0.08}}, {{0.01, 0.02}, {0.01, 0.02}, {0.01, 0.02}}}}, Link{TaperedBar{0.1, 0.02, 0.01}}})
       expect_sound(mesh_link(link, options), name_of(shape));
   }
 }

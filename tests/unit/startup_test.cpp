@@ -46,7 +46,8 @@ class Place {
     Words environment{"LD_DEBUG_OUTPUT=" + (folder_.path() / "loader").string()};
     if (!extra.empty()) environment.push_back(extra);
     const auto begin = clock::now();
-    const Ended end = pintle_test::run(folder_.path() / "log", {PINTLE_PROGRAM, "run", (folder_.path() / "scene.yaml").string(), "-q", "-o", out.string()}, environment);
+    const Ended end = pintle_test::run(
+        folder_.path() / "log", {PINTLE_PROGRAM, "run", (folder_.path() / "scene.yaml").string(), "-q", "-o", out.string()}, environment);
     if (ms) *ms = std::chrono::duration<double, std::milli>(clock::now() - begin).count();
     return end.code;
   }
@@ -73,7 +74,8 @@ bool holds(const std::string& text, std::string_view part) { return text.find(pa
 TEST(StartUp, ARigidSceneLoadsNeitherGmshNorVtk) {
   const std::string loaded = loaded_by(started_four_bar + std::string(every_step));
   ASSERT_TRUE(holds(loaded, "libyaml-cpp")) << "the loader says nothing: this test sees nothing";
-  for (const char* heavy : {"libgmsh", "libTK", "libvtk", "libpintle_", "pintle-mesher", "libfltk"}) EXPECT_FALSE(holds(loaded, heavy)) << heavy;
+  for (const char* heavy : {"libgmsh", "libTK", "libvtk", "libpintle_", "pintle-mesher", "libfltk"})
+    EXPECT_FALSE(holds(loaded, heavy)) << heavy;
 }
 
 TEST(StartUp, VtkIsLoadedByFramesAlone) {

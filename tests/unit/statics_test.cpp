@@ -41,8 +41,7 @@ struct Cantilever {
   Supports supports;
   Vector2d along, across;
 
-  Cantilever(const E& e, int count, double length, double angle)
-      : along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x()) {
+  Cantilever(const E& e, int count, double length, double angle) : along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x()) {
     const Vector2d from(1, 2);
     model = chain(e, count, from, from + length * along);
     add_ports(model, {{"tip", count}}, {});
@@ -66,8 +65,7 @@ TEST(Cantilever, EndLoadsAreMetExactlyByAnyNumberOfElements) {
       const StaticSolution s = solve(c.model, c.supports, f);
       const Vector2d tip = s.u.segment<2>(3 * count);
       const double EI = timoshenko.EI;
-      const double deflection =
-          P * L * L * L / (3 * EI) + T * L * L / (2 * EI) + P * L / timoshenko.kGA;
+      const double deflection = P * L * L * L / (3 * EI) + T * L * L / (2 * EI) + P * L / timoshenko.kGA;
       EXPECT_NEAR(tip.dot(c.across), deflection, bending * deflection);
       EXPECT_NEAR(tip.dot(c.along), Q * L / timoshenko.EA, units * count * deflection);
       EXPECT_NEAR(s.u[3 * count + 2], P * L * L / (2 * EI) + T * L / EI, 2 * bending * deflection / L);
@@ -126,8 +124,7 @@ TEST(Rod, SpunAboutItsEndItStretchesAsItsFieldOfForceSays) {
 
 TEST(Rod, HungItStretchesUnderItsWeight) {
   const Rod rod;
-  const StaticSolution s =
-      solve(rod.model, rod.supports, acceleration_load(rod.model, rod.M, {9.81, 0}));
+  const StaticSolution s = solve(rod.model, rod.supports, acceleration_load(rod.model, rod.M, {9.81, 0}));
   const double stretch = Rod::rhoA * 9.81 * Rod::length * Rod::length / (2 * Rod::EA);
   EXPECT_NEAR(s.u[2 * Rod::count], stretch, rounding * stretch);
 }
@@ -153,8 +150,7 @@ Vector2d resultant(const FeModel& m, const VectorXd& nodal_load) {
 double moment(const FeModel& m, const VectorXd& nodal_load, const Vector2d& about) {
   double sum = 0;
   for (Eigen::Index i = 0; i < m.x.cols(); ++i) {
-    const Vector2d r = m.x.col(i) - about,
-                   f = nodal_load.segment<2>(m.begin[static_cast<std::size_t>(i)]);
+    const Vector2d r = m.x.col(i) - about, f = nodal_load.segment<2>(m.begin[static_cast<std::size_t>(i)]);
     sum += r.x() * f.y() - r.y() * f.x();
   }
   return sum;
@@ -217,8 +213,7 @@ TEST(AverageCoupling, SpreadsAForceAndATorqueOverTheRimByWeight) {
   }
   for (std::size_t k = 0; k < r.rim.size(); ++k) {
     const Vector2d arm = Vector2d(r.model.x.col(r.rim[k])) - center;
-    const Vector2d share =
-        r.weights[k] * (force / length + torque / inertia * Vector2d(-arm.y(), arm.x()));
+    const Vector2d share = r.weights[k] * (force / length + torque / inertia * Vector2d(-arm.y(), arm.x()));
     EXPECT_LT((elastic.segment<2>(2 * r.rim[k]) - share).norm(), rounding * force.norm());
   }
 }
@@ -233,8 +228,7 @@ TEST(AverageCoupling, ThePortEndsWhereTheRimIsOnAverage) {
   Vector2d mean(0, 0);
   double turn = 0, length = 0, inertia = 0;
   for (std::size_t k = 0; k < r.rim.size(); ++k) {
-    const Vector2d arm = Vector2d(r.model.x.col(r.rim[k])) - eye.x,
-                   u = s.u.segment<2>(2 * r.rim[k]);
+    const Vector2d arm = Vector2d(r.model.x.col(r.rim[k])) - eye.x, u = s.u.segment<2>(2 * r.rim[k]);
     mean += r.weights[k] * u;
     turn += r.weights[k] * (arm.x() * u.y() - arm.y() * u.x());
     length += r.weights[k];
@@ -265,8 +259,7 @@ TEST(Reactions, AtAPortBalanceLoadsInForceAndMoment) {
     std::vector<Cells> quarter = r.plate.edge.at("top");
     quarter[0].nodes.resize(3 * 3);
     quarter[0].numbers.resize(3);
-    const VectorXd f = pressure_load(r.model, quarter, 2e6, 0.01) +
-                       acceleration_load(r.model, Assembler(r.model).mass(), {1, -9.81}) +
+    const VectorXd f = pressure_load(r.model, quarter, 2e6, 0.01) + acceleration_load(r.model, Assembler(r.model).mass(), {1, -9.81}) +
                        traction_load(r.model, quarter, {4e6, 1e6}, 0.01);
     const StaticSolution s = solve(r.model, supports, independent_load(r.model, f));
     const Vector2d held(s.reactions[eye.freedom[0]], s.reactions[eye.freedom[1]]);
@@ -296,16 +289,13 @@ TEST(SolveStatic, SizesAndNumbersAreJudged) {
   const Cantilever c(euler, 2, 1, 0);
   const Sparse K = Assembler(c.model).stiffness();
   const VectorXd f = VectorXd::Zero(9);
-  EXPECT_TRUE(says(refusal<std::invalid_argument>(
-                       [&] { solve_static(c.model, K, c.supports, VectorXd::Zero(8)); }),
-                   "must be 9"));
+  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { solve_static(c.model, K, c.supports, VectorXd::Zero(8)); }), "must be 9"));
   EXPECT_TRUE(says(refusal<std::invalid_argument>([&] {
                      solve_static(c.model, restricted(K, {3, 4, 5}), c.supports, f);
                    }),
                    "must be 9 square"));
   const VectorXd bad = VectorXd::Constant(9, std::numeric_limits<double>::quiet_NaN());
-  EXPECT_TRUE(says(refusal<std::runtime_error>([&] { solve_static(c.model, K, c.supports, bad); }),
-                   "not finite"));
+  EXPECT_TRUE(says(refusal<std::runtime_error>([&] { solve_static(c.model, K, c.supports, bad); }), "not finite"));
 }
 
 TEST(SolveStatic, NoLoadMovesNothing) {
@@ -322,18 +312,12 @@ TEST(Restricted, IsThePrincipalSubmatrix) {
   ASSERT_EQ(keep.size(), 9u);
   const Eigen::MatrixXd whole(K), part(restricted(K, keep));
   for (int i = 0; i < 9; ++i)
-    for (int j = 0; j < 9; ++j)
-      EXPECT_EQ(part(i, j),
-                whole(keep[static_cast<std::size_t>(i)], keep[static_cast<std::size_t>(j)]));
+    for (int j = 0; j < 9; ++j) EXPECT_EQ(part(i, j), whole(keep[static_cast<std::size_t>(i)], keep[static_cast<std::size_t>(j)]));
 }
 
 TEST(LineLoad, OnAPlateIsRefused) {
-  const FeModel m =
-      model_of(plate(1, 1, CellShape::triangle3, rectangle(1, 1)), steel(PlaneState::stress));
-  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] {
-                     line_load(m, {1, 0});
-                   }),
-                   "no beams or bars"));
+  const FeModel m = model_of(plate(1, 1, CellShape::triangle3, rectangle(1, 1)), steel(PlaneState::stress));
+  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { line_load(m, {1, 0}); }), "no beams or bars"));
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ Stepped trapped(const std::function<void()>& work, const std::vector<const void*
   Stepped out;
   out.entered.assign(watched.size(), 0);
   count = 0, watched_now = &watched, entered_now = &out.entered;
-  struct sigaction ours{}, before{};
+  struct sigaction ours {
+  }, before{};
   ours.sa_sigaction = after_an_instruction;
   ours.sa_flags = SA_SIGINFO;
   sigaction(SIGTRAP, &ours, &before);

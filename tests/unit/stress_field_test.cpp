@@ -38,16 +38,14 @@ struct Lame {
   double A() const { return p * a * a / (b * b - a * a); }
   double B() const { return A() * b * b; }
   double u(double r) const {
-    return state == PlaneState::strain ? (1 + nu) / E * ((1 - 2 * nu) * A() * r + B() / r)
-                                       : ((1 - nu) * A() * r + (1 + nu) * B() / r) / E;
+    return state == PlaneState::strain ? (1 + nu) / E * ((1 - 2 * nu) * A() * r + B() / r) : ((1 - nu) * A() * r + (1 + nu) * B() / r) / E;
   }
   /// [σx σy τxy σz] at a place.
   Eigen::Vector4d stress(const Vector2d& x) const {
     const double r2 = x.squaredNorm();
     const Vector2d e = x / std::sqrt(r2);
     const Matrix2d radial = e * e.transpose();
-    const Matrix2d s =
-        (A() - B() / r2) * radial + (A() + B() / r2) * (Matrix2d::Identity() - radial);
+    const Matrix2d s = (A() - B() / r2) * radial + (A() + B() / r2) * (Matrix2d::Identity() - radial);
     return {s(0, 0), s(1, 1), s(0, 1), state == PlaneState::strain ? 2 * nu * A() : 0};
   }
 };
@@ -63,13 +61,11 @@ Errors lame_errors(const Lame& exact, CellShape shape, int n) {
   Errors e{0, 0, 0, field.jump};
   for (int i = 0; i < q.model.x.cols(); ++i) {
     const Vector2d x = q.model.x.col(i);
-    e.u = std::max(e.u, (s.u.segment<2>(2 * i) - exact.u(x.norm()) * x.normalized()).norm() /
-                            exact.u(exact.a));
+    e.u = std::max(e.u, (s.u.segment<2>(2 * i) - exact.u(x.norm()) * x.normalized()).norm() / exact.u(exact.a));
     e.nodal = std::max(e.nodal, (field.nodal.col(i) - exact.stress(x)).norm() / exact.p);
   }
   for (Eigen::Index i = 0; i < field.points.cols(); ++i)
-    e.points = std::max(
-        e.points, (field.at_points.col(i) - exact.stress(field.points.col(i))).norm() / exact.p);
+    e.points = std::max(e.points, (field.at_points.col(i) - exact.stress(field.points.col(i))).norm() / exact.p);
   return e;
 }
 
@@ -78,16 +74,12 @@ Errors lame_errors(const Lame& exact, CellShape shape, int n) {
 // what a linear field misses there is p (h/a)², twice that where it is extrapolated, in two
 // components: 2 %.
 class ThickCylinder : public testing::TestWithParam<PlaneState> {};
-INSTANTIATE_TEST_SUITE_P(Both, ThickCylinder,
-                         testing::Values(PlaneState::stress, PlaneState::strain),
-                         [](const auto& at) {
-                           return at.param == PlaneState::stress ? "stress" : "strain";
-                         });
+INSTANTIATE_TEST_SUITE_P(Both, ThickCylinder, testing::Values(PlaneState::stress, PlaneState::strain),
+                         [](const auto& at) { return at.param == PlaneState::stress ? "stress" : "strain"; });
 
 TEST_P(ThickCylinder, DisplacementAndStressConvergeToLame) {
   const Lame exact{0.1, 0.2, 5e6, 2e11, 0.3, GetParam()};
-  for (const CellShape shape :
-       {CellShape::quadrilateral8, CellShape::quadrilateral9, CellShape::triangle6}) {
+  for (const CellShape shape : {CellShape::quadrilateral8, CellShape::quadrilateral9, CellShape::triangle6}) {
     const Errors coarse = lame_errors(exact, shape, 6), fine = lame_errors(exact, shape, 12);
     EXPECT_GT(std::log2(coarse.u / fine.u), 2.9) << name_of(shape) << " " << fine.u;
     EXPECT_GT(std::log2(coarse.nodal / fine.nodal), 1.7) << name_of(shape) << " " << fine.nodal;
@@ -115,11 +107,9 @@ TEST(PlateWithAHole, ConcentratesStressThreefold) {
   VectorXd f = VectorXd::Zero(q.model.N());
   const Cells& sides = q.plate.edge.at("top")[0];
   for (std::size_t k = 0; k < sides.size(); ++k) {
-    const std::vector<int> nodes(sides.nodes.begin() + 3 * static_cast<long>(k),
-                                 sides.nodes.begin() + 3 * static_cast<long>(k) + 3);
+    const std::vector<int> nodes(sides.nodes.begin() + 3 * static_cast<long>(k), sides.nodes.begin() + 3 * static_cast<long>(k) + 3);
     const Vector2d middle = q.model.x.col(nodes[2]);
-    f += traction_load(q.model, {{CellShape::line3, nodes, {1}}},
-                       traction(std::atan2(middle.y(), middle.x())), q.thickness);
+    f += traction_load(q.model, {{CellShape::line3, nodes, {1}}}, traction(std::atan2(middle.y(), middle.x())), q.thickness);
   }
   const StressField field = stress_field(q.model, solve(q.model, q.supports, f).u);
   const int above = q.plate.nodes.at("left").back(), beside = q.plate.nodes.at("right").front();
@@ -131,21 +121,17 @@ TEST(PlateWithAHole, ConcentratesStressThreefold) {
 // A linear displacement has one stress everywhere, on any mesh.
 TEST(StressField, OfALinearDisplacementIsEvenAndWithoutJump) {
   for (const CellShape shape :
-       {CellShape::triangle3, CellShape::triangle6, CellShape::quadrilateral4,
-        CellShape::quadrilateral8, CellShape::quadrilateral9}) {
+       {CellShape::triangle3, CellShape::triangle6, CellShape::quadrilateral4, CellShape::quadrilateral8, CellShape::quadrilateral9}) {
     const FeModel m = model_of(plate(3, 3, shape, bent_rectangle(2, 1)), steel(PlaneState::strain));
     VectorXd u(m.N());
     Matrix2d gradient;
     gradient << 1e-4, 3e-4, -2e-4, 5e-4;
     for (int i = 0; i < m.x.cols(); ++i) u.segment<2>(2 * i) = gradient * m.x.col(i);
-    const double E = 2e11, nu = 0.3, lambda = E * nu / ((1 + nu) * (1 - 2 * nu)),
-                 mu = E / (2 * (1 + nu));
+    const double E = 2e11, nu = 0.3, lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
     const double sum = 6e-4;
-    const Eigen::Vector4d exact(lambda * sum + 2 * mu * 1e-4, lambda * sum + 2 * mu * 5e-4,
-                                mu * 1e-4, lambda * sum);
+    const Eigen::Vector4d exact(lambda * sum + 2 * mu * 1e-4, lambda * sum + 2 * mu * 5e-4, mu * 1e-4, lambda * sum);
     const StressField field = stress_field(m, u);
-    for (Eigen::Index i = 0; i < m.x.cols(); ++i)
-      EXPECT_LT((field.nodal.col(i) - exact).norm(), rounding * exact.norm()) << name_of(shape);
+    for (Eigen::Index i = 0; i < m.x.cols(); ++i) EXPECT_LT((field.nodal.col(i) - exact).norm(), rounding * exact.norm()) << name_of(shape);
     for (Eigen::Index i = 0; i < field.at_points.cols(); ++i)
       EXPECT_LT((field.at_points.col(i) - exact).norm(), rounding * exact.norm()) << name_of(shape);
     EXPECT_LT(field.jump, rounding);
@@ -188,8 +174,7 @@ TEST(StressField, IsNotAveragedAcrossMaterials) {
   VectorXd u = VectorXd::Zero(m.N());
   for (int i = 0; i < m.x.cols(); ++i) u[2 * i] = 1e-3 * m.x(0, i);
   const StressField field = stress_field(m, u);
-  for (Eigen::Index i = 0; i < m.x.cols(); ++i)
-    EXPECT_NEAR(field.von_mises[i], m.x(1, i) < 0.4 ? 1e6 : 3e6, rounding * 3e6);
+  for (Eigen::Index i = 0; i < m.x.cols(); ++i) EXPECT_NEAR(field.von_mises[i], m.x(1, i) < 0.4 ? 1e6 : 3e6, rounding * 3e6);
   EXPECT_LT(field.jump, rounding);
 }
 
@@ -219,10 +204,8 @@ TEST(StressField, OfABeamIsItsSectionForcesAndItsOutermostFibre) {
     const double sigma = pull / fibre.A + P * (L - L * i / 4) * fibre.distance / fibre.I;
     EXPECT_NEAR(field.von_mises[i], sigma, rounding * 1e9);
   }
-  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { stress_field(m, u, {fibre}); }),
-                   "1 for 4 line elements"));
-  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { stress_field(m, VectorXd::Zero(3)); }),
-                   "must be 15"));
+  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { stress_field(m, u, {fibre}); }), "1 for 4 line elements"));
+  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { stress_field(m, VectorXd::Zero(3)); }), "must be 15"));
 }
 
 }  // namespace

@@ -87,10 +87,15 @@ TEST(Study, ThatIsWrongSaysWhereAndWhatToDo) {
            {"scene: k", "scen: k", "study.yaml:1: scen: ", {"Did you mean \"scene\"?"}},
            {"scene: knocking", "scene: knockin", "study.yaml:1: scene: ", {"there is no file", "beside the study"}},
            {good, "# nothing\n", "study.yaml: ", {"is empty", "docs/studies.md"}},
-           {good, knocking, "study.yaml: ",
+           {good,
+            knocking,
+            "study.yaml: ",
             {"is a scene, not a study", "scene: study.yaml", "peak force at main bearing", "clearance: [0.1 mm, …]"}},
            {"{peak:", "{\"peak [kN]\":", "study.yaml:3: measure.peak [kN]: ", {"named in kN", "comes in N", "leave the unit out"}},
-           {"{peak: peak force at gudgeon pin}", "{a: energy lost, \"a [J]\": final kinetic energy}", "study.yaml:3: measure: ", {"\"a\" twice"}},
+           {"{peak: peak force at gudgeon pin}",
+            "{a: energy lost, \"a [J]\": final kinetic energy}",
+            "study.yaml:3: measure: ",
+            {"\"a\" twice"}},
            {"measure: {peak: peak force at gudgeon pin}\n", "", "study.yaml:1: ", {"lacks a required key", "measure: {"}},
            {"gudgeon pin}", "gudgin pin}", "study.yaml:3: measure.peak: ", {"Did you mean \"gudgeon pin\"?"}},
            {"{peak: peak force at gudgeon pin}", "[energy lost, energy lost]", "study.yaml:3: measure: ", {"twice"}},
@@ -123,8 +128,8 @@ TEST(Study, MeasureNamedWithItsUnitHasItOnce) {
 
 TEST(Study, MeasureThatOnlyAFlexibleBodyHasIsRefusedWhereNoCaseHasOne) {
   Scene scene = read_scene_text(knocking, "knocking.yaml");
-  for (const char* words : {"peak stress at coupler.B", "deflection of coupler at 1 ms", "peak displacement of coupler.B", "rms coupler.B.ux",
-                            "mean coupler.mode 1"}) {
+  for (const char* words : {"peak stress at coupler.B", "deflection of coupler at 1 ms", "peak displacement of coupler.B",
+                            "rms coupler.B.ux", "mean coupler.mode 1"}) {
     SCOPED_TRACE(words);
     std::vector<Measure> measures(1);
     measures[0].name = measures[0].words = words;

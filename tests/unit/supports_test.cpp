@@ -32,8 +32,7 @@ class LooseBody : public testing::Test {
 };
 
 TEST_F(LooseBody, HeldByNothingMayMoveEveryWay) {
-  EXPECT_TRUE(says(complaint(), "free to move along x, to move along y and to turn"))
-      << complaint();
+  EXPECT_TRUE(says(complaint(), "free to move along x, to move along y and to turn")) << complaint();
 }
 TEST_F(LooseBody, PinnedAtOneNodeMayTurnAboutIt) {
   hold(s, m, p.nodes.at("right").back(), true, true, false);
@@ -64,12 +63,10 @@ TEST_F(LooseBody, ASupportThatIsRepeatedHoldsNoMore) {
 TEST(LooseParts, APartHeldByNothingIsNamedByItsPlace) {
   Eigen::Matrix2Xd x(2, 5);
   x << 0, 1, 2, 5, 6, 0, 0, 0, 3, 4;
-  const FeModel m =
-      fe_model(x, {Block<BeamEuler>{{{2e8, 1500, 8}}, {0, 1, 1, 2, 3, 4}, {0, 1, 2}}});
+  const FeModel m = fe_model(x, {Block<BeamEuler>{{{2e8, 1500, 8}}, {0, 1, 1, 2, 3, 4}, {0, 1, 2}}});
   Supports s;
   hold(s, m, 0, true, true, true);
-  const std::string words =
-      refusal<std::runtime_error>([&] { solve(m, s, VectorXd::Zero(m.n())); });
+  const std::string words = refusal<std::runtime_error>([&] { solve(m, s, VectorXd::Zero(m.n())); });
   EXPECT_TRUE(says(words, "2 parts") && says(words, "between (5, 3) and (6, 4)")) << words;
 }
 
@@ -80,8 +77,7 @@ TEST(Mechanism, HingedBarsThatSwayAreNamedByPlaceAndDirection) {
   Supports s;
   hold(s, m, 0, true, true, false);
   hold(s, m, 1, true, true, false);
-  const std::string words =
-      refusal<std::runtime_error>([&] { solve(m, s, VectorXd::Zero(m.n())); });
+  const std::string words = refusal<std::runtime_error>([&] { solve(m, s, VectorXd::Zero(m.n())); });
   EXPECT_TRUE(says(words, "1) in x")) << words;
 }
 
@@ -92,32 +88,22 @@ TEST(Mechanism, AStraightChainOfBarsIsOne) {
     Supports s;
     hold(s, m, 0, true, true, false);
     hold(s, m, 5, true, true, false);
-    EXPECT_TRUE(says(refusal<std::runtime_error>([&] { solve(m, s, VectorXd::Zero(m.n())); }),
-                     "without resistance"));
+    EXPECT_TRUE(says(refusal<std::runtime_error>([&] { solve(m, s, VectorXd::Zero(m.n())); }), "without resistance"));
   }
 }
 
 TEST(Supports, WhatCannotBeHeldIsRefused) {
-  FeModel m =
-      model_of(plate(4, 2, CellShape::quadrilateral4, rectangle(2, 1)), steel(PlaneState::stress));
+  FeModel m = model_of(plate(4, 2, CellShape::quadrilateral4, rectangle(2, 1)), steel(PlaneState::stress));
   add_ports(m, {}, {{"edge", {0, 0}, {0, 1, 2}, {1, 2, 1}, Coupling::rigid}});
   Supports s;
-  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { hold(s, m, 1, true, false, false); }),
-                   "hold the port instead"));
-  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { hold(s, m, -2, true, false, false); }),
-                   "node -2 is not there"));
-  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { hold(s, m, 7, false, false, true); }),
-                   "no rotation to hold"));
+  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { hold(s, m, 1, true, false, false); }), "hold the port instead"));
+  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { hold(s, m, -2, true, false, false); }), "node -2 is not there"));
+  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { hold(s, m, 7, false, false, true); }), "no rotation to hold"));
   FeModel bars = chain(Bar{1e8, 4}, 1, {0, 0}, {1, 0});
   add_ports(bars, {{"end", 1}}, {});
-  EXPECT_TRUE(says(
-      refusal<std::invalid_argument>([&] { hold(s, bars, *bars.port("end"), false, false, true); }),
-      "\"end\""));
+  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { hold(s, bars, *bars.port("end"), false, false, true); }), "\"end\""));
   VectorXd f = VectorXd::Zero(4);
-  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] {
-                     add_force(f, *bars.port("end"), {0, 0}, 3);
-                   }),
-                   "no rotation"));
+  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { add_force(f, *bars.port("end"), {0, 0}, 3); }), "no rotation"));
   EXPECT_TRUE(s.freedoms.empty());
 }
 

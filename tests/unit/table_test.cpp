@@ -18,8 +18,7 @@ namespace fs = std::filesystem;
 struct TableFile {
   explicit TableFile(const std::string& text)
       : path(fs::temp_directory_path() /
-             (std::string("pintle_") +
-              testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv")) {
+             (std::string("pintle_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv")) {
     std::ofstream(path, std::ios::binary) << text;
   }
   ~TableFile() { fs::remove(path); }
@@ -39,8 +38,7 @@ std::string refusal(const std::string& text) {
 }
 
 void expect_says(const std::string& said, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts)
-    EXPECT_NE(said.find(part), std::string::npos) << "\"" << said << "\" lacks \"" << part << "\"";
+  for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << "\"" << said << "\" lacks \"" << part << "\"";
 }
 
 Samples sampled(double (*f)(double), int n, double end) {
@@ -144,8 +142,7 @@ TEST(Spline, ConvergesAtItsOrder) {
     return worst;
   };
   const auto coarse = errors(200), fine = errors(800);
-  for (std::size_t k = 0; k < 3; ++k)
-    EXPECT_NEAR(std::log2(coarse[k] / fine[k]) / 2, 4.0 - static_cast<double>(k), 0.1) << k;
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(std::log2(coarse[k] / fine[k]) / 2, 4.0 - static_cast<double>(k), 0.1) << k;
 }
 
 TEST(Spline, HoldsItsEndValuesOutside) {

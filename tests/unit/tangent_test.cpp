@@ -42,9 +42,7 @@ struct Kind {
   std::vector<Force> forces = {};
   std::vector<ContactPair> contacts = {};
 };
-void PrintTo(const Kind& kind, std::ostream* out) {
-  *out << kind.name;
-}
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 // Friction that grows with the sliding speeds drawn here.
 ContactPair contact(double chi, std::optional<Ambrosio> friction = {}, Sliding sliding = Sliding::material) {
   return {0, 1, {0.1 - clearance, 0.1}, {1e6, 1.5, chi}, friction, sliding};
@@ -153,9 +151,7 @@ struct Sample {
   }
 };
 
-double largest(const MatrixXd& A) {
-  return A.size() == 0 ? 0 : A.lpNorm<Eigen::Infinity>();
-}
+double largest(const MatrixXd& A) { return A.size() == 0 ? 0 : A.lpNorm<Eigen::Infinity>(); }
 
 /// A kind between two carriers.
 struct Held {
@@ -177,13 +173,9 @@ struct Held {
     }
   }
 
-  void coordinates_is_differences_of_the_residual() {
-    expect_differences({1, 0, 0}, 0);
-  }
+  void coordinates_is_differences_of_the_residual() { expect_differences({1, 0, 0}, 0); }
 
-  void speeds_is_differences_of_the_residual() {
-    expect_differences({0, 1, 0}, n_);
-  }
+  void speeds_is_differences_of_the_residual() { expect_differences({0, 1, 0}, n_); }
 
   // r is linear in a: a difference over a whole unit is exact but for rounding.
   void accelerations_is_the_mass_matrix() {

@@ -35,8 +35,7 @@ struct Folder {
   fs::path path;
   Folder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path = fs::temp_directory_path() /
-           ("pintle_vtk_" + std::string(test->name()) + "_" + std::to_string(getpid()));
+    path = fs::temp_directory_path() / ("pintle_vtk_" + std::string(test->name()) + "_" + std::to_string(getpid()));
     fs::remove_all(path);
     fs::create_directories(path);
   }
@@ -70,8 +69,7 @@ DrawnBody body(const std::string& name) {
   b.name = name;
   b.points.resize(2, 6);
   b.points << 0, 1, 1, 0, 2, 2.1, 0, 0, 1, 1, 0, 1.0 / 3;
-  b.cells = {{CellShape::triangle3, {0, 1, 2, 0, 2, 3}, {1, 2}},
-             {CellShape::quadrilateral4, {1, 4, 5, 2}, {3}}};
+  b.cells = {{CellShape::triangle3, {0, 1, 2, 0, 2, 3}, {1, 2}}, {CellShape::quadrilateral4, {1, 4, 5, 2}, {3}}};
   Eigen::RowVectorXd mises(6);
   mises << 0, 1e6, 2e6, 3e6, 4e6, 5e6;
   b.fields = {{"displacement [m]", b.points / 8}, {"von Mises [Pa]", mises}};
@@ -116,18 +114,14 @@ struct Listed {
   std::string file;
   bool operator==(const Listed&) const = default;
 };
-void PrintTo(const Listed& l, std::ostream* out) {
-  *out << l.t << " part " << l.part << " " << l.file;
-}
+void PrintTo(const Listed& l, std::ostream* out) { *out << l.t << " part " << l.part << " " << l.file; }
 std::vector<Listed> listed(const fs::path& pvd) {
   std::vector<Listed> all;
-  const auto root =
-      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
+  const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
   vtkXMLDataElement* list = root ? root->FindNestedElementWithName("Collection") : nullptr;
   for (int i = 0; list && i < list->GetNumberOfNestedElements(); ++i) {
     vtkXMLDataElement* entry = list->GetNestedElement(i);
-    all.push_back({std::stod(entry->GetAttribute("timestep")),
-                   std::stoi(entry->GetAttribute("part")), entry->GetAttribute("file")});
+    all.push_back({std::stod(entry->GetAttribute("timestep")), std::stoi(entry->GetAttribute("part")), entry->GetAttribute("file")});
   }
   return all;
 }
@@ -165,8 +159,7 @@ TEST(Frame, CarriesPartsAndOwnersWithTheirNames) {
   EXPECT_EQ(cell_field(grid, "part"), (std::vector<double>{0, 0, 1, 7}));
   EXPECT_EQ(cell_field(grid, "owner"), (std::vector<double>{0, 1, 2, 2}));
   EXPECT_EQ(names(grid, "owners"), drawing(0).owners);
-  EXPECT_EQ(names(grid, "parts"), (std::vector<std::string>{"link", "joint", "journal", "bearing",
-                                                            "spring", "guide", "trace", "force"}));
+  EXPECT_EQ(names(grid, "parts"), (std::vector<std::string>{"link", "joint", "journal", "bearing", "spring", "guide", "trace", "force"}));
 }
 
 TEST(Frame, CarriesForcesAsVectorsAndZeroElsewhere) {
@@ -219,14 +212,12 @@ TEST(FlexibleFrame, KeepsPlacesExactlyAndCellsOfEachShape) {
     EXPECT_EQ(grid->GetPoint(i)[2], 0);
   }
   ASSERT_EQ(grid->GetNumberOfCells(), 3);
-  const std::vector<std::pair<int, std::vector<int>>> cells{
-      {VTK_TRIANGLE, {0, 1, 2}}, {VTK_TRIANGLE, {0, 2, 3}}, {VTK_QUAD, {1, 4, 5, 2}}};
+  const std::vector<std::pair<int, std::vector<int>>> cells{{VTK_TRIANGLE, {0, 1, 2}}, {VTK_TRIANGLE, {0, 2, 3}}, {VTK_QUAD, {1, 4, 5, 2}}};
   for (int c = 0; c < 3; ++c) {
     const auto& [type, nodes] = cells[static_cast<std::size_t>(c)];
     EXPECT_EQ(grid->GetCellType(c), type);
     ASSERT_EQ(grid->GetCell(c)->GetNumberOfPoints(), static_cast<vtkIdType>(nodes.size()));
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      EXPECT_EQ(grid->GetCell(c)->GetPointId(static_cast<int>(k)), nodes[k]);
+    for (std::size_t k = 0; k < nodes.size(); ++k) EXPECT_EQ(grid->GetCell(c)->GetPointId(static_cast<int>(k)), nodes[k]);
   }
 }
 
@@ -286,28 +277,22 @@ TEST(FlexibleFrame, IsListedAsAPartBesideTheLines) {
   writer.add(flexible(0, {"crank", "rod"}));
   writer.add(flexible(0.5, {"crank", "rod"}));
   writer.finish();
-  const std::vector<Listed> expected{
-      {0, 0, "frames/00000.vtu"},         {0, 1, "frames/crank_00000.vtu"},
-      {0, 2, "frames/rod_00000.vtu"},     {0.5, 0, "frames/00001.vtu"},
-      {0.5, 1, "frames/crank_00001.vtu"}, {0.5, 2, "frames/rod_00001.vtu"}};
+  const std::vector<Listed> expected{{0, 0, "frames/00000.vtu"},   {0, 1, "frames/crank_00000.vtu"},   {0, 2, "frames/rod_00000.vtu"},
+                                     {0.5, 0, "frames/00001.vtu"}, {0.5, 1, "frames/crank_00001.vtu"}, {0.5, 2, "frames/rod_00001.vtu"}};
   EXPECT_EQ(listed(folder.path / "mechanism.pvd"), expected);
 }
 
 TEST(FlexibleFrame, HasAFileOfItsOwnWhateverItsBodyIsCalled) {
   const Folder folder;
   FrameWriter writer(folder.path);
-  const std::vector<std::string> bodies{"piston rod", "piston/rod", "Piston_rod", "../../up",
-                                        "<&\">",      "Kurbel ü",   "",           "_2"};
+  const std::vector<std::string> bodies{"piston rod", "piston/rod", "Piston_rod", "../../up", "<&\">", "Kurbel ü", "", "_2"};
   writer.add(flexible(0, bodies));
   writer.finish();
   const std::vector<Listed> files = listed(folder.path / "mechanism.pvd");
   ASSERT_EQ(files.size(), bodies.size() + 1);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const std::string& file = files[b + 1].file;
-    EXPECT_EQ(file.find_first_not_of(
-                  "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./"),
-              std::string::npos)
-        << file;
+    EXPECT_EQ(file.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./"), std::string::npos) << file;
     EXPECT_EQ(fs::path(file).parent_path(), "frames");
     ASSERT_TRUE(fs::is_regular_file(folder.path / file)) << file;
     EXPECT_EQ(names(read(folder.path / file), "body"), std::vector<std::string>{bodies[b]});
@@ -330,16 +315,14 @@ TEST(FrameWriter, NamesTheDirectoryThatCannotBeMade) {
   const Folder folder;
   std::ofstream(folder.path / "taken") << "a file stands here";
   const fs::path under = folder.path / "taken" / "run";
-  EXPECT_NE(failure([&] { FrameWriter{under}; }).find((under / "frames").string()),
-            std::string::npos);
+  EXPECT_NE(failure([&] { FrameWriter{under}; }).find((under / "frames").string()), std::string::npos);
 }
 
 TEST(FrameWriter, NamesTheFileThatCannotBeWritten) {
   const Folder folder;
   FrameWriter writer(folder.path);
   fs::create_directories(folder.path / "mechanism.pvd");
-  EXPECT_NE(failure([&] { writer.finish(); }).find((folder.path / "mechanism.pvd").string()),
-            std::string::npos);
+  EXPECT_NE(failure([&] { writer.finish(); }).find((folder.path / "mechanism.pvd").string()), std::string::npos);
   fs::remove_all(folder.path / "frames");
   const auto message = failure([&] { writer.add(drawing(0)); });
   EXPECT_NE(message.find((folder.path / "frames/00000.vtu").string()), std::string::npos);

@@ -33,7 +33,8 @@ inline std::string worn_joints(const std::string& stiffness) {
   gudgeon pin:
     revolute: [coupler.B, slider.P]
     clearance: {radial: 0.1 mm, bearing radius: 10 mm, bearing: slider,
-                normal: {lankarani-nikravesh: {restitution: 0.8, stiffness: )" + stiffness + R"(}},
+                normal: {lankarani-nikravesh: {restitution: 0.8, stiffness: )" +
+         stiffness + R"(}},
                 friction: {ambrosio: {coefficient: 0.05}}}
   guide: {prismatic: [ground, slider.P]}
 )";

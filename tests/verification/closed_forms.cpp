@@ -86,10 +86,8 @@ Values wedge(double length, double root, double tip, double E, double rho, std::
     // w = Z₁(z)/z and its slope over 2p, Z₂ with a sign, z = 2√(px); w″ ∝ ∓pw − 2w′, shear ∝ w′.
     const auto fill = [&](double x, int row, bool clamped) {
       const double z = 2 * std::sqrt(p * x);
-      const double one[4] = {std::cyl_bessel_j(1, z), std::cyl_neumann(1, z),
-                             std::cyl_bessel_i(1, z), std::cyl_bessel_k(1, z)};
-      const double two[4] = {-std::cyl_bessel_j(2, z), -std::cyl_neumann(2, z),
-                             std::cyl_bessel_i(2, z), -std::cyl_bessel_k(2, z)};
+      const double one[4] = {std::cyl_bessel_j(1, z), std::cyl_neumann(1, z), std::cyl_bessel_i(1, z), std::cyl_bessel_k(1, z)};
+      const double two[4] = {-std::cyl_bessel_j(2, z), -std::cyl_neumann(2, z), std::cyl_bessel_i(2, z), -std::cyl_bessel_k(2, z)};
       for (int k = 0; k < 4; ++k) {
         const double w = one[k] / z, slope_w = 2 * p * two[k] / (z * z), sign = k < 2 ? -1 : 1;
         D(row, k) = clamped ? w : sign * p * w - 2 * slope_w;
@@ -116,9 +114,8 @@ Stiffness member(const Frame& f, double L, double omega) {
   const double m = omega * L * std::sqrt(f.rhoA / f.EA);
   const double s = std::sin(l), c = std::cos(l), S = std::sinh(l), C = std::cosh(l);
   const double e = f.EI / (L * L * L) / (1 - c * C), a = f.EA / L * m;
-  const double ww = e * l * l * l * (s * C + c * S), wt = e * l * l * s * S * L,
-               wv = -e * l * l * l * (s + S), wu = e * l * l * (C - c) * L,
-               tt = e * l * (s * C - c * S) * L * L, tu = e * l * (S - s) * L * L;
+  const double ww = e * l * l * l * (s * C + c * S), wt = e * l * l * s * S * L, wv = -e * l * l * l * (s + S),
+               wu = e * l * l * (C - c) * L, tt = e * l * (s * C - c * S) * L * L, tu = e * l * (S - s) * L * L;
   Stiffness k;
   k.K << a / std::tan(m), 0, 0, -a / std::sin(m), 0, 0,  //
       0, ww, wt, 0, wv, wu,                              //
@@ -149,15 +146,12 @@ int below(const Frame& f, double omega) {
     count += k.clamped;
     const Eigen::Matrix<double, 6, 6> G = T.transpose() * k.K * T;
     for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < 2; ++j)
-        K.block<3, 3>(3 * (i ? b : a), 3 * (j ? b : a)) += G.block<3, 3>(3 * i, 3 * j);
+      for (int j = 0; j < 2; ++j) K.block<3, 3>(3 * (i ? b : a), 3 * (j ? b : a)) += G.block<3, 3>(3 * i, 3 * j);
   }
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < n; ++i)
-    if (i % 3 == 2 || std::ranges::find(f.pinned, static_cast<int>(i / 3)) == f.pinned.end())
-      free.push_back(i);
-  const Eigen::VectorXd lambda =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K(free, free)).eigenvalues();
+    if (i % 3 == 2 || std::ranges::find(f.pinned, static_cast<int>(i / 3)) == f.pinned.end()) free.push_back(i);
+  const Eigen::VectorXd lambda = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K(free, free)).eigenvalues();
   return count + static_cast<int>((lambda.array() < 0).count());
 }
 
@@ -189,9 +183,7 @@ Values ring(const Solid& s, double a, double b, std::size_t count) {
       const double r = row == 0 ? a : b;
       for (int k = 0; k < 4; ++k) {
         const double q = omega / (k < 2 ? fast : slow), z = q * r;
-        const auto Z = [&](int m) {
-          return k % 2 == 0 ? std::cyl_bessel_j(m, z) : std::cyl_neumann(m, z);
-        };
+        const auto Z = [&](int m) { return k % 2 == 0 ? std::cyl_bessel_j(m, z) : std::cyl_neumann(m, z); };
         const double f = Z(n), d = q * (n == 0 ? -Z(1) : Z(n - 1) - n * f / z);
         const double dd = -d / r - (q * q - n * n / (r * r)) * f;
         if (k < 2) {  // gradient of f cos nθ
@@ -208,8 +200,7 @@ Values ring(const Solid& s, double a, double b, std::size_t count) {
   Values all;
   const double step = 0.01 * slow / b;
   for (int n = 0; n <= static_cast<int>(count) / 2 + 2; ++n)
-    for (const double w : roots([&](double x) { return determinant(n, x); }, step, step, 4))
-      all.insert(all.end(), n == 0 ? 1 : 2, w);
+    for (const double w : roots([&](double x) { return determinant(n, x); }, step, step, 4)) all.insert(all.end(), n == 0 ? 1 : 2, w);
   std::ranges::sort(all);
   all.resize(count);
   return in_hertz(all);
@@ -249,12 +240,9 @@ Values square(const Solid& s, double a, bool clamped, int power, std::size_t cou
   K.topRightCorner(n, n) = d12 * product(C, C.transpose()) + d3 * product(C.transpose(), C);
   K.bottomLeftCorner(n, n) = K.topRightCorner(n, n).transpose();
   M.topLeftCorner(n, n) = M.bottomRightCorner(n, n) = s.rho * a * a / 4 * product(A, A);
-  const Eigen::VectorXd lambda =
-      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M, Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const Eigen::VectorXd lambda = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M, Eigen::EigenvaluesOnly).eigenvalues();
   Values omega;
-  for (Eigen::Index i = clamped ? 0 : 3; omega.size() < count; ++i)
-    omega.push_back(std::sqrt(lambda[i]));
+  for (Eigen::Index i = clamped ? 0 : 3; omega.size() < count; ++i) omega.push_back(std::sqrt(lambda[i]));
   return in_hertz(omega);
 }
 
@@ -275,10 +263,8 @@ struct Term {
   bool second;
   Complex factor;
   Eigen::Vector3d stress(Complex z) const {
-    const Complex w = (z - pole) / scale,
-                  d = factor * double(power) * std::pow(w, power - 1) / scale,
-                  dd = factor * double(power * (power - 1)) * std::pow(w, power - 2) /
-                       (scale * scale);
+    const Complex w = (z - pole) / scale, d = factor * double(power) * std::pow(w, power - 1) / scale,
+                  dd = factor * double(power * (power - 1)) * std::pow(w, power - 2) / (scale * scale);
     const double sum = second ? 0 : 4 * d.real();
     const Complex difference = second ? 2.0 * d : 2.0 * std::conj(z) * dd;
     return {(sum - difference.real()) / 2, (sum + difference.real()) / 2, difference.imag() / 2};
@@ -289,8 +275,7 @@ std::vector<Term> terms(double a, double b, double l) {
   std::vector<Term> out;
   const auto add = [&](Complex pole, int power, double scale) {
     for (const bool second : {false, true})
-      for (const Complex factor : {Complex(1, 0), Complex(0, 1)})
-        out.push_back({pole, power, scale, second, factor});
+      for (const Complex factor : {Complex(1, 0), Complex(0, 1)}) out.push_back({pole, power, scale, second, factor});
   };
   for (int k = 1; k <= 16; ++k) add(0, -k, a);
   for (int k = 1; k <= 24; ++k) add(0, k, l);
@@ -307,8 +292,7 @@ struct EdgePoint {
 std::vector<EdgePoint> edge_points(double a, double b, double l) {
   std::vector<EdgePoint> out;
   const auto side = [&](Complex p, Complex q, Complex normal, int n, double pull) {
-    for (int i = 0; i < n; ++i)
-      out.push_back({p + (q - p) * (1 - std::cos(pi * (i + 0.5) / n)) / 2.0, normal, pull});
+    for (int i = 0; i < n; ++i) out.push_back({p + (q - p) * (1 - std::cos(pi * (i + 0.5) / n)) / 2.0, normal, pull});
   };
   for (int i = 0; i < 200; ++i) {
     const Complex e = std::polar(1.0, 2 * pi * (i + 0.5) / 200);
@@ -326,8 +310,7 @@ std::vector<EdgePoint> edge_points(double a, double b, double l) {
 double strip_with_hole(double a, double b, double l) {
   const std::vector<Term> basis = terms(a, b, l);
   const std::vector<EdgePoint> points = edge_points(a, b, l);
-  const auto n = static_cast<Eigen::Index>(basis.size()),
-             m = static_cast<Eigen::Index>(points.size());
+  const auto n = static_cast<Eigen::Index>(basis.size()), m = static_cast<Eigen::Index>(points.size());
   Eigen::MatrixXd A(2 * m, n);
   Eigen::VectorXd pull = Eigen::VectorXd::Zero(2 * m), at_hole(n);
   for (Eigen::Index j = 0; j < n; ++j) {

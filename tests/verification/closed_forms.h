@@ -20,8 +20,7 @@ struct Beam {
 enum class End { clamped, pinned, free };
 /// Exact frequencies from the transfer matrix of Timoshenko's equations (Euler's: GA = 0, rhoI =
 /// 0); a lump of `mass` and `inertia` at a free second end.
-Values beam(const Beam&, End first, End second, std::size_t count, double mass = 0,
-            double inertia = 0);
+Values beam(const Beam&, End first, End second, std::size_t count, double mass = 0, double inertia = 0);
 
 /// Height from `root` (clamped) to `tip` (free) over `length`, even width: Kirchhoff's wedge, cut
 /// off.

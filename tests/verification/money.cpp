@@ -45,8 +45,7 @@ std::vector<Try> tries(bool timed) {
   for (const std::string& element : plane_elements())
     for (const int along : {16, 32, 64}) {
       const int n = is_linear(element) ? along : along / 2;
-      Scene s = scene("fv32_tapered_membrane",
-                      {{"along", std::to_string(n)}, {"across", std::to_string(n / 2)}});
+      Scene s = scene("fv32_tapered_membrane", {{"along", std::to_string(n)}, {"across", std::to_string(n / 2)}});
       take(s, element);
       all.push_back({element, n, s, {}});
     }
@@ -88,10 +87,8 @@ Problem fv32(const std::vector<Try>& all) {
 }
 
 void draw(const std::vector<Try>& all) {
-  paper::Panel freedoms{
-      "Worst of six frequencies", "log10 of freedoms", "log10 of relative error", {}};
-  paper::Panel time{
-      "The same against time", "log10 of milliseconds", "log10 of relative error", {}};
+  paper::Panel freedoms{"Worst of six frequencies", "log10 of freedoms", "log10 of relative error", {}};
+  paper::Panel time{"The same against time", "log10 of milliseconds", "log10 of relative error", {}};
   for (std::size_t k = 0; k < all.size(); k += 3) {
     paper::Curve a{short_names[k / 3], {}, {}, k / 3 > 5};
     paper::Curve b = a;
@@ -118,8 +115,7 @@ const Try* least(const std::vector<Try>& all, double within, const Measure& meas
 
 std::string shown(const Try* t) {
   if (!t) return "none";
-  return printed("%s %s: %d, %.1f ms", t->element.c_str(), t->row().mesh.c_str(), t->freedoms,
-           1e3 * t->median());
+  return printed("%s %s: %d, %.1f ms", t->element.c_str(), t->row().mesh.c_str(), t->freedoms, 1e3 * t->median());
 }
 
 std::string table(const std::vector<Try>& all) {
@@ -128,8 +124,7 @@ std::string table(const std::vector<Try>& all) {
         "|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Try& t = all[k];
-    md << "| " << t.element << " (" << short_names[k / 3] << ") | " << t.row().mesh << " | "
-       << t.freedoms;
+    md << "| " << t.element << " (" << short_names[k / 3] << ") | " << t.row().mesh << " | " << t.freedoms;
     for (std::size_t i = 0; i < 6; ++i) md << printed(" | %+.3f", 100 * (t.ours[i] / converged[i] - 1));
     md << printed(" | %.3f | %.1f |\n", 100 * t.worst(), 1e3 * t.median());
   }
@@ -157,19 +152,17 @@ std::string advice(const std::vector<Try>& all) {
         "| within | least time | fewest freedoms | triangle6 |\n|---|---|---|---|\n";
   std::string names;
   std::vector<Try> triangles;
-  std::ranges::copy_if(all, std::back_inserter(triangles),
-                       [](const Try& t) { return t.element == "triangle6"; });
+  std::ranges::copy_if(all, std::back_inserter(triangles), [](const Try& t) { return t.element == "triangle6"; });
   const auto time = [](const Try& t) { return t.median(); };
   const auto size = [](const Try& t) { return std::pair(t.freedoms, t.worst()); };
   for (const double within : {0.03, 0.01, 0.003, 0.001, 0.0003, 0.0001}) {
     const Try *quick = least(all, within, time), *small = least(all, within, size);
-    md << printed("| %g %% | ", 100 * within) << shown(quick) << " | " << shown(small) << " | "
-       << shown(least(triangles, within, time)) << " |\n";
-    if (small && names.find(small->element + ",") == std::string::npos)
-      names += small->element + ", ";
+    md << printed("| %g %% | ", 100 * within) << shown(quick) << " | " << shown(small) << " | " << shown(least(triangles, within, time))
+       << " |\n";
+    if (small && names.find(small->element + ",") == std::string::npos) names += small->element + ", ";
   }
-  md << "\n**Which element to take**: for the fewest freedoms, as the bound tightens, "
-     << names.substr(0, names.size() - 2) << ". " << spread(all)
+  md << "\n**Which element to take**: for the fewest freedoms, as the bound tightens, " << names.substr(0, names.size() - 2) << ". "
+     << spread(all)
      << " So take a quadratic one. Gmsh meshes every drawing with triangle6, the element that a "
         "scene gets unless it asks for another; the last column is what that costs. Of the linear "
         "ones take quadrilateral4, and never triangle3 where a part bends.\n";
@@ -177,14 +170,12 @@ std::string advice(const std::vector<Try>& all) {
 }
 
 Problem as_beam() {
-  Problem p{
-      "FV32 as a tapered beam", "Hz",
-      "The same body as a tapered Timoshenko beam of 32 elements, 96 freedoms. Scene "
-      "[fv32_beam](../examples/verification/fv32_beam.yaml).",
-      "beam theory at a depth of half the length is a model, not an approximation that a finer "
-      "mesh would mend: shown."};
-  Row row{"BeamTimoshenko", "32", "converged", frequencies(scene("verification/fv32_beam"), 6),
-          converged};
+  Problem p{"FV32 as a tapered beam", "Hz",
+            "The same body as a tapered Timoshenko beam of 32 elements, 96 freedoms. Scene "
+            "[fv32_beam](../examples/verification/fv32_beam.yaml).",
+            "beam theory at a depth of half the length is a model, not an approximation that a finer "
+            "mesh would mend: shown."};
+  Row row{"BeamTimoshenko", "32", "converged", frequencies(scene("verification/fv32_beam"), 6), converged};
   p.rows.push_back(row);
   return p;
 }

@@ -23,15 +23,11 @@ double error(const Row& r) {
 
 const std::vector<std::string>& plane_elements() {
   static const std::vector<std::string> names{
-      "triangle3",      "triangle6",      "quadrilateral4-plain",
-      "quadrilateral4", "quadrilateral8", "quadrilateral8-reduced",
-      "quadrilateral9"};
+      "triangle3", "triangle6", "quadrilateral4-plain", "quadrilateral4", "quadrilateral8", "quadrilateral8-reduced", "quadrilateral9"};
   return names;
 }
 
-bool is_linear(const std::string& element) {
-  return element == "triangle3" || element.starts_with("quadrilateral4");
-}
+bool is_linear(const std::string& element) { return element == "triangle3" || element.starts_with("quadrilateral4"); }
 
 namespace {
 
@@ -41,13 +37,11 @@ std::string listed(const Values& values) {
   return out;
 }
 
-std::string percent(double share) {
-  return std::abs(share) < 1e-8 ? printed("%.0e", share) : printed("%+.3g %%", 100 * share);
-}
+std::string percent(double share) { return std::abs(share) < 1e-8 ? printed("%.0e", share) : printed("%+.3g %%", 100 * share); }
 
 std::string line(const Row& r) {
-  return r.element + " | " + r.mesh + (r.what.empty() ? "" : ", " + r.what) + " | " +
-         listed(r.ours) + " | " + listed(r.target) + " | " + percent(error(r));
+  return r.element + " | " + r.mesh + (r.what.empty() ? "" : ", " + r.what) + " | " + listed(r.ours) + " | " + listed(r.target) + " | " +
+         percent(error(r));
 }
 
 std::string page_text(const Problems& problems, const std::string& money) {
@@ -72,17 +66,14 @@ std::string page_text(const Problems& problems, const std::string& money) {
         "| problem | element | mesh | ours | target | error |\n|---|---|---|---|---|---|\n";
   for (const Problem& p : problems)
     for (const Row& r : p.rows)
-      if (r.headline)
-        md << "| [" << p.title << "](#" << anchor(p.title) << "), " << p.unit << " | " << line(r)
-           << " |\n";
+      if (r.headline) md << "| [" << p.title << "](#" << anchor(p.title) << "), " << p.unit << " | " << line(r) << " |\n";
   md << "\n" << money;
   for (const Problem& p : problems) {
     md << "\n## " << p.title << "\n\n"
        << p.text << "\n\nBounds: " << p.why << "\n\n| element | mesh | ours [" << p.unit
        << "] | target | error | bound |\n|---|---|---|---|---|---|\n";
     for (const Row& r : p.rows)
-      md << "| " << line(r) << " | "
-         << (r.allowed > 0 ? percent(r.allowed).substr(r.allowed < 1e-8 ? 0 : 1) : "–") << " |\n";
+      md << "| " << line(r) << " | " << (r.allowed > 0 ? percent(r.allowed).substr(r.allowed < 1e-8 ? 0 : 1) : "–") << " |\n";
   }
   return md.str();
 }
@@ -91,12 +82,8 @@ int check(const Problems& problems) {
   int failures = 0;
   for (const Problem& p : problems)
     for (const Row& r : p.rows) {
-      const bool holds =
-          r.allowed <= 0 || (std::abs(error(r)) <= r.allowed && r.ours.size() == r.target.size());
-      std::cout << (r.allowed <= 0 ? "shown "
-                    : holds        ? "ok    "
-                                   : "FALSE ")
-                << p.title << ": " << line(r) << " | " << r.allowed << "\n";
+      const bool holds = r.allowed <= 0 || (std::abs(error(r)) <= r.allowed && r.ours.size() == r.target.size());
+      std::cout << (r.allowed <= 0 ? "shown " : holds ? "ok    " : "FALSE ") << p.title << ": " << line(r) << " | " << r.allowed << "\n";
       failures += !holds;
     }
   return failures > 0;

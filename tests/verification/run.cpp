@@ -15,13 +15,9 @@ Scene scene(const std::string& name, const Overrides& overrides) {
   return read_scene(paper::source / "examples" / (name + ".yaml"), overrides);
 }
 
-ElasticBody body(const Scene& s, const std::string& name) {
-  return elastic_body(s, elastic_of(s, name));
-}
+ElasticBody body(const Scene& s, const std::string& name) { return elastic_body(s, elastic_of(s, name)); }
 
-ScenePlate& plate(Scene& s) {
-  return std::get<ScenePlate>(s.bodies.front().elastic->shape);
-}
+ScenePlate& plate(Scene& s) { return std::get<ScenePlate>(s.bodies.front().elastic->shape); }
 
 void take(Scene& s, const std::string& element) {
   ScenePlate& p = plate(s);
@@ -36,8 +32,7 @@ void take(Scene& s, const std::string& element) {
 
 std::string shown_mesh(const ElasticBody& e) {
   std::string out;
-  for (const Cells& c : e.mesh.cells)
-    out += (out.empty() ? "" : " + ") + std::to_string(c.size()) + " " + name_of(c.shape);
+  for (const Cells& c : e.mesh.cells) out += (out.empty() ? "" : " + ") + std::to_string(c.size()) + " " + name_of(c.shape);
   return out;
 }
 

@@ -164,7 +164,8 @@ std::vector<std::string> terms_of(const System& s) {
   if (rigid > 0) out.push_back("constant inertia of " + std::to_string(rigid) + (rigid == 1 ? " rigid body" : " rigid bodies"));
   for (const Body& b : s.bodies)
     if (b.modes() > 0)
-      out.push_back(counted(static_cast<std::size_t>(b.modes()), "shape") + " of \"" + b.name + "\"" + (b.flex->second ? ", stiffening" : ""));
+      out.push_back(counted(static_cast<std::size_t>(b.modes()), "shape") + " of \"" + b.name + "\"" +
+                    (b.flex->second ? ", stiffening" : ""));
   if (has_gravity(s)) out.push_back("gravity");
   const auto drivers = how_many(s.joints, is_driver);
   if (s.joints.size() > drivers) out.push_back(counted(s.joints.size() - drivers, "joint"));
@@ -196,8 +197,7 @@ void save_outputs(CostEstimate& p) {
     if (seconds > 0) p.simpler.push_back({what, p.run, true, part_saved(p, p.seconds.likely - seconds)});
   };
   constexpr long few_rows = 100;
-  if (p.output.rows > 2 * few_rows)
-    less("a tenth of the rows written", 0.9 * static_cast<double>(p.output.rows) * p.output.row_seconds);
+  if (p.output.rows > 2 * few_rows) less("a tenth of the rows written", 0.9 * static_cast<double>(p.output.rows) * p.output.row_seconds);
   less("no frames", p.output.frames * p.output.frame_seconds);
 }
 

@@ -40,15 +40,15 @@ struct Saving {
   std::string what;
   RunCost cost;
   bool of_outputs = false;  ///< less is written; `cost` is the run's own
-  double saved = 0;     ///< part of the run's likely time, computing and outputs; below 0: it costs
+  double saved = 0;         ///< part of the run's likely time, computing and outputs; below 0: it costs
 };
 
 /// What is written.
 struct OutputCost {
-  long rows = 0;           ///< of trajectory.csv and ledger.csv
-  double row_seconds = 0;  ///< to find, record and write one row
-  double row_bytes = 0;    ///< of both files, as text
-  std::size_t columns = 0; ///< of both
+  long rows = 0;            ///< of trajectory.csv and ledger.csv
+  double row_seconds = 0;   ///< to find, record and write one row
+  double row_bytes = 0;     ///< of both files, as text
+  std::size_t columns = 0;  ///< of both
   int frames = 0;
   double frame_seconds = 0, frame_bytes = 0;
   double seconds() const { return static_cast<double>(rows) * row_seconds + frames * frame_seconds; }
@@ -60,13 +60,13 @@ struct CostEstimate {
   std::vector<std::string> terms;  ///< what an evaluation of the equations runs, in words
   double largest_rate = 0;         ///< of springs and modes, as oscillations [rad/s]; 0: there are none
   std::string largest_rate_of;
-  double contact_rate = 0;         ///< of a contact at a hundredth of the motion's speed [rad/s]; 0: none
-  double until = 0;                ///< [s]
+  double contact_rate = 0;  ///< of a contact at a hundredth of the motion's speed [rad/s]; 0: none
+  double until = 0;         ///< [s]
   RunCost run;
   OutputCost output;
-  Estimate seconds;                ///< the whole: computing and outputs
-  double memory = 0;               ///< at the end: what the program holds now, and impacts, as likely; rows are written as they come [bytes]
-  std::vector<Saving> simpler;     ///< the largest first
+  Estimate seconds;             ///< the whole: computing and outputs
+  double memory = 0;            ///< at the end: what the program holds now, and impacts, as likely; rows are written as they come [bytes]
+  std::vector<Saving> simpler;  ///< the largest first
   std::vector<std::string> untried;  ///< simplifications for which there was no time
 };
 

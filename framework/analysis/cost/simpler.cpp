@@ -16,7 +16,6 @@ namespace {
 
 using Eigen::Index;
 
-
 /// Keeps the first n shapes of a body, none for a rigid one.
 void keep_shapes(System& system, int body, int n) {
   std::optional<FlexInertia>& flex = system.bodies[at(body)].flex;
@@ -88,12 +87,16 @@ class Maker {
   }
 
   std::vector<Simpler> all() {
-    bodies("rigid", [](System& s, int b) { keep_shapes(s, b, 0); }, [](const Body&) { return true; });
-    bodies("with half its shapes", [](System& s, int b) { keep_shapes(s, b, (s.bodies[at(b)].modes() + 1) / 2); },
-           [](const Body& b) { return b.modes() > 1; });
+    bodies(
+        "rigid", [](System& s, int b) { keep_shapes(s, b, 0); }, [](const Body&) { return true; });
+    bodies(
+        "with half its shapes", [](System& s, int b) { keep_shapes(s, b, (s.bodies[at(b)].modes() + 1) / 2); },
+        [](const Body& b) { return b.modes() > 1; });
     bodies("without stiffening", drop_stiffening, [](const Body& b) { return b.flex->second.has_value(); });
-    each(gaps_, [&](int c) { return "\"" + model_.system.contact_names[at(c)] + "\" ideal"; }, "every clearance ideal", close_gap);
-    if (std::any_of(model_.system.contacts.begin(), model_.system.contacts.end(), [](const ContactPair& c) { return c.friction.has_value(); }))
+    each(
+        gaps_, [&](int c) { return "\"" + model_.system.contact_names[at(c)] + "\" ideal"; }, "every clearance ideal", close_gap);
+    if (std::any_of(model_.system.contacts.begin(), model_.system.contacts.end(),
+                    [](const ContactPair& c) { return c.friction.has_value(); }))
       add("no friction", [](System& s) {
         for (ContactPair& c : s.contacts) c.friction.reset();
       });
@@ -152,7 +155,8 @@ class Maker {
     std::vector<int> those;
     for (const int b : flexible_)
       if (has(model_.system.bodies[at(b)])) those.push_back(b);
-    each(those, [&](int b) { return "\"" + model_.system.bodies[at(b)].name + "\" " + what; }, "every flexible body " + what, change);
+    each(
+        those, [&](int b) { return "\"" + model_.system.bodies[at(b)].name + "\" " + what; }, "every flexible body " + what, change);
   }
   void loosen() {
     constexpr double factor = 100, loosest = 1e-3;
@@ -160,7 +164,8 @@ class Maker {
     if (then <= now) return;
     std::ostringstream what;
     what << "tolerance " << then << " instead of " << now;
-    add(what.str(), [](System&) {}, then);
+    add(
+        what.str(), [](System&) {}, then);
   }
 
   const Scene& scene_;
@@ -172,8 +177,6 @@ class Maker {
 
 }  // namespace
 
-std::vector<Simpler> simpler_models(const Scene& scene, const Model& model, const State& start) {
-  return Maker(scene, model, start).all();
-}
+std::vector<Simpler> simpler_models(const Scene& scene, const Model& model, const State& start) { return Maker(scene, model, start).all(); }
 
 }  // namespace pintle

@@ -12,8 +12,8 @@ namespace pintle {
 struct Simpler {
   std::string what;  ///< "\"coupler\" rigid", in the words of a scene
   System system;
-  Scheme scheme;     ///< chosen again, as `build` would
-  State start;       ///< the model's, near the constraints of the simpler system, not on them; links that are pins now are closed
+  Scheme scheme;  ///< chosen again, as `build` would
+  State start;    ///< the model's, near the constraints of the simpler system, not on them; links that are pins now are closed
 };
 
 /// Each of what the model has that could be left out: flexible bodies rigid, with half their shapes (the lowest), without

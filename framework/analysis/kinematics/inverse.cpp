@@ -69,7 +69,8 @@ double spline_error(const DriverEffort& e) {
   for (std::size_t k = 0; k < e.t.size(); k += 2) half.t.push_back(e.t[k]), half.value.push_back(e.value[k]);
   const Spline spline(half);
   double worst = 0;
-  for (std::size_t k = 1; k < e.t.size() && e.t[k] < half.t.back(); k += 2) worst = worse(worst, std::abs(spline(e.t[k]).value - e.value[k]));
+  for (std::size_t k = 1; k < e.t.size() && e.t[k] < half.t.back(); k += 2)
+    worst = worse(worst, std::abs(spline(e.t[k]).value - e.value[k]));
   return worst;
 }
 
@@ -116,7 +117,8 @@ void solve_by_algebra(const Scene& scene, const Model& model, const Assembly& as
   run.warnings = model.warnings;
   for (const std::string& warning : warnings_of(model, assembly)) run.warnings.push_back(warning);
   Forces forces(model.system, assembly.start);
-  follow(scene, model, forces.motion(), [&](double t) { return forces.advance(t); }, listeners, run);
+  follow(
+      scene, model, forces.motion(), [&](double t) { return forces.advance(t); }, listeners, run);
   const auto begin = clock::now();
   if (run.t_end > 0 && !ended_short(run)) out.drivers = find_efforts(model, assembly, run.trajectory.rows() - 1, run.t_end);
   run.seconds += std::chrono::duration<double>(clock::now() - begin).count();
@@ -146,8 +148,9 @@ Inverse inverse(const Scene& scene, const Model& model, const Assembly& assembly
   Inverse out;
   out.drivers = named_efforts(system);
   if (out.drivers.empty())
-    throw SceneError(scene.file, {0, "drivers"},
-                     "there is no driver whose torque or force could be found; add for example motor: {angle: [ground, crank], law: 10 rad/s*t}");
+    throw SceneError(
+        scene.file, {0, "drivers"},
+        "there is no driver whose torque or force could be found; add for example motor: {angle: [ground, crank], law: 10 rad/s*t}");
   const bool bends = system.n() > system.n_rigid();
   const int open = system.n() - assembly.rank;
   out.by_algebra = !bends && system.contacts.empty() && open <= 0;
@@ -156,8 +159,10 @@ Inverse inverse(const Scene& scene, const Model& model, const Assembly& assembly
     solve_by_algebra(scene, model, assembly, listeners, out);
     return out;
   }
-  out.how = std::string("integrated forward with the drivers as constraints: ") +
-            (bends ? "bodies bend" : !system.contacts.empty() ? "clearances leave freedoms" : std::to_string(open) + " freedoms are not driven");
+  out.how = std::string("integrated forward with the drivers as constraints: ") + (bends ? "bodies bend"
+                                                                                   : !system.contacts.empty()
+                                                                                       ? "clearances leave freedoms"
+                                                                                       : std::to_string(open) + " freedoms are not driven");
   integrate(scene, model, assembly, listeners, out);
   return out;
 }

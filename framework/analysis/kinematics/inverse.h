@@ -11,16 +11,16 @@ namespace pintle {
 /// What a driver must do: the torque on its second body, or the thrust that parts its two points.
 struct DriverEffort {
   std::string name;
-  bool turns = true;              ///< torque [N m], else thrust [N]
-  std::vector<double> t, value;   ///< fine enough for a table of a scene, see `error`
-  double error = 0;               ///< greatest difference between a spline through the rows and the effort midway between them; NaN: not known
+  bool turns = true;             ///< torque [N m], else thrust [N]
+  std::vector<double> t, value;  ///< fine enough for a table of a scene, see `error`
+  double error = 0;  ///< greatest difference between a spline through the rows and the effort midway between them; NaN: not known
 };
 
 /// Driving efforts and joint forces of a driven mechanism.
 struct Inverse {
-  Run run;                            ///< trajectory as `simulate` gives it; by algebra there is no ledger
-  bool by_algebra = true;             ///< false: integrated forward with the drivers as constraints
-  std::string how;                    ///< in words
+  Run run;                 ///< trajectory as `simulate` gives it; by algebra there is no ledger
+  bool by_algebra = true;  ///< false: integrated forward with the drivers as constraints
+  std::string how;         ///< in words
   std::vector<DriverEffort> drivers;
 };
 

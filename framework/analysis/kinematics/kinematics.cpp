@@ -138,7 +138,8 @@ std::string DrivenMotion::why() {
   pose(system_, state_.t, state_.y, eq_);
   if (system_.n_rows() <= 400 && system_.n_rows() > 0) {
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(system_.n_rows(), system_.n());
-    visit_jacobian(eq_, [&](int row, int column, double value) { A(row, column) += system_.row_scale[row] * value * system_.scale[column]; });
+    visit_jacobian(eq_,
+                   [&](int row, int column, double value) { A(row, column) += system_.row_scale[row] * value * system_.scale[column]; });
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Index last = std::min(A.rows(), A.cols()) - 1;
     const VectorXd u = svd.matrixU().rightCols(A.rows() - last).rowwise().norm(), v = svd.matrixV().col(last);
@@ -167,9 +168,9 @@ void require_driven(const Scene& scene, const Model& model, const Assembly& asse
   for (const std::string& name : system.contact_names) loose.push_back(name);
   const Place place{scene.drivers.empty() ? 0 : scene.drivers.front().place.line, "drivers"};
   if (!loose.empty())
-    throw AssemblyError(scene.file, place,
-                        "the clearance at " + listed(loose) +
-                            " leaves freedoms that no driver moves; leave `clearance` out here, or use `pintle run`");
+    throw AssemblyError(
+        scene.file, place,
+        "the clearance at " + listed(loose) + " leaves freedoms that no driver moves; leave `clearance` out here, or use `pintle run`");
   if (open <= 0) return;
   // A displacement that no row feels, taken from one that moves everything.
   Equations eq(system);
@@ -186,11 +187,13 @@ void require_driven(const Scene& scene, const Model& model, const Assembly& asse
   const bool singular = system.n_rows() >= system.n();
   throw AssemblyError(scene.file, place,
                       std::to_string(open) + (open == 1 ? " freedom is" : " freedoms are") + " not driven" +
-                          (singular ? " at the starting pose, which may be a singular one (dead centre, flat linkage)" : "") + ": " + listed(moving) + (moving.size() == 1 ? " moves" : " move") + " freely; add a driver for each, " +
+                          (singular ? " at the starting pose, which may be a singular one (dead centre, flat linkage)" : "") + ": " +
+                          listed(moving) + (moving.size() == 1 ? " moves" : " move") + " freely; add a driver for each, " +
                           (singular ? "or start elsewhere, " : "") + "or use `pintle run`");
 }
 
-void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const std::function<bool(double)>& advance, const Listeners& listeners, Run& run) {
+void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const std::function<bool(double)>& advance,
+            const Listeners& listeners, Run& run) {
   using clock = std::chrono::steady_clock;
   const auto begin = clock::now();
   clock::duration drawing{};

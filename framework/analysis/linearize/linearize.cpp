@@ -263,9 +263,11 @@ void add_notes(const Scene& scene, const System& system, const MotionAt& here, L
     out.notes.push_back("steady rotation: coordinates are told in axes that turn at " + text(out.turn, 6) +
                         " rad/s about the world's origin; in these the coefficients stay");
   if (out.coefficients == Coefficients::frozen)
-    out.notes.push_back(std::string(moves ? "the coefficients change as the motion goes on" : "this is no equilibrium, the mechanism begins to move") +
-                        ": roots are those of the coefficients frozen at this instant, which depend on the choice of coordinates and "
-                        "decide no stability" + (moves ? "" : "; --equilibrium linearizes where it rests"));
+    out.notes.push_back(
+        std::string(moves ? "the coefficients change as the motion goes on" : "this is no equilibrium, the mechanism begins to move") +
+        ": roots are those of the coefficients frozen at this instant, which depend on the choice of coordinates and "
+        "decide no stability" +
+        (moves ? "" : "; --equilibrium linearizes where it rests"));
   for (std::size_t i = 0; i < out.contacts.size(); ++i) {
     const LinearContact& c = out.contacts[i];
     if (system.contacts[i].link >= 0)
@@ -310,13 +312,15 @@ const char* kind_text(LinearMode::Kind kind) {
 Linearization linearize(const Scene& scene, const Model& model, const State& state, Laws laws) {
   const System system = prepared(model, state.t, laws);
   if (system.n() > most_linearized)
-    throw SceneError(scene.file, {}, "a linearisation is dense and meant for up to " + std::to_string(most_linearized) +
-                                         " coordinates, this scene has " + std::to_string(system.n()) +
-                                         "; keep fewer modes, cut beams into fewer pieces, or linearize a part of it");
+    throw SceneError(scene.file, {},
+                     "a linearisation is dense and meant for up to " + std::to_string(most_linearized) + " coordinates, this scene has " +
+                         std::to_string(system.n()) + "; keep fewer modes, cut beams into fewer pieces, or linearize a part of it");
   const MotionAt here(system, state);
   if (!here.regular)
-    throw AssemblyError(scene.file, {}, "singular at t = " + text(state.t, 6) + " s: the joints' rows depend on each other there; "
-                                        "linearize at another pose, or remove what is redundant");
+    throw AssemblyError(scene.file, {},
+                        "singular at t = " + text(state.t, 6) +
+                            " s: the joints' rows depend on each other there; "
+                            "linearize at another pose, or remove what is redundant");
   Linearization out;
   out.about = state;
   out.coordinates = coordinate_names(system);

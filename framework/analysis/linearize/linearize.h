@@ -30,26 +30,26 @@ struct StateSpace {
 /// A clearance joint as the small motion sees it.
 struct LinearContact {
   std::string name;
-  bool closed;              ///< an open one contributes nothing
-  double depth, force;      ///< at the state [m], [N]
+  bool closed;                ///< an open one contributes nothing
+  double depth, force;        ///< at the state [m], [N]
   double stiffness, damping;  ///< ∂force/∂depth [N/m], ∂force/∂rate [N s/m], at the latched approach speed
-  double impact_rate;       ///< that speed [m/s]
+  double impact_rate;         ///< that speed [m/s]
 };
 
 /// A solution  q = shape exp(root t)  of the small motion; of an oscillating pair the root with positive
 /// imaginary part.
 struct LinearMode {
   enum class Kind { oscillating, decaying, growing, zero } kind = Kind::oscillating;
-  std::complex<double> root;     ///< [1/s]; exactly 0 of a zero mode
-  double uncertainty = 0;        ///< of the root, from rounding of the coefficients [1/s]
-  int roots = 2;                 ///< how many of the 2m roots it stands for
-  Eigen::VectorXcd shape;        ///< n; the coordinate that moves most, by its scale, is 1 · its scale
-  std::string carrier;           ///< the coordinate that moves most in the body of the greatest kinetic energy
-  double share = 0;              ///< of that body in the kinetic energy
+  std::complex<double> root;  ///< [1/s]; exactly 0 of a zero mode
+  double uncertainty = 0;     ///< of the root, from rounding of the coefficients [1/s]
+  int roots = 2;              ///< how many of the 2m roots it stands for
+  Eigen::VectorXcd shape;     ///< n; the coordinate that moves most, by its scale, is 1 · its scale
+  std::string carrier;        ///< the coordinate that moves most in the body of the greatest kinetic energy
+  double share = 0;           ///< of that body in the kinetic energy
 
-  double frequency() const;      ///< |Im root|/2π [Hz]
-  double natural() const;        ///< |root|/2π [Hz]
-  double damping() const;        ///< −Re root/|root|; 0 of a zero mode
+  double frequency() const;  ///< |Im root|/2π [Hz]
+  double natural() const;    ///< |root|/2π [Hz]
+  double damping() const;    ///< −Re root/|root|; 0 of a zero mode
 };
 const char* kind_text(LinearMode::Kind);
 
@@ -61,7 +61,7 @@ struct Linearization {
   double drift = 0;              ///< greatest change of a coefficient, over its size, while the motion goes on by …
   double window = 0;             ///< … [s]; 0 at rest, where nothing changes
   std::vector<int> independent;  ///< indices into q
-  SmallMotion motion;             ///< M, D, K of p
+  SmallMotion motion;            ///< M, D, K of p
   Eigen::MatrixXd Z;             ///< δq = Z p, n × m
   StateSpace space;
   std::vector<LinearMode> modes;  ///< by size of the root, zero modes first

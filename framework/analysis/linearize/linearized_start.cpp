@@ -23,7 +23,8 @@ double bending_left(const Model& model, const State& start, std::string& body) {
   if (!evaluate(system, start, eq, dy)) return most;
   for (const BendingProbe& p : model.bending) {
     const auto b = static_cast<std::size_t>(p.index);
-    const VectorXd eta = eq.a.segment(system.eta_begin[b], system.bodies[b].modes()).cwiseQuotient(system.bodies[b].flex->omega.cwiseAbs2());
+    const VectorXd eta =
+        eq.a.segment(system.eta_begin[b], system.bodies[b].modes()).cwiseQuotient(system.bodies[b].flex->omega.cwiseAbs2());
     const VectorXd u = p.displacement * eta;
     for (Index i = 0; i + 1 < u.size(); i += 2)
       if (const double part = u.segment<2>(i).norm() / p.size; part > most) most = part, body = p.body;
@@ -62,11 +63,14 @@ LinearizedStart linearized_start(const Scene& scene, const Model& model, const A
   if (!(left > nothing)) return out;
   const State there = steady_start(model, assembly).start;
   if (steady(system, there)) {
-    out.note = "flexible bodies are bent as they stay in steady rotation, \"" + body + "\" by " + number_text(100 * left) + " % of its size";
+    out.note =
+        "flexible bodies are bent as they stay in steady rotation, \"" + body + "\" by " + number_text(100 * left) + " % of its size";
     out.state = there;
   } else {
-    out.note = "flexible bodies start undeformed, where nothing balances what bends them (\"" + body + "\" by some " + number_text(100 * left) +
-               " % of its size): the roots lack that; linearize at a later time with --at, where damping has brought them to rest, or keep the spin by a driver" +
+    out.note = "flexible bodies start undeformed, where nothing balances what bends them (\"" + body + "\" by some " +
+               number_text(100 * left) +
+               " % of its size): the roots lack that; linearize at a later time with --at, where damping has brought them to rest, or keep "
+               "the spin by a driver" +
                (scene.has_run ? "" : " (needs `run`)");
   }
   return out;

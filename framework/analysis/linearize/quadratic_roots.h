@@ -11,8 +11,8 @@ namespace pintle {
 struct QuadraticRoot {
   std::complex<double> lambda;  ///< [1/s]
   Eigen::VectorXcd right, left;
-  double uncertainty = 0;       ///< of lambda, from rounding of the coefficients [1/s]
-  bool zero = false;            ///< nothing but rounding
+  double uncertainty = 0;  ///< of lambda, from rounding of the coefficients [1/s]
+  bool zero = false;       ///< nothing but rounding
 };
 
 /// All 2m roots, by size. Where D is nothing and K symmetric they are those of a symmetric problem, exactly on an

@@ -25,9 +25,7 @@ MatrixXd turned(const System& system, const MatrixXd& A, double angle) {
   return out;
 }
 // T X
-MatrixXd turned_rows(const System& system, double angle, const MatrixXd& X) {
-  return turned(system, X.transpose(), -angle).transpose();
-}
+MatrixXd turned_rows(const System& system, double angle, const MatrixXd& X) { return turned(system, X.transpose(), -angle).transpose(); }
 // J X: a quarter turn of translations, zero elsewhere. A J is −(J Aᵀ)ᵀ.
 MatrixXd quarter(const System& system, const MatrixXd& X) {
   MatrixXd out = MatrixXd::Zero(X.rows(), X.cols());
@@ -108,8 +106,7 @@ FreeMotion::FreeMotion(const System& system, const MotionAt& at, const Axes& axe
     return system.row_scale.asDiagonal() * turned(system, A, axes.phase) * system.scale.asDiagonal();
   };
   const MatrixXd P = scaled(Cq), P1 = scaled(Cq_rate + w * times_quarter(system, Cq)),
-                 P2 = scaled(Cq_accel + 2 * w * times_quarter(system, Cq_rate) -
-                             w * w * translations(system, Cq.transpose()).transpose());
+                 P2 = scaled(Cq_accel + 2 * w * times_quarter(system, Cq_rate) - w * w * translations(system, Cq.transpose()).transpose());
 
   dependent = chosen ? others(n, *chosen) : dependent_columns(system, P);
   independent = others(n, dependent);
@@ -130,8 +127,7 @@ FreeMotion::FreeMotion(const System& system, const MotionAt& at, const Axes& axe
   X.setZero(n, free + offsets);
   for (Index i = 0; i < free; ++i) X(independent[static_cast<std::size_t>(i)], i) = 1;
   X(dependent, Eigen::all) = solve(right);
-  for (Index k = 0; k < offsets; ++k)
-    left.push_back((P * X.col(free + k) - right.col(free + k)).norm() / right.col(free + k).norm());
+  for (Index k = 0; k < offsets; ++k) left.push_back((P * X.col(free + k) - right.col(free + k)).norm() / right.col(free + k).norm());
   X1.setZero(n, free + offsets);
   X1(dependent, Eigen::all) = solve(-P1 * X);
   X2.setZero(n, free + offsets);
@@ -148,8 +144,7 @@ FreeMotion::FreeMotion(const System& system, const MotionAt& at, const Axes& axe
 
 SmallMotion FreeMotion::project(const MotionAt& at) const {
   const auto Z = X.leftCols(m()), Z1 = X1.leftCols(m()), Z2 = X2.leftCols(m());
-  return {Z.transpose() * at.M * Z, Z.transpose() * (2 * at.M * Z1 + at.D * Z),
-          Z.transpose() * (at.M * Z2 + at.D * Z1 + at.K * Z)};
+  return {Z.transpose() * at.M * Z, Z.transpose() * (2 * at.M * Z1 + at.D * Z), Z.transpose() * (at.M * Z2 + at.D * Z1 + at.K * Z)};
 }
 
 }  // namespace pintle

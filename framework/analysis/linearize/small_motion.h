@@ -19,9 +19,9 @@ struct SmallMotion {
 struct MotionAt {
   MotionAt(const System&, const State&);
   State state;
-  Equations eq;              ///< evaluated there
-  Eigen::MatrixXd M, D, K;   ///< ∂r/∂a, ∂r/∂s, ∂r/∂q
-  bool regular = false;      ///< false: a singular pose, and nothing but `state` is there
+  Equations eq;             ///< evaluated there
+  Eigen::MatrixXd M, D, K;  ///< ∂r/∂a, ∂r/∂s, ∂r/∂q
+  bool regular = false;     ///< false: a singular pose, and nothing but `state` is there
 
   /// How fast the pose changes: the greatest of speeds over scale and the roots of accelerations over scale
   /// [1/s]; 0 at rest.
@@ -40,13 +40,12 @@ struct Axes {
 struct FreeMotion {
   /// @param offset_rows  rows of C of which an offset counts as an input
   /// @param independent  chosen before, at a pose near by; by the constraints if null
-  FreeMotion(const System&, const MotionAt&, const Axes&, const std::vector<int>& offset_rows,
-             const std::vector<int>* chosen = nullptr);
+  FreeMotion(const System&, const MotionAt&, const Axes&, const std::vector<int>& offset_rows, const std::vector<int>* chosen = nullptr);
 
   std::vector<int> independent, dependent;
-  bool full_rank = true;         ///< no row of Cq follows from others
-  std::vector<double> left;      ///< per offset, what other rows forbid of it: 0 to rounding, or they contradict it
-  Eigen::MatrixXd X, X1, X2;     ///< n × (m + offsets)
+  bool full_rank = true;                  ///< no row of Cq follows from others
+  std::vector<double> left;               ///< per offset, what other rows forbid of it: 0 to rounding, or they contradict it
+  Eigen::MatrixXd X, X1, X2;              ///< n × (m + offsets)
   Eigen::MatrixXd Cq, Cq_rate, Cq_accel;  ///< with its derivatives along the motion
 
   Eigen::Index m() const { return static_cast<Eigen::Index>(independent.size()); }

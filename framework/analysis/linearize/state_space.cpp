@@ -106,8 +106,10 @@ struct Maps {
 std::string per_second(const std::string& name, const char* what) {
   const std::size_t unit = name.rfind(" [");
   std::string in = name.substr(unit + 2, name.size() - unit - 3);
-  if (const std::size_t blank = in.find(' '); blank != std::string::npos) in = "m/s" + in.substr(blank);  // m kg^0.5
-  else in += "/s";
+  if (const std::size_t blank = in.find(' '); blank != std::string::npos)
+    in = "m/s" + in.substr(blank);  // m kg^0.5
+  else
+    in += "/s";
   return name.substr(0, unit) + what + " [" + in + "]";
 }
 

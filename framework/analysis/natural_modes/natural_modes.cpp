@@ -29,11 +29,14 @@ ModalModel held_modes(const ElasticBody& e, const Component& c, const Supports& 
     pairs = eigen_lowest(K, M, options);
   }
   if (!pairs.converged || pairs.missed > 0)
-    throw std::runtime_error("its modes were not found: " + (pairs.reason.empty() ? std::to_string(pairs.missed) + " missed by the Sturm check" : pairs.reason));
+    throw std::runtime_error("its modes were not found: " +
+                             (pairs.reason.empty() ? std::to_string(pairs.missed) + " missed by the Sturm check" : pairs.reason));
   bool sound = pairs.zero <= rigid_motions_left(e.model, held);
   for (Eigen::Index i = pairs.zero; i < pairs.lambda.size(); ++i) sound = sound && pairs.lambda[i] > 0 && pairs.residual[i] <= 1e-2;
   if (!sound)
-    throw std::runtime_error("it has motions without stiffness besides those of a rigid body (bars hinged in a line, or a part more than ten thousand times as long as thick?); hold them, or take a beam theory that bends and a thicker section");
+    throw std::runtime_error(
+        "it has motions without stiffness besides those of a rigid body (bars hinged in a line, or a part more than ten thousand times as "
+        "long as thick?); hold them, or take a beam theory that bends and a thicker section");
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(e.model.n(), count);
   for (std::size_t i = 0; i < free.size(); ++i) all.row(free[i]) = pairs.shapes.row(static_cast<Eigen::Index>(i)).tail(count);
   ModalModel out;
@@ -97,11 +100,14 @@ ModesReport modes_of(const Scene& scene, const ElasticBody& e, int count) {
 }
 
 std::string modes_csv(const ModeTable& t, const ModesReport& r) {
-  std::string out = "mode,frequency [Hz],effective mass x [kg],effective mass y [kg],effective inertia [kg m^2],share x,share y,share rotation,damping ratio,residual\n";
+  std::string out =
+      "mode,frequency [Hz],effective mass x [kg],effective mass y [kg],effective inertia [kg m^2],share x,share y,share rotation,damping "
+      "ratio,residual\n";
   for (Eigen::Index i = 0; i < t.modes.omega.size(); ++i) {
     out += std::to_string(i + 1);
-    for (const double v : {t.modes.omega[i] / (2 * std::numbers::pi), t.mass(0, i), t.mass(1, i), t.mass(2, i), t.mass(0, i) / r.inertia.m,
-                           t.mass(1, i) / r.inertia.m, r.centre_inertia > 0 ? t.mass(2, i) / r.centre_inertia : 0, t.zeta[i], t.modes.residual[i]}) {
+    for (const double v :
+         {t.modes.omega[i] / (2 * std::numbers::pi), t.mass(0, i), t.mass(1, i), t.mass(2, i), t.mass(0, i) / r.inertia.m,
+          t.mass(1, i) / r.inertia.m, r.centre_inertia > 0 ? t.mass(2, i) / r.centre_inertia : 0, t.zeta[i], t.modes.residual[i]}) {
       out += ',';
       append_number(out, v);
     }
@@ -111,13 +117,21 @@ std::string modes_csv(const ModeTable& t, const ModesReport& r) {
 }
 
 std::string modes_json(const Scene& scene, const ElasticBody& e, const ModesReport& r) {
-  nlohmann::ordered_json out = {
-      {"program", "pintle"}, {"version", PINTLE_VERSION}, {"command", "modes"}, {"title", scene.title}, {"file", scene.file}, {"body", e.scene->name},
-      {"nodes", e.mesh.x.cols()}, {"cells", e.mesh.cell_count()}, {"freedoms", e.model.n()},
-      {"mass [kg]", r.inertia.m},
-      {"centre [m]", {r.inertia.c.x() / r.inertia.m, r.inertia.c.y() / r.inertia.m}},
-      {"inertia about the centre [kg m^2]", r.centre_inertia},
-      {"warnings", e.warnings}, {"rigid motions", r.rigid}, {"natural", table_json(r.natural, r)}};
+  nlohmann::ordered_json out = {{"program", "pintle"},
+                                {"version", PINTLE_VERSION},
+                                {"command", "modes"},
+                                {"title", scene.title},
+                                {"file", scene.file},
+                                {"body", e.scene->name},
+                                {"nodes", e.mesh.x.cols()},
+                                {"cells", e.mesh.cell_count()},
+                                {"freedoms", e.model.n()},
+                                {"mass [kg]", r.inertia.m},
+                                {"centre [m]", {r.inertia.c.x() / r.inertia.m, r.inertia.c.y() / r.inertia.m}},
+                                {"inertia about the centre [kg m^2]", r.centre_inertia},
+                                {"warnings", e.warnings},
+                                {"rigid motions", r.rigid},
+                                {"natural", table_json(r.natural, r)}};
   if (r.natural.modes.sturm) out["natural"]["Sturm count"] = *r.natural.modes.sturm;
   if (r.reduced) out["reduced"] = table_json(*r.reduced, r);
   out["timings [s]"] = {{"mesh", e.mesh_seconds}, {"assembly", e.assembly_seconds}, {"modes", r.seconds}};

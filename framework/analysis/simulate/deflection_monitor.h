@@ -29,8 +29,8 @@ class DeflectionMonitor {
   };
   /// Loads where they stiffen the first shape least and most, those of inertia alone and all: frequency_change looks at no others.
   struct Loaded {
-    Eigen::VectorXd first;    ///< what each does to the first shape
-    Eigen::MatrixXd factor;   ///< loads × 4
+    Eigen::VectorXd first;   ///< what each does to the first shape
+    Eigen::MatrixXd factor;  ///< loads × 4
     std::array<double, 4> on_first{};
     bool any = false;
   };

@@ -26,7 +26,8 @@ void end_short(Run& run, double t) {
     trim(run.trajectory, rows), trim(run.ledger, rows);
     run.status = Status::out_of_memory;
     std::ostringstream s;
-    s << "after t = " << t << " s there was not enough memory to go on; end other programs, raise the limit (ulimit -v), or make the model smaller";
+    s << "after t = " << t
+      << " s there was not enough memory to go on; end other programs, raise the limit (ulimit -v), or make the model smaller";
     run.reason = s.str();
   }
 }

@@ -29,7 +29,9 @@ void warn_of_small_rows(const System& system, const Scheme& scheme, Run& run) {
   double least = 0;
   for (std::size_t i = 0; i < system.integrals.size(); ++i) {
     const double size = run.greatest_integrals[i];
-    if (system.integrals[i].account == Account::scheme || size <= std::max(noticed * run.energy_in_play, run.ledger_floor) || warning <= doubtful * size) continue;
+    if (system.integrals[i].account == Account::scheme || size <= std::max(noticed * run.energy_in_play, run.ledger_floor) ||
+        warning <= doubtful * size)
+      continue;
     if (more++ == 0 || size < least) worst = i, least = size;
   }
   if (more == 0) return;
@@ -67,8 +69,9 @@ void check_energy_balance(const Scene& scene, const Model& model, bool implicit,
   constexpr double nothing = 1e-6;  // where all that is in play is what is unexplained, nothing has moved: rounding of heights
   const bool at_rest = run.energy_in_play - open <= nothing * run.energy_in_play;
   if (open > allowed && !at_rest)
-    run.warnings.push_back(found + ", over the bound of " + number_text(run.ledger_bound, 3) + ": it passes because rounding alone may leave " +
-                           number_text(floor, 2) + " J in a mechanism of this mass and size; energies as small as that are not known");
+    run.warnings.push_back(found + ", over the bound of " + number_text(run.ledger_bound, 3) +
+                           ": it passes because rounding alone may leave " + number_text(floor, 2) +
+                           " J in a mechanism of this mass and size; energies as small as that are not known");
   warn_of_small_rows(model.system, model.scheme, run);
 }
 

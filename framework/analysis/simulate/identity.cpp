@@ -36,7 +36,7 @@ class Sum : public ValueWriter<Sum> {
   }
 
   template <class Kind>
-    requires requires(const Kind& kind) { kind.members(); }
+  requires requires(const Kind& kind) { kind.members(); }
   void add(const Kind& joint_or_force) {
     std::apply([this](const auto&... member) { add(member...); }, joint_or_force.members());
   }
@@ -74,7 +74,8 @@ class Sum : public ValueWriter<Sum> {
   void add(const System& s) {
     const auto& [gravity, bodies, markers, joints, forces, contacts, joint_names, force_names, contact_names, length, eta_begin, scale,
                  row_begin, end_begin, end_marker, row_scale, integrals, contact_z, force_z, joint_z] = s;
-    add(gravity, bodies, markers, joints, forces, contacts, joint_names, force_names, contact_names, length, eta_begin, scale, row_begin, end_begin, end_marker, row_scale);
+    add(gravity, bodies, markers, joints, forces, contacts, joint_names, force_names, contact_names, length, eta_begin, scale, row_begin,
+        end_begin, end_marker, row_scale);
     for (const Integral& z : integrals) add(z);
     add(contact_z, force_z, joint_z);
   }
@@ -92,15 +93,14 @@ Json words(const Scene& scene) {
   return said;
 }
 
-std::string sum_of(const Json& said) {
-  return sha256(said.dump(-1, ' ', false, Json::error_handler_t::replace));
-}
+std::string sum_of(const Json& said) { return sha256(said.dump(-1, ' ', false, Json::error_handler_t::replace)); }
 
 /// Of each section, and of each of its entries: "bodies.crank".
 Json sums_of_words(const Json& said) {
   Json out = Json::object();
   for (const auto& [section, inside] : said.items()) {
-    if (!inside.is_object()) out[section] = sum_of(inside);
+    if (!inside.is_object())
+      out[section] = sum_of(inside);
     else
       for (const auto& [key, item] : inside.items()) out[section + "." + key] = sum_of(item);
   }
@@ -158,7 +158,10 @@ std::string identity(const Scene& scene, const Model& model, const Assembly& ass
   const Json said = words(scene);
   Json files = Json::object();
   add_files(said, fs::path(scene.file).parent_path(), files);
-  const Json all{{"scene", sums_of_words(said)}, {"files", files}, {"mechanism", sum_of(model, assembly)}, {"program", PINTLE_VERSION ", compiled by " __VERSION__},
+  const Json all{{"scene", sums_of_words(said)},
+                 {"files", files},
+                 {"mechanism", sum_of(model, assembly)},
+                 {"program", PINTLE_VERSION ", compiled by " __VERSION__},
                  {"blas", library_text()}};
   return all.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -169,21 +172,24 @@ std::string difference(const std::string& saved, const std::string& now) {
   const std::vector<std::string> words = differing(part("scene"), is["scene"]), files = differing(part("files"), is["files"]);
   const std::string remedy = "; restore them and the --set values, or run the scene from its start";
   std::string out;
-  if (!words.empty()) out = "belongs to another scene, or to this one before it was changed (only title, run.until and output may change): " + listed(words) +
-                            (words.size() > 1 ? " are others" : " is another");
+  if (!words.empty())
+    out = "belongs to another scene, or to this one before it was changed (only title, run.until and output may change): " + listed(words) +
+          (words.size() > 1 ? " are others" : " is another");
   if (!files.empty()) out += (out.empty() ? "" : ", and ") + std::string("a file that the scene names has changed since: ") + listed(files);
   if (!out.empty()) return out + remedy;
   if (part("mechanism") == is["mechanism"]) return "";
   const auto other = [&](const char* name, const char* what) {
     if (part(name) == is[name]) return;
-    out += (out.empty() ? "" : ", and ") + std::string(what) + " is " + is[name].get<std::string>() + ", there it was " + (part(name).is_string() ? part(name).get<std::string>() : "another");
+    out += (out.empty() ? "" : ", and ") + std::string(what) + " is " + is[name].get<std::string>() + ", there it was " +
+           (part(name).is_string() ? part(name).get<std::string>() : "another");
   };
   other("program", "the program");
   other("blas", "BLAS");
   if (!out.empty())
     return "holds a mechanism whose numbers have other last digits than this one's: " + out +
            "; go on with what it was saved by (of OpenBLAS: OPENBLAS_CORETYPE, OPENBLAS_NUM_THREADS), or run the scene from its start";
-  return "belongs to another scene: the numbers of its mechanism are others, though its words and files are not; restore what was made in C++, or run the scene from its start";
+  return "belongs to another scene: the numbers of its mechanism are others, though its words and files are not; restore what was made in "
+         "C++, or run the scene from its start";
 }
 
 }  // namespace pintle

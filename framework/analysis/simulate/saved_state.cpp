@@ -76,13 +76,17 @@ SavedState state_of(const std::string& text, const std::string& source, const Sc
   std::size_t size = 0;
   std::getline(in, word);
   in >> word >> version;
-  if (version != PINTLE_VERSION) throw reject("was saved by pintle " + version + ", this is " + PINTLE_VERSION + "; run the scene from its start");
+  if (version != PINTLE_VERSION)
+    throw reject("was saved by pintle " + version + ", this is " + PINTLE_VERSION + "; run the scene from its start");
   bool finite = true;
-  const bool read = in >> word && std::getline(in >> std::ws, of_scene) && in >> word >> word >> word >> word && each_number(state, [&](double& x) {
-    const bool good = read_hex(in, x);
-    finite = finite && std::isfinite(x);
-    return good;
-  }) && in >> word >> size && in.get() == '\n' && size == said.size() - static_cast<std::size_t>(in.tellg());
+  const bool read = in >> word && std::getline(in >> std::ws, of_scene) && in >> word >> word >> word >> word &&
+                    each_number(state,
+                                [&](double& x) {
+                                  const bool good = read_hex(in, x);
+                                  finite = finite && std::isfinite(x);
+                                  return good;
+                                }) &&
+                    in >> word >> size && in.get() == '\n' && size == said.size() - static_cast<std::size_t>(in.tellg());
   if (!read) throw reject("cannot be understood; take another saved state");
   if (!finite || state.t < 0 || state.energy_in_play < 0)
     throw reject("holds books that are no energies; take an earlier state, or run the scene from its start");

@@ -10,9 +10,9 @@ namespace pintle {
 
 /// What a run needs to go on from the end of an accepted step as if it had never stopped, bit for bit.
 struct SavedState {
-  double t = 0;             ///< [s]
-  std::string memory;       ///< of the integrator, see Integrator::save
-  Energies first;           ///< the books at the run's very start
+  double t = 0;                                      ///< [s]
+  std::string memory;                                ///< of the integrator, see Integrator::save
+  Energies first;                                    ///< the books at the run's very start
   double energy_in_play = 0, worst_unexplained = 0;  ///< so far [J]
 };
 

@@ -93,7 +93,8 @@ std::string explain_numbers(const System& system, const Integrator& integrator) 
     return "numbers beyond what a double holds: check masses, lengths, speeds and units";
   if (integrator.failure().find("max steps") != std::string::npos) return "";
   double angle = 0;
-  for (std::size_t b = 0; b < system.bodies.size(); ++b) angle = std::max(angle, std::abs(integrator.state().y[3 * static_cast<Eigen::Index>(b) + 2]));
+  for (std::size_t b = 0; b < system.bodies.size(); ++b)
+    angle = std::max(angle, std::abs(integrator.state().y[3 * static_cast<Eigen::Index>(b) + 2]));
   if (angle > many)
     return "an angle has come to " + short_number(angle) + " rad, whose last digit moves points by " +
            short_number(angle * 2.2e-16 * system.length) + " m; begin again from this state with angles in one turn";
@@ -103,9 +104,9 @@ std::string explain_numbers(const System& system, const Integrator& integrator) 
   constexpr double hopeless = 1e12;  // nothing of the lighter is left in sums with the heavier
   if (!(bodies.ratio > unlike && (rows.kept() < few || bodies.ratio > hopeless))) return "";
   return "the inertia of \"" + system.bodies[bodies.light].name + "\" is " + short_number(1 / bodies.ratio) + " of that of \"" +
-         system.bodies[bodies.heavy].name + "\", at its centre or turning about it, which leaves " +
-         short_number(rows.kept()) + " of what the joint forces are found from; give \"" +
-         system.bodies[bodies.light].name + "\" a mass and an inertia nearer to the others', which changes nothing that counts where they are small beside " +
+         system.bodies[bodies.heavy].name + "\", at its centre or turning about it, which leaves " + short_number(rows.kept()) +
+         " of what the joint forces are found from; give \"" + system.bodies[bodies.light].name +
+         "\" a mass and an inertia nearer to the others', which changes nothing that counts where they are small beside " +
          "what it carries, or take method: generalized-alpha";
 }
 
@@ -120,8 +121,8 @@ void warn_of_depth(const System& system, Run& run) {
       std::ostringstream s;
       s.precision(3);
       s << "\"" << system.contact_names[c] << "\": the journal went " << deepest[c]
-        << " m into the wall, more than a tenth of its radius; no contact law holds there (is the stiffness "
-        << system.contacts[c].normal.k << " N/m^" << system.contacts[c].normal.n << " meant?)";
+        << " m into the wall, more than a tenth of its radius; no contact law holds there (is the stiffness " << system.contacts[c].normal.k
+        << " N/m^" << system.contacts[c].normal.n << " meant?)";
       run.warnings.push_back(s.str());
     }
 }
@@ -130,8 +131,9 @@ void warn_of_depth(const System& system, Run& run) {
 void warn_of_gap(const System& system, const Model& model, const SavedState& from, Run& run) {
   const bool linked = std::ranges::any_of(system.contacts, [](const ContactPair& c) { return c.link >= 0; });
   if (!linked && model.bending.empty()) return;
-  run.warnings.push_back("this run goes on from " + short_number(from.t) + " s: " + (linked ? "whether a massless link pushed" : "how far bodies bent") +
-                         (linked && !model.bending.empty() ? " and how far bodies bent" : "") + " before that was judged by the run that saved it");
+  run.warnings.push_back(
+      "this run goes on from " + short_number(from.t) + " s: " + (linked ? "whether a massless link pushed" : "how far bodies bent") +
+      (linked && !model.bending.empty() ? " and how far bodies bent" : "") + " before that was judged by the run that saved it");
 }
 
 /// A massless link holds the journal at the wall whether the wall presses or not.
@@ -142,8 +144,8 @@ void warn_of_pushing(const System& system, Run& run) {
     if (force.pushing == 0) continue;
     std::ostringstream s;
     s.precision(3);
-    s << "\"" << system.contact_names[c] << "\": the massless link pushed, with up to " << -force.least << " N, in " << force.pushing << " of "
-      << force.rows << " outputs, as no wall could pull: contact would be lost there";
+    s << "\"" << system.contact_names[c] << "\": the massless link pushed, with up to " << -force.least << " N, in " << force.pushing
+      << " of " << force.rows << " outputs, as no wall could pull: contact would be lost there";
     run.warnings.push_back(s.str());
   }
 }
@@ -151,7 +153,8 @@ void warn_of_pushing(const System& system, Run& run) {
 /// What is kept of the last row of each table, whoever takes the rows.
 class RowFigures {
  public:
-  RowFigures(const System& system, Run& run) : run_(run), first_integral_(first_integral(system)), n_z_(static_cast<std::size_t>(system.n_z())) {
+  RowFigures(const System& system, Run& run)
+      : run_(run), first_integral_(first_integral(system)), n_z_(static_cast<std::size_t>(system.n_z())) {
     run.links.resize(system.contacts.size());
     run.greatest_integrals.assign(n_z_, 0);
     for (std::size_t c = 0; c < system.contacts.size(); ++c) {
@@ -302,10 +305,12 @@ Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, c
     if (why.empty() && !run.reason.empty()) why = explain_numbers(system, integrator);
     if (why.empty() && !run.reason.empty()) why = monitor.worst_warning();
     if (!why.empty()) run.reason += "; " + why;
-    if (run.reason.empty() && !countable) run.reason = "the energy at the start is beyond what a double holds; check masses, speeds and units";
+    if (run.reason.empty() && !countable)
+      run.reason = "the energy at the start is beyond what a double holds; check masses, speeds and units";
     if (run.reason.empty()) {
       std::ostringstream s;
-      s << "t = " << asked << " s: the output there cannot be evaluated (a singular pose, or numbers beyond what a "
+      s << "t = " << asked
+        << " s: the output there cannot be evaluated (a singular pose, or numbers beyond what a "
            "double holds: check masses, stiffnesses and speeds)";
       run.reason = s.str();
     }

@@ -19,33 +19,33 @@ const char* status_text(Status);
 /// Everything a run has found, complete up to the time it reached.
 struct Run {
   Status status = Status::finished;
-  std::string reason;               ///< in words, when not finished
-  std::string switched = {};        ///< when and why the scheme changed from explicit to implicit; else empty
+  std::string reason;                 ///< in words, when not finished
+  std::string switched = {};          ///< when and why the scheme changed from explicit to implicit; else empty
   std::vector<std::string> warnings;  ///< what makes the numbers doubtful, in words
-  double t_end = 0;                 ///< reached [s]
-  Table trajectory, ledger;         ///< without rows if a listener takes them
-  std::vector<double> integrals;    ///< of the ledger, at the last row; none if there is no row
+  double t_end = 0;                   ///< reached [s]
+  Table trajectory, ledger;           ///< without rows if a listener takes them
+  std::vector<double> integrals;      ///< of the ledger, at the last row; none if there is no row
   struct LinkForce {
-    double least = 0, greatest = 0; ///< of the rows [N]
-    long pushing = 0, rows = 0;     ///< rows below zero; all
+    double least = 0, greatest = 0;  ///< of the rows [N]
+    long pushing = 0, rows = 0;      ///< rows below zero; all
   };
   std::vector<double> greatest_integrals;  ///< of the ledger, in magnitude, at any output [J]
-  std::vector<LinkForce> links;     ///< of each contact that is a massless link; of others nothing
+  std::vector<LinkForce> links;            ///< of each contact that is a massless link; of others nothing
   std::vector<Impact> impacts;
-  Energies first, last;             ///< the books at the start and at the end
-  double unexplained = 0;           ///< at the end [J]
-  double worst_unexplained = 0;     ///< largest in magnitude at any output [J]
-  double energy_in_play = 0;        ///< what `unexplained` is held against [J]
-  double ledger_bound = 0;          ///< share of it that may stay unexplained, by the scene or the method
-  double ledger_floor = 0;          ///< and this besides, which rounding may leave [J]
+  Energies first, last;          ///< the books at the start and at the end
+  double unexplained = 0;        ///< at the end [J]
+  double worst_unexplained = 0;  ///< largest in magnitude at any output [J]
+  double energy_in_play = 0;     ///< what `unexplained` is held against [J]
+  double ledger_bound = 0;       ///< share of it that may stay unexplained, by the scene or the method
+  double ledger_floor = 0;       ///< and this besides, which rounding may leave [J]
   Counts counts;
   double worst_position = 0, worst_velocity = 0;  ///< scaled constraint violations
-  double seconds = 0;               ///< of computing, frames and files excluded
+  double seconds = 0;                             ///< of computing, frames and files excluded
 };
 
 /// What a run tells while it goes; each may be empty. A FileError that one throws ends the run in order.
 struct Listeners {
-  std::function<bool(double t)> progress;              ///< false stops the run
+  std::function<bool(double t)> progress;                     ///< false stops the run
   std::function<void(const State&, const Equations&)> frame;  ///< at each animation frame
   /// Takes the new rows of both tables, which then forget them, and all impacts so far.
   std::function<void(const Table& trajectory, const Table& ledger, const std::vector<Impact>&)> rows;

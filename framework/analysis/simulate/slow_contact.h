@@ -20,10 +20,10 @@ class SlowContacts {
 
  private:
   struct Seen {
-    bool beyond = false;     ///< at the last step's end
-    double since = -1;       ///< first time [s]; −1: never
+    bool beyond = false;                   ///< at the last step's end
+    double since = -1;                     ///< first time [s]; −1: never
     double onset = 0, rate = 0, over = 0;  ///< where damping over elastic force was largest
-    double lost = 0;         ///< in such steps [J]
+    double lost = 0;                       ///< in such steps [J]
   };
   std::vector<Seen> seen_;
 };

@@ -29,14 +29,12 @@ Json json(const Eigen::Vector3d& v) {
 }
 
 Json head(const Scene& scene, const ElasticBody& e, const char* command) {
-  return {{"program", "pintle"}, {"version", PINTLE_VERSION}, {"command", command}, {"title", scene.title},
-          {"file", scene.file}, {"body", e.scene->name}, {"nodes", e.mesh.x.cols()}, {"cells", e.mesh.cell_count()},
+  return {{"program", "pintle"},     {"version", PINTLE_VERSION}, {"command", command},       {"title", scene.title},
+          {"file", scene.file},      {"body", e.scene->name},     {"nodes", e.mesh.x.cols()}, {"cells", e.mesh.cell_count()},
           {"freedoms", e.model.n()}, {"warnings", e.warnings}};
 }
 
-Json scene_json(const Scene& scene) {
-  return scene.filled_in.empty() ? Json(nullptr) : Json::parse(scene.filled_in, nullptr, false);
-}
+Json scene_json(const Scene& scene) { return scene.filled_in.empty() ? Json(nullptr) : Json::parse(scene.filled_in, nullptr, false); }
 
 std::vector<Field> stress_fields(const Eigen::Matrix4Xd& s) {
   Eigen::RowVectorXd mises(s.cols());
@@ -45,9 +43,8 @@ std::vector<Field> stress_fields(const Eigen::Matrix4Xd& s) {
     mises[i] = von_mises(s.col(i));
     main.col(i) = principal(s.col(i)).head<2>();
   }
-  return {{"von Mises [Pa]", mises},           {"principal 1 [Pa]", main.row(0)}, {"principal 2 [Pa]", main.row(1)},
-          {"stress xx [Pa]", s.row(0)},        {"stress yy [Pa]", s.row(1)},      {"stress xy [Pa]", s.row(2)},
-          {"stress zz [Pa]", s.row(3)}};
+  return {{"von Mises [Pa]", mises},    {"principal 1 [Pa]", main.row(0)}, {"principal 2 [Pa]", main.row(1)}, {"stress xx [Pa]", s.row(0)},
+          {"stress yy [Pa]", s.row(1)}, {"stress xy [Pa]", s.row(2)},      {"stress zz [Pa]", s.row(3)}};
 }
 
 std::string section_forces_csv(const ElasticBody& e, const Eigen::Matrix3Xd& forces) {
@@ -112,10 +109,12 @@ void take_off(const ElasticBody& e, const Eigen::MatrixXd& on_beams, Eigen::Matr
 
 StaticReport solve_case(const Scene& scene, const ElasticBody& e) {
   if (!scene.statics)
-    throw SceneError(scene.file, {0, "static"}, "the scene has no static case; add one: static: {loads: {pull: {at: A, force: [100 N, 0]}}}");
+    throw SceneError(scene.file, {0, "static"},
+                     "the scene has no static case; add one: static: {loads: {pull: {at: A, force: [100 N, 0]}}}");
   const std::vector<NamedSupport> supports = supports_of(scene, e);
   if (supports.empty())
-    throw SceneError(scene.file, e.scene->place, "\"" + e.scene->name + "\" has no supports, so a load would carry it away; add supports: {A: fixed}");
+    throw SceneError(scene.file, e.scene->place,
+                     "\"" + e.scene->name + "\" has no supports, so a load would carry it away; add supports: {A: fixed}");
   const BodyLoad load = loads_of(scene, e);
   StaticReport r;
   const auto start = std::chrono::steady_clock::now();
@@ -181,7 +180,8 @@ std::string mesh_json(const Scene& scene, const ElasticBody& e) {
   out["inertia about the centre [kg m^2]"] = inertia.J - inertia.c.squaredNorm() / inertia.m;
   out["nodes of each group"] = groups;
   if (e.plate())
-    out["quality"] = {{"least scaled Jacobian", e.quality.least_jacobian}, {"mean scaled Jacobian", e.quality.mean_jacobian},
+    out["quality"] = {{"least scaled Jacobian", e.quality.least_jacobian},
+                      {"mean scaled Jacobian", e.quality.mean_jacobian},
                       {"greatest aspect ratio", e.quality.greatest_aspect},
                       {"least corner angle [deg]", e.quality.least_angle * 180 / std::numbers::pi},
                       {"greatest corner angle [deg]", e.quality.greatest_angle * 180 / std::numbers::pi}};
@@ -203,7 +203,8 @@ void write_mesh_report(const std::filesystem::path& directory, const Scene& scen
       const CellQuality& c = e.quality.cells[static_cast<std::size_t>(i)];
       q.col(i) << c.jacobian, c.aspect, c.angle_min * 180 / std::numbers::pi, c.angle_max * 180 / std::numbers::pi;
     }
-    on_cells = {{"scaled Jacobian", q.row(0)}, {"aspect ratio", q.row(1)}, {"least angle [deg]", q.row(2)}, {"greatest angle [deg]", q.row(3)}};
+    on_cells = {
+        {"scaled Jacobian", q.row(0)}, {"aspect ratio", q.row(1)}, {"least angle [deg]", q.row(2)}, {"greatest angle [deg]", q.row(3)}};
   }
   write_grid(directory / "mesh.vtu", e.mesh.x, e.mesh.cells, on_points, on_cells);
   write_text(directory / "mesh.json", mesh_json(scene, e));

@@ -24,9 +24,9 @@ struct StaticReport {
   std::vector<SupportReaction> reactions;
   std::vector<PortDisplacement> ports;
   Eigen::Vector3d load = Eigen::Vector3d::Zero();  ///< resultant of all loads, as a reaction's
-  double greatest_displacement = 0;  ///< [m]
+  double greatest_displacement = 0;                ///< [m]
   Eigen::Vector2d displaced_at;
-  double greatest_stress = 0;        ///< von Mises [Pa]
+  double greatest_stress = 0;  ///< von Mises [Pa]
   Eigen::Vector2d stressed_at;
   double seconds = 0;
 };

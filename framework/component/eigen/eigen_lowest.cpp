@@ -23,27 +23,21 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr Index small = 400;         // freedoms that are solved for densely
-constexpr Index dense_limit = 4000;  // and so are this many, if a quarter of all pairs is asked for
-constexpr double share = 1e-10;      // shift over ΣK_ii/ΣM_ii
+constexpr Index small = 400;          // freedoms that are solved for densely
+constexpr Index dense_limit = 4000;   // and so are this many, if a quarter of all pairs is asked for
+constexpr double share = 1e-10;       // shift over ΣK_ii/ΣM_ii
 constexpr double dense_share = 1e-6;  // the same where all pairs are found
 constexpr double cluster = 1e-6;      // a relative gap in which no count is attempted
 
 void judge(const Sparse& K, const Sparse& M, const EigenOptions& o) {
   if (K.rows() != K.cols() || M.rows() != M.cols() || K.rows() != M.rows()) {
     std::ostringstream text;
-    text << "K is " << K.rows() << " by " << K.cols() << " and M " << M.rows() << " by " << M.cols()
-         << ", must be square and of one size";
+    text << "K is " << K.rows() << " by " << K.cols() << " and M " << M.rows() << " by " << M.cols() << ", must be square and of one size";
     throw std::invalid_argument(text.str());
   }
-  if (o.count < 1)
-    throw std::invalid_argument(std::to_string(o.count) + " modes asked for, must be at least 1");
-  if (!(o.shift <= 0))
-    throw std::invalid_argument("shift = " + std::to_string(o.shift) +
-                                ", must be negative, or 0 to have it chosen");
-  if (!(o.tolerance > 0))
-    throw std::invalid_argument("tolerance = " + std::to_string(o.tolerance) +
-                                ", must be positive");
+  if (o.count < 1) throw std::invalid_argument(std::to_string(o.count) + " modes asked for, must be at least 1");
+  if (!(o.shift <= 0)) throw std::invalid_argument("shift = " + std::to_string(o.shift) + ", must be negative, or 0 to have it chosen");
+  if (!(o.tolerance > 0)) throw std::invalid_argument("tolerance = " + std::to_string(o.tolerance) + ", must be positive");
   const Index massive = (M.diagonal().array() > 0).count();
   if (o.count > massive) throw std::invalid_argument(too_many(o.count, massive));
 }
@@ -65,8 +59,7 @@ void factor_shifted(Search& s) {
     if (s.factor.compute(shifted(s.K, s.M, s.mu))) return;
     if (i + 1 < attempts) s.mu *= 100;
   }
-  throw std::runtime_error(not_definite(s.mu) + " (at freedom " + std::to_string(s.factor.pivot()) +
-                           ")");
+  throw std::runtime_error(not_definite(s.mu) + " (at freedom " + std::to_string(s.factor.pivot()) + ")");
 }
 
 VectorXd residuals(const Subspace& space, const Search& s, Index count) {
@@ -81,9 +74,8 @@ VectorXd residuals(const Subspace& space, const Search& s, Index count) {
 // Where to count, above μ: in the gap above the last wanted pair; 0 if that is no gap.
 double place_of_check(const Subspace& space, const Search& s) {
   const double last = 1 / space.theta()[s.wanted - 1];
-  const double next = space.old() > s.wanted && space.theta()[s.wanted] > 0
-                          ? 1 / space.theta()[s.wanted]
-                          : std::numeric_limits<double>::infinity();
+  const double next =
+      space.old() > s.wanted && space.theta()[s.wanted] > 0 ? 1 / space.theta()[s.wanted] : std::numeric_limits<double>::infinity();
   const double offset = std::min(0.5 * (next - last), std::max(1e-3 * last, -0.3 * s.mu));
   return offset > cluster * last ? last + offset : 0;
 }
@@ -116,8 +108,7 @@ bool check(const Subspace& space, Search& s, EigenPairs& out) {
     s.wanted = below;
     return out.missed == 0;
   }
-  out.reason = "the Sturm check counts " + std::to_string(below) + " eigenvalues where " +
-               std::to_string(s.wanted) +
+  out.reason = "the Sturm check counts " + std::to_string(below) + " eigenvalues where " + std::to_string(s.wanted) +
                " were found: K or M is not symmetric or not semidefinite";
   return true;
 }
@@ -129,10 +120,8 @@ Index capacity_for(const Search& s, Index width) {
 
 // A subspace that A⁻¹M maps onto itself has nothing more to say: other vectors must.
 void feed(Subspace& space, const Search& s, int iteration) {
-  space.add_loads(random_loads(s.M, static_cast<int>(s.block),
-                               s.options.seed + static_cast<unsigned>(iteration)));
-  if (space.width() == 0 && space.old() < s.options.count)
-    throw std::invalid_argument(too_many(s.options.count, space.old()));
+  space.add_loads(random_loads(s.M, static_cast<int>(s.block), s.options.seed + static_cast<unsigned>(iteration)));
+  if (space.width() == 0 && space.old() < s.options.count) throw std::invalid_argument(too_many(s.options.count, space.old()));
 }
 
 void iterate(Subspace& space, Search& s, EigenPairs& out) {
@@ -142,8 +131,7 @@ void iterate(Subspace& space, Search& s, EigenPairs& out) {
   while (out.iterations < s.options.max_iterations) {
     ++out.iterations;
     space.reserve(capacity_for(s, space.width()));
-    if (!space.room())
-      space.restart(std::min(space.old(), s.wanted + (space.capacity() - s.wanted) / 4));
+    if (!space.room()) space.restart(std::min(space.old(), s.wanted + (space.capacity() - s.wanted) / 4));
     if (space.width() == 0) feed(space, s, out.iterations);
     space.step();
     space.project();
@@ -160,8 +148,7 @@ void iterate(Subspace& space, Search& s, EigenPairs& out) {
     if (out.missed > 0) feed(space, s, out.iterations);
   }
   std::ostringstream text;
-  text << good << " of " << s.wanted << " pairs were found in " << out.iterations
-       << " iterations, the largest residual is " << worst;
+  text << good << " of " << s.wanted << " pairs were found in " << out.iterations << " iterations, the largest residual is " << worst;
   if (out.missed > 0) text << ", and " << out.missed << " more are there by the Sturm check";
   out.reason = text.str();
 }
@@ -183,8 +170,7 @@ EigenPairs eigen_lowest(const Sparse& K, const Sparse& M, const EigenOptions& op
   const Index n = K.rows(), p = options.count;
   const double scale = stiffness_over_mass(K, M);
   if (n <= small || (4 * p > n && n <= dense_limit) || 2 * p > n)
-    return eigen_dense(K, M, options.count,
-                       options.shift < 0 ? options.shift : -dense_share * scale);
+    return eigen_dense(K, M, options.count, options.shift < 0 ? options.shift : -dense_share * scale);
 
   const Sparse mass = M.pruned(1.0, 0.0);  // assembled with K's pattern, it is half zeros
   Search s{K, mass, options, options.shift < 0 ? options.shift : -share * scale, {}, 0, p};
@@ -197,8 +183,7 @@ EigenPairs eigen_lowest(const Sparse& K, const Sparse& M, const EigenOptions& op
   return out;
 }
 
-EigenPairs eigen_below(const Sparse& K, const Sparse& M, double limit,
-                       const EigenOptions& options) {
+EigenPairs eigen_below(const Sparse& K, const Sparse& M, double limit, const EigenOptions& options) {
   EigenOptions o = options;
   o.count = 1;
   judge(K, M, o);
@@ -214,8 +199,7 @@ EigenPairs eigen_below(const Sparse& K, const Sparse& M, double limit,
   if (found < o.count) {
     out.missed = std::max(out.missed, o.count - found);
     out.converged = false;
-    out.reason = std::to_string(o.count) + " eigenvalues lie below the limit, " +
-                 std::to_string(found) + " were found there";
+    out.reason = std::to_string(o.count) + " eigenvalues lie below the limit, " + std::to_string(found) + " were found there";
   }
   return out;
 }

@@ -20,11 +20,11 @@ struct EigenOptions {
 /// The lowest pairs of K φ = λ M φ, K and M symmetric, K positive semidefinite, M positive
 /// semidefinite.
 struct EigenPairs {
-  Eigen::VectorXd lambda;  ///< ascending, p [rad²/s²]; rigid motions are ~0, of either sign
-  Eigen::MatrixXd shapes;  ///< n × p, ΦᵀMΦ = I; the largest entry of each is positive
+  Eigen::VectorXd lambda;    ///< ascending, p [rad²/s²]; rigid motions are ~0, of either sign
+  Eigen::MatrixXd shapes;    ///< n × p, ΦᵀMΦ = I; the largest entry of each is positive
   Eigen::VectorXd residual;  ///< ‖Kφ − λMφ‖ / (λ‖Mφ‖); of rigid motions ‖Kφ‖ / ‖|K||φ|‖; p
-  int zero = 0;    ///< how many are rigid motions (λ = 0 to rounding)
-  int missed = 0;  ///< by the Sturm check; 0 after a check that holds
+  int zero = 0;              ///< how many are rigid motions (λ = 0 to rounding)
+  int missed = 0;            ///< by the Sturm check; 0 after a check that holds
   bool checked = false;
   bool converged = false;
   int iterations = 0;
@@ -38,11 +38,9 @@ struct EigenPairs {
 /// @throws std::invalid_argument  K or M not square or of two sizes; count < 1; shift > 0;
 ///         count > rank of M: "9 modes asked for, the body has 6"
 /// @throws std::runtime_error     K − μM cannot be factored: a part without stiffness and mass
-EigenPairs eigen_lowest(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& M,
-                        const EigenOptions& = {});
+EigenPairs eigen_lowest(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& M, const EigenOptions& = {});
 
 /// All pairs with λ < `limit`; count is ignored. Found by Sturm count, then `eigen_lowest`.
-EigenPairs eigen_below(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& M,
-                       double limit, const EigenOptions& = {});
+EigenPairs eigen_below(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& M, double limit, const EigenOptions& = {});
 
 }  // namespace pintle

@@ -72,7 +72,7 @@ struct Factor::Data {
   cholmod_common common;
   cholmod_factor* L = nullptr;
   cholmod_dense *Y = nullptr, *E = nullptr;  // workspace of solves
-  Places places;  // of the matrix that L was analysed for
+  Places places;                             // of the matrix that L was analysed for
   int pivot = -1;
 
   Data() {
@@ -92,10 +92,8 @@ struct Factor::Data {
 
   void judge(const Sparse& A) const {
     if (L && common.status >= 0) return;
-    throw std::runtime_error("a matrix of " + std::to_string(A.rows()) +
-                             " freedoms could not be factored: CHOLMOD's status is " +
-                             std::to_string(common.status) +
-                             (common.status == CHOLMOD_OUT_OF_MEMORY ? ", out of memory" : ""));
+    throw std::runtime_error("a matrix of " + std::to_string(A.rows()) + " freedoms could not be factored: CHOLMOD's status is " +
+                             std::to_string(common.status) + (common.status == CHOLMOD_OUT_OF_MEMORY ? ", out of memory" : ""));
   }
 
   // First column (in elimination order) whose pivot is lost in the rounding of A's diagonal; −1:
@@ -125,8 +123,8 @@ Factor& Factor::operator=(Factor&&) noexcept = default;
 
 void Factor::analyse(const Sparse& A) {
   if (A.rows() != A.cols())
-    throw std::invalid_argument("a matrix to factor is " + std::to_string(A.rows()) + " by " +
-                                std::to_string(A.cols()) + ", must be square");
+    throw std::invalid_argument("a matrix to factor is " + std::to_string(A.rows()) + " by " + std::to_string(A.cols()) +
+                                ", must be square");
   Data& d = *data_;
   Data::Places places(A);
   if (d.L && places == d.places) return;
@@ -167,21 +165,14 @@ void Factor::solve_into(const Eigen::MatrixXd& B, Eigen::MatrixXd& X) const {
   }
 }
 
-int Factor::pivot() const {
-  return data_->pivot;
-}
-double Factor::nonzeros() const {
-  return data_->common.lnz;
-}
-double Factor::flops() const {
-  return data_->common.fl;
-}
+int Factor::pivot() const { return data_->pivot; }
+double Factor::nonzeros() const { return data_->common.lnz; }
+double Factor::flops() const { return data_->common.fl; }
 
 Supernodes Factor::supernodes() const {
   const cholmod_factor& L = *data_->L;
-  return {
-      static_cast<int>(L.n),         static_cast<int>(L.nsuper),   static_cast<const int*>(L.super),
-      static_cast<const int*>(L.pi), static_cast<const int*>(L.s), static_cast<const int*>(L.Perm)};
+  return {static_cast<int>(L.n),         static_cast<int>(L.nsuper),   static_cast<const int*>(L.super),
+          static_cast<const int*>(L.pi), static_cast<const int*>(L.s), static_cast<const int*>(L.Perm)};
 }
 
 }  // namespace pintle

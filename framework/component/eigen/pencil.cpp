@@ -41,8 +41,7 @@ void measure(const Sparse& K, const MatrixXd& KX, const MatrixXd& MX, EigenPairs
     if (pairs.zero < j) continue;
     const VectorXd terms = summed_from(K, pairs.shapes.col(j));
     if (std::abs(lambda) > rounding * terms.dot(pairs.shapes.col(j).cwiseAbs())) continue;
-    pairs.residual[j] =
-        KX.col(j).norm() / std::max(terms.norm(), std::numeric_limits<double>::min());
+    pairs.residual[j] = KX.col(j).norm() / std::max(terms.norm(), std::numeric_limits<double>::min());
     ++pairs.zero;
   }
 }
@@ -58,8 +57,7 @@ void make_largest_positive(MatrixXd& X) {
 }  // namespace
 
 std::string too_many(int asked, Index there) {
-  return std::to_string(asked) + (asked == 1 ? " mode" : " modes") + " asked for, the body has " +
-         std::to_string(there);
+  return std::to_string(asked) + (asked == 1 ? " mode" : " modes") + " asked for, the body has " + std::to_string(there);
 }
 
 std::string not_definite(double mu) {
@@ -113,8 +111,7 @@ EigenPairs eigen_dense(const Sparse& K, const Sparse& M, int count, double mu) {
   const MatrixXd C = factor.matrixL().solve(half.transpose());
   const Spectrum reciprocal = spectrum(0.5 * (C + C.transpose()));
   const Index n = mass.rows();
-  const double least = 10 * static_cast<double>(n) * std::numeric_limits<double>::epsilon() *
-                       reciprocal.values[n - 1];
+  const double least = 10 * static_cast<double>(n) * std::numeric_limits<double>::epsilon() * reciprocal.values[n - 1];
   Index finite = 0;
   while (finite < n && reciprocal.values[n - 1 - finite] > least) ++finite;
   if (count > finite) throw std::invalid_argument(too_many(count, finite));

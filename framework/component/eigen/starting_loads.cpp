@@ -12,8 +12,7 @@ using Eigen::MatrixXd;
 namespace {
 
 MatrixXd random_vectors(Index n, Index count, unsigned seed) {
-  std::mt19937 draw(
-      seed);  // its numbers are the same everywhere; the standard's distributions are not
+  std::mt19937 draw(seed);  // its numbers are the same everywhere; the standard's distributions are not
   MatrixXd X(n, count);
   for (Index j = 0; j < count; ++j)
     for (Index i = 0; i < n; ++i) X(i, j) = static_cast<double>(draw()) / 2147483647.5 - 1;
@@ -26,8 +25,7 @@ MatrixXd random_loads(const Eigen::SparseMatrix<double>& M, int count, unsigned 
   return product(M, random_vectors(M.rows(), count, seed));
 }
 
-MatrixXd starting_loads(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& M,
-                        int count, unsigned seed) {
+MatrixXd starting_loads(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& M, int count, unsigned seed) {
   const Index n = K.rows(), single = (count - 1) / 2, drawn = count - 1 - single;
   const Eigen::VectorXd k = K.diagonal(), m = M.diagonal();
   MatrixXd X = MatrixXd::Zero(n, count);

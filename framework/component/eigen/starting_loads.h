@@ -11,8 +11,7 @@ namespace pintle {
 /// body; and, for the last half, random vectors, so that no mode is orthogonal to all. Differs from
 /// [Bathe2014] in the factor M, which keeps the iterates clear of freedoms without mass, and in the
 /// number of random vectors.
-Eigen::MatrixXd starting_loads(const Eigen::SparseMatrix<double>& K,
-                               const Eigen::SparseMatrix<double>& M, int count, unsigned seed);
+Eigen::MatrixXd starting_loads(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& M, int count, unsigned seed);
 
 /// M times `count` random vectors of entries in [−1, 1].
 Eigen::MatrixXd random_loads(const Eigen::SparseMatrix<double>& M, int count, unsigned seed);

@@ -16,17 +16,15 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double plus_one = 1, minus_one = -1;
-constexpr double singular =
-    1e-14;                  // a pivot below this share of the entries it came from is rounding
-constexpr int strip = 128;  // columns updated at once where the pivot block is indefinite
+constexpr double singular = 1e-14;  // a pivot below this share of the entries it came from is rounding
+constexpr int strip = 128;          // columns updated at once where the pivot block is indefinite
 
 // Lower triangle of A in elimination order, by columns.
 struct Ordered {
   std::vector<int> begin, row;
   std::vector<double> value;
 
-  Ordered(const Sparse& A, const Supernodes& s)
-      : begin(static_cast<std::size_t>(s.n) + 1), row(), value() {
+  Ordered(const Sparse& A, const Supernodes& s) : begin(static_cast<std::size_t>(s.n) + 1), row(), value() {
     std::vector<int> at(static_cast<std::size_t>(s.n));
     for (int k = 0; k < s.n; ++k) at[static_cast<std::size_t>(s.order[k])] = k;
     const auto for_lower = [&](auto f) {
@@ -58,8 +56,7 @@ class Front {
   int eliminate(double* F, int rows, int columns) {
     const int rest = rows - columns;
     kept_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(columns));
-    for (int j = 0; j < columns; ++j)
-      std::copy_n(F + at(j, j, rows), columns - j, kept_.data() + at(j, j, columns));
+    for (int j = 0; j < columns; ++j) std::copy_n(F + at(j, j, rows), columns - j, kept_.data() + at(j, j, columns));
     int info = 0;
     dpotrf_("L", &columns, F, &rows, &info);
     bool definite = info == 0;
@@ -70,16 +67,14 @@ class Front {
     if (!definite) return eliminate_indefinite(F, rows, columns);
     if (rest > 0) {
       dtrsm_("R", "L", "T", "N", &rest, &columns, &plus_one, F, &rows, F + columns, &rows);
-      dsyrk_("L", "N", &rest, &columns, &minus_one, F + columns, &rows, &plus_one,
-             F + at(columns, columns, rows), &rows);
+      dsyrk_("L", "N", &rest, &columns, &minus_one, F + columns, &rows, &plus_one, F + at(columns, columns, rows), &rows);
     }
     return 0;
   }
 
  private:
   static std::size_t at(int i, int j, int rows) {
-    return static_cast<std::size_t>(i) +
-           static_cast<std::size_t>(j) * static_cast<std::size_t>(rows);
+    return static_cast<std::size_t>(i) + static_cast<std::size_t>(j) * static_cast<std::size_t>(rows);
   }
 
   // P = kept_ by Bunch and Kaufman; C − B P⁻¹ Bᵀ strip by strip.
@@ -92,19 +87,15 @@ class Front {
     int info = 0;
     dsytrf_("L", &columns, kept_.data(), &columns, pivots_.data(), work_.data(), &lwork, &info);
     const int negative = info == 0 ? count_negative(columns, largest) : -1;
-    if (negative < 0)
-      throw std::runtime_error(
-          "a supernode is singular to rounding: the matrix has an eigenvalue at zero");
+    if (negative < 0) throw std::runtime_error("a supernode is singular to rounding: the matrix has an eigenvalue at zero");
     for (int first = 0; first < rest; first += strip) {
       const int width = std::min(strip, rest - first), below = rest - first;
       turned_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(width));
       for (int j = 0; j < width; ++j)
-        for (int i = 0; i < columns; ++i)
-          turned_[at(i, j, columns)] = F[at(columns + first + j, i, rows)];
-      dsytrs_("L", &columns, &width, kept_.data(), &columns, pivots_.data(), turned_.data(),
-              &columns, &info);
-      dgemm_("N", "N", &below, &width, &columns, &minus_one, F + columns + first, &rows,
-             turned_.data(), &columns, &plus_one, F + at(columns + first, columns + first, rows), &rows);
+        for (int i = 0; i < columns; ++i) turned_[at(i, j, columns)] = F[at(columns + first + j, i, rows)];
+      dsytrs_("L", &columns, &width, kept_.data(), &columns, pivots_.data(), turned_.data(), &columns, &info);
+      dgemm_("N", "N", &below, &width, &columns, &minus_one, F + columns + first, &rows, turned_.data(), &columns, &plus_one,
+             F + at(columns + first, columns + first, rows), &rows);
     }
     return negative;
   }
@@ -112,8 +103,7 @@ class Front {
   double largest_entry(int columns) const {
     double largest = 0;
     for (int j = 0; j < columns; ++j)
-      for (int i = j; i < columns; ++i)
-        largest = std::max(largest, std::abs(kept_[at(i, j, columns)]));
+      for (int i = j; i < columns; ++i) largest = std::max(largest, std::abs(kept_[at(i, j, columns)]));
     return largest;
   }
 
@@ -129,8 +119,7 @@ class Front {
       }
       const double b = kept_[at(j + 1, j, columns)], c = kept_[at(j + 1, j + 1, columns)];
       const double determinant = a * c - b * b;
-      if (!(std::abs(determinant) > singular * largest * (std::abs(a) + std::abs(b) + std::abs(c))))
-        return -1;
+      if (!(std::abs(determinant) > singular * largest * (std::abs(a) + std::abs(b) + std::abs(c)))) return -1;
       negative += determinant < 0 ? 1 : (a < 0 ? 2 : 0);
       ++j;
     }
@@ -145,8 +134,7 @@ class Front {
 // parents on a stack.
 class Elimination {
  public:
-  Elimination(const Sparse& A, const Supernodes& super)
-      : super_(super), lower_(A, super), place_(static_cast<std::size_t>(super.n), -1) {
+  Elimination(const Sparse& A, const Supernodes& super) : super_(super), lower_(A, super), place_(static_cast<std::size_t>(super.n), -1) {
     int tallest = 0;
     for (int s = 0; s < super.count; ++s) tallest = std::max(tallest, rows(s));
     F_.resize(static_cast<std::size_t>(tallest) * static_cast<std::size_t>(tallest));
@@ -166,9 +154,7 @@ class Elimination {
   int columns(int s) const { return super_.first[s + 1] - super_.first[s]; }
   std::size_t below(int s) const { return static_cast<std::size_t>(rows(s) - columns(s)); }
   int first_below(int s) const { return super_.row[super_.row_begin[s] + columns(s)]; }
-  double* column(int j, int height) {
-    return F_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(height);
-  }
+  double* column(int j, int height) { return F_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(height); }
   int place(int row) const { return place_[static_cast<std::size_t>(row)]; }
 
   // The front of s: zero, and the entries of A in its columns.
@@ -180,8 +166,7 @@ class Elimination {
     for (int j = 0; j < columns(s); ++j) {
       const std::size_t c = static_cast<std::size_t>(row[j]);
       for (int k = lower_.begin[c]; k < lower_.begin[c + 1]; ++k)
-        column(j, height)[place(lower_.row[static_cast<std::size_t>(k)])] +=
-            lower_.value[static_cast<std::size_t>(k)];
+        column(j, height)[place(lower_.row[static_cast<std::size_t>(k)])] += lower_.value[static_cast<std::size_t>(k)];
     }
   }
 

@@ -16,9 +16,8 @@ using Eigen::VectorXd;
 
 constexpr double nothing = 1e-13;   // of a vector: what is left of it is rounding
 constexpr double cancelled = 1e-4;  // of a squared length: subtract once more
-constexpr double even =
-    1e-2;  // of a length: one Gram matrix makes such a block orthonormal to 1e-12
-constexpr double thin = 1e-6;  // of a squared length: a direction that a Gram matrix resolves
+constexpr double even = 1e-2;       // of a length: one Gram matrix makes such a block orthonormal to 1e-12
+constexpr double thin = 1e-6;       // of a squared length: a direction that a Gram matrix resolves
 
 }  // namespace
 
@@ -99,8 +98,7 @@ MatrixXd Subspace::absorb(MatrixXd& Z) {
 void Subspace::add_loads(const MatrixXd& R) {
   MatrixXd Z = A_.solve(R);
   solves_ += R.cols();
-  const VectorXd length =
-      Z.cwiseProduct(product(M_, Z)).colwise().sum().transpose().cwiseMax(0).cwiseSqrt();
+  const VectorXd length = Z.cwiseProduct(product(M_, Z)).colwise().sum().transpose().cwiseMax(0).cwiseSqrt();
   for (Index j = 0; j < Z.cols(); ++j)
     if (length[j] > 0) Z.col(j) /= length[j];
   absorb(Z);
@@ -150,11 +148,7 @@ void Subspace::project() {
   }
   theta_ = S_.cwiseProduct(T * S_).colwise().sum();
   const Index coupled = old_ - coupled_;
-  defect_ = (C_.rightCols(coupled) * S_.bottomRows(coupled))
-                .colwise()
-                .norm()
-                .transpose()
-                .cwiseQuotient(theta_.cwiseAbs());
+  defect_ = (C_.rightCols(coupled) * S_.bottomRows(coupled)).colwise().norm().transpose().cwiseQuotient(theta_.cwiseAbs());
 }
 
 void Subspace::restart(Index keep) {
@@ -169,8 +163,7 @@ void Subspace::restart(Index keep) {
 }
 
 MatrixXd Subspace::iterated(Index count) const {
-  const MatrixXd S = S_.leftCols(count),
-                 turning = C_ * S * theta_.head(count).cwiseInverse().asDiagonal();
+  const MatrixXd S = S_.leftCols(count), turning = C_ * S * theta_.head(count).cwiseInverse().asDiagonal();
   MatrixXd Z = MatrixXd::Zero(Q_.rows(), count);
   add(1, Q_.leftCols(old_), S, Z);
   add(1, Q_.middleCols(old_, width()), turning, Z);

@@ -45,16 +45,15 @@ class Subspace {
 
  private:
   Eigen::MatrixXd clear(Eigen::MatrixXd& Z, Eigen::MatrixXd& E);
-  Eigen::MatrixXd append(const Eigen::MatrixXd& Z, const Eigen::MatrixXd& V,
-                         const Eigen::VectorXd& length);
+  Eigen::MatrixXd append(const Eigen::MatrixXd& Z, const Eigen::MatrixXd& V, const Eigen::VectorXd& length);
   Eigen::MatrixXd absorb(Eigen::MatrixXd& Z);
 
   const Factor& A_;
   const Eigen::SparseMatrix<double>& M_;
-  Eigen::MatrixXd Q_, T_, C_;   ///< n × capacity; capacity × capacity; width × old
-  Eigen::MatrixXd MQ_, Z_;      ///< M times the current block; what is solved for
-  Eigen::MatrixXd MZ_, lanes_;  ///< scratch, kept: fresh pages cost more than the sums in them
-  Eigen::Index filled_ = 0;     ///< columns of MQ that hold
+  Eigen::MatrixXd Q_, T_, C_;                      ///< n × capacity; capacity × capacity; width × old
+  Eigen::MatrixXd MQ_, Z_;                         ///< M times the current block; what is solved for
+  Eigen::MatrixXd MZ_, lanes_;                     ///< scratch, kept: fresh pages cost more than the sums in them
+  Eigen::Index filled_ = 0;                        ///< columns of MQ that hold
   Eigen::Index old_ = 0, used_ = 0, coupled_ = 0;  ///< C is zero left of column `coupled_`
   Eigen::VectorXd theta_, defect_;
   Eigen::MatrixXd S_;  ///< old × old, columns as theta

@@ -20,9 +20,7 @@ using Tall = Eigen::Ref<const MatrixXd>;
 constexpr int lanes = 8;            // columns of one sparse product
 constexpr Index panel_rows = 2048;  // rows turned at a time
 
-int leading(Index stride, Index rows) {
-  return static_cast<int>(std::max<Index>(1, std::max(stride, rows)));
-}
+int leading(Index stride, Index rows) { return static_cast<int>(std::max<Index>(1, std::max(stride, rows))); }
 
 }  // namespace
 
@@ -37,8 +35,7 @@ void product(const Sparse& A, const Tall& B, Eigen::Ref<MatrixXd> out, MatrixXd&
     const double* x = scratch.data();
     for (int i = 0; i < n; ++i) {
       Lanes sum = Lanes::Zero();
-      for (Sparse::InnerIterator a(A, i); a; ++a)
-        sum += a.value() * Eigen::Map<const Lanes>(x + lanes * a.row());
+      for (Sparse::InnerIterator a(A, i); a; ++a) sum += a.value() * Eigen::Map<const Lanes>(x + lanes * a.row());
       for (Index j = 0; j < width; ++j) out(i, c + j) = sum[j];
     }
   }
@@ -53,8 +50,7 @@ MatrixXd product(const Sparse& A, const Tall& B) {
 MatrixXd inner(const Tall& A, const Tall& B) {
   MatrixXd C = MatrixXd::Zero(A.cols(), B.cols());
   if (A.cols() == 0 || B.cols() == 0) return C;
-  const int m = static_cast<int>(A.cols()), k = static_cast<int>(B.cols()),
-            n = static_cast<int>(A.rows());
+  const int m = static_cast<int>(A.cols()), k = static_cast<int>(B.cols()), n = static_cast<int>(A.rows());
   const int lda = leading(A.outerStride(), A.rows()), ldb = leading(B.outerStride(), B.rows());
   const double one = 1, zero = 0;
   dgemm_("T", "N", &m, &k, &n, &one, A.data(), &lda, B.data(), &ldb, &zero, C.data(), &m);
@@ -63,10 +59,8 @@ MatrixXd inner(const Tall& A, const Tall& B) {
 
 void add(double factor, const Tall& A, const Tall& C, Eigen::Ref<MatrixXd> Y) {
   if (A.cols() == 0 || C.cols() == 0) return;
-  const int n = static_cast<int>(A.rows()), m = static_cast<int>(A.cols()),
-            k = static_cast<int>(C.cols());
-  const int lda = leading(A.outerStride(), A.rows()), ldc = leading(C.outerStride(), C.rows()),
-            ldy = leading(Y.outerStride(), Y.rows());
+  const int n = static_cast<int>(A.rows()), m = static_cast<int>(A.cols()), k = static_cast<int>(C.cols());
+  const int lda = leading(A.outerStride(), A.rows()), ldc = leading(C.outerStride(), C.rows()), ldy = leading(Y.outerStride(), Y.rows());
   const double one = 1;
   dgemm_("N", "N", &n, &k, &m, &factor, A.data(), &lda, C.data(), &ldc, &one, Y.data(), &ldy);
 }
@@ -89,12 +83,8 @@ Spectrum spectrum(MatrixXd A) {
   std::vector<double> work(static_cast<std::size_t>(lwork));
   std::vector<int> iwork(static_cast<std::size_t>(liwork));
   int info = A.allFinite() ? 0 : 1;
-  if (info == 0)
-    dsyevd_("V", "L", &n, A.data(), &n, s.values.data(), work.data(), &lwork, iwork.data(), &liwork,
-            &info);
-  if (info != 0)
-    throw std::runtime_error(
-        "the eigenvalues of a projected matrix were not found: an entry is not a number");
+  if (info == 0) dsyevd_("V", "L", &n, A.data(), &n, s.values.data(), work.data(), &lwork, iwork.data(), &liwork, &info);
+  if (info != 0) throw std::runtime_error("the eigenvalues of a projected matrix were not found: an entry is not a number");
   s.vectors = std::move(A);
   return s;
 }

@@ -10,18 +10,16 @@ namespace pintle {
 
 /// A B for A symmetric with both triangles stored: eight columns of B at a time, which are packed
 /// into `scratch`, 8 × n, whose storage is kept.
-void product(const Eigen::SparseMatrix<double>& A, const Eigen::Ref<const Eigen::MatrixXd>& B,
-             Eigen::Ref<Eigen::MatrixXd> out, Eigen::MatrixXd& scratch);
-Eigen::MatrixXd product(const Eigen::SparseMatrix<double>& A,
-                        const Eigen::Ref<const Eigen::MatrixXd>& B);
+void product(const Eigen::SparseMatrix<double>& A, const Eigen::Ref<const Eigen::MatrixXd>& B, Eigen::Ref<Eigen::MatrixXd> out,
+             Eigen::MatrixXd& scratch);
+Eigen::MatrixXd product(const Eigen::SparseMatrix<double>& A, const Eigen::Ref<const Eigen::MatrixXd>& B);
 
 /// AᵀB, small.
-Eigen::MatrixXd inner(const Eigen::Ref<const Eigen::MatrixXd>& A,
-                      const Eigen::Ref<const Eigen::MatrixXd>& B);
+Eigen::MatrixXd inner(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::Ref<const Eigen::MatrixXd>& B);
 
 /// Y += factor · A C, C small.
-void add(double factor, const Eigen::Ref<const Eigen::MatrixXd>& A,
-         const Eigen::Ref<const Eigen::MatrixXd>& C, Eigen::Ref<Eigen::MatrixXd> Y);
+void add(double factor, const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::Ref<const Eigen::MatrixXd>& C,
+         Eigen::Ref<Eigen::MatrixXd> Y);
 
 /// The first columns of A become A C, panel by panel: no second tall matrix.
 void turn(Eigen::Ref<Eigen::MatrixXd> A, const Eigen::Ref<const Eigen::MatrixXd>& C);

@@ -87,12 +87,10 @@ void add_lumps(const FeModel& model, Sparse& A, Eigen::Matrix3d (*of)(const Poin
 // B and, in its leading rows and columns, the rows and columns of A in `keep`.
 Sparse restricted_plus(const Sparse& A, const std::vector<int>& keep, const Sparse& B) {
   std::vector<int> place(static_cast<std::size_t>(A.rows()), -1);
-  for (std::size_t k = 0; k < keep.size(); ++k)
-    place[static_cast<std::size_t>(keep[k])] = static_cast<int>(k);
+  for (std::size_t k = 0; k < keep.size(); ++k) place[static_cast<std::size_t>(keep[k])] = static_cast<int>(k);
   Eigen::Index entries = B.nonZeros();
   for (const int j : keep)
-    for (Sparse::InnerIterator a(A, j); a; ++a)
-      entries += place[static_cast<std::size_t>(a.row())] >= 0;
+    for (Sparse::InnerIterator a(A, j); a; ++a) entries += place[static_cast<std::size_t>(a.row())] >= 0;
   Sparse sum(B.rows(), B.cols());
   sum.reserve(entries);
   for (Eigen::Index j = 0; j < B.cols(); ++j) {
@@ -144,9 +142,8 @@ Assembler::Assembler(const FeModel& model) : model_(model) {
     entries += 9L * (neighbour_begin_[i + 1] - neighbour_begin_[i]);
   }
   if (entries > std::numeric_limits<int>::max())
-    throw std::invalid_argument(
-        "a body of " + std::to_string(model.N()) +
-        " freedoms: its matrices have more than 2^31 entries; coarsen the mesh");
+    throw std::invalid_argument("a body of " + std::to_string(model.N()) +
+                                " freedoms: its matrices have more than 2^31 entries; coarsen the mesh");
 }
 
 Sparse Assembler::zeros() const {
@@ -159,8 +156,7 @@ Sparse Assembler::zeros() const {
       const auto other = static_cast<std::size_t>(neighbour_[static_cast<std::size_t>(k)]);
       rows += model_.begin[other + 1] - model_.begin[other];
     }
-    for (int i = model_.begin[node]; i < model_.begin[node + 1]; ++i)
-      outer[i + 1] = outer[i] + rows;
+    for (int i = model_.begin[node]; i < model_.begin[node + 1]; ++i) outer[i + 1] = outer[i] + rows;
   }
   A.resizeNonZeros(outer[N]);
   int* inner = A.innerIndexPtr();
@@ -244,8 +240,7 @@ Sparse independent(const FeModel& model, Sparse A) {
   const auto given = [&](Eigen::Index i) { return model.independent_of(static_cast<int>(i)) < 0; };
   Triplets p, q, a_rows;
   for (Eigen::Index j = 0; j < model.L.outerSize(); ++j)
-    for (Sparse::InnerIterator l(model.L, j); l; ++l)
-      (given(l.row()) ? q : p).emplace_back(l.row(), j, l.value());
+    for (Sparse::InnerIterator l(model.L, j); l; ++l) (given(l.row()) ? q : p).emplace_back(l.row(), j, l.value());
   for (Eigen::Index j = 0; j < A.outerSize(); ++j)
     for (Sparse::InnerIterator a(A, j); a; ++a)
       if (given(a.row())) a_rows.emplace_back(a.row(), j, a.value());

@@ -37,19 +37,16 @@ struct RimShape {
 
 RimShape rim_shape(const FeModel& model, const RimPort& rim) {
   if (rim.weights.size() != rim.nodes.size())
-    reject_rim(rim, rim.weights.size(), " weights for ", rim.nodes.size(),
-           " nodes of its rim; give one each");
+    reject_rim(rim, rim.weights.size(), " weights for ", rim.nodes.size(), " nodes of its rim; give one each");
   RimShape shape;
   for (std::size_t k = 0; k < rim.nodes.size(); ++k) {
     if (!(rim.weights[k] > 0))
-      reject_rim(rim, "weight of rim node ", rim.nodes[k], " is ", rim.weights[k],
-             ", must be > 0: the length of rim that belongs to it");
+      reject_rim(rim, "weight of rim node ", rim.nodes[k], " is ", rim.weights[k], ", must be > 0: the length of rim that belongs to it");
     shape.center += rim.weights[k] * model.x.col(rim.nodes[k]);
     shape.length += rim.weights[k];
   }
   if (rim.nodes.size() < 2)
-    reject_rim(rim, "its rim has ", rim.nodes.size(),
-           " nodes, must have at least two apart; refine the mesh at the hole");
+    reject_rim(rim, "its rim has ", rim.nodes.size(), " nodes, must have at least two apart; refine the mesh at the hole");
   shape.center /= shape.length;
   double reach = (shape.center - rim.x).norm();
   for (std::size_t k = 0; k < rim.nodes.size(); ++k) {
@@ -72,8 +69,7 @@ Eigen::Matrix3Xd average_motion(const FeModel& model, const RimPort& rim, const 
   for (Index i = 0; i < k; ++i) {
     const double share = rim.weights[static_cast<std::size_t>(i)] / shape.length;
     const Vector2d r = Vector2d(model.x.col(rim.nodes[static_cast<std::size_t>(i)])) - shape.center;
-    const Eigen::RowVector2d turn =
-        share / (shape.radius * shape.radius) * Eigen::RowVector2d(-r.y(), r.x());
+    const Eigen::RowVector2d turn = share / (shape.radius * shape.radius) * Eigen::RowVector2d(-r.y(), r.x());
     C.block<2, 2>(0, 2 * i) = share * Eigen::Matrix2d::Identity();
     C.block<1, 2>(0, 2 * i) -= lever.y() * turn;
     C.block<1, 2>(1, 2 * i) += lever.x() * turn;
@@ -92,14 +88,12 @@ struct Rim {
 Rim average_rim(const FeModel& model, const RimPort& port, const RimShape& shape) {
   Rim rim;
   for (const int node : port.nodes)
-    for (int d = 0; d < 2; ++d)
-      rim.freedoms.push_back(model.begin[static_cast<std::size_t>(node)] + d);
+    for (int d = 0; d < 2; ++d) rim.freedoms.push_back(model.begin[static_cast<std::size_t>(node)] + d);
   rim.C = average_motion(model, port, shape);
   Eigen::Matrix3Xd even = rim.C;
   even.row(2) *= shape.radius;
   const Eigen::ColPivHouseholderQR<Eigen::Matrix3Xd> qr(even);
-  for (int r = 0; r < 3; ++r)
-    rim.given[static_cast<std::size_t>(r)] = qr.colsPermutation().indices()[r];
+  for (int r = 0; r < 3; ++r) rim.given[static_cast<std::size_t>(r)] = qr.colsPermutation().indices()[r];
   return rim;
 }
 
@@ -112,8 +106,7 @@ void add_rigid_rows(const FeModel& model, const RimPort& rim, int port, Triplets
     L.emplace_back(at, port + 2, -r.y());
     L.emplace_back(at + 1, port + 1, 1);
     L.emplace_back(at + 1, port + 2, r.x());
-    if (model.begin[static_cast<std::size_t>(node) + 1] - at == 3)
-      L.emplace_back(at + 2, port + 2, 1);
+    if (model.begin[static_cast<std::size_t>(node) + 1] - at == 3) L.emplace_back(at + 2, port + 2, 1);
   }
 }
 
@@ -132,11 +125,9 @@ void add_average_rows(const FeModel& model, const Rim& rim, int port, Triplets& 
   }
 }
 
-void judge(const FeModel& model, const std::vector<NodePort>& nodes,
-           const std::vector<RimPort>& rims) {
+void judge(const FeModel& model, const std::vector<NodePort>& nodes, const std::vector<RimPort>& rims) {
   const auto count = static_cast<std::size_t>(model.x.cols());
-  if (!model.ports.empty())
-    throw std::invalid_argument("the model has ports already; add all of them at once");
+  if (!model.ports.empty()) throw std::invalid_argument("the model has ports already; add all of them at once");
   std::vector<std::string> names;
   std::vector<const RimPort*> owner(count, nullptr);
   for (const RimPort& rim : rims) {
@@ -146,33 +137,27 @@ void judge(const FeModel& model, const std::vector<NodePort>& nodes,
         reject_rim(rim, "node ", node, " is not there; nodes run from 0 to ", count, " − 1");
       const RimPort*& other = owner[static_cast<std::size_t>(node)];
       if (other == &rim) reject_rim(rim, "node ", node, " is twice in its rim; name it once");
-      if (other)
-        reject_rim(rim, "its rim shares node ", node, " with that of port \"", other->name,
-               "\"; a node follows one port at most");
+      if (other) reject_rim(rim, "its rim shares node ", node, " with that of port \"", other->name, "\"; a node follows one port at most");
       other = &rim;
     }
   }
   for (const NodePort& port : nodes) {
     names.push_back(port.name);
     if (port.node < 0 || static_cast<std::size_t>(port.node) >= count)
-      throw std::invalid_argument("port \"" + port.name + "\": node " + std::to_string(port.node) +
-                                  " is not there; nodes run from 0 to " + std::to_string(count) +
-                                  " − 1");
+      throw std::invalid_argument("port \"" + port.name + "\": node " + std::to_string(port.node) + " is not there; nodes run from 0 to " +
+                                  std::to_string(count) + " − 1");
     if (const RimPort* rim = owner[static_cast<std::size_t>(port.node)])
-      throw std::invalid_argument("port \"" + port.name + "\": its node " +
-                                  std::to_string(port.node) + " is on the rim of port \"" +
+      throw std::invalid_argument("port \"" + port.name + "\": its node " + std::to_string(port.node) + " is on the rim of port \"" +
                                   rim->name + "\"; put it elsewhere");
   }
   std::sort(names.begin(), names.end());
   const auto twice = std::adjacent_find(names.begin(), names.end());
-  if (twice != names.end())
-    throw std::invalid_argument("port \"" + *twice + "\": two ports have this name; rename one");
+  if (twice != names.end()) throw std::invalid_argument("port \"" + *twice + "\": two ports have this name; rename one");
 }
 
 }  // namespace
 
-void add_ports(FeModel& model, const std::vector<NodePort>& nodes,
-               const std::vector<RimPort>& rims) {
+void add_ports(FeModel& model, const std::vector<NodePort>& nodes, const std::vector<RimPort>& rims) {
   judge(model, nodes, rims);
   std::vector<RimShape> shapes;
   for (const RimPort& port : rims) shapes.push_back(rim_shape(model, port));
@@ -182,14 +167,11 @@ void add_ports(FeModel& model, const std::vector<NodePort>& nodes,
   for (std::size_t r = 0; r < rims.size(); ++r) {
     if (rims[r].coupling == Coupling::rigid) {
       for (const int node : rims[r].nodes)
-        for (int i = model.begin[static_cast<std::size_t>(node)];
-             i < model.begin[static_cast<std::size_t>(node) + 1]; ++i)
+        for (int i = model.begin[static_cast<std::size_t>(node)]; i < model.begin[static_cast<std::size_t>(node) + 1]; ++i)
           independent[static_cast<std::size_t>(i)] = -1;
     } else {
       average[r] = average_rim(model, rims[r], shapes[r]);
-      for (const int k : average[r].given)
-        independent[static_cast<std::size_t>(average[r].freedoms[static_cast<std::size_t>(k)])] =
-            -1;
+      for (const int k : average[r].given) independent[static_cast<std::size_t>(average[r].freedoms[static_cast<std::size_t>(k)])] = -1;
     }
   }
   int n = rims.empty() ? N : 0;
@@ -200,8 +182,7 @@ void add_ports(FeModel& model, const std::vector<NodePort>& nodes,
   for (const NodePort& port : nodes) {
     const int at = model.begin[static_cast<std::size_t>(port.node)];
     Port made{port.name, model.x.col(port.node), {-1, -1, -1}};
-    for (int d = 0; at + d < model.begin[static_cast<std::size_t>(port.node) + 1]; ++d)
-      made.freedom[d] = model.independent_of(at + d);
+    for (int d = 0; at + d < model.begin[static_cast<std::size_t>(port.node) + 1]; ++d) made.freedom[d] = model.independent_of(at + d);
     model.ports.push_back(made);
   }
   if (rims.empty()) return;

@@ -18,8 +18,7 @@ struct NodeSizes {
       reject("elements of ", E::nodes, " nodes: ", block.nodes.size(),
              " node numbers are not a multiple of it; give each element all its nodes");
     if (block.properties.size() != 1 && block.properties.size() != count)
-      reject("elements: ", block.properties.size(), " properties for ", count,
-             " elements; give one for all or one each");
+      reject("elements: ", block.properties.size(), " properties for ", count, " elements; give one for all or one each");
     for (const int node : block.nodes) {
       if (node < 0 || static_cast<std::size_t>(node) >= size.size())
         reject("element: node ", node, " is not there; nodes run from 0 to ", size.size(), " − 1");
@@ -32,8 +31,7 @@ struct NodeSizes {
 }  // namespace
 
 const Port* FeModel::port(std::string_view name) const {
-  const auto at =
-      std::find_if(ports.begin(), ports.end(), [&](const Port& p) { return p.name == name; });
+  const auto at = std::find_if(ports.begin(), ports.end(), [&](const Port& p) { return p.name == name; });
   return at == ports.end() ? nullptr : &*at;
 }
 
@@ -46,18 +44,15 @@ FeModel fe_model(Eigen::Matrix2Xd x, std::vector<AnyBlock> blocks, std::vector<L
   for (std::size_t i = 0; i < size.size(); ++i) {
     if (size[i] == 0) {
       const Eigen::Vector2d at = x.col(static_cast<Eigen::Index>(i));
-      reject("node ", i, " at (", at.x(), ", ", at.y(),
-             ") belongs to no element; drop it from the mesh");
+      reject("node ", i, " at (", at.x(), ", ", at.y(), ") belongs to no element; drop it from the mesh");
     }
     model.begin.push_back(model.begin.back() + size[i]);
   }
   for (const Lump& lump : lumps) {
     if (lump.node < 0 || static_cast<std::size_t>(lump.node) >= size.size())
-      reject("point mass: node ", lump.node, " is not there; nodes run from 0 to ", size.size(),
-             " − 1");
+      reject("point mass: node ", lump.node, " is not there; nodes run from 0 to ", size.size(), " − 1");
     if (!(lump.mass.m >= 0 && lump.mass.J >= 0))
-      reject("point mass at node ", lump.node, ": m = ", lump.mass.m, " kg, J = ", lump.mass.J,
-             " kg m²; neither may be negative");
+      reject("point mass at node ", lump.node, ": m = ", lump.mass.m, " kg, J = ", lump.mass.J, " kg m²; neither may be negative");
     if (lump.mass.J > 0 && size[static_cast<std::size_t>(lump.node)] < 3)
       reject("point mass at node ", lump.node, ": J = ", lump.mass.J,
              " kg m² but the node has no rotation; leave J out or spread the mass over two nodes");
@@ -104,9 +99,7 @@ Eigen::VectorXd independent_load(const FeModel& model, const Eigen::VectorXd& no
   return model.L.transpose() * nodal_load;
 }
 
-double extent(const FeModel& model) {
-  return (model.x.rowwise().maxCoeff() - model.x.rowwise().minCoeff()).norm();
-}
+double extent(const FeModel& model) { return (model.x.rowwise().maxCoeff() - model.x.rowwise().minCoeff()).norm(); }
 
 Eigen::MatrixX3d scaled_rigid_motions(const FeModel& model) {
   const Eigen::Vector2d middle = (model.x.rowwise().maxCoeff() + model.x.rowwise().minCoeff()) / 2;

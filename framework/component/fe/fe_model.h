@@ -23,9 +23,7 @@ struct Block {
   std::vector<int> nodes;     ///< E::nodes an element
   std::vector<int> cells;     ///< which cell of the mesh, counted through its blocks
   int size() const { return static_cast<int>(nodes.size()) / E::nodes; }
-  const E& element(int i) const {
-    return properties[properties.size() == 1 ? 0 : static_cast<std::size_t>(i)];
-  }
+  const E& element(int i) const { return properties[properties.size() == 1 ? 0 : static_cast<std::size_t>(i)]; }
   Coords<E> coords(int i, const Eigen::Matrix2Xd& x) const {
     Coords<E> c;
     const int* node = &nodes[static_cast<std::size_t>(i * E::nodes)];
@@ -34,9 +32,8 @@ struct Block {
   }
 };
 using AnyBlock =
-    std::variant<Block<Bar>, Block<BeamEuler>, Block<BeamTimoshenko>, Block<Triangle3>,
-                 Block<Triangle6>, Block<Quadrilateral4>, Block<Quadrilateral4Plain>,
-                 Block<Quadrilateral8>, Block<Quadrilateral8Reduced>, Block<Quadrilateral9>>;
+    std::variant<Block<Bar>, Block<BeamEuler>, Block<BeamTimoshenko>, Block<Triangle3>, Block<Triangle6>, Block<Quadrilateral4>,
+                 Block<Quadrilateral4Plain>, Block<Quadrilateral8>, Block<Quadrilateral8Reduced>, Block<Quadrilateral9>>;
 template <class E>
 inline constexpr bool is_line = E::stress_rows == 3;  ///< bars and beams; else plane
 
@@ -77,9 +74,7 @@ struct FeModel {
   int n() const { return L.size() == 0 ? N() : static_cast<int>(L.cols()); }
   const Port* port(std::string_view name) const;  ///< nullptr: there is none
   /// The independent freedom that a nodal one is, or −1.
-  int independent_of(int nodal) const {
-    return independent.empty() ? nodal : independent[static_cast<std::size_t>(nodal)];
-  }
+  int independent_of(int nodal) const { return independent.empty() ? nodal : independent[static_cast<std::size_t>(nodal)]; }
 };
 
 /// Numbers the freedoms of blocks and lumps; no ports yet. A node has a rotation if an element

@@ -18,8 +18,7 @@ Eigen::VectorXd sum_sides(const FeModel& model, const std::vector<Cells>& sides,
       for (std::size_t k = 0; k < nodes; ++k) {
         const int node = cells.nodes[first + k];
         if (node < 0 || node >= model.x.cols())
-          throw std::invalid_argument("load: a side's node " + std::to_string(node) +
-                                      " is not there; nodes run from 0 to " +
+          throw std::invalid_argument("load: a side's node " + std::to_string(node) + " is not there; nodes run from 0 to " +
                                       std::to_string(model.x.cols()) + " − 1");
         x.col(static_cast<Eigen::Index>(k)) = model.x.col(node);
       }
@@ -34,8 +33,7 @@ Eigen::VectorXd sum_sides(const FeModel& model, const std::vector<Cells>& sides,
 
 }  // namespace
 
-void add_force(Eigen::VectorXd& independent, const Port& port, const Eigen::Vector2d& f,
-               double torque) {
+void add_force(Eigen::VectorXd& independent, const Port& port, const Eigen::Vector2d& f, double torque) {
   if (torque != 0 && port.freedom[2] < 0)
     throw std::invalid_argument("port \"" + port.name + "\": torque " + std::to_string(torque) +
                                 " N m, but the port has no rotation; load it by a pair of forces");
@@ -44,25 +42,19 @@ void add_force(Eigen::VectorXd& independent, const Port& port, const Eigen::Vect
   if (port.freedom[2] >= 0) independent[port.freedom[2]] += torque;
 }
 
-Eigen::VectorXd traction_load(const FeModel& model, const std::vector<Cells>& sides,
-                              const Eigen::Vector2d& traction, double thickness) {
-  return sum_sides(model, sides,
-                   [&](const Eigen::Matrix2Xd& x) { return side_load(x, traction, thickness); });
+Eigen::VectorXd traction_load(const FeModel& model, const std::vector<Cells>& sides, const Eigen::Vector2d& traction, double thickness) {
+  return sum_sides(model, sides, [&](const Eigen::Matrix2Xd& x) { return side_load(x, traction, thickness); });
 }
 
-Eigen::VectorXd pressure_load(const FeModel& model, const std::vector<Cells>& sides,
-                              double pressure, double thickness) {
-  return sum_sides(model, sides, [&](const Eigen::Matrix2Xd& x) {
-    return side_pressure(x, pressure, thickness);
-  });
+Eigen::VectorXd pressure_load(const FeModel& model, const std::vector<Cells>& sides, double pressure, double thickness) {
+  return sum_sides(model, sides, [&](const Eigen::Matrix2Xd& x) { return side_pressure(x, pressure, thickness); });
 }
 
 Eigen::VectorXd acceleration_load(const FeModel& model, const Sparse& M, const Eigen::Vector2d& a) {
   return M * (rigid_fields(model).T * a);
 }
 
-Eigen::VectorXd spin_load(const FeModel& model, const Sparse& M, double w,
-                          const Eigen::Vector2d& about) {
+Eigen::VectorXd spin_load(const FeModel& model, const Sparse& M, double w, const Eigen::Vector2d& about) {
   const RigidFields f = rigid_fields(model);
   return w * w * (M * (f.x - f.T * about));
 }
@@ -76,8 +68,7 @@ Eigen::VectorXd line_load(const FeModel& model, const Eigen::Vector2d& q) {
           if constexpr (is_line<E>) {
             any_line = true;
             for (int i = 0; i < block.size(); ++i) {
-              const Freedoms<E> f =
-                  pintle::line_load(block.element(i), block.coords(i, model.x), q);
+              const Freedoms<E> f = pintle::line_load(block.element(i), block.coords(i, model.x), q);
               for (int k = 0; k < E::nodes; ++k) {
                 const int node = block.nodes[static_cast<std::size_t>(i * E::nodes + k)];
                 load.segment<E::dofs_per_node>(model.begin[static_cast<std::size_t>(node)]) +=
@@ -87,9 +78,7 @@ Eigen::VectorXd line_load(const FeModel& model, const Eigen::Vector2d& q) {
           }
         },
         any);
-  if (!any_line)
-    throw std::invalid_argument(
-        "line load: the body has no beams or bars; load a plane body by traction on its edges");
+  if (!any_line) throw std::invalid_argument("line load: the body has no beams or bars; load a plane body by traction on its edges");
   return load;
 }
 

@@ -16,11 +16,9 @@ void add_force(Eigen::VectorXd& independent, const Port&, const Eigen::Vector2d&
 
 /// Force per area [Pa], body axes, on sides of plane cells; thickness in m.
 /// @throws std::invalid_argument  a side's nodes are not those of the model
-Eigen::VectorXd traction_load(const FeModel&, const std::vector<Cells>& sides,
-                              const Eigen::Vector2d& traction, double thickness);
+Eigen::VectorXd traction_load(const FeModel&, const std::vector<Cells>& sides, const Eigen::Vector2d& traction, double thickness);
 /// Pressure [Pa] against sides that have the body on their left: it pushes into the body.
-Eigen::VectorXd pressure_load(const FeModel&, const std::vector<Cells>& sides, double pressure,
-                              double thickness);
+Eigen::VectorXd pressure_load(const FeModel&, const std::vector<Cells>& sides, double pressure, double thickness);
 
 /// M T a: what a field of acceleration a [m/s²], such as gravity, does to the body; M: N × N.
 Eigen::VectorXd acceleration_load(const FeModel&, const Sparse& M, const Eigen::Vector2d& a);

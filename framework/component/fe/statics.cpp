@@ -68,8 +68,7 @@ int parts(const Sparse& A, std::vector<int>& part) {
 Eigen::Matrix2Xd places(const FeModel& model) {
   Eigen::Matrix2Xd at(2, model.n());
   for (Eigen::Index i = 0; i < model.x.cols(); ++i)
-    for (int f = model.begin[static_cast<std::size_t>(i)];
-         f < model.begin[static_cast<std::size_t>(i) + 1]; ++f)
+    for (int f = model.begin[static_cast<std::size_t>(i)]; f < model.begin[static_cast<std::size_t>(i) + 1]; ++f)
       if (const int k = model.independent_of(f); k >= 0) at.col(k) = model.x.col(i);
   for (const Port& port : model.ports)
     for (const int f : port.freedom)
@@ -116,8 +115,7 @@ void validate_supports(const FeModel& model, const Sparse& A, const std::vector<
   const Eigen::Matrix2Xd at = places(model);
   const Eigen::MatrixX3d motions = rigid_motions(model);
   std::vector<std::vector<int>> members(static_cast<std::size_t>(count));
-  for (int i = 0; i < model.n(); ++i)
-    members[static_cast<std::size_t>(part[static_cast<std::size_t>(i)])].push_back(i);
+  for (int i = 0; i < model.n(); ++i) members[static_cast<std::size_t>(part[static_cast<std::size_t>(i)])].push_back(i);
   for (const std::vector<int>& freedoms : members) {
     Vector2d low = at.col(freedoms[0]), high = low;
     std::vector<int> rows;
@@ -137,12 +135,9 @@ void validate_supports(const FeModel& model, const Sparse& A, const std::vector<
     }
     const std::string motion = free_motions(scaled, middle, size);
     if (motion.empty()) continue;
-    if (count == 1)
-      fail<std::runtime_error>("supports leave the body free ", motion, "; hold it there");
-    fail<std::runtime_error>("the body is in ", count,
-                             " parts that no element joins; supports leave the ", "one between (",
-                             low.x(), ", ", low.y(), ") and (", high.x(), ", ", high.y(), ") free ",
-                             motion, "; join the parts or hold each");
+    if (count == 1) fail<std::runtime_error>("supports leave the body free ", motion, "; hold it there");
+    fail<std::runtime_error>("the body is in ", count, " parts that no element joins; supports leave the ", "one between (", low.x(), ", ",
+                             low.y(), ") and (", high.x(), ", ", high.y(), ") free ", motion, "; join the parts or hold each");
   }
 }
 
@@ -153,8 +148,7 @@ struct Loosest {
 };
 Loosest loosest(const Factor& factor, const VectorXd& scale, double shift) {
   VectorXd z(scale.size());
-  for (Eigen::Index i = 0; i < z.size(); ++i)
-    z[i] = 1 + std::sin(1.0 + 0.7 * static_cast<double>(i));
+  for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = 1 + std::sin(1.0 + 0.7 * static_cast<double>(i));
   double lambda = 0;
   for (int k = 0; k < 3; ++k) {
     z /= std::sqrt(z.dot(scale.cwiseProduct(z)));
@@ -171,9 +165,8 @@ Loosest loosest(const Factor& factor, const VectorXd& scale, double shift) {
   const Vector2d at = places(model).col(freedom);
   const Eigen::RowVector3d motion = rigid_motions(model).row(freedom);
   const char* name = motion[0] == 1 ? "x" : motion[1] == 1 ? "y" : "rotation";
-  fail<std::runtime_error>(
-      "the body is held as a whole but a part of it moves without resistance, most at (", at.x(),
-      ", ", at.y(), ") in ", name, "; bars that hinge on each other need beams or more bars");
+  fail<std::runtime_error>("the body is held as a whole but a part of it moves without resistance, most at (", at.x(), ", ", at.y(),
+                           ") in ", name, "; bars that hinge on each other need beams or more bars");
 }
 
 // Factors A, or says what moves.
@@ -188,9 +181,7 @@ Factor factored(const FeModel& model, Sparse A, const std::vector<int>& free) {
   }
   constexpr double shift = 1e-8;
   for (Eigen::Index i = 0; i < A.cols(); ++i) A.coeffRef(i, i) += shift * scale[i];
-  if (!factor.compute(A))
-    fail<std::runtime_error>(
-        "the stiffness of the body is not positive; look at its material and mesh");
+  if (!factor.compute(A)) fail<std::runtime_error>("the stiffness of the body is not positive; look at its material and mesh");
   fail_mechanism(model, free[static_cast<std::size_t>(loosest(factor, scale, shift).freedom)]);
 }
 
@@ -204,29 +195,26 @@ VectorXd picked(const VectorXd& all, const std::vector<int>& at) {
 
 void hold(Supports& supports, const FeModel& model, int node, bool x, bool y, bool turn) {
   if (node < 0 || node >= model.x.cols())
-    fail<std::invalid_argument>("support: node ", node, " is not there; nodes run from 0 to ",
-                                model.x.cols(), " − 1");
+    fail<std::invalid_argument>("support: node ", node, " is not there; nodes run from 0 to ", model.x.cols(), " − 1");
   const int at = model.begin[static_cast<std::size_t>(node)];
   const int size = model.begin[static_cast<std::size_t>(node) + 1] - at;
   if (turn && size < 3)
-    fail<std::invalid_argument>("support: node ", node, " at (", model.x(0, node), ", ",
-                                model.x(1, node),
+    fail<std::invalid_argument>("support: node ", node, " at (", model.x(0, node), ", ", model.x(1, node),
                                 ") has no rotation to hold; hold two nodes apart instead");
   int freedom[3] = {-1, -1, -1};
   for (int d = 0; d < size; ++d) freedom[d] = model.independent_of(at + d);
   const bool held[3] = {x, y, turn};
   for (int d = 0; d < 3; ++d)
     if (held[d] && freedom[d] < 0)
-      fail<std::invalid_argument>("support: node ", node, " at (", model.x(0, node), ", ",
-                                  model.x(1, node),
+      fail<std::invalid_argument>("support: node ", node, " at (", model.x(0, node), ", ", model.x(1, node),
                                   ") is on a rim that follows its port; hold the port instead");
   hold_freedoms(supports, freedom, held);
 }
 
 void hold(Supports& supports, const FeModel&, const Port& port, bool x, bool y, bool turn) {
   if (turn && port.freedom[2] < 0)
-    fail<std::invalid_argument>("support: port \"", port.name, "\" at (", port.x.x(), ", ",
-                                port.x.y(), ") has no rotation to hold; hold two points instead");
+    fail<std::invalid_argument>("support: port \"", port.name, "\" at (", port.x.x(), ", ", port.x.y(),
+                                ") has no rotation to hold; hold two points instead");
   hold_freedoms(supports, port.freedom, {x, y, turn});
 }
 
@@ -247,19 +235,14 @@ int rigid_motions_left(const FeModel& model, const Supports& supports) {
   return 3 - static_cast<int>((size.array() > held_rank * size[0]).count());
 }
 
-StaticSolution solve_static(const FeModel& model, const Sparse& K, const Supports& supports,
-                            const VectorXd& independent_load) {
+StaticSolution solve_static(const FeModel& model, const Sparse& K, const Supports& supports, const VectorXd& independent_load) {
   if (K.rows() != model.N() || K.cols() != model.N())
-    fail<std::invalid_argument>("stiffness: ", K.rows(), " × ", K.cols(), ", must be ", model.N(),
-                                " square, in nodal freedoms");
+    fail<std::invalid_argument>("stiffness: ", K.rows(), " × ", K.cols(), ", must be ", model.N(), " square, in nodal freedoms");
   if (independent_load.size() != model.n())
-    fail<std::invalid_argument>("load: ", independent_load.size(), " numbers, must be ", model.n(),
-                                ", one per independent freedom");
+    fail<std::invalid_argument>("load: ", independent_load.size(), " numbers, must be ", model.n(), ", one per independent freedom");
   if (!independent_load.allFinite()) fail<std::runtime_error>("load: a number in it is not finite");
   const Sparse A = independent(model, K);
-  if (!A.coeffs().allFinite())
-    fail<std::runtime_error>(
-        "the stiffness of the body is not finite; look at its material and mesh");
+  if (!A.coeffs().allFinite()) fail<std::runtime_error>("the stiffness of the body is not finite; look at its material and mesh");
   const std::vector<int> free = free_freedoms(model, supports);
   std::vector<bool> held(static_cast<std::size_t>(model.n()), true);
   for (const int i : free) held[static_cast<std::size_t>(i)] = false;
@@ -276,8 +259,7 @@ StaticSolution solve_static(const FeModel& model, const Sparse& K, const Support
     for (int k = 0; k < 3 && rest.norm() > 1e-14 * start && rest.norm() < before / 2; ++k) {
       before = rest.norm();
       const VectorXd step = factor.solve(rest);
-      for (std::size_t i = 0; i < free.size(); ++i)
-        u[free[i]] += step[static_cast<Eigen::Index>(i)];
+      for (std::size_t i = 0; i < free.size(); ++i) u[free[i]] += step[static_cast<Eigen::Index>(i)];
       rest = picked(independent_load - A * u, free);
     }
   }

@@ -23,12 +23,12 @@ int rigid_motions_left(const FeModel&, const Supports&);
 
 /// A static answer, in nodal freedoms or nodes where not said otherwise.
 struct StaticSolution {
-  Eigen::VectorXd u;          ///< N [m, rad]
+  Eigen::VectorXd u;            ///< N [m, rad]
   Eigen::VectorXd independent;  ///< ũ, n, with u = L ũ
-  Eigen::VectorXd reactions;  ///< forces of the supports on the body, independent freedoms, n; zero
-                              ///< where free [N, N m]
-  double strain_energy = 0;   ///< ½ uᵀKu [J]
-  double residual = 0;  ///< ‖Ku − f‖/‖f‖ over free freedoms, f with its reactions; 0 without load
+  Eigen::VectorXd reactions;    ///< forces of the supports on the body, independent freedoms, n; zero
+                                ///< where free [N, N m]
+  double strain_energy = 0;     ///< ½ uᵀKu [J]
+  double residual = 0;          ///< ‖Ku − f‖/‖f‖ over free freedoms, f with its reactions; 0 without load
 };
 /// K u = f with supports, by CHOLMOD, refined until rounding is all that is left. K: N × N, nodal.
 /// Whether the supports hold every rigid motion of each connected part is judged by rank, whatever
@@ -36,8 +36,7 @@ struct StaticSolution {
 /// @throws std::runtime_error     the supports leave a motion free: which (x, y or rotation, of the
 ///         body or a part), or where the motion is greatest; the load or K is not finite
 /// @throws std::invalid_argument  K or the load is not of the model's size
-StaticSolution solve_static(const FeModel&, const Sparse& K, const Supports&,
-                            const Eigen::VectorXd& independent_load);
+StaticSolution solve_static(const FeModel&, const Sparse& K, const Supports&, const Eigen::VectorXd& independent_load);
 
 /// For lines: area, second moment and fibre distance of an element's section.
 struct Fibre {
@@ -59,12 +58,11 @@ struct StressField {
   /// Lines: [N V M] at both ends, 3 × 2 an element [N, N, N m]. From u alone: of a load between the
   /// nodes they miss the fixed-end forces.
   Eigen::Matrix3Xd section_forces;
-  Eigen::Matrix4Xd at_points;       ///< plane: at the integration points, element by element [Pa]
-  Eigen::Matrix2Xd points;          ///< where those are, body axes [m]
+  Eigen::Matrix4Xd at_points;  ///< plane: at the integration points, element by element [Pa]
+  Eigen::Matrix2Xd points;     ///< where those are, body axes [m]
 };
 /// @param fibres  one per line element, or none
 /// @throws std::invalid_argument  u is not of the model's size, or the count of fibres is another
-StressField stress_field(const FeModel&, const Eigen::VectorXd& u,
-                         const std::vector<Fibre>& fibres = {});
+StressField stress_field(const FeModel&, const Eigen::VectorXd& u, const std::vector<Fibre>& fibres = {});
 
 }  // namespace pintle

@@ -49,14 +49,12 @@ struct Filling {
   void lines(const Block<E>& block) {
     for (int i = 0; i < block.size(); ++i, ++line) {
       const int* node = &block.nodes[static_cast<std::size_t>(i * E::nodes)];
-      const Stress<E> forces =
-          stress(block.element(i), block.coords(i, model.x), gathered<E>(model, node, u));
+      const Stress<E> forces = stress(block.element(i), block.coords(i, model.x), gathered<E>(model, node, u));
       field.section_forces.middleCols<2>(2 * line) = forces;
       if (fibres.empty()) continue;
       const Fibre& fibre = fibres[static_cast<std::size_t>(line)];
       for (int k = 0; k < 2; ++k) {
-        const double here =
-            std::abs(forces(0, k)) / fibre.A + std::abs(forces(2, k)) * fibre.distance / fibre.I;
+        const double here = std::abs(forces(0, k)) / fibre.A + std::abs(forces(2, k)) * fibre.distance / fibre.I;
         double& most = field.von_mises[node[k]];
         most = std::max(most, here);
       }
@@ -66,11 +64,11 @@ struct Filling {
   /// Plane elements of one material and thickness: their stress is continuous but for the error of the mesh.
   struct Sheet {
     PlaneProperties of;
-    bool even;                      // all its elements have these properties
-    Eigen::Matrix4Xd sum;           // over the elements that meet at a node
-    std::vector<int> meet;          // how many those are
-    std::vector<int> nodes{};       // of every element in turn
-    std::vector<double> own{};      // von Mises stress of the element there
+    bool even;                  // all its elements have these properties
+    Eigen::Matrix4Xd sum;       // over the elements that meet at a node
+    std::vector<int> meet;      // how many those are
+    std::vector<int> nodes{};   // of every element in turn
+    std::vector<double> own{};  // von Mises stress of the element there
   };
   std::vector<Sheet> sheets{};
 
@@ -83,7 +81,8 @@ struct Filling {
     };
     if (even)
       if (const auto at = std::find_if(sheets.begin(), sheets.end(), same); at != sheets.end()) return *at;
-    return sheets.emplace_back(Sheet{p, even, Eigen::Matrix4Xd::Zero(4, model.x.cols()), std::vector<int>(static_cast<std::size_t>(model.x.cols()), 0)});
+    return sheets.emplace_back(
+        Sheet{p, even, Eigen::Matrix4Xd::Zero(4, model.x.cols()), std::vector<int>(static_cast<std::size_t>(model.x.cols()), 0)});
   }
 
   template <class E>
@@ -125,15 +124,14 @@ struct Filling {
 
 }  // namespace
 
-StressField stress_field(const FeModel& model, const Eigen::VectorXd& u,
-                         const std::vector<Fibre>& fibres) {
+StressField stress_field(const FeModel& model, const Eigen::VectorXd& u, const std::vector<Fibre>& fibres) {
   if (u.size() != model.N())
-    throw std::invalid_argument("displacement: " + std::to_string(u.size()) + " numbers, must be " +
-                                std::to_string(model.N()) + ", one per nodal freedom");
+    throw std::invalid_argument("displacement: " + std::to_string(u.size()) + " numbers, must be " + std::to_string(model.N()) +
+                                ", one per nodal freedom");
   const Counts n = counts(model);
   if (!fibres.empty() && static_cast<Index>(fibres.size()) != n.lines)
-    throw std::invalid_argument("fibres: " + std::to_string(fibres.size()) + " for " +
-                                std::to_string(n.lines) + " line elements; give one each or none");
+    throw std::invalid_argument("fibres: " + std::to_string(fibres.size()) + " for " + std::to_string(n.lines) +
+                                " line elements; give one each or none");
   StressField field;
   if (n.plane > 0) field.nodal.setZero(4, model.x.cols());
   if (n.plane > 0 || !fibres.empty()) field.von_mises.setZero(model.x.cols());

@@ -28,16 +28,15 @@ Eigen::MatrixXd straining(const Component& c, const std::vector<int>& interface)
     const Eigen::JacobiSVD<Eigen::MatrixXd> sized(rigid, Eigen::ComputeFullU);
     if (spans(sized)) return size.cwiseInverse().asDiagonal() * sized.matrixU().rightCols(b - 3);
   }
-  throw std::invalid_argument("Craig–Bampton: the interface ports hold the body with " +
-                              std::to_string(b) +
+  throw std::invalid_argument("Craig–Bampton: the interface ports hold the body with " + std::to_string(b) +
                               " freedoms and leave a rigid motion free; add a port, take one that "
                               "can turn, or use free modes");
 }
 
 /// Displacements of the whole body when the interface moves as the columns of C and no load acts
 /// inside.
-Eigen::MatrixXd static_shapes(const Component& c, const std::vector<int>& interface,
-                              const std::vector<int>& interior, const Eigen::MatrixXd& C) {
+Eigen::MatrixXd static_shapes(const Component& c, const std::vector<int>& interface, const std::vector<int>& interior,
+                              const Eigen::MatrixXd& C) {
   Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(c.model.n(), C.cols());
   shapes(interface, Eigen::all) = C;
   if (interior.empty() || C.cols() == 0) return shapes;
@@ -60,21 +59,19 @@ Sparse columns_of_identity(int n, const std::vector<int>& which) {
 }
 
 Modes fixed_modes(const Component& c, const std::vector<int>& interior, const Keep& keep) {
-  return held_modes(c, columns_of_identity(c.model.n(), interior), keep,
-                    "the body with its interface held");
+  return held_modes(c, columns_of_identity(c.model.n(), interior), keep, "the body with its interface held");
 }
 
 }  // namespace
 
-ModalModel fixed_interface_modes(const Component& c, const std::vector<int>& ports,
-                                 const ReferenceConditions& conditions, const Keep& keep) {
+ModalModel fixed_interface_modes(const Component& c, const std::vector<int>& ports, const ReferenceConditions& conditions,
+                                 const Keep& keep) {
   Modes fixed = fixed_modes(c, free_freedoms(c.model, {port_freedoms(c.model, ports)}), keep);
   fixed.shapes = meeting_conditions(c, conditions, fixed.shapes);
   return modal_model(c, conditions, fixed);
 }
 
-ModalModel craig_bampton(const Component& c, const std::vector<int>& ports, const ReferenceConditions& conditions,
-                         const Keep& keep) {
+ModalModel craig_bampton(const Component& c, const std::vector<int>& ports, const ReferenceConditions& conditions, const Keep& keep) {
   const std::vector<int> interface = port_freedoms(c.model, ports);
   const Eigen::MatrixXd C = straining(c, interface);
   // All fixed-interface modes and all static shapes span what all modes under the tie span.

@@ -44,20 +44,18 @@ std::vector<RigidRim> rigid_rims(const FeModel& model) {
 /// Σ r·f over a rim's nodes, f nodal.
 double virial(const RigidRim& rim, const VectorXd& f) {
   double sum = 0;
-  for (std::size_t k = 0; k < rim.at.size(); ++k)
-    sum += rim.r.col(static_cast<Eigen::Index>(k)).dot(f.segment<2>(rim.at[k]));
+  for (std::size_t k = 0; k < rim.at.size(); ++k) sum += rim.r.col(static_cast<Eigen::Index>(k)).dot(f.segment<2>(rim.at[k]));
   return sum;
 }
 
 }  // namespace
 
-std::vector<MatrixXd> foreshortening(const Component& c, const ReferenceConditions& conditions,
-                                     const ModalModel& modes, const MatrixXd& loads) {
+std::vector<MatrixXd> foreshortening(const Component& c, const ReferenceConditions& conditions, const ModalModel& modes,
+                                     const MatrixXd& loads) {
   return foreshortening_of_response(c, modes, static_response(c, conditions, loads));
 }
 
-std::vector<MatrixXd> foreshortening_of_response(const Component& c, const ModalModel& modes,
-                                                 const MatrixXd& response) {
+std::vector<MatrixXd> foreshortening_of_response(const Component& c, const ModalModel& modes, const MatrixXd& response) {
   const MatrixXd& phi = modes.shapes;
   const MatrixXd u = nodal(c.model, response);
   const Assembler assembler(c.model);
@@ -75,8 +73,7 @@ std::vector<MatrixXd> foreshortening_of_response(const Component& c, const Modal
   return all;
 }
 
-Foreshortening inertia_foreshortening(const Component& c, const Sparse& M, const ReferenceConditions& conditions,
-                                      const ModalModel& modes) {
+Foreshortening inertia_foreshortening(const Component& c, const Sparse& M, const ReferenceConditions& conditions, const ModalModel& modes) {
   const RigidFields f = rigid_fields(c.model);
   MatrixXd loads(c.model.n(), 4);
   loads.col(0) = independent_load(c.model, M * f.T.col(0));
@@ -96,8 +93,7 @@ std::vector<std::array<MatrixXd, 2>> port_foreshortening(const Component& c, con
     for (int d = 0; d < 2; ++d) loads(port.freedom[d], column++) = 1;
   std::vector<MatrixXd> F = foreshortening(c, conditions, modes, loads);
   std::vector<std::array<MatrixXd, 2>> out;
-  for (std::size_t i = 0; i < ports.size(); ++i)
-    out.push_back({std::move(F[2 * i]), std::move(F[2 * i + 1])});
+  for (std::size_t i = 0; i < ports.size(); ++i) out.push_back({std::move(F[2 * i]), std::move(F[2 * i + 1])});
   return out;
 }
 

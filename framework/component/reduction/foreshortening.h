@@ -19,20 +19,16 @@ namespace pintle {
 /// @param loads  independent freedoms, n × count
 /// @throws std::invalid_argument  as reference_condition_rows; `loads` has another number of rows
 /// @throws std::runtime_error     parts of the body are not joined, or move without resistance
-std::vector<Eigen::MatrixXd> foreshortening(const Component&, const ReferenceConditions&, const ModalModel&,
-                                            const Eigen::MatrixXd& loads);
+std::vector<Eigen::MatrixXd> foreshortening(const Component&, const ReferenceConditions&, const ModalModel&, const Eigen::MatrixXd& loads);
 /// The same of loads whose static responses are known. @param u  independent freedoms, n × count
-std::vector<Eigen::MatrixXd> foreshortening_of_response(const Component&, const ModalModel&,
-                                                        const Eigen::MatrixXd& u);
+std::vector<Eigen::MatrixXd> foreshortening_of_response(const Component&, const ModalModel&, const Eigen::MatrixXd& u);
 
 /// The same for the loads of inertia, about the origin of the body's axes: what FlexInertia holds.
 /// Under mean axes S is zero: there the mass centre stays where it is.
 /// @param M  nodal, N × N, as `flex_inertia` is given it
-Foreshortening inertia_foreshortening(const Component&, const Sparse& M, const ReferenceConditions&,
-                                      const ModalModel&);
+Foreshortening inertia_foreshortening(const Component&, const Sparse& M, const ReferenceConditions&, const ModalModel&);
 
 /// The same for unit forces along x and y at each port [m/kg]: its displacement at second order.
-std::vector<std::array<Eigen::MatrixXd, 2>> port_foreshortening(const Component&, const ReferenceConditions&,
-                                                                const ModalModel&);
+std::vector<std::array<Eigen::MatrixXd, 2>> port_foreshortening(const Component&, const ReferenceConditions&, const ModalModel&);
 
 }  // namespace pintle

@@ -7,16 +7,14 @@ namespace {
 /// Elastic displacement, without momentum, of the free body under unit loads on `loaded` and the
 /// inertia of the rigid acceleration that they cause.
 Eigen::MatrixXd inertia_relief(const Component& c, const std::vector<int>& loaded) {
-  Eigen::MatrixXd load =
-      Eigen::MatrixXd::Zero(c.model.n(), static_cast<Eigen::Index>(loaded.size()));
+  Eigen::MatrixXd load = Eigen::MatrixXd::Zero(c.model.n(), static_cast<Eigen::Index>(loaded.size()));
   for (std::size_t k = 0; k < loaded.size(); ++k) load(loaded[k], static_cast<Eigen::Index>(k)) = 1;
   return static_response(c, {ReferenceConditions::mean_axes}, load);
 }
 
 }  // namespace
 
-ModalModel free_modes(const Component& c, const std::vector<int>& ports, const ReferenceConditions& conditions,
-                      const Keep& keep) {
+ModalModel free_modes(const Component& c, const std::vector<int>& ports, const ReferenceConditions& conditions, const Keep& keep) {
   const std::vector<int> loaded = port_freedoms(c.model, ports);
   if (keep.all) return normal_modes(c, conditions, keep);  // these leave nothing out
 

@@ -10,8 +10,7 @@ RigidInertia rigid_inertia(const FeModel& model, const Sparse& M) {
   return {f.T.col(0).dot(M * f.T.col(0)), f.T.transpose() * Mx, f.R.dot(M * f.R)};
 }
 
-FlexInertia flex_inertia(const FeModel& model, const Sparse& M, const Sparse& G,
-                         const ModalModel& modes) {
+FlexInertia flex_inertia(const FeModel& model, const Sparse& M, const Sparse& G, const ModalModel& modes) {
   const RigidFields f = rigid_fields(model);
   const Eigen::MatrixXd M_phi = M * modes.shapes;
   FlexInertia flex;

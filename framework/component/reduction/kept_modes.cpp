@@ -21,14 +21,10 @@ struct Problem {
 };
 
 void check(const Keep& keep) {
-  const int wishes =
-      keep.count.has_value() + keep.below.has_value() + keep.effective_mass.has_value() + keep.all;
-  if (wishes != 1)
-    reject("keep: ", wishes,
-           " rules are set; set exactly one of count, below, effective mass, all");
+  const int wishes = keep.count.has_value() + keep.below.has_value() + keep.effective_mass.has_value() + keep.all;
+  if (wishes != 1) reject("keep: ", wishes, " rules are set; set exactly one of count, below, effective mass, all");
   if (keep.count && *keep.count < 0) reject("keep: count = ", *keep.count, ", must be at least 0");
-  if (keep.below && !(*keep.below > 0))
-    reject("keep: below = ", *keep.below, " Hz, must be positive");
+  if (keep.below && !(*keep.below > 0)) reject("keep: below = ", *keep.below, " Hz, must be positive");
   if (const auto share = keep.effective_mass; share && !(*share > 0 && *share < 1))
     reject("keep: effective mass = ", *share, ", must lie between 0 and 1");
 }
@@ -41,16 +37,14 @@ std::vector<int> freedoms_with_mass(const Sparse& M) {
   return found;
 }
 
-int available(const Problem& p) {
-  return std::max(0, static_cast<int>(freedoms_with_mass(p.M).size()) - p.rigid);
-}
+int available(const Problem& p) { return std::max(0, static_cast<int>(freedoms_with_mass(p.M).size()) - p.rigid); }
 
 Modes elastic(const EigenPairs& pairs, const Problem& p) {
   if (!pairs.converged) throw std::runtime_error("modes of " + p.whose + ": " + pairs.reason);
   if (pairs.zero > p.rigid) {
     std::ostringstream text;
-    text << "modes of " << p.whose << ": " << pairs.zero << " motions cause no strain, expected "
-         << p.rigid << "; its parts are not joined, or one is more than ten thousand times as long as thick";
+    text << "modes of " << p.whose << ": " << pairs.zero << " motions cause no strain, expected " << p.rigid
+         << "; its parts are not joined, or one is more than ten thousand times as long as thick";
     throw std::runtime_error(text.str());
   }
   const Eigen::Index k = std::max<Eigen::Index>(0, pairs.lambda.size() - p.rigid);
@@ -85,13 +79,11 @@ void reject_unreachable(const Problem& p, double share, const Eigen::MatrixX3d& 
     const Eigen::MatrixXd part = carried(massive, Eigen::all);
     Factor mass;
     if (!mass.compute(restricted(p.M, massive)))
-      throw std::runtime_error("effective mass of " + p.whose +
-                               ": the mass matrix is not positive definite");
+      throw std::runtime_error("effective mass of " + p.whose + ": the mass matrix is not positive definite");
     reach = part.cwiseProduct(mass.solve(part)).colwise().sum();
   }
   if (reach.minCoeff() <= share)
-    reject("keep: effective mass = ", share, " cannot be reached: all modes of ", p.whose,
-           " together have the shares ", reach.transpose(),
+    reject("keep: effective mass = ", share, " cannot be reached: all modes of ", p.whose, " together have the shares ", reach.transpose(),
            " in x, y and rotation, the rest hangs on what is held; ask for less, or refine the "
            "mesh there");
 }
@@ -109,8 +101,8 @@ Modes by_effective_mass(const Problem& p, double share, const Eigen::MatrixX3d& 
       return {modes.shapes.leftCols(k + 1), modes.lambda.head(k + 1), modes.sturm};
     }
     if (count >= most)
-      reject("keep: effective mass = ", share, ": the first ", most, " modes of ", p.whose,
-             " have the shares ", sum.transpose(), " in x, y and rotation; ask for less");
+      reject("keep: effective mass = ", share, ": the first ", most, " modes of ", p.whose, " have the shares ", sum.transpose(),
+             " in x, y and rotation; ask for less");
   }
 }
 
@@ -120,12 +112,9 @@ Modes kept(const Problem& p, const Keep& keep, const Eigen::MatrixX3d& carried) 
   if (keep.effective_mass) return by_effective_mass(p, *keep.effective_mass, carried);
   const int there = available(p);
   const int wanted = keep.all ? there : *keep.count;
-  if (wanted > there)
-    reject(wanted, " modes asked for, ", p.whose, " has ", there,
-           "; ask for no more than these, or refine the mesh");
+  if (wanted > there) reject(wanted, " modes asked for, ", p.whose, " has ", there, "; ask for no more than these, or refine the mesh");
   if (keep.all && there > most_for_all)
-    reject("keep: all ", there, " modes of ", p.whose, " are too many: that is refused above ",
-           most_for_all,
+    reject("keep: all ", there, " modes of ", p.whose, " are too many: that is refused above ", most_for_all,
            " because the shapes are a dense matrix; use count, below or effective mass");
   return lowest(p, wanted);
 }
@@ -157,13 +146,11 @@ Sparse restricted(const Sparse& A, const Sparse& V) {
         if (const int row = to[static_cast<std::size_t>(a.row())]; row >= 0)
           column.emplace_back(row, v.value() * weight[a.row()] * a.value());
     const auto by_row = [](const auto& a, const auto& b) { return a.first < b.first; };
-    if (!std::is_sorted(column.begin(), column.end(), by_row))
-      std::stable_sort(column.begin(), column.end(), by_row);
+    if (!std::is_sorted(column.begin(), column.end(), by_row)) std::stable_sort(column.begin(), column.end(), by_row);
     B.startVec(q);
     double* last = nullptr;
     for (std::size_t k = 0; k < column.size(); ++k) {
-      if (k == 0 || column[k].first != column[k - 1].first)
-        last = &(B.insertBack(column[k].first, q) = 0);
+      if (k == 0 || column[k].first != column[k - 1].first) last = &(B.insertBack(column[k].first, q) = 0);
       *last += column[k].second;
     }
   }

@@ -82,8 +82,7 @@ ModalModel modal_model(const Component& c, const ReferenceConditions& conditions
   return model;
 }
 
-ModalModel diagonalised(const Component& c, const ReferenceConditions& conditions, const Eigen::MatrixXd& V,
-                        std::optional<int> sturm) {
+ModalModel diagonalised(const Component& c, const ReferenceConditions& conditions, const Eigen::MatrixXd& V, std::optional<int> sturm) {
   // Scaling up what little a shape adds scales up what rounding has left of rigid motions: tied
   // again.
   const Eigen::MatrixXd Q = meeting_conditions(c, conditions, orthonormal(c.M, meeting_conditions(c, conditions, V), least_share));
@@ -95,8 +94,7 @@ ModalModel diagonalised(const Component& c, const ReferenceConditions& condition
 
 ModalModel normal_modes(const Component& c, const ReferenceConditions& conditions, const Keep& keep) {
   if (conditions.kind != ReferenceConditions::mean_axes)
-    return modal_model(c, conditions,
-                       held_modes(c, permitted_motions(c, conditions), keep, "the body under its tie"));
+    return modal_model(c, conditions, held_modes(c, permitted_motions(c, conditions), keep, "the body under its tie"));
   Modes modes = elastic_modes(c, keep);
   modes.shapes = meeting_conditions(c, conditions, modes.shapes);
   return modal_model(c, conditions, modes);

@@ -83,15 +83,13 @@ ModalModel normal_modes(const Component&, const ReferenceConditions&, const Keep
 /// Source: [CraigBampton1968].
 /// @throws as normal_modes, and std::invalid_argument  a port is named twice; with the ports held
 ///         the body can still move as a rigid one
-ModalModel craig_bampton(const Component&, const std::vector<int>& ports, const ReferenceConditions&,
-                         const Keep&);
+ModalModel craig_bampton(const Component&, const std::vector<int>& ports, const ReferenceConditions&, const Keep&);
 
 /// The modes that Craig–Bampton adds to static shapes, brought to the tie: natural with the ports
 /// held, so that ΦᵀMΦ = I only before they are tied, and ΦᵀKΦ = diag(ω²) always. For judging which
 /// of them a motion needs.
 /// @throws as normal_modes, and std::invalid_argument  a port is named twice
-ModalModel fixed_interface_modes(const Component&, const std::vector<int>& ports, const ReferenceConditions&,
-                                 const Keep&);
+ModalModel fixed_interface_modes(const Component&, const std::vector<int>& ports, const ReferenceConditions&, const Keep&);
 
 /// Modes of the free body (`keep` counts those) and, for each freedom of the ports, the residual
 /// attachment shape: the static response of the freely accelerating body that the kept modes leave
@@ -99,8 +97,7 @@ ModalModel fixed_interface_modes(const Component&, const std::vector<int>& ports
 /// equilibrium with other loads there or with the body's inertia, stays exact.
 /// Source: [CraigChang1977].
 /// @throws as normal_modes, and std::invalid_argument  a port is named twice
-ModalModel free_modes(const Component&, const std::vector<int>& ports, const ReferenceConditions&,
-                      const Keep&);
+ModalModel free_modes(const Component&, const std::vector<int>& ports, const ReferenceConditions&, const Keep&);
 
 /// J = RᵀMR: a beam section's own rotary inertia counts, which xᵀMx would miss.
 /// @param M  nodal, N × N

@@ -43,7 +43,6 @@ inline constexpr double least_share = 1e-10;
 /// The model of given modes: n × k, M-orthonormal, K-diagonal and tied.
 ModalModel modal_model(const Component&, const ReferenceConditions&, const Modes&);
 /// The model of all that V spans, brought to the tie and made diagonal (Rayleigh and Ritz).
-ModalModel diagonalised(const Component&, const ReferenceConditions&, const Eigen::MatrixXd& V,
-                        std::optional<int> sturm);
+ModalModel diagonalised(const Component&, const ReferenceConditions&, const Eigen::MatrixXd& V, std::optional<int> sturm);
 
 }  // namespace pintle

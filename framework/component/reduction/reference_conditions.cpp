@@ -13,18 +13,17 @@ namespace {
 const Port& port_at(const FeModel& model, int index, const std::string& what) {
   const int count = static_cast<int>(model.ports.size());
   if (index < 0 || index >= count)
-    throw std::invalid_argument(what + " = " + std::to_string(index) + ": the body has " +
-                                std::to_string(count) + " ports; name one of them, from 0");
+    throw std::invalid_argument(what + " = " + std::to_string(index) + ": the body has " + std::to_string(count) +
+                                " ports; name one of them, from 0");
   return model.ports[static_cast<std::size_t>(index)];
 }
 
 const Port& turning_port(const FeModel& model, const ReferenceConditions& conditions) {
   const Port& a = port_at(model, conditions.a, "tangent tie: port a");
   if (a.freedom[2] < 0)
-    throw std::invalid_argument(
-        "tangent tie: port \"" + a.name +
-        "\" cannot turn (a node of plane elements has no rotation); use a port "
-        "in a hole or on a rim, the chord of two ports, or mean axes");
+    throw std::invalid_argument("tangent tie: port \"" + a.name +
+                                "\" cannot turn (a node of plane elements has no rotation); use a port "
+                                "in a hole or on a rim, the chord of two ports, or mean axes");
   return a;
 }
 
@@ -52,9 +51,7 @@ std::vector<int> port_freedoms(const FeModel& model, const std::vector<int>& por
     for (const int f : port.freedom) {
       if (f < 0) continue;
       if (!seen.insert(f).second)
-        throw std::invalid_argument(
-            "interface port \"" + port.name +
-            "\": its freedoms are in the interface already; name each port once");
+        throw std::invalid_argument("interface port \"" + port.name + "\": its freedoms are in the interface already; name each port once");
       freedoms.push_back(f);
     }
   }

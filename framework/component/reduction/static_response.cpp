@@ -30,8 +30,7 @@ Supports determinate_hold(const FeModel& model) {
 
 }  // namespace
 
-StaticResponse::StaticResponse(const Component& c)
-    : c_(c), moving_(free_freedoms(c.model, determinate_hold(c.model))) {
+StaticResponse::StaticResponse(const Component& c) : c_(c), moving_(free_freedoms(c.model, determinate_hold(c.model))) {
   if (!held_.compute(restricted(c.K, moving_)))
     throw std::runtime_error(
         "static response: parts of the body are not joined, or a part of it moves without "
@@ -40,9 +39,8 @@ StaticResponse::StaticResponse(const Component& c)
 
 MatrixXd StaticResponse::under(const ReferenceConditions& conditions, const MatrixXd& loads) const {
   if (loads.rows() != c_.model.n())
-    throw std::invalid_argument("static response: loads of " + std::to_string(loads.rows()) +
-                                " rows, must be " + std::to_string(c_.model.n()) +
-                                ", one per independent freedom");
+    throw std::invalid_argument("static response: loads of " + std::to_string(loads.rows()) + " rows, must be " +
+                                std::to_string(c_.model.n()) + ", one per independent freedom");
   const MatrixXd moving_loads = in_equilibrium(c_, conditions, loads)(moving_, Eigen::all);
   MatrixXd u = MatrixXd::Zero(loads.rows(), loads.cols());
   u(moving_, Eigen::all) = held_.solve(moving_loads);  // in equilibrium: the hold carries nothing

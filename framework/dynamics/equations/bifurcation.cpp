@@ -91,9 +91,8 @@ MatrixXd free_part(const System& system, Equations& eq, const MatrixXd& G, Matri
 /// What a combination of rows would be in the metric of M⁻¹ if they did not vanish together: Σ|N| (Cq M⁻¹ Cqᵀ)^½ of each row.
 double uncancelled(const System& system, const Equations& eq, const VectorXd& N) {
   VectorXd square = VectorXd::Zero(system.n_rows());
-  visit_jacobian(eq, [&](int row, int column, double value) {
-    square[row] += value * value * (column < system.n_rigid() ? eq.W[column] : 1);
-  });
+  visit_jacobian(eq,
+                 [&](int row, int column, double value) { square[row] += value * value * (column < system.n_rigid() ? eq.W[column] : 1); });
   return N.cwiseAbs().dot(square.cwiseSqrt());
 }
 

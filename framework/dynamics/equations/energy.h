@@ -7,8 +7,8 @@ namespace pintle {
 /// The books at an instant [J]. total + lost − put in is constant; what changes it is unexplained.
 struct Energies {
   double kinetic = 0, gravity = 0, springs = 0, contacts = 0, strain = 0;  ///< stored
-  double lost = 0;    ///< to hysteresis, friction, dampers, material and the scheme since the start
-  double input = 0;   ///< by loads and drivers since the start
+  double lost = 0;   ///< to hysteresis, friction, dampers, material and the scheme since the start
+  double input = 0;  ///< by loads and drivers since the start
   double stored() const { return kinetic + gravity + springs + contacts + strain; }
   double balance() const { return stored() + lost - input; }
 };

@@ -16,7 +16,6 @@ using Modal = Eigen::Map<const VectorXd>;
 
 namespace {
 
-
 // v ← M⁻¹ v
 void multiply_inverse_mass(const System& system, Equations& eq, VectorXd& v) {
   const Index n = system.n_rigid();
@@ -76,7 +75,7 @@ void solve_reactions(const System& system, Equations& eq) {
 
 // Dependent rows ask for the same accelerations: the solved-for λ leave nothing of Cq a − γ.
 bool agree(const System& system, Equations& eq) {
-  constexpr double little = 1e-2;  // of what they ask: close to singular poses speeds off by 1e-6 weigh that much
+  constexpr double little = 1e-2;    // of what they ask: close to singular poses speeds off by 1e-6 weigh that much
   constexpr double rounding = 1e-8;  // of the accelerations that the joints take away
   eq.g = eq.f;
   multiply_inverse_mass(system, eq, eq.g);
@@ -150,8 +149,7 @@ void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
     m.a0 = -m.w * m.w * m.d;
     if (m.flex.cols() > 0) move_on_flexible(system, system.markers[i], y, eq.cos_[body], eq.sin_[body], m);
   }
-  for (std::size_t k = 0; k < system.joints.size(); ++k)
-    evaluate_speed(system.joints[k], eq.motion.data(), t, eq.rows[k]);
+  for (std::size_t k = 0; k < system.joints.size(); ++k) evaluate_speed(system.joints[k], eq.motion.data(), t, eq.rows[k]);
   for (Index row = 0; row < eq.Cdot.size(); ++row) {
     const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
     eq.Cdot[row] = eq.rows[at(joint)].Ct[i];
@@ -188,8 +186,7 @@ void add_reaction(const Equations& eq, const VectorXd& x, VectorXd& out) {
   for (const Equations::End& end : eq.ends) {
     if (!end.bends) continue;
     const FlexibleInertia& body = eq.flexible[at(end.flexible)];
-    for (int r = 0; r < end.m; ++r)
-      out.segment(body.begin, body.n) += x[end.row + r] * eq.B_eta[end.at].row(r).transpose();
+    for (int r = 0; r < end.m; ++r) out.segment(body.begin, body.n) += x[end.row + r] * eq.B_eta[end.at].row(r).transpose();
   }
 }
 
@@ -201,7 +198,8 @@ void factor(const System& system, const VectorXd& y, Equations& eq) {
   if (!eq.regular) return;
   // Off C = 0 redundant rows seem to be independent, by pivots as the square of what they are off.
   constexpr double times = 100;
-  const double off = eq.permanent > 0 ? std::min(position_violation(system, eq), 1e-4) : 0, least = std::max(dependent_rows::lost, times * off * off);
+  const double off = eq.permanent > 0 ? std::min(position_violation(system, eq), 1e-4) : 0,
+               least = std::max(dependent_rows::lost, times * off * off);
   if (eq.flexible.empty()) {
     eq.regular = eq.schur.factor(eq.B, eq.B_eta_hat, least);
     return;
@@ -265,8 +263,7 @@ void apply_forces(const System& system, const State& state, Equations& eq) {
   }
   for (std::size_t i = 0; i < system.contacts.size(); ++i) {
     const ContactPair& pair = system.contacts[i];
-    eq.contact[i] = evaluate(pair, eq.motion[at(pair.journal)], eq.motion[at(pair.bearing)],
-                             state.impact_rate[i]);
+    eq.contact[i] = evaluate(pair, eq.motion[at(pair.journal)], eq.motion[at(pair.bearing)], state.impact_rate[i]);
     if (eq.contact[i].normal.force == 0) continue;
     add_wrench(system, eq, pair.journal, eq.contact[i].on_journal, eq.f);
     add_wrench(system, eq, pair.bearing, eq.contact[i].on_bearing, eq.f);
@@ -334,9 +331,7 @@ bool evaluate(const System& system, const State& state, Equations& eq, VectorXd&
   return eq.regular;
 }
 
-double position_violation(const System& system, const Equations& eq) {
-  return largest(eq.C.cwiseProduct(system.row_scale));
-}
+double position_violation(const System& system, const Equations& eq) { return largest(eq.C.cwiseProduct(system.row_scale)); }
 
 double velocity_violation(const System& system, const VectorXd& y, const Equations& eq) {
   if (eq.Cdot.size() == 0) return 0;

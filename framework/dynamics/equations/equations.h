@@ -21,10 +21,10 @@ struct Equations {
 
   /// An end of a joint on a body that moves, with the indices it needs at hand.
   struct End {
-    std::size_t joint, at;   ///< L[at] and B[at] are its share of the joint's rows
-    int marker, q, row, m;   ///< marker; first coordinate; first row; rows
-    int flexible;            ///< index into `flexible`, −1 for a rigid body
-    bool bends;              ///< B_eta may be other than 0
+    std::size_t joint, at;  ///< L[at] and B[at] are its share of the joint's rows
+    int marker, q, row, m;  ///< marker; first coordinate; first row; rows
+    int flexible;           ///< index into `flexible`, −1 for a rigid body
+    bool bends;             ///< B_eta may be other than 0
   };
   std::vector<End> ends;
   /// One row of an end, for products: three entries of L or B, counted through all blocks, at q.
@@ -37,32 +37,32 @@ struct Equations {
     int body;
     double x, y, angle;
   };
-  std::vector<Point> points;          ///< of each marker
+  std::vector<Point> points;  ///< of each marker
   struct JointRow {
     int joint, i;
   };
-  std::vector<JointRow> joint_rows;   ///< of each constraint row
-  Eigen::VectorXd W;                  ///< M⁻¹ of rigid bodies, diagonal, n_rigid
+  std::vector<JointRow> joint_rows;       ///< of each constraint row
+  Eigen::VectorXd W;                      ///< M⁻¹ of rigid bodies, diagonal, n_rigid
   std::vector<FlexibleInertia> flexible;  ///< of each flexible body
-  std::vector<int> flexible_of;       ///< per body, index into `flexible` or −1
+  std::vector<int> flexible_of;           ///< per body, index into `flexible` or −1
 
-  std::vector<MarkerMotion> motion;   ///< of each marker
-  std::vector<bool> directed;         ///< per marker: a joint or a following force asks for its direction u
-  std::vector<ConstraintRows> rows;   ///< of each joint, in poses of its markers
+  std::vector<MarkerMotion> motion;      ///< of each marker
+  std::vector<bool> directed;            ///< per marker: a joint or a following force asks for its direction u
+  std::vector<ConstraintRows> rows;      ///< of each joint, in poses of its markers
   std::vector<ConstraintRows::Block> L;  ///< … and their derivatives, one an end of a joint
-  std::vector<Schur::Block> B;        ///< rows of Cq, likewise: L J on [x y θ] …
-  std::vector<RowBlock> B_eta;        ///< … and on η; empty for a rigid body
-  std::vector<Schur::Block> B_hat;    ///< both in the metric of M⁻¹: see to_metric
+  std::vector<Schur::Block> B;           ///< rows of Cq, likewise: L J on [x y θ] …
+  std::vector<RowBlock> B_eta;           ///< … and on η; empty for a rigid body
+  std::vector<Schur::Block> B_hat;       ///< both in the metric of M⁻¹: see to_metric
   std::vector<RowBlock> B_eta_hat;
   Schur schur;
-  Eigen::VectorXd C;                  ///< position violation [m or rad], n_rows
-  Eigen::VectorXd Cdot;               ///< velocity violation Cq s + Ct, n_rows
-  Eigen::VectorXd f, a, lambda;       ///< forces, accelerations, multipliers
+  Eigen::VectorXd C;             ///< position violation [m or rad], n_rows
+  Eigen::VectorXd Cdot;          ///< velocity violation Cq s + Ct, n_rows
+  Eigen::VectorXd f, a, lambda;  ///< forces, accelerations, multipliers
   std::vector<ContactEffect> contact;
   std::vector<ForceEffect> force;
-  bool regular = true;                ///< false: no accelerations can be had here
-  bool uneven = false;                ///< inertias so unlike that λ and a need a second look
-  int permanent = 0;                    ///< rows that others imply wherever it has moved so far
+  bool regular = true;  ///< false: no accelerations can be had here
+  bool uneven = false;  ///< inertias so unlike that λ and a need a second look
+  int permanent = 0;    ///< rows that others imply wherever it has moved so far
 
   long evaluations = 0, factorizations = 0;
 
@@ -109,11 +109,10 @@ double angle_rounding(const System&, const Eigen::VectorXd& y);
 /// branch: it fails where Newton's method does not contract fast, and leaves the speeds alone rather than turn them.
 /// @returns false if it does not converge
 template <class Factor, class Subtract>
-bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equations& eq, Factor factor,
-                      Subtract subtract) {
+bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equations& eq, Factor factor, Subtract subtract) {
   constexpr double still_good = 1e-8;  // beyond so many turns that digits run short of it, it gives up
   const double known = angle_rounding(system, y), enough = std::max(1e-13, known), good = std::max(1e-11, std::min(8 * known, still_good));
-  constexpr double contracts = 0.1;              // a jump between branches leaves a quarter of the violation at the least
+  constexpr double contracts = 0.1;                // a jump between branches leaves a quarter of the violation at the least
   constexpr double amplified = 1e3, turns = 1e-6;  // times the violation; of the fastest speed
   constexpr double digits = 1e-15;
   constexpr int most = 8;

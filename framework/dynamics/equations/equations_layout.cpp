@@ -75,8 +75,7 @@ Equations::Equations(const System& system)
     if (m.body != ground) weigh_in(1 / system.bodies[at(m.body)].m + m.x_BP.squaredNorm() / system.bodies[at(m.body)].J);
   uneven = !flexible.empty() || most > alike * least;
   for (std::size_t b = 0; b < system.bodies.size(); ++b)
-    W.segment<3>(static_cast<Index>(3 * b)) << 1 / system.bodies[b].m, 1 / system.bodies[b].m,
-        1 / system.bodies[b].J;
+    W.segment<3>(static_cast<Index>(3 * b)) << 1 / system.bodies[b].m, 1 / system.bodies[b].m, 1 / system.bodies[b].J;
 }
 
 }  // namespace pintle

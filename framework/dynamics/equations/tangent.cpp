@@ -16,13 +16,10 @@ using Block = Eigen::Map<Eigen::MatrixXd>;
 
 namespace {
 
-
 int size_of(const System& system, int body) { return 3 + system.bodies[at(body)].modes(); }
 
 // Coordinate i of a body, of [x y θ η], in q.
-int coordinate(const System& system, int body, int i) {
-  return i < 3 ? 3 * body + i : system.eta_begin[at(body)] + i - 3;
-}
+int coordinate(const System& system, int body, int i) { return i < 3 ? 3 * body + i : system.eta_begin[at(body)] + i - 3; }
 
 }  // namespace
 
@@ -78,7 +75,9 @@ void Tangent::lay_out(const System& system) {
 
   std::vector<bool> full;
   for (const Body& body : system.bodies) full.push_back(body.modes() > 0);
-  each_block([&](int, int row, int column) { if (row == column) full[at(row)] = true; });
+  each_block([&](int, int row, int column) {
+    if (row == column) full[at(row)] = true;
+  });
 
   for (int b = 0; b < static_cast<int>(system.bodies.size()); ++b) {
     const int begin = static_cast<int>(places_.size());
@@ -100,8 +99,8 @@ void Tangent::lay_out(const System& system) {
   });
 }
 
-void Tangent::evaluate(const System& system, const State& state, const Equations& eq, const VectorXd& a,
-                       const VectorXd& lambda, const Weights& w, std::vector<double>& values) {
+void Tangent::evaluate(const System& system, const State& state, const Equations& eq, const VectorXd& a, const VectorXd& lambda,
+                       const Weights& w, std::vector<double>& values) {
   std::fill(values.begin(), values.end(), 0.0);
   add_inertia(system, state, eq, a, w, values.data());
   if (w.q != 0) add_geometric_stiffness_of_forces(system, eq, lambda, w.q, values.data());
@@ -126,7 +125,7 @@ void Tangent::add_inertia(const System& system, const State& state, const Equati
 
 // −Σ f·∂²p/∂q²: forces keep their place on bodies that turn and bend.
 void Tangent::add_geometric_stiffness_of_forces(const System& system, const Equations& eq, const VectorXd& lambda, double weight,
-                          double* values) const {
+                                                double* values) const {
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const int row = system.row_begin[k], m = system.row_begin[k + 1] - row;
     for (int e = system.end_begin[k]; e < system.end_begin[k + 1]; ++e) {
@@ -197,16 +196,16 @@ void Tangent::move(const System& system, const State& state, const Equations& eq
 }
 
 // −Jᵀ(P J + D V) in q and −JᵀD J in s, P and D the derivatives of the wrenches in poses and their rates.
-void Tangent::add_interactions(const System& system, const State& state, const Equations& eq, const VectorXd& lambda,
-                        const Weights& w, double* values) {
+void Tangent::add_interactions(const System& system, const State& state, const Equations& eq, const VectorXd& lambda, const Weights& w,
+                               double* values) {
   for (const Interaction& x : interactions_) {
     if (w.q == 0 && !x.rate) continue;
     if (x.kind == Interaction::contact && eq.contact[x.index].normal.force == 0) continue;
     const MarkerMotion &a = eq.motion[at(x.marker[0])], &b = eq.motion[at(x.marker[1])];
-    const WrenchTangent tangent =
-        x.kind == Interaction::joint   ? wrench_tangent(system.joints[x.index], eq.motion.data(), lambda.data() + system.row_begin[x.index])
-        : x.kind == Interaction::force ? wrench_tangent(system.forces[x.index], eq.force[x.index], a, b)
-                                       : wrench_tangent(system.contacts[x.index], eq.contact[x.index], a, b);
+    const WrenchTangent tangent = x.kind == Interaction::joint
+                                      ? wrench_tangent(system.joints[x.index], eq.motion.data(), lambda.data() + system.row_begin[x.index])
+                                  : x.kind == Interaction::force ? wrench_tangent(system.forces[x.index], eq.force[x.index], a, b)
+                                                                 : wrench_tangent(system.contacts[x.index], eq.contact[x.index], a, b);
     for (std::size_t i = 0; i < x.n; ++i) move(system, state, eq, x.marker[i], ends_[i]);
 
     for (std::size_t i = 0; i < x.n; ++i)

@@ -27,8 +27,8 @@ class Tangent {
   using Weights = TangentWeights;
   /// values[i] ← summand i of  w.q ∂r/∂q + w.s ∂r/∂s + w.a M,  λ and a held. No allocation.
   /// @pre pose, speed, update_mass and apply_forces were called at `state`; values has places().size()
-  void evaluate(const System&, const State&, const Equations&, const Eigen::VectorXd& a, const Eigen::VectorXd& lambda,
-                const Weights& w, std::vector<double>& values);
+  void evaluate(const System&, const State&, const Equations&, const Eigen::VectorXd& a, const Eigen::VectorXd& lambda, const Weights& w,
+                std::vector<double>& values);
 
  private:
   /// A body's own block, by columns: entry (i, j) on [x y θ η] is summand begin + i + j·stride. A rigid
@@ -55,7 +55,8 @@ class Tangent {
   void lay_out(const System&);
   void add(const System&, Interaction::Kind, std::size_t index, const JointEnds&, const WrenchPattern&);
   void add_inertia(const System&, const State&, const Equations&, const Eigen::VectorXd& a, const Weights&, double* values);
-  void add_geometric_stiffness_of_forces(const System&, const Equations&, const Eigen::VectorXd& lambda, double weight, double* values) const;
+  void add_geometric_stiffness_of_forces(const System&, const Equations&, const Eigen::VectorXd& lambda, double weight,
+                                         double* values) const;
   void add_geometric_stiffness(const System&, const Equations&, int marker, double fx, double fy, double* values) const;
   void add_interactions(const System&, const State&, const Equations&, const Eigen::VectorXd& lambda, const Weights&, double* values);
   void move(const System&, const State&, const Equations&, int marker, End&) const;

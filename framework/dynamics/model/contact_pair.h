@@ -37,8 +37,7 @@ struct ContactEffect {
 MovingPoint moving_point(const MarkerMotion&);
 
 /// @param impact_rate  latched approach speed [m/s]; 0 while open: then only the gap is found
-ContactEffect evaluate(const ContactPair&, const MarkerMotion& journal, const MarkerMotion& bearing,
-                       double impact_rate);
+ContactEffect evaluate(const ContactPair&, const MarkerMotion& journal, const MarkerMotion& bearing, double impact_rate);
 
 inline constexpr WrenchPattern contact_pattern{{{{true, true}, {true, true}}}, true};
 /// How the wrenches [journal; bearing] answer to the motion, the latched approach speed held. Zero while open.

@@ -49,17 +49,15 @@ bool invert(const Eigen::Matrix3d& R, FlexibleInertia::Inverse& out) {
   const double i1 = 1 / std::sqrt(d1), l21 = (R(2, 1) - l20 * l10) * i1, d2 = R(2, 2) - l20 * l20 - l21 * l21;
   if (!(d2 > 0)) return false;
   const double i2 = 1 / std::sqrt(d2);
-  out.root << i0, -l10 * i0 * i1, (l10 * l21 * i1 - l20) * i0 * i2,
-              0, i1, -l21 * i1 * i2,
-              0, 0, i2;
+  out.root << i0, -l10 * i0 * i1, (l10 * l21 * i1 - l20) * i0 * i2, 0, i1, -l21 * i1 * i2, 0, 0, i2;
   out.inverse.noalias() = out.root * out.root.transpose();
   return out.inverse.allFinite();
 }
 
 // Forces on η of ½ zᵀM z, z = M⁻¹Bη̇, which E adds to kinetic energy, times sign: −d/dt(Bᵀz) + ∂/∂η without
 // accelerations. bend = Ḃη̇, G_rate = Gη̇.
-void add_carried(const FlexibleInertia::Part& p, const Eigen::Vector3d& bend, const Part& rate, const VectorXd& G_rate,
-                 double sign, Eigen::Ref<VectorXd> modal) {
+void add_carried(const FlexibleInertia::Part& p, const Eigen::Vector3d& bend, const Part& rate, const VectorXd& G_rate, double sign,
+                 Eigen::Ref<VectorXd> modal) {
   const Eigen::LLT<Eigen::Matrix3d> M(p.M);
   const Eigen::Vector3d momentum = p.B * rate, z = M.solve(momentum);
   const Vector2d w_rate = perp(momentum.head<2>());  // Zẇ
@@ -147,8 +145,8 @@ void solve(FlexibleInertia& e, double* v) {
   r.noalias() = e.rigid.inverse * left;
 }
 
-void to_metric(const FlexibleInertia& e, const Eigen::Matrix3d& L_r, const Eigen::Ref<const RowBlock>& L_eta,
-               Eigen::Matrix3d& B_hat, RowBlock& B_eta_hat) {
+void to_metric(const FlexibleInertia& e, const Eigen::Matrix3d& L_r, const Eigen::Ref<const RowBlock>& L_eta, Eigen::Matrix3d& B_hat,
+               RowBlock& B_eta_hat) {
   if (!e.stiffens) {
     Eigen::Matrix3d rest = L_r;
     for (Index i = 0; i < e.n; ++i) rest.noalias() -= L_eta.col(i) * e.whole.B.col(i).transpose();
@@ -189,8 +187,8 @@ Eigen::MatrixXd mass_matrix(const FlexibleInertia& e) {
   M.topRightCorner(3, e.n) = e.whole.B;
   M.bottomLeftCorner(e.n, 3) = e.whole.B.transpose();
   if (e.stiffens)
-    M.bottomRightCorner(e.n, e.n) += e.whole.B.transpose() * e.whole.M.llt().solve(e.whole.B) -
-                                     e.linear.B.transpose() * e.linear.M.llt().solve(e.linear.B);
+    M.bottomRightCorner(e.n, e.n) +=
+        e.whole.B.transpose() * e.whole.M.llt().solve(e.whole.B) - e.linear.B.transpose() * e.linear.M.llt().solve(e.linear.B);
   return M;
 }
 
@@ -245,16 +243,13 @@ double kinetic_energy(const System& system, const VectorXd& y, int i) {
   double J = 2 * f.j.dot(eta) + eta.squaredNorm(), beside = 0;
   if (f.second) {
     const Foreshortening& F = *f.second;
-    const auto energy = [&](const Vector2d& arm) {
-      return carried.dot(rigid_block(body.m, arm, body.J + J).llt().solve(carried)) / 2;
-    };
+    const auto energy = [&](const Vector2d& arm) { return carried.dot(rigid_block(body.m, arm, body.J + J).llt().solve(carried)) / 2; };
     beside -= energy({f.S.row(0).dot(eta), f.S.row(1).dot(eta)});
     J += form(F.j, eta, eta);
     carried += Eigen::Vector3d(form(F.S[0], eta, rate), form(F.S[1], eta, rate), form(F.h, eta, rate));
     beside += energy(w);
   }
-  return rigid + v.dot(s[2] * perp(w) + carried.head<2>()) + s[2] * (s[2] * J / 2 + carried[2]) +
-         rate.squaredNorm() / 2 + beside;
+  return rigid + v.dot(s[2] * perp(w) + carried.head<2>()) + s[2] * (s[2] * J / 2 + carried[2]) + rate.squaredNorm() / 2 + beside;
 }
 
 double strain_energy(const System& system, const VectorXd& y, int i) {

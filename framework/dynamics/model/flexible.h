@@ -30,8 +30,8 @@ struct FlexibleInertia {
   } whole, linear;         ///< linear: without foreshortening, only of a body that stiffens
   struct Inverse {         ///< and its root: inverse = root rootᵀ
     Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero(), root = Eigen::Matrix3d::Zero();
-  } frame,                 ///< (M − BBᵀ)⁻¹ without foreshortening: of the frame, shapes following freely
-      rigid;               ///< M⁻¹, only of a body that stiffens
+  } frame,    ///< (M − BBᵀ)⁻¹ without foreshortening: of the frame, shapes following freely
+      rigid;  ///< M⁻¹, only of a body that stiffens
   Eigen::VectorXd work, other;
 };
 
@@ -43,8 +43,8 @@ bool invert(FlexibleInertia&);
 void solve(FlexibleInertia&, double* v);
 /// Rows [L_r L_η] (m × 3, m × n) brought to B̂, B̂_η such that the rows' products in the metric of the inverse
 /// mass matrix are B̂B̂ᵀ + B̂_ηB̂_ηᵀ. B̂_η: 3 × n, or 3 × (n + 3) of a body that stiffens.
-void to_metric(const FlexibleInertia&, const Eigen::Matrix3d& L_r, const Eigen::Ref<const RowBlock>& L_eta,
-               Eigen::Matrix3d& B_hat, RowBlock& B_eta_hat);
+void to_metric(const FlexibleInertia&, const Eigen::Matrix3d& L_r, const Eigen::Ref<const RowBlock>& L_eta, Eigen::Matrix3d& B_hat,
+               RowBlock& B_eta_hat);
 /// out += (mass matrix) v, both of n_q, the body's parts of them.
 void add_mass_times(const FlexibleInertia&, const double* v, double* out);
 /// The whole mass matrix, (3 + n) × (3 + n); for those who have time.

@@ -45,8 +45,7 @@ void fill(const FlexInertia& f, const Motion& m, FlexibleScratch& scratch) {
 }
 
 // Rows and columns of the frame.
-void add_frame(double mass, const FlexibleInertia& e, const Motion& m, const TangentWeights& w, const FlexibleScratch& scratch,
-               Square K) {
+void add_frame(double mass, const FlexibleInertia& e, const Motion& m, const TangentWeights& w, const FlexibleScratch& scratch, Square K) {
   const FlexibleInertia::Part& p = e.whole;
   const auto S = p.B.topRows<2>();
   const double spin = m.spin, jv = p.j.dot(m.rate);
@@ -68,8 +67,8 @@ void add_frame(double mass, const FlexibleInertia& e, const Motion& m, const Tan
     const Vector2d s = S.col(i), bent = scratch.bent_rate.col(i).head<2>(), in_turn = perp(s);
     const double weight = in_turn.dot(m.against_gravity);
     const Index k = 3 + i;
-    K.block<2, 1>(0, k) += straight * s + turned * in_turn + w.q * scratch.bent_accel.col(i).head<2>() +
-                           2 * w.q * spin * perp(bent) + 2 * w.s * bent;
+    K.block<2, 1>(0, k) +=
+        straight * s + turned * in_turn + w.q * scratch.bent_accel.col(i).head<2>() + 2 * w.q * spin * perp(bent) + 2 * w.s * bent;
     K.block<1, 2>(k, 0) += w.a * s.transpose();
     const double h_rate = scratch.bent_rate(2, i) - scratch.G_rate[i];  // h₂η̇
     K(2, k) += w.a * p.B(2, i) + 2 * w.s * (spin * p.j[i] + h_rate) +
@@ -101,8 +100,8 @@ Vector3d inertia_change(const Vector3d& q, double j, const Vector3d& x) {
 }
 
 // What ½ zᵀM z, z = M⁻¹Bη̇, adds on η, times sign.
-void add_carried(const FlexInertia& f, const FlexibleInertia::Part& p, bool second, double sign, const Motion& m,
-                 const TangentWeights& w, FlexibleScratch& scratch, Square K) {
+void add_carried(const FlexInertia& f, const FlexibleInertia::Part& p, bool second, double sign, const Motion& m, const TangentWeights& w,
+                 FlexibleScratch& scratch, Square K) {
   const Index n = m.eta.size();
   auto shapes = K.bottomRightCorner(n, n);
   scratch.B = p.B.transpose();
@@ -126,9 +125,8 @@ void add_carried(const FlexInertia& f, const FlexibleInertia::Part& p, bool seco
     const double j_bent = second ? scratch.j_rate[i] : m.rate[i];
     const Vector3d swung = inertia_change(B, p.j[i], z), twice(0, 0, scratch.G_rate[i]);
     const Vector3d dz = inverse * (w.q * (by_rate - swung) + w.s * B);
-    const Vector3d force_i =
-        w.q * (by_accel - inertia_change(by_rate, j_bent, z) - inertia_change(B, p.j[i], z_rate)) +
-        w.s * (2 * (by_rate - twice) - swung) - inertia_change(momentum, j_rate, dz) + w.a * B;
+    const Vector3d force_i = w.q * (by_accel - inertia_change(by_rate, j_bent, z) - inertia_change(B, p.j[i], z_rate)) +
+                             w.s * (2 * (by_rate - twice) - swung) - inertia_change(momentum, j_rate, dz) + w.a * B;
     Vector3d dy = inverse * force_i;
     dy.head<2>() -= dz[2] * perp(z.head<2>()) + z[2] * perp(dz.head<2>());
     dy *= sign;
@@ -146,8 +144,8 @@ void add_carried(const FlexInertia& f, const FlexibleInertia::Part& p, bool seco
 
 }  // namespace
 
-void add_inertia_tangent(const System& system, const FlexibleInertia& e, const VectorXd& y, const VectorXd& a,
-                         const TangentWeights& w, FlexibleScratch& scratch, Eigen::Ref<Eigen::MatrixXd> K) {
+void add_inertia_tangent(const System& system, const FlexibleInertia& e, const VectorXd& y, const VectorXd& a, const TangentWeights& w,
+                         FlexibleScratch& scratch, Eigen::Ref<Eigen::MatrixXd> K) {
   const Body& body = system.bodies[static_cast<std::size_t>(e.body)];
   const FlexInertia& f = *body.flex;
   const Index frame = 3 * e.body, n_q = system.n();

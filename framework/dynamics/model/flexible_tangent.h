@@ -20,7 +20,7 @@ struct FlexibleScratch {
 /// K += w.q ∂/∂q + w.s ∂/∂s + w.a ∂/∂a of the body's share of M a − f: inertia, gravity, elastic and damping
 /// forces. K is (3 + n) × (3 + n) on [x y θ η]. No allocation.
 /// @param y  as in State   @param a  accelerations, n_q   @pre update_mass was called at y; scratch is for e.n modes
-void add_inertia_tangent(const System&, const FlexibleInertia& e, const Eigen::VectorXd& y, const Eigen::VectorXd& a,
-                         const TangentWeights&, FlexibleScratch&, Eigen::Ref<Eigen::MatrixXd> K);
+void add_inertia_tangent(const System&, const FlexibleInertia& e, const Eigen::VectorXd& y, const Eigen::VectorXd& a, const TangentWeights&,
+                         FlexibleScratch&, Eigen::Ref<Eigen::MatrixXd> K);
 
 }  // namespace pintle

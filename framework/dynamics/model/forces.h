@@ -20,7 +20,7 @@ struct ForceEffect {
 
 /// A force on b, in world axes, or turning with b's direction if `follows`. a is unused (ground).
 struct PointForce {
-  int a, b;  ///< markers
+  int a, b;      ///< markers
   TimeLaw x, y;  ///< [N]
   bool follows = false;
   auto members() const { return std::tie(a, b, x, y, follows); }

@@ -172,12 +172,20 @@ void evaluate_pose(const Joint& joint, const MarkerMotion* markers, double t, Co
 }
 
 void evaluate_speed(const Joint& joint, const MarkerMotion* markers, double t, ConstraintRows& out) {
-  std::visit([&](const auto& j) { if constexpr (requires { speed(j, markers, t, out); }) speed(j, markers, t, out); }, joint);
+  std::visit(
+      [&](const auto& j) {
+        if constexpr (requires { speed(j, markers, t, out); }) speed(j, markers, t, out);
+      },
+      joint);
 }
 
 WrenchTangent wrench_tangent(const Joint& joint, const MarkerMotion* markers, const double* lambda) {
   WrenchTangent out(ends_of(joint).n);
-  std::visit([&](const auto& j) { if constexpr (requires { curve(j, markers, lambda, out); }) curve(j, markers, lambda, out); }, joint);
+  std::visit(
+      [&](const auto& j) {
+        if constexpr (requires { curve(j, markers, lambda, out); }) curve(j, markers, lambda, out);
+      },
+      joint);
   return out;
 }
 

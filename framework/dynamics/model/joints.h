@@ -16,9 +16,9 @@ namespace pintle {
 /// The first m rows are used. The joint acts on marker i with the wrench −L_iᵀλ.
 struct ConstraintRows {
   using Block = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;  ///< L_i; one an end of the joint
-  Eigen::Vector3d C = Eigen::Vector3d::Zero();      ///< violation [m or rad]
-  Eigen::Vector3d Ct = Eigen::Vector3d::Zero();     ///< ∂C/∂t; zero unless driven [m/s or rad/s]
-  Eigen::Vector3d kappa = Eigen::Vector3d::Zero();  ///< what C̈ holds besides accelerations
+  Eigen::Vector3d C = Eigen::Vector3d::Zero();                 ///< violation [m or rad]
+  Eigen::Vector3d Ct = Eigen::Vector3d::Zero();                ///< ∂C/∂t; zero unless driven [m/s or rad/s]
+  Eigen::Vector3d kappa = Eigen::Vector3d::Zero();             ///< what C̈ holds besides accelerations
 };
 
 /// How a joint is drawn at its marker b.
@@ -32,7 +32,7 @@ struct JointProperties {
   bool angles = true;                 ///< turning a marker can change its rows
   bool direction = false;             ///< it reads the direction u of marker a
   JointSymbol symbol = JointSymbol::none;
-  WrenchPattern curvature = {};       ///< of its wrenches at given λ
+  WrenchPattern curvature = {};  ///< of its wrenches at given λ
   constexpr int rows() const { return (equations[0] != nullptr) + (equations[1] != nullptr) + (equations[2] != nullptr); }
 };
 
@@ -62,10 +62,10 @@ struct Prismatic {
   double angle = 0;
   auto members() const { return std::tie(a, b, angle); }
   static constexpr JointProperties properties{.equations = {"across", "angle"},
-                                  .couple = true,
-                                  .direction = true,
-                                  .symbol = JointSymbol::guide,
-                                  .curvature = joint_curvature::along_a_line};
+                                              .couple = true,
+                                              .direction = true,
+                                              .symbol = JointSymbol::guide,
+                                              .curvature = joint_curvature::along_a_line};
 };
 /// Clamp: the points coincide and b's direction keeps `angle` to a's.
 ///   C = [r_b − r_a; φ_b − φ_a − angle]          λ in N, N, N m

@@ -16,8 +16,8 @@ struct Marker {
   int body = ground;                               ///< index into System::bodies, or `ground`
   Eigen::Vector2d x_BP = Eigen::Vector2d::Zero();  ///< position from the mass centre, body axes [m]
   double angle = 0;                                ///< direction, body axes [rad]
-  Eigen::Matrix2Xd shape = {};     ///< of a flexible body: displacement per modal coordinate, 2 × n
-  Eigen::RowVectorXd slope = {};   ///< … and turning of the direction, 1 × n
+  Eigen::Matrix2Xd shape = {};                     ///< of a flexible body: displacement per modal coordinate, 2 × n
+  Eigen::RowVectorXd slope = {};                   ///< … and turning of the direction, 1 × n
   /// Of a body that stiffens under loads at its points: second-order displacement along x, along y,
   /// n × n each; else empty.
   std::array<Eigen::MatrixXd, 2> second = {};
@@ -26,15 +26,15 @@ struct Marker {
 /// Motion of a marker, world axes. Its pose is p = (r, angle), three numbers, and
 /// ṗ = J s,  p̈ = J ṡ + (a0, alpha0)  with s its body's speeds:  J = [1 Zd flex; 0 1 slope].
 struct MarkerMotion {
-  Eigen::Vector2d r;                               ///< position [m]
-  Eigen::Vector2d d;                               ///< from the body's coordinates' point to P [m]
-  Eigen::Vector2d u = Eigen::Vector2d::Zero();     ///< unit vector along the direction, where it is asked for
-  double angle = 0;                                ///< direction, unwrapped [rad]
-  Eigen::Vector2d v = Eigen::Vector2d::Zero();     ///< velocity [m/s]
-  Eigen::Vector2d a0 = Eigen::Vector2d::Zero();    ///< acceleration when ṡ = 0 [m/s²]
-  double w = 0;                                    ///< angular velocity [rad/s]
-  double alpha0 = 0;                               ///< angular acceleration when ṡ = 0 [rad/s²]
-  Eigen::Matrix2Xd flex = {};                      ///< velocity per modal speed, 2 × n; rigid: 2 × 0
+  Eigen::Vector2d r;                             ///< position [m]
+  Eigen::Vector2d d;                             ///< from the body's coordinates' point to P [m]
+  Eigen::Vector2d u = Eigen::Vector2d::Zero();   ///< unit vector along the direction, where it is asked for
+  double angle = 0;                              ///< direction, unwrapped [rad]
+  Eigen::Vector2d v = Eigen::Vector2d::Zero();   ///< velocity [m/s]
+  Eigen::Vector2d a0 = Eigen::Vector2d::Zero();  ///< acceleration when ṡ = 0 [m/s²]
+  double w = 0;                                  ///< angular velocity [rad/s]
+  double alpha0 = 0;                             ///< angular acceleration when ṡ = 0 [rad/s²]
+  Eigen::Matrix2Xd flex = {};                    ///< velocity per modal speed, 2 × n; rigid: 2 × 0
 };
 
 /// A force and a couple at a marker, world axes: what does work on ṗ. [N, N, N m]
@@ -43,8 +43,6 @@ using Wrench = Eigen::Vector3d;
 /// Quarter turn counter-clockwise, Zv.
 inline Eigen::Vector2d perp(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
 /// v × w = (Zv)·w
-inline double cross(const Eigen::Vector2d& v, const Eigen::Vector2d& w) {
-  return v.x() * w.y() - v.y() * w.x();
-}
+inline double cross(const Eigen::Vector2d& v, const Eigen::Vector2d& w) { return v.x() * w.y() - v.y() * w.x(); }
 
 }  // namespace pintle

@@ -13,7 +13,6 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 using Modal = Eigen::Map<const VectorXd>;
 
-
 /// Displacement per modal coordinate i where the body is, body axes; takes off x what the square of η_i was counted twice.
 Vector2d shape_at(const Marker& marker, Index i, const Modal& eta, Vector2d& x) {
   Vector2d f = marker.shape.col(i);

@@ -28,8 +28,7 @@ void number(System& system, bool scheme_loses) {
   system.row_scale.resize(system.n_rows());
   for (std::size_t k = 0; k < system.joints.size(); ++k)
     for (int row = system.row_begin[k]; row < system.row_begin[k + 1]; ++row)
-      system.row_scale[row] =
-          is_angle_row(system.joints[k], row - system.row_begin[k]) ? 1 : 1 / system.length;
+      system.row_scale[row] = is_angle_row(system.joints[k], row - system.row_begin[k]) ? 1 : 1 / system.length;
 
   auto account = [&](Account what, std::size_t i) {
     system.integrals.push_back({what, static_cast<int>(i)});
@@ -49,9 +48,7 @@ void number(System& system, bool scheme_loses) {
     const auto* torsion = std::get_if<TorsionSpring>(&f);
     const bool passive = spring || torsion;
     const double c = spring ? spring->c : torsion ? torsion->c : 0;
-    system.force_z.push_back(!passive ? account(Account::load, i)
-                             : c > 0  ? account(Account::damper, i)
-                                      : -1);
+    system.force_z.push_back(!passive ? account(Account::load, i) : c > 0 ? account(Account::damper, i) : -1);
   }
   for (std::size_t i = 0; i < system.joints.size(); ++i)
     system.joint_z.push_back(is_driver(system.joints[i]) ? account(Account::driver, i) : -1);

@@ -44,17 +44,17 @@ struct System {
   std::vector<ContactPair> contacts;
   std::vector<std::string> joint_names, force_names, contact_names;
 
-  double length = 1;               ///< size of the mechanism, for scaling [m]
+  double length = 1;  ///< size of the mechanism, for scaling [m]
   /// First modal coordinate of body i in q, one past: q is [x y θ] body by body, then η body by body.
   std::vector<int> eta_begin;
   /// What each coordinate is measured by: length, 1 for an angle, length·√m for η, whose shapes have
   /// the mean square displacement 1/m.
   Eigen::VectorXd scale;
-  std::vector<int> row_begin;      ///< first constraint row of joint i; one past
-  std::vector<int> end_begin;      ///< first end of joint i, an end being the joint at one of its markers; one past
-  std::vector<int> end_marker;     ///< marker of each end
-  Eigen::VectorXd row_scale;       ///< 1/length for a row in metres, 1 for an angle
-  std::vector<Integral> integrals; ///< what z accounts for, in order
+  std::vector<int> row_begin;                    ///< first constraint row of joint i; one past
+  std::vector<int> end_begin;                    ///< first end of joint i, an end being the joint at one of its markers; one past
+  std::vector<int> end_marker;                   ///< marker of each end
+  Eigen::VectorXd row_scale;                     ///< 1/length for a row in metres, 1 for an angle
+  std::vector<Integral> integrals;               ///< what z accounts for, in order
   std::vector<int> contact_z, force_z, joint_z;  ///< first integral of each, −1 for none
 
   int n_rigid() const { return 3 * static_cast<int>(bodies.size()); }
@@ -78,8 +78,8 @@ inline bool has_gravity(const System& s) { return s.gravity.x() != 0 || s.gravit
 
 /// Everything that changes in time. Copy one to branch a run, store one to restart it.
 struct State {
-  double t = 0;             ///< [s]
-  Eigen::VectorXd y;        ///< coordinates q, speeds s, ledger integrals z: n + n + n_z
+  double t = 0;                     ///< [s]
+  Eigen::VectorXd y;                ///< coordinates q, speeds s, ledger integrals z: n + n + n_z
   std::vector<double> impact_rate;  ///< per contact, latched approach speed; 0 while open [m/s]
 };
 

@@ -11,7 +11,6 @@ namespace pintle {
 
 namespace {
 
-
 // Body of each coordinate.
 std::vector<int> bodies_of(const System& system) {
   std::vector<int> body(at(system.n()));
@@ -48,8 +47,7 @@ std::vector<int> rows_last(const System& system, const std::vector<std::vector<i
   return order;
 }
 
-std::vector<int> body_by_body(const System& system, const std::vector<std::vector<int>>& joints,
-                              std::vector<Pattern::Place> meet) {
+std::vector<int> body_by_body(const System& system, const std::vector<std::vector<int>>& joints, std::vector<Pattern::Place> meet) {
   std::vector<std::vector<int>> bodies(system.joints.size());  // that each joint joins
   for (std::size_t b = 0; b < joints.size(); ++b)
     for (int joint : joints[b]) bodies[at(joint)].push_back(static_cast<int>(b));

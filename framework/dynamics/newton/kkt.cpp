@@ -28,7 +28,7 @@ struct Kkt::Data {
   std::vector<int> where_J, where_C, where_D;  ///< entry of each summand; of Cq two each, of the rows' diagonal
   Pattern full_pattern;                        ///< of a dense one
   std::vector<double> values, shifted_values;  ///< scaled, without and with the shift
-  VectorXd T, E;                      ///< x, y = T ẑ, T = [D; R]; the shift is −E
+  VectorXd T, E;                               ///< x, y = T ẑ, T = [D; R]; the shift is −E
   VectorXd z, work, unit, ones;
   dependent_rows::Refinement refine;
   std::optional<SparseLu> sparse;
@@ -49,7 +49,8 @@ struct Kkt::Data {
   }
   template <class F>
   void each(F f) {
-    each(0, size, [](int) { return true; }, f);
+    each(
+        0, size, [](int) { return true; }, f);
   }
 
   void assemble(const Equations& eq, const std::vector<double>& J) {
@@ -65,17 +66,19 @@ struct Kkt::Data {
   // D makes the largest entry of each row and column of D J D one, R that of each row of R Cq D.
   void equilibrate(const System& system) {
     T.setZero();
-    each(0, n, [&](int r) { return r < n; }, [&](Index r, Index c, double v) {  // rows of J lead
-      const double g = std::abs(v) * system.scale[r] * system.scale[c];
-      T[r] = std::max(T[r], g);
-      T[c] = std::max(T[c], g);
-    });
+    each(
+        0, n, [&](int r) { return r < n; }, [&](Index r, Index c, double v) {  // rows of J lead
+          const double g = std::abs(v) * system.scale[r] * system.scale[c];
+          T[r] = std::max(T[r], g);
+          T[c] = std::max(T[c], g);
+        });
     const double largest = n > 0 ? T.head(n).maxCoeff() : 0;
     for (Index i = 0; i < n; ++i) {
       const double g = T[i] > 1e-16 * largest ? T[i] : largest > 0 ? largest : 1;
       T[i] = system.scale[i] / std::sqrt(g);
     }
-    each(n, size, [&](int r) { return r < n; }, [&](Index r, Index c, double v) { T[c] = std::max(T[c], std::abs(v) * T[r]); });
+    each(
+        n, size, [&](int r) { return r < n; }, [&](Index r, Index c, double v) { T[c] = std::max(T[c], std::abs(v) * T[r]); });
     for (Index i = n; i < size; ++i) T[i] = T[i] > 0 ? 1 / T[i] : 1;
     each([&](Index r, Index c, double& v) { v *= T[r] * T[c]; });
     unit = system.row_scale.cwiseQuotient(T.tail(m));
@@ -179,7 +182,8 @@ void Kkt::solve(VectorXd& x, VectorXd& y) {
   d.z << x, y;
   d.z.array() *= d.T.array();
   if (d.shifted)
-    d.refine(d.z, [&](VectorXd& v) { d.solve_in_place(v); }, [&](const VectorXd& v, VectorXd& out) { d.subtract_product(v, out); });
+    d.refine(
+        d.z, [&](VectorXd& v) { d.solve_in_place(v); }, [&](const VectorXd& v, VectorXd& out) { d.subtract_product(v, out); });
   else
     d.solve_in_place(d.z);
   d.z.array() *= d.T.array();

@@ -37,8 +37,8 @@ class Kkt {
   bool dependent() const;        ///< the last factorization met dependent rows
   double inconsistency() const;  ///< of the last solve: residual over right-hand side, both scaled; 0 if independent
   bool sparse() const;
-  const char* solver() const;    ///< "dense LU" or "sparse LU (KLU)"
-  long nonzeros() const;         ///< of the factors; size² when dense
+  const char* solver() const;  ///< "dense LU" or "sparse LU (KLU)"
+  long nonzeros() const;       ///< of the factors; size² when dense
 
   /// All that the next solve, and the next factorization, depend on; binary, for the same System and machine.
   void save(std::ostream&) const;

@@ -12,9 +12,9 @@ namespace pintle {
 /// diagonal and come to the solution without it by refinement. docs/theory/solvers.md.
 namespace dependent_rows {
 
-inline constexpr double lost = 1e-12;   ///< a pivot below this, over the entry it came from, is rounding
-inline constexpr double held_up = 1e-8; ///< the same once shifted: the shift is all that holds it
-inline constexpr double shift = 1e-10;  ///< over the size of the matrix: far above rounding, far below what resists
+inline constexpr double lost = 1e-12;    ///< a pivot below this, over the entry it came from, is rounding
+inline constexpr double held_up = 1e-8;  ///< the same once shifted: the shift is all that holds it
+inline constexpr double shift = 1e-10;   ///< over the size of the matrix: far above rounding, far below what resists
 
 /// Shift of each row: alike for all in the units given, so that refinement comes to multipliers of least
 /// norm in these; 1e-10 of the matrix, whose greatest and least diagonal entries meet in the middle.

@@ -9,7 +9,6 @@ namespace pintle {
 
 namespace {
 
-
 // Indices of `in` ordered by key, equal keys in the order they have.
 template <class Key>
 std::vector<int> sorted(int keys, const std::vector<int>& in, Key key) {

@@ -30,7 +30,7 @@ class RankLdl {
 
   int n_ = 0, rank_ = 0;
   double kept_ = 1;
-  std::vector<int> order_;   ///< of the pivots
+  std::vector<int> order_;    ///< of the pivots
   Eigen::VectorXd root_, x_;  ///< 1/√S_ii; work in the order of the pivots
   Eigen::MatrixXd L_;         ///< in the order of the pivots, D on the diagonal
 };

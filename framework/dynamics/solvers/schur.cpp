@@ -18,7 +18,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-
 // f(n), with n known to the compiler where it is small.
 template <class F>
 auto with_size(int n, F f) {
@@ -106,7 +105,7 @@ struct Schur::Data {
 
   // dense: the rank
   std::vector<RankLdl> parts;
-  MatrixXd N;     ///< null vectors over the units, orthonormal, a column each
+  MatrixXd N;  ///< null vectors over the units, orthonormal, a column each
   VectorXd work, given;
   double left_over = 0;
 
@@ -133,7 +132,7 @@ Schur::Schur(Schur&&) noexcept = default;
 
 Schur::Schur(const System& system) : n_(system.n_rows()), data_(std::make_unique<Data>(system.row_scale)) {
   std::vector<std::vector<int>> ends(system.bodies.size());  // of joints on each body
-  std::vector<int> joint_of;                                  // of each end
+  std::vector<int> joint_of;                                 // of each end
   for (std::size_t k = 0; k < system.joints.size(); ++k)
     for (int end = system.end_begin[k]; end < system.end_begin[k + 1]; ++end) {
       joint_of.push_back(static_cast<int>(k));
@@ -361,14 +360,16 @@ void Schur::solve(VectorXd& mu) {
   else if (!sparse())
     solve_by_rank(mu);
   else
-    d.refine(mu, [&](VectorXd& v) { solve_factored(v); },
-             [&](const VectorXd& x, VectorXd& out) { d.sparse->subtract_product(d.whole, x.data(), out.data()); }, &d.shift);
+    d.refine(
+        mu, [&](VectorXd& v) { solve_factored(v); },
+        [&](const VectorXd& x, VectorXd& out) { d.sparse->subtract_product(d.whole, x.data(), out.data()); }, &d.shift);
 }
 
 void Schur::take_null_part(VectorXd& mu) {
   if (!dependent()) return;
   if (sparse())
-    data_->refine.take_null_part(mu, [&](VectorXd& v) { solve_factored(v); }, data_->shift);
+    data_->refine.take_null_part(
+        mu, [&](VectorXd& v) { solve_factored(v); }, data_->shift);
   else
     data_->take_null_part(mu);
 }

@@ -41,7 +41,7 @@ class Schur {
   int lost() const { return lost_; }            ///< how many pivots they left nothing of
   double least() const { return least_; }       ///< pivot over the entry it came from, the smallest
   double kept() const { return kept_; }         ///< the same of those that are not lost: small near a singular pose
-  bool weak() const { return least_ < few; }   ///< dependent, not far from it, or of very unlike inertias
+  bool weak() const { return least_ < few; }    ///< dependent, not far from it, or of very unlike inertias
   /// Rows beside `permanent` redundant ones are dependent or not far from it, where that can be told.
   bool near_singular(int permanent) const { return lost_ > permanent || ((lost_ == 0 || !sparse()) && kept_ < few); }
   /// Takes from μ, of the last factorization's pose, the part that does no work: Cqᵀμ stays. Of independent rows nothing.
@@ -82,8 +82,8 @@ class Schur {
 
   int n_;
   int lost_ = 0;
-  double least_ = 1;  ///< pivot over the entry it came from, the smallest; 0 if some are lost
-  double kept_ = 1;   ///< the smallest of those that are not lost
+  double least_ = 1;             ///< pivot over the entry it came from, the smallest; 0 if some are lost
+  double kept_ = 1;              ///< the smallest of those that are not lost
   std::vector<Term> terms_;      ///< first those that begin an entry
   std::size_t first_terms_ = 0;  ///< how many these are
   std::vector<int> zeros_;       ///< entries without any, which the factor fills
@@ -94,7 +94,7 @@ class Schur {
   std::vector<int> order_;
   std::vector<int> diagonal_;    ///< where S_ii is among the values
   std::vector<double> inverse_;  ///< of the pivots of the parts, in their order
-  std::unique_ptr<Data> data_;  ///< what only sparse or dependent rows need
+  std::unique_ptr<Data> data_;   ///< what only sparse or dependent rows need
 };
 
 }  // namespace pintle

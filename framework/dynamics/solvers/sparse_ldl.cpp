@@ -17,7 +17,6 @@ namespace pintle {
 
 namespace {
 
-
 cholmod_sparse upper(Pattern& p, double* values) {
   cholmod_sparse A{};
   A.nrow = A.ncol = at(p.size());
@@ -104,8 +103,8 @@ struct SparseLdl::Data {
     flag.resize(at(n));
     count.resize(at(n));
     begin.resize(at(n) + 1);
-    ldl_symbolic(n, pattern.column_begin.data(), pattern.row.data(), begin.data(), parent.data(), count.data(), flag.data(),
-                 nullptr, nullptr);
+    ldl_symbolic(n, pattern.column_begin.data(), pattern.row.data(), begin.data(), parent.data(), count.data(), flag.data(), nullptr,
+                 nullptr);
     row.resize(at(begin.back()));
     L.resize(row.size());
     D.resize(at(n));
@@ -116,9 +115,8 @@ struct SparseLdl::Data {
   double diagonal_entry(const double* values, int k) const { return values[pattern.column_begin[at(k) + 1] - 1]; }
 
   bool factor_thin(double* values) {
-    return n == ldl_numeric(n, pattern.column_begin.data(), pattern.row.data(), values, begin.data(), parent.data(),
-                            count.data(), row.data(), L.data(), D.data(), work.data(), stack.data(), flag.data(), nullptr,
-                            nullptr);
+    return n == ldl_numeric(n, pattern.column_begin.data(), pattern.row.data(), values, begin.data(), parent.data(), count.data(),
+                            row.data(), L.data(), D.data(), work.data(), stack.data(), flag.data(), nullptr, nullptr);
   }
 
   bool factor_blocks(double* values) {
@@ -169,7 +167,7 @@ struct SparseLdl::Data {
 
   int n;
   cholmod_common common;
-  Pattern pattern;  ///< upper triangle, permuted
+  Pattern pattern;                   ///< upper triangle, permuted
   std::vector<int> order, diagonal;  ///< order[k]: row eliminated k-th
   std::vector<double> x;
   double lnz = 0;
@@ -190,8 +188,7 @@ std::vector<int> fill_reducing_order(int size, std::vector<Pattern::Place> place
   return order.order;
 }
 
-SparseLdl::SparseLdl(int size, const std::vector<Pattern::Place>& places, std::vector<int>& where)
-    : data_(std::make_unique<Data>(size)) {
+SparseLdl::SparseLdl(int size, const std::vector<Pattern::Place>& places, std::vector<int>& where) : data_(std::make_unique<Data>(size)) {
   Data& d = *data_;
   std::vector<int> new_index(at(size));
   for (int i = 0; i < size; ++i) new_index[at(i)] = i;
@@ -235,8 +232,10 @@ int SparseLdl::below(const std::vector<double>& values, double ratio, double& le
   int count = 0;
   data_->each_pivot([&](int k, double pivot) {
     const double left = pivot / data_->diagonal_entry(values.data(), k);
-    if (left < ratio) ++count;
-    else least = std::min(least, left);
+    if (left < ratio)
+      ++count;
+    else
+      least = std::min(least, left);
   });
   return count;
 }

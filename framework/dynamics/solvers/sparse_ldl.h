@@ -24,7 +24,7 @@ class SparseLdl {
   ~SparseLdl();
   SparseLdl(SparseLdl&&) noexcept;
 
-  int entries() const;              ///< how many values
+  int entries() const;                       ///< how many values
   const std::vector<int>& diagonal() const;  ///< entry of S_ii
   /// @returns the smallest pivot over the diagonal entry it came from; 0: not factored, a pivot was not positive
   double factor(const std::vector<double>& values);
@@ -33,12 +33,12 @@ class SparseLdl {
   int below(const std::vector<double>& values, double ratio, double& least) const;
   /// xᵀSx / Σ S_ii x_i² of x = S⁻¹e for the row of the smallest pivot. @pre as solve; values as factored
   double smallest_quotient(const std::vector<double>& values);
-  void solve(double* x);            ///< x ← S⁻¹ x. @pre factor returned a positive number
+  void solve(double* x);  ///< x ← S⁻¹ x. @pre factor returned a positive number
   /// out −= S x
   void subtract_product(const std::vector<double>& values, const double* x, double* out) const;
 
   bool thin() const;
-  double nonzeros() const;          ///< of L
+  double nonzeros() const;  ///< of L
 
  private:
   struct Data;

@@ -75,8 +75,7 @@ struct SparseLu::Data {
   long pivotings = 0;
 };
 
-SparseLu::SparseLu(Pattern pattern, std::vector<int> order)
-    : data_(std::make_unique<Data>(std::move(pattern), std::move(order))) {}
+SparseLu::SparseLu(Pattern pattern, std::vector<int> order) : data_(std::make_unique<Data>(std::move(pattern), std::move(order))) {}
 SparseLu::~SparseLu() = default;
 SparseLu::SparseLu(SparseLu&&) noexcept = default;
 
@@ -90,9 +89,7 @@ double SparseLu::pivot_ratio() const {
 
 void SparseLu::forget() { klu_free_numeric(&data_->numeric, &data_->common); }
 
-void SparseLu::solve(double* x) {
-  klu_solve(data_->symbolic, data_->numeric, data_->pattern.size(), 1, x, &data_->common);
-}
+void SparseLu::solve(double* x) { klu_solve(data_->symbolic, data_->numeric, data_->pattern.size(), 1, x, &data_->common); }
 
 const Pattern& SparseLu::pattern() const { return data_->pattern; }
 long SparseLu::nonzeros() const { return data_->numeric ? static_cast<long>(data_->numeric->lnz) + data_->numeric->unz : 0; }

@@ -23,7 +23,8 @@ WatchedGuard ContactEvents::watch(int contact) const {
   const ContactPair& pair = system_.contacts[at(contact)];
   if (pair.link >= 0) return {};
   const double zero = 1e-9 * pair.gap.clearance();
-  if (log_.touching(contact)) return {.direction = Direction::falling, .zero = zero, .overshoot = onset_cut_ > 0 ? infinite : 0, .kink = true};
+  if (log_.touching(contact))
+    return {.direction = Direction::falling, .zero = zero, .overshoot = onset_cut_ > 0 ? infinite : 0, .kink = true};
   return {.direction = Direction::rising, .zero = zero, .overshoot = onset_cut_, .at_once = true};
 }
 

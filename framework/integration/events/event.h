@@ -22,7 +22,9 @@ struct Guard {
   double value;
   double rate = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not known
   template <class A>
-  void archive(A& x) { x(PINTLE_MEMBERS(value, rate)); }
+  void archive(A& x) {
+    x(PINTLE_MEMBERS(value, rate));
+  }
 };
 
 enum class Direction { none, rising, falling };
@@ -30,17 +32,17 @@ enum class Direction { none, rising, falling };
 /// What of a guard counts now.
 struct WatchedGuard {
   Direction direction = Direction::none;  ///< none: nothing does
-  double zero = 0;        ///< a guard nearer to zero than this is there
-  double overshoot = 0;   ///< 0: steps end where the guard is zero. Positive: they end where it is at most this far past zero
-  bool at_once = false;   ///< may follow at the instant of the event before
-  bool kink = false;      ///< a force has a kink there: a step that would pass it ends there instead
+  double zero = 0;                        ///< a guard nearer to zero than this is there
+  double overshoot = 0;  ///< 0: steps end where the guard is zero. Positive: they end where it is at most this far past zero
+  bool at_once = false;  ///< may follow at the instant of the event before
+  bool kink = false;     ///< a force has a kink there: a step that would pass it ends there instead
 };
 
 /// What an event's action has done.
 struct EventOutcome {
   enum class Change { nothing, forces, jump } change = Change::forces;  ///< jump: forces jump, or the state does
   double first_step = std::numeric_limits<double>::infinity();  ///< the next step's bound by accuracy, of methods that follow impacts [s]
-  std::string end = {};   ///< the integration ends here, and why; empty: it goes on
+  std::string end = {};                                         ///< the integration ends here, and why; empty: it goes on
 };
 
 /// Events of one kind: guards with directions, and what happens where they pass zero. A group owns the modes between its
@@ -84,8 +86,8 @@ struct Event {
   std::function<Guard(const State&)> guard;
   Direction direction = Direction::rising;
   std::function<EventOutcome(State&)> act;
-  double zero = 1e-12;    ///< a guard nearer to zero than this is there
-  int order = 1;          ///< at one instant lower ones come first; contacts are 0
+  double zero = 1e-12;  ///< a guard nearer to zero than this is there
+  int order = 1;        ///< at one instant lower ones come first; contacts are 0
 };
 std::unique_ptr<EventGroup> single_event(Event);
 

@@ -159,8 +159,7 @@ std::optional<EventInStep> Events::first(const Step& step, const DenseOutput& mo
 }
 
 Events::Ending Events::end_at(const EventInStep& event, Stepper& stepper, const ErrorNorm& norm, Step& step, Equations& eq) {
-  if (event.watch.overshoot > 0)
-    return turned(to_[event.at], event.watch).value <= event.watch.overshoot ? Ending::there : Ending::missed;
+  if (event.watch.overshoot > 0) return turned(to_[event.at], event.watch).value <= event.watch.overshoot ? Ending::there : Ending::missed;
   const double t0 = step.from.state.t, t1 = step.to.state.t, h = step.h;
   double t = event.t;
   if (t <= t0) {  // at once

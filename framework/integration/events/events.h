@@ -15,7 +15,7 @@ namespace pintle {
 struct EventInStep {
   std::size_t at;  ///< counted through all groups
   WatchedGuard watch;
-  double t;        ///< by dense output [s]
+  double t;  ///< by dense output [s]
 };
 
 /// All events of an integration: finds the first in a step and ends the step there.
@@ -81,7 +81,7 @@ class Events {
   std::optional<double> passage(std::size_t at, const Step&, const DenseOutput&) const;
 
   std::vector<std::unique_ptr<EventGroup>> groups_;
-  std::vector<std::size_t> begin_;     ///< first place of each group; one past
+  std::vector<std::size_t> begin_;  ///< first place of each group; one past
   std::vector<Place> places_;
   std::vector<WatchedGuard> watched_;  ///< in the present step
   std::vector<Guard> from_, to_;       ///< at the step's start and end

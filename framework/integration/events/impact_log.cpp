@@ -45,7 +45,8 @@ double greatest(F f) {
 
 }  // namespace
 
-ImpactLog::ImpactLog(const System& system) : system_(system), open_(system.contacts.size(), -1), loss_at_begin_(system.contacts.size(), 0.0) {}
+ImpactLog::ImpactLog(const System& system)
+    : system_(system), open_(system.contacts.size(), -1), loss_at_begin_(system.contacts.size(), 0.0) {}
 
 double ImpactLog::loss(int contact, const State& state) const {
   const Eigen::Index z = 2 * system_.n() + system_.contact_z[at(contact)];

@@ -25,7 +25,9 @@ class ImpactLog {
   const std::vector<Impact>& impacts() const { return impacts_; }  ///< in order of beginning
 
   template <class A>
-  void archive(A& x) { x(PINTLE_MEMBERS(impacts_, open_, loss_at_begin_)); }
+  void archive(A& x) {
+    x(PINTLE_MEMBERS(impacts_, open_, loss_at_begin_));
+  }
   const char* fault() const;
 
  private:

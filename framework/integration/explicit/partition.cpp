@@ -22,8 +22,7 @@ void Partition::choose(const System& system, const Equations& eq) {
   qr.compute(wanted);
   step_.resize(qr.rank());
   dependent_.clear();
-  for (Index i = 0; i < qr.rank(); ++i)
-    dependent_.push_back(static_cast<int>(qr.colsPermutation().indices()[i]));
+  for (Index i = 0; i < qr.rank(); ++i) dependent_.push_back(static_cast<int>(qr.colsPermutation().indices()[i]));
   factor();
   chosen_quality_ = quality_;
   ++choices_;
@@ -40,8 +39,7 @@ bool Partition::fits(const System& system) const {
 
 void Partition::factor() {
   block_.resize(Cq_.rows(), static_cast<Index>(dependent_.size()));
-  for (std::size_t i = 0; i < dependent_.size(); ++i)
-    block_.col(static_cast<Index>(i)) = Cq_.col(dependent_[i]);
+  for (std::size_t i = 0; i < dependent_.size(); ++i) block_.col(static_cast<Index>(i)) = Cq_.col(dependent_[i]);
   if (block_.size() == 0) {
     quality_ = 1;
   } else if (block_.rows() == block_.cols()) {
@@ -59,8 +57,7 @@ double Partition::subtract(const System& system, const Eigen::VectorXd& violatio
     step_ = lu_.solve(violation.cwiseProduct(system.row_scale));
   else
     step_ = qr_.solve(violation.cwiseProduct(system.row_scale));
-  for (std::size_t k = 0; k < dependent_.size(); ++k)
-    y[dependent_[k]] -= step_[static_cast<Index>(k)] * system.scale[dependent_[k]];
+  for (std::size_t k = 0; k < dependent_.size(); ++k) y[dependent_[k]] -= step_[static_cast<Index>(k)] * system.scale[dependent_[k]];
   return step_.size() == 0 ? 0 : step_.lpNorm<Eigen::Infinity>();
 }
 

@@ -44,7 +44,7 @@ class Partition {
   void factor();
   double subtract(const System&, const Eigen::VectorXd& violation, double* y);
 
-  Eigen::MatrixXd Cq_, block_;   ///< free of units: rows by row_scale, x and y by the length
+  Eigen::MatrixXd Cq_, block_;  ///< free of units: rows by row_scale, x and y by the length
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
   Eigen::HouseholderQR<Eigen::MatrixXd> qr_;  ///< where rows are redundant: fewer columns than rows
   Eigen::VectorXd step_;

@@ -29,9 +29,7 @@ void add_combination(double h, const std::vector<double>& w, const std::vector<E
 }  // namespace
 
 Stages::Stages(const System& system, const Tableau& tableau, Constraints constraints)
-    : tableau_(tableau),
-      constraints_(constraints),
-      k_(static_cast<std::size_t>(tableau.stages()), Eigen::VectorXd::Zero(system.n_y())) {
+    : tableau_(tableau), constraints_(constraints), k_(static_cast<std::size_t>(tableau.stages()), Eigen::VectorXd::Zero(system.n_y())) {
   stage_.y.setZero(system.n_y());
   stage_.impact_rate.assign(system.contacts.size(), 0.0);
 }
@@ -143,8 +141,10 @@ namespace {
 // derivative at the step's end: Σd, Σdc, Σdc², ΣdAc vanish, Σdc³ = 1/4, Σdc Ac = 1/8, ΣdAc² = 1/12, ΣdAAc = 1/24. Dormand and
 // Prince's are those of [HairerNorsettWanner1993, II.6]; Fehlberg's leave one free, which is 0.
 const std::array<double, 7>* quartic_of(const Tableau& tableau) {
-  static constexpr std::array<double, 7> dopri5{-12715105075.0 / 11282082432,  0, 87487479700.0 / 32700410799, -10690763975.0 / 1880347072,
-                                                701980252875.0 / 199316789632, -1453857185.0 / 822651844,      69997945.0 / 29380423};
+  static constexpr std::array<double, 7> dopri5{-12715105075.0 / 11282082432,  0,
+                                                87487479700.0 / 32700410799,   -10690763975.0 / 1880347072,
+                                                701980252875.0 / 199316789632, -1453857185.0 / 822651844,
+                                                69997945.0 / 29380423};
   static constexpr std::array<double, 7> rkf45{-13.0 / 18, 0, 1664.0 / 855, -2197.0 / 342, 27.0 / 10, 0, 5.0 / 2};
   return tableau.name == "dopri5" ? &dopri5 : tableau.name == "rkf45" ? &rkf45 : nullptr;
 }

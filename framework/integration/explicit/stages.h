@@ -47,7 +47,9 @@ class Stages {
   double stiffness(const System&, const Step&) const;
   /// What the next steps depend on besides the nodes.
   template <class A>
-  void archive(A& x) { x(PINTLE_MEMBERS(partition_)); }
+  void archive(A& x) {
+    x(PINTLE_MEMBERS(partition_));
+  }
   /// What was loaded fits the system.
   bool fits(const System& system) const { return partition_.fits(system); }
 

@@ -10,12 +10,12 @@ namespace pintle {
 /// If `closes`, the last stage is evaluated at y₁, and is the first of the next step.
 struct Tableau {
   std::string_view name;
-  int order;                           ///< of y₁
-  int error_order;                     ///< of the lower member of the pair
+  int order;        ///< of y₁
+  int error_order;  ///< of the lower member of the pair
   bool closes;
   std::vector<std::vector<double>> a;  ///< strictly lower triangle, a row a stage, without zeros at its end
   std::vector<double> b, c, e;
-  double reach;                        ///< stable along the negative axis to hλ = −reach
+  double reach;  ///< stable along the negative axis to hλ = −reach
   int stages() const { return static_cast<int>(b.size()); }
 };
 

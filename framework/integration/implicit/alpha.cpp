@@ -17,7 +17,7 @@ namespace {
 constexpr double well_below = 1e-3;  // Newton's error over the step's
 constexpr double on_constraints = 1e-12, nearly = 1e-11, still_near = 1e-8;
 constexpr int most_iterations = 12, many_iterations = 3;
-constexpr double slow = 0.2;         // contraction that asks for a new factor
+constexpr double slow = 0.2;  // contraction that asks for a new factor
 }  // namespace
 
 AlphaWeights::AlphaWeights(double rho)
@@ -343,8 +343,7 @@ void Alpha::estimate(const System& system, Step& step, Equations& eq) {
   for (Index i = n; i < system.n_y(); ++i) {
     const double bend = h0 > 0 ? ((d1[i] - d0[i]) / h - (d0[i] - before[i]) / h0) / (h + h0) : (d1[i] - d0[i]) / (h * h);
     step.error[i] = y1[i] - y0[i] - h / 2 * (d0[i] + d1[i]) + bend * h * h * h / 6;
-    if (i < 2 * n)
-      step.error[i - n] = y1[i - n] - y0[i - n] - h * y0[i] - h * h * (d0[i] / 3 + d1[i] / 6) + bend * h * h * h * h / 12;
+    if (i < 2 * n) step.error[i - n] = y1[i - n] - y0[i - n] - h * y0[i] - h * h * (d0[i] / 3 + d1[i] / 6) + bend * h * h * h * h / 12;
   }
   filter(system, step.error.head(n), 1, eq);
   filter(system, step.error.segment(n, n), 2, eq);

@@ -63,7 +63,9 @@ class Alpha {
   struct Weights {
     double q = 0, s = 0;  ///< of v̇₁ in q₁ and s₁: h² β(1 − α_f)/(1 − α_m), h γ(1 − α_f)/(1 − α_m)
     template <class A>
-    void archive(A& x) { x(PINTLE_MEMBERS(q, s)); }
+    void archive(A& x) {
+      x(PINTLE_MEMBERS(q, s));
+    }
   };
   Weights start_weights(double h) const;
   bool soften_start(const System&, double h, const Instant& from, Equations&);
@@ -87,14 +89,14 @@ class Alpha {
   Eigen::VectorXd unit_;  ///< of each coordinate, for a length of 1 m
   Tangent tangent_;
   Kkt kkt_;
-  Kkt* lent_ = nullptr;                  ///< another's factor, used in place of kkt_'s until a new one is made
+  Kkt* lent_ = nullptr;  ///< another's factor, used in place of kkt_'s until a new one is made
   std::vector<double> values_;
   Eigen::VectorXd q_base_, s_base_, p_;  ///< q₁ = q_base + w.q v̇₁ + p, s₁ = s_base + w.s v̇₁
-  Eigen::VectorXd start_;  ///< v̇ at a start, as the step takes it
+  Eigen::VectorXd start_;                ///< v̇ at a start, as the step takes it
   Eigen::VectorXd dv_, dp_, mu_, work_;
-  double rate_ = 1;                      ///< contraction of Newton's iteration, as last seen
-  bool tired_ = true, factored_ = false; ///< the factor should be made again; there is one
-  Weights kept_;                         ///< of the factor
+  double rate_ = 1;                       ///< contraction of Newton's iteration, as last seen
+  bool tired_ = true, factored_ = false;  ///< the factor should be made again; there is one
+  Weights kept_;                          ///< of the factor
   long iterations_ = 0;
   std::string trouble_;
 };

@@ -12,7 +12,12 @@ GeneralizedAlpha::GeneralizedAlpha(const System& system, const Equations& eq, do
     : system_(system),
       rho_(rho),
       tolerance_(tolerance),
-      traits_{.order = Alpha::order + 1, .implicit = true, .follows_impacts = false, .ends_evaluated = false, .least_change = 0.9, .least_growth = 1.2},
+      traits_{.order = Alpha::order + 1,
+              .implicit = true,
+              .follows_impacts = false,
+              .ends_evaluated = false,
+              .least_change = 0.9,
+              .least_growth = 1.2},
       alpha_(system, eq, rho, tolerance) {}
 
 bool GeneralizedAlpha::attempt(double h, const ErrorNorm& norm, Step& step, Equations& eq) {

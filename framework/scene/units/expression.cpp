@@ -18,33 +18,25 @@ namespace {
   std::vector<std::string> known{"t", "pi"};
   for (const auto& [parameter, value] : parameters) known.push_back(parameter);
   for (const Unit& u : units()) known.emplace_back(u.name);
-  throw ExpressionError("\"" + name + "\" is neither a parameter nor a unit." +
-                        did_you_mean(name, known));
+  throw ExpressionError("\"" + name + "\" is neither a parameter nor a unit." + did_you_mean(name, known));
 }
 
 int value_of(const Word& word, const Vocabulary& known, Formula& formula) {
   const std::string& name = word.text;
   if (word.kind == Word::Kind::number) return formula.constant({word.value, {}});
-  if (const auto found = known.parameters.find(name); found != known.parameters.end())
-    return formula.constant(found->second);
+  if (const auto found = known.parameters.find(name); found != known.parameters.end()) return formula.constant(found->second);
   if (name == "t") return formula.time();
   if (name == "pi") return formula.constant({std::numbers::pi, {}});
   if (const Unit* u = known.unit(name)) return formula.constant({u->factor, u->dimension});
   unknown(name, known.parameters);
 }
 
-int result_of(const FormulaStep& step, std::span<const int> x, const Vocabulary& known,
-              Formula& formula) {
+int result_of(const FormulaStep& step, std::span<const int> x, const Vocabulary& known, Formula& formula) {
   switch (x.size()) {
-    case 0:
-      return value_of(*step.word, known, formula);
-    case 1:
-      return formula.term(step.op, x[0]);
-    case 2:
-      return formula.term(step.op, x[0], x[1]);
-    default:
-      return step.op == Op::choose ? formula.choose(x[0], x[1], x[2])
-                                   : formula.step(x[0], x[1], x[2]);
+    case 0: return value_of(*step.word, known, formula);
+    case 1: return formula.term(step.op, x[0]);
+    case 2: return formula.term(step.op, x[0], x[1]);
+    default: return step.op == Op::choose ? formula.choose(x[0], x[1], x[2]) : formula.step(x[0], x[1], x[2]);
   }
 }
 
@@ -75,9 +67,7 @@ std::string quoted(std::string_view text) {
   throw ExpressionError(quoted(text) + place + ": " + error.what());
 }
 
-bool fits(const Quantity& q, const Dimension& expected) {
-  return bare(q.dimension) || same(q.dimension, expected);
-}
+bool fits(const Quantity& q, const Dimension& expected) { return bare(q.dimension) || same(q.dimension, expected); }
 
 [[noreturn]] void wrong_dimension(const Dimension& found, const Dimension& expected) {
   throw ExpressionError("it is " + describe(found) + "; expected " + describe(expected));
@@ -91,12 +81,11 @@ Law law_from(const Formula& formula, int root, std::string_view text) {
   return {formula.program(root), std::string(text), false};
 }
 
-Law law_with(const std::vector<FormulaStep>& steps, std::string_view text, const Dimension& of_time,
-             const Dimension& expected, const Vocabulary& known) {
+Law law_with(const std::vector<FormulaStep>& steps, std::string_view text, const Dimension& of_time, const Dimension& expected,
+             const Vocabulary& known) {
   Formula formula(of_time);
   const int root = build(steps, known, formula);
-  if (!fits(formula.quantity(root), expected))
-    wrong_dimension(formula.quantity(root).dimension, expected);
+  if (!fits(formula.quantity(root), expected)) wrong_dimension(formula.quantity(root).dimension, expected);
   return law_from(formula, root, text);
 }
 
@@ -109,8 +98,7 @@ Quantity constant(std::string_view text, const Vocabulary& known) {
     Formula formula(dimension::time);
     const std::vector<Word> words = spell(text, known);
     const int root = build(parse(words), known, formula);
-    if (formula.uses_time())
-      throw ExpressionError("it depends on t, but this value cannot change in time");
+    if (formula.uses_time()) throw ExpressionError("it depends on t, but this value cannot change in time");
     return formula.quantity(root);
   } catch (const ExpressionError& error) {
     refuse(text, error);
@@ -119,27 +107,20 @@ Quantity constant(std::string_view text, const Vocabulary& known) {
 
 }  // namespace
 
-Quantity read_quantity(std::string_view text, const Parameters& parameters) {
-  return constant(text, {parameters});
-}
+Quantity read_quantity(std::string_view text, const Parameters& parameters) { return constant(text, {parameters}); }
 
-double read_quantity(std::string_view text, const Dimension& expected,
-                     const Parameters& parameters) {
+double read_quantity(std::string_view text, const Dimension& expected, const Parameters& parameters) {
   const Quantity q = read_quantity(text, parameters);
   if (fits(q, expected)) return q.value;
-  throw ExpressionError(quoted(text) + " is " + describe(q.dimension) + "; expected " +
-                        describe(expected));
+  throw ExpressionError(quoted(text) + " is " + describe(q.dimension) + "; expected " + describe(expected));
 }
 
 double read_frequency(std::string_view text, const Parameters& parameters) {
   const Quantity q = constant(text, {parameters, frequency_units()});
   if (bare(q.dimension)) return q.value;
   if (!same(q.dimension, dimension::angular_speed))
-    throw ExpressionError(quoted(text) + " is " + describe(q.dimension) +
-                          "; expected a frequency [Hz]");
-  if (q.dimension.angle != 1)
-    throw ExpressionError(quoted(text) +
-                          " does not say whether turns or radians are counted; write Hz or rad/s");
+    throw ExpressionError(quoted(text) + " is " + describe(q.dimension) + "; expected a frequency [Hz]");
+  if (q.dimension.angle != 1) throw ExpressionError(quoted(text) + " does not say whether turns or radians are counted; write Hz or rad/s");
   return q.value / (2 * std::numbers::pi);
 }
 
@@ -155,9 +136,7 @@ Law read_law(std::string_view text, const Dimension& expected, const Parameters&
       try {
         return law_with(steps, text, dimension::number, expected, known);
       } catch (const ExpressionError&) {
-        throw ExpressionError(
-            std::string(error.what()) + " (t is a time; give every factor of t its unit, or none)",
-            error.at);
+        throw ExpressionError(std::string(error.what()) + " (t is a time; give every factor of t its unit, or none)", error.at);
       }
     }
   } catch (const ExpressionError& error) {
@@ -166,12 +145,9 @@ Law read_law(std::string_view text, const Dimension& expected, const Parameters&
 }
 
 std::string fault_of_name(std::string_view name) {
-  const auto letter = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-  };
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  if (name.empty() || !letter(name[0]) ||
-      !std::ranges::all_of(name, [&](char c) { return letter(c) || digit(c); }))
+  if (name.empty() || !letter(name[0]) || !std::ranges::all_of(name, [&](char c) { return letter(c) || digit(c); }))
     return "a parameter's name is letters, digits and _, and begins with a letter";
   if (name == "t") return "t is the time; choose another name";
   if (name == "pi") return "pi is a constant; choose another name";

@@ -17,42 +17,24 @@ int operands(Op op) {
 
 const char* word_for(Op op) {
   switch (op) {
-    case Op::sin:
-      return "sin";
-    case Op::cos:
-      return "cos";
-    case Op::tan:
-      return "tan";
-    case Op::asin:
-      return "asin";
-    case Op::acos:
-      return "acos";
-    case Op::atan:
-      return "atan";
-    case Op::exp:
-      return "exp";
-    case Op::log:
-      return "log";
-    case Op::smooth:
-      return "step";
-    case Op::add:
-      return "+";
-    case Op::subtract:
-      return "-";
-    case Op::atan2:
-      return "atan2";
-    case Op::min:
-      return "min";
-    case Op::max:
-      return "max";
-    case Op::choose:
-      return "if";
-    case Op::both:
-      return "&&";
-    case Op::either:
-      return "||";
-    default:
-      return "a comparison";
+    case Op::sin: return "sin";
+    case Op::cos: return "cos";
+    case Op::tan: return "tan";
+    case Op::asin: return "asin";
+    case Op::acos: return "acos";
+    case Op::atan: return "atan";
+    case Op::exp: return "exp";
+    case Op::log: return "log";
+    case Op::smooth: return "step";
+    case Op::add: return "+";
+    case Op::subtract: return "-";
+    case Op::atan2: return "atan2";
+    case Op::min: return "min";
+    case Op::max: return "max";
+    case Op::choose: return "if";
+    case Op::both: return "&&";
+    case Op::either: return "||";
+    default: return "a comparison";
   }
 }
 
@@ -62,14 +44,10 @@ const char* word_for(Op op) {
   throw ExpressionError(s);
 }
 
-Dimension joined(const Dimension& a, const Dimension& b) {
-  return {a.length, a.mass, a.time, a.angle != 0 ? a.angle : b.angle};
-}
+Dimension joined(const Dimension& a, const Dimension& b) { return {a.length, a.mass, a.time, a.angle != 0 ? a.angle : b.angle}; }
 
 void must_be_number(Op op, const Dimension& a) {
-  if (!same(a, dimension::number))
-    throw ExpressionError(std::string(word_for(op)) + " needs a number or an angle, not " +
-                          describe(a));
+  if (!same(a, dimension::number)) throw ExpressionError(std::string(word_for(op)) + " needs a number or an angle, not " + describe(a));
 }
 
 // a·b, or a/n where b is 1/n: so that 10 us is 1e-5 to the last bit.
@@ -85,27 +63,19 @@ Jet Program::operator()(double t) const {
   std::size_t top = 0;  // one past the last operand
   for (const Instruction& i : code) {
     switch (operands(i.op)) {
-      case 0:
-        stack[top++] = i.op == Op::time ? Jet{t, 1, 0} : Jet{i.value, 0, 0};
-        break;
-      case 1:
-        stack[top - 1] = apply(i.op, stack[top - 1]);
-        break;
+      case 0: stack[top++] = i.op == Op::time ? Jet{t, 1, 0} : Jet{i.value, 0, 0}; break;
+      case 1: stack[top - 1] = apply(i.op, stack[top - 1]); break;
       case 2:
         --top;
         stack[top - 1] = apply(i.op, stack[top - 1], stack[top]);
         break;
-      default:
-        top -= 2;
-        stack[top - 1] = stack[top - 1].value != 0 ? stack[top] : stack[top + 1];
+      default: top -= 2; stack[top - 1] = stack[top - 1].value != 0 ? stack[top] : stack[top + 1];
     }
   }
   return stack[0];
 }
 
-int Formula::constant(const Quantity& q) {
-  return append({.op = Op::constant, .dimension = q.dimension, .value = q.value});
-}
+int Formula::constant(const Quantity& q) { return append({.op = Op::constant, .dimension = q.dimension, .value = q.value}); }
 
 int Formula::time() {
   uses_time_ = true;
@@ -122,18 +92,15 @@ int Formula::term(Op op, int ia) {
 int Formula::term(Op op, int ia, int ib) {
   const Term &a = terms_[index(ia)], &b = terms_[index(ib)];
   const Dimension d = dimension_of(op, a, b);
-  if (op == Op::multiply && a.op == Op::constant && b.op == Op::constant)
-    return constant({product_to_the_bit(a.value, b.value), d});
-  if (a.op == Op::constant && b.op == Op::constant)
-    return constant({apply(op, Jet{a.value}, Jet{b.value}).value, d});
+  if (op == Op::multiply && a.op == Op::constant && b.op == Op::constant) return constant({product_to_the_bit(a.value, b.value), d});
+  if (a.op == Op::constant && b.op == Op::constant) return constant({apply(op, Jet{a.value}, Jet{b.value}).value, d});
   return append({.op = op, .a = ia, .b = ib, .dimension = d});
 }
 
 int Formula::choose(int condition, int then, int otherwise) {
   const Term &c = terms_[index(condition)], &a = terms_[index(then)], &b = terms_[index(otherwise)];
   if (!same(c.dimension, dimension::number))
-    throw ExpressionError("if needs a condition such as t < 1 s first, not " +
-                          describe(c.dimension));
+    throw ExpressionError("if needs a condition such as t < 1 s first, not " + describe(c.dimension));
   const Dimension d = dimension_of(Op::choose, a, b);
   if (c.op == Op::constant) {
     const int chosen = c.value != 0 ? then : otherwise;
@@ -144,14 +111,12 @@ int Formula::choose(int condition, int then, int otherwise) {
 
 int Formula::step(int x, int x0, int x1) {
   const int width = term(Op::subtract, x1, x0);
-  if (is_constant(width) && quantity(width).value <= 0)
-    throw ExpressionError("step(t, t0, t1) needs t0 before t1");
+  if (is_constant(width) && quantity(width).value <= 0) throw ExpressionError("step(t, t0, t1) needs t0 before t1");
   return term(Op::smooth, term(Op::divide, term(Op::subtract, x, x0), width));
 }
 
 int Formula::append(Term term) {
-  if (term.op == Op::constant && !std::isfinite(term.value))
-    throw ExpressionError("a part of it is not a finite number");
+  if (term.op == Op::constant && !std::isfinite(term.value)) throw ExpressionError("a part of it is not a finite number");
   terms_.push_back(term);
   return static_cast<int>(terms_.size()) - 1;
 }
@@ -169,11 +134,9 @@ Dimension Formula::dimension_of(Op op, const Term& a, const Term& b) const {
   if (op == Op::multiply) return product(da, db);
   if (op == Op::divide) return product(da, power(db, -1));
   if (op == Op::power) {
-    if (!same(db, dimension::number))
-      throw ExpressionError("an exponent must be a number, not " + describe(db));
+    if (!same(db, dimension::number)) throw ExpressionError("an exponent must be a number, not " + describe(db));
     if (bare(da)) return dimension::number;
-    if (b.op != Op::constant)
-      throw ExpressionError("the exponent of " + describe(da) + " must not depend on t");
+    if (b.op != Op::constant) throw ExpressionError("the exponent of " + describe(da) + " must not depend on t");
     return power(da, b.value);
   }
   if (op == Op::both || op == Op::either) {
@@ -182,9 +145,7 @@ Dimension Formula::dimension_of(Op op, const Term& a, const Term& b) const {
     return dimension::number;
   }
   // A bare zero is zero in every unit.
-  const auto zero = [](const Term& x) {
-    return x.op == Op::constant && x.value == 0 && bare(x.dimension);
-  };
+  const auto zero = [](const Term& x) { return x.op == Op::constant && x.value == 0 && bare(x.dimension); };
   if (!same(da, db) && !zero(a) && !zero(b)) mixed(op, da, db);
   if (op >= Op::less && op <= Op::unequal) return dimension::number;
   if (op == Op::atan2) return dimension::angle;

@@ -11,8 +11,7 @@ namespace pintle {
 
 /// An expression that cannot be read; says what is wrong and what to write instead.
 struct ExpressionError : std::runtime_error {
-  explicit ExpressionError(const std::string& what, std::size_t character = 0)
-      : std::runtime_error(what), at(character) {}
+  explicit ExpressionError(const std::string& what, std::size_t character = 0) : std::runtime_error(what), at(character) {}
   std::size_t at;  ///< the character of the text that it is about, from 1; 0: the whole
 };
 

@@ -58,34 +58,26 @@ constexpr std::array<Function, 15> functions{{{"sin", Op::sin, 1, 1},
                                               {"if", Op::choose, 3, 3},
                                               {"step", Op::smooth, 3, 3}}};
 
-bool adds(const Word& w) {
-  return w.kind == Kind::sign && (w.text == "+" || w.text == "-");
-}
+bool adds(const Word& w) { return w.kind == Kind::sign && (w.text == "+" || w.text == "-"); }
 
-[[noreturn]] void fail(const Word& at, const std::string& what) {
-  throw ExpressionError(what, at.at);
-}
+[[noreturn]] void fail(const Word& at, const std::string& what) { throw ExpressionError(what, at.at); }
 
 const Function& function(const Word& w) {
   const auto found = std::ranges::find(functions, w.text, &Function::name);
   if (found != functions.end()) return *found;
   const std::string remedy(instead_of(w.text));
-  fail(w, "there is no function \"" + w.text + "\"" +
-              (remedy.empty() ? "." + did_you_mean(w.text, function_names()) : ": " + remedy));
+  fail(w, "there is no function \"" + w.text + "\"" + (remedy.empty() ? "." + did_you_mean(w.text, function_names()) : ": " + remedy));
 }
 
 // A word that begins no operand.
 [[noreturn]] void misplaced(const Word& w) {
-  const std::string what = w.kind == Kind::comma   ? "a comma"
-                           : w.kind == Kind::close ? "a parenthesis"
-                                                   : "the operator " + w.text;
+  const std::string what = w.kind == Kind::comma ? "a comma" : w.kind == Kind::close ? "a parenthesis" : "the operator " + w.text;
   fail(w, what + " stands where a value should");
 }
 
 [[noreturn]] void miscounted(const Word& name, const Function& f, int given) {
-  fail(name, name.text + " has too " + (given < f.least ? "few" : "many") +
-                 " arguments: " + std::to_string(given) + " instead of " + std::to_string(f.least) +
-                 (f.most == any ? " or more" : ""));
+  fail(name, name.text + " has too " + (given < f.least ? "few" : "many") + " arguments: " + std::to_string(given) + " instead of " +
+                 std::to_string(f.least) + (f.most == any ? " or more" : ""));
 }
 
 class Parser {
@@ -118,8 +110,7 @@ class Parser {
 
   // As far as operators reach that bind their left side at least so strongly.
   void expression(int least) {
-    if (++depth_ > deepest)
-      fail(words_[place_ - 1], "it nests too deeply: name parts of it in parameters");
+    if (++depth_ > deepest) fail(words_[place_ - 1], "it nests too deeply: name parts of it in parameters");
     operand();
     while (next_is(Kind::sign)) {
       const auto o = std::ranges::find(operators, next().text, &Operator::sign);
@@ -135,15 +126,10 @@ class Parser {
     const Word& word = take();
     switch (word.kind) {
       case Kind::number:
-      case Kind::name:
-        return steps_.push_back({&word});
-      case Kind::function:
-        return call(word);
-      case Kind::open:
-        expression(weakest);
-        return close(word);
-      default:
-        return adds(word) ? signed_operand(word) : misplaced(word);
+      case Kind::name: return steps_.push_back({&word});
+      case Kind::function: return call(word);
+      case Kind::open: expression(weakest); return close(word);
+      default: return adds(word) ? signed_operand(word) : misplaced(word);
     }
   }
 
@@ -168,8 +154,7 @@ class Parser {
   }
 
   void close(const Word& open) {
-    if (next_is(Kind::comma))
-      fail(next(), "a comma stands outside a function: the decimal point is \".\"");
+    if (next_is(Kind::comma)) fail(next(), "a comma stands outside a function: the decimal point is \".\"");
     if (!take_if(Kind::close)) fail(open, "a parenthesis is not closed");
   }
 
@@ -181,9 +166,7 @@ class Parser {
 
 }  // namespace
 
-std::vector<FormulaStep> parse(std::span<const Word> words) {
-  return Parser(words).steps();
-}
+std::vector<FormulaStep> parse(std::span<const Word> words) { return Parser(words).steps(); }
 
 const std::vector<std::string>& function_names() {
   static const std::vector<std::string> names = [] {
@@ -194,8 +177,6 @@ const std::vector<std::string>& function_names() {
   return names;
 }
 
-bool is_function(std::string_view name) {
-  return std::ranges::find(functions, name, &Function::name) != functions.end();
-}
+bool is_function(std::string_view name) { return std::ranges::find(functions, name, &Function::name) != functions.end(); }
 
 }  // namespace pintle

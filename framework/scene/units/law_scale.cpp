@@ -221,15 +221,17 @@ double hermite(const Sample& from, const Sample& to, double t) {
   const double h = to.t - from.t, x = (t - from.t) / h;
   const auto share = [](const Jet& end, double away, double step) {  // of one end, at `away` of the step from it
     const double left = 1 - away;
-    return left * left * left * (end.value * (1 + 3 * away + 6 * away * away) + end.rate * step * away * (1 + 3 * away) +
-                                 end.accel * step * step * away * away / 2);
+    return left * left * left *
+           (end.value * (1 + 3 * away + 6 * away * away) + end.rate * step * away * (1 + 3 * away) +
+            end.accel * step * step * away * away / 2);
   };
   return share(from.jet, x, h) + share(to.jet, 1 - x, -h);
 }
 
 /// Divides [a, b] by halves until each part is the polynomial of its ends, to what counts.
 /// @returns false where that takes too many
-bool divide(const TimeLaw& law, double a, double b, const std::vector<Sample>& samples, double little, double until, std::vector<double>& ends) {
+bool divide(const TimeLaw& law, double a, double b, const std::vector<Sample>& samples, double little, double until,
+            std::vector<double>& ends) {
   if (ends.size() > most_intervals) return false;
   constexpr int looks = 8;
   const Sample from{a, law(a)}, to{b, law(b)};
@@ -331,7 +333,9 @@ LawScale scale_of(const TimeLaw& law, double until) {
   return {};
 }
 
-bool value_jumps(const LawBreak& b) { return std::abs(b.right.value - b.left.value) > 1e-10 * std::max({1.0, std::abs(b.left.value), std::abs(b.right.value)}); }
+bool value_jumps(const LawBreak& b) {
+  return std::abs(b.right.value - b.left.value) > 1e-10 * std::max({1.0, std::abs(b.left.value), std::abs(b.right.value)});
+}
 
 bool speed_jumps(const LawBreak& b, double fastest) {
   return std::abs(b.right.rate - b.left.rate) > 1e-7 * std::max({fastest, std::abs(b.left.rate), std::abs(b.right.rate)});

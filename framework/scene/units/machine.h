@@ -36,12 +36,16 @@ class Machine {
 
  private:
   static Value constant(double x) {
-    if constexpr (std::is_same_v<Value, Jet>) return {x, 0, 0};
-    else return {{x, x}, {0, 0}};
+    if constexpr (std::is_same_v<Value, Jet>)
+      return {x, 0, 0};
+    else
+      return {{x, x}, {0, 0}};
   }
   static Value chosen(const Value& condition, const Value& then, const Value& otherwise) {
-    if constexpr (std::is_same_v<Value, Jet>) return condition.value != 0 ? then : otherwise;
-    else return choose(condition, then, otherwise);
+    if constexpr (std::is_same_v<Value, Jet>)
+      return condition.value != 0 ? then : otherwise;
+    else
+      return choose(condition, then, otherwise);
   }
   std::array<Value, Program::most_stacked> stack_;
 };

@@ -128,7 +128,9 @@ Range hull(const Range& a, const Range& b) { return {std::min(a.lo, b.lo), std::
 RangeJet apply(Op op, const RangeJet& x) {
   const Range& v = x.value;
   const Range inside{std::max(v.lo, -1.0), std::min(v.hi, 1.0)};
-  const auto steep = [&] { return v.lo > -1 && v.hi < 1 ? inverse(rising([](double u) { return std::sqrt(u); }, unity - square(v))) : Range{1, infinity}; };
+  const auto steep = [&] {
+    return v.lo > -1 && v.hi < 1 ? inverse(rising([](double u) { return std::sqrt(u); }, unity - square(v))) : Range{1, infinity};
+  };
   switch (op) {
     case Op::negate: return negated(x);
     case Op::sin: return chain(x, sine(v), cosine(v));

@@ -15,12 +15,8 @@ namespace {
 using Kind = Word::Kind;
 constexpr std::size_t longest_text = 2000;
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
 // The text in ASCII, and of each of its characters the place in the text as written, from 1.
 struct Plain {
@@ -31,16 +27,7 @@ struct Plain {
 // Characters an engineer types that are not ASCII.
 Plain plain(std::string_view text) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 10> spellings{
-      {{"µ", "u"},
-       {"μ", "u"},
-       {"°", " deg"},
-       {"·", "*"},
-       {"×", "*"},
-       {"−", "-"},
-       {"²", "^2"},
-       {"³", "^3"},
-       {"π", "pi"},
-       {"\u00a0", " "}}};
+      {{"µ", "u"}, {"μ", "u"}, {"°", " deg"}, {"·", "*"}, {"×", "*"}, {"−", "-"}, {"²", "^2"}, {"³", "^3"}, {"π", "pi"}, {"\u00a0", " "}}};
   const auto goes_on = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
   Plain out;
   for (std::size_t place = 0; !text.empty();) {
@@ -63,8 +50,7 @@ struct Level {
 
 class Speller {
  public:
-  Speller(const Plain& plain, const Vocabulary& known)
-      : at_(plain.at), rest_(plain.text), known_(known) {}
+  Speller(const Plain& plain, const Vocabulary& known) : at_(plain.at), rest_(plain.text), known_(known) {}
 
   std::vector<Word> words() {
     for (skip_space(); !rest_.empty(); skip_space()) {
@@ -82,15 +68,13 @@ class Speller {
       else
         sign();
     }
-    if (levels_.size() > 1)
-      throw ExpressionError("a parenthesis is not closed" + hint_, levels_.back().opened);
+    if (levels_.size() > 1) throw ExpressionError("a parenthesis is not closed" + hint_, levels_.back().opened);
     return std::move(words_);
   }
 
  private:
   void skip_space() {
-    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t' ||
-                              rest_.front() == '\n' || rest_.front() == '\r'))
+    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t' || rest_.front() == '\n' || rest_.front() == '\r'))
       rest_.remove_prefix(1);
   }
   void take(Kind kind, std::size_t length, double value = 0) {
@@ -105,9 +89,7 @@ class Speller {
     const Kind k = words_.back().kind;
     return k == Kind::number || k == Kind::name || k == Kind::close;
   }
-  std::string between(std::string_view next) const {
-    return "nothing stands between " + words_.back().text + " and " + std::string(next);
-  }
+  std::string between(std::string_view next) const { return "nothing stands between " + words_.back().text + " and " + std::string(next); }
   [[noreturn]] void side_by_side(std::string_view next) const {
     const std::string last = words_.back().text;
     fail(between(next) + ": write " + (last == ")" ? "" : last) + "*" + std::string(next));
@@ -145,15 +127,13 @@ void Speller::number() {
   double value = 0;
   const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
   const auto length = static_cast<std::size_t>(end - rest_.data());
-  const bool reciprocal = length == 1 && value == 1 && rest_.size() > 2 && rest_[1] == '/' &&
-                          is_letter(rest_[2]) && !words_.empty() &&
+  const bool reciprocal = length == 1 && value == 1 && rest_.size() > 2 && rest_[1] == '/' && is_letter(rest_[2]) && !words_.empty() &&
                           words_.back().kind == Kind::number && !levels_.back().divided;
   if (reciprocal)
     words_.push_back({Kind::sign, "*", at()});
   else if (after_value())
     side_by_side(rest_.substr(0, length));
-  if (error != std::errc())
-    fail(std::string(rest_.substr(0, length)) + " is too large or too small for a number");
+  if (error != std::errc()) fail(std::string(rest_.substr(0, length)) + " is too large or too small for a number");
   take(Kind::number, length, value);
 }
 
@@ -177,20 +157,18 @@ void Speller::name() {
 // 10 deg/2 deg), so only the plain fraction 1/2 mm may do it there.
 void Speller::multiply_by_unit(std::string_view unit) {
   const std::size_t n = words_.size();
-  const bool fraction = n >= 3 && words_[n - 1].kind == Kind::number && words_[n - 2].text == "/" &&
-                        words_[n - 3].kind == Kind::number && (n == 3 || words_[n - 4].text != "/");
+  const bool fraction = n >= 3 && words_[n - 1].kind == Kind::number && words_[n - 2].text == "/" && words_[n - 3].kind == Kind::number &&
+                        (n == 3 || words_[n - 4].text != "/");
   if (levels_.back().divided && !fraction) {
     const std::string last = words_.back().text, u(unit);
-    fail("\"" + last + " " + u + "\" after a \"/\" can be read two ways: write /(" + last + "*" +
-         u + ") or *" + u);
+    fail("\"" + last + " " + u + "\" after a \"/\" can be read two ways: write /(" + last + "*" + u + ") or *" + u);
   }
   levels_.back().divided = false;
   words_.push_back({Kind::sign, "*", at()});
 }
 
 void Speller::sign() {
-  static constexpr std::array<std::string_view, 15> signs{
-      "<=", ">=", "==", "!=", "&&", "||", "+", "-", "*", "/", "^", "<", ">", "**", "="};
+  static constexpr std::array<std::string_view, 15> signs{"<=", ">=", "==", "!=", "&&", "||", "+", "-", "*", "/", "^", "<", ">", "**", "="};
   std::size_t length = 0;
   for (const std::string_view s : signs)
     if (rest_.starts_with(s) && s.size() > length) length = s.size();

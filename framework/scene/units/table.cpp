@@ -60,12 +60,10 @@ class SampleReader {
     const bool header = !seen_a_line_ && !number(words[0]);
     seen_a_line_ = true;
     if (header) return;
-    if (words.size() != 2)
-      fail("holds " + std::to_string(words.size()) + " columns; write two: time and value");
+    if (words.size() != 2) fail("holds " + std::to_string(words.size()) + " columns; write two: time and value");
     const double t = finite(words[0], 1) * time_unit, value = finite(words[1], 2) * value_unit;
     if (!samples_.t.empty() && !(t > samples_.t.back()))
-      fail("time " + std::string(words[0]) +
-           " does not come after the one before; times must increase");
+      fail("time " + std::string(words[0]) + " does not come after the one before; times must increase");
     samples_.t.push_back(t);
     samples_.value.push_back(value);
   }
@@ -78,17 +76,14 @@ class SampleReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& message) const {
-    throw SceneError(file_, {line_, key_}, message);
-  }
+  [[noreturn]] void fail(const std::string& message) const { throw SceneError(file_, {line_, key_}, message); }
   double finite(std::string_view word, int column) const {
     const std::optional<double> value = number(word);
     // Before a first row of numbers the file may be anything, and is not shown.
     if (!value)
       fail((samples_.t.empty() ? "column " + std::to_string(column) : "\"" + std::string(word) + "\"") +
            " is not a number; write one, like 0.25 or 2.5e-1");
-    if (!std::isfinite(*value))
-      fail("the value " + std::string(word) + " is not finite; correct or remove the line");
+    if (!std::isfinite(*value)) fail("the value " + std::string(word) + " is not finite; correct or remove the line");
     return *value;
   }
 
@@ -143,8 +138,7 @@ std::vector<double> curvatures(const std::vector<double>& t, const std::vector<d
 
 }  // namespace
 
-Samples read_samples(const std::filesystem::path& file, double time_unit, double value_unit,
-                     const std::string& key) {
+Samples read_samples(const std::filesystem::path& file, double time_unit, double value_unit, const std::string& key) {
   const std::string text = read_text_file(file, most_bytes, key);
   SampleReader reader(file.string(), key);
   std::size_t begin = 0;
@@ -156,8 +150,7 @@ Samples read_samples(const std::filesystem::path& file, double time_unit, double
   return reader.samples();
 }
 
-Spline::Spline(Samples samples)
-    : samples_(std::move(samples)), curvature_(curvatures(samples_.t, samples_.value)) {}
+Spline::Spline(Samples samples) : samples_(std::move(samples)), curvature_(curvatures(samples_.t, samples_.value)) {}
 
 Jet Spline::operator()(double t) const {
   if (const auto held = held_end(samples_, t)) return *held;
@@ -173,8 +166,7 @@ Jet Spline::operator()(double t) const {
 Jet Polyline::operator()(double t) const {
   if (const auto held = held_end(samples_, t)) return *held;
   const std::size_t i = interval(samples_.t, t);
-  const double slope =
-      (samples_.value[i + 1] - samples_.value[i]) / (samples_.t[i + 1] - samples_.t[i]);
+  const double slope = (samples_.value[i + 1] - samples_.value[i]) / (samples_.t[i + 1] - samples_.t[i]);
   return {samples_.value[i] + slope * (t - samples_.t[i]), slope, 0};
 }
 

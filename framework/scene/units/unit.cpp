@@ -17,53 +17,45 @@ constexpr double pi = std::numbers::pi;
 namespace d = dimension;
 constexpr Dimension power_of_work{2, 1, -3, 0};
 
-constexpr std::array known_units{
-    Unit{"m", 1, d::length},       Unit{"km", 1e3, d::length},
-    Unit{"cm", 1e-2, d::length},   Unit{"mm", 1e-3, d::length},
-    Unit{"um", 1e-6, d::length},   Unit{"nm", 1e-9, d::length},
-    Unit{"kg", 1, d::mass},        Unit{"g", 1e-3, d::mass},
-    Unit{"mg", 1e-6, d::mass},     Unit{"s", 1, d::time},
-    Unit{"ms", 1e-3, d::time},     Unit{"us", 1e-6, d::time},
-    Unit{"ns", 1e-9, d::time},     Unit{"rad", 1, d::angle},
-    Unit{"mrad", 1e-3, d::angle},  Unit{"deg", pi / 180, d::angle},
-    Unit{"rev", 2 * pi, d::angle}, Unit{"rpm", pi / 30, d::angular_speed},
-    Unit{"N", 1, d::force},        Unit{"mN", 1e-3, d::force},
-    Unit{"kN", 1e3, d::force},     Unit{"MN", 1e6, d::force},
-    Unit{"Pa", 1, d::stress},      Unit{"kPa", 1e3, d::stress},
-    Unit{"MPa", 1e6, d::stress},   Unit{"GPa", 1e9, d::stress},
-    Unit{"J", 1, d::torque},       Unit{"mJ", 1e-3, d::torque},
-    Unit{"kJ", 1e3, d::torque},    Unit{"W", 1, power_of_work},
-    Unit{"kW", 1e3, power_of_work}};
+constexpr std::array known_units{Unit{"m", 1, d::length},         Unit{"km", 1e3, d::length},    Unit{"cm", 1e-2, d::length},
+                                 Unit{"mm", 1e-3, d::length},     Unit{"um", 1e-6, d::length},   Unit{"nm", 1e-9, d::length},
+                                 Unit{"kg", 1, d::mass},          Unit{"g", 1e-3, d::mass},      Unit{"mg", 1e-6, d::mass},
+                                 Unit{"s", 1, d::time},           Unit{"ms", 1e-3, d::time},     Unit{"us", 1e-6, d::time},
+                                 Unit{"ns", 1e-9, d::time},       Unit{"rad", 1, d::angle},      Unit{"mrad", 1e-3, d::angle},
+                                 Unit{"deg", pi / 180, d::angle}, Unit{"rev", 2 * pi, d::angle}, Unit{"rpm", pi / 30, d::angular_speed},
+                                 Unit{"N", 1, d::force},          Unit{"mN", 1e-3, d::force},    Unit{"kN", 1e3, d::force},
+                                 Unit{"MN", 1e6, d::force},       Unit{"Pa", 1, d::stress},      Unit{"kPa", 1e3, d::stress},
+                                 Unit{"MPa", 1e6, d::stress},     Unit{"GPa", 1e9, d::stress},   Unit{"J", 1, d::torque},
+                                 Unit{"mJ", 1e-3, d::torque},     Unit{"kJ", 1e3, d::torque},    Unit{"W", 1, power_of_work},
+                                 Unit{"kW", 1e3, power_of_work}};
 
-constexpr std::array turns{Unit{"Hz", 2 * pi, d::angular_speed},
-                           Unit{"kHz", 2e3 * pi, d::angular_speed}};
+constexpr std::array turns{Unit{"Hz", 2 * pi, d::angular_speed}, Unit{"kHz", 2e3 * pi, d::angular_speed}};
 
 struct AbsentWord {
   std::string_view name, remedy;
 };
-constexpr std::array absent_words{
-    AbsentWord{"Hz", "Hz counts turns, not radians: write 50*rev/s, 3000 rpm or 50/s, as you mean it"},
-    AbsentWord{"kHz", "Hz counts turns, not radians: write 1000*rev/s or 1000/s, as you mean it"},
-    AbsentWord{"min", "minutes are not offered: write 60 s"},
-    AbsentWord{"inch", "inches are not offered: write 25.4 mm"},
-    AbsentWord{"in", "inches are not offered: write 25.4 mm"},
-    AbsentWord{"ft", "feet are not offered: write 0.3048 m"},
-    AbsentWord{"lb", "pounds are not offered: write 0.45359237 kg"},
-    AbsentWord{"lbf", "pounds are not offered: write 4.4482216 N"},
-    AbsentWord{"psi", "pounds are not offered: write 6894.7573 Pa"},
-    AbsentWord{"ton", "write 1000 kg"},
-    AbsentWord{"Nm", "a product of units is written with a space: N m"},
-    AbsentWord{"Nmm", "a product of units is written with a space: N mm"},
-    AbsentWord{"kNm", "a product of units is written with a space: kN m"},
-    AbsentWord{"Ns", "a product of units is written with a space: N s"},
-    AbsentWord{"kgm", "a product of units is written with a space: kg m"},
-    AbsentWord{"inf", "every value must be finite"},
-    AbsentWord{"Inf", "every value must be finite"},
-    AbsentWord{"infinity", "every value must be finite"},
-    AbsentWord{"nan", "every value must be finite"},
-    AbsentWord{"NaN", "every value must be finite"},
-    AbsentWord{"e", "Euler's number is exp(1); a power of ten is written 1e-3"},
-    AbsentWord{"ln", "the natural logarithm is log"}};
+constexpr std::array absent_words{AbsentWord{"Hz", "Hz counts turns, not radians: write 50*rev/s, 3000 rpm or 50/s, as you mean it"},
+                                  AbsentWord{"kHz", "Hz counts turns, not radians: write 1000*rev/s or 1000/s, as you mean it"},
+                                  AbsentWord{"min", "minutes are not offered: write 60 s"},
+                                  AbsentWord{"inch", "inches are not offered: write 25.4 mm"},
+                                  AbsentWord{"in", "inches are not offered: write 25.4 mm"},
+                                  AbsentWord{"ft", "feet are not offered: write 0.3048 m"},
+                                  AbsentWord{"lb", "pounds are not offered: write 0.45359237 kg"},
+                                  AbsentWord{"lbf", "pounds are not offered: write 4.4482216 N"},
+                                  AbsentWord{"psi", "pounds are not offered: write 6894.7573 Pa"},
+                                  AbsentWord{"ton", "write 1000 kg"},
+                                  AbsentWord{"Nm", "a product of units is written with a space: N m"},
+                                  AbsentWord{"Nmm", "a product of units is written with a space: N mm"},
+                                  AbsentWord{"kNm", "a product of units is written with a space: kN m"},
+                                  AbsentWord{"Ns", "a product of units is written with a space: N s"},
+                                  AbsentWord{"kgm", "a product of units is written with a space: kg m"},
+                                  AbsentWord{"inf", "every value must be finite"},
+                                  AbsentWord{"Inf", "every value must be finite"},
+                                  AbsentWord{"infinity", "every value must be finite"},
+                                  AbsentWord{"nan", "every value must be finite"},
+                                  AbsentWord{"NaN", "every value must be finite"},
+                                  AbsentWord{"e", "Euler's number is exp(1); a power of ten is written 1e-3"},
+                                  AbsentWord{"ln", "the natural logarithm is log"}};
 
 struct Named {
   Dimension dimension;
@@ -90,9 +82,7 @@ const std::array named{Named{d::number, "a number", ""},
                        Named{{3, 0, 0, 0}, "a volume", "m^3"},
                        Named{d::density, "a density", "kg/m^3"}};
 
-bool near(double a, double b) {
-  return std::abs(a - b) < 1e-9;
-}
+bool near(double a, double b) { return std::abs(a - b) < 1e-9; }
 
 const Named* name_of(const Dimension& q) {
   for (const Named& n : named)
@@ -103,8 +93,7 @@ const Named* name_of(const Dimension& q) {
 std::string base_units(const Dimension& q) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
-  const std::array<std::pair<const char*, double>, 3> parts{
-      {{"kg", q.mass}, {"m", q.length}, {"s", q.time}}};
+  const std::array<std::pair<const char*, double>, 3> parts{{{"kg", q.mass}, {"m", q.length}, {"s", q.time}}};
   for (const auto& [name, exponent] : parts) {
     if (near(exponent, 0)) continue;
     if (out.tellp() > 0) out << '*';
@@ -120,17 +109,11 @@ Dimension product(const Dimension& a, const Dimension& b) {
   return {a.length + b.length, a.mass + b.mass, a.time + b.time, a.angle + b.angle};
 }
 
-Dimension power(const Dimension& a, double n) {
-  return {n * a.length, n * a.mass, n * a.time, n * a.angle};
-}
+Dimension power(const Dimension& a, double n) { return {n * a.length, n * a.mass, n * a.time, n * a.angle}; }
 
-bool same(const Dimension& a, const Dimension& b) {
-  return near(a.length, b.length) && near(a.mass, b.mass) && near(a.time, b.time);
-}
+bool same(const Dimension& a, const Dimension& b) { return near(a.length, b.length) && near(a.mass, b.mass) && near(a.time, b.time); }
 
-bool bare(const Dimension& a) {
-  return same(a, {}) && near(a.angle, 0);
-}
+bool bare(const Dimension& a) { return same(a, {}) && near(a.angle, 0); }
 
 std::string describe(const Dimension& q) {
   if (same(q, d::number) && !bare(q)) return "an angle [rad]";
@@ -145,9 +128,7 @@ std::string si_unit(const Dimension& q) {
   return n ? n->unit : base_units(q);
 }
 
-std::span<const Unit> units() {
-  return known_units;
-}
+std::span<const Unit> units() { return known_units; }
 
 const Unit* find_unit(std::string_view name) {
   for (const Unit& u : known_units)
@@ -155,9 +136,7 @@ const Unit* find_unit(std::string_view name) {
   return nullptr;
 }
 
-std::span<const Unit> frequency_units() {
-  return turns;
-}
+std::span<const Unit> frequency_units() { return turns; }
 
 std::string_view instead_of(std::string_view word) {
   for (const AbsentWord& a : absent_words)

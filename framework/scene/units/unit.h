@@ -14,12 +14,10 @@ struct Dimension {
 };
 
 namespace dimension {
-inline constexpr Dimension number{}, length{1, 0, 0, 0}, mass{0, 1, 0, 0}, time{0, 0, 1, 0},
-    angle{0, 0, 0, 1}, speed{1, 0, -1, 0}, angular_speed{0, 0, -1, 1}, acceleration{1, 0, -2, 0},
-    inertia{2, 1, 0, 0}, force{1, 1, -2, 0}, torque{2, 1, -2, 0}, stress{-1, 1, -2, 0},
-    stiffness{0, 1, -2, 0}, damping{0, 1, -1, 0}, torsion_stiffness{2, 1, -2, -1},
-    torsion_damping{2, 1, -1, -1}, area{2, 0, 0, 0}, second_moment{4, 0, 0, 0},
-    density{-3, 1, 0, 0}, line_load{0, 1, -2, 0}, rate{0, 0, -1, 0};
+inline constexpr Dimension number{}, length{1, 0, 0, 0}, mass{0, 1, 0, 0}, time{0, 0, 1, 0}, angle{0, 0, 0, 1}, speed{1, 0, -1, 0},
+    angular_speed{0, 0, -1, 1}, acceleration{1, 0, -2, 0}, inertia{2, 1, 0, 0}, force{1, 1, -2, 0}, torque{2, 1, -2, 0},
+    stress{-1, 1, -2, 0}, stiffness{0, 1, -2, 0}, damping{0, 1, -1, 0}, torsion_stiffness{2, 1, -2, -1}, torsion_damping{2, 1, -1, -1},
+    area{2, 0, 0, 0}, second_moment{4, 0, 0, 0}, density{-3, 1, 0, 0}, line_load{0, 1, -2, 0}, rate{0, 0, -1, 0};
 }  // namespace dimension
 
 Dimension product(const Dimension&, const Dimension&);

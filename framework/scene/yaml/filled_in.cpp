@@ -5,25 +5,17 @@
 
 namespace pintle {
 
-void append(Json& object, const std::string& name, Json value) {
-  object.get_ref<Json::object_t&>().push_back({name, std::move(value)});
-}
+void append(Json& object, const std::string& name, Json value) { object.get_ref<Json::object_t&>().push_back({name, std::move(value)}); }
 
-Json json(const Pair& p) {
-  return Json::array({p[0], p[1]});
-}
+Json json(const Pair& p) { return Json::array({p[0], p[1]}); }
 
 namespace {
 
 using pintle::json;
 
-std::string json(const PointRef& ref) {
-  return ref.point.empty() ? ref.body : ref.body + "." + ref.point;
-}
+std::string json(const PointRef& ref) { return ref.point.empty() ? ref.body : ref.body + "." + ref.point; }
 
-Json ends(const PointRef& a, const PointRef& b) {
-  return Json::array({json(a), json(b)});
-}
+Json ends(const PointRef& a, const PointRef& b) { return Json::array({json(a), json(b)}); }
 
 Json json(const Law& law) {
   if (law.constant) return law.at(0).value;
@@ -38,8 +30,7 @@ Json points(const std::vector<ScenePoint>& all) {
     if (p.hole.empty())
       point["at"] = json(p.at);
     else
-      point.update({{"hole", p.hole},
-                    {"coupling", p.coupling == RimCoupling::average ? "average" : "rigid"}});
+      point.update({{"hole", p.hole}, {"coupling", p.coupling == RimCoupling::average ? "average" : "rigid"}});
     append(out, p.name, point);
   }
   return out;
@@ -99,11 +90,10 @@ Json json(const SceneClearance& clearance) {
   if (clearance.stiffness) out["stiffness"] = *clearance.stiffness;
   if (clearance.damping) out["damping"] = *clearance.damping;
   if (const auto& f = clearance.friction)
-    out["friction"]["ambrosio"] = {
-        {"coefficient", f->coefficient},
-        {"v0", f->v0},
-        {"v1", f->v1},
-        {"sliding", f->sliding == SlidingSpeed::material ? "material" : "geometric"}};
+    out["friction"]["ambrosio"] = {{"coefficient", f->coefficient},
+                                   {"v0", f->v0},
+                                   {"v1", f->v1},
+                                   {"sliding", f->sliding == SlidingSpeed::material ? "material" : "geometric"}};
   return out;
 }
 
@@ -123,21 +113,15 @@ Json json(const SceneDriver& driver) {
   return out;
 }
 
-Json load(const SceneForce& f) {
-  return {
-      {"force", Json::array({json(f.x), json(f.y)})}, {"at", json(f.at)}, {"follows", f.follows}};
-}
-Json load(const SceneTorque& f) {
-  return {{"torque", json(f.law)}, {"on", json(f.b)}, {"from", json(f.a)}};
-}
+Json load(const SceneForce& f) { return {{"force", Json::array({json(f.x), json(f.y)})}, {"at", json(f.at)}, {"follows", f.follows}}; }
+Json load(const SceneTorque& f) { return {{"torque", json(f.law)}, {"on", json(f.b)}, {"from", json(f.a)}}; }
 Json load(const SceneSpring& f) {
   Json out = {{"spring", ends(f.a, f.b)}, {"damping", f.damping}, {"free length", f.free_length}};
   if (f.stiffness > 0) out["stiffness"] = f.stiffness;
   return out;
 }
 Json load(const SceneTorsionSpring& f) {
-  Json out = {
-      {"torsion spring", ends(f.a, f.b)}, {"damping", f.damping}, {"free angle", f.free_angle}};
+  Json out = {{"torsion spring", ends(f.a, f.b)}, {"damping", f.damping}, {"free angle", f.free_angle}};
   if (f.stiffness > 0) out["stiffness"] = f.stiffness;
   return out;
 }
@@ -168,13 +152,8 @@ Json starts(const Scene& scene) {
 }
 
 Json json(const RunOptions& run) {
-  Json out = {{"until", run.until},
-              {"method", run.method},
-              {"tolerance", run.tolerance},
-              {"constraints", run.constraints},
-              {"onset", "locate"},
-              {"max steps", run.max_steps},
-              {"ledger bound", run.ledger_bound}};
+  Json out = {{"until", run.until}, {"method", run.method},       {"tolerance", run.tolerance},      {"constraints", run.constraints},
+              {"onset", "locate"},  {"max steps", run.max_steps}, {"ledger bound", run.ledger_bound}};
   if (run.method == "generalized-alpha") out["method"] = {{run.method, {{"rho", run.rho}}}};
   if (run.onset_cut) out["onset"] = {{"cut", *run.onset_cut}};
   if (run.max_step > 0) out["max step"] = run.max_step;
@@ -205,8 +184,7 @@ std::string filled_in(const Scene& scene, const Parameters& parameters) {
   if (!scene.title.empty()) out["title"] = scene.title;
   out["gravity"] = json(scene.gravity);
   Json& named = out["parameters"] = Json::object();
-  for (const auto& [name, value] : scene.parameters)
-    append(named, name, parameter(name, value, parameters));
+  for (const auto& [name, value] : scene.parameters) append(named, name, parameter(name, value, parameters));
   Json& materials = out["materials"] = Json::object();
   for (const SceneMaterial& m : scene.materials) append(materials, m.name, json(m));
   out["ground"]["points"] = points(scene.ground);
@@ -217,8 +195,7 @@ std::string filled_in(const Scene& scene, const Parameters& parameters) {
   Json& drivers = out["drivers"] = Json::object();
   for (const SceneDriver& d : scene.drivers) append(drivers, d.name, json(d));
   Json& forces = out["forces"] = Json::object();
-  for (const SceneLoad& l : scene.loads)
-    append(forces, l.name, std::visit([](const auto& what) { return load(what); }, l.what));
+  for (const SceneLoad& l : scene.loads) append(forces, l.name, std::visit([](const auto& what) { return load(what); }, l.what));
   out["start"] = starts(scene);
   if (scene.statics) out["static"] = json(*scene.statics);
   if (scene.has_run) out["run"] = json(scene.run);

@@ -8,9 +8,7 @@ namespace {
 
 using pintle::json;
 
-Json elasticity(const Isotropic& m) {
-  return {{"young", m.young}, {"poisson", m.poisson}};
-}
+Json elasticity(const Isotropic& m) { return {{"young", m.young}, {"poisson", m.poisson}}; }
 
 Json elasticity(const Orthotropic& m) {
   Json young = {m.young_1, m.young_2}, poisson = m.poisson_12;
@@ -18,8 +16,7 @@ Json elasticity(const Orthotropic& m) {
     young.push_back(*m.young_3);
     poisson = {m.poisson_12, *m.poisson_13, *m.poisson_23};
   }
-  return {{"orthotropic",
-           {{"young", young}, {"poisson", poisson}, {"shear", m.shear_12}, {"angle", m.angle}}}};
+  return {{"orthotropic", {{"young", young}, {"poisson", poisson}, {"shear", m.shear_12}, {"angle", m.angle}}}};
 }
 
 // A material of the scene by its name, one of the body's own by its constants.
@@ -31,18 +28,10 @@ void put_made(Json& out, const SceneMaterial& material, const std::optional<doub
   if (mass) out["mass"] = *mass;
 }
 
-Json section(const RectangleSection& s) {
-  return {{"rectangle", Json::array({s.height, s.width})}};
-}
-Json section(const CircleSection& s) {
-  return {{"circle", s.diameter}};
-}
-Json section(const TubeSection& s) {
-  return {{"tube", Json::array({s.outer, s.inner})}};
-}
-Json section(const ISection& s) {
-  return {{"i", {{"height", s.height}, {"width", s.width}, {"web", s.web}, {"flange", s.flange}}}};
-}
+Json section(const RectangleSection& s) { return {{"rectangle", Json::array({s.height, s.width})}}; }
+Json section(const CircleSection& s) { return {{"circle", s.diameter}}; }
+Json section(const TubeSection& s) { return {{"tube", Json::array({s.outer, s.inner})}}; }
+Json section(const ISection& s) { return {{"i", {{"height", s.height}, {"width", s.width}, {"web", s.web}, {"flange", s.flange}}}}; }
 Json section(const GivenSection& s) {
   Json out = {{"area", s.area}, {"second moment", s.second_moment}};
   if (s.fibre > 0) out["fibre"] = s.fibre;
@@ -65,22 +54,12 @@ Json body(const SceneBeam& beam) {
   return {{"beam", out}};
 }
 
-Json json(const Eye& e) {
-  return {{"bore", e.bore}, {"outer", e.outer}};
-}
-Json link(const StraightBar& l) {
-  return {{"bar", {{"length", l.length}, {"width", l.width}}}};
-}
+Json json(const Eye& e) { return {{"bore", e.bore}, {"outer", e.outer}}; }
+Json link(const StraightBar& l) { return {{"bar", {{"length", l.length}, {"width", l.width}}}}; }
 Json link(const EyeBar& l) {
-  return {{"eye bar",
-           {{"length", l.length},
-            {"width", l.width},
-            {"eyes", Json::array({json(l.first), json(l.second)})}}}};
+  return {{"eye bar", {{"length", l.length}, {"width", l.width}, {"eyes", Json::array({json(l.first), json(l.second)})}}}};
 }
-Json link(const TaperedBar& l) {
-  return {{"tapered bar",
-           {{"length", l.length}, {"widths", Json::array({l.width_left, l.width_right})}}}};
-}
+Json link(const TaperedBar& l) { return {{"tapered bar", {{"length", l.length}, {"widths", Json::array({l.width_left, l.width_right})}}}}; }
 Json link(const Triangle& l) {
   Json centers = Json::array(), eyes = Json::array();
   for (int i = 0; i < 3; ++i) {
@@ -89,16 +68,12 @@ Json link(const Triangle& l) {
   }
   return {{"triangle", {{"centers", centers}, {"eyes", eyes}}}};
 }
-Json link(const Disc& l) {
-  return {{"disc", {{"diameter", l.diameter}, {"bore", l.bore}}}};
-}
+Json link(const Disc& l) { return {{"disc", {{"diameter", l.diameter}, {"bore", l.bore}}}}; }
 
 Json shape(const Link& l) {
   return {{"link", std::visit([](const auto& which) { return link(which); }, l)}};
 }
-Json shape(const SceneFile& file) {
-  return {{"file", file.path}, {"scale", file.scale}};
-}
+Json shape(const SceneFile& file) { return {{"file", file.path}, {"scale", file.scale}}; }
 Json shape(const SceneGrid& grid) {
   Json corners = Json::array();
   for (const Pair& corner : grid.corners) corners.push_back(json(corner));
@@ -141,22 +116,16 @@ Json json(const SceneModes& modes) {
 }
 
 Json json(const SceneDamping& damping) {
-  if (damping.rayleigh)
-    return {{"rayleigh", {{"alpha", (*damping.rayleigh)[0]}, {"beta", (*damping.rayleigh)[1]}}}};
-  if (damping.rayleigh_ratios)
-    return {
-        {"rayleigh", {{"ratios", *damping.rayleigh_ratios}, {"modes", damping.rayleigh_modes}}}};
+  if (damping.rayleigh) return {{"rayleigh", {{"alpha", (*damping.rayleigh)[0]}, {"beta", (*damping.rayleigh)[1]}}}};
+  if (damping.rayleigh_ratios) return {{"rayleigh", {{"ratios", *damping.rayleigh_ratios}, {"modes", damping.rayleigh_modes}}}};
   return {{"ratios", damping.ratios}};
 }
 
 const char* json(Stiffening loads) {
   switch (loads) {
-    case Stiffening::rotation:
-      return "rotation";
-    case Stiffening::axial:
-      return "axial";
-    case Stiffening::none:
-      break;
+    case Stiffening::rotation: return "rotation";
+    case Stiffening::axial: return "axial";
+    case Stiffening::none: break;
   }
   return "none";
 }
@@ -173,20 +142,13 @@ Json json(const SceneStaticLoad& load) {
   using Kind = SceneStaticLoad::Kind;
   const Json vector = json(load.vector);
   switch (load.kind) {
-    case Kind::force:
-      return {{"force", vector}, {"at", load.at}};
-    case Kind::torque:
-      return {{"torque", load.value}, {"at", load.at}};
-    case Kind::traction:
-      return {{"traction", vector}, {"on", load.at}};
-    case Kind::pressure:
-      return {{"pressure", load.value}, {"on", load.at}};
-    case Kind::line:
-      return {{"line load", vector}};
-    case Kind::acceleration:
-      return {{"acceleration", vector}};
-    case Kind::spin:
-      break;
+    case Kind::force: return {{"force", vector}, {"at", load.at}};
+    case Kind::torque: return {{"torque", load.value}, {"at", load.at}};
+    case Kind::traction: return {{"traction", vector}, {"on", load.at}};
+    case Kind::pressure: return {{"pressure", load.value}, {"on", load.at}};
+    case Kind::line: return {{"line load", vector}};
+    case Kind::acceleration: return {{"acceleration", vector}};
+    case Kind::spin: break;
   }
   Json out = {{"spin", load.value}};
   if (!load.at.empty()) out["about"] = load.at;
@@ -196,8 +158,7 @@ Json json(const SceneStaticLoad& load) {
 }  // namespace
 
 Json json(const SceneMaterial& m) {
-  Json out =
-      std::visit([](const auto& elastic) { return elasticity(elastic); }, m.material.elastic);
+  Json out = std::visit([](const auto& elastic) { return elasticity(elastic); }, m.material.elastic);
   if (m.material.density > 0) out["density"] = m.material.density;
   return out;
 }
@@ -206,8 +167,7 @@ Json json(const SceneElastic& elastic) {
   Json out = std::visit([](const auto& which) { return body(which); }, elastic.shape);
   out["mass matrix"] = elastic.lumped ? "lumped" : "consistent";
   Json& lumps = out["lumps"] = Json::object();
-  for (const SceneLump& l : elastic.lumps)
-    append(lumps, l.at, {{"mass", l.mass}, {"inertia", l.inertia}});
+  for (const SceneLump& l : elastic.lumps) append(lumps, l.at, {{"mass", l.mass}, {"inertia", l.inertia}});
   Json& supports = out["supports"] = Json::object();
   for (const SceneSupport& s : elastic.supports) append(supports, s.at, json(s));
   if (elastic.damping) out["damping"] = json(*elastic.damping);

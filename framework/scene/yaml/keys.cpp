@@ -12,28 +12,22 @@ namespace {
 using presence::optional, presence::required;
 
 // Groups that stand in several places.
-const std::vector<Key> orthotropic_keys{{"young", required, "[140 GPa, 10 GPa]"},
-                                        {"poisson", required, "0.3"},
-                                        {"shear", required, "5 GPa"},
-                                        {"angle"}};
-const std::vector<Key> section_keys{{"rectangle"}, {"circle"},        {"tube"},  {"i"},
-                                    {"area"},      {"second moment"}, {"fibre"}, {"shear factor"}};
-const std::vector<Key> i_section_keys{{"height", required, "100 mm"},
-                                      {"width", required, "55 mm"},
-                                      {"web", required, "4 mm"},
-                                      {"flange", required, "6 mm"}};
+const std::vector<Key> orthotropic_keys{
+    {"young", required, "[140 GPa, 10 GPa]"}, {"poisson", required, "0.3"}, {"shear", required, "5 GPa"}, {"angle"}};
+const std::vector<Key> section_keys{{"rectangle"}, {"circle"}, {"tube"}, {"i"}, {"area"}, {"second moment"}, {"fibre"}, {"shear factor"}};
+const std::vector<Key> i_section_keys{
+    {"height", required, "100 mm"}, {"width", required, "55 mm"}, {"web", required, "4 mm"}, {"flange", required, "6 mm"}};
 const std::vector<Key> eye_keys{{"bore", required, "10 mm"}, {"outer", required, "20 mm"}};
-const std::vector<Key> keep_keys{
-    {"keep", optional, "", {"all", "auto"}}, {"count"}, {"below"}, {"effective mass"}};
-const std::vector<std::string> element_names{"triangle3",      "triangle6",
-                                             "quadrilateral4", "quadrilateral4-plain",
-                                             "quadrilateral8", "quadrilateral8-reduced",
-                                             "quadrilateral9"};
+const std::vector<Key> keep_keys{{"keep", optional, "", {"all", "auto"}}, {"count"}, {"below"}, {"effective mass"}};
+const std::vector<std::string> element_names{
+    "triangle3", "triangle6", "quadrilateral4", "quadrilateral4-plain", "quadrilateral8", "quadrilateral8-reduced", "quadrilateral9"};
 constexpr const char* two_eyes = "[{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]";
 
 std::vector<Key> joint_keys() {
   std::vector<Key> keys{{"clearance"}};
-  const auto add = [&](const char* key) { if (std::ranges::find(keys, key, &Key::name) == keys.end()) keys.push_back({key}); };
+  const auto add = [&](const char* key) {
+    if (std::ranges::find(keys, key, &Key::name) == keys.end()) keys.push_back({key});
+  };
   for (const JointWord& word : joint_words()) {
     add(word.word);
     for (const JointNumber& number : word.numbers) add(number.key);
@@ -73,10 +67,8 @@ const std::vector<KeyTable>& tables() {
         {"mass matrix", optional, "", {"consistent", "lumped"}},
         {"lumps"},
         {"supports"}}},
-      {"bodies.*.rigid",
-       {{"mass"}, {"inertia"}, {"center"}}},
-      {"bodies.*.points.*",
-       {{"at"}, {"angle"}, {"hole"}, {"coupling", optional, "", {"rigid", "average"}}}},
+      {"bodies.*.rigid", {{"mass"}, {"inertia"}, {"center"}}},
+      {"bodies.*.points.*", {{"at"}, {"angle"}, {"hole"}, {"coupling", optional, "", {"rigid", "average"}}}},
       {"bodies.*.pose", {{"at"}, {"angle"}}},
       {"bodies.*.beam",
        {{"from"},
@@ -120,21 +112,15 @@ const std::vector<KeyTable>& tables() {
       {"bodies.*.plate.orthotropic", orthotropic_keys},
       {"bodies.*.plate.link", {{"bar"}, {"eye bar"}, {"tapered bar"}, {"triangle"}, {"disc"}}},
       {"bodies.*.plate.link.bar", {{"length", required, "100 mm"}, {"width", required, "20 mm"}}},
-      {"bodies.*.plate.link.eye bar",
-       {{"length", required, "100 mm"},
-        {"width", required, "12 mm"},
-        {"eyes", required, two_eyes}}},
+      {"bodies.*.plate.link.eye bar", {{"length", required, "100 mm"}, {"width", required, "12 mm"}, {"eyes", required, two_eyes}}},
       {"bodies.*.plate.link.eye bar.eyes.*", eye_keys},
-      {"bodies.*.plate.link.tapered bar",
-       {{"length", required, "100 mm"}, {"widths", required, "[20 mm, 10 mm]"}}},
+      {"bodies.*.plate.link.tapered bar", {{"length", required, "100 mm"}, {"widths", required, "[20 mm, 10 mm]"}}},
       {"bodies.*.plate.link.triangle",
        {{"centers", required, "[[0, 0], [100 mm, 0], [40 mm, 60 mm]]"},
         {"eyes", required, "a list of three such as {bore: 10 mm, outer: 20 mm}"}}},
       {"bodies.*.plate.link.triangle.eyes.*", eye_keys},
       {"bodies.*.plate.link.disc", {{"diameter", required, "100 mm"}, {"bore", required, "20 mm"}}},
-      {"bodies.*.plate.grid",
-       {{"corners", required, "[[0, 0], [1 m, 0], [1 m, 0.5 m], [0, 0.5 m]]"},
-        {"cells", required, "[10, 5]"}}},
+      {"bodies.*.plate.grid", {{"corners", required, "[[0, 0], [1 m, 0], [1 m, 0.5 m], [0, 0.5 m]]"}, {"cells", required, "[10, 5]"}}},
       {"bodies.*.modes",
        {{"frame", optional, "", {"tangent", "chord", "mean axes"}},
         {"keep", optional, "", {"all", "auto"}},
@@ -151,16 +137,7 @@ const std::vector<KeyTable>& tables() {
       {"bodies.*.lumps.*", {{"mass"}, {"inertia"}}},
       {"static", {{"body"}, {"loads", required, "{pull: {at: B, force: [1 kN, 0]}}"}}},
       {"static.loads.*",
-       {{"force"},
-        {"torque"},
-        {"at"},
-        {"pressure"},
-        {"traction"},
-        {"on"},
-        {"acceleration"},
-        {"spin"},
-        {"about"},
-        {"line load"}}},
+       {{"force"}, {"torque"}, {"at"}, {"pressure"}, {"traction"}, {"on"}, {"acceleration"}, {"spin"}, {"about"}, {"line load"}}},
       {"joints.*", joint_keys()},
       {"joints.*.clearance",
        {{"radial", required, "0.1 mm"},
@@ -180,20 +157,13 @@ const std::vector<KeyTable>& tables() {
         {"radii", optional, "", {"internal", "external"}},
         {"slowest impact"},
         {"journal"}}},
-      {"joints.*.clearance.normal.*.journal",
-       {{"young", required, "207 GPa"}, {"poisson", required, "0.3"}}},
+      {"joints.*.clearance.normal.*.journal", {{"young", required, "207 GPa"}, {"poisson", required, "0.3"}}},
       {"joints.*.clearance.friction", {{"ambrosio", required, "{coefficient: 0.1}"}}},
       {"joints.*.clearance.friction.ambrosio",
-       {{"coefficient", required, "0.1"},
-        {"v0"},
-        {"v1"},
-        {"sliding", optional, "", {"material", "geometric"}}}},
+       {{"coefficient", required, "0.1"}, {"v0"}, {"v1"}, {"sliding", optional, "", {"material", "geometric"}}}},
       {"drivers.*", {{"angle"}, {"distance"}, {"law", required, "150 rad/s*t"}}},
       {"drivers.*.law",
-       {{"table", required, "motion.csv"},
-        {"interpolation", optional, "", {"spline", "linear"}},
-        {"time unit"},
-        {"value unit"}}},
+       {{"table", required, "motion.csv"}, {"interpolation", optional, "", {"spline", "linear"}}, {"time unit"}, {"value unit"}}},
       {"forces.*",
        {{"force"},
         {"at"},
@@ -208,22 +178,8 @@ const std::vector<KeyTable>& tables() {
         {"free length"},
         {"free angle"}}},
       {"forces.*.torque",
-       {{"table", required, "torque.csv"},
-        {"interpolation", optional, "", {"spline", "linear"}},
-        {"time unit"},
-        {"value unit"}}},
-      {"start.*",
-       {{"at"},
-        {"x"},
-        {"y"},
-        {"angle"},
-        {"velocity"},
-        {"vx"},
-        {"vy"},
-        {"speed"},
-        {"deflection"},
-        {"modes"},
-        {"eccentricity"}}},
+       {{"table", required, "torque.csv"}, {"interpolation", optional, "", {"spline", "linear"}}, {"time unit"}, {"value unit"}}},
+      {"start.*", {{"at"}, {"x"}, {"y"}, {"angle"}, {"velocity"}, {"vx"}, {"vy"}, {"speed"}, {"deflection"}, {"modes"}, {"eccentricity"}}},
       {"run",
        {{"until", required, "0.1 s"},
         {"method", optional, "", {"auto", "rkf45", "dopri5", "verner87", "generalized-alpha"}},
@@ -236,14 +192,7 @@ const std::vector<KeyTable>& tables() {
       {"run.method", {{"generalized-alpha", required, "{rho: 0.8}"}}},
       {"run.method.generalized-alpha", {{"rho", required, "0.8"}}},
       {"run.onset", {{"cut", required, "1e-8 m"}}},
-      {"output",
-       {{"every"},
-        {"states"},
-        {"frames"},
-        {"exaggerate"},
-        {"deformation", optional, "", {"auto"}},
-        {"points"},
-        {"stress"}}}};
+      {"output", {{"every"}, {"states"}, {"frames"}, {"exaggerate"}, {"deformation", optional, "", {"auto"}}, {"points"}, {"stress"}}}};
   return all;
 }
 
@@ -260,9 +209,7 @@ std::vector<std::string> names(const KeyTable& table) {
 
 }  // namespace
 
-std::span<const KeyTable> key_tables() {
-  return tables();
-}
+std::span<const KeyTable> key_tables() { return tables(); }
 
 std::span<const std::string> choices(std::string_view path, std::string_view key) {
   return std::ranges::find(table_at(path).keys, key, &Key::name)->choices;
@@ -274,23 +221,19 @@ void check_keys(const Node& group, std::string_view path) {
   for (const Node& entry : group.entries("keys and values: " + listed(known)))
     if (std::ranges::find(known, entry.name()) == known.end())
       entry.fail("unknown key \"" + entry.name() + "\"." +
-                 (entry.is_nothing() ? std::string(" ") + hint_about_commas
-                                     : did_you_mean(entry.name(), known)));
+                 (entry.is_nothing() ? std::string(" ") + hint_about_commas : did_you_mean(entry.name(), known)));
   std::string missing;
   for (const Key& key : table.keys)
-    if (key.required && !group.has(key.name))
-      missing += (missing.empty() ? "" : ", and ") + key.name + ": " + key.example;
+    if (key.required && !group.has(key.name)) missing += (missing.empty() ? "" : ", and ") + key.name + ": " + key.example;
   if (!missing.empty()) group.fail("lacks a required key; add for example " + missing);
 }
 
-std::string which_key(const Node& group, std::span<const std::string> keys,
-                      const std::string& what) {
+std::string which_key(const Node& group, std::span<const std::string> keys, const std::string& what) {
   std::vector<std::string> found;
   for (const std::string& key : keys)
     if (group.has(key)) found.push_back(key);
   if (found.empty()) group.fail("does not say " + what + "; add " + listed(keys));
-  if (found.size() > 1)
-    group.fail("says " + what + " by " + listed(found, "and") + " at once; keep one of them");
+  if (found.size() > 1) group.fail("says " + what + " by " + listed(found, "and") + " at once; keep one of them");
   return found.front();
 }
 
@@ -311,8 +254,7 @@ std::size_t which_kind(const Node& group, std::span<const KindKeys> kinds) {
     std::vector<std::string> owners;
     for (const KindKeys& other : kinds)
       if (std::ranges::find(other.beside, key) != other.beside.end()) owners.push_back(other.kind);
-    group.at(key).fail("does not belong to " + kind.kind + " but to " + listed(owners) +
-                       "; leave it out");
+    group.at(key).fail("does not belong to " + kind.kind + " but to " + listed(owners) + "; leave it out");
   }
   return which;
 }

@@ -42,8 +42,7 @@ void check_keys(const Node& group, std::string_view path);
 
 /// Of several keys that say one thing, the one that is there. `what`: "its material".
 /// @throws SceneError  none or several are there
-std::string which_key(const Node& group, std::span<const std::string> keys,
-                      const std::string& what);
+std::string which_key(const Node& group, std::span<const std::string> keys, const std::string& what);
 
 /// Of several keys that say what a thing is, the one that is there; and no key that belongs to the
 /// others. `kinds` lists for each such key what may stand beside it.

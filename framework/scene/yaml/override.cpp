@@ -236,8 +236,6 @@ Overrides apply_paths(Yaml& scene, const std::string& file, const Overrides& ove
   return parameters;
 }
 
-std::string override_text(const Yaml& yaml) {
-  return text(yaml, false);
-}
+std::string override_text(const Yaml& yaml) { return text(yaml, false); }
 
 }  // namespace pintle

@@ -16,15 +16,14 @@ constexpr std::size_t most_bytes = std::size_t{100} << 20;
 
 // An override is written as a parameter's value is; a bare number takes the parameter's own unit's
 // dimension, SI.
-Quantity overridden(const std::string& name, const std::string& text, const Quantity& written,
-                    const Source& source) {
+Quantity overridden(const std::string& name, const std::string& text, const Quantity& written, const Source& source) {
   const Place place{0, "--set " + name};
   try {
     const Quantity q = read_quantity(text, source.parameters);
     if (bare(q.dimension)) return {q.value, written.dimension};
     if (!bare(written.dimension) && !same(q.dimension, written.dimension))
-      throw ExpressionError("\"" + text + "\" is " + describe(q.dimension) +
-                            ", but the scene gives " + name + " as " + describe(written.dimension));
+      throw ExpressionError("\"" + text + "\" is " + describe(q.dimension) + ", but the scene gives " + name + " as " +
+                            describe(written.dimension));
     return q;
   } catch (const ExpressionError& error) {
     throw SceneError(source.file, place, error.what());
@@ -41,9 +40,8 @@ Quantity parameter(const Node& node, const std::vector<std::string>& all) {
     const std::string said = error.what();
     for (const std::string& other : all)
       if (said.find(": \"" + other + "\" is neither") != std::string::npos)
-        node.fail("\"" + text + "\": " + other +
-                  " is not known yet; parameters are read from the " + "top, so write " + other +
-                  " above " + node.name());
+        node.fail("\"" + text + "\": " + other + " is not known yet; parameters are read from the " + "top, so write " + other + " above " +
+                  node.name());
     node.fail(said);
   }
 }
@@ -59,8 +57,7 @@ void read_parameters(const Node& root, const Overrides& overrides, Source& sourc
     for (const Node& node : entries) {
       const std::string name = node.name();
       Quantity q = parameter(node, all);
-      if (const auto found = set.find(name); found != set.end())
-        q = overridden(name, found->second, q, source);
+      if (const auto found = set.find(name); found != set.end()) q = overridden(name, found->second, q, source);
       source.parameters[name] = q;
       scene.parameters.emplace_back(name, q.value);
     }
@@ -75,12 +72,13 @@ void read_parameters(const Node& root, const Overrides& overrides, Source& sourc
 void require_text(const std::string& file, const Overrides& overrides) {
   for (const auto& [name, text] : overrides)
     if (line_not_text(name + text) > 0)
-      throw SceneError(file, {0, "--set"}, "the override of \"" + (line_not_text(name) > 0 ? "?" : name) + "\" is not text (a zero byte, or bytes that are not UTF-8); "
-                                           "set the terminal to UTF-8, or put the value into the scene");
+      throw SceneError(file, {0, "--set"},
+                       "the override of \"" + (line_not_text(name) > 0 ? "?" : name) +
+                           "\" is not text (a zero byte, or bytes that are not UTF-8); "
+                           "set the terminal to UTF-8, or put the value into the scene");
 }
 
-Scene read(const std::string& text, const std::string& file, const Overrides& overrides,
-           const std::filesystem::path& folder) {
+Scene read(const std::string& text, const std::string& file, const Overrides& overrides, const std::filesystem::path& folder) {
   require_text(file, overrides);
   Yaml tree = parse_yaml(text, file);
   Source source{file, {}};
@@ -124,8 +122,7 @@ Scene read_scene(const std::filesystem::path& file, const Overrides& overrides) 
   return read(text, file.string(), overrides, file.parent_path());
 }
 
-Scene read_scene_text(const std::string& text, const std::string& name, const Overrides& overrides,
-                      const std::filesystem::path& folder) {
+Scene read_scene_text(const std::string& text, const std::string& name, const Overrides& overrides, const std::filesystem::path& folder) {
   if (const int line = line_not_text(text); line > 0)
     throw SceneError(name, {line, {}}, "is not text (a zero byte, or bytes that are not UTF-8)");
   return read(text, name, overrides, folder);

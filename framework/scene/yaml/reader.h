@@ -22,8 +22,8 @@ Scene read_scene(const std::filesystem::path& file, const Overrides& overrides =
 
 /// The same from text; `name` stands in for the file in messages, tables are sought beside
 /// `folder`.
-Scene read_scene_text(const std::string& text, const std::string& name,
-                      const Overrides& overrides = {}, const std::filesystem::path& folder = ".");
+Scene read_scene_text(const std::string& text, const std::string& name, const Overrides& overrides = {},
+                      const std::filesystem::path& folder = ".");
 
 /// What a run needs beside bodies. A scene without `run` is whole for modes, meshes and statics.
 /// @throws SceneError  the scene has no `run`; shows one

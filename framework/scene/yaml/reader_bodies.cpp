@@ -9,12 +9,10 @@ namespace {
 // A point in the middle of a hole; only a plate has holes.
 void read_hole(const Node& node, bool plate, ScenePoint& point) {
   if (!plate) node.at("hole").fail("is for plates: no other body has a hole; write [x, y]");
-  if (node.has("at"))
-    node.at("at").fail("stands beside hole, whose middle is the place; keep one of them");
+  if (node.has("at")) node.at("at").fail("stands beside hole, whose middle is the place; keep one of them");
   point.hole = node.at("hole").text("the name of a hole of the mesh");
   point.coupling = RimCoupling::rigid;
-  if (node.has("coupling") &&
-      node.at("coupling").one_of(choices("bodies.*.points.*", "coupling")) == "average")
+  if (node.has("coupling") && node.at("coupling").one_of(choices("bodies.*.points.*", "coupling")) == "average")
     point.coupling = RimCoupling::average;
 }
 
@@ -27,8 +25,7 @@ ScenePoint read_point(const Node& node, std::string_view keys, bool plate) {
     return point;
   }
   if (!node.is_map())
-    node.fail("is " + node.shown() + "; write [x, y] or {at: [x, y], angle: 0}" +
-              (plate ? ", or {hole: …, coupling: rigid}" : ""));
+    node.fail("is " + node.shown() + "; write [x, y] or {at: [x, y], angle: 0}" + (plate ? ", or {hole: …, coupling: rigid}" : ""));
   check_keys(node, keys);
   read_optional(node, "angle", dimension::angle, rule::any, point.angle);
   if (node.has("hole")) {
@@ -36,9 +33,7 @@ ScenePoint read_point(const Node& node, std::string_view keys, bool plate) {
     return point;
   }
   if (node.has("coupling")) node.at("coupling").fail("belongs to hole; add hole, or leave it out");
-  if (!node.has("at"))
-    node.fail(std::string("lacks a required key; add for example at: [10 mm, 0]") +
-              (plate ? ", or hole: bore" : ""));
+  if (!node.has("at")) node.fail(std::string("lacks a required key; add for example at: [10 mm, 0]") + (plate ? ", or hole: bore" : ""));
   point.at = node.at("at").pair(dimension::length);
   return point;
 }
@@ -46,8 +41,7 @@ ScenePoint read_point(const Node& node, std::string_view keys, bool plate) {
 std::vector<ScenePoint> read_points(const Node& owner, std::string_view keys, bool plate) {
   std::vector<ScenePoint> points;
   if (!owner.has("points")) return points;
-  for (const Node& node : owner.at("points").entries("names and places: {A: [10 mm, 0]}"))
-    points.push_back(read_point(node, keys, plate));
+  for (const Node& node : owner.at("points").entries("names and places: {A: [10 mm, 0]}")) points.push_back(read_point(node, keys, plate));
   return points;
 }
 
@@ -58,17 +52,14 @@ void read_rigid(const Node& node, SceneBody& body) {
   if (node.has("center")) body.center = node.at("center").pair(dimension::length);
 }
 
-const std::vector<std::string> beside_elements{"points",     "pose",        "modes", "damping",
-                                               "stiffening", "mass matrix", "lumps", "supports"};
-const std::array<KindKeys, 3> body_kinds{
-    {{"rigid", {"points", "pose"}}, {"beam", beside_elements}, {"plate", beside_elements}}};
+const std::vector<std::string> beside_elements{"points", "pose", "modes", "damping", "stiffening", "mass matrix", "lumps", "supports"};
+const std::array<KindKeys, 3> body_kinds{{{"rigid", {"points", "pose"}}, {"beam", beside_elements}, {"plate", beside_elements}}};
 
 SceneBody read_body(const Node& node, const std::vector<SceneMaterial>& materials) {
   SceneBody body;
   body.name = checked_name(node);
   body.place = node.place();
-  if (body.name == "ground")
-    node.fail("\"ground\" is always there and has no mass; put its points under the key ground");
+  if (body.name == "ground") node.fail("\"ground\" is always there and has no mass; put its points under the key ground");
   check_keys(node, "bodies.*");
   const std::size_t kind = which_kind(node, body_kinds);
   body.points = read_points(node, "bodies.*.points.*", kind == 2);

@@ -20,20 +20,16 @@ SceneKeep read_keep(const Node& node, long least) {
   std::vector<std::string> said;
   for (const std::string& key : keep_words)
     if (node.has(key)) said.push_back(key);
-  if (said.size() > 1)
-    node.fail("says how many shapes stay by " + listed(said, "and") + " at once; keep one of them");
+  if (said.size() > 1) node.fail("says how many shapes stay by " + listed(said, "and") + " at once; keep one of them");
   keep.automatic = said.empty();
-  if (node.has("keep"))
-    keep.automatic = node.at("keep").one_of(choices("bodies.*.modes", "keep")) == "auto";
+  if (node.has("keep")) keep.automatic = node.at("keep").one_of(choices("bodies.*.modes", "keep")) == "auto";
   if (node.has("count")) {
     const long count = node.at("count").count(least);
     if (count > 100'000) node.at("count").fail("is more than 100 000; ask for fewer");
     keep.count = static_cast<int>(count);
   }
   if (node.has("below")) keep.below = node.at("below").frequency(rule::positive);
-  if (node.has("effective mass"))
-    keep.effective_mass =
-        node.at("effective mass").quantity(dimension::number, rule::inside_zero_one);
+  if (node.has("effective mass")) keep.effective_mass = node.at("effective mass").quantity(dimension::number, rule::inside_zero_one);
   return keep;
 }
 
@@ -66,16 +62,13 @@ SceneModes read_modes(const Node& node, const SceneBody& body) {
   SceneModes modes;
   modes.place = node.place();
   if (node.has("frame")) read_frame(node.at("frame"), body, modes);
-  const std::array<std::pair<const char*, Method>, 2> methods{
-      {{"craig-bampton", Method::craig_bampton}, {"free", Method::free}}};
-  if (node.has(methods[0].first) && node.has(methods[1].first))
-    node.fail("is craig-bampton and free at once; keep one of them");
+  const std::array<std::pair<const char*, Method>, 2> methods{{{"craig-bampton", Method::craig_bampton}, {"free", Method::free}}};
+  if (node.has(methods[0].first) && node.has(methods[1].first)) node.fail("is craig-bampton and free at once; keep one of them");
   for (const auto& [key, method] : methods) {
     if (!node.has(key)) continue;
     for (const std::string& keep : keep_words)
       if (node.has(keep))
-        node.at(keep).fail(std::string("stands beside ") + key +
-                           "; move it into its braces: " + key + ": {" + keep + ": …}");
+        node.at(keep).fail(std::string("stands beside ") + key + "; move it into its braces: " + key + ": {" + keep + ": …}");
     check_keys(node.at(key), std::string("bodies.*.modes.") + key);
     modes.method = method;
     modes.keep = read_keep(node.at(key), 0);  // none: the static shapes alone
@@ -85,10 +78,9 @@ SceneModes read_modes(const Node& node, const SceneBody& body) {
   return modes;
 }
 
-constexpr Rule damping_ratio{
-    [](double x) { return x >= 0 && x <= 1; },
-    "must lie between 0 and 1, where 1 is critical damping: 4 % is 0.04; what damps more than "
-    "critically is given by rayleigh: {alpha: 3 1/s, beta: 1e-5 s}"};
+constexpr Rule damping_ratio{[](double x) { return x >= 0 && x <= 1; },
+                             "must lie between 0 and 1, where 1 is critical damping: 4 % is 0.04; what damps more than "
+                             "critically is given by rayleigh: {alpha: 3 1/s, beta: 1e-5 s}"};
 
 void read_rayleigh(const Node& node, SceneDamping& damping) {
   check_keys(node, "bodies.*.damping.rayleigh");
@@ -102,12 +94,10 @@ void read_rayleigh(const Node& node, SceneDamping& damping) {
     read_optional(node, "alpha", dimension::rate, rule::not_negative, two[0]);
     read_optional(node, "beta", dimension::time, rule::not_negative, two[1]);
     damping.rayleigh = two;
-    if (node.has("modes"))
-      node.at("modes").fail("belongs to ratios, not to alpha and beta; leave it out");
+    if (node.has("modes")) node.at("modes").fail("belongs to ratios, not to alpha and beta; leave it out");
     return;
   }
-  const auto ratios = read_quantities(node.at("ratios"), 2, dimension::number, damping_ratio,
-                                      "two damping ratios [0.02, 0.02]");
+  const auto ratios = read_quantities(node.at("ratios"), 2, dimension::number, damping_ratio, "two damping ratios [0.02, 0.02]");
   damping.rayleigh_ratios = {ratios[0], ratios[1]};
   if (!node.has("modes")) return;
   const Node modes = node.at("modes");
@@ -117,8 +107,7 @@ void read_rayleigh(const Node& node, SceneDamping& damping) {
     if (number > 100'000) two[i].fail("is more than 100 000; name a lower mode");
     damping.rayleigh_modes[i] = static_cast<int>(number);
   }
-  if (damping.rayleigh_modes[0] == damping.rayleigh_modes[1])
-    modes.fail("names one mode twice; two ratios need two modes");
+  if (damping.rayleigh_modes[0] == damping.rayleigh_modes[1]) modes.fail("names one mode twice; two ratios need two modes");
 }
 
 SceneDamping read_damping(const Node& node) {
@@ -141,9 +130,7 @@ SceneDamping read_damping(const Node& node) {
 
 Stiffening read_stiffening(const Node& node) {
   const std::string loads = node.one_of(choices("bodies.*", "stiffening"));
-  return loads == "rotation" ? Stiffening::rotation
-         : loads == "axial"  ? Stiffening::axial
-                             : Stiffening::none;
+  return loads == "rotation" ? Stiffening::rotation : loads == "axial" ? Stiffening::axial : Stiffening::none;
 }
 
 // What only a body that bends in a mechanism can be asked.
@@ -185,20 +172,17 @@ SceneSupport read_support(const Node& node) {
 
 }  // namespace
 
-SceneElastic read_elastic(const Node& node, const SceneBody& body,
-                          const std::vector<SceneMaterial>& materials) {
+SceneElastic read_elastic(const Node& node, const SceneBody& body, const std::vector<SceneMaterial>& materials) {
   SceneElastic out;
   const bool beam = node.has("beam");
   if (beam)
     out.shape = read_beam(node.at("beam"), body, materials);
   else
     out.shape = read_plate(node.at("plate"), materials);
-  if (node.has("mass matrix"))
-    out.lumped = node.at("mass matrix").one_of(choices("bodies.*", "mass matrix")) == "lumped";
+  if (node.has("mass matrix")) out.lumped = node.at("mass matrix").one_of(choices("bodies.*", "mass matrix")) == "lumped";
   if (node.has("lumps")) out.lumps = read_lumps(node.at("lumps"), body);
   if (node.has("supports"))
-    for (const Node& support :
-         node.at("supports").entries("places and what they hold: {A: fixed, B: [y]}")) {
+    for (const Node& support : node.at("supports").entries("places and what they hold: {A: fixed, B: [y]}")) {
       if (beam) check_own_point(support, support.name(), body);  // a beam has no groups
       out.supports.push_back(read_support(support));
     }
@@ -222,7 +206,9 @@ Held held_points(const SceneBody& body, const Scene& scene) {
   Held held;
   const auto add = [&](std::vector<const ScenePoint*>& to, const PointRef& ref) {
     if (ref.body != body.name) return;
-    const auto named = [&](const ScenePoint& p) { return ref.point.empty() ? p.hole.empty() && p.at[0] == 0 && p.at[1] == 0 : p.name == ref.point; };
+    const auto named = [&](const ScenePoint& p) {
+      return ref.point.empty() ? p.hole.empty() && p.at[0] == 0 && p.at[1] == 0 : p.name == ref.point;
+    };
     const auto p = std::ranges::find_if(body.points, named);
     if (p != body.points.end() && std::ranges::find(to, &*p) == to.end()) to.push_back(&*p);
   };

@@ -9,23 +9,19 @@ namespace {
 
 const std::array<KindKeys, 2> driver_kinds{{{"angle", {"law"}}, {"distance", {"law"}}}};
 
-const std::array<KindKeys, 4> force_kinds{
-    {{"force", {"at", "follows"}},
-     {"torque", {"on", "from"}},
-     {"spring", {"stiffness", "damping", "free length"}},
-     {"torsion spring", {"stiffness", "damping", "free angle"}}}};
+const std::array<KindKeys, 4> force_kinds{{{"force", {"at", "follows"}},
+                                           {"torque", {"on", "from"}},
+                                           {"spring", {"stiffness", "damping", "free length"}},
+                                           {"torsion spring", {"stiffness", "damping", "free angle"}}}};
 
 void must_have(const Node& node, std::string_view key, const std::string& example) {
-  if (!node.has(key))
-    node.fail("lacks a required key; add for example " + std::string(key) + ": " + example);
+  if (!node.has(key)) node.fail("lacks a required key; add for example " + std::string(key) + ": " + example);
 }
 
 SceneForce read_force(const Node& node, const std::filesystem::path& folder, double until) {
   must_have(node, "at", "crank.A");
   const auto parts = node.at("force").items(2, "two components [x, y], each a force or a law in t");
-  const auto law = [&](const Node& part) {
-    return read_time_law(part, dimension::force, Smoothness::load, folder, until);
-  };
+  const auto law = [&](const Node& part) { return read_time_law(part, dimension::force, Smoothness::load, folder, until); };
   SceneForce force{read_point_ref(node.at("at")), law(parts[0]), law(parts[1])};
   if (node.has("follows")) force.follows = node.at("follows").yes();
   return force;
@@ -35,16 +31,13 @@ SceneTorque read_torque(const Node& node, const std::filesystem::path& folder, d
   must_have(node, "on", "crank");
   PointRef from{"ground", "", node.place()};
   if (node.has("from")) from = read_point_ref(node.at("from"));
-  return {from, read_point_ref(node.at("on")),
-          read_time_law(node.at("torque"), dimension::torque, Smoothness::load, folder, until)};
+  return {from, read_point_ref(node.at("on")), read_time_law(node.at("torque"), dimension::torque, Smoothness::load, folder, until)};
 }
 
 // What the two kinds of springs have in common.
 template <class Spring>
-Spring read_ends_and_rates(const Node& node, std::string_view kind, const Dimension& stiffness,
-                           const Dimension& damping) {
-  if (!node.has("stiffness") && !node.has("damping"))
-    node.fail("neither springs nor damps; add stiffness, damping or both");
+Spring read_ends_and_rates(const Node& node, std::string_view kind, const Dimension& stiffness, const Dimension& damping) {
+  if (!node.has("stiffness") && !node.has("damping")) node.fail("neither springs nor damps; add stiffness, damping or both");
   Spring spring;
   std::tie(spring.a, spring.b) = read_ends(node.at(kind));
   read_optional(node, "stiffness", stiffness, rule::positive, spring.stiffness);
@@ -54,30 +47,25 @@ Spring read_ends_and_rates(const Node& node, std::string_view kind, const Dimens
 
 SceneSpring read_spring(const Node& node) {
   if (node.has("stiffness")) must_have(node, "free length", "50 mm");
-  auto spring =
-      read_ends_and_rates<SceneSpring>(node, "spring", dimension::stiffness, dimension::damping);
+  auto spring = read_ends_and_rates<SceneSpring>(node, "spring", dimension::stiffness, dimension::damping);
   read_optional(node, "free length", dimension::length, rule::not_negative, spring.free_length);
   return spring;
 }
 
 SceneTorsionSpring read_torsion_spring(const Node& node) {
-  auto spring = read_ends_and_rates<SceneTorsionSpring>(
-      node, "torsion spring", dimension::torsion_stiffness, dimension::torsion_damping);
+  auto spring = read_ends_and_rates<SceneTorsionSpring>(node, "torsion spring", dimension::torsion_stiffness, dimension::torsion_damping);
   read_optional(node, "free angle", dimension::angle, rule::any, spring.free_angle);
   return spring;
 }
 
 // Until when laws are judged.
-double end_of_run(const Scene& scene) {
-  return scene.has_run ? scene.run.until : 0;
-}
+double end_of_run(const Scene& scene) { return scene.has_run ? scene.run.until : 0; }
 
 }  // namespace
 
 void read_drivers(const Node& root, const std::filesystem::path& folder, Scene& scene) {
   if (!root.has("drivers")) return;
-  for (const Node& node : root.at("drivers").entries(
-           "names and drivers: {motor: {angle: [ground, crank], law: 150 rad/s*t}}")) {
+  for (const Node& node : root.at("drivers").entries("names and drivers: {motor: {angle: [ground, crank], law: 150 rad/s*t}}")) {
     SceneDriver driver;
     driver.name = checked_name(node);
     driver.place = node.place();
@@ -85,30 +73,22 @@ void read_drivers(const Node& root, const std::filesystem::path& folder, Scene& 
     const std::size_t kind = which_kind(node, driver_kinds);
     driver.kind = kind == 0 ? DriverKind::angle : DriverKind::distance;
     std::tie(driver.a, driver.b) = read_ends(node.at(driver_kinds[kind].kind));
-    driver.law = read_time_law(node.at("law"), kind == 0 ? dimension::angle : dimension::length,
-                               Smoothness::driver, folder, end_of_run(scene));
+    driver.law =
+        read_time_law(node.at("law"), kind == 0 ? dimension::angle : dimension::length, Smoothness::driver, folder, end_of_run(scene));
     scene.drivers.push_back(std::move(driver));
   }
 }
 
 void read_forces(const Node& root, const std::filesystem::path& folder, Scene& scene) {
   if (!root.has("forces")) return;
-  for (const Node& node :
-       root.at("forces").entries("names and forces: {load: {force: [0, -10 N], at: crank.A}}")) {
+  for (const Node& node : root.at("forces").entries("names and forces: {load: {force: [0, -10 N], at: crank.A}}")) {
     SceneLoad load{checked_name(node), {}, node.place()};
     check_keys(node, "forces.*");
     switch (which_kind(node, force_kinds)) {
-      case 0:
-        load.what = read_force(node, folder, end_of_run(scene));
-        break;
-      case 1:
-        load.what = read_torque(node, folder, end_of_run(scene));
-        break;
-      case 2:
-        load.what = read_spring(node);
-        break;
-      default:
-        load.what = read_torsion_spring(node);
+      case 0: load.what = read_force(node, folder, end_of_run(scene)); break;
+      case 1: load.what = read_torque(node, folder, end_of_run(scene)); break;
+      case 2: load.what = read_spring(node); break;
+      default: load.what = read_torsion_spring(node);
     }
     scene.loads.push_back(std::move(load));
   }

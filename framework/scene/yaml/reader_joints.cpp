@@ -23,15 +23,12 @@ const std::vector<KindKeys>& joint_keys() {
 void read_stiffness(const Node& node, SceneNormal& normal) {
   const bool elastic = node.has("young") || node.has("poisson");
   if (node.has("stiffness")) {
-    if (elastic || node.has("journal"))
-      node.at("stiffness")
-          .fail("stands beside young and poisson; give either the stiffness or those");
+    if (elastic || node.has("journal")) node.at("stiffness").fail("stands beside young and poisson; give either the stiffness or those");
     const Dimension expected{1 - normal.exponent, 1, -2, 0};  // N/mⁿ
     normal.stiffness = node.at("stiffness").quantity(expected, rule::positive);
     return;
   }
-  if (!(node.has("young") && node.has("poisson")))
-    node.fail("does not say how stiff the contact is; add young and poisson, or stiffness");
+  if (!(node.has("young") && node.has("poisson"))) node.fail("does not say how stiff the contact is; add young and poisson, or stiffness");
   normal.bearing = {node.at("young").quantity(dimension::stress, rule::positive),
                     node.at("poisson").quantity(dimension::number, rule::poisson)};
   normal.journal = normal.bearing;
@@ -43,11 +40,9 @@ void read_stiffness(const Node& node, SceneNormal& normal) {
 }
 
 SceneNormal read_normal(const Node& node) {
-  const char* remedy =
-      "one law: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}";
+  const char* remedy = "one law: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}";
   const auto laws = node.entries(remedy);
-  if (laws.size() != 1)
-    node.fail("names " + std::to_string(laws.size()) + " laws; write " + remedy);
+  if (laws.size() != 1) node.fail("names " + std::to_string(laws.size()) + " laws; write " + remedy);
   const Node& law = laws.front();
   constexpr std::string_view keys = "joints.*.clearance.normal.*";
   check_keys(law, keys);
@@ -55,15 +50,12 @@ SceneNormal read_normal(const Node& node) {
   normal.law = law.name();
   normal.place = law.place();
   const bool lossless = normal.law == "hertz";
-  if (lossless && law.has("restitution"))
-    law.at("restitution").fail("hertz loses nothing; leave restitution out");
-  if (!lossless && !law.has("restitution"))
-    law.fail("lacks a required key; add for example restitution: 0.8");
+  if (lossless && law.has("restitution")) law.at("restitution").fail("hertz loses nothing; leave restitution out");
+  if (!lossless && !law.has("restitution")) law.fail("lacks a required key; add for example restitution: 0.8");
   read_optional(law, "restitution", dimension::number, rule::zero_to_one, normal.restitution);
   read_optional(law, "exponent", dimension::number, rule::at_least_one, normal.exponent);
   read_optional(law, "slowest impact", dimension::speed, rule::positive, normal.slowest_impact);
-  if (law.has("radii") && law.at("radii").one_of(choices(keys, "radii")) == "external")
-    normal.radii = RadiusConvention::external;
+  if (law.has("radii") && law.at("radii").one_of(choices(keys, "radii")) == "external") normal.radii = RadiusConvention::external;
   read_stiffness(law, normal);
   return normal;
 }
@@ -79,10 +71,8 @@ SceneFriction read_friction(const Node& node) {
   read_optional(law, "v0", dimension::speed, rule::not_negative, friction.v0);
   read_optional(law, "v1", dimension::speed, rule::positive, friction.v1);
   if (friction.v0 >= friction.v1)
-    (law.has("v1") ? law.at("v1") : law.at("v0"))
-        .fail("v0 must be less than v1: friction grows from none at v0 to its whole at v1");
-  if (law.has("sliding") && law.at("sliding").one_of(choices(keys, "sliding")) == "geometric")
-    friction.sliding = SlidingSpeed::geometric;
+    (law.has("v1") ? law.at("v1") : law.at("v0")).fail("v0 must be less than v1: friction grows from none at v0 to its whole at v1");
+  if (law.has("sliding") && law.at("sliding").one_of(choices(keys, "sliding")) == "geometric") friction.sliding = SlidingSpeed::geometric;
   return friction;
 }
 
@@ -97,7 +87,8 @@ void read_model(const Node& node, SceneClearance& clearance) {
   const bool whole = clearance.model == ClearanceModel::massless_link ||
                      (clearance.model == ClearanceModel::spring_damper && clearance.stiffness && clearance.damping);
   if (!whole && !node.has("normal"))
-    node.fail(std::string("lacks a required key; add for example normal: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}") +
+    node.fail(std::string(
+                  "lacks a required key; add for example normal: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}") +
               (clearance.model == ClearanceModel::spring_damper ? ", or both stiffness and damping" : ""));
 }
 
@@ -111,13 +102,11 @@ SceneClearance read_clearance(const Node& node, const SceneJoint& joint) {
   clearance.bearing_radius = radius.quantity(dimension::length, rule::positive);
   clearance.radial = radial.quantity(dimension::length, rule::positive);
   if (clearance.radial >= clearance.bearing_radius)
-    radial.fail(radial.shown() + " must be less than the bearing radius " + radius.shown() +
-                ": the journal's radius is their difference");
+    radial.fail(radial.shown() + " must be less than the bearing radius " + radius.shown() + ": the journal's radius is their difference");
   const Node bearing = node.at("bearing");
   clearance.bearing = bearing.text("the body that carries the bearing");
   if (clearance.bearing != joint.a.body && clearance.bearing != joint.b.body)
-    bearing.fail(bearing.shown() + " is not joined here; write " + joint.a.body + " or " +
-                 joint.b.body);
+    bearing.fail(bearing.shown() + " is not joined here; write " + joint.a.body + " or " + joint.b.body);
   if (node.has("friction")) clearance.friction = read_friction(node.at("friction"));
   return clearance;
 }
@@ -167,8 +156,7 @@ const char* model_name(ClearanceModel model) {
 
 void read_joints(const Node& root, Scene& scene) {
   if (!root.has("joints")) return;
-  for (const Node& node :
-       root.at("joints").entries("names and joints: {pin: {revolute: [ground, crank.O]}}"))
+  for (const Node& node : root.at("joints").entries("names and joints: {pin: {revolute: [ground, crank.O]}}"))
     scene.joints.push_back(read_joint(node));
 }
 

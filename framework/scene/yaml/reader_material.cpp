@@ -10,8 +10,7 @@ namespace {
 // One ratio, or as many as there are axes.
 std::vector<double> ratios(const Node& node, std::size_t axes) {
   if (!node.is_list()) return {node.quantity(dimension::number)};
-  return read_quantities(node, 3, dimension::number, rule::any,
-                         axes == 3 ? "three ratios [12, 13, 23]" : "one ratio, of axes 1 and 2");
+  return read_quantities(node, 3, dimension::number, rule::any, axes == 3 ? "three ratios [12, 13, 23]" : "one ratio, of axes 1 and 2");
 }
 
 Orthotropic read_orthotropic(const Node& node, std::string_view keys) {
@@ -20,12 +19,10 @@ Orthotropic read_orthotropic(const Node& node, std::string_view keys) {
   const Node young = node.at("young"), poisson = node.at("poisson");
   const char* remedy = "[E1, E2], or [E1, E2, E3] for plane strain";
   const std::size_t axes = young.list(2, remedy).size();
-  const auto E =
-      read_quantities(young, axes == 2 ? 2 : 3, dimension::stress, rule::positive, remedy);
+  const auto E = read_quantities(young, axes == 2 ? 2 : 3, dimension::stress, rule::positive, remedy);
   const std::vector<double> nu = ratios(poisson, axes);
   if ((E.size() == 3) != (nu.size() == 3))
-    poisson.fail("has " + std::to_string(nu.size()) + (nu.size() == 1 ? " value" : " values") +
-                 " beside " + std::to_string(E.size()) +
+    poisson.fail("has " + std::to_string(nu.size()) + (nu.size() == 1 ? " value" : " values") + " beside " + std::to_string(E.size()) +
                  " of young; give two and one, or for plane strain three of each: poisson: "
                  "[12, 13, 23]");
   m.young_1 = E[0];
@@ -45,8 +42,7 @@ Orthotropic read_orthotropic(const Node& node, std::string_view keys) {
 Material read_elasticity(const Node& node, std::string_view keys) {
   Material material;
   if (node.has("orthotropic")) {
-    if (node.has("poisson"))
-      node.at("poisson").fail("does not belong beside orthotropic but into it; move it there");
+    if (node.has("poisson")) node.at("poisson").fail("does not belong beside orthotropic but into it; move it there");
     const Node group = node.at("orthotropic");
     material.elastic = read_orthotropic(group, std::string(keys) + ".orthotropic");
     try {
@@ -72,16 +68,14 @@ const SceneMaterial& named(const Node& node, const std::vector<SceneMaterial>& a
     known.push_back(m.name);
   }
   if (known.empty())
-    node.fail("\"" + name + "\" is not known: the scene has no materials; add for example " +
-              "materials: {" + name + ": {young: 207 GPa, poisson: 0.3, density: 7850 kg/m^3}}");
+    node.fail("\"" + name + "\" is not known: the scene has no materials; add for example " + "materials: {" + name +
+              ": {young: 207 GPa, poisson: 0.3, density: 7850 kg/m^3}}");
   node.fail("there is no material \"" + name + "\"." + did_you_mean(name, known));
 }
 
-SceneMaterial read_either(const Node& owner, std::string_view keys,
-                          const std::vector<SceneMaterial>& all) {
+SceneMaterial read_either(const Node& owner, std::string_view keys, const std::vector<SceneMaterial>& all) {
   static const std::vector<std::string> ways{"material", "young", "orthotropic"};
-  if (which_key(owner, ways, "what it is made of") != "material")
-    return {"", read_elasticity(owner, keys), owner.place()};
+  if (which_key(owner, ways, "what it is made of") != "material") return {"", read_elasticity(owner, keys), owner.place()};
   if (owner.has("poisson"))
     owner.at("poisson").fail(
         "is said by the material already; leave it out, or write young and "
@@ -108,16 +102,14 @@ void read_materials(const Node& root, Scene& scene) {
 Made read_made(const Node& owner, std::string_view keys, const std::vector<SceneMaterial>& all) {
   Made made{read_either(owner, keys, all), {}};
   double& density = made.material.material.density;
-  if (owner.has("density") && owner.has("mass"))
-    owner.at("mass").fail("stands beside density; keep one of them");
+  if (owner.has("density") && owner.has("mass")) owner.at("mass").fail("stands beside density; keep one of them");
   if (owner.has("density") && density > 0)
     owner.at("density").fail(
         "is said by the material already; leave it out, or give the mass of "
         "the body");
   read_optional(owner, "density", dimension::density, rule::positive, density);
   if (owner.has("mass")) made.mass = owner.at("mass").quantity(dimension::mass, rule::positive);
-  if (density == 0 && !made.mass)
-    owner.fail("says neither density nor mass; add for example density: 7850 kg/m^3");
+  if (density == 0 && !made.mass) owner.fail("says neither density nor mass; add for example density: 7850 kg/m^3");
   return made;
 }
 

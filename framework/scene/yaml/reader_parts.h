@@ -33,8 +33,7 @@ std::pair<PointRef, PointRef> read_ends(const Node&);
 
 enum class Smoothness { driver, load };  ///< a driver needs two derivatives, a load only the value
 /// An expression in t, or {table: file}; judged to be finite from 0 to `until`.
-Law read_time_law(const Node&, const Dimension&, Smoothness, const std::filesystem::path& folder,
-                  double until);
+Law read_time_law(const Node&, const Dimension&, Smoothness, const std::filesystem::path& folder, double until);
 
 /// What a body of elements says; its points are read already.
 SceneElastic read_elastic(const Node& body, const SceneBody&, const std::vector<SceneMaterial>&);
@@ -55,8 +54,7 @@ void check_own_point(const Node&, const std::string& name, const SceneBody&);
 /// Name of a point that the body has.
 std::string read_own_point(const Node&, const SceneBody&);
 /// n quantities in a list, each after the rule. `remedy`: what to write.
-std::vector<double> read_quantities(const Node&, std::size_t n, const Dimension&, Rule,
-                                    const std::string& remedy);
+std::vector<double> read_quantities(const Node&, std::size_t n, const Dimension&, Rule, const std::string& remedy);
 
 /// A length above zero.
 inline double read_size(const Node& node) { return node.quantity(dimension::length, rule::positive); }

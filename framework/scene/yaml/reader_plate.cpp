@@ -15,8 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* plate_keys = "bodies.*.plate";
 
-const std::vector<std::string> common{"thickness", "plane",       "element", "material", "young",
-                                      "poisson",   "orthotropic", "density", "mass"};
+const std::vector<std::string> common{"thickness", "plane", "element", "material", "young", "poisson", "orthotropic", "density", "mass"};
 
 std::vector<std::string> with(std::initializer_list<const char*> more) {
   std::vector<std::string> all = common;
@@ -24,29 +23,24 @@ std::vector<std::string> with(std::initializer_list<const char*> more) {
   return all;
 }
 
-const std::array<KindKeys, 3> plate_kinds{{{"file", with({"size", "hole size", "scale", "unit"})},
-                                           {"link", with({"size", "hole size"})},
-                                           {"grid", with({})}}};
+const std::array<KindKeys, 3> plate_kinds{
+    {{"file", with({"size", "hole size", "scale", "unit"})}, {"link", with({"size", "hole size"})}, {"grid", with({})}}};
 
-const std::array<KindKeys, 5> link_kinds{
-    {{"bar", {}}, {"eye bar", {}}, {"tapered bar", {}}, {"triangle", {}}, {"disc", {}}}};
+const std::array<KindKeys, 5> link_kinds{{{"bar", {}}, {"eye bar", {}}, {"tapered bar", {}}, {"triangle", {}}, {"disc", {}}}};
 
 // A hole and what is around it.
-std::pair<double, double> read_ring(const Node& node, std::string_view bore,
-                                    std::string_view outer) {
+std::pair<double, double> read_ring(const Node& node, std::string_view bore, std::string_view outer) {
   const Node inside = node.at(bore), outside = node.at(outer);
   const double b = read_size(inside), o = read_size(outside);
   if (b >= o)
-    inside.fail(inside.shown() + " must be less than the " + std::string(outer) +
-                (outer == "outer" ? " diameter " : " ") + outside.shown());
+    inside.fail(inside.shown() + " must be less than the " + std::string(outer) + (outer == "outer" ? " diameter " : " ") +
+                outside.shown());
   return {b, o};
 }
 
 std::vector<Eye> read_eyes(const Node& node, std::size_t n, std::string_view path) {
   std::vector<Eye> eyes;
-  for (const Node& item :
-       node.items(n, (n == 2 ? "two" : "three") +
-                         std::string(" eyes, each {bore: 10 mm, outer: 20 mm}"))) {
+  for (const Node& item : node.items(n, (n == 2 ? "two" : "three") + std::string(" eyes, each {bore: 10 mm, outer: 20 mm}"))) {
     check_keys(item, path);
     const auto [bore, outer] = read_ring(item, "bore", "outer");
     eyes.push_back({bore, outer});
@@ -63,8 +57,7 @@ Link read_shape(const Node& node, std::size_t kind) {
     return EyeBar{read_size(node.at("length")), read_size(node.at("width")), eyes[0], eyes[1]};
   }
   if (kind == 2) {
-    const auto widths = read_quantities(node.at("widths"), 2, dimension::length, rule::positive,
-                                        "two widths [left, right]");
+    const auto widths = read_quantities(node.at("widths"), 2, dimension::length, rule::positive, "two widths [left, right]");
     return TaperedBar{read_size(node.at("length")), widths[0], widths[1]};
   }
   if (kind == 4) {
@@ -104,15 +97,13 @@ SceneGrid read_grid(const Node& node) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Pair &a = grid.corners[i], &b = grid.corners[(i + 1) % 4], &c = grid.corners[(i + 2) % 4];
     if ((b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]) <= 0)
-      corners.fail("must run counter-clockwise round a convex quadrilateral, but at corner " +
-                   std::to_string((i + 1) % 4 + 1) +
+      corners.fail("must run counter-clockwise round a convex quadrilateral, but at corner " + std::to_string((i + 1) % 4 + 1) +
                    " they do not turn left; reorder or move them");
   }
   const Node cells = node.at("cells");
   const auto two = cells.items(2, "how many cells each way: [nx, ny]");
   const long nx = two[0].count(1), ny = two[1].count(1);
-  if (nx > 100'000 || ny > 100'000 || nx * ny > 10'000'000)
-    cells.fail("makes more than ten million cells; ask for fewer");
+  if (nx > 100'000 || ny > 100'000 || nx * ny > 10'000'000) cells.fail("makes more than ten million cells; ask for fewer");
   grid.nx = static_cast<int>(nx);
   grid.ny = static_cast<int>(ny);
   return grid;
@@ -125,15 +116,13 @@ std::string ending(const std::string& path) {
 }
 
 SceneFile read_file(const Node& plate) {
-  static const std::vector<std::string> drawings{".geo", ".step", ".stp", ".brep"},
-      meshes{".msh", ".inp"};
+  static const std::vector<std::string> drawings{".geo", ".step", ".stp", ".brep"}, meshes{".msh", ".inp"};
   const Node node = plate.at("file");
   SceneFile file{node.text("the name of a drawing or mesh beside the scene"), 1, false};
   const std::string kind = ending(file.path);
   const bool drawing = std::ranges::find(drawings, kind) != drawings.end();
   if (!drawing && std::ranges::find(meshes, kind) == meshes.end())
-    node.fail(node.shown() + " must be a drawing (" + listed(drawings) + ") or a mesh (" +
-              listed(meshes) + ")");
+    node.fail(node.shown() + " must be a drawing (" + listed(drawings) + ") or a mesh (" + listed(meshes) + ")");
   fs::path path;
   try {
     path = contained_file(file.path, fs::path(node.source().file).parent_path());
@@ -143,14 +132,11 @@ SceneFile read_file(const Node& plate) {
   if (!fs::exists(path)) node.fail("there is no file " + path.string() + "; check the path");
   if (!drawing)
     for (const char* key : {"size", "hole size"})
-      if (plate.has(key))
-        plate.at(key).fail("is for drawings, but " + file.path +
-                           " is meshed already; leave it out");
+      if (plate.has(key)) plate.at(key).fail("is for drawings, but " + file.path + " is meshed already; leave it out");
   if (plate.has("unit")) {
     const Node unit = plate.at("unit");
     if (plate.has("scale")) unit.fail("stands beside scale; keep one of them");
-    if (kind == ".step" || kind == ".stp")
-      unit.fail("is written in a STEP file itself; leave it out");
+    if (kind == ".step" || kind == ".stp") unit.fail("is written in a STEP file itself; leave it out");
     file.scale = find_unit(unit.one_of(choices(plate_keys, "unit")))->factor;
   }
   read_optional(plate, "scale", dimension::number, rule::positive, file.scale);
@@ -163,9 +149,7 @@ void validate_in_plane(const Node& node, const ScenePlate& plate) {
   try {
     plane_material(plate.material.material, plate.state);
   } catch (const std::invalid_argument& error) {
-    const Node at = node.has("material")      ? node.at("material")
-                    : node.has("orthotropic") ? node.at("orthotropic")
-                                              : node;
+    const Node at = node.has("material") ? node.at("material") : node.has("orthotropic") ? node.at("orthotropic") : node;
     at.fail(error.what());
   }
 }
@@ -176,19 +160,13 @@ ScenePlate read_plate(const Node& node, const std::vector<SceneMaterial>& materi
   check_keys(node, plate_keys);
   ScenePlate plate;
   switch (which_kind(node, plate_kinds)) {
-    case 0:
-      plate.shape = read_file(node);
-      break;
-    case 1:
-      plate.shape = read_link(node.at("link"));
-      break;
-    default:
-      plate.shape = read_grid(node.at("grid"));
+    case 0: plate.shape = read_file(node); break;
+    case 1: plate.shape = read_link(node.at("link")); break;
+    default: plate.shape = read_grid(node.at("grid"));
   }
   plate.thickness = read_size(node.at("thickness"));
   if (node.has("plane"))
-    plate.state = node.at("plane").one_of(choices(plate_keys, "plane")) == "strain" ? PlaneState::strain
-                                                                              : PlaneState::stress;
+    plate.state = node.at("plane").one_of(choices(plate_keys, "plane")) == "strain" ? PlaneState::strain : PlaneState::stress;
   plate.state_given = node.has("plane");
   if (node.has("element")) plate.element = node.at("element").one_of(choices(plate_keys, "element"));
   read_optional(node, "size", dimension::length, rule::positive, plate.size);

@@ -7,20 +7,16 @@ namespace pintle {
 
 namespace {
 
-void read_if(const Node& group, std::string_view key, const Dimension& expected,
-             std::optional<double>& value) {
+void read_if(const Node& group, std::string_view key, const Dimension& expected, std::optional<double>& value) {
   if (group.has(key)) value = group.at(key).quantity(expected);
 }
 
 // x and y of `both`, or each alone.
-void read_plane(const Node& group, std::string_view both, std::string_view x_key,
-                std::string_view y_key, const Dimension& expected, std::optional<double>& x,
-                std::optional<double>& y) {
+void read_plane(const Node& group, std::string_view both, std::string_view x_key, std::string_view y_key, const Dimension& expected,
+                std::optional<double>& x, std::optional<double>& y) {
   if (group.has(both)) {
     for (const std::string_view alone : {x_key, y_key})
-      if (group.has(alone))
-        group.at(alone).fail("is said twice: leave out " + std::string(alone) + " or " +
-                             std::string(both));
+      if (group.has(alone)) group.at(alone).fail("is said twice: leave out " + std::string(alone) + " or " + std::string(both));
     const Pair pair = group.at(both).pair(expected);
     x = pair[0];
     y = pair[1];
@@ -38,10 +34,9 @@ void reject(const Node& group, std::initializer_list<std::string_view> keys, con
 void read_bent(const Node& node, const SceneBody& body, StartBody& start) {
   for (const char* key : {"deflection", "modes"})
     if (node.has(key) && !(body.elastic && body.elastic->modes))
-      node.at(key).fail("is asked of a rigid body: without modes it does not bend in a mechanism; " +
-                        std::string("give \"") + body.name + "\" modes, or leave it out");
-  if (node.has("deflection") && node.has("modes"))
-    node.fail("is bent by deflection and by modes at once; keep one of them");
+      node.at(key).fail("is asked of a rigid body: without modes it does not bend in a mechanism; " + std::string("give \"") + body.name +
+                        "\" modes, or leave it out");
+  if (node.has("deflection") && node.has("modes")) node.fail("is bent by deflection and by modes at once; keep one of them");
   if (node.has("deflection"))
     for (const Node& at : node.at("deflection").entries("points and how far they are displaced: {B: [0, 5 mm]}")) {
       check_own_point(at, at.name(), body);
@@ -73,8 +68,7 @@ StartJournal read_start_journal(const Node& node) {
   StartJournal start;
   start.joint = node.name();
   start.place = node.place();
-  if (node.has("eccentricity"))
-    start.eccentricity = node.at("eccentricity").pair(dimension::length);
+  if (node.has("eccentricity")) start.eccentricity = node.at("eccentricity").pair(dimension::length);
   if (node.has("speed")) start.speed = node.at("speed").pair(dimension::speed);
   return start;
 }
@@ -86,15 +80,13 @@ void read_start_entry(const Node& node, Scene& scene) {
   const bool body = found != scene.bodies.end();
   const auto joint = std::ranges::find(scene.joints, name, &SceneJoint::name);
   const bool journal = joint != scene.joints.end() && joint->clearance;
-  if (body && journal)
-    node.fail("both a body and a joint are named \"" + name + "\"; rename one of them");
+  if (body && journal) node.fail("both a body and a joint are named \"" + name + "\"; rename one of them");
   if (body) {
     scene.start_bodies.push_back(read_start_body(node, *found));
   } else if (journal) {
     scene.start_journals.push_back(read_start_journal(node));
   } else if (joint != scene.joints.end()) {
-    node.fail("the joint \"" + name + "\" has no clearance for a journal to start in; " +
-              "give it one, or start a body");
+    node.fail("the joint \"" + name + "\" has no clearance for a journal to start in; " + "give it one, or start a body");
   } else {
     std::vector<std::string> known;
     for (const SceneBody& b : scene.bodies) known.push_back(b.name);
@@ -141,12 +133,9 @@ PointRef read_known_point(const Node& node, const Scene& scene) {
     known.push_back("ground");
     node.fail("there is no body \"" + ref.body + "\"." + did_you_mean(ref.body, known));
   }
-  if (ref.point.empty() ||
-      std::ranges::find(*points, ref.point, &ScenePoint::name) != points->end())
-    return ref;
+  if (ref.point.empty() || std::ranges::find(*points, ref.point, &ScenePoint::name) != points->end()) return ref;
   if (points->empty())
-    node.fail("\"" + ref.point + "\" is no point: " + ref.body + " has none; add points: {" +
-              ref.point + ": [0, 0]} to it");
+    node.fail("\"" + ref.point + "\" is no point: " + ref.body + " has none; add points: {" + ref.point + ": [0, 0]} to it");
   for (const ScenePoint& p : *points) known.push_back(p.name);
   node.fail(ref.body + " has no point \"" + ref.point + "\"." + did_you_mean(ref.point, known));
 }
@@ -154,17 +143,15 @@ PointRef read_known_point(const Node& node, const Scene& scene) {
 // Stress is where material is that deforms.
 void must_have_stress(const Node& node, const PointRef& ref, const Scene& scene) {
   const auto body = std::ranges::find(scene.bodies, ref.body, &SceneBody::name);
-  if (body == scene.bodies.end())
-    node.fail("the ground has no stress; name a point of a body with modes");
+  if (body == scene.bodies.end()) node.fail("the ground has no stress; name a point of a body with modes");
   if (!body->elastic || !body->elastic->modes)
-    node.fail(ref.body + " is rigid in a mechanism and has no stress; give it " +
-              (body->elastic ? "" : "a beam or a plate, and ") + "modes, or leave the point out");
+    node.fail(ref.body + " is rigid in a mechanism and has no stress; give it " + (body->elastic ? "" : "a beam or a plate, and ") +
+              "modes, or leave the point out");
   if (ref.point.empty())
     node.fail("is a body; name the point whose stress is meant: " + ref.body + "." +
               (body->points.empty() ? "A" : body->points.front().name));
   const ScenePoint& point = *std::ranges::find(body->points, ref.point, &ScenePoint::name);
-  if (!point.hole.empty())
-    node.fail("is the middle of a hole, where no material is; name a point of the plate itself");
+  if (!point.hole.empty()) node.fail("is the middle of a hole, where no material is; name a point of the plate itself");
 }
 
 std::vector<PointRef> read_output_points(const Node& node, const Scene& scene) {
@@ -172,8 +159,7 @@ std::vector<PointRef> read_output_points(const Node& node, const Scene& scene) {
   for (const Node& item : node.list(1, "a list of points [coupler.M, rocker.D]")) {
     PointRef ref = read_known_point(item, scene);
     for (const PointRef& other : refs)
-      if (other.body == ref.body && other.point == ref.point)
-        item.fail(item.shown() + " stands there twice; leave one out");
+      if (other.body == ref.body && other.point == ref.point) item.fail(item.shown() + " stands there twice; leave one out");
     refs.push_back(std::move(ref));
   }
   return refs;
@@ -186,8 +172,9 @@ double read_deformation(const Node& node) {
 
 void read_constraints(const Node& node, RunOptions& run) {
   if (node.is_scalar() && node.text("projection or partitioning") == "index 3")
-    node.fail("index 3 is no longer offered: its reactions were wrong by h after every change of step; take projection, the default, "
-              "which keeps positions and velocities");
+    node.fail(
+        "index 3 is no longer offered: its reactions were wrong by h after every change of step; take projection, the default, "
+        "which keeps positions and velocities");
   run.constraints = node.one_of(choices("run", "constraints"));
 }
 
@@ -200,9 +187,7 @@ void read_start(const Node& root, Scene& scene) {
     scene.start_at_rest = true;
     return;
   }
-  for (const Node& node :
-       root.at("start").entries("bodies and how they start: {crank: {speed: 5 rad/s}}"))
-    read_start_entry(node, scene);
+  for (const Node& node : root.at("start").entries("bodies and how they start: {crank: {speed: 5 rad/s}}")) read_start_entry(node, scene);
 }
 
 void read_run(const Node& root, Scene& scene) {
@@ -245,8 +230,7 @@ void read_output(const Node& root, Scene& scene) {
   if (!node.has("stress")) return;
   output.stress = read_output_points(node.at("stress"), scene);
   const auto items = node.at("stress").list(1, "a list of points");
-  for (std::size_t i = 0; i < items.size(); ++i)
-    must_have_stress(items[i], output.stress[i], scene);
+  for (std::size_t i = 0; i < items.size(); ++i) must_have_stress(items[i], output.stress[i], scene);
 }
 
 }  // namespace pintle

@@ -26,8 +26,7 @@ double unit_factor(const Node& group, std::string_view key, const Dimension& exp
   try {
     const Quantity unit = read_quantity(text);
     if (!same(unit.dimension, expected) || (bare(unit.dimension) && !bare(expected)))
-      node.fail("\"" + text + "\" measures " + describe(unit.dimension) + "; expected a unit of " +
-                describe(expected));
+      node.fail("\"" + text + "\" measures " + describe(unit.dimension) + "; expected a unit of " + describe(expected));
     return unit.value;
   } catch (const ExpressionError&) {
     node.fail(node.shown() + " is not a unit; write one such as ms or N*m");
@@ -35,8 +34,7 @@ double unit_factor(const Node& group, std::string_view key, const Dimension& exp
 }
 
 // The law as text that filled_in can turn back into keys: flow YAML, which is JSON.
-std::string table_text(const std::string& file, bool linear, double time_unit, double value_unit,
-                       const Dimension& expected) {
+std::string table_text(const std::string& file, bool linear, double time_unit, double value_unit, const Dimension& expected) {
   const auto escaped = [](const std::string& s) {
     std::string out;
     for (const char c : s) {
@@ -48,11 +46,9 @@ std::string table_text(const std::string& file, bool linear, double time_unit, d
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(17);
-  out << "{\"table\": \"" << escaped(file) << "\", \"interpolation\": \""
-      << (linear ? "linear" : "spline") << "\"";
+  out << "{\"table\": \"" << escaped(file) << "\", \"interpolation\": \"" << (linear ? "linear" : "spline") << "\"";
   if (time_unit != 1) out << ", \"time unit\": \"" << time_unit << " s\"";
-  if (value_unit != 1)
-    out << ", \"value unit\": \"" << value_unit << " " << si_unit(expected) << "\"";
+  if (value_unit != 1) out << ", \"value unit\": \"" << value_unit << " " << si_unit(expected) << "\"";
   out << "}";
   return out.str();
 }
@@ -60,13 +56,11 @@ std::string table_text(const std::string& file, bool linear, double time_unit, d
 void must_cover(const Node& node, const std::string& file, const Samples& samples, double until) {
   const double begin = samples.t.front(), end = samples.t.back();
   if (begin <= 0 && end >= until * (1 - 1e-12)) return;
-  node.fail("the table " + file + " runs from " + decimal(begin) + " s to " + decimal(end) +
-            " s, but the run from 0 to " + decimal(until) +
+  node.fail("the table " + file + " runs from " + decimal(begin) + " s to " + decimal(end) + " s, but the run from 0 to " + decimal(until) +
             " s; lengthen the table or shorten run.until");
 }
 
-Law read_table_law(const Node& node, const Dimension& expected, Smoothness smoothness,
-                   const std::filesystem::path& folder, double until) {
+Law read_table_law(const Node& node, const Dimension& expected, Smoothness smoothness, const std::filesystem::path& folder, double until) {
   const bool driver = smoothness == Smoothness::driver;
   const char* keys = driver ? "drivers.*.law" : "forces.*.torque";
   check_keys(node, keys);
@@ -98,11 +92,9 @@ void must_be_finite(const Node& node, const Law& law, Smoothness smoothness, dou
     const double t = until * i / looks;
     const Jet jet = law.at(t);
     if (!std::isfinite(jet.value))
-      node.fail(node.shown() + " is not a finite number at t = " + decimal(t) +
-                " s; it must be from 0 to run.until");
+      node.fail(node.shown() + " is not a finite number at t = " + decimal(t) + " s; it must be from 0 to run.until");
     if (smoothness == Smoothness::driver && !(std::isfinite(jet.rate) && std::isfinite(jet.accel)))
-      node.fail(node.shown() + " has no finite speed and acceleration at t = " + decimal(t) +
-                " s; a driver needs both");
+      node.fail(node.shown() + " has no finite speed and acceleration at t = " + decimal(t) + " s; a driver needs both");
   }
 }
 
@@ -112,31 +104,24 @@ std::string checked_name(const Node& node) {
   const std::string name = node.name();
   const bool bad_end = name.empty() || name.front() == ' ' || name.back() == ' ';
   if (bad_end || name.size() > 80 || name.find_first_of(".,;\"'[]{}/\\\n\r\t") != std::string::npos)
-    node.fail("\"" + name +
-              "\" cannot be a name; use letters, digits, spaces, - and _, at most 80");
+    node.fail("\"" + name + "\" cannot be a name; use letters, digits, spaces, - and _, at most 80");
   return name;
 }
 
 PointRef read_point_ref(const Node& node) {
   const std::string text = node.text("a point such as crank.A, or a body such as ground");
   const std::size_t dot = text.find('.');
-  PointRef ref{text.substr(0, dot), dot == std::string::npos ? "" : text.substr(dot + 1),
-               node.place()};
-  const bool malformed = ref.body.empty() || (dot != std::string::npos && ref.point.empty()) ||
-                         ref.point.find('.') != std::string::npos;
-  if (malformed)
-    node.fail(node.shown() + " is no point; write body.point such as crank.A, or a body");
+  PointRef ref{text.substr(0, dot), dot == std::string::npos ? "" : text.substr(dot + 1), node.place()};
+  const bool malformed = ref.body.empty() || (dot != std::string::npos && ref.point.empty()) || ref.point.find('.') != std::string::npos;
+  if (malformed) node.fail(node.shown() + " is no point; write body.point such as crank.A, or a body");
   return ref;
 }
 
 void check_own_point(const Node& node, const std::string& name, const SceneBody& body) {
   std::vector<std::string> known;
   for (const ScenePoint& p : body.points) known.push_back(p.name);
-  if (known.empty())
-    node.fail("\"" + name + "\" is no point: " + body.name + " has none; add points: {" + name +
-              ": [0, 0]}");
-  if (std::ranges::find(known, name) == known.end())
-    node.fail(body.name + " has no point \"" + name + "\"." + did_you_mean(name, known));
+  if (known.empty()) node.fail("\"" + name + "\" is no point: " + body.name + " has none; add points: {" + name + ": [0, 0]}");
+  if (std::ranges::find(known, name) == known.end()) node.fail(body.name + " has no point \"" + name + "\"." + did_you_mean(name, known));
 }
 
 std::string read_own_point(const Node& node, const SceneBody& body) {
@@ -145,8 +130,7 @@ std::string read_own_point(const Node& node, const SceneBody& body) {
   return name;
 }
 
-std::vector<double> read_quantities(const Node& node, std::size_t n, const Dimension& expected,
-                                    Rule must, const std::string& remedy) {
+std::vector<double> read_quantities(const Node& node, std::size_t n, const Dimension& expected, Rule must, const std::string& remedy) {
   std::vector<double> out;
   for (const Node& item : node.items(n, remedy)) out.push_back(item.quantity(expected, must));
   return out;
@@ -157,16 +141,13 @@ std::pair<PointRef, PointRef> read_ends(const Node& node) {
   return {read_point_ref(two[0]), read_point_ref(two[1])};
 }
 
-Law read_time_law(const Node& node, const Dimension& expected, Smoothness smoothness,
-                  const std::filesystem::path& folder, double until) {
-  const Law law = node.is_map() ? read_table_law(node, expected, smoothness, folder, until)
-                                : node.law(expected);
+Law read_time_law(const Node& node, const Dimension& expected, Smoothness smoothness, const std::filesystem::path& folder, double until) {
+  const Law law = node.is_map() ? read_table_law(node, expected, smoothness, folder, until) : node.law(expected);
   must_be_finite(node, law, smoothness, until);
   return law;
 }
 
-void read_optional(const Node& group, std::string_view key, const Dimension& expected, Rule must,
-                   double& value) {
+void read_optional(const Node& group, std::string_view key, const Dimension& expected, Rule must, double& value) {
   if (group.has(key)) value = group.at(key).quantity(expected, must);
 }
 

@@ -7,9 +7,7 @@
 
 namespace pintle {
 
-void Node::fail(const std::string& message) const {
-  throw SceneError(source_->file, place_, message);
-}
+void Node::fail(const std::string& message) const { throw SceneError(source_->file, place_, message); }
 
 std::string Node::shown() const {
   constexpr std::size_t most = 40;
@@ -35,11 +33,9 @@ std::vector<Node> Node::entries(const std::string& remedy) const {
 
 std::vector<Node> Node::items(std::size_t n, const std::string& remedy) const {
   if (!is_list() || yaml_->items.size() != n) {
-    const bool torn = std::ranges::any_of(yaml_->items, [](const Yaml& item) {
-      return std::ranges::count(item.text, '(') != std::ranges::count(item.text, ')');
-    });
-    fail("is " + shown() + "; write " + remedy +
-         (torn ? std::string(". ") + hint_about_commas : ""));
+    const bool torn = std::ranges::any_of(
+        yaml_->items, [](const Yaml& item) { return std::ranges::count(item.text, '(') != std::ranges::count(item.text, ')'); });
+    fail("is " + shown() + "; write " + remedy + (torn ? std::string(". ") + hint_about_commas : ""));
   }
   return children();
 }
@@ -52,9 +48,7 @@ std::vector<Node> Node::list(std::size_t least, const std::string& remedy) const
 std::vector<Node> Node::children() const {
   std::vector<Node> out;
   for (std::size_t i = 0; i < yaml_->items.size(); ++i)
-    out.push_back({yaml_->items[i],
-                   *source_,
-                   {yaml_->items[i].line, place_.key + "[" + std::to_string(i + 1) + "]"}});
+    out.push_back({yaml_->items[i], *source_, {yaml_->items[i].line, place_.key + "[" + std::to_string(i + 1) + "]"}});
   return out;
 }
 
@@ -122,15 +116,13 @@ bool Node::yes() const {
 std::string Node::one_of(std::span<const std::string> choices) const {
   const std::string written = text(listed(choices));
   if (std::ranges::find(choices, written) == choices.end())
-    fail(shown() + " must be " + listed(choices) + "." +
-         (nearest(written, choices).empty() ? "" : did_you_mean(written, choices)));
+    fail(shown() + " must be " + listed(choices) + "." + (nearest(written, choices).empty() ? "" : did_you_mean(written, choices)));
   return written;
 }
 
 Law Node::law(const Dimension& expected) const {
   try {
-    return read_law(text("an expression in t, " + describe(expected)), expected,
-                    source_->parameters);
+    return read_law(text("an expression in t, " + describe(expected)), expected, source_->parameters);
   } catch (const ExpressionError& error) {
     fail(error.what());
   }

@@ -34,23 +34,19 @@ namespace rule {
 inline constexpr Rule any{[](double) { return true; }, ""};
 inline constexpr Rule positive{[](double x) { return x > 0; }, "must be greater than 0"};
 inline constexpr Rule not_negative{[](double x) { return x >= 0; }, "must not be negative"};
-inline constexpr Rule zero_to_one{[](double x) { return x >= 0 && x <= 1; },
-                                  "must lie between 0 and 1"};
+inline constexpr Rule zero_to_one{[](double x) { return x >= 0 && x <= 1; }, "must lie between 0 and 1"};
 inline constexpr Rule at_least_one{[](double x) { return x >= 1; }, "must be at least 1"};
 inline constexpr Rule solid_poisson{[](double x) { return x > -1 && x < 0.5; },
                                     "must be greater than -1 and less than 0.5; take 0.4999 for a "
                                     "nearly incompressible solid"};
-inline constexpr Rule poisson{[](double x) { return x > -1 && x <= 0.5; },
-                              "must lie between -1 and 0.5"};
+inline constexpr Rule poisson{[](double x) { return x > -1 && x <= 0.5; }, "must lie between -1 and 0.5"};
 /// Below 1e-14 the rounding of one step is more than the error it may make.
 inline constexpr Rule tolerance{[](double x) { return x >= 1e-14 && x < 1; },
                                 "must lie between 0 and 1, and not below 1e-14, which is rounding"};
-inline constexpr Rule inside_zero_one{[](double x) { return x > 0 && x < 1; },
-                                      "must lie between 0 and 1, and be neither"};
+inline constexpr Rule inside_zero_one{[](double x) { return x > 0 && x < 1; }, "must lie between 0 and 1, and be neither"};
 }  // namespace rule
 
-inline constexpr const char* hint_about_commas =
-    "Inside { } or [ ] a comma separates entries: put an expression with commas in quotes.";
+inline constexpr const char* hint_about_commas = "Inside { } or [ ] a comma separates entries: put an expression with commas in quotes.";
 
 /// What every value of one file shares.
 struct Source {
@@ -70,7 +66,7 @@ class Node {
   const Source& source() const { return *source_; }
   std::string name() const { return std::string(name_); }  ///< the last key
 
-  const Yaml& yaml() const { return *yaml_; }               ///< what stands here
+  const Yaml& yaml() const { return *yaml_; }  ///< what stands here
 
   bool is_map() const { return yaml_->kind == Yaml::Kind::map; }
   bool is_list() const { return yaml_->kind == Yaml::Kind::list; }

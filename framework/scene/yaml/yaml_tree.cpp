@@ -24,24 +24,19 @@ class TreeBuilder : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
     fail(mark, "an alias is not read; name the value under parameters instead");
   }
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
-    place(mark, {.kind = Yaml::Kind::nothing});
-  }
-  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
-                const std::string& value) override {
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { place(mark, {.kind = Yaml::Kind::nothing}); }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, const std::string& value) override {
     reject_tag(mark, tag);
     if (!open_.empty() && open_.back().yaml.kind == Yaml::Kind::map && !open_.back().has_key)
       key(mark, value);
     else
       place(mark, {.kind = Yaml::Kind::scalar, .text = value});
   }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
-                       YAML::EmitterStyle::value) override {
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, YAML::EmitterStyle::value) override {
     begin(mark, tag, Yaml::Kind::list);
   }
   void OnSequenceEnd() override { end(); }
-  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
-                  YAML::EmitterStyle::value) override {
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, YAML::EmitterStyle::value) override {
     begin(mark, tag, Yaml::Kind::map);
   }
   void OnMapEnd() override { end(); }
@@ -59,13 +54,11 @@ class TreeBuilder : public YAML::EventHandler {
     throw SceneError(file_, {mark.line + 1, {}}, message);
   }
   void reject_tag(const YAML::Mark& mark, const std::string& tag) const {
-    if (!tag.empty() && tag != "?" && tag != "!")
-      fail(mark, "the tag " + tag + " is not read; leave it out");
+    if (!tag.empty() && tag != "?" && tag != "!") fail(mark, "the tag " + tag + " is not read; leave it out");
   }
   void key(const YAML::Mark& mark, const std::string& text) {
     Open& map = open_.back();
-    if (!map.seen.insert(text).second)
-      fail(mark, "the key \"" + text + "\" stands here a second time; keep one");
+    if (!map.seen.insert(text).second) fail(mark, "the key \"" + text + "\" stands here a second time; keep one");
     map.key = text;
     map.key_line = mark.line + 1;
     map.has_key = true;
@@ -90,8 +83,7 @@ class TreeBuilder : public YAML::EventHandler {
       fail(mark, "a key must be a word, not empty and not a list or a group");
   }
   void attach(Yaml yaml) {
-    if (++values_ > most_values)
-      throw SceneError(file_, {yaml.line, {}}, "more than five million values; is it the right file?");
+    if (++values_ > most_values) throw SceneError(file_, {yaml.line, {}}, "more than five million values; is it the right file?");
     if (open_.empty()) {
       root = std::move(yaml);
       return;
@@ -125,11 +117,9 @@ Yaml parse_yaml(const std::string& text, const std::string& file) {
     YAML::Parser parser(in);
     parser.HandleNextDocument(builder);
     if (TreeBuilder second(file); parser.HandleNextDocument(second))
-      throw SceneError(file, {second.root.line, {}},
-                       "a second document begins after \"---\"; a scene file holds one");
+      throw SceneError(file, {second.root.line, {}}, "a second document begins after \"---\"; a scene file holds one");
   } catch (const YAML::Exception& error) {
-    throw SceneError(file, {error.mark.line + 1, {}},
-                     "this is not YAML: " + error.msg + remedy(text));
+    throw SceneError(file, {error.mark.line + 1, {}}, "this is not YAML: " + error.msg + remedy(text));
   }
   return std::move(builder.root);
 }

@@ -41,14 +41,10 @@ class Measuring {
     const double from = asked_.from, to = std::isinf(asked_.to) ? until : asked_.to;
     if (to > run_.t_end + slack || from > to || (from == to && !asked_.instant) || run_.trajectory.rows() == 0) return nan;
     switch (asked_.what) {
-      case What::impacts:
-        return impacts(from, to);
-      case What::free_flight:
-        return free_flight(from, to);
-      case What::contact_time:
-        return contact_time(from, to);
-      default:
-        break;
+      case What::impacts: return impacts(from, to);
+      case What::free_flight: return free_flight(from, to);
+      case What::contact_time: return contact_time(from, to);
+      default: break;
     }
     Signal all = signal();
     if (all.y.empty()) return nan;
@@ -64,20 +60,13 @@ class Measuring {
   double statistic(const Signal& x, double from, double to) const {
     if (asked_.frequency) return dominant_frequency(x);
     switch (asked_.statistic) {
-      case Statistic::greatest:
-        return told(with_impacts(greatest(x), from, to));
-      case Statistic::least:
-        return told(least(x));
-      case Statistic::range:
-        return with_impacts(greatest(x), from, to).value - least(x).value;
-      case Statistic::mean:
-        return mean(x);
-      case Statistic::rms:
-        return rms(x);
-      case Statistic::last:
-        return x.y.back();
-      default:
-        break;
+      case Statistic::greatest: return told(with_impacts(greatest(x), from, to));
+      case Statistic::least: return told(least(x));
+      case Statistic::range: return with_impacts(greatest(x), from, to).value - least(x).value;
+      case Statistic::mean: return mean(x);
+      case Statistic::rms: return rms(x);
+      case Statistic::last: return x.y.back();
+      default: break;
     }
     const Extreme high = with_impacts(greatest(x), from, to), low = least(x);
     const bool below = std::abs(low.value) > std::abs(high.value);
@@ -135,34 +124,20 @@ class Measuring {
   /// All rows; without rows: the scene has no such thing.
   Signal signal() const {
     switch (asked_.what) {
-      case What::force:
-        return force();
-      case What::torque:
-        return of(columns_.motion(asked_.owner + ".torque"));
-      case What::motion:
-        return motion();
-      case What::distance:
-        return distance();
-      case What::eccentricity:
-        return clearance(lengths(columns_.motion(asked_.owner + ".ex"), columns_.motion(asked_.owner + ".ey")));
-      case What::depth:
-        return depth();
-      case What::stress:
-        return stress();
-      case What::displacement:
-        return displacement();
-      case What::deflection:
-        return deflection();
-      case What::energy:
-        return energy();
-      case What::lost:
-        return lost();
-      case What::work:
-        return work();
-      case What::column:
-        return column();
-      default:
-        return {};
+      case What::force: return force();
+      case What::torque: return of(columns_.motion(asked_.owner + ".torque"));
+      case What::motion: return motion();
+      case What::distance: return distance();
+      case What::eccentricity: return clearance(lengths(columns_.motion(asked_.owner + ".ex"), columns_.motion(asked_.owner + ".ey")));
+      case What::depth: return depth();
+      case What::stress: return stress();
+      case What::displacement: return displacement();
+      case What::deflection: return deflection();
+      case What::energy: return energy();
+      case What::lost: return lost();
+      case What::work: return work();
+      case What::column: return column();
+      default: return {};
     }
   }
 
@@ -304,9 +279,7 @@ class Measuring {
   Columns columns_;
 };
 
-bool sampled(const Asked& a) {
-  return !a.instant && (a.frequency || (a.statistic != Statistic::none && a.statistic != Statistic::last));
-}
+bool sampled(const Asked& a) { return !a.instant && (a.frequency || (a.statistic != Statistic::none && a.statistic != Statistic::last)); }
 
 void record(Scene& scene, const Asked& a) {
   const auto add = [](std::vector<PointRef>& list, const PointRef& p) {
@@ -349,9 +322,7 @@ MeasuredValue measured(const Measure& measure, const Scene& scene, const Model& 
   return {Measuring(asked, scene, model, run).value(), asked.unit};
 }
 
-std::string measured_unit(const Measure& measure, const Scene& scene) {
-  return read_measure(measure, scene).unit;
-}
+std::string measured_unit(const Measure& measure, const Scene& scene) { return read_measure(measure, scene).unit; }
 
 void prepare(Scene& scene, const std::vector<Measure>& measures) {
   scene.output.frames = 0;

@@ -48,7 +48,8 @@ void judge(const std::vector<Measure>& measures, const Scene& scene) {
   for (const Measure& m : measures) {
     const Asked asked = read_measure(m, scene);
     const double last = std::isinf(asked.to) ? asked.from : asked.to;
-    if (last > scene.run.until * (1 + 1e-9)) fail(m, scene, "lies after the end of the run; make run.until longer, or ask for an earlier time");
+    if (last > scene.run.until * (1 + 1e-9))
+      fail(m, scene, "lies after the end of the run; make run.until longer, or ask for an earlier time");
   }
 }
 
@@ -58,8 +59,9 @@ void validate_flexible(const std::vector<Measure>& measures, const Scene& scene,
     const SceneBody* body = elastic(asked) ? body_of(asked, scene) : nullptr;
     const auto may_change = [&](const std::string& path) { return path == "bodies" || path.starts_with("bodies." + body->name); };
     if (body && !bends(*body) && std::ranges::none_of(varied, may_change))
-      fail(m, scene, "is of a flexible body, and \"" + body->name + "\" is rigid in every case; " + those_that_bend(scene) +
-                         ". Give it modes (docs/scene.md), or ask for something else");
+      fail(m, scene,
+           "is of a flexible body, and \"" + body->name + "\" is rigid in every case; " + those_that_bend(scene) +
+               ". Give it modes (docs/scene.md), or ask for something else");
   }
 }
 

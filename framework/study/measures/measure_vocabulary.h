@@ -102,14 +102,13 @@ inline constexpr std::array ledger_columns{ColumnPart{"kinetic", "J"},    Column
 struct EnergyWord {
   const char *words, *column;
 };
-inline constexpr std::array energy_words{
-    EnergyWord{"kinetic energy", "kinetic"},         EnergyWord{"potential energy", "gravity"},
-    EnergyWord{"gravity energy", "gravity"},         EnergyWord{"energy of gravity", "gravity"},
-    EnergyWord{"spring energy", "springs"},          EnergyWord{"energy of springs", "springs"},
-    EnergyWord{"energy of the springs", "springs"},  EnergyWord{"contact energy", "contacts"},
-    EnergyWord{"energy of contacts", "contacts"},    EnergyWord{"strain energy", "strain"},
-    EnergyWord{"stored energy", "stored"},           EnergyWord{"energy stored", "stored"},
-    EnergyWord{"mechanical energy", "stored"},       EnergyWord{"total energy", "stored"},
-    EnergyWord{"unexplained energy", "unexplained"}, EnergyWord{"energy unexplained", "unexplained"}};
+inline constexpr std::array energy_words{EnergyWord{"kinetic energy", "kinetic"},         EnergyWord{"potential energy", "gravity"},
+                                         EnergyWord{"gravity energy", "gravity"},         EnergyWord{"energy of gravity", "gravity"},
+                                         EnergyWord{"spring energy", "springs"},          EnergyWord{"energy of springs", "springs"},
+                                         EnergyWord{"energy of the springs", "springs"},  EnergyWord{"contact energy", "contacts"},
+                                         EnergyWord{"energy of contacts", "contacts"},    EnergyWord{"strain energy", "strain"},
+                                         EnergyWord{"stored energy", "stored"},           EnergyWord{"energy stored", "stored"},
+                                         EnergyWord{"mechanical energy", "stored"},       EnergyWord{"total energy", "stored"},
+                                         EnergyWord{"unexplained energy", "unexplained"}, EnergyWord{"energy unexplained", "unexplained"}};
 
 }  // namespace pintle

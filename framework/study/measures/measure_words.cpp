@@ -179,7 +179,8 @@ class Reading {
       asked_.statistic = Statistic::none;
       return is(What::free_flight, "s", "", may_have(measurables_.joints));
     }
-    if (!words_.take_any({"time in contact", "contact time"}).empty()) return is(What::contact_time, "s", "", may_have(measurables_.joints));
+    if (!words_.take_any({"time in contact", "contact time"}).empty())
+      return is(What::contact_time, "s", "", may_have(measurables_.joints));
     return false;
   }
 
@@ -209,8 +210,7 @@ class Reading {
       return is(What::work, "J", "", words_.take_any({"of", "by", "in"}).empty() ? "" : need("driver or force", workers));
     }
     if (words_.take("scheme.lost to numerical dissipation")) return is(What::lost, "J", "numerical dissipation");
-    if (words_
-            .take_any({"energy lost", "lost energy", "energy loss", "energy dissipated", "dissipated energy", "loss of energy", "losses"})
+    if (words_.take_any({"energy lost", "lost energy", "energy loss", "energy dissipated", "dissipated energy", "loss of energy", "losses"})
             .empty())
       return false;
     Names losers = measurables_.actors;
@@ -340,8 +340,6 @@ bool cumulative(What what) {
   return what == What::lost || what == What::work || what == What::impacts || what == What::free_flight || what == What::contact_time;
 }
 
-Asked read_measure(const Measure& measure, const Scene& scene) {
-  return Reading(measure, scene).read();
-}
+Asked read_measure(const Measure& measure, const Scene& scene) { return Reading(measure, scene).read(); }
 
 }  // namespace pintle

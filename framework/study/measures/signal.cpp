@@ -35,9 +35,7 @@ struct Cubic {
   }
 };
 
-Cubic piece(const Signal& x, std::size_t i) {
-  return {x.y[i], x.y[i + 1], x.rate[i], x.rate[i + 1], x.t[i + 1] - x.t[i]};
-}
+Cubic piece(const Signal& x, std::size_t i) { return {x.y[i], x.y[i + 1], x.rate[i], x.rate[i + 1], x.t[i + 1] - x.t[i]}; }
 
 /// The row at or before t, never the last.
 std::size_t row_before(const Signal& x, double t) {

@@ -68,9 +68,7 @@ std::optional<Json> unsealed(std::string_view line) {
   return content.is_discarded() ? std::optional<Json>() : std::move(content);
 }
 
-std::string heading(std::uint64_t study) {
-  return sealed({{"pintle sweep", fingerprint_text(study)}});
-}
+std::string heading(std::uint64_t study) { return sealed({{"pintle sweep", fingerprint_text(study)}}); }
 
 std::string remedy(const fs::path& path) {
   return "name another directory with --out, or remove " + path.parent_path().string() + " and run the sweep again";
@@ -81,14 +79,19 @@ std::string remedy(const fs::path& path) {
 bool validate_heading(const fs::path& path, const std::string& text, std::uint64_t study) {
   const std::string ours = heading(study);
   const std::size_t end = text.find('\n');
-  if (end == std::string::npos && text.size() <= ours.size() && text.substr(0, text.find('\0')) == ours.substr(0, std::min(text.size(), text.find('\0'))))
+  if (end == std::string::npos && text.size() <= ours.size() &&
+      text.substr(0, text.find('\0')) == ours.substr(0, std::min(text.size(), text.find('\0'))))
     return false;
   const std::optional<Json> first = end == std::string::npos ? std::nullopt : unsealed(std::string_view(text).substr(0, end));
   if (!first || !first->is_object() || !first->contains("pintle sweep"))
-    throw SceneError(path.string() + ":1: is damaged: its first line does not name a sweep, so nothing in it is known to belong to this one; " + remedy(path));
+    throw SceneError(path.string() +
+                     ":1: is damaged: its first line does not name a sweep, so nothing in it is known to belong to this one; " +
+                     remedy(path));
   if (text.substr(0, end + 1) != ours)
-    throw OtherStudy(path.string(), {}, "belongs to another study, or to this one before it, its scene, a file that they name, --set or "
-                                        "the program was changed; name another directory with --out, or remove " + path.parent_path().string());
+    throw OtherStudy(path.string(), {},
+                     "belongs to another study, or to this one before it, its scene, a file that they name, --set or "
+                     "the program was changed; name another directory with --out, or remove " +
+                         path.parent_path().string());
   return true;
 }
 
@@ -100,9 +103,7 @@ std::string contents(const fs::path& path) {
   }
 }
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 bool within(double seconds, const std::function<bool()>& holds) {
   for (const double end = now() + seconds; !holds(); std::this_thread::sleep_for(std::chrono::milliseconds(50)))
@@ -122,9 +123,7 @@ std::string torn(const fs::path& path, const std::string& text) {
          (line == 1 ? "the journal begins again" : "the case is run again");
 }
 
-bool is_journal(const fs::path& path) {
-  return path.filename().string().starts_with("journal-") && path.extension() == ".txt";
-}
+bool is_journal(const fs::path& path) { return path.filename().string().starts_with("journal-") && path.extension() == ".txt"; }
 
 }  // namespace
 
@@ -133,9 +132,18 @@ bool lacked_memory(const Row& row) { return row.status == status_text(Status::ou
 std::string line_of(const Row& r) {
   Json values = Json::array();
   for (double x : r.values) values.push_back(exact(x));
-  return sealed({{"case", r.number}, {"status", r.status}, {"reason", r.reason}, {"values", values}, {"units", r.units}, {"t_end", exact(r.t_end)},
-                 {"unexplained", exact(r.unexplained_share)}, {"steps", r.steps}, {"impacts", r.impacts}, {"worker", r.worker},
-                 {"build", exact(r.build_seconds)}, {"run", exact(r.run_seconds)}});
+  return sealed({{"case", r.number},
+                 {"status", r.status},
+                 {"reason", r.reason},
+                 {"values", values},
+                 {"units", r.units},
+                 {"t_end", exact(r.t_end)},
+                 {"unexplained", exact(r.unexplained_share)},
+                 {"steps", r.steps},
+                 {"impacts", r.impacts},
+                 {"worker", r.worker},
+                 {"build", exact(r.build_seconds)},
+                 {"run", exact(r.run_seconds)}});
 }
 
 std::optional<Row> row_of(std::string_view line) try {
@@ -161,11 +169,13 @@ Journal::Journal(const fs::path& path, std::uint64_t study, std::vector<std::str
   if (const fs::file_status there = fs::status(path, error); fs::exists(there) && !fs::is_regular_file(there))
     throw SceneError(path.string() + ": is not an ordinary file; " + remedy(path));
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file_ < 0) throw std::runtime_error(path.string() + ": cannot be written (" + std::strerror(errno) + "); name another place with --out");
+  if (file_ < 0)
+    throw std::runtime_error(path.string() + ": cannot be written (" + std::strerror(errno) + "); name another place with --out");
   try {
     if (!locked(file_, LOCK_EX, 3))
-      throw std::runtime_error(path.string() + ": another process works on this sweep; wait for it, or end it. (If many were started at once as one "
-                                               "MPI job, they do not see each other: start them by mpirun, or by srun --mpi=pmix.)");
+      throw std::runtime_error(path.string() +
+                               ": another process works on this sweep; wait for it, or end it. (If many were started at once as one "
+                               "MPI job, they do not see each other: start them by mpirun, or by srun --mpi=pmix.)");
     const std::string text = contents(path);
     const bool begun = validate_heading(path, text, study);
     size_ = begun ? static_cast<std::int64_t>(text.rfind('\n') + 1) : 0;
@@ -207,9 +217,7 @@ void Journal::append(const Row& row) {
   flushed_ = now();
 }
 
-fs::path journal_path(const fs::path& folder, int rank) {
-  return folder / ("journal-" + std::to_string(rank) + ".txt");
-}
+fs::path journal_path(const fs::path& folder, int rank) { return folder / ("journal-" + std::to_string(rank) + ".txt"); }
 
 std::vector<Row> read_journals(const fs::path& folder, std::uint64_t study, std::size_t cases, std::vector<std::string>* notes) {
   std::map<std::size_t, Row> rows;
@@ -224,9 +232,13 @@ std::vector<Row> read_journals(const fs::path& folder, std::uint64_t study, std:
       std::optional<Row> row = row_of(std::string_view(text).substr(begin, end - begin));
       const std::string where = path.string() + ":" + std::to_string(line);
       if (!row)
-        throw SceneError(where + ": is damaged: its checksum, or what it holds, is not that of a case; remove this line, which runs its case again, or " + remedy(path));
+        throw SceneError(
+            where +
+            ": is damaged: its checksum, or what it holds, is not that of a case; remove this line, which runs its case again, or " +
+            remedy(path));
       if (row->number < 1 || row->number > cases)
-        throw SceneError(where + ": is of case " + std::to_string(row->number) + ", where the study has " + std::to_string(cases) + "; " + remedy(path));
+        throw SceneError(where + ": is of case " + std::to_string(row->number) + ", where the study has " + std::to_string(cases) + "; " +
+                         remedy(path));
       const std::size_t number = row->number;
       if (const auto [at, fresh] = rows.try_emplace(number, *row); !fresh && lacked_memory(at->second)) at->second = std::move(*row);
     }

@@ -72,7 +72,8 @@ std::filesystem::path journal_path(const std::filesystem::path& folder, int rank
 /// @param cases  of the study  @param notes  takes what was left out, if not null
 /// @throws OtherStudy          one belongs to another study
 /// @throws SceneError          one is damaged otherwise, or holds a case that the study has not: naming file and line
-std::vector<Row> read_journals(const std::filesystem::path& folder, std::uint64_t study, std::size_t cases, std::vector<std::string>* notes = nullptr);
+std::vector<Row> read_journals(const std::filesystem::path& folder, std::uint64_t study, std::size_t cases,
+                               std::vector<std::string>* notes = nullptr);
 
 /// Waits until no process has a journal of the folder open but this one. @returns false: some still has after `seconds`
 bool journals_are_free(const std::filesystem::path& folder, const std::filesystem::path& but, double seconds);

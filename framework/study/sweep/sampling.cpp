@@ -95,7 +95,8 @@ Texts values(const Node& node) {
 }
 
 std::vector<Node> named(const Node& section) {
-  const std::vector<Node> entries = section.entries(std::string("names of parameters (or paths) and their values: {clearance: ") + how_values_look + "}");
+  const std::vector<Node> entries =
+      section.entries(std::string("names of parameters (or paths) and their values: {clearance: ") + how_values_look + "}");
   if (entries.empty()) section.fail("names nothing to vary; add for example clearance: [0.01 mm, 0.1 mm]");
   return entries;
 }
@@ -134,7 +135,8 @@ Cases grid(const Node& section) {
 void validate_size(const Node& section, std::size_t cases, std::size_t names) {
   constexpr std::size_t most_values = 20'000'000;
   if (cases > most_values / std::max<std::size_t>(1, names))
-    section.fail("has more than " + std::to_string(most_values) + " values, of " + std::to_string(names) + " names together; take fewer cases");
+    section.fail("has more than " + std::to_string(most_values) + " values, of " + std::to_string(names) +
+                 " names together; take fewer cases");
 }
 
 Cases columns(const Node& section) {
@@ -190,8 +192,10 @@ Cases sampled(const Node& section, bool latin) {
     cases.places.push_back(entry.place());
     Stream stream(seed, entry.name());
     std::vector<double> u;
-    if (latin) u = stream.strata(n);
-    else for (std::size_t k = 0; k < n; ++k) u.push_back(stream.uniform());
+    if (latin)
+      u = stream.strata(n);
+    else
+      for (std::size_t k = 0; k < n; ++k) u.push_back(stream.uniform());
     if (entry.is_list()) {
       const Texts choices = values(entry);
       for (std::size_t k = 0; k < n; ++k)
@@ -239,9 +243,7 @@ Stream::Stream(std::uint64_t seed, std::string_view name) {
   numbers_.seed(z ^ (z >> 31));
 }
 
-double Stream::uniform() {
-  return static_cast<double>(numbers_() >> 11) * 0x1p-53;
-}
+double Stream::uniform() { return static_cast<double>(numbers_() >> 11) * 0x1p-53; }
 
 std::uint64_t Stream::below(std::uint64_t n) {
   // The numbers below 2^64 mod n would come once too often.

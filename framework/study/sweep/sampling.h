@@ -17,7 +17,7 @@ namespace pintle {
 
 /// What varies, and its value in each case. Numbers are SI, as the shortest decimal of twelve digits.
 struct Cases {
-  std::vector<std::string> names;  ///< parameters or paths, in the order written
+  std::vector<std::string> names;                               ///< parameters or paths, in the order written
   std::vector<std::vector<std::optional<std::string>>> values;  ///< per case, per name; none: as the scene has it
   std::vector<Place> places = {};                               ///< per name: where the study has it first
 
@@ -44,8 +44,8 @@ struct Span {
 class Stream {
  public:
   Stream(std::uint64_t seed, std::string_view name);
-  double uniform();                           ///< in [0, 1), a multiple of 2⁻⁵³
-  std::uint64_t below(std::uint64_t n);       ///< 0 … n − 1, each as likely as the next. @pre n > 0
+  double uniform();                      ///< in [0, 1), a multiple of 2⁻⁵³
+  std::uint64_t below(std::uint64_t n);  ///< 0 … n − 1, each as likely as the next. @pre n > 0
   /// n points of [0, 1), one in each stratum [k/n, (k + 1)/n), in random order.
   std::vector<double> strata(std::size_t n);
 

@@ -32,11 +32,11 @@ enum Word : std::int64_t {
 
 using Message = std::vector<std::int64_t>;
 constexpr auto nap = std::chrono::milliseconds(2);  // next to the 50 ms of a portion
-constexpr std::size_t most_dealt = 400;  // fits a message that is sent without waiting for its receiver
+constexpr std::size_t most_dealt = 400;             // fits a message that is sent without waiting for its receiver
 
 void report(Message& to, const WorkerPool::Tally& since) {
-  to.insert(to.end(), {static_cast<std::int64_t>(since.done), static_cast<std::int64_t>(since.trouble),
-                       static_cast<std::int64_t>(since.busy * 1e6)});
+  to.insert(to.end(),
+            {static_cast<std::int64_t>(since.done), static_cast<std::int64_t>(since.trouble), static_cast<std::int64_t>(since.busy * 1e6)});
 }
 
 void send_all(Communicator& communicator, Word word) {
@@ -51,7 +51,8 @@ Message next_message(Communicator& communicator, int& from) {
 
 void take_leave(Communicator& communicator, const Message& last) {
   communicator.send(0, last);
-  for (int from = 0; next_message(communicator, from)[0] != bye;) {}
+  for (int from = 0; next_message(communicator, from)[0] != bye;) {
+  }
 }
 
 /// Cases to hand out at once: as many as last some 50 ms, so that short ones do not wait for messages, but few
@@ -67,7 +68,10 @@ std::size_t portion(std::size_t left, std::size_t workers, std::size_t idle, con
 class Leader {
  public:
   Leader(const Sweep& sweep, Journal& journal, const SweepSettings& settings, const std::vector<std::size_t>& numbers, SweepEnd& end)
-      : settings_(settings), end_(end), present_(settings.communicator ? settings.communicator->size() - 1 : 0), workers_(sweep, journal, 0, settings.threads) {
+      : settings_(settings),
+        end_(end),
+        present_(settings.communicator ? settings.communicator->size() - 1 : 0),
+        workers_(sweep, journal, 0, settings.threads) {
     workers_.queue().add(numbers);
     if (present_ == 0) workers_.queue().close();
   }
@@ -76,14 +80,17 @@ class Leader {
     end_.workers += workers_.workers() - settings_.threads;
     end_.shortage = workers_.shortage();
     while (!workers_.home() || present_ > 0) {
-      while (present_ > 0 && listen()) {}
+      while (present_ > 0 && listen()) {
+      }
       look();
       tell();
       workers_.work_here([this] { tell(); });
       if (workers_.troubled()) stop();
       if (workers_.queue().left() == 0) workers_.queue().close();
-      if (present_ > 0) std::this_thread::sleep_for(nap);
-      else workers_.wait(std::chrono::milliseconds(100));
+      if (present_ > 0)
+        std::this_thread::sleep_for(nap);
+      else
+        workers_.wait(std::chrono::milliseconds(100));
     }
     look();
     workers_.finish();
@@ -158,8 +165,10 @@ class Follower {
         communicator_.send(0, question);
         asked_ = true;
       }
-      if (asked_) std::this_thread::sleep_for(nap / 2);
-      else workers_.wait(std::chrono::milliseconds(20));
+      if (asked_)
+        std::this_thread::sleep_for(nap / 2);
+      else
+        workers_.wait(std::chrono::milliseconds(20));
     }
     workers_.finish();
     Message last{leave, stopped_};
@@ -225,11 +234,14 @@ void open_folder(const fs::path& folder) {
   if (fs::exists(fs::symlink_status(folder, error))) {
     const auto is_ours = [&](const fs::path& p) {
       const std::string name = p.filename().string();
-      return name.starts_with("journal-") || name.starts_with("study.yaml") || name.starts_with("scene.yaml") || name.find(".part") != std::string::npos;
+      return name.starts_with("journal-") || name.starts_with("study.yaml") || name.starts_with("scene.yaml") ||
+             name.find(".part") != std::string::npos;
     };
     if (!fs::is_directory(folder)) throw SceneError(folder.string(), {}, "exists already and is not a directory; name another with --out");
     const fs::directory_iterator entries(folder);
-    if (!fs::exists(journal_path(folder, 0)) && !std::all_of(begin(entries), end(entries), [&](const auto& e) { return is_ours(e.path()); })) throw SceneError(folder.string(), {}, "exists already and holds no sweep; name another directory with --out");
+    if (!fs::exists(journal_path(folder, 0)) &&
+        !std::all_of(begin(entries), end(entries), [&](const auto& e) { return is_ours(e.path()); }))
+      throw SceneError(folder.string(), {}, "exists already and holds no sweep; name another directory with --out");
   }
   fs::create_directories(folder, error);
   if (error) throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another place with --out");
@@ -246,9 +258,13 @@ std::string text_or_nothing(const fs::path& path) {
 
 /// Why the folder of another study is refused: what has changed since, as far as that is known.
 std::string what_differs(const Sweep& sweep, const fs::path& folder) {
-  const auto differs = [&](const char* name, const std::string& now) { return fs::exists(folder / name) && text_or_nothing(folder / name) != now; };
+  const auto differs = [&](const char* name, const std::string& now) {
+    return fs::exists(folder / name) && text_or_nothing(folder / name) != now;
+  };
   const bool study = differs("study.yaml", sweep.text), scene = differs("scene.yaml", sweep.study.scene.text);
-  const std::string was = study && scene ? "The study and its scene are not those" : study ? "The study is not the one" : "The scene is not the one";
+  const std::string was = study && scene ? "The study and its scene are not those"
+                          : study        ? "The study is not the one"
+                                         : "The scene is not the one";
   if (study || scene)
     return was + " that ran there (kept there as " + (study ? "study.yaml" : "") + (study && scene ? " and " : "") +
            (scene ? "scene.yaml" : "") + ")";
@@ -270,18 +286,14 @@ void write_tables(const Sweep& sweep, const fs::path& folder, const SweepEnd& en
 
 }  // namespace
 
-void reject_all(Communicator& communicator) {
-  send_all(communicator, reject);
-}
+void reject_all(Communicator& communicator) { send_all(communicator, reject); }
 
 bool rejected(Communicator& communicator) {
   int from = 0;
   return next_message(communicator, from)[0] == reject;
 }
 
-void stay_away(Communicator& communicator) {
-  take_leave(communicator, {leave, 1, 0, 0, 0});
-}
+void stay_away(Communicator& communicator) { take_leave(communicator, {leave, 1, 0, 0, 0}); }
 
 SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettings& settings) {
   Communicator* communicator = settings.communicator;
@@ -297,8 +309,9 @@ SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettin
     try {
       journal.emplace(own, sweep.print, &end.notes);
     } catch (const OtherStudy&) {
-      throw SceneError(folder.string(), {}, "belongs to another study. " + what_differs(sweep, folder) +
-                                                ". Name another directory with --out, or remove " + folder.string());
+      throw SceneError(
+          folder.string(), {},
+          "belongs to another study. " + what_differs(sweep, folder) + ". Name another directory with --out, or remove " + folder.string());
     }
     if (!journals_are_free(folder, own, 10))
       throw std::runtime_error(folder.string() + ": processes of an earlier session still work there; wait for them, or end them");

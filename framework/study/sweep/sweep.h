@@ -31,28 +31,28 @@ Sweep read_sweep(const std::filesystem::path&, const Overrides& set = {});
 
 /// How far a sweep is. Cases of this process and, in process 0, of the others.
 struct SweepCount {
-  std::size_t cases = 0;   ///< of the study
-  std::size_t before = 0;  ///< of them, ended in earlier sessions
-  std::size_t done = 0;    ///< ended in this one
-  std::size_t trouble = 0; ///< of these, not "finished"
-  double busy = 0;         ///< time that all workers spent on cases [s]
-  double seconds = 0;      ///< since the session began
+  std::size_t cases = 0;    ///< of the study
+  std::size_t before = 0;   ///< of them, ended in earlier sessions
+  std::size_t done = 0;     ///< ended in this one
+  std::size_t trouble = 0;  ///< of these, not "finished"
+  double busy = 0;          ///< time that all workers spent on cases [s]
+  double seconds = 0;       ///< since the session began
 };
 
 struct SweepSettings {
-  int threads = 1;             ///< of this process
-  Communicator* communicator = nullptr;  ///< or none
+  int threads = 1;                                       ///< of this process
+  Communicator* communicator = nullptr;                  ///< or none
   std::function<bool(const SweepCount&)> progress = {};  ///< some ten times a second; false: stop, keep what has ended
 };
 
 /// What a session of a sweep came to.
 struct SweepEnd {
-  bool whole = false;        ///< all cases have ended
+  bool whole = false;  ///< all cases have ended
   SweepCount count;
-  int workers = 1;           ///< threads of all processes
-  std::string shortage;      ///< why this process had fewer threads than asked for; empty: it had them
+  int workers = 1;                 ///< threads of all processes
+  std::string shortage;            ///< why this process had fewer threads than asked for; empty: it had them
   std::vector<std::string> notes;  ///< what was torn in journals, and what was done about it
-  std::vector<Row> rows;     ///< of all sessions, in the order of cases; in process 0
+  std::vector<Row> rows;           ///< of all sessions, in the order of cases; in process 0
   double efficiency() const { return count.seconds > 0 ? count.busy / (workers * count.seconds) : 1; }
 };
 

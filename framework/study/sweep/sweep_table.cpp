@@ -54,8 +54,10 @@ Varied varied(const Cases& cases, std::size_t name, const std::vector<bool>& tak
   Varied out{unit && !unit->empty() ? cases.names[name] + " [" + *unit + "]" : cases.names[name], {}};
   for (std::size_t k = 0; k < cases.size(); ++k) {
     std::string& field = out.fields.emplace_back();
-    if (unit && values[k] && (bare(values[k]->dimension) || si_unit(values[k]->dimension) == *unit)) append_number(field, values[k]->value);
-    else field = cases.values[k][name].value_or("");
+    if (unit && values[k] && (bare(values[k]->dimension) || si_unit(values[k]->dimension) == *unit))
+      append_number(field, values[k]->value);
+    else
+      field = cases.values[k][name].value_or("");
   }
   return out;
 }
@@ -144,8 +146,12 @@ std::string sweep_json(const Sweep& sweep, const SweepEnd& end) {
                     {"varied", sweep.cases.names},
                     {"measures", measures},
                     {"computing time of all cases [s]", busy},
-                    {"this session", {{"cases", end.count.done}, {"workers", end.workers}, {"elapsed [s]", end.count.seconds},
-                                      {"busy [s]", end.count.busy}, {"efficiency", end.efficiency()}}}};
+                    {"this session",
+                     {{"cases", end.count.done},
+                      {"workers", end.workers},
+                      {"elapsed [s]", end.count.seconds},
+                      {"busy [s]", end.count.busy},
+                      {"efficiency", end.efficiency()}}}};
   return json_text(out) + "\n";
 }
 

@@ -9,8 +9,8 @@ WorkerPool::WorkerPool(const Sweep& sweep, Journal& journal, int rank, int threa
   try {
     start(threads);
   } catch (const std::exception& error) {
-    shortage_ = std::to_string(threads_.size()) + " of " + std::to_string(threads) + " threads could be started (" + error.what() +
-                "), " + (threads_.empty() ? "the cases are run one by one" : "these run the cases") +
+    shortage_ = std::to_string(threads_.size()) + " of " + std::to_string(threads) + " threads could be started (" + error.what() + "), " +
+                (threads_.empty() ? "the cases are run one by one" : "these run the cases") +
                 "; allow more processes (ulimit -u) or memory, or ask for fewer with --threads";
   }
 }
@@ -33,17 +33,11 @@ WorkerPool::~WorkerPool() {
     if (t.joinable()) t.join();
 }
 
-bool WorkerPool::home() const {
-  return threads_.empty() ? queue_.closed() && queue_.left() == 0 : out_ == 0;
-}
+bool WorkerPool::home() const { return threads_.empty() ? queue_.closed() && queue_.left() == 0 : out_ == 0; }
 
-int WorkerPool::workers() const {
-  return std::max(1, static_cast<int>(threads_.size()));
-}
+int WorkerPool::workers() const { return std::max(1, static_cast<int>(threads_.size())); }
 
-int WorkerPool::idle() const {
-  return threads_.empty() ? queue_.left() == 0 : queue_.waiting();
-}
+int WorkerPool::idle() const { return threads_.empty() ? queue_.left() == 0 : queue_.waiting(); }
 
 bool WorkerPool::troubled() {
   const std::lock_guard lock(mutex_);
@@ -114,11 +108,22 @@ void WorkerPool::run(std::size_t number, int thread) {
   try {
     outcome = run_case(sweep_.study.scene, sweep_.cases.overrides(number - 1), sweep_.study.measures, limits);
   } catch (const std::bad_alloc&) {
-    outcome.status = status_text(Status::out_of_memory), outcome.reason = "there was not enough memory; run fewer cases at once (--threads)";
+    outcome.status = status_text(Status::out_of_memory),
+    outcome.reason = "there was not enough memory; run fewer cases at once (--threads)";
   }
   if (stopped_ || outcome.status == status_text(Status::interrupted)) return;
-  Row row{number, outcome.status, outcome.reason, outcome.values, outcome.units, outcome.t_end, outcome.unexplained_share, outcome.counts.steps,
-          outcome.impacts, std::to_string(rank_) + "." + std::to_string(thread), outcome.build_seconds, outcome.run_seconds};
+  Row row{number,
+          outcome.status,
+          outcome.reason,
+          outcome.values,
+          outcome.units,
+          outcome.t_end,
+          outcome.unexplained_share,
+          outcome.counts.steps,
+          outcome.impacts,
+          std::to_string(rank_) + "." + std::to_string(thread),
+          outcome.build_seconds,
+          outcome.run_seconds};
   journal_.append(row);
   const std::lock_guard lock(mutex_);
   tally_.done += 1;

@@ -30,17 +30,17 @@ class WorkerPool {
   WorkerPool(const WorkerPool&) = delete;
 
   TaskQueue& queue() { return queue_; }
-  bool home() const;         ///< all threads have ended, or without threads: all cases
-  int workers() const;       ///< threads, or the caller
-  int idle() const;          ///< of them, without a case
+  bool home() const;    ///< all threads have ended, or without threads: all cases
+  int workers() const;  ///< threads, or the caller
+  int idle() const;     ///< of them, without a case
   /// Why there are fewer threads than asked for; empty: there are not.
   const std::string& shortage() const { return shortage_; }
   /// Without threads: runs a case of the task queue, if there is one, and calls `poll` often meanwhile.
   void work_here(const std::function<void()>& poll);
-  bool troubled();                         ///< a thread could not go on; finish() says why
+  bool troubled();  ///< a thread could not go on; finish() says why
   /// Ends the cases that are running; they are not recorded.
   void stop();
-  Tally tally();                           ///< since it was asked last
+  Tally tally();  ///< since it was asked last
   /// Until a thread has drawn the last case of the task queue or ended, at most so long.
   void wait(std::chrono::milliseconds);
   /// Joins. @throws what stopped a thread

@@ -79,8 +79,7 @@ Parting parting(const Run& one, const Run& other) {
   double n = 0, st = 0, sl = 0, stt = 0, stl = 0;
   for (std::size_t i = 0; i < rows; ++i) {
     double far = 0;
-    for (const auto& [c, range] : columns)
-      far = std::max(far, std::abs(a.data[i * a.columns() + c] - b.data[i * b.columns() + c]) / range);
+    for (const auto& [c, range] : columns) far = std::max(far, std::abs(a.data[i * a.columns() + c] - b.data[i * b.columns() + c]) / range);
     if (i < rows / 20) out.first = std::max(out.first, far);
     out.last = std::max(out.last, far);
     if (far < 1e-14 || out.last > 0.03) continue;  // rounding; saturated

@@ -10,10 +10,10 @@ struct Run;
 /// What successive refinements of one number say about the last of them.
 struct Ladder {
   std::vector<double> differences;  ///< magnitudes, of neighbours
-  double ratio = 0;       ///< by which they fall a step, geometric mean; 0: they do not fall
-  double error = 0;       ///< estimate of the last value's own
-  bool falling = false;   ///< they fall by half or more a step, on the whole and in the last step
-  bool rounding = false;  ///< the last two are of the order of rounding
+  double ratio = 0;                 ///< by which they fall a step, geometric mean; 0: they do not fall
+  double error = 0;                 ///< estimate of the last value's own
+  bool falling = false;             ///< they fall by half or more a step, on the whole and in the last step
+  bool rounding = false;            ///< the last two are of the order of rounding
 };
 
 /// @param values  coarse to fine, at least two

@@ -35,7 +35,8 @@ void set_parameters(Yaml& scene, const Overrides& parameters) {
       if (name != p.key) continue;
       Quantity given = read_quantity(text, known);
       p.text = text;
-      if (bare(given.dimension) && !bare(q.dimension)) p.text = "(" + text + ")*(1 " + si_unit(q.dimension) + ")", given.dimension = q.dimension;
+      if (bare(given.dimension) && !bare(q.dimension))
+        p.text = "(" + text + ")*(1 " + si_unit(q.dimension) + ")", given.dimension = q.dimension;
       q = given;
     }
     known[p.key] = q;
@@ -69,7 +70,8 @@ std::string recommended_scene(const CaseSource& source, const Overrides& set, co
   if (folder.empty()) folder = ".";
   std::string out;
   if (mend_paths(scene, "", folder, directory))
-    out += "# It reads files beside " + source.file.filename().string() + ": run it with --allow-path " + fs::absolute(folder).lexically_normal().string() + "\n";
+    out += "# It reads files beside " + source.file.filename().string() + ": run it with --allow-path " +
+           fs::absolute(folder).lexically_normal().string() + "\n";
   for (std::size_t begin = 0; begin < comment.size();) {
     const std::size_t end = std::min(comment.find('\n', begin), comment.size());
     out += "# " + comment.substr(begin, end - begin) + "\n";

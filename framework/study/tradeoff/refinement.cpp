@@ -19,7 +19,9 @@ constexpr std::array<std::string_view, 6> words{"method", "constraints", "onset"
 constexpr std::array<std::string_view, 6> faithful{"auto", "verner87", "dopri5", "projection", "contact", "timoshenko"};
 
 template <class List>
-bool in(const List& list, std::string_view word) { return std::ranges::find(list, word) != list.end(); }
+bool in(const List& list, std::string_view word) {
+  return std::ranges::find(list, word) != list.end();
+}
 
 std::string last_key(const std::string& path) {
   const auto dot = path.find_last_of('.');
@@ -47,8 +49,7 @@ bool refine(Yaml& yaml, const std::string& key) {
 bool begins_with_run(const std::pair<std::string, std::string>& set) { return set.first.starts_with("run."); }
 
 std::optional<double> number_in(const std::string& text) {
-  for (const Dimension& d : {dimension::number, dimension::length, dimension::time})
-    try {
+  for (const Dimension& d : {dimension::number, dimension::length, dimension::time}) try {
       return read_quantity(text, d);
     } catch (const ExpressionError&) {
     }
@@ -119,7 +120,8 @@ Overrides finest(const TradePlan& plan, bool model_only) {
 
 Overrides setting(const TradePlan& plan, const std::vector<std::size_t>& at) {
   Overrides out;
-  for (std::size_t i = 0; i < at.size(); ++i) out.insert(out.end(), plan.axes[i].values[at[i]].set.begin(), plan.axes[i].values[at[i]].set.end());
+  for (std::size_t i = 0; i < at.size(); ++i)
+    out.insert(out.end(), plan.axes[i].values[at[i]].set.begin(), plan.axes[i].values[at[i]].set.end());
   return out;
 }
 

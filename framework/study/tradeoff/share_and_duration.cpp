@@ -25,8 +25,10 @@ double read_share(const std::string& written) {
 double read_duration(const std::string& written) {
   std::string text = written;
   double unit = 0;
-  if (take(text, "min")) unit = 60;
-  else if (take(text, "h")) unit = 3600;
+  if (take(text, "min"))
+    unit = 60;
+  else if (take(text, "h"))
+    unit = 3600;
   const double time = unit > 0 ? unit * read_quantity(text, dimension::number) : read_quantity(text, dimension::time);
   if (!(time > 0)) throw ExpressionError("must be greater than 0, as 0.5 s, 10 min or 2 h");
   return time;

@@ -22,17 +22,17 @@ struct FidelityAxis {
   std::string name;
   std::vector<AxisValue> values;  ///< from coarse to fine if `ordered`
   bool ordered = true;
-  bool numerical = false;         ///< sets keys of `run` alone: its error is one of computing, not of the model
-  std::size_t finest = 0;         ///< the value that the reference has
+  bool numerical = false;  ///< sets keys of `run` alone: its error is one of computing, not of the model
+  std::size_t finest = 0;  ///< the value that the reference has
 };
 
 struct TradePlan {
   std::string title;
-  double error = 0;    ///< wanted, relative; 0: not asked
-  double time = 0;     ///< wanted [s]; 0: not asked
-  int repeats = 5;     ///< timed runs of each setting
-  double budget = 0;   ///< of computing [s]; 0: every combination runs
-  int ensemble = 12;   ///< runs of each setting where a quantity is chaotic
+  double error = 0;         ///< wanted, relative; 0: not asked
+  double time = 0;          ///< wanted [s]; 0: not asked
+  int repeats = 5;          ///< timed runs of each setting
+  double budget = 0;        ///< of computing [s]; 0: every combination runs
+  int ensemble = 12;        ///< runs of each setting where a quantity is chaotic
   double tolerance = 1e-8;  ///< of the scene as it stands
   std::vector<FidelityAxis> axes;
   Overrides reference = {};  ///< over those of the finest values
@@ -76,30 +76,30 @@ struct ReferenceLevel {
 };
 
 struct Reference {
-  Overrides set;                      ///< of the finest model with the reference's tolerance
-  std::vector<ReferenceLevel> levels; ///< in the order run
-  std::vector<QuantityReference> of;  ///< each quantity
-  std::string trouble;                ///< why there is none; else empty
-  double seconds = 0;                 ///< of the longest run at a tolerance
-  bool short_of_time = false;         ///< what it lacks is for want of time
+  Overrides set;                       ///< of the finest model with the reference's tolerance
+  std::vector<ReferenceLevel> levels;  ///< in the order run
+  std::vector<QuantityReference> of;   ///< each quantity
+  std::string trouble;                 ///< why there is none; else empty
+  double seconds = 0;                  ///< of the longest run at a tolerance
+  bool short_of_time = false;          ///< what it lacks is for want of time
 };
 
 struct TradePoint {
   std::vector<std::size_t> at;  ///< value of each axis; empty: the scene as it stands
   Overrides set;
   std::string status = "not run", reason = {};
-  std::vector<double> times = {};           ///< of building and running [s]; timed runs
-  double time = 0, least = 0, most = 0;     ///< median and extremes [s]; of the first run if none was timed
-  double build = 0;                         ///< of it, reading and building [s]
+  std::vector<double> times = {};        ///< of building and running [s]; timed runs
+  double time = 0, least = 0, most = 0;  ///< median and extremes [s]; of the first run if none was timed
+  double build = 0;                      ///< of it, reading and building [s]
   long steps = 0, evaluations = 0;
-  std::vector<double> values = {};          ///< of chaotic quantities, the ensemble's mean
-  std::vector<double> spread = {};          ///< of them, standard error; else 0
-  std::vector<double> errors = {};          ///< relative, as measured
-  std::vector<double> warnings_of = {};          ///< relative: the reference's error, with the ensemble's
-  std::vector<double> model = {};           ///< relative error of the model at tight tolerance; NaN: not told apart
-  double error = 0, warning = 0;              ///< of the worst quantity; no error below the doubt is claimed
-  double surer = 0;                         ///< what the same setting errs at a finer tolerance, if that is more: less is luck, and does not count
-  bool usable = false;                      ///< finished, with a value of every quantity
+  std::vector<double> values = {};       ///< of chaotic quantities, the ensemble's mean
+  std::vector<double> spread = {};       ///< of them, standard error; else 0
+  std::vector<double> errors = {};       ///< relative, as measured
+  std::vector<double> warnings_of = {};  ///< relative: the reference's error, with the ensemble's
+  std::vector<double> model = {};        ///< relative error of the model at tight tolerance; NaN: not told apart
+  double error = 0, warning = 0;         ///< of the worst quantity; no error below the doubt is claimed
+  double surer = 0;     ///< what the same setting errs at a finer tolerance, if that is more: less is luck, and does not count
+  bool usable = false;  ///< finished, with a value of every quantity
   bool dominated = false, front = false;
   double counted() const { return error > surer ? error : surer; }
   double claimed() const { return counted() > warning ? counted() : warning; }
@@ -114,7 +114,7 @@ Verdict verdict(const TradePoint&, double wanted);
 /// What refining or coarsening one axis alone does to a point.
 struct AxisEffect {
   std::size_t axis = 0, to = 0;
-  std::size_t point = 0;        ///< the setting it leads to
+  std::size_t point = 0;  ///< the setting it leads to
   double error_factor = 1, time_factor = 1;
 };
 
@@ -122,18 +122,18 @@ struct TradeReport {
   TradePlan plan;
   std::vector<std::string> quantities, units;
   Reference reference;
-  std::vector<TradePoint> points;  ///< the scene as it stands first
-  std::vector<std::size_t> front;  ///< by time
+  std::vector<TradePoint> points;                                  ///< the scene as it stands first
+  std::vector<std::size_t> front;                                  ///< by time
   std::optional<std::size_t> cheapest, best_in_time, recommended;  ///< only what the reference supports
-  std::vector<std::string> said;   ///< the answers in words
-  double seconds = 0;              ///< spent
-  bool stopped = false;            ///< by the user
-  bool cut = false;                ///< by the budget: settings remain that nobody ran
-  std::size_t ran() const;         ///< settings with a time and an error
-  std::size_t listed() const;      ///< all settings
+  std::vector<std::string> said;                                   ///< the answers in words
+  double seconds = 0;                                              ///< spent
+  bool stopped = false;                                            ///< by the user
+  bool cut = false;                                                ///< by the budget: settings remain that nobody ran
+  std::size_t ran() const;                                         ///< settings with a time and an error
+  std::size_t listed() const;                                      ///< all settings
   /// The worst of the quantities from which something can be told, relative. @pre there is a reference
   double warning() const;
-  bool tells() const;              ///< some quantity is not the same in every run
+  bool tells() const;  ///< some quantity is not the same in every run
 };
 /// Where no error is asked for, a reference in more doubt than this supports no recommendation.
 inline constexpr double useful_warning = 0.1;
@@ -174,7 +174,8 @@ std::string setting_text(const TradePlan&, const TradePoint&);
 /// tradeoff.csv, .json, .svg, .md and recommended.yaml in `directory`.
 /// @param final_directory  where they will stand, for the paths in recommended.yaml
 /// @throws std::runtime_error  naming the path that cannot be written
-void write_tradeoff(const std::filesystem::path& directory, const std::filesystem::path& final_directory, const CaseSource&, const TradeReport&);
+void write_tradeoff(const std::filesystem::path& directory, const std::filesystem::path& final_directory, const CaseSource&,
+                    const TradeReport&);
 std::string tradeoff_csv(const TradeReport&);
 std::string tradeoff_json(const TradeReport&);
 std::string tradeoff_svg(const TradeReport&);

@@ -52,9 +52,7 @@ Verdict verdict(const TradePoint& p, double wanted) {
   return p.at_least() > wanted ? Verdict::misses : Verdict::unknown;
 }
 
-std::size_t TradeReport::ran() const {
-  return static_cast<std::size_t>(std::ranges::count_if(points, &TradePoint::usable));
-}
+std::size_t TradeReport::ran() const { return static_cast<std::size_t>(std::ranges::count_if(points, &TradePoint::usable)); }
 
 std::size_t TradeReport::listed() const { return points.size(); }
 
@@ -65,9 +63,7 @@ double TradeReport::warning() const {
   return worst;
 }
 
-bool TradeReport::tells() const {
-  return reference.of.empty() || !std::ranges::all_of(reference.of, &QuantityReference::constant);
-}
+bool TradeReport::tells() const { return reference.of.empty() || !std::ranges::all_of(reference.of, &QuantityReference::constant); }
 
 std::vector<AxisEffect> neighbours(const TradeReport& r, std::size_t point) {
   const TradePoint& p = r.points[point];
@@ -152,8 +148,10 @@ std::vector<AxisEffect> free_coarsenings(const TradeReport& r, std::size_t point
     if (axis.ordered && e.to > r.points[point].at[e.axis]) continue;
     if (e.error_factor > same_error || e.time_factor > less_time) continue;
     const auto same = std::ranges::find(out, e.axis, &AxisEffect::axis);
-    if (same == out.end()) out.push_back(e);
-    else if (e.time_factor < same->time_factor) *same = e;
+    if (same == out.end())
+      out.push_back(e);
+    else if (e.time_factor < same->time_factor)
+      *same = e;
   }
   return out;
 }
@@ -175,14 +173,18 @@ void level_warnings(std::vector<TradePoint>& points) {
 void choose(TradeReport& r) {
   const TradePlan& plan = r.plan;
   for (std::size_t i = 0; i < r.points.size(); ++i)
-    if (r.points[i].usable && plan.error > 0 && verdict(r.points[i], plan.error) == Verdict::meets && (!r.cheapest || r.points[i].time < r.points[*r.cheapest].time))
+    if (r.points[i].usable && plan.error > 0 && verdict(r.points[i], plan.error) == Verdict::meets &&
+        (!r.cheapest || r.points[i].time < r.points[*r.cheapest].time))
       r.cheapest = i;
   const bool known = r.warning() <= useful_warning;
   for (const std::size_t i : r.front)
     if (plan.time > 0 && r.points[i].time <= plan.time && known) r.best_in_time = i;
-  if (plan.error > 0) r.recommended = r.cheapest;
-  else if (plan.time > 0) r.recommended = r.best_in_time;
-  else if (!r.front.empty() && known) r.recommended = knee(r.points, r.front);
+  if (plan.error > 0)
+    r.recommended = r.cheapest;
+  else if (plan.time > 0)
+    r.recommended = r.best_in_time;
+  else if (!r.front.empty() && known)
+    r.recommended = knee(r.points, r.front);
 }
 
 }  // namespace
@@ -191,9 +193,11 @@ void answer(TradeReport& r) {
   level_warnings(r.points);
   discount_luck(r);
   // The scene as it stands may be one of the combinations too: that one then stands for both.
-  const bool twice = !r.points.empty() && r.points.front().usable && std::ranges::any_of(r.points.begin() + 1, r.points.end(), [&](const TradePoint& p) {
-    return p.usable && p.steps > 0 && p.steps == r.points.front().steps && p.evaluations == r.points.front().evaluations && p.values == r.points.front().values;
-  });
+  const bool twice =
+      !r.points.empty() && r.points.front().usable && std::ranges::any_of(r.points.begin() + 1, r.points.end(), [&](const TradePoint& p) {
+        return p.usable && p.steps > 0 && p.steps == r.points.front().steps && p.evaluations == r.points.front().evaluations &&
+               p.values == r.points.front().values;
+      });
   if (twice) r.points.front().usable = false;
   r.front = pareto_front(r.points);
   r.cheapest = r.best_in_time = r.recommended = {};

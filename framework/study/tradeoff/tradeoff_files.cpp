@@ -54,11 +54,25 @@ Json point_json(const TradeReport& r, std::size_t i) {
   Json axes = Json::object(), quantities = Json::object();
   for (std::size_t a = 0; a < r.plan.axes.size(); ++a) axes[r.plan.axes[a].name] = label(r, p, a);
   for (std::size_t q = 0; q < p.values.size(); ++q)
-    quantities[r.quantities[q]] = {{"value", json_number(p.values[q])}, {"error", json_number(p.errors[q])}, {"doubt", json_number(p.warnings_of[q])},
+    quantities[r.quantities[q]] = {{"value", json_number(p.values[q])},
+                                   {"error", json_number(p.errors[q])},
+                                   {"doubt", json_number(p.warnings_of[q])},
                                    {"error of the model", json_number(p.model[q])}};
-  return {{"setting", i}, {"axes", axes}, {"set", overrides_json(p.set)}, {"status", p.status}, {"reason", p.reason}, {"role", role(r, i)},
-          {"time", p.time}, {"times", p.times}, {"build", p.build}, {"steps", p.steps}, {"evaluations", p.evaluations},
-          {"quantities", quantities}, {"has the wanted error", *shown(r, p) ? Json(shown(r, p)) : Json()}, {"error", json_number(p.error)}, {"doubt", json_number(p.warning)}};
+  return {{"setting", i},
+          {"axes", axes},
+          {"set", overrides_json(p.set)},
+          {"status", p.status},
+          {"reason", p.reason},
+          {"role", role(r, i)},
+          {"time", p.time},
+          {"times", p.times},
+          {"build", p.build},
+          {"steps", p.steps},
+          {"evaluations", p.evaluations},
+          {"quantities", quantities},
+          {"has the wanted error", *shown(r, p) ? Json(shown(r, p)) : Json()},
+          {"error", json_number(p.error)},
+          {"doubt", json_number(p.warning)}};
 }
 
 Json reference_json(const TradeReport& r) {
@@ -66,10 +80,24 @@ Json reference_json(const TradeReport& r) {
   for (const ReferenceLevel& l : r.reference.levels) levels.push_back({{"what", l.what}, {"values", l.values}, {"seconds", l.seconds}});
   for (std::size_t q = 0; q < r.reference.of.size(); ++q) {
     const QuantityReference& x = r.reference.of[q];
-    of[r.quantities[q]] = {{"value", json_number(x.value)}, {"unit", r.units[q]}, {"error", json_number(x.error)}, {"scale", x.scale}, {"converged", x.converged}, {"chaotic", x.chaotic}, {"constant", x.constant},
-                           {"fall a decade of tolerance", x.ratio}, {"order of the model", x.order}, {"spread", x.spread}, {"growth", x.rate}, {"words", x.words}};
+    of[r.quantities[q]] = {{"value", json_number(x.value)},
+                           {"unit", r.units[q]},
+                           {"error", json_number(x.error)},
+                           {"scale", x.scale},
+                           {"converged", x.converged},
+                           {"chaotic", x.chaotic},
+                           {"constant", x.constant},
+                           {"fall a decade of tolerance", x.ratio},
+                           {"order of the model", x.order},
+                           {"spread", x.spread},
+                           {"growth", x.rate},
+                           {"words", x.words}};
   }
-  return {{"set", overrides_json(r.reference.set)}, {"levels", levels}, {"quantities", of}, {"trouble", r.reference.trouble}, {"short of time", r.reference.short_of_time}};
+  return {{"set", overrides_json(r.reference.set)},
+          {"levels", levels},
+          {"quantities", of},
+          {"trouble", r.reference.trouble},
+          {"short of time", r.reference.short_of_time}};
 }
 
 /// 1 is nothing, 0.001 a thousandth, in a decimal logarithm that a picture can show.
@@ -83,8 +111,8 @@ std::string tradeoff_csv(const TradeReport& r) {
   out += ",status,time [s],least time [s],most time [s],timed runs,build [s],steps,evaluations";
   for (std::size_t q = 0; q < r.quantities.size(); ++q) {
     const std::string& name = r.quantities[q];
-    out += "," + csv_field(name + (r.units[q].empty() ? "" : " [" + r.units[q] + "]")) + "," + csv_field("error of " + name) + "," + csv_field("reference's error of " + name) + "," +
-           csv_field("model's error of " + name);
+    out += "," + csv_field(name + (r.units[q].empty() ? "" : " [" + r.units[q] + "]")) + "," + csv_field("error of " + name) + "," +
+           csv_field("reference's error of " + name) + "," + csv_field("model's error of " + name);
   }
   out += ",error,error not told from,role,reason\n";
   for (std::size_t i = 0; i < r.points.size(); ++i) {
@@ -94,7 +122,8 @@ std::string tradeoff_csv(const TradeReport& r) {
     for (std::size_t a = 0; a < r.plan.axes.size(); ++a) out += "," + csv_field(label(r, p, a));
     out += "," + csv_field(p.status);
     for (const double x : {p.time, p.least, p.most}) out += "," + (ran ? number(x) : "");
-    out += "," + std::to_string(p.times.size()) + "," + (ran ? number(p.build) + "," + std::to_string(p.steps) + "," + std::to_string(p.evaluations) : ",,");
+    out += "," + std::to_string(p.times.size()) + "," +
+           (ran ? number(p.build) + "," + std::to_string(p.steps) + "," + std::to_string(p.evaluations) : ",,");
     for (std::size_t q = 0; q < r.quantities.size(); ++q)
       out += "," + number(p.values[q]) + "," + number(p.errors[q]) + "," + number(p.warnings_of[q]) + "," + number(p.model[q]);
     out += "," + (p.usable ? number(p.error) + "," + number(p.warning) : ",") + "," + role(r, i) + "," + csv_field(p.reason) + "\n";
@@ -107,22 +136,41 @@ std::string tradeoff_json(const TradeReport& r) {
   for (const FidelityAxis& axis : r.plan.axes) {
     Json values = Json::array();
     for (const AxisValue& v : axis.values) values.push_back({{"label", v.label}, {"set", overrides_json(v.set)}});
-    axes.push_back({{"name", axis.name}, {"values", values}, {"ordered", axis.ordered}, {"numerical", axis.numerical}, {"finest", axis.values[axis.finest].label}});
+    axes.push_back({{"name", axis.name},
+                    {"values", values},
+                    {"ordered", axis.ordered},
+                    {"numerical", axis.numerical},
+                    {"finest", axis.values[axis.finest].label}});
   }
   for (std::size_t i = 0; i < r.points.size(); ++i) points.push_back(point_json(r, i));
   for (const std::size_t i : r.front) front.push_back(i);
   const auto chosen = [](const std::optional<std::size_t>& i) { return i ? Json(*i) : Json(); };
   const Json out{{"title", r.plan.title},
-              {"status", status(r)}, {"settings that ran", r.ran()}, {"settings in all", r.listed()}, {"axes chosen from the scene", r.plan.suggested},
-              {"wanted", {{"error", r.plan.error > 0 ? Json(r.plan.error) : Json()}, {"time", r.plan.time > 0 ? Json(r.plan.time) : Json()},
-                          {"budget", r.plan.budget > 0 ? Json(r.plan.budget) : Json()}, {"repeats", r.plan.repeats}}},
-              {"said", r.said}, {"recommended", chosen(r.recommended)}, {"cheapest for the error", chosen(r.cheapest)}, {"most accurate in the time", chosen(r.best_in_time)},
-              {"front", front}, {"reference", reference_json(r)}, {"axes", axes}, {"settings", points}, {"seconds", r.seconds}, {"stopped", r.stopped}};
+                 {"status", status(r)},
+                 {"settings that ran", r.ran()},
+                 {"settings in all", r.listed()},
+                 {"axes chosen from the scene", r.plan.suggested},
+                 {"wanted",
+                  {{"error", r.plan.error > 0 ? Json(r.plan.error) : Json()},
+                   {"time", r.plan.time > 0 ? Json(r.plan.time) : Json()},
+                   {"budget", r.plan.budget > 0 ? Json(r.plan.budget) : Json()},
+                   {"repeats", r.plan.repeats}}},
+                 {"said", r.said},
+                 {"recommended", chosen(r.recommended)},
+                 {"cheapest for the error", chosen(r.cheapest)},
+                 {"most accurate in the time", chosen(r.best_in_time)},
+                 {"front", front},
+                 {"reference", reference_json(r)},
+                 {"axes", axes},
+                 {"settings", points},
+                 {"seconds", r.seconds},
+                 {"stopped", r.stopped}};
   return json_text(out) + "\n";
 }
 
 std::string tradeoff_svg(const TradeReport& r) {
-  Curve all{.label = "settings", .x = {}, .y = {}, .points = true}, front{.label = "front", .x = {}, .y = {}}, warning{.label = "told apart down to", .x = {}, .y = {}, .dashed = true};
+  Curve all{.label = "settings", .x = {}, .y = {}, .points = true}, front{.label = "front", .x = {}, .y = {}},
+      warning{.label = "told apart down to", .x = {}, .y = {}, .dashed = true};
   double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY, level = 0;
   for (const TradePoint& p : r.points) {
     if (!p.usable) continue;
@@ -136,25 +184,34 @@ std::string tradeoff_svg(const TradeReport& r) {
   if (level > 0) y0 = std::min(y0, decades(level));
   const double dx = std::max(0.06 * (x1 - x0), 0.05), dy = std::max(0.06 * (y1 - y0), 0.1);
   if (level > 0) warning.x = {x0 - dx, x1 + dx}, warning.y = {decades(level), decades(level)};
-  Panel panel{.title = r.plan.title, .x_label = "time of building and running [s]", .y_label = "relative error", .curves = {all, front, warning},
-              .x_range = {x0 - dx, x1 + dx}, .y_range = {y0 - dy, y1 + dy}, .log = true};
-  if (r.recommended) panel.marks.push_back({decades(r.points[*r.recommended].time), decades(r.points[*r.recommended].claimed()), "recommended"});
+  Panel panel{.title = r.plan.title,
+              .x_label = "time of building and running [s]",
+              .y_label = "relative error",
+              .curves = {all, front, warning},
+              .x_range = {x0 - dx, x1 + dx},
+              .y_range = {y0 - dy, y1 + dy},
+              .log = true};
+  if (r.recommended)
+    panel.marks.push_back({decades(r.points[*r.recommended].time), decades(r.points[*r.recommended].claimed()), "recommended"});
   if (!r.points.empty() && r.points.front().usable && r.recommended != std::size_t{0})
     panel.marks.push_back({decades(r.points.front().time), decades(r.points.front().claimed()), "as it stands"});
   return svg({panel}, 1);
 }
 
-void write_tradeoff(const std::filesystem::path& directory, const std::filesystem::path& final_directory, const CaseSource& source, const TradeReport& r) {
+void write_tradeoff(const std::filesystem::path& directory, const std::filesystem::path& final_directory, const CaseSource& source,
+                    const TradeReport& r) {
   write_text(directory / "tradeoff.csv", tradeoff_csv(r));
   write_text(directory / "tradeoff.json", tradeoff_json(r));
   write_text(directory / "tradeoff.svg", tradeoff_svg(r));
   write_text(directory / "tradeoff.md", tradeoff_markdown(r, "tradeoff.svg"));
   if (!r.recommended) return;
   const TradePoint& p = r.points[*r.recommended];
-  write_text(directory / "recommended.yaml",
-             recommended_scene(source, p.set, final_directory,
-                               "Recommended by pintle tradeoff for " + source.file.filename().string() + ": " + setting_text(r.plan, p) + "\n" + "Measured: " + time_text(p.time) +
-                                   ", error " + error_text(p) + (r.quantities.empty() ? "" : " of " + r.quantities.front()) + (r.quantities.size() > 1 ? " and others" : "")));
+  write_text(
+      directory / "recommended.yaml",
+      recommended_scene(source, p.set, final_directory,
+                        "Recommended by pintle tradeoff for " + source.file.filename().string() + ": " + setting_text(r.plan, p) + "\n" +
+                            "Measured: " + time_text(p.time) + ", error " + error_text(p) +
+                            (r.quantities.empty() ? "" : " of " + r.quantities.front()) + (r.quantities.size() > 1 ? " and others" : "")));
 }
 
 }  // namespace pintle

@@ -14,22 +14,18 @@ namespace pintle {
 
 namespace {
 
-const Yaml& entry(const Yaml& map, std::string_view key) {
-  return *std::ranges::find(map.items, key, &Yaml::key);
-}
+const Yaml& entry(const Yaml& map, std::string_view key) { return *std::ranges::find(map.items, key, &Yaml::key); }
 
 /// What a value is called where nobody named it.
-std::string label_of(const Yaml& value) {
-  return value.kind == Yaml::Kind::scalar ? value.text : override_text(value);
-}
+std::string label_of(const Yaml& value) { return value.kind == Yaml::Kind::scalar ? value.text : override_text(value); }
 
 /// {run.tolerance: [1e-4, 1e-6]}; several names are walked in step.
 std::vector<AxisValue> listed_values(const Node& node, const Yaml& axis) {
   std::vector<AxisValue> out(axis.items.front().items.size());
   for (const Yaml& name : axis.items) {
     if (name.items.size() != out.size())
-      node.at(name.key).fail("has " + std::to_string(name.items.size()) + " values, " + axis.items.front().key + " has " + std::to_string(out.size()) +
-                             "; lists of one axis are walked in step");
+      node.at(name.key).fail("has " + std::to_string(name.items.size()) + " values, " + axis.items.front().key + " has " +
+                             std::to_string(out.size()) + "; lists of one axis are walked in step");
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i].label += (out[i].label.empty() ? "" : ", ") + label_of(name.items[i]);
       out[i].set.emplace_back(name.key, override_text(name.items[i]));
@@ -44,7 +40,8 @@ std::vector<AxisValue> named_values(const Node& node, const Yaml& axis) {
   std::vector<AxisValue> out;
   for (const Yaml& value : axis.items) {
     if (value.kind != Yaml::Kind::map && value.kind != Yaml::Kind::nothing)
-      node.at(value.key).fail("must be what this setting sets, {run.tolerance: 1e-6}; or give every name of the axis a list: {run.tolerance: [1e-4, 1e-6]}");
+      node.at(value.key).fail(
+          "must be what this setting sets, {run.tolerance: 1e-6}; or give every name of the axis a list: {run.tolerance: [1e-4, 1e-6]}");
     AxisValue v{value.key, {}};
     for (const Yaml& set : value.items) v.set.emplace_back(set.key, override_text(set)), v.lines.push_back(set.line);
     out.push_back(std::move(v));
@@ -81,7 +78,9 @@ double wanted(const Node& node, const char* remedy, Read read) {
 TradePlan read_tradeoff(const StudyFile& study) {
   const Node root = study.root();
   if (!root.has("tradeoff") && root.has("sweep"))
-    root.fail("has a sweep and no tradeoff; run it by pintle sweep, or add what tradeoff is to vary: tradeoff: {error: 1%, axes: {tolerance: {run.tolerance: [1e-4, 1e-6, 1e-8]}}}");
+    root.fail(
+        "has a sweep and no tradeoff; run it by pintle sweep, or add what tradeoff is to vary: tradeoff: {error: 1%, axes: {tolerance: "
+        "{run.tolerance: [1e-4, 1e-6, 1e-8]}}}");
   if (!root.has("tradeoff"))
     root.fail("has no section tradeoff; add for example tradeoff: {error: 1%, axes: {tolerance: {run.tolerance: [1e-4, 1e-6, 1e-8]}}}");
   const Node node = root.at("tradeoff");

@@ -11,10 +11,11 @@ namespace pintle {
 
 namespace {
 
-constexpr double tightest = 1e-13;   ///< where rounding takes over
-constexpr double loosest = 1e-4;     ///< where a search begins whose time is bounded
+constexpr double tightest = 1e-13;  ///< where rounding takes over
+constexpr double loosest = 1e-4;    ///< where a search begins whose time is bounded
 constexpr int most_tolerances = 6, most_refinements = 5;
-constexpr const char* chaotic_model = "a finer model moves a single chaotic run at random, so that the ensemble of the finest model of the study is the reference";
+constexpr const char* chaotic_model =
+    "a finer model moves a single chaotic run at random, so that the ensemble of the finest model of the study is the reference";
 constexpr std::size_t judged_tolerances = 5;  ///< the last so many tolerances
 
 using Clock = std::chrono::steady_clock;
@@ -36,7 +37,9 @@ class Search {
     // A numerical axis that is neither scheme nor tolerance (a longest step, say) has its finest value in the reference too.
     for (const FidelityAxis& axis : plan_.axes)
       for (const auto& set : axis.values[axis.finest].set)
-        if (axis.numerical && set.first != "run.method" && set.first != "run.tolerance" && set.first != "run.constraints" && set.first != "run.onset") base_.push_back(set);
+        if (axis.numerical && set.first != "run.method" && set.first != "run.tolerance" && set.first != "run.constraints" &&
+            set.first != "run.onset")
+          base_.push_back(set);
     base_.insert(base_.end(), {{"run.method", "auto"}, {"run.constraints", "projection"}});
     base_.insert(base_.end(), plan_.reference.begin(), plan_.reference.end());
     out_.of.resize(n_);
@@ -146,7 +149,9 @@ class Search {
     }
     tolerances_ = out_.levels.size();
     if (tolerances_ == 0) out_.trouble = why_;
-    if (tolerances_ == 1) out_.trouble = "the reference could be run at one tolerance only; what it lacks is unknown: " + (why_.empty() ? "there was no time for more" : why_);
+    if (tolerances_ == 1)
+      out_.trouble = "the reference could be run at one tolerance only; what it lacks is unknown: " +
+                     (why_.empty() ? "there was no time for more" : why_);
     if (!out_.levels.empty()) out_.set = out_.levels.back().set;
   }
 
@@ -203,8 +208,8 @@ class Search {
       r.error = r.converged ? standard : std::max(standard, apart);
       r.scale = std::max(std::abs(r.value), r.spread);
       r.rate = parting_.rate;
-      chaos_words_ = printed("two ensembles of %zu and %zu runs, at tolerances %.0e and %.0e, have means %.1f standard errors apart", s.count, t.count, fine, fine / 10,
-                             apart_by > 0 ? apart / apart_by : 0);
+      chaos_words_ = printed("two ensembles of %zu and %zu runs, at tolerances %.0e and %.0e, have means %.1f standard errors apart",
+                             s.count, t.count, fine, fine / 10, apart_by > 0 ? apart / apart_by : 0);
     }
     if (std::ranges::any_of(out_.of, &QuantityReference::chaotic)) out_.set = with_tolerance(base_, fine);
   }
@@ -253,7 +258,11 @@ class Search {
       if (k > 2 && stands_) break;
       const double last = out_.levels.back().seconds;
       if (!may_spend(dearer * last)) {
-        model_words_ = "the model was not refined" + std::string(k == 1 ? "" : k == 2 ? " a second time" : " further") + ": no time left in the budget";
+        model_words_ = "the model was not refined" +
+                       std::string(k == 1   ? ""
+                                   : k == 2 ? " a second time"
+                                            : " further") +
+                       ": no time left in the budget";
         if (k == 1) compare_coarser();
         break;
       }
@@ -266,7 +275,8 @@ class Search {
       out_.set = out_.levels.back().set;
       out_.of = before;
       for (std::size_t q = 0; q < n_; ++q) add_model(q);
-      stands_ = k > 1 && std::ranges::all_of(out_.of, [&](const QuantityReference& r) { return r.chaotic || r.error <= wanted() / 3 * r.scale; });
+      stands_ =
+          k > 1 && std::ranges::all_of(out_.of, [&](const QuantityReference& r) { return r.chaotic || r.error <= wanted() / 3 * r.scale; });
     }
   }
 
@@ -286,7 +296,8 @@ class Search {
         out_.of[q].converged = false;
         if (whole(o, n_)) out_.of[q].error += std::abs(o.values[q] - out_.levels[tolerances_ - 1].values[q]);
       }
-      model_words_ += whole(o, n_) ? "; counted in is what the next coarser " + axis.name + " changes" : "; the error of its " + axis.name + " is not known";
+      model_words_ += whole(o, n_) ? "; counted in is what the next coarser " + axis.name + " changes"
+                                   : "; the error of its " + axis.name + " is not known";
     }
   }
 
@@ -312,19 +323,25 @@ class Search {
     const double share = 100 * r.error / r.scale;
     std::string s;
     if (r.chaotic) {
-      s = printed("chaotic: runs at ever finer tolerances do not converge, and the motions of two of them part %.2g-fold each second until they have nothing in common; single runs spread by %.2g %%. "
-                  "It is judged by its mean over an ensemble, known to %.2g %% (standard error); %s",
-                  std::exp(std::min(r.rate, 600.0)), 100 * r.spread / r.scale, share, chaos_words_.c_str());
-      if (r.rate > 50) s = printed("chaotic: runs at ever finer tolerances do not converge, and the motions of two of them part by a factor e in %.2g s until they have nothing in common; single runs spread by %.2g %%. "
-                  "It is judged by its mean over an ensemble, known to %.2g %% (standard error); %s",
-                  1 / r.rate, 100 * r.spread / r.scale, share, chaos_words_.c_str());
+      s = printed(
+          "chaotic: runs at ever finer tolerances do not converge, and the motions of two of them part %.2g-fold each second until they "
+          "have nothing in common; single runs spread by %.2g %%. "
+          "It is judged by its mean over an ensemble, known to %.2g %% (standard error); %s",
+          std::exp(std::min(r.rate, 600.0)), 100 * r.spread / r.scale, share, chaos_words_.c_str());
+      if (r.rate > 50)
+        s = printed(
+            "chaotic: runs at ever finer tolerances do not converge, and the motions of two of them part by a factor e in %.2g s until "
+            "they have nothing in common; single runs spread by %.2g %%. "
+            "It is judged by its mean over an ensemble, known to %.2g %% (standard error); %s",
+            1 / r.rate, 100 * r.spread / r.scale, share, chaos_words_.c_str());
       r.words = s;
       return;
     }
     std::string fell;
     for (const double d : ladder_[q].differences) fell += (fell.empty() ? "" : ", ") + printed("%.1e", d / r.scale);
-    s = printed("%zu tolerances from %.0e to %.0e change it %sby %s of its value", tolerances_, tolerance_of(plan_, out_.levels.front().set),
-                tolerance_of(plan_, out_.levels[tolerances_ - 1].set), tolerances_ > judged_tolerances ? "in the end " : "", fell.c_str());
+    s = printed("%zu tolerances from %.0e to %.0e change it %sby %s of its value", tolerances_,
+                tolerance_of(plan_, out_.levels.front().set), tolerance_of(plan_, out_.levels[tolerances_ - 1].set),
+                tolerances_ > judged_tolerances ? "in the end " : "", fell.c_str());
     if (r.ratio > 0) s += printed(", falling %.1f times a decade", r.ratio);
     if (refinements_ > 0)
       s += r.order > 0 ? printed("; %zu refinements of the model show order %.1f", refinements_, r.order)

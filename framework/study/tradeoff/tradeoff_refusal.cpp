@@ -27,13 +27,15 @@ void say_remedy(const TradeReport& r, std::vector<std::string>& said) {
   if (chaotic)
     s += (s.empty() ? "" : "; ") + std::string("a mean or rms over a longer time, or a look at an earlier time, before the motions part");
   else
-    s += (s.empty() ? "" : "; ") + std::string(
-                                       "a quantity that depends less on details: a mean, an rms or an energy rather than a peak, or one taken over a "
-                                       "longer time or before it becomes uncertain");
+    s += (s.empty() ? "" : "; ") +
+         std::string(
+             "a quantity that depends less on details: a mean, an rms or an energy rather than a peak, or one taken over a "
+             "longer time or before it becomes uncertain");
   if (!fine.empty()) s += "; or asking for " + fine + " alone, which is known well enough";
-  said.push_back(
-      "What would help: " + s + "." +
-      (r.reference.short_of_time || r.plan.budget <= 0 || chaotic ? "" : " A larger budget would not: refinement, not time, has come to its end."));
+  said.push_back("What would help: " + s + "." +
+                 (r.reference.short_of_time || r.plan.budget <= 0 || chaotic
+                      ? ""
+                      : " A larger budget would not: refinement, not time, has come to its end."));
 }
 
 }  // namespace
@@ -44,14 +46,15 @@ void say_unknown(const TradeReport& r, std::vector<std::string>& said) {
   for (std::size_t q = 0; q < r.quantities.size(); ++q)
     if (const QuantityReference& x = r.reference.of[q]; !x.constant && x.warning() > asked)
       s += (s.empty() ? "" : ", ") + r.quantities[q] + " to " + percent_text(x.warning());
-  said.push_back(
-      "Nothing is recommended: the reference knows " + s + " only, and " +
-      (r.plan.error > 0 ? "an error of " + percent_text(asked) + " is wanted" : "worse than " + percent_text(asked) + " supports no advice") + ".");
+  said.push_back("Nothing is recommended: the reference knows " + s + " only, and " +
+                 (r.plan.error > 0 ? "an error of " + percent_text(asked) + " is wanted"
+                                   : "worse than " + percent_text(asked) + " supports no advice") +
+                 ".");
   const auto misses = static_cast<std::size_t>(
       std::ranges::count_if(r.points, [&](const TradePoint& p) { return p.usable && verdict(p, asked) == Verdict::misses; }));
   if (misses > 0 && misses < r.ran())
-    said.push_back(printed("Of the %s that ran, %zu err by more than %s for certain; of the rest it is not known.", settings_text(r.ran()).c_str(),
-                           misses, percent_text(asked).c_str()));
+    said.push_back(printed("Of the %s that ran, %zu err by more than %s for certain; of the rest it is not known.",
+                           settings_text(r.ran()).c_str(), misses, percent_text(asked).c_str()));
   else
     said.push_back(misses == 0 ? "Of no setting that ran is it known whether its error is smaller or larger."
                                : "All " + settings_text(r.ran()) + " that ran err by more for certain.");
@@ -73,7 +76,8 @@ void say_none_meets(const TradeReport& r, std::vector<std::string>& said) {
   if (best.size() == 1)
     said.push_back("The most accurate is " + setting_text(r.plan, r.points[best.front()]) + ", " + priced(r, best.front()) + ".");
   else
-    said.push_back(printed("The %zu most accurate cannot be told apart: each errs by at most %s.", best.size(), percent_text(most).c_str()));
+    said.push_back(
+        printed("The %zu most accurate cannot be told apart: each errs by at most %s.", best.size(), percent_text(most).c_str()));
   if (!open.empty())
     said.push_back(printed("Of %s it is not known, as the reference itself may err by %s.", settings_text(open.size()).c_str(),
                            percent_text(r.warning()).c_str()));

@@ -39,7 +39,9 @@ class Trade {
 
   TradeReport trade() {
     tell("reference", 0);
-    const CaseRunner stoppable = [this](const Overrides& set, const std::vector<Measure>& m, const CaseLimits& l) { return run(set, m, l); };
+    const CaseRunner stoppable = [this](const Overrides& set, const std::vector<Measure>& m, const CaseLimits& l) {
+      return run(set, m, l);
+    };
     out_.reference = find_reference(out_.plan, measures_, stoppable, for_reference * out_.plan.budget, for_want_of_it * out_.plan.budget);
     list_points();
     if (!out_.stopped && out_.reference.trouble.empty()) {
@@ -52,10 +54,12 @@ class Trade {
       find_constants();
       if (out_.tells()) time_all(), tell_model_apart();
     }
-    const char* const why = out_.stopped ? "stopped by the user" : !out_.reference.trouble.empty() ? "there is no reference" : "the budget was spent";
-    for (TradePoint& p : points()) if (p.status == "not run") p.reason = why;
-    if (out_.plan.budget > 0)
-      out_.cut = std::ranges::any_of(points(), [](const TradePoint& p) { return p.status == "not run"; });
+    const char* const why = out_.stopped                      ? "stopped by the user"
+                            : !out_.reference.trouble.empty() ? "there is no reference"
+                                                              : "the budget was spent";
+    for (TradePoint& p : points())
+      if (p.status == "not run") p.reason = why;
+    if (out_.plan.budget > 0) out_.cut = std::ranges::any_of(points(), [](const TradePoint& p) { return p.status == "not run"; });
     out_.seconds = spent();
     answer(out_);
     return std::move(out_);
@@ -67,14 +71,17 @@ class Trade {
   /// Of what the reference left, a share.
   double left(double share = 1) const { return out_.plan.budget > 0 ? begun_ + share * (out_.plan.budget - begun_) - spent() : INFINITY; }
   static double share(std::size_t i, std::size_t n) { return static_cast<double>(i) / static_cast<double>(n); }
-  void tell(const std::string& what, double done) const { if (listener_.progress) listener_.progress(what, done); }
+  void tell(const std::string& what, double done) const {
+    if (listener_.progress) listener_.progress(what, done);
+  }
 
   Outcome run(const Overrides& set, const std::vector<Measure>& measures, CaseLimits limits) {
     limits.go_on = [this] {
       if (listener_.go_on && !listener_.go_on()) out_.stopped = true;
       return !out_.stopped;
     };
-    if (!limits.go_on()) return Outcome{.status = "interrupted", .reason = "stopped by the user", .values = {}, .units = {}, .counts = {}, .run = {}};
+    if (!limits.go_on())
+      return Outcome{.status = "interrupted", .reason = "stopped by the user", .values = {}, .units = {}, .counts = {}, .run = {}};
     return run_(set, measures, limits);
   }
 
@@ -90,7 +97,10 @@ class Trade {
       points().push_back(p);
       more = false;
       for (std::size_t i = plan.axes.size(); i-- > 0;) {
-        if (++at[i] < plan.axes[i].values.size()) { more = true; break; }
+        if (++at[i] < plan.axes[i].values.size()) {
+          more = true;
+          break;
+        }
         at[i] = 0;
       }
     }
@@ -123,7 +133,8 @@ class Trade {
 
   std::vector<Sample> ensemble(const Overrides& set, const std::vector<double>& first, const CaseLimits& limits) {
     std::vector<std::vector<double>> v(measures_.size());
-    for (std::size_t q = 0; q < v.size(); ++q) if (!first.empty()) v[q].push_back(first[q]);
+    for (std::size_t q = 0; q < v.size(); ++q)
+      if (!first.empty()) v[q].push_back(first[q]);
     for (int k = first.empty() ? 0 : 1; k < out_.plan.ensemble && !out_.stopped && left(in_ensembles) > 0; ++k) {
       const Outcome o = run(member(out_.plan, set, k), measures_, limits);
       if (o.status == "finished" && o.values.size() == v.size())
@@ -137,7 +148,8 @@ class Trade {
   void average(TradePoint& p, const CaseLimits& limits) {
     const std::vector<Sample> s = ensemble(p.set, p.values, limits);
     for (std::size_t q = 0; q < s.size(); ++q)
-      if (out_.reference.of[q].chaotic) p.values[q] = s[q].mean, p.spread[q] = std::max(s[q].error, s[q].count < 4 ? out_.reference.of[q].spread : 0);
+      if (out_.reference.of[q].chaotic)
+        p.values[q] = s[q].mean, p.spread[q] = std::max(s[q].error, s[q].count < 4 ? out_.reference.of[q].spread : 0);
   }
 
   /// Quantities that are the same in every run; and of those whose reference is 0 alone, what errors are relative to.
@@ -183,8 +195,10 @@ class Trade {
     std::vector<std::vector<std::size_t>> out;
     std::vector<std::size_t> numerical;
     for (std::size_t i = 0; i < out_.plan.axes.size(); ++i)
-      if (out_.plan.axes[i].numerical) numerical.push_back(i);
-      else out.push_back({i});
+      if (out_.plan.axes[i].numerical)
+        numerical.push_back(i);
+      else
+        out.push_back({i});
     if (!numerical.empty()) out.push_back(numerical);
     return out;
   }
@@ -208,7 +222,9 @@ class Trade {
     return index(s);
   }
 
-  struct Guess { double time, error; };
+  struct Guess {
+    double time, error;
+  };
 
   /// From what each group alone does at the finest of all others: times multiply, the worst error stays.
   Guess guess(const At& at) const {
@@ -254,7 +270,8 @@ class Trade {
     for (std::size_t i = 1; i < points().size(); ++i)
       if (points()[i].status == "not run") rest.push_back(i);
     if (!out_.tells()) {
-      for (const std::size_t i : rest) points()[i].status = "left out", points()[i].reason = "what is asked is the same in every setting that ran";
+      for (const std::size_t i : rest)
+        points()[i].status = "left out", points()[i].reason = "what is asked is the same in every setting that ran";
       return;
     }
     while (!rest.empty() && left(for_settings) > 0 && !out_.stopped) {
@@ -264,7 +281,8 @@ class Trade {
       rest.erase(next);
       const Guess g = guess(points()[i].at);
       if (clearly_dominated(g.time, g.error))
-        points()[i].status = "dropped", points()[i].reason = printed("foreseen at %.2g s with an error of %.2g %%, clearly dominated", g.time, 100 * g.error);
+        points()[i].status = "dropped",
+        points()[i].reason = printed("foreseen at %.2g s with an error of %.2g %%, clearly dominated", g.time, 100 * g.error);
       else
         visit(i, std::min(each, std::max(0.01, left(0.85))));
     }
@@ -290,7 +308,8 @@ class Trade {
   void time_all() {
     std::vector<std::size_t> who, beaten;
     for (std::size_t i = 0; i < points().size(); ++i)
-      if (const TradePoint& p = points()[i]; p.usable) (out_.plan.budget > 0 && clearly_dominated(p.time, p.claimed()) ? beaten : who).push_back(i);
+      if (const TradePoint& p = points()[i]; p.usable)
+        (out_.plan.budget > 0 && clearly_dominated(p.time, p.claimed()) ? beaten : who).push_back(i);
     for (auto* list : {&who, &beaten}) std::ranges::sort(*list, {}, [this](std::size_t i) { return points()[i].time; });
     for (int round = 0; round < out_.plan.repeats; ++round) {
       tell("times", share(static_cast<std::size_t>(round), static_cast<std::size_t>(out_.plan.repeats)));
@@ -342,10 +361,12 @@ class Trade {
       std::vector<double> v = o.values;
       if (chaos_) {
         const std::vector<Sample> s = ensemble(set, o.values, limits);
-        for (std::size_t q = 0; q < v.size(); ++q) if (out_.reference.of[q].chaotic) v[q] = s[q].mean;
+        for (std::size_t q = 0; q < v.size(); ++q)
+          if (out_.reference.of[q].chaotic) v[q] = s[q].mean;
       }
       for (const std::size_t i : members)
-        for (std::size_t q = 0; q < v.size(); ++q) points()[i].model[q] = std::abs(v[q] - out_.reference.of[q].value) / out_.reference.of[q].scale;
+        for (std::size_t q = 0; q < v.size(); ++q)
+          points()[i].model[q] = std::abs(v[q] - out_.reference.of[q].value) / out_.reference.of[q].scale;
     }
   }
 
@@ -360,7 +381,8 @@ class Trade {
 
 }  // namespace
 
-TradeReport run_tradeoff(const TradePlan& plan, const std::vector<Measure>& measures, const CaseRunner& run, const TradeListener& listener) {
+TradeReport run_tradeoff(const TradePlan& plan, const std::vector<Measure>& measures, const CaseRunner& run,
+                         const TradeListener& listener) {
   return Trade(plan, measures, run, listener).trade();
 }
 

@@ -39,7 +39,8 @@ Yaml with_count(const Yaml& modes, int count) {
   for (Yaml& item : out.items)
     if (item.key == "craig-bampton" || item.key == "free") group = &item;
   if (group->kind != Yaml::Kind::map) group->kind = Yaml::Kind::map, group->text.clear();
-  std::erase_if(group->items, [](const Yaml& y) { return y.key == "keep" || y.key == "count" || y.key == "below" || y.key == "effective mass"; });
+  std::erase_if(group->items,
+                [](const Yaml& y) { return y.key == "keep" || y.key == "count" || y.key == "below" || y.key == "effective mass"; });
   group->items.push_back(Yaml{Yaml::Kind::scalar, 0, "count", std::to_string(count), {}});
   return out;
 }
@@ -52,7 +53,8 @@ Overrides rigid(const Yaml& scene, const std::string& body) {
   if (entry(written, "stiffening")) set.emplace_back(path + "stiffening", "null");
   if (entry(entry(written, "beam"), "pieces")) set.emplace_back(path + "beam.pieces", "null");
   const Yaml* const stress = entry(entry(&scene, "output"), "stress");
-  if (stress && std::ranges::any_of(stress->items, [&](const Yaml& y) { return y.text.starts_with(body + "."); })) set.emplace_back("output.stress", "null");
+  if (stress && std::ranges::any_of(stress->items, [&](const Yaml& y) { return y.text.starts_with(body + "."); }))
+    set.emplace_back("output.stress", "null");
   return set;
 }
 
@@ -71,7 +73,8 @@ FidelityAxis modes_axis(const Yaml& scene, const std::string& body, int shapes) 
   const Yaml& modes = *entry(entry(entry(&scene, "bodies"), body), "modes");
   const std::string path = "bodies." + body + ".modes";
   FidelityAxis axis{.name = body, .values = {{"rigid", rigid(scene, body)}}};
-  for (int n = 1; n < modes_kept(modes, shapes) && n <= 64; n *= 2) axis.values.push_back({n == 1 ? "1 mode" : std::to_string(n) + " modes", {{path, override_text(with_count(modes, n))}}});
+  for (int n = 1; n < modes_kept(modes, shapes) && n <= 64; n *= 2)
+    axis.values.push_back({n == 1 ? "1 mode" : std::to_string(n) + " modes", {{path, override_text(with_count(modes, n))}}});
   axis.values.push_back({"as written, " + std::to_string(shapes) + (shapes == 1 ? " shape" : " shapes"), {{path, override_text(modes)}}});
   validate_axis(axis);
   return axis;
@@ -95,7 +98,8 @@ TradePlan suggested_plan(const CaseSource& source) {
   plan.axes.push_back(listed_axis("scheme", "run.method", {"dopri5", "verner87", "generalized-alpha"}));
   const std::vector<std::string> models = clearance_models();
   for (const SceneJoint& joint : scene.joints)
-    if (joint.clearance && models.size() > 1) plan.axes.push_back(listed_axis(joint.name, "joints." + joint.name + ".clearance.model", models));
+    if (joint.clearance && models.size() > 1)
+      plan.axes.push_back(listed_axis(joint.name, "joints." + joint.name + ".clearance.model", models));
   for (const FlexibleReport& r : model.flexible)
     if (entry(entry(entry(&tree, "bodies"), r.body), "modes")) plan.axes.push_back(modes_axis(tree, r.body, static_cast<int>(r.shapes)));
   return plan;

@@ -13,7 +13,8 @@ using Row = std::vector<std::string>;
 
 std::string error_cell(double error, double warning) {
   if (std::isnan(error)) return "–";
-  return error > warning ? printed(error < 0.995 ? "%.2g ± %.1g" : "%.0f ± %.1g", 100 * error, 100 * warning) : printed("< %.1g", 100 * warning);
+  return error > warning ? printed(error < 0.995 ? "%.2g ± %.1g" : "%.0f ± %.1g", 100 * error, 100 * warning)
+                         : printed("< %.1g", 100 * warning);
 }
 
 Row heading(const TradeReport& r) {
@@ -28,10 +29,12 @@ Row heading(const TradeReport& r) {
 Row cells(const TradeReport& r, std::size_t i) {
   const TradePoint& p = r.points[i];
   Row out;
-  for (std::size_t a = 0; a < r.plan.axes.size(); ++a) out.push_back(p.at.empty() ? (a == 0 ? "as it stands" : "") : r.plan.axes[a].values[p.at[a]].label);
+  for (std::size_t a = 0; a < r.plan.axes.size(); ++a)
+    out.push_back(p.at.empty() ? (a == 0 ? "as it stands" : "") : r.plan.axes[a].values[p.at[a]].label);
   out.push_back(time_text(p.time));
   out.push_back(p.times.size() > 1 ? printed("%.2g to %.2g", p.least / p.time, p.most / p.time) : "1 run");
-  for (std::size_t q = 0; q < r.quantities.size(); ++q) out.push_back(r.reference.of[q].constant ? "–" : error_cell(p.errors[q], p.warnings_of[q]));
+  for (std::size_t q = 0; q < r.quantities.size(); ++q)
+    out.push_back(r.reference.of[q].constant ? "–" : error_cell(p.errors[q], p.warnings_of[q]));
   double model = NAN;
   for (const double m : p.model) model = std::isnan(model) ? m : std::max(model, m);
   out.push_back(std::isnan(model) ? "–" : printed(model < 0.995 ? "%.2g" : "%.0f", 100 * model));
@@ -70,8 +73,10 @@ std::string markdown_row(const Row& row) {
 std::string tradeoff_text(const TradeReport& r) {
   std::string s = r.plan.title + "\n";
   std::vector<Row> rows{heading(r)};
-  if (r.front.empty()) rows.clear();
-  else for (const std::size_t i : shown(r, 12)) rows.push_back(cells(r, i));
+  if (r.front.empty())
+    rows.clear();
+  else
+    for (const std::size_t i : shown(r, 12)) rows.push_back(cells(r, i));
   std::vector<std::size_t> widths;
   for (const Row& row : rows)
     for (std::size_t c = 0; c < row.size(); ++c) {
@@ -98,8 +103,10 @@ std::string tradeoff_markdown(const TradeReport& r, const std::string& figure, c
   for (const std::size_t i : shown(r, 16)) s += markdown_row(cells(r, i));
   std::size_t ran = 0;
   for (const TradePoint& p : r.points) ran += p.usable;
-  s += printed("\nOf %zu settings %zu ran to their end with a value. Time: median of the timed runs, reading and building included, files excluded; beside it the least and the most over the median. ",
-               r.points.size(), ran) +
+  s += printed(
+           "\nOf %zu settings %zu ran to their end with a value. Time: median of the timed runs, reading and building included, files "
+           "excluded; beside it the least and the most over the median. ",
+           r.points.size(), ran) +
        "Error: relative, ± what the reference itself is not sure of; < where no error is claimed.\n\n";
   return s;
 }

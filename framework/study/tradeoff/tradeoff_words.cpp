@@ -26,9 +26,7 @@ std::string stopped(std::string s) {
 }
 
 /// Is the reference good enough to judge settings by?
-bool known(const TradeReport& r) {
-  return r.warning() <= (r.plan.error > 0 ? r.plan.error : useful_warning);
-}
+bool known(const TradeReport& r) { return r.warning() <= (r.plan.error > 0 ? r.plan.error : useful_warning); }
 
 void say_stopped(const TradeReport& r, std::vector<std::string>& said) {
   const std::string when = printed(" after %s: ", time_text(r.seconds).c_str());
@@ -38,7 +36,8 @@ void say_stopped(const TradeReport& r, std::vector<std::string>& said) {
     said.push_back("Stopped by the user" + when + (reference ? "the reference was not found, and " : "") + ran +
                    (r.ran() == 0 ? "." : ". What follows is from these alone."));
   else if (r.cut)
-    said.push_back("The budget of " + time_text(r.plan.budget) + printed(" was spent when %zu of %zu settings had run", r.ran(), r.listed()) +
+    said.push_back("The budget of " + time_text(r.plan.budget) +
+                   printed(" was spent when %zu of %zu settings had run", r.ran(), r.listed()) +
                    "; a larger one (--budget) runs more of them.");
 }
 
@@ -62,8 +61,8 @@ void say_axes(const TradeReport& r, std::vector<std::string>& said) {
 void say_wanted(const TradeReport& r, std::vector<std::string>& said) {
   const TradePlan& plan = r.plan;
   if (plan.error > 0 && r.cheapest)
-    said.push_back("Cheapest" + of_how_many(r) + " for an error of " + percent_text(plan.error) + ": " + setting_text(plan, r.points[*r.cheapest]) +
-                   ", " + priced(r, *r.cheapest) + ".");
+    said.push_back("Cheapest" + of_how_many(r) + " for an error of " + percent_text(plan.error) + ": " +
+                   setting_text(plan, r.points[*r.cheapest]) + ", " + priced(r, *r.cheapest) + ".");
   if (plan.time > 0 && r.best_in_time)
     said.push_back("Most accurate" + of_how_many(r) + " within " + time_text(plan.time) +
                    ", as far as can be told: " + setting_text(plan, r.points[*r.best_in_time]) + ", " + priced(r, *r.best_in_time) + ".");
@@ -118,7 +117,8 @@ void say_bottleneck(const TradeReport& r, std::vector<std::string>& said) {
     for (std::size_t v = 0; v < axis.values.size(); ++v) finer += v != p.at[a] && (!axis.ordered || v > p.at[a]);
     for (const AxisEffect& e : all)
       if (e.axis == a && (!axis.ordered || e.to > p.at[a]))
-        ++ran, change = std::max(change, std::abs(r.points[e.point].counted() - p.counted()) - std::max(r.points[e.point].warning, p.warning));
+        ++ran,
+            change = std::max(change, std::abs(r.points[e.point].counted() - p.counted()) - std::max(r.points[e.point].warning, p.warning));
     if (finer == 0 || (first && first->axis == a)) continue;
     if (ran == 0 && waits(r, at, a))
       untried += (untried.empty() ? "" : ", ") + axis.name;
@@ -127,8 +127,8 @@ void say_bottleneck(const TradeReport& r, std::vector<std::string>& said) {
   }
   std::string s;
   if (first)
-    s = "To err less, refine " + r.plan.axes[first->axis].name + " first: " + step_text(r, at, *first) + " takes the error from " + error_text(p) +
-        " to " + error_text(r.points[first->point]) + " for " + times_text(first->time_factor);
+    s = "To err less, refine " + r.plan.axes[first->axis].name + " first: " + step_text(r, at, *first) + " takes the error from " +
+        error_text(p) + " to " + error_text(r.points[first->point]) + " for " + times_text(first->time_factor);
   else if (p.counted() <= p.warning)
     s = "It errs by less than the reference can tell, " + percent_text(p.warning) + ": no refinement could be seen to help";
   else if (!all.empty())
@@ -154,11 +154,14 @@ void say_luck(const TradeReport& r, std::vector<std::string>& said) {
   std::size_t lucky = 0;
   const TradePoint* most = nullptr;
   for (const TradePoint& p : r.points)
-    if (p.usable && p.surer > p.error && ++lucky && (!most || p.surer / std::max(p.error, p.warning) > most->surer / std::max(most->error, most->warning))) most = &p;
+    if (p.usable && p.surer > p.error && ++lucky &&
+        (!most || p.surer / std::max(p.error, p.warning) > most->surer / std::max(most->error, most->warning)))
+      most = &p;
   if (!most) return;
   said.push_back(settings_text(lucky) + (lucky == 1 ? " errs" : " err") +
                  " less than the same at a finer tolerance, errors of computing and of the model cancelling by luck, and count as that: " +
-                 setting_text(r.plan, *most) + " gives " + percent_text(std::max(most->error, most->warning)) + " and counts as " + percent_text(most->surer) + ".");
+                 setting_text(r.plan, *most) + " gives " + percent_text(std::max(most->error, most->warning)) + " and counts as " +
+                 percent_text(most->surer) + ".");
 }
 
 /// What the finest setting spends for nothing.
@@ -169,8 +172,8 @@ void say_free(const TradeReport& r, std::vector<std::string>& said) {
     if (!finest) continue;
     std::string s;
     for (const AxisEffect& e : free_coarsenings(r, i))
-      s += (s.empty() ? "" : "; ") + value_text(r, e.axis, e.to) + " instead of " + r.plan.axes[e.axis].values[r.points[i].at[e.axis]].label +
-           printed(" saves %.0f %% of its time", 100 * (1 - e.time_factor));
+      s += (s.empty() ? "" : "; ") + value_text(r, e.axis, e.to) + " instead of " +
+           r.plan.axes[e.axis].values[r.points[i].at[e.axis]].label + printed(" saves %.0f %% of its time", 100 * (1 - e.time_factor));
     if (!s.empty()) said.push_back("The finest setting spends time for nothing that can be told: " + s + ".");
   }
 }
@@ -185,7 +188,8 @@ void say_models(const TradeReport& r, std::vector<std::string>& said) {
     for (std::size_t v = 0; v < axis.values.size() && !axis.numerical; ++v) {
       double least = INFINITY;
       for (const TradePoint& p : r.points)
-        if (!p.at.empty() && p.at[a] == v && p.usable && !p.model.empty() && std::ranges::none_of(p.model, [](double m) { return std::isnan(m); }))
+        if (!p.at.empty() && p.at[a] == v && p.usable && !p.model.empty() &&
+            std::ranges::none_of(p.model, [](double m) { return std::isnan(m); }))
           least = std::min(least, *std::ranges::max_element(p.model));
       if (!std::isfinite(least)) continue;
       s += (s.empty() ? "" : ", ") + axis.values[v].label + " " +
@@ -241,8 +245,8 @@ void say_unusable(const TradeReport& r, std::vector<std::string>& said) {
                                                    {"without a value", "without a value"}};
   for (const auto& [status, g] : groups) {
     const auto verb = as_verb.find(status);
-    said.push_back(
-        stopped(settings_text(g.first) + " " + (verb == as_verb.end() ? status : verb->second) + (g.first == 1 ? ": " : "; the first: ") + g.second));
+    said.push_back(stopped(settings_text(g.first) + " " + (verb == as_verb.end() ? status : verb->second) +
+                           (g.first == 1 ? ": " : "; the first: ") + g.second));
   }
 }
 
@@ -253,17 +257,13 @@ std::string priced(const TradeReport& r, std::size_t point) {
   return time_text(p.time) + " with an error " + (p.counted() > p.warning ? "of " : "") + error_text(p);
 }
 
-std::string settings_text(std::size_t n) {
-  return printed("%zu setting%s", n, n == 1 ? "" : "s");
-}
+std::string settings_text(std::size_t n) { return printed("%zu setting%s", n, n == 1 ? "" : "s"); }
 
 std::string of_how_many(const TradeReport& r) {
   return r.ran() == r.listed() ? "" : printed(" of the %zu of %zu settings that ran", r.ran(), r.listed());
 }
 
-std::string percent_text(double share) {
-  return printed(share < 0.995 ? "%.2g %%" : "%.0f %%", 100 * share);
-}
+std::string percent_text(double share) { return printed(share < 0.995 ? "%.2g %%" : "%.0f %%", 100 * share); }
 
 std::string duration_text(double s) {
   if (s >= 3600) return printed("%.3gh", s / 3600);

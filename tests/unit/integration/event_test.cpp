@@ -133,10 +133,11 @@ TEST_P(EveryMethod, AtOneInstantLowerOrdersComeFirst) {
     add(scheme, {.name = "floor",
                  .guard = height_of,
                  .direction = Direction::falling,
-                 .act = [&seen, order](State& x) {
-                   seen.emplace_back(order, x.t);
-                   return EventOutcome{order == 2 ? Change::forces : Change::nothing};
-                 },
+                 .act =
+                     [&seen, order](State& x) {
+                       seen.emplace_back(order, x.t);
+                       return EventOutcome{order == 2 ? Change::forces : Change::nothing};
+                     },
                  .order = order});
   }
   Integrator run(system, scheme, falling(system));
@@ -212,7 +213,12 @@ TEST(Events, AreLocatedBesideAnOnsetThatIsCut) {
   Scheme scheme = scheme_of("dopri5", 1e-6);
   scheme.onset_cut = 1e-6;
   std::vector<double> seen;
-  add(scheme, {"half way", [](const State& x) { return Guard{x.y[1] - height / 2, x.y[4]}; }, Direction::falling, [&](State& x) {
+  add(scheme, {"half way",
+               [](const State& x) {
+                 return Guard{x.y[1] - height / 2, x.y[4]};
+               },
+               Direction::falling,
+               [&](State& x) {
                  seen.push_back(x.t);
                  return EventOutcome{Change::nothing};
                }});
@@ -232,7 +238,8 @@ TEST(Integrator, TakesNoStartOfAnotherSystem) {
   for (const int more : {-1, 1}) {
     State start = falling(system);
     start.y.conservativeResizeLike(Eigen::VectorXd::Zero(system.n_y() + more));
-    for (const char* method : {"dopri5", "verner87", "generalized-alpha"}) EXPECT_THROW(Integrator(system, scheme_of(method), start), std::invalid_argument);
+    for (const char* method : {"dopri5", "verner87", "generalized-alpha"})
+      EXPECT_THROW(Integrator(system, scheme_of(method), start), std::invalid_argument);
   }
 }
 
