@@ -102,6 +102,26 @@ Drafting::Drafting(const Scene& scene, const Model& model) {
     for (const ContactPair& c : system.contacts) exaggeration = std::max(exaggeration, 0.3 * c.gap.bearing / c.gap.clearance());
 }
 
+namespace {
+
+// Bearing and journal of each clearance, the gap between them exaggerated, and the force on the bearing.
+void draw_clearances(const System& system, const Drafting& drafting, const Equations& eq, Drawing& out) {
+  const int first = static_cast<int>(system.bodies.size() + system.joints.size());
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    const ContactPair& pair = system.contacts[c];
+    const int owner = first + static_cast<int>(c);
+    const Vector2d center = eq.motion[at(pair.bearing)].r;
+    const ContactEffect now = clearance_effect(system, eq, c);
+    const double s = drafting.exaggeration;
+    out.lines.push_back({Part::bearing, owner, true, circle(center, pair.gap.bearing)});
+    out.lines.push_back({Part::journal, owner, true,
+                         circle(center + s * now.gap.e, std::max(pair.gap.bearing - s * pair.gap.clearance(), 0.05 * pair.gap.bearing))});
+    out.forces.push_back({center + pair.gap.bearing * now.gap.n, now.on_bearing.head<2>(), owner});
+  }
+}
+
+}  // namespace
+
 Drawing draw(const Model& model, const Drafting& drafting, const State& state, const Equations& eq) {
   const System& system = model.system;
   Drawing out;
@@ -144,17 +164,7 @@ Drawing draw(const Model& model, const Drafting& drafting, const State& state, c
       case JointSymbol::rod: out.lines.push_back({Part::joint, bodies + joint, false, {a.r, b.r}}); break;
     }
   }
-  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
-    const ContactPair& pair = system.contacts[c];
-    const int owner = bodies + joints + static_cast<int>(c);
-    const Vector2d center = eq.motion[at(pair.bearing)].r;
-    const ContactEffect now = clearance_effect(system, eq, c);
-    const double s = drafting.exaggeration;
-    out.lines.push_back({Part::bearing, owner, true, circle(center, pair.gap.bearing)});
-    out.lines.push_back({Part::journal, owner, true,
-                         circle(center + s * now.gap.e, std::max(pair.gap.bearing - s * pair.gap.clearance(), 0.05 * pair.gap.bearing))});
-    out.forces.push_back({center + pair.gap.bearing * now.gap.n, now.on_bearing.head<2>(), owner});
-  }
+  draw_clearances(system, drafting, eq, out);
   for (std::size_t f = 0; f < system.forces.size(); ++f)
     if (std::holds_alternative<Spring>(system.forces[f])) {
       const Vector2d a = eq.motion[at(marker_a(system.forces[f]))].r, b = eq.motion[at(marker_b(system.forces[f]))].r;

@@ -1,10 +1,18 @@
 // Every way to get a scene wrong, and the one line that says where and what to do.
 #include <gtest/gtest.h>
 
+#include "framework/common/nearest.h"
+#include "framework/scene/joint_words.h"
 #include "tests/unit/scene_text.h"
 
 namespace pintle::bad_scene_test {
 namespace {
+
+std::vector<std::string> joint_keys() {
+  std::vector<std::string> out;
+  for (const JointWord& word : joint_words()) out.emplace_back(word.word);
+  return out;
+}
 
 // A change that spoils the scene, where the message must point, and its remedy.
 struct Spoiled {
@@ -68,10 +76,7 @@ TEST(BadScene, MissingKeyIsNamedWithAnExample) {
       {"restitution: 0.8, ", "", "scene.yaml:20: joints.pin.clearance.normal.lankarani-nikravesh: ", {"restitution: 0.8"}},
       {", young: 207 GPa", "", "scene.yaml:20: ", {"add young and poisson, or stiffness"}},
       {", free length: 50 mm", "", "scene.yaml:29: forces.coil: ", {"free length: 50 mm"}},
-      {"{revolute: [ground, crank.O]}",
-       "{}",
-       "scene.yaml:13: joints.main: ",
-       {"add one of revolute, prismatic, slot, weld, distance or differential"}},
+      {"{revolute: [ground, crank.O]}", "{}", "scene.yaml:13: joints.main: ", {"add one of " + listed(joint_keys(), "or")}},
   });
 }
 

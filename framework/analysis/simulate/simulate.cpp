@@ -8,8 +8,10 @@
 
 #include "framework/analysis/simulate/energy_balance.h"
 #include "framework/analysis/simulate/end_short.h"
-#include "framework/analysis/simulate/slow_contact.h"
 #include "framework/analysis/simulate/deflection_monitor.h"
+#include "framework/analysis/simulate/explain_numbers.h"
+#include "framework/analysis/simulate/run_warnings.h"
+#include "framework/analysis/simulate/slow_contact.h"
 #include "framework/build/laws.h"
 #include "framework/common/worse.h"
 #include "framework/integration/integrator.h"
@@ -57,99 +59,6 @@ double rounding_energy(const System& system, const State& state, double until) {
 
 bool all_finite(const Energies& e) { return std::isfinite(e.stored()) && std::isfinite(e.lost) && std::isfinite(e.input); }
 
-std::string short_number(double x) {
-  std::ostringstream s;
-  s.precision(3);
-  s << x;
-  return s.str();
-}
-
-/// Bodies that show a force the least and the most inertia, at their centres or turning about them.
-struct Unlike {
-  std::size_t light = 0, heavy = 0;
-  double ratio = 1;
-};
-Unlike most_unlike(const System& system) {
-  double least = INFINITY, most = 0;
-  Unlike out;
-  std::vector<double> reach(system.bodies.size(), 0.0);
-  for (const Marker& m : system.markers)
-    if (m.body != ground) reach[static_cast<std::size_t>(m.body)] = std::max(reach[static_cast<std::size_t>(m.body)], m.x_BP.norm());
-  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
-    const Body& body = system.bodies[b];
-    const double turning = reach[b] > 0 ? body.J / (reach[b] * reach[b]) : body.m;
-    if (const double low = std::min(body.m, turning); low < least) least = low, out.light = b;
-    if (const double high = std::max(body.m, turning); high > most) most = high, out.heavy = b;
-  }
-  out.ratio = most / least;
-  return out;
-}
-
-// What a run that cannot go on suffers from, where its numbers show it; else empty.
-std::string explain_numbers(const System& system, const Integrator& integrator) {
-  constexpr double many = 1e6, few = 1e-9, unlike = 1e6;  // radians, of a pivot, times
-  const Eigen::Index n = system.n();
-  if (!std::isfinite(integrator.last().to.dy.segment(n, n).squaredNorm()))
-    return "numbers beyond what a double holds: check masses, lengths, speeds and units";
-  if (integrator.failure().find("max steps") != std::string::npos) return "";
-  double angle = 0;
-  for (std::size_t b = 0; b < system.bodies.size(); ++b)
-    angle = std::max(angle, std::abs(integrator.state().y[3 * static_cast<Eigen::Index>(b) + 2]));
-  if (angle > many)
-    return "an angle has come to " + short_number(angle) + " rad, whose last digit moves points by " +
-           short_number(angle * 2.2e-16 * system.length) + " m; begin again from this state with angles in one turn";
-  const Schur& rows = integrator.sampled().schur;
-  if (integrator.implicit() || system.n() != system.n_rigid() || system.n_rows() == 0) return "";
-  const Unlike bodies = most_unlike(system);
-  constexpr double hopeless = 1e12;  // nothing of the lighter is left in sums with the heavier
-  if (!(bodies.ratio > unlike && (rows.kept() < few || bodies.ratio > hopeless))) return "";
-  return "the inertia of \"" + system.bodies[bodies.light].name + "\" is " + short_number(1 / bodies.ratio) + " of that of \"" +
-         system.bodies[bodies.heavy].name + "\", at its centre or turning about it, which leaves " + short_number(rows.kept()) +
-         " of what the joint forces are found from; give \"" + system.bodies[bodies.light].name +
-         "\" a mass and an inertia nearer to the others', which changes nothing that counts where they are small beside " +
-         "what it carries, or take method: generalized-alpha";
-}
-
-void warn_of_depth(const System& system, Run& run) {
-  std::vector<double> deepest(system.contacts.size(), 0.0);
-  for (const Impact& i : run.impacts) {
-    double& d = deepest[static_cast<std::size_t>(i.contact)];
-    d = std::max(d, i.deepest);
-  }
-  for (std::size_t c = 0; c < deepest.size(); ++c)
-    if (deepest[c] > too_deep * system.contacts[c].gap.journal) {
-      std::ostringstream s;
-      s.precision(3);
-      s << "\"" << system.contact_names[c] << "\": the journal went " << deepest[c]
-        << " m into the wall, more than a tenth of its radius; no contact law holds there (is the stiffness " << system.contacts[c].normal.k
-        << " N/m^" << system.contacts[c].normal.n << " meant?)";
-      run.warnings.push_back(s.str());
-    }
-}
-
-/// What is judged by rows is judged by those of this run.
-void warn_of_gap(const System& system, const Model& model, const SavedState& from, Run& run) {
-  const bool linked = std::ranges::any_of(system.contacts, [](const ContactPair& c) { return c.link >= 0; });
-  if (!linked && model.bending.empty()) return;
-  run.warnings.push_back(
-      "this run goes on from " + short_number(from.t) + " s: " + (linked ? "whether a massless link pushed" : "how far bodies bent") +
-      (linked && !model.bending.empty() ? " and how far bodies bent" : "") + " before that was judged by the run that saved it");
-}
-
-/// A massless link holds the journal at the wall whether the wall presses or not.
-void warn_of_pushing(const System& system, Run& run) {
-  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
-    if (system.contacts[c].link < 0) continue;
-    const Run::LinkForce& force = run.links[c];
-    if (force.pushing == 0) continue;
-    std::ostringstream s;
-    s.precision(3);
-    s << "\"" << system.contact_names[c] << "\": the massless link pushed, with up to " << -force.least << " N, in " << force.pushing
-      << " of " << force.rows << " outputs, as no wall could pull: contact would be lost there";
-    run.warnings.push_back(s.str());
-  }
-}
-
 /// What is kept of the last row of each table, whoever takes the rows.
 class RowFigures {
  public:
@@ -181,6 +90,203 @@ class RowFigures {
   std::vector<std::pair<std::size_t, std::ptrdiff_t>> normal_;  ///< contact, column
 };
 
+/// A run under way: what it has found so far, and what is due next.
+class Simulation {
+ public:
+  Simulation(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners, const SavedState* from)
+      : scene_(scene),
+        model_(model),
+        system_(model.system),
+        listeners_(listeners),
+        run_(begun(model, assembly)),
+        outputs_(scene.output.every > 0 ? scene.output.every : scene.run.until / 1000, scene.run.until),
+        states_(listeners.state ? scene.output.states : 0, scene.run.until),
+        frames_(scene.output.frames > 1 && listeners.frame ? scene.run.until / (scene.output.frames - 1) : 0, scene.run.until),
+        integrator_(system_, model.scheme, assembly.start),
+        monitor_(model),
+        figures_(system_, run_),
+        slow_(system_) {
+    if (from) go_on(*from);
+    states_.pass(integrator_.state().t);
+  }
+
+  /// Steps to the end, or to what ends the run before it.
+  void integrate() {
+    const bool countable = all_finite(energies(system_, integrator_.state(), integrator_.equations()));
+    bool going = true;
+    guarded(run_, last_row_, [&] {
+      going = integrator_.failure().empty() && countable && report();
+      while (going && run_.status == Status::finished && integrator_.state().t < scene_.run.until && integrator_.ended().empty())
+        going = step();
+    });
+    if (!going && !ended_short(run_)) explain(countable);
+    guarded(run_, last_row_, [&] { add_last(); });
+  }
+
+  Run finish(const SavedState* from) {
+    run_.t_end = ended_short(run_) ? last_row_ : integrator_.state().t;  // a step may have been cut short
+    if (run_.reason.empty()) run_.reason = integrator_.ended();
+    run_.impacts = integrator_.impacts();
+    if (from) warn_of_gap(system_, model_, *from, run_);
+    warn_of_depth(system_, run_);
+    warn_of_pushing(system_, run_);
+    slow_.warn(system_, run_.energy_in_play, run_.warnings);
+    monitor_.warn(run_.warnings);
+    run_.counts = integrator_.counts();
+    run_.switched = integrator_.switched();
+    run_.worst_position = integrator_.worst_position();
+    run_.worst_velocity = integrator_.worst_velocity();
+    run_.seconds = std::chrono::duration<double>(Wall::now() - begin_ - spent_listening_).count();
+    check_energy_balance(scene_, model_, integrator_.implicit(), rounding_energy(system_, integrator_.state(), scene_.run.until), run_);
+    return std::move(run_);
+  }
+
+ private:
+  using Wall = std::chrono::steady_clock;
+
+  static Run begun(const Model& model, const Assembly& assembly) {
+    Run run;
+    run.warnings = model.warnings;
+    for (std::string& w : warnings_of(model, assembly)) run.warnings.push_back(std::move(w));
+    run.trajectory = trajectory_table(model);
+    run.ledger = ledger_table(model.system);
+    return run;
+  }
+
+  void go_on(const SavedState& from) {
+    last_row_ = from.t;
+    integrator_.load(from.memory);
+    run_.first = from.first, started_ = true;
+    run_.energy_in_play = from.energy_in_play;
+    run_.worst_unexplained = from.worst_unexplained;
+    outputs_.pass(from.t);
+    frames_.pass(from.t);
+  }
+
+  /// One step and what is due by its end. @returns false if the run cannot go on
+  bool step() {
+    if (listeners_.progress && integrator_.counts().steps % 64 == 0 && !listeners_.progress(integrator_.state().t)) {
+      end(Status::interrupted, "stopped by the user");
+      return true;
+    }
+    if (!integrator_.advance(scene_.run.until)) return false;
+    if (!system_.contacts.empty()) slow_.see(system_, integrator_.last(), integrator_.equations());
+    if (!report()) return false;
+    if (const std::string beyond = monitor_.beyond_limits(); !beyond.empty()) {
+      end(Status::failed, beyond);
+    } else if (states_.due(integrator_.state().t)) {
+      states_.pass(integrator_.state().t);
+      save();
+    }
+    return true;
+  }
+
+  /// Everything due up to the present step's end. @returns false if an output cannot be evaluated
+  bool report() {
+    while (outputs_.due(integrator_.state().t)) {
+      if (!integrator_.sample(asked_ = outputs_.next(), sampled_)) return false;
+      book(sampled_);
+      monitor_.see(sampled_, integrator_.sampled());
+      add_row(sampled_);
+      outputs_.tick();
+    }
+    while (frames_.due(integrator_.state().t)) {
+      if (!integrator_.sample(asked_ = frames_.next(), sampled_)) return false;
+      listen([&] { listeners_.frame(sampled_, integrator_.sampled()); });
+      frames_.tick();
+    }
+    return true;
+  }
+
+  /// Energies of a sampled state, and how well they balance.
+  void book(const State& state) {
+    const Energies e = energies(system_, state, integrator_.sampled());
+    if (!started_) run_.first = e, started_ = true;
+    run_.energy_in_play = worse(run_.energy_in_play, in_play(e, run_.first));
+    run_.last = e;
+    run_.unexplained = e.balance() - run_.first.balance();
+    const double worst = std::abs(run_.worst_unexplained), now = std::abs(run_.unexplained);
+    if (!std::isnan(worst) && !(now <= worst)) run_.worst_unexplained = run_.unexplained;
+  }
+
+  void add_row(const State& state) {
+    record(model_, state, integrator_.sampled(), run_.trajectory);
+    record_ledger(system_, state, run_.last, run_.unexplained, run_.ledger);
+    figures_.see();
+    last_row_ = state.t;
+    if (!listeners_.rows) return;
+    listen([&] {
+      listeners_.rows(run_.trajectory, run_.ledger, integrator_.impacts());
+      run_.trajectory.data.clear(), run_.ledger.data.clear();
+    });
+  }
+
+  void save() {
+    listen([&] { listeners_.state({integrator_.state().t, integrator_.save(), run_.first, run_.energy_in_play, run_.worst_unexplained}); });
+  }
+
+  /// Where a run ends early it has a last row too, so that its figures and its books are of one moment.
+  void add_last() {
+    if (started_ && !ended_short(run_)) {
+      integrator_.sample(integrator_.state().t, sampled_);
+      book(integrator_.state());
+      const Equations& eq = integrator_.sampled();
+      const bool early = run_.status != Status::finished || !integrator_.ended().empty();
+      if (early && integrator_.state().t > last_row_ && eq.a.allFinite() && eq.lambda.allFinite()) add_row(integrator_.state());
+    }
+    if (listeners_.state && !ended_short(run_)) save();
+  }
+
+  /// Why a run could not go on.
+  void explain(bool countable) {
+    end(Status::failed, integrator_.failure());
+    const State& at = integrator_.state();
+    integrator_.sample(at.t, sampled_);
+    std::string& reason = run_.reason;
+    if (!reason.empty()) {
+      std::string why = explain_laws(scene_, at.t);
+      if (why.empty() && at.y.allFinite()) why = explain_pose(system_, at.t, at.y);
+      if (why.empty()) why = explain_numbers(system_, integrator_);
+      if (why.empty()) why = monitor_.worst_warning();
+      if (!why.empty()) reason += "; " + why;
+    } else if (!countable) {
+      reason = "the energy at the start is beyond what a double holds; check masses, speeds and units";
+    } else {
+      std::ostringstream s;
+      s << "t = " << asked_
+        << " s: the output there cannot be evaluated (a singular pose, or numbers beyond what a double holds: check masses, stiffnesses "
+           "and speeds)";
+      reason = s.str();
+    }
+  }
+
+  void end(Status status, const std::string& reason) { run_.status = status, run_.reason = reason; }
+
+  /// What listeners take is not time of computing.
+  template <class Act>
+  void listen(Act act) {
+    const auto before = Wall::now();
+    act();
+    spent_listening_ += Wall::now() - before;
+  }
+
+  const Scene& scene_;
+  const Model& model_;
+  const System& system_;
+  const Listeners& listeners_;
+  Run run_;
+  Clock outputs_, states_, frames_;
+  Wall::time_point begin_ = Wall::now();
+  Wall::duration spent_listening_{};
+  Integrator integrator_;
+  State sampled_;
+  double last_row_ = 0, asked_ = 0;  ///< times of the last row and of the output last asked for [s]
+  DeflectionMonitor monitor_;
+  RowFigures figures_;
+  SlowContacts slow_;
+  bool started_ = false;  ///< the books are open
+};
+
 }  // namespace
 
 const char* status_text(Status s) {
@@ -196,152 +302,9 @@ const char* status_text(Status s) {
 }
 
 Run simulate(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners, const SavedState* from) {
-  using clock = std::chrono::steady_clock;
-  const System& system = model.system;
-  const double until = scene.run.until;
-  Run run;
-  run.warnings = model.warnings;
-  for (std::string& w : warnings_of(model, assembly)) run.warnings.push_back(std::move(w));
-  run.trajectory = trajectory_table(model);
-  run.ledger = ledger_table(system);
-  Clock outputs(scene.output.every > 0 ? scene.output.every : until / 1000, until);
-  Clock states(listeners.state ? scene.output.states : 0, until);
-  Clock frames(scene.output.frames > 1 && listeners.frame ? until / (scene.output.frames - 1) : 0, until);
-
-  const auto begin = clock::now();
-  clock::duration spent_listening{};
-  Integrator integrator(system, model.scheme, assembly.start);
-  State sampled;
-  double last_row = from ? from->t : 0, asked = 0;
-  DeflectionMonitor monitor(model);
-  RowFigures figures(system, run);
-  SlowContacts slow(system);
-  bool started = false;
-  if (from) {
-    integrator.load(from->memory);
-    run.first = from->first, started = true;
-    run.energy_in_play = from->energy_in_play;
-    run.worst_unexplained = from->worst_unexplained;
-    outputs.pass(from->t);
-    frames.pass(from->t);
-  }
-  states.pass(integrator.state().t);
-  const auto book = [&](const State& state) {
-    const Energies e = energies(system, state, integrator.sampled());
-    if (!started) run.first = e, started = true;
-    run.energy_in_play = worse(run.energy_in_play, in_play(e, run.first));
-    run.last = e;
-    run.unexplained = e.balance() - run.first.balance();
-    const double worst = std::abs(run.worst_unexplained), now = std::abs(run.unexplained);
-    if (!std::isnan(worst) && !(now <= worst)) run.worst_unexplained = run.unexplained;
-  };
-  const auto add_row = [&](const State& state) {
-    record(model, state, integrator.sampled(), run.trajectory);
-    record_ledger(system, state, run.last, run.unexplained, run.ledger);
-    figures.see();
-    last_row = state.t;
-    if (!listeners.rows) return;
-    const auto before = clock::now();
-    listeners.rows(run.trajectory, run.ledger, integrator.impacts());
-    run.trajectory.data.clear(), run.ledger.data.clear();
-    spent_listening += clock::now() - before;
-  };
-  // Everything due up to the present step's end. @returns false if an output cannot be evaluated
-  const auto report = [&] {
-    while (outputs.due(integrator.state().t)) {
-      if (!integrator.sample(asked = outputs.next(), sampled)) return false;
-      book(sampled);
-      monitor.see(sampled, integrator.sampled());
-      add_row(sampled);
-      outputs.tick();
-    }
-    while (frames.due(integrator.state().t)) {
-      if (!integrator.sample(asked = frames.next(), sampled)) return false;
-      const auto before = clock::now();
-      listeners.frame(sampled, integrator.sampled());
-      spent_listening += clock::now() - before;
-      frames.tick();
-    }
-    return true;
-  };
-  const auto save = [&] {
-    const auto before = clock::now();
-    listeners.state({integrator.state().t, integrator.save(), run.first, run.energy_in_play, run.worst_unexplained});
-    spent_listening += clock::now() - before;
-  };
-
-  const Energies at_start = energies(system, integrator.state(), integrator.equations());
-  const bool countable = all_finite(at_start);
-  bool going = true;
-  guarded(run, last_row, [&] {
-    going = integrator.failure().empty() && countable && report();
-    while (going && integrator.state().t < until && integrator.ended().empty()) {
-      if (listeners.progress && integrator.counts().steps % 64 == 0 && !listeners.progress(integrator.state().t)) {
-        run.status = Status::interrupted;
-        run.reason = "stopped by the user";
-        break;
-      }
-      going = integrator.advance(until);
-      if (going && !system.contacts.empty()) slow.see(system, integrator.last(), integrator.equations());
-      going = going && report();
-      if (going && !monitor.beyond_limits().empty()) {
-        run.status = Status::failed;
-        run.reason = monitor.beyond_limits();
-        break;
-      }
-      if (going && states.due(integrator.state().t)) {
-        states.pass(integrator.state().t);
-        save();
-      }
-    }
-  });
-  if (!going && !ended_short(run)) {
-    run.status = Status::failed;
-    run.reason = integrator.failure();
-    const State& at = integrator.state();
-    integrator.sample(at.t, sampled);
-    std::string why = run.reason.empty() ? "" : explain_laws(scene, at.t);
-    if (why.empty() && !run.reason.empty() && at.y.allFinite()) why = explain_pose(system, at.t, at.y);
-    if (why.empty() && !run.reason.empty()) why = explain_numbers(system, integrator);
-    if (why.empty() && !run.reason.empty()) why = monitor.worst_warning();
-    if (!why.empty()) run.reason += "; " + why;
-    if (run.reason.empty() && !countable)
-      run.reason = "the energy at the start is beyond what a double holds; check masses, speeds and units";
-    if (run.reason.empty()) {
-      std::ostringstream s;
-      s << "t = " << asked
-        << " s: the output there cannot be evaluated (a singular pose, or numbers beyond what a "
-           "double holds: check masses, stiffnesses and speeds)";
-      run.reason = s.str();
-    }
-  }
-  guarded(run, last_row, [&] {
-    if (started && !ended_short(run)) {
-      integrator.sample(integrator.state().t, sampled);
-      book(integrator.state());
-      // Where a run ends early it has a last row too, so that its figures and its books are of one moment.
-      const Equations& eq = integrator.sampled();
-      const bool early = run.status != Status::finished || !integrator.ended().empty();
-      if (early && integrator.state().t > last_row && eq.a.allFinite() && eq.lambda.allFinite()) add_row(integrator.state());
-    }
-    if (listeners.state && !ended_short(run)) save();
-  });
-
-  run.t_end = ended_short(run) ? last_row : integrator.state().t;  // a step may have been cut short
-  if (run.reason.empty()) run.reason = integrator.ended();
-  run.impacts = integrator.impacts();
-  if (from) warn_of_gap(system, model, *from, run);
-  warn_of_depth(system, run);
-  warn_of_pushing(system, run);
-  slow.warn(system, run.energy_in_play, run.warnings);
-  monitor.warn(run.warnings);
-  run.counts = integrator.counts();
-  run.switched = integrator.switched();
-  run.worst_position = integrator.worst_position();
-  run.worst_velocity = integrator.worst_velocity();
-  run.seconds = std::chrono::duration<double>(clock::now() - begin - spent_listening).count();
-  check_energy_balance(scene, model, integrator.implicit(), rounding_energy(system, integrator.state(), until), run);
-  return run;
+  Simulation simulation(scene, model, assembly, listeners, from);
+  simulation.integrate();
+  return simulation.finish(from);
 }
 
 }  // namespace pintle

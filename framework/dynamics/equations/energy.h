@@ -4,7 +4,7 @@
 
 namespace pintle {
 
-/// The books at an instant [J]. total + lost − put in is constant; what changes it is unexplained.
+/// The books at an instant [J]. stored + lost − input is constant; what changes it is unexplained.
 struct Energies {
   double kinetic = 0, gravity = 0, springs = 0, contacts = 0, strain = 0;  ///< stored
   double lost = 0;   ///< to hysteresis, friction, dampers, material and the scheme since the start

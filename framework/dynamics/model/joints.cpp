@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 
 #include "framework/common/index.h"
 
@@ -151,15 +153,29 @@ auto law_in(AnyJoint& joint) {
 
 }  // namespace
 
+namespace {
+
+// The markers are the members before the first that is no int.
+template <class... Member>
+JointEnds leading_ints(const std::tuple<Member&...>& members) {
+  static_assert((0 + ... + std::is_same_v<Member, const int>) <= most_ends);
+  JointEnds out{{}, 0};
+  bool leading = true;
+  const auto see = [&](const auto& member) {
+    if constexpr (std::is_same_v<decltype(member), const int&>) {
+      if (leading) out.marker[at(out.n++)] = member;
+    } else {
+      leading = false;
+    }
+  };
+  std::apply([&](const auto&... each) { (see(each), ...); }, members);
+  return out;
+}
+
+}  // namespace
+
 JointEnds ends_of(const Joint& joint) {
-  return std::visit(
-      [](const auto& j) {
-        if constexpr (requires { j.cage; })
-          return JointEnds{{j.a, j.b, j.cage}, 3};
-        else
-          return JointEnds{{j.a, j.b}, 2};
-      },
-      joint);
+  return std::visit([](const auto& j) { return leading_ints(j.members()); }, joint);
 }
 
 const TimeLaw* driver_law(const Joint& j) { return law_in(j); }

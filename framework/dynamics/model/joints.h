@@ -115,7 +115,7 @@ inline const JointProperties& properties_of(const Joint& joint) {
 }
 inline int rows(const Joint& j) { return properties_of(j).rows(); }
 
-/// The markers that a joint joins: its ends, in order.
+/// The markers that a joint joins, in order: its ends. They are its first members, and its only ones of type int.
 struct JointEnds {
   std::array<int, most_ends> marker;
   int n;

@@ -1,0 +1,65 @@
+#include "framework/analysis/simulate/explain_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace pintle {
+
+namespace {
+
+std::string short_number(double x) {
+  std::ostringstream s;
+  s.precision(3);
+  s << x;
+  return s.str();
+}
+
+/// Bodies that show a force the least and the most inertia, at their centres or turning about them.
+struct Unlike {
+  std::size_t light = 0, heavy = 0;
+  double ratio = 1;
+};
+Unlike most_unlike(const System& system) {
+  double least = INFINITY, most = 0;
+  Unlike out;
+  std::vector<double> reach(system.bodies.size(), 0.0);
+  for (const Marker& m : system.markers)
+    if (m.body != ground) reach[static_cast<std::size_t>(m.body)] = std::max(reach[static_cast<std::size_t>(m.body)], m.x_BP.norm());
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const Body& body = system.bodies[b];
+    const double turning = reach[b] > 0 ? body.J / (reach[b] * reach[b]) : body.m;
+    if (const double low = std::min(body.m, turning); low < least) least = low, out.light = b;
+    if (const double high = std::max(body.m, turning); high > most) most = high, out.heavy = b;
+  }
+  out.ratio = most / least;
+  return out;
+}
+
+}  // namespace
+
+std::string explain_numbers(const System& system, const Integrator& integrator) {
+  constexpr double many = 1e6, few = 1e-9, unlike = 1e6;  // radians, of a pivot, times
+  const Eigen::Index n = system.n();
+  if (!std::isfinite(integrator.last().to.dy.segment(n, n).squaredNorm()))
+    return "numbers beyond what a double holds: check masses, lengths, speeds and units";
+  if (integrator.failure().find("max steps") != std::string::npos) return "";
+  double angle = 0;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b)
+    angle = std::max(angle, std::abs(integrator.state().y[3 * static_cast<Eigen::Index>(b) + 2]));
+  if (angle > many)
+    return "an angle has come to " + short_number(angle) + " rad, whose last digit moves points by " +
+           short_number(angle * 2.2e-16 * system.length) + " m; begin again from this state with angles in one turn";
+  const Schur& rows = integrator.sampled().schur;
+  if (integrator.implicit() || system.n() != system.n_rigid() || system.n_rows() == 0) return "";
+  const Unlike bodies = most_unlike(system);
+  constexpr double hopeless = 1e12;  // nothing of the lighter is left in sums with the heavier
+  if (!(bodies.ratio > unlike && (rows.kept() < few || bodies.ratio > hopeless))) return "";
+  return "the inertia of \"" + system.bodies[bodies.light].name + "\" is " + short_number(1 / bodies.ratio) + " of that of \"" +
+         system.bodies[bodies.heavy].name + "\", at its centre or turning about it, which leaves " + short_number(rows.kept()) +
+         " of what the joint forces are found from; give \"" + system.bodies[bodies.light].name +
+         "\" a mass and an inertia nearer to the others', which changes nothing that counts where they are small beside " +
+         "what it carries, or take method: generalized-alpha";
+}
+
+}  // namespace pintle

@@ -1,0 +1,48 @@
+#include "framework/analysis/simulate/run_warnings.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "framework/common/text.h"
+
+namespace pintle {
+
+void warn_of_depth(const System& system, Run& run) {
+  std::vector<double> deepest(system.contacts.size(), 0.0);
+  for (const Impact& i : run.impacts) {
+    double& d = deepest[static_cast<std::size_t>(i.contact)];
+    d = std::max(d, i.deepest);
+  }
+  for (std::size_t c = 0; c < deepest.size(); ++c)
+    if (deepest[c] > too_deep * system.contacts[c].gap.journal) {
+      std::ostringstream s;
+      s.precision(3);
+      s << "\"" << system.contact_names[c] << "\": the journal went " << deepest[c]
+        << " m into the wall, more than a tenth of its radius; no contact law holds there (is the stiffness " << system.contacts[c].normal.k
+        << " N/m^" << system.contacts[c].normal.n << " meant?)";
+      run.warnings.push_back(s.str());
+    }
+}
+
+void warn_of_gap(const System& system, const Model& model, const SavedState& from, Run& run) {
+  const bool linked = std::ranges::any_of(system.contacts, [](const ContactPair& c) { return c.link >= 0; });
+  if (!linked && model.bending.empty()) return;
+  run.warnings.push_back(
+      "this run goes on from " + number_text(from.t, 3) + " s: " + (linked ? "whether a massless link pushed" : "how far bodies bent") +
+      (linked && !model.bending.empty() ? " and how far bodies bent" : "") + " before that was judged by the run that saved it");
+}
+
+void warn_of_pushing(const System& system, Run& run) {
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    if (system.contacts[c].link < 0) continue;
+    const Run::LinkForce& force = run.links[c];
+    if (force.pushing == 0) continue;
+    std::ostringstream s;
+    s.precision(3);
+    s << "\"" << system.contact_names[c] << "\": the massless link pushed, with up to " << -force.least << " N, in " << force.pushing
+      << " of " << force.rows << " outputs, as no wall could pull: contact would be lost there";
+    run.warnings.push_back(s.str());
+  }
+}
+
+}  // namespace pintle
