@@ -1,7 +1,6 @@
 #include "framework/configuration/row_solver.h"
 
 #include "framework/common/dense.h"
-#include "framework/common/index.h"
 #include "framework/configuration/least_step.h"
 
 namespace pintle {
@@ -12,20 +11,6 @@ namespace {
 constexpr double damping = 1e-12;  // of least squares by normal equations; the sweeps take it away
 constexpr int sweeps = 6;
 }  // namespace
-
-void acceleration_side(const System& system, const Equations& eq, VectorXd& gamma) {
-  for (std::size_t k = 0; k < system.joints.size(); ++k)
-    for (int row = system.row_begin[k], i = 0; row < system.row_begin[k + 1]; ++row, ++i) {
-      gamma[row] = -eq.rows[k].kappa[i];
-      for (std::size_t end = at(system.end_begin[k]); end < at(system.end_begin[k + 1]); ++end) {
-        const ConstraintRows::Block& L = eq.L[end];
-        const std::size_t marker = at(system.end_marker[end]);
-        if (system.markers[marker].body == ground) continue;
-        const MarkerMotion& m = eq.motion[marker];
-        gamma[row] -= L(i, 0) * m.a0.x() + L(i, 1) * m.a0.y() + L(i, 2) * m.alpha0;
-      }
-    }
-}
 
 void RowSolver::factor(const System& system, const Equations& eq) {
   dense_ = system.n() <= dense_size;

@@ -35,7 +35,4 @@ class RowSolver {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod_;
 };
 
-/// γ of Cq a = γ, n_rows: from the motion of the markers and the laws of the drivers. After speed.
-void acceleration_side(const System&, const Equations&, Eigen::VectorXd& gamma);
-
 }  // namespace pintle

@@ -3,7 +3,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "framework/integration/archive.h"
+#include "framework/common/archive.h"
 #include "framework/integration/integrator.h"
 
 namespace pintle {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "framework/integration/members.h"
+#include "framework/common/members.h"
 
 namespace pintle {
 

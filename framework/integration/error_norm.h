@@ -6,7 +6,7 @@
 
 #include "eigen_layout.h"
 #include "framework/dynamics/model/system.h"
-#include "framework/integration/members.h"
+#include "framework/common/members.h"
 #include "framework/integration/step.h"
 
 namespace pintle {

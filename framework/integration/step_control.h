@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "framework/integration/members.h"
+#include "framework/common/members.h"
 
 namespace pintle {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "framework/integration/members.h"
+#include "framework/common/members.h"
 #include "framework/integration/stepper.h"
 
 namespace pintle {

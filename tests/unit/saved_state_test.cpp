@@ -16,7 +16,7 @@
 #include "framework/analysis/simulate/identity.h"
 #include "framework/build/build.h"
 #include "framework/common/sha256.h"
-#include "framework/integration/archive.h"
+#include "framework/common/archive.h"
 #include "tests/scenes/flexible_scenes.h"
 
 namespace pintle_scenes::saved_state_test {

@@ -74,7 +74,7 @@ bool DrivenMotion::settle(State& state, VectorXd& a) {
   speed(system_, state.t, state.y, eq_);
   state.y.segment(n, n) -= rows_.solve(system_, eq_.Cdot);
   speed(system_, state.t, state.y, eq_);
-  acceleration_side(system_, eq_, gamma_);
+  acceleration_side(eq_, gamma_);
   a += rows_.solve(system_, gamma_ - rows_.times(system_, a));
   worst_position_ = worse(worst_position_, worst);
   const double fastest = std::max(size(state.y.segment(n, n)), 1e-9);

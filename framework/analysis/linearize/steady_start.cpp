@@ -39,7 +39,7 @@ class FrameMotion {
     y.segment(n, r) = -solve(eq.Cdot);
     speed(system_, 0, y, eq);
     VectorXd gamma(system_.n_rows());
-    acceleration_side(system_, eq, gamma);
+    acceleration_side(eq, gamma);
     a.setZero(n);
     a.head(r) = solve(gamma);
     return true;

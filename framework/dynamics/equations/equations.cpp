@@ -270,21 +270,25 @@ void apply_forces(const System& system, const State& state, Equations& eq) {
   }
 }
 
+void acceleration_side(const Equations& eq, VectorXd& gamma) {
+  for (Index row = 0; row < gamma.size(); ++row) {
+    const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
+    gamma[row] = -eq.rows[at(joint)].kappa[i];
+  }
+  for (const Equations::EndRow& r : eq.end_rows) {
+    const double* L = eq.L.front().data() + r.at;
+    const MarkerMotion& m = eq.motion[at(r.marker)];
+    gamma.data()[r.row] -= L[0] * m.a0.x() + L[1] * m.a0.y() + L[2] * m.alpha0;
+  }
+}
+
 void accelerate(const System& system, const State& state, Equations& eq) {
   apply_forces(system, state, eq);
 
   // S λ = Cq M⁻¹ f − γ,  a = M⁻¹ (f − Cqᵀ λ)
   eq.a = eq.f;
   multiply_inverse_mass(system, eq, eq.a);
-  for (Index row = 0; row < eq.gamma.size(); ++row) {
-    const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
-    eq.gamma[row] = -eq.rows[at(joint)].kappa[i];
-  }
-  for (const Equations::EndRow& r : eq.end_rows) {
-    const double* L = eq.L.front().data() + r.at;
-    const MarkerMotion& m = eq.motion[at(r.marker)];
-    eq.gamma.data()[r.row] -= L[0] * m.a0.x() + L[1] * m.a0.y() + L[2] * m.alpha0;
-  }
+  acceleration_side(eq, eq.gamma);
   solve_reactions(system, eq);
   ++eq.evaluations;
   if (eq.schur.lost() > 0) eq.regular = agree(system, eq) && follow_bifurcation_branch(system, state, eq);

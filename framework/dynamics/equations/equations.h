@@ -80,6 +80,8 @@ void update_mass(const System&, const Eigen::VectorXd& y, Equations&);
 void factor(const System&, const Eigen::VectorXd& y, Equations&);
 /// f: gravity, what inertia does with speed, force elements, contacts. After speed and update_mass.
 void apply_forces(const System&, const State&, Equations&);
+/// γ, the right-hand side at acceleration level: Cq a = γ. After speed.
+void acceleration_side(const Equations&, Eigen::VectorXd& gamma);
 /// Loads, λ, a. After speed and factor. Clears `regular` where rows contradict each other, and in a
 /// singular pose that speeds do not lead out of.
 void accelerate(const System&, const State&, Equations&);

@@ -1,11 +1,12 @@
 #include "framework/dynamics/newton/kkt.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
-#include "framework/common/binary.h"
+#include "framework/common/archive.h"
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
 #include "framework/dynamics/newton/elimination.h"
@@ -35,6 +36,12 @@ struct Kkt::Data {
   std::optional<Eigen::PartialPivLU<MatrixXd>> dense;
   bool factored = false, shifted = false;
   int since = 0;
+
+  /// What the next factors and solutions follow from.
+  template <class A>
+  void archive(A& x) {
+    x(PINTLE_MEMBERS(factored, shifted, since, values, T, E));
+  }
 
   const Pattern& pattern() const { return sparse ? sparse->pattern() : full_pattern; }
   Eigen::Map<const MatrixXd> full(const std::vector<double>& v) const { return {v.data(), size, size}; }
@@ -203,26 +210,20 @@ bool Kkt::sparse() const { return data_->sparse.has_value(); }
 const char* Kkt::solver() const { return sparse() ? "sparse LU (KLU)" : "dense LU"; }
 long Kkt::nonzeros() const { return data_->sparse ? data_->sparse->nonzeros() : static_cast<long>(data_->size * data_->size); }
 
-void Kkt::save(std::ostream& out) const {
-  const Data& d = *data_;
-  put_binary(out, d.factored);
-  put_binary(out, d.shifted);
-  put_binary(out, d.since);
-  put_binary(out, d.values);
-  for (const VectorXd* v : {&d.T, &d.E}) put_binary(out, *v);
-  if (d.sparse) d.sparse->save(out);
+void Kkt::save(Writer& out) const {
+  out.whole(*data_);
+  if (data_->sparse) data_->sparse->save(out);
 }
 
-bool Kkt::load(std::istream& in) {
+bool Kkt::load(Reader& in) {
   Data& d = *data_;
-  get_binary(in, d.factored);
-  get_binary(in, d.shifted);
-  get_binary(in, d.since);
-  get_binary(in, d.values);
-  for (VectorXd* v : {&d.T, &d.E}) get_binary(in, *v);
-  if (in && d.shifted) d.shift_rows();
-  if (in && d.sparse) d.sparse->load(in, d.shifted ? d.shifted_values : d.values);
-  bool whole = in && d.factored;
+  const auto sizes = [&d] { return std::array{static_cast<Index>(d.values.size()), d.T.size(), d.E.size()}; };
+  const auto expected = sizes();
+  in.whole(d);
+  if (sizes() != expected) in.fail();
+  if (in.good() && d.shifted) d.shift_rows();
+  if (in.good() && d.sparse) d.sparse->load(in, d.shifted ? d.shifted_values : d.values);
+  bool whole = in.good() && d.factored;
   if (whole && d.sparse) whole = d.sparse->nonzeros() > 0;
   if (whole && !d.sparse) whole = d.shifted ? d.factor_shifted() : d.factor_plain();
   if (!whole) forget();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <iosfwd>
 #include <memory>
 #include <vector>
 
@@ -8,6 +7,9 @@
 #include "framework/dynamics/equations/tangent.h"
 
 namespace pintle {
+
+class Writer;
+class Reader;
 
 /// The matrix of Newton's method on r = 0, C = 0:  K = [J Cqᵀ; Cq 0], J a weighted sum of tangents, not
 /// symmetric in general. Dense if a third of the entries or more may be other than zero, up to `dense_size`
@@ -41,9 +43,9 @@ class Kkt {
   long nonzeros() const;       ///< of the factors; size² when dense
 
   /// All that the next solve, and the next factorization, depend on; binary, for the same System and machine.
-  void save(std::ostream&) const;
+  void save(Writer&) const;
   /// @returns false if the stream holds something else; the matrix is then as if never factored
-  bool load(std::istream&);
+  bool load(Reader&);
 
  private:
   struct Data;

@@ -7,7 +7,7 @@
 #include <new>
 #include <utility>
 
-#include "framework/common/binary.h"
+#include "framework/common/archive.h"
 
 namespace pintle {
 
@@ -95,18 +95,21 @@ const Pattern& SparseLu::pattern() const { return data_->pattern; }
 long SparseLu::nonzeros() const { return data_->numeric ? static_cast<long>(data_->numeric->lnz) + data_->numeric->unz : 0; }
 long SparseLu::pivotings() const { return data_->pivotings; }
 
-void SparseLu::save(std::ostream& out) const {
-  put_binary(out, data_->numeric != nullptr);
-  put_binary(out, data_->seed);
+void SparseLu::save(Writer& out) const {
+  const bool factored = data_->numeric != nullptr;
+  const std::vector<double>& seed = data_->seed;
+  out(PINTLE_MEMBERS(factored, seed));
 }
 
-void SparseLu::load(std::istream& in, const std::vector<double>& values) {
+void SparseLu::load(Reader& in, const std::vector<double>& values) {
   bool factored = false;
-  get_binary(in, factored);
-  get_binary(in, data_->seed);
+  std::vector<double> seed;
+  in(PINTLE_MEMBERS(factored, seed));
+  if (seed.size() != data_->seed.size()) in.fail();
   klu_free_numeric(&data_->numeric, &data_->common);
-  if (!in || !factored) return;
-  if (!data_->choose_pivots(std::vector<double>(data_->seed)) || !data_->factor(values)) in.setstate(std::ios::failbit);
+  if (!in.good()) return;
+  data_->seed = seed;
+  if (factored && !(data_->choose_pivots(seed) && data_->factor(values))) in.fail();
 }
 
 }  // namespace pintle

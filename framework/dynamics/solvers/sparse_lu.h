@@ -1,12 +1,14 @@
 #pragma once
 
-#include <iosfwd>
 #include <memory>
 #include <vector>
 
 #include "framework/dynamics/solvers/pattern.h"
 
 namespace pintle {
+
+class Writer;
+class Reader;
 
 /// A = L U of a sparse matrix without symmetry, by KLU: pivots chosen at the first factorization, on the
 /// diagonal where that is not small, and kept while they stay good, so that the next costs numbers only and
@@ -34,8 +36,8 @@ class SparseLu {
 
   /// What the choice of pivots followed from; after `load` with the values factored last all goes on bit for
   /// bit. A stream that holds something else is left failed, and nothing factored.
-  void save(std::ostream&) const;
-  void load(std::istream&, const std::vector<double>& values);
+  void save(Writer&) const;
+  void load(Reader&, const std::vector<double>& values);
 
  private:
   struct Data;

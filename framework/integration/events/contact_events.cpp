@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "framework/common/index.h"
-#include "framework/integration/archive.h"
+#include "framework/common/archive.h"
 
 namespace pintle {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "framework/dynamics/equations/equations.h"
-#include "framework/integration/members.h"
+#include "framework/common/members.h"
 #include "framework/integration/step.h"
 
 namespace pintle {

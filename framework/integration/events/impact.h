@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "framework/integration/members.h"
+#include "framework/common/members.h"
 
 namespace pintle {
 

@@ -8,7 +8,7 @@
 
 #include "eigen_layout.h"
 #include "framework/dynamics/equations/equations.h"
-#include "framework/integration/members.h"
+#include "framework/common/members.h"
 
 namespace pintle {
 

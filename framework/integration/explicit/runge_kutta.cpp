@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "framework/integration/archive.h"
+#include "framework/common/archive.h"
 #include "framework/integration/dense_output.h"
 
 namespace pintle {

@@ -6,7 +6,7 @@
 #include "framework/integration/constraint_treatment.h"
 #include "framework/integration/explicit/partition.h"
 #include "framework/integration/explicit/tableau.h"
-#include "framework/integration/members.h"
+#include "framework/common/members.h"
 #include "framework/integration/step.h"
 
 namespace pintle {

@@ -53,9 +53,9 @@ class Alpha {
   void archive(A& x) {
     x(PINTLE_MEMBERS(rate_, tired_, kept_, factored_, iterations_));
     if constexpr (A::loading) {
-      if (factored_ && !kkt_.load(x.stream)) x.stream.setstate(std::ios::failbit);
+      if (factored_ && !kkt_.load(x)) x.fail();
     } else if (factored_) {
-      kkt_.save(x.stream);
+      kkt_.save(x);
     }
   }
 

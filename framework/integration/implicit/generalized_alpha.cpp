@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "framework/integration/archive.h"
+#include "framework/common/archive.h"
 #include "framework/integration/dense_output.h"
 
 namespace pintle {

@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 
 #include "eigen_layout.h"
-#include "framework/integration/members.h"
+#include "framework/common/members.h"
 
 namespace pintle {
 
