@@ -38,7 +38,7 @@ class Sum : public ValueWriter<Sum> {
   template <class Kind>
   requires requires(const Kind& kind) { kind.members(); }
   void add(const Kind& joint_or_force) {
-    std::apply([this](const auto&... member) { add(member...); }, joint_or_force.members());
+    std::apply([this](const auto&... member) { this->add(member...); }, joint_or_force.members());
   }
   void add(const ContactPair& p) {
     const auto& [journal, bearing, gap, normal, friction, sliding, slowest, link] = p;
