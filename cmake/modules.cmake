@@ -34,6 +34,7 @@ function(pintle_helper name)
   target_compile_definitions(${target} PRIVATE PINTLE_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${target} PRIVATE pintle_flags pintle_eigen ${helper_LINKS})
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF OUTPUT_NAME pintle-${name} RUNTIME_OUTPUT_DIRECTORY ${pintle_modules})
+  pintle_batches(${target} SIZE 8 ALONE "gmsh_|confine|_main")  # system and Gmsh headers are for these alone
   add_dependencies(pintle ${target})
   install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/pintle)
 endfunction()

@@ -9,8 +9,6 @@ namespace pintle {
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 double sign_of(Direction d) { return d == Direction::falling ? -1 : 1; }
 /// The event is where it becomes positive.
 Guard turned(const Guard& g, const WatchedGuard& w) { return {sign_of(w.direction) * g.value, sign_of(w.direction) * g.rate}; }
@@ -83,7 +81,7 @@ void Events::begin_step(const State& from) {
 double Events::kink_ahead(double wish) const {
   constexpr double little = 1e-2;  // of the step wished for: so near, the step may as well pass
   constexpr double past = 1.02;    // a contact opens faster and faster
-  double ahead = infinite;
+  double ahead = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const WatchedGuard& w = watched_[k];
     if (!w.kink) continue;
