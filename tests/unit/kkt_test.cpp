@@ -11,6 +11,7 @@
 
 #include "framework/dynamics/equations/jacobian.h"
 #include "framework/dynamics/newton/kkt.h"
+#include "framework/common/archive.h"
 
 namespace pintle::kkt_test {
 namespace {
@@ -206,8 +207,10 @@ TEST(Kkt, GoesOnBitForBitFromWhatWasSaved) {
         ASSERT_TRUE(one.factor(p.system, p.eq, p.J));
       }
       std::stringstream stream;
-      one.save(stream);
-      ASSERT_TRUE(other.load(stream));
+      Writer out(stream);
+      one.save(out);
+      Reader in(stream);
+      ASSERT_TRUE(other.load(in));
       for (unsigned i = 20; i < 60; ++i) {
         VectorXd x = VectorXd::LinSpaced(p.system.n(), 1, 2), y = VectorXd::LinSpaced(p.system.n_rows(), -1, 1), u = x, v = y;
         one.solve(x, y);
@@ -218,7 +221,8 @@ TEST(Kkt, GoesOnBitForBitFromWhatWasSaved) {
         ASSERT_TRUE(one.factor(p.system, p.eq, p.J) && other.factor(p.system, p.eq, p.J));
       }
       std::stringstream foreign("something else");
-      EXPECT_FALSE(other.load(foreign));
+      Reader wrong(foreign);
+      EXPECT_FALSE(other.load(wrong));
     }
 }
 

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "framework/common/index.h"
 
@@ -139,17 +140,18 @@ void curve(const DistanceDriver& j, const MarkerMotion* m, const double* lambda,
   keep_length_tangent(m[j.a], m[j.b], lambda[0], out);
 }
 
-template <class AnyJoint>
-auto law_in(AnyJoint& joint) {
-  return std::visit(
-      [](auto& j) -> decltype(&std::get_if<AngleDriver>(&joint)->law) {
-        if constexpr (requires { j.law; })
-          return &j.law;
-        else
-          return nullptr;
-      },
-      joint);
-}
+template <class Kind>
+concept HasSpeed = requires(const Kind& j, const MarkerMotion* m, ConstraintRows& out) {
+  speed(j, m, 0.0, out);
+};
+template <class Kind>
+concept Curves = requires(const Kind& j, const MarkerMotion* m, WrenchTangent& out) {
+  curve(j, m, nullptr, out);
+};
+template <class Kind>
+concept IsDriver = requires(const Kind& j) {
+  j.law;
+};
 
 }  // namespace
 
@@ -178,8 +180,16 @@ JointEnds ends_of(const Joint& joint) {
   return std::visit([](const auto& j) { return leading_ints(j.members()); }, joint);
 }
 
-const TimeLaw* driver_law(const Joint& j) { return law_in(j); }
-TimeLaw* driver_law(Joint& j) { return law_in(j); }
+const TimeLaw* driver_law(const Joint& joint) {
+  const auto law = []<class Kind>(const Kind& j) -> const TimeLaw* {
+    if constexpr (IsDriver<Kind>)
+      return &j.law;
+    else
+      return nullptr;
+  };
+  return std::visit(law, joint);
+}
+TimeLaw* driver_law(Joint& joint) { return const_cast<TimeLaw*>(driver_law(std::as_const(joint))); }
 
 bool is_angle_row(const Joint& j, int row) { return std::string_view(row_name(j, row)) == "angle"; }
 
@@ -188,20 +198,18 @@ void evaluate_pose(const Joint& joint, const MarkerMotion* markers, double t, Co
 }
 
 void evaluate_speed(const Joint& joint, const MarkerMotion* markers, double t, ConstraintRows& out) {
-  std::visit(
-      [&](const auto& j) {
-        if constexpr (requires { speed(j, markers, t, out); }) speed(j, markers, t, out);
-      },
-      joint);
+  const auto evaluate = [&]<class Kind>(const Kind& j) {
+    if constexpr (HasSpeed<Kind>) speed(j, markers, t, out);
+  };
+  std::visit(evaluate, joint);
 }
 
 WrenchTangent wrench_tangent(const Joint& joint, const MarkerMotion* markers, const double* lambda) {
   WrenchTangent out(ends_of(joint).n);
-  std::visit(
-      [&](const auto& j) {
-        if constexpr (requires { curve(j, markers, lambda, out); }) curve(j, markers, lambda, out);
-      },
-      joint);
+  const auto evaluate = [&]<class Kind>(const Kind& j) {
+    if constexpr (Curves<Kind>) curve(j, markers, lambda, out);
+  };
+  std::visit(evaluate, joint);
   return out;
 }
 
