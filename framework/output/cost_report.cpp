@@ -17,7 +17,7 @@ Json whole_range(const Estimate& e) {
   return {{"least", std::lround(e.low)}, {"likely", std::lround(e.likely)}, {"most", std::lround(e.high)}};
 }
 
-Json cost_json(const RunCost& c) {
+Json run_cost_json(const RunCost& c) {
   const Trial& t = c.trial;
   return {{"steps", whole_range(c.steps)},
           {"mean step [s]", c.step},
@@ -59,7 +59,7 @@ std::string cost_json(const CostEstimate& p) {
   Json simpler = Json::array();
   for (const Saving& s : p.simpler) {
     simpler.push_back({{"what", s.what}, {"part of the time saved", s.saved}});
-    if (!s.of_outputs) simpler.back()["cost"] = cost_json(s.cost);
+    if (!s.of_outputs) simpler.back()["cost"] = run_cost_json(s.cost);
   }
   const OutputCost& o = p.output;
   const Json out = {{"coordinates", p.coordinates},
@@ -69,7 +69,7 @@ std::string cost_json(const CostEstimate& p) {
                     {"largest rate [rad/s]", p.largest_rate},
                     {"largest rate of", p.largest_rate_of},
                     {"contact rate [rad/s]", p.contact_rate},
-                    {"run", cost_json(p.run)},
+                    {"run", run_cost_json(p.run)},
                     {"outputs",
                      {{"rows", o.rows},
                       {"columns", o.columns},

@@ -74,7 +74,7 @@ double spline_error(const DriverEffort& e) {
   return worst;
 }
 
-double largest(const std::vector<double>& values) {
+double largest_of(const std::vector<double>& values) {
   double out = 0;
   for (double v : values) out = worse(out, std::abs(v));
   return out;
@@ -104,7 +104,7 @@ std::vector<DriverEffort> find_efforts(const Model& model, const Assembly& assem
     bool done = true;
     for (std::size_t d = 0; d < out.size(); ++d) {
       out[d].error = spline_error(out[d]);
-      done = done && (!(out[d].error > enough * largest(out[d].value)) || out[d].error > smooth * before[d]);  // a law with jumps
+      done = done && (!(out[d].error > enough * largest_of(out[d].value)) || out[d].error > smooth * before[d]);  // a law with jumps
       before[d] = out[d].error;
     }
     if (done || 2 * n > most) return out;

@@ -93,7 +93,7 @@ bool contains_time(const std::vector<Word>& words) {
   return std::ranges::any_of(words, [](const Word& w) { return w.text == "t"; });
 }
 
-Quantity constant(std::string_view text, const Vocabulary& known) {
+Quantity evaluated(std::string_view text, const Vocabulary& known) {
   try {
     Formula formula(dimension::time);
     const std::vector<Word> words = spell(text, known);
@@ -107,7 +107,7 @@ Quantity constant(std::string_view text, const Vocabulary& known) {
 
 }  // namespace
 
-Quantity read_quantity(std::string_view text, const Parameters& parameters) { return constant(text, {parameters}); }
+Quantity read_quantity(std::string_view text, const Parameters& parameters) { return evaluated(text, {parameters}); }
 
 double read_quantity(std::string_view text, const Dimension& expected, const Parameters& parameters) {
   const Quantity q = read_quantity(text, parameters);
@@ -116,7 +116,7 @@ double read_quantity(std::string_view text, const Dimension& expected, const Par
 }
 
 double read_frequency(std::string_view text, const Parameters& parameters) {
-  const Quantity q = constant(text, {parameters, frequency_units()});
+  const Quantity q = evaluated(text, {parameters, frequency_units()});
   if (bare(q.dimension)) return q.value;
   if (!same(q.dimension, dimension::angular_speed))
     throw ExpressionError(quoted(text) + " is " + describe(q.dimension) + "; expected a frequency [Hz]");
