@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <new>
 
 #include <nlohmann/json.hpp>
 
@@ -30,6 +31,8 @@ class Sum : public ValueWriter<Sum> {
     for (int i = -1; i <= decades * each; ++i) try {
         const Jet jet = law(i < 0 ? 0 : 1e-6 * std::pow(10, static_cast<double>(i) / each));
         add(jet.value, jet.rate, jet.accel);
+      } catch (const std::bad_alloc&) {
+        throw;
       } catch (const std::exception& outside) {  // of where the law is defined
         add(std::string(outside.what()));
       }
