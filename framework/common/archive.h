@@ -68,7 +68,7 @@ class Writer {
   }
 };
 
-/// Reads what Writer wrote. `good()` is false once something is missing, is not what it must be, or is of another layout.
+/// Reads what Writer wrote, from a stream that is whole in memory (std::istringstream). `good()` is false once something is missing, is not what it must be, or is of another layout.
 class Reader {
  public:
   static constexpr bool loading = true;
