@@ -20,19 +20,13 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 Json head(const Scene& scene, const Model& model, const Run& run) {
-  return {
-      {"program", "pintle"},
-      {"version", PINTLE_VERSION},
-      {"title", scene.title},
-      {"file", scene.file},
-      {"status", status_text(run.status)},
-      {"reason", run.reason},
-      {"warnings", run.warnings},
-      {"reached [s]", run.t_end},
+  Json out = run_head(scene, run);
+  out.update(Json{
       {"model", {{"bodies", model.system.bodies.size()}, {"coordinates", model.system.n()}, {"constraint rows", model.system.n_rows()}}},
       {"worst scaled violation", {{"position", run.worst_position}, {"velocity", run.worst_velocity}}},
       {"counts", {{"steps", run.counts.steps}, {"rejected", run.counts.rejected}}},
-      {"timings [s]", {{"computing", run.seconds}}}};
+      {"timings [s]", {{"computing", run.seconds}}}});
+  return out;
 }
 
 std::string effort_csv(const DriverEffort& e) {

@@ -102,6 +102,12 @@ Json method_json(const Scheme& scheme, const std::string& switched) {
 
 }  // namespace
 
+Json run_head(const Scene& scene, const Run& run) {
+  return {{"program", "pintle"},      {"version", PINTLE_VERSION},         {"title", scene.title},
+          {"file", scene.file},       {"status", status_text(run.status)}, {"reason", run.reason},
+          {"warnings", run.warnings}, {"reached [s]", run.t_end}};
+}
+
 std::string run_json(const Scene& scene, const Model& model, const Assembly& assembly, const Run& run) {
   const System& system = model.system;
   Json losses = Json::object();
@@ -120,37 +126,30 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
     out["journal radius [m]"] = p.gap.journal;
     out["bearing radius [m]"] = p.gap.bearing;
   }
-  const Json out = {{"program", "pintle"},
-                    {"version", PINTLE_VERSION},
-                    {"title", scene.title},
-                    {"file", scene.file},
-                    {"status", status_text(run.status)},
-                    {"reason", run.reason},
-                    {"warnings", run.warnings},
-                    {"reached [s]", run.t_end},
-                    {"model", assembly_json(system, assembly)},
-                    {"method", method_json(model.scheme, run.switched)},
-                    {"flexible bodies", flexible_json(model)},
-                    {"rigid run", preliminary_run_json(model)},
-                    {"contacts", contacts},
-                    {"energy at start [J]", energies_json(run.first)},
-                    {"energy at end [J]", energies_json(run.last)},
-                    {"ledger [J]", losses},
-                    {"unexplained [J]", run.unexplained},
-                    {"worst unexplained [J]", run.worst_unexplained},
-                    {"energy in play [J]", run.energy_in_play},
-                    {"ledger bound", {{"share of the energy in play", run.ledger_bound}, {"and of rounding [J]", run.ledger_floor}}},
-                    {"worst scaled violation", {{"position", run.worst_position}, {"velocity", run.worst_velocity}}},
-                    {"counts",
-                     {{"steps", run.counts.steps},
-                      {"rejected", run.counts.rejected},
-                      {"evaluations", run.counts.evaluations},
-                      {"factorizations", run.counts.factorizations},
-                      {"events", run.counts.events},
-                      {"impacts", run.impacts.size()},
-                      {"partitions chosen", run.counts.partitions}}},
-                    {"timings [s]", {{"integration", run.seconds}}},
-                    {"scene", scene_json(scene)}};
+  Json out = run_head(scene, run);
+  out.update(Json{{"model", assembly_json(system, assembly)},
+                  {"method", method_json(model.scheme, run.switched)},
+                  {"flexible bodies", flexible_json(model)},
+                  {"rigid run", preliminary_run_json(model)},
+                  {"contacts", contacts},
+                  {"energy at start [J]", energies_json(run.first)},
+                  {"energy at end [J]", energies_json(run.last)},
+                  {"ledger [J]", losses},
+                  {"unexplained [J]", run.unexplained},
+                  {"worst unexplained [J]", run.worst_unexplained},
+                  {"energy in play [J]", run.energy_in_play},
+                  {"ledger bound", {{"share of the energy in play", run.ledger_bound}, {"and of rounding [J]", run.ledger_floor}}},
+                  {"worst scaled violation", {{"position", run.worst_position}, {"velocity", run.worst_velocity}}},
+                  {"counts",
+                   {{"steps", run.counts.steps},
+                    {"rejected", run.counts.rejected},
+                    {"evaluations", run.counts.evaluations},
+                    {"factorizations", run.counts.factorizations},
+                    {"events", run.counts.events},
+                    {"impacts", run.impacts.size()},
+                    {"partitions chosen", run.counts.partitions}}},
+                  {"timings [s]", {{"integration", run.seconds}}},
+                  {"scene", scene_json(scene)}});
   return json_text(out) + "\n";
 }
 

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "framework/analysis/simulate/simulate.h"
 #include "framework/scene/scene.h"
 
 namespace pintle {
@@ -11,5 +12,8 @@ inline nlohmann::ordered_json scene_json(const Scene& scene) {
   if (scene.filled_in.empty()) return nullptr;
   return nlohmann::ordered_json::parse(scene.filled_in, nullptr, false);
 }
+
+/// What every description of a run begins with.
+nlohmann::ordered_json run_head(const Scene&, const Run&);
 
 }  // namespace pintle
