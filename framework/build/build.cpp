@@ -244,11 +244,15 @@ class Builder {
       two_bodies(s->a, s->b, l.place);
       const int a = marker(s->a);
       forces.push_back(Spring{a, marker(s->b), s->stiffness, s->damping, s->free_length});
+    } else if (const auto* r = std::get_if<SceneTorsionSpring>(&l.what)) {
+      two_bodies(r->a, r->b, l.place);
+      const int a = marker(r->a, Holds::direction);
+      forces.push_back(TorsionSpring{a, marker(r->b, Holds::direction), r->stiffness, r->damping, r->free_angle});
     } else {
-      const auto& r = std::get<SceneTorsionSpring>(l.what);
-      two_bodies(r.a, r.b, l.place);
-      const int a = marker(r.a, Holds::direction);
-      forces.push_back(TorsionSpring{a, marker(r.b, Holds::direction), r.stiffness, r.damping, r.free_angle});
+      const auto& m = std::get<SceneMaxwell>(l.what);
+      two_bodies(m.a, m.b, l.place);
+      const int a = marker(m.a);
+      forces.push_back(Maxwell{a, marker(m.b), m.stiffness, m.damping});
     }
     model_.system.force_names.push_back(l.name);
   }

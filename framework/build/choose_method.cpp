@@ -54,6 +54,9 @@ class Parts {
     } else if (const auto* t = std::get_if<TorsionSpring>(&force)) {
       const double w = mobility(system_, t->a).couple + mobility(system_, t->b).couple;
       see({std::sqrt(t->k * w), t->c * w, "the spring \"" + name + "\""});
+    } else if (const auto* m = std::get_if<Maxwell>(&force)) {
+      const double w = mobility(system_, m->a).force + mobility(system_, m->b).force;
+      see({std::sqrt(m->k * w), m->k / m->c, "the spring in series with the damper \"" + name + "\""});
     }
   }
   void see(const Body& body) {

@@ -14,6 +14,7 @@
 #include "framework/configuration/ideal_pin.h"
 #include "framework/configuration/least_step.h"
 #include "framework/configuration/row_space.h"
+#include "framework/dynamics/equations/internal.h"
 #include "framework/scene/error.h"
 
 namespace pintle {
@@ -317,6 +318,7 @@ Assembly assembled(const Scene& scene, const System& system, const Bent& bent) {
   undeformed_first(system, r, &Rough::W_speed, [&](Rough& from) { return match_speeds(scene, closure, system, from); });
   out.start.t = 0;
   out.start.y = r.y;
+  relax_internal_states(system, 0, out.start.y);
   out.start.impact_rate.assign(system.contacts.size(), 0.0);
   RowReport rows = validate_rows(system, 0, r.y);
   out.rank = rows.rank;

@@ -8,6 +8,7 @@
 
 #include "framework/common/index.h"
 #include "framework/common/text.h"
+#include "framework/dynamics/equations/internal.h"
 #include "framework/dynamics/newton/kkt.h"
 
 namespace pintle {
@@ -56,6 +57,7 @@ class Rest {
     if (!project(held, t_, state.y, eq) || !(size(state.y.head(held.n()) - before) <= farthest)) return false;
     state.y.tail(state.y.size() - held.n()).setZero();
     speed(held, t_, state.y, eq);
+    follow_internal_states(held, eq, t_, without_end, nullptr, state.y.data() + held.x_begin());
     accelerate(held, state, eq);
     out_of_balance = eq.f;
     add_reaction(eq, -eq.lambda, out_of_balance);
@@ -173,7 +175,8 @@ class Search {
   // d of [K + σM, Cqᵀ; Cq, 0] [d; ·] = [forces out of balance; 0], shortened until it does what it should.
   bool step(bool by_potential, double sigma) {
     const System& held = rest_.held;
-    rest_.tangent.evaluate(held, state_, rest_.eq, VectorXd::Zero(held.n()), rest_.eq.lambda, {.q = 1, .s = 0, .a = sigma}, rest_.values);
+    rest_.tangent.evaluate(held, state_, rest_.eq, VectorXd::Zero(held.n()), rest_.eq.lambda, {.q = 1, .s = 0, .a = sigma, .x = without_end},
+                           rest_.values);
     if (!rest_.kkt.factor(held, rest_.eq, rest_.values)) return false;
     VectorXd d = rest_.out_of_balance, y = VectorXd::Zero(held.n_rows());
     const double before = rest_.potential, unrest = rest_.unrest(), rounding = rest_.rounding();

@@ -5,6 +5,7 @@
 
 #include "framework/common/index.h"
 #include "framework/configuration/assemble.h"
+#include "framework/dynamics/equations/internal.h"
 #include "framework/integration/integrator.h"
 
 namespace pintle {
@@ -44,6 +45,7 @@ State state_of(const System& system, const VectorXd& y) {
   State state;
   state.y.setZero(system.n_y());
   state.y.head(2 * system.n()) = y.head(2 * system.n());
+  relax_internal_states(system, 0, state.y);
   state.impact_rate.assign(system.contacts.size(), 0.0);
   return state;
 }

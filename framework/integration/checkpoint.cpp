@@ -38,8 +38,8 @@ const char* Integrator::fault_of_loaded() const {
   const Eigen::Index n = system_.n(), rows = system_.n_rows(), n_y = system_.n_y();
   const auto whole = [&](const Instant& node) {
     const Memory& m = node.memory;
-    const bool remembers = m.a.size() == n && m.lambda.size() == rows && m.lambda_before.size() == rows && m.dy_before.size() == n_y &&
-                           m.F.size() == n && m.P.size() == n;
+    const bool remembers = m.a.size() == system_.n_s() && m.lambda.size() == rows && m.lambda_before.size() == rows &&
+                           m.dy_before.size() == n_y && m.F.size() == n && m.P.size() == n;
     const bool empty = m.a.size() + m.lambda.size() + m.lambda_before.size() + m.dy_before.size() + m.F.size() + m.P.size() == 0;
     return node.state.y.size() == n_y && node.dy.size() == n_y && node.state.impact_rate.size() == system_.contacts.size() &&
            node.state.y.allFinite() && node.dy.allFinite() && std::isfinite(node.state.t) && (remembers || empty);

@@ -5,7 +5,7 @@ namespace pintle {
 using Index = Eigen::Index;
 
 void interpolate_quintic(const System& system, const Step& step, double t, State& out) {
-  const Index n = system.n(), nz = system.n_z();
+  const Index n = system.n();
   const double h = step.h, x = (t - step.from.state.t) / h;
   const double x2 = x * x, x3 = x2 * x, x4 = x3 * x, x5 = x4 * x;
   const auto& y0 = step.from.state.y;
@@ -26,7 +26,7 @@ void interpolate_quintic(const System& system, const Step& step, double t, State
     out.y[i] = y0[i] + p1 * rise + v0 * s0 + v1 * s1 + a0 * b0 + a1 * b1;
     out.y[n + i] = (dp1 * rise + dv0 * s0 + dv1 * s1 + da0 * b0 + da1 * b1) / h;
   }
-  for (Index i = 2 * n; i < 2 * n + nz; ++i) {
+  for (Index i = 2 * n; i < system.n_y(); ++i) {
     const double rise = y1[i] - y0[i];
     out.y[i] = y0[i] + x2 * (3 - 2 * x) * rise + x * (1 - x) * (1 - x) * h * step.from.dy[i] + x2 * (x - 1) * h * dy1[i];
   }
@@ -34,14 +34,13 @@ void interpolate_quintic(const System& system, const Step& step, double t, State
 
 // Each as good as the ends of an implicit step are.
 void interpolate_cubic(const System& system, const Step& step, double t, State& out) {
-  const Index n = system.n(), nz = system.n_z();
   const double x = (t - step.from.state.t) / step.h;
   const double rise = x * x * (3 - 2 * x), from = x * (1 - x) * (1 - x) * step.h, to = x * x * (x - 1) * step.h;
   const auto &y0 = step.from.state.y, &y1 = step.to.state.y, &dy1 = step.dy_end();
   out.t = t;
   out.impact_rate = step.from.state.impact_rate;
   out.y.resize(system.n_y());
-  for (Index i = 0; i < 2 * n + nz; ++i) out.y[i] = y0[i] + rise * (y1[i] - y0[i]) + from * step.from.dy[i] + to * dy1[i];
+  for (Index i = 0; i < system.n_y(); ++i) out.y[i] = y0[i] + rise * (y1[i] - y0[i]) + from * step.from.dy[i] + to * dy1[i];
 }
 
 }  // namespace pintle

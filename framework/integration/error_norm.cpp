@@ -79,7 +79,12 @@ double ErrorNorm::of(const Step& step, bool follows_impacts) const {
       judge(n + i, std::max(speed, std::min(as_fine, fastest)) * per_metre);
     }
   }
-  for (Index i = 2 * n; i < y.size(); ++i)
+  for (Index i = 0; i < system_.n_x(); ++i) {
+    const Index k = system_.x_begin() + i;
+    const double scale = system_.x_scale[i] > 0 ? system_.x_scale[i] : length;
+    worst = worse(worst, std::abs(step.error[k]) / (tolerance_ * scale + 1e-15 * std::abs(y[k])));
+  }
+  for (Index i = system_.z_begin(); i < y.size(); ++i)
     worst = worse(worst, std::abs(step.error[i]) / (tolerance_ * std::max(energy, std::abs(y[i])) + 1e-300));
   return worst;
 }

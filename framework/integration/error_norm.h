@@ -12,8 +12,8 @@
 namespace pintle {
 
 /// What errors are measured by. Lengths, modal ones by what their shapes move, are judged against the smallest that matters (a
-/// clearance c, else the mechanism), angles by what they move, speeds against the fastest so far, integrals against the kinetic
-/// energy so far.
+/// clearance c, else the mechanism), angles by what they move, speeds against the fastest so far, internal states
+/// against their own scale, integrals against the kinetic energy so far.
 class ErrorNorm {
  public:
   ErrorNorm(const System&, double tolerance);

@@ -11,7 +11,7 @@ namespace pintle {
 /// What an implicit scheme knows at a node besides the state; empty for an explicit one.
 struct Memory {
   double h = 0;                           ///< of the step that led here; 0: a start, nothing before it counts [s]
-  Eigen::VectorXd a;                      ///< the scheme's own accelerations
+  Eigen::VectorXd a;                      ///< the scheme's own accelerations, and rates of internal states
   Eigen::VectorXd lambda, lambda_before;  ///< multipliers here and a step earlier
   Eigen::VectorXd dy_before;              ///< derivative a step earlier
   Eigen::VectorXd F, P;                   ///< f − Cqᵀλ, and M v̇, which Newton leaves a little apart

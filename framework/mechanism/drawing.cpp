@@ -166,7 +166,7 @@ Drawing draw(const Model& model, const Drafting& drafting, const State& state, c
   }
   draw_clearances(system, drafting, eq, out);
   for (std::size_t f = 0; f < system.forces.size(); ++f)
-    if (std::holds_alternative<Spring>(system.forces[f])) {
+    if (std::holds_alternative<Spring>(system.forces[f]) || std::holds_alternative<Maxwell>(system.forces[f])) {
       const Vector2d a = eq.motion[at(marker_a(system.forces[f]))].r, b = eq.motion[at(marker_b(system.forces[f]))].r;
       const int body = system.markers[at(marker_b(system.forces[f]))].body;
       out.lines.push_back({Part::spring, body == ground ? 0 : body, false, coil(a, b, drafting.pin)});

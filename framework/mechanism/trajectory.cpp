@@ -123,6 +123,14 @@ void contact_columns(const System& system, std::size_t k, Out& out) {
 }
 
 template <class Out>
+void internal_columns(const System& system, const InternalStates& owner, Out& out) {
+  const auto states = internal_states(system.forces[at(owner.force)]);
+  for (int i = 0; i < owner.n; ++i)
+    out(system.force_names[at(owner.force)], {{states[at(i)].name, states[at(i)].unit}},
+        [&, i](const Now& now) { return std::array{now.state.y[system.x_begin() + owner.begin + i]}; });
+}
+
+template <class Out>
 void point_columns(const System& system, const RecordedPoint& p, Out& out) {
   const auto motion = [&](const Now& now) { return motion_of(system, p.marker, now.state, now.eq); };
   out(p.name, {{".x", "m"}, {".y", "m"}, {".vx", "m/s"}, {".vy", "m/s"}, {".ax", "m/s^2"}, {".ay", "m/s^2"}}, [&](const Now& now) {
@@ -172,6 +180,7 @@ void trajectory_columns(const Model& model, Out out) {
         system, system.force_names[k], !turns, turns, marker_b(system.forces[k]), [&](const Now& now) { return now.eq.force[k].on_b; },
         out);
   }
+  for (const InternalStates& owner : system.internal) internal_columns(system, owner, out);
   for (const RecordedPoint& p : model.points) point_columns(system, p, out);
   for (const RecordedStress& s : model.stresses) stress_columns(system, s, out);
 }
@@ -192,7 +201,7 @@ void ledger_columns(const System& system, Out out) {
   out("", {{"stored", "J"}}, [](const Books& now) { return std::array{now.energies.stored()}; });
   for (std::size_t i = 0; i < system.integrals.size(); ++i)
     out(
-        "", {{"", "J"}}, [&](const Books& now) { return std::array{now.state.y[2 * system.n() + static_cast<Eigen::Index>(i)]}; },
+        "", {{"", "J"}}, [&](const Books& now) { return std::array{now.state.y[system.z_begin() + static_cast<Eigen::Index>(i)]}; },
         [&] { return integral_name(system, system.integrals[i]); });
   out("", {{"unexplained", "J"}}, [](const Books& now) { return std::array{now.unexplained}; });
 }

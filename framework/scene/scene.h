@@ -143,9 +143,14 @@ struct SceneTorsionSpring {
   PointRef a, b;
   double stiffness = 0, damping = 0, free_angle = 0;  ///< [N m/rad], [N m s/rad], [rad]
 };
+/// A spring and a damper in series.
+struct SceneMaxwell {
+  PointRef a, b;
+  double stiffness = 0, damping = 0;  ///< [N/m], [N s/m], > 0
+};
 struct SceneLoad {
   std::string name;
-  std::variant<SceneForce, SceneTorque, SceneSpring, SceneTorsionSpring> what;
+  std::variant<SceneForce, SceneTorque, SceneSpring, SceneTorsionSpring, SceneMaxwell> what;
   Place place;
 };
 

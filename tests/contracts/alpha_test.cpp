@@ -67,6 +67,10 @@ TEST(Alpha, SliderCrankConvergesWithSecondOrderInPositionSpeedAndMultipliers) {
   for (const double rho : {0.5, 0.8}) expect_second_order(crank::make(), rho, 0.6, 160, 4);
 }
 
+TEST(Alpha, InternalStatesConvergeWithSecondOrder) {
+  for (const double rho : {0.5, 0.8, 0.95}) expect_second_order(series::make(), rho, 1, 80, 4);
+}
+
 // θ̈ = −ω²θ on a hinge at the mass centre.
 Case oscillator(double omega, double damping = 0) {
   constexpr double J = 0.02;

@@ -50,6 +50,7 @@ const Kind kinds[] = {
     {"Damper", Spring{0, 1, 0, 3, 0.5}},
     {"TorsionSpring", TorsionSpring{0, 1, 25, 0, -0.8}},
     {"DampedTorsionSpring", TorsionSpring{0, 1, 25, 2, -0.8}},
+    {"Maxwell", Maxwell{0, 1, 40, 3}},
 };
 bool is_load(const Force& f) { return std::holds_alternative<PointForce>(f) || std::holds_alternative<Torque>(f); }
 
@@ -77,9 +78,14 @@ class ForceContract : public testing::TestWithParam<Kind> {
  protected:
   const Force& force_ = GetParam().force;
   Draw draw_{5};
-  double stored(const Vector3d& a, const Vector3d& b) const {
-    return evaluate(force_, moving(a, {0, 0, 0}), moving(b, {0, 0, 0}), 0.3).stored;
+  const int n_x_ = static_cast<int>(internal_states(force_).size());
+  const VectorXd x_ = VectorXd::Constant(n_x_, 0.6);
+  ForceEffect effect(const Vector3d& a, const Vector3d& b, const Vector3d& da, const Vector3d& db, const VectorXd& x, double t) const {
+    return evaluate(force_, moving(a, da), moving(b, db), t, x.data());
   }
+  ForceEffect at_rest(const Vector3d& a, const Vector3d& b) const { return effect(a, b, {0, 0, 0}, {0, 0, 0}, x_, 0.3); }
+  double stored(const Vector3d& a, const Vector3d& b) const { return at_rest(a, b).stored; }
+  VectorXd rates(const ForceEffect& e) const { return Eigen::Map<const VectorXd>(e.x_rate.data(), n_x_); }
 };
 
 // wrench_a·ṗ_a + wrench_b·ṗ_b = input − dissipation − d(stored)/dt
@@ -87,9 +93,10 @@ TEST_P(ForceContract, PowerGoesWhereItSays) {
   for (int n = 0; n < draws; ++n) {
     const auto [a, b] = apart(draw_);
     const Vector3d da = draw_.rates(), db = draw_.rates();
-    const ForceEffect e = evaluate(force_, moving(a, da), moving(b, db), draw_.within(-3, 3));
+    const ForceEffect e = effect(a, b, da, db, x_, draw_.within(-3, 3));
     const double power = e.on_a.dot(da) + e.on_b.dot(db);
-    const double rate = (stored(a + step * da, b + step * db) - stored(a - step * da, b - step * db)) / (2 * step);
+    const auto stored_after = [&](double t) { return effect(a + t * da, b + t * db, {0, 0, 0}, {0, 0, 0}, x_ + t * rates(e), 0.3).stored; };
+    const double rate = (stored_after(step) - stored_after(-step)) / (2 * step);
     const double terms = 1 + std::abs(e.input) + e.dissipation + std::abs(rate) + e.stored;
     EXPECT_NEAR(power, e.input - e.dissipation - rate, terms * difference) << "draw " << n;
   }
@@ -98,7 +105,8 @@ TEST_P(ForceContract, PowerGoesWhereItSays) {
 TEST_P(ForceContract, LosesButNeverGains) {
   for (int n = 0; n < draws; ++n) {
     const auto [a, b] = apart(draw_);
-    const ForceEffect e = evaluate(force_, moving(a, draw_.rates()), moving(b, draw_.rates()), draw_.within(-3, 3));
+    const Vector3d da = draw_.rates(), db = draw_.rates();
+    const ForceEffect e = effect(a, b, da, db, x_, draw_.within(-3, 3));
     EXPECT_GE(e.dissipation, 0);
     EXPECT_GE(e.stored, 0);
     if (!is_load(force_)) {
@@ -111,7 +119,7 @@ TEST_P(ForceContract, LosesButNeverGains) {
 TEST_P(ForceContract, ConservativePartIsTheSlopeOfTheStoredEnergy) {
   for (int n = 0; n < draws; ++n) {
     const auto [a, b] = apart(draw_);
-    const ForceEffect e = evaluate(force_, moving(a, {0, 0, 0}), moving(b, {0, 0, 0}), 0.3);
+    const ForceEffect e = at_rest(a, b);
     if (is_load(force_)) {
       EXPECT_EQ(e.stored, 0);
       continue;
@@ -130,7 +138,8 @@ TEST_P(ForceContract, ConservativePartIsTheSlopeOfTheStoredEnergy) {
 TEST_P(ForceContract, ItsTwoWrenchesCancel) {
   for (int n = 0; n < draws; ++n) {
     const auto [a, b] = apart(draw_);
-    const ForceEffect e = evaluate(force_, moving(a, draw_.rates()), moving(b, draw_.rates()), draw_.within(-3, 3));
+    const Vector3d da = draw_.rates(), db = draw_.rates();
+    const ForceEffect e = effect(a, b, da, db, x_, draw_.within(-3, 3));
     if (!GetParam().internal) {
       EXPECT_EQ(e.on_a.norm(), 0);
       continue;
@@ -141,24 +150,58 @@ TEST_P(ForceContract, ItsTwoWrenchesCancel) {
   }
 }
 
+// ẋ and the wrenches, by differences: internal states in x, in the poses and in their rates.
+TEST_P(ForceContract, InternalTangentIsDifferences) {
+  if (n_x_ == 0) return;
+  for (int n = 0; n < draws; ++n) {
+    const auto [a, b] = apart(draw_);
+    const Vector3d da = draw_.rates(), db = draw_.rates();
+    const InternalTangent ours = internal_tangent(force_, effect(a, b, da, db, x_, 0.3), moving(a, da), moving(b, db));
+    const auto slope = [&](int pose, int rate, int x) {  // of [wrenches; ẋ] in component `pose`, `rate` or `x`, −1 for none
+      const auto at = [&](double by) {
+        Vector3d p[] = {a, b}, v[] = {da, db};
+        VectorXd inner = x_;
+        if (pose >= 0) p[pose / 3][pose % 3] += by;
+        if (rate >= 0) v[rate / 3][rate % 3] += by;
+        if (x >= 0) inner[x] += by;
+        const ForceEffect e = effect(p[0], p[1], v[0], v[1], inner, 0.3);
+        VectorXd out(6 + n_x_);
+        out << e.on_a, e.on_b, rates(e);
+        return out;
+      };
+      return VectorXd((at(step) - at(-step)) / (2 * step));
+    };
+    const double terms = 1 + ours.wrench.norm() + ours.g_pose.norm() + ours.g_x.norm();
+    for (int i = 0; i < n_x_; ++i) {
+      const VectorXd by_x = slope(-1, -1, i);
+      EXPECT_LT((by_x.head(6) - ours.wrench.col(i)).norm(), terms * difference);
+      EXPECT_LT((by_x.tail(n_x_) - ours.g_x.col(i)).norm(), terms * difference);
+    }
+    for (int i = 0; i < 6; ++i) {
+      EXPECT_LT((slope(i, -1, -1).tail(n_x_) - ours.g_pose.col(i)).norm(), terms * difference);
+      EXPECT_LT((slope(-1, i, -1).tail(n_x_) - ours.g_rate.col(i)).norm(), terms * difference);
+    }
+  }
+}
+
 TEST(PointForce, TurnsWithItsBodyOnlyIfItFollows) {
   const double t = 0.4, turn = 2.1;
   const Vector3d at(0.2, -0.5, 3.0);
   const MarkerMotion still = moving({0, 0, 0}, {0, 0, 0}), b = moving(at, {0, 0, 0}), turned = moving(at + Vector3d(0, 0, turn), {0, 0, 0});
   const Force fixed = PointForce{0, 1, sine, steady, false};
-  EXPECT_EQ(evaluate(fixed, still, b, t).on_b, Wrench(sine(t).value, steady(t).value, 0));
-  EXPECT_EQ(evaluate(fixed, still, turned, t).on_b, evaluate(fixed, still, b, t).on_b);
+  EXPECT_EQ(evaluate(fixed, still, b, t, nullptr).on_b, Wrench(sine(t).value, steady(t).value, 0));
+  EXPECT_EQ(evaluate(fixed, still, turned, t, nullptr).on_b, evaluate(fixed, still, b, t, nullptr).on_b);
 
   const Force follower = PointForce{0, 1, sine, steady, true};
   const Vector2d law(sine(t).value, steady(t).value);
   const auto along = [&](double angle) -> Vector2d { return Eigen::Rotation2Dd(angle) * law; };
-  EXPECT_LT((evaluate(follower, still, b, t).on_b.head<2>() - along(at[2])).norm(), rounding);
-  EXPECT_LT((evaluate(follower, still, turned, t).on_b.head<2>() - along(at[2] + turn)).norm(), rounding);
+  EXPECT_LT((evaluate(follower, still, b, t, nullptr).on_b.head<2>() - along(at[2])).norm(), rounding);
+  EXPECT_LT((evaluate(follower, still, turned, t, nullptr).on_b.head<2>() - along(at[2] + turn)).norm(), rounding);
 }
 
 TEST(Spring, OfNoLengthGivesNoForce) {
   const MarkerMotion here = moving({0.1, 0.2, 0}, {1, 2, 3});
-  const ForceEffect e = evaluate(Spring{0, 1, 40, 3, 0.5}, here, here, 0);
+  const ForceEffect e = evaluate(Spring{0, 1, 40, 3, 0.5}, here, here, 0, nullptr);
   EXPECT_EQ(e.on_a.norm() + e.on_b.norm() + e.dissipation, 0);
   EXPECT_DOUBLE_EQ(e.stored, 0.5 * 40 * 0.25);
 }
@@ -174,13 +217,19 @@ VectorXd applied(const System& system, const State& s, Equations& eq) {
   Equations others(bare);
   VectorXd dy(system.n_y()), rest(bare.n_y());
   State same = s;
-  same.y.conservativeResize(bare.n_y());
+  same.y = VectorXd::Zero(bare.n_y());
+  same.y.head(2 * system.n()) = s.y.head(2 * system.n());
   EXPECT_TRUE(evaluate(system, s, eq, dy));
   EXPECT_TRUE(evaluate(bare, same, others, rest));
   return eq.f - others.f;
 }
-State after(const System& system, State s, double t) {
+State after(const System& system, const State& before, double t) {
+  State s = before;
   s.y.head(system.n()) += t * s.y.segment(system.n(), system.n());
+  Equations eq(system);
+  VectorXd dy(system.n_y());
+  if (system.n_x() > 0 && evaluate(system, before, eq, dy))
+    s.y.segment(system.x_begin(), system.n_x()) += t * dy.segment(system.x_begin(), system.n_x());
   return s;
 }
 

@@ -137,7 +137,7 @@ inline System bodies_for(const Joint& joint, const Carriers& carriers) {
   return ends_of(joint).n == 2 ? two_bodies(carriers) : three_bodies(carriers);
 }
 
-/// Time, poses, deformations and all speeds at random, the two markers more than 0.3 m apart.
+/// Time, poses, deformations, all speeds and internal states at random, the two markers more than 0.3 m apart.
 /// Leaves the pose in `eq`.
 inline State random_state(const System& system, Draw& draw, Equations& eq) {
   State s;
@@ -151,6 +151,7 @@ inline State random_state(const System& system, Draw& draw, Equations& eq) {
     }
     s.y.segment(system.n_rigid(), n_modal) = draw.matrix(n_modal, 1, 0.1);
     s.y.segment(system.n() + system.n_rigid(), n_modal) = draw.matrix(n_modal, 1, 1);
+    s.y.segment(system.x_begin(), system.n_x()) = draw.matrix(system.n_x(), 1, 0.8);
     pose(system, s.t, s.y, eq);
     if ((eq.motion[0].r - eq.motion[1].r).norm() > 0.3) return s;
   }

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cmath>
+#include <complex>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Dense>
 
 #include "framework/dynamics/equations/equations.h"
 #include "tests/oracles/runge_kutta.h"
@@ -91,6 +92,37 @@ inline Case make() {
   return k;
 }
 }  // namespace crank
+
+// A cart on a rail, a spring and damper in series between it and the ground: ẍ = −k(x − d)/m, ḋ = k(x − d)/c, linear, so its
+// motion is a sum of exponentials. The ledger has what the damper lost.
+namespace series {
+constexpr double m = 1.5, k = 60, c = 9, x0 = 1.4, v0 = -2, d0 = 1.1;
+inline Eigen::Vector3d motion(double t) {
+  Eigen::Matrix3d A;
+  A << 0, 1, 0, -k / m, 0, k / m, k / c, 0, -k / c;
+  const Eigen::EigenSolver<Eigen::Matrix3d> pairs(A);
+  const Eigen::Matrix3cd V = pairs.eigenvectors();
+  const Eigen::Vector3cd parts = V.partialPivLu().solve(Eigen::Vector3d(x0, v0, d0).cast<std::complex<double>>());
+  return (V * (pairs.eigenvalues() * t).array().exp().matrix().cwiseProduct(parts)).real();
+}
+inline double energy(const Eigen::Vector3d& y) { return m * y[1] * y[1] / 2 + k * (y[0] - y[2]) * (y[0] - y[2]) / 2; }
+inline VectorXd seen(const VectorXd& y, const Equations&) { return (VectorXd(4) << y[0], y[3], y[6], y[7]).finished(); }
+inline VectorXd truth(double t) {
+  const Eigen::Vector3d y = motion(t);
+  return (VectorXd(4) << y, energy({x0, v0, d0}) - energy(y)).finished();
+}
+inline Case make() {
+  Case k_{{}, {}, seen, truth};
+  k_.system.bodies = {{"cart", m, 0.02}};
+  k_.system.markers = {{ground, {0, 0}, 0}, {0, {0, 0}, 0}};
+  k_.system.joints = {Prismatic{0, 1, 0}};
+  k_.system.forces = {Maxwell{0, 1, k, c}};
+  number(k_.system);
+  k_.start.y.setZero(k_.system.n_y());
+  k_.start.y[0] = x0, k_.start.y[3] = v0, k_.start.y[6] = d0;
+  return k_;
+}
+}  // namespace series
 
 // Slope of log y over log x, by least squares.
 inline double slope(const std::vector<double>& x, const std::vector<double>& y) {

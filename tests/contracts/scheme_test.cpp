@@ -186,6 +186,10 @@ TEST_P(SchemeContract, SliderCrankConvergesWithItsOrderInPositionSpeedAndMultipl
   expect_order_in_all_seen(crank::make(), 0.6, 160, 4);  // a turn
 }
 
+TEST_P(SchemeContract, InternalStatesConvergeWithItsOrderToo) {
+  expect_order_in_all_seen(series::make(), tableau_.order > 5 ? 2 : 1, 40, 4);
+}
+
 // Inside one step from exact values: the quintic's q is left at h⁶, its derivative at h⁵, z at h⁴.
 TEST_P(SchemeContract, DenseOutputHasTheOrderOfItsPolynomials) {
   const Case k = link::make();
@@ -228,7 +232,7 @@ TEST_P(QuarticInsideSteps, HasFifthOrder) {
     State dense;
     for (int tenth = 1; tenth < 10; ++tenth) {
       interpolate_quintic(k.system, step, tenth * span / 10, dense);
-      stages.refine_integrals(k.system, step, dense);
+      stages.refine_cubics(k.system, step, dense);
       const VectorXd truth = k.truth(tenth * span / 10);
       error.back() = std::max({error.back(), std::abs(dense.y[6] - truth[4]), std::abs(dense.y[7] - truth[5])});
     }

@@ -73,7 +73,7 @@ struct Ends {
 
 /// The same start for another model of the mechanism, which may keep other integrals.
 State start_for(const System& system, State start) {
-  start.y.conservativeResize(2 * system.n());
+  start.y.conservativeResize(system.z_begin());
   start.y.conservativeResizeLike(VectorXd::Zero(system.n_y()));
   return start;
 }

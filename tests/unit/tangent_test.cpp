@@ -1,6 +1,7 @@
 // The tangent of the equations of motion against differences of their residual, for every joint, force and
 // contact on bodies of every kind. A new joint or force joins by one line in `kinds`.
 
+#include "framework/dynamics/equations/internal.h"
 #include "framework/dynamics/equations/tangent.h"
 
 #include <gtest/gtest.h>
@@ -69,6 +70,7 @@ const std::vector<Kind> kinds{
     {"DampedSpring", {}, {Spring{0, 1, 40, 3, 0.5}}},
     {"TorsionSpring", {}, {TorsionSpring{0, 1, 25, 0, -0.8}}},
     {"DampedTorsionSpring", {}, {TorsionSpring{0, 1, 25, 2, -0.8}}},
+    {"Maxwell", {}, {Maxwell{0, 1, 40, 3}}},
     {"Contact", {}, {}, {contact(0)}},
     {"LossyContact", {}, {}, {contact(2)}},
     {"SpringDamperContact", {}, {}, {spring_damper()}},
@@ -78,7 +80,7 @@ const std::vector<Kind> kinds{
     {"ContactOfGeometricSliding", {}, {}, {contact(0.6, Ambrosio{0.3, 0, 50}, Sliding::geometric)}},
     {"Several",
      {Slot{0, 1}, Revolute{1, 0}},
-     {Spring{1, 0, 40, 3, 0.5}, TorsionSpring{0, 1, 25, 2, -0.8}, PointForce{1, 0, sine, steady, true}}},
+     {Spring{1, 0, 40, 3, 0.5}, Maxwell{1, 0, 60, 5}, TorsionSpring{0, 1, 25, 2, -0.8}, PointForce{1, 0, sine, steady, true}}},
 };
 
 System make_system(const Kind& kind, const Carriers& carriers) {
@@ -123,9 +125,17 @@ struct Sample {
   const System& system;
   State state;
   VectorXd a, lambda;
+  const VectorXd* base = nullptr;  // internal states follow the motion from these …
+  double weight = 0;               // … at this weight
 
-  VectorXd residual(const State& s, Equations& eq) const {
+  void move_to(State s, Equations& eq) const {
     prepare(system, s, eq);
+    if (!base) return;
+    follow_internal_states(system, eq, s.t, weight, base->data(), s.y.data() + system.x_begin());
+    apply_forces(system, s, eq);
+  }
+  VectorXd residual(const State& s, Equations& eq) const {
+    move_to(s, eq);
     VectorXd r = -eq.f;
     add_mass_times(system, eq, a, r);
     add_reaction(eq, lambda, r);
@@ -143,7 +153,7 @@ struct Sample {
     return (8 * change(h) - change(2 * h)) / (12 * h);
   }
   MatrixXd ours(const Tangent::Weights& w, Equations& eq) const {
-    prepare(system, state, eq);
+    move_to(state, eq);
     Tangent tangent(system);
     std::vector<double> values(tangent.places().size(), 7.0);
     tangent.evaluate(system, state, eq, a, lambda, w, values);
@@ -176,6 +186,50 @@ struct Held {
   void coordinates_is_differences_of_the_residual() { expect_differences({1, 0, 0}, 0); }
 
   void speeds_is_differences_of_the_residual() { expect_differences({0, 1, 0}, n_); }
+
+  // x = base + weight ẋ is solved for in each state; a weight without end is rest.
+  void internal_states_that_follow_are_differences() {
+    if (system_.n_x() == 0) return;
+    for (const double weight : {0.03, 2.0, without_end})
+      for (const bool of_speed : {false, true}) {
+        Sample sample(system_, draw_, eq_);
+        const VectorXd base = sample.state.y.segment(system_.x_begin(), system_.n_x());
+        sample.base = &base, sample.weight = weight;
+        const MatrixXd ours = sample.ours({of_speed ? 0.0 : 1.0, of_speed ? 1.0 : 0.0, 0, weight}, eq_);
+        MatrixXd theirs(n_, n_);
+        for (int j = 0; j < n_; ++j) theirs.col(j) = sample.slope(j + (of_speed ? n_ : 0), eq_);
+        const double terms = 1 + largest(theirs) + largest(sample.residual(sample.state, eq_));
+        EXPECT_LT(largest(ours - theirs), terms * difference) << weight << "\nours\n" << ours << "\ndifferences\n" << theirs;
+      }
+  }
+
+  void coupling_to_internal_states_is_differences() {
+    if (system_.n_x() == 0) return;
+    const Sample sample(system_, draw_, eq_);
+    prepare(system_, sample.state, eq_);
+    Tangent tangent(system_);
+    const Tangent::Internal ours = tangent.internal(system_, sample.state, eq_);
+    const auto rates = [&](const State& s) {
+      prepare(system_, s, eq_);
+      VectorXd dy(system_.n_y());
+      fill_derivative(system_, s.y, eq_, dy);
+      return VectorXd(dy.segment(system_.x_begin(), system_.n_x()));
+    };
+    const auto slope = [&](int k) {
+      State forth = sample.state, back = sample.state;
+      forth.y[k] += step, back.y[k] -= step;
+      return VectorXd((rates(forth) - rates(back)) / (2 * step));
+    };
+    constexpr double central = 1e-6;  // step² of third derivatives up to 1e2
+    for (int j = 0; j < system_.n_x(); ++j) {
+      EXPECT_LT((sample.slope(system_.x_begin() + j, eq_) + ours.f_x.col(j)).norm(), (1 + ours.f_x.norm()) * difference);
+      EXPECT_LT((slope(system_.x_begin() + j) - ours.g_x.col(j)).norm(), (1 + ours.g_x.norm()) * central);
+    }
+    for (int j = 0; j < n_; ++j) {
+      EXPECT_LT((slope(j) - ours.g_q.col(j)).norm(), (1 + ours.g_q.norm()) * central);
+      EXPECT_LT((slope(n_ + j) - ours.g_s.col(j)).norm(), (1 + ours.g_s.norm()) * central);
+    }
+  }
 
   // r is linear in a: a difference over a whole unit is exact but for rounding.
   void accelerations_is_the_mass_matrix() {
@@ -238,6 +292,12 @@ TEST_P(TangentOf, CoordinatesIsDifferencesOfTheResidual) {
 }
 TEST_P(TangentOf, SpeedsIsDifferencesOfTheResidual) {
   each_carrier([](Held& held) { held.speeds_is_differences_of_the_residual(); });
+}
+TEST_P(TangentOf, InternalStatesThatFollowAreDifferences) {
+  each_carrier([](Held& held) { held.internal_states_that_follow_are_differences(); });
+}
+TEST_P(TangentOf, CouplingToInternalStatesIsDifferences) {
+  each_carrier([](Held& held) { held.coupling_to_internal_states_is_differences(); });
 }
 TEST_P(TangentOf, AccelerationsIsTheMassMatrix) {
   each_carrier([](Held& held) { held.accelerations_is_the_mass_matrix(); });

@@ -9,6 +9,7 @@
 #include "framework/build/choose_method.h"
 #include "framework/common/index.h"
 #include "framework/configuration/assemble.h"
+#include "framework/dynamics/equations/internal.h"
 
 namespace pintle {
 
@@ -73,6 +74,7 @@ State start_of(const System& from, const State& start, const System& to) {
     for (std::size_t i = 0; i < to.bodies.size(); ++i)
       out.y.segment(b + to.eta_begin[i], to.bodies[i].modes()) = start.y.segment(a + from.eta_begin[i], to.bodies[i].modes());
   }
+  relax_internal_states(to, out.t, out.y);
   out.impact_rate.assign(to.contacts.size(), 0.0);
   return out;
 }

@@ -153,7 +153,7 @@ Inverse inverse(const Scene& scene, const Model& model, const Assembly& assembly
         "there is no driver whose torque or force could be found; add for example motor: {angle: [ground, crank], law: 10 rad/s*t}");
   const bool bends = system.n() > system.n_rigid();
   const int open = system.n() - assembly.rank;
-  out.by_algebra = !bends && system.contacts.empty() && open <= 0;
+  out.by_algebra = !bends && system.contacts.empty() && system.n_x() == 0 && open <= 0;
   if (out.by_algebra) {
     out.how = "by algebra: the drivers leave no freedom";
     solve_by_algebra(scene, model, assembly, listeners, out);

@@ -187,6 +187,7 @@ void name_carrier(const System& system, const MotionAt& here, const std::vector<
       if (const double e = std::norm(x[static_cast<Index>(i)]) * here.M(own[i], own[i]); e > greatest)
         greatest = e, mode.carrier = names[at(own[i])];
   }
+  if (mode.carrier.empty()) mode.carrier = "internal states";
   mode.carrier = mode.carrier.substr(0, mode.carrier.rfind(" ["));
   mode.share = total > 0 ? most / total : 0;
 }

@@ -20,7 +20,7 @@ enum class Coefficients {
   frozen     ///< they change; those of the instant are given, in the world's axes
 };
 
-/// x' = A x + B u,  y = C x + D u. x: independent coordinates, then their rates; u: loads, and of each driver an
+/// x' = A x + B u,  y = C x + D u. x: independent coordinates, then their rates, then internal states; u: loads, and of each driver an
 /// offset of its law with the offset's first and second rate; all as deviations from the motion.
 struct StateSpace {
   Eigen::MatrixXd A, B, C, D;
@@ -42,7 +42,7 @@ struct LinearMode {
   enum class Kind { oscillating, decaying, growing, zero } kind = Kind::oscillating;
   std::complex<double> root;  ///< [1/s]; exactly 0 of a zero mode
   double uncertainty = 0;     ///< of the root, from rounding of the coefficients [1/s]
-  int roots = 2;              ///< how many of the 2m roots it stands for
+  int roots = 2;              ///< how many of the roots it stands for
   Eigen::VectorXcd shape;     ///< n; the coordinate that moves most, by its scale, is 1 · its scale
   std::string carrier;        ///< the coordinate that moves most in the body of the greatest kinetic energy
   double share = 0;           ///< of that body in the kinetic energy
@@ -61,7 +61,7 @@ struct Linearization {
   double drift = 0;              ///< greatest change of a coefficient, over its size, while the motion goes on by …
   double window = 0;             ///< … [s]; 0 at rest, where nothing changes
   std::vector<int> independent;  ///< indices into q
-  SmallMotion motion;            ///< M, D, K of p
+  SmallMotion motion;            ///< the equations of p
   Eigen::MatrixXd Z;             ///< δq = Z p, n × m
   StateSpace space;
   std::vector<LinearMode> modes;  ///< by size of the root, zero modes first

@@ -24,7 +24,7 @@ double bilinear(const VectorXcd& y, const MatrixXd& A, const VectorXcd& x) { ret
 
 bool conservative(const SmallMotion& s, const SmallMotion& size) {
   const auto within = [](const MatrixXd& A, const MatrixXd& of) { return (A.cwiseAbs().array() <= rounding * of.array()).all(); };
-  return within(s.D, size.D) && within(s.K - s.K.transpose(), size.K + size.K.transpose());
+  return s.G_x.size() == 0 && within(s.D, size.D) && within(s.K - s.K.transpose(), size.K + size.K.transpose());
 }
 
 // ω² of a symmetric problem: pairs on the imaginary axis, or ± on the real one where it is negative.
@@ -54,19 +54,13 @@ Complex nearest_root(Complex a, Complex b, Complex c, Complex near) {
   return std::abs(one - near) < std::abs(two - near) ? one : two;
 }
 
-// Of [0 σ; −K̃/σ −D̃], K̃ and D̃ in coordinates in which the mass is one.
-std::vector<QuadraticRoot> companion_roots(const SmallMotion& s, const MatrixXd& L) {
-  const Index m = s.M.rows();
-  const auto weighed = [&](const MatrixXd& A) -> MatrixXd {
-    const MatrixXd half = L.triangularView<Eigen::Lower>().solve(A);
-    return L.triangularView<Eigen::Lower>().solve(half.transpose()).transpose();
-  };
-  const MatrixXd K = weighed(s.K), D = weighed(s.D);
-  const double sigma = std::max({std::sqrt(K.cwiseAbs().maxCoeff()), D.cwiseAbs().maxCoeff(), 1e-150});
-  MatrixXd A(2 * m, 2 * m);
-  A << MatrixXd::Zero(m, m), sigma * MatrixXd::Identity(m, m), -K / sigma, -D;
-
-  const int n = static_cast<int>(2 * m);
+// All eigenvalues of A by LAPACK, balanced, with their vectors.
+struct Eigenpairs {
+  VectorXcd value;
+  Eigen::MatrixXcd right, left;
+};
+Eigenpairs eigenpairs(MatrixXd A) {
+  const int n = static_cast<int>(A.rows());
   VectorXd re(n), im(n), scale(n), unused(n);
   MatrixXd left(n, n), right(n, n);
   int low = 0, high = 0, info = 0, more = -1, no_integers = 0;
@@ -80,24 +74,63 @@ std::vector<QuadraticRoot> companion_roots(const SmallMotion& s, const MatrixXd&
   std::vector<double> work(static_cast<std::size_t>(more));
   solve(work.data());
   if (info != 0) throw std::runtime_error("the natural frequencies cannot be found: the iteration does not converge");
-
-  std::vector<QuadraticRoot> out;
+  Eigenpairs out{VectorXcd(n), Eigen::MatrixXcd(n, n), Eigen::MatrixXcd(n, n)};
   for (Index i = 0; i < n; ++i) {
+    out.value[i] = {re[i], im[i]};
+    const Index first = im[i] < 0 ? i - 1 : i;  // a pair: real and imaginary part stand side by side
+    const Complex j(0, im[i] > 0 ? 1 : im[i] < 0 ? -1 : 0);
+    const Index second = im[i] == 0 ? i : first + 1;
+    out.right.col(i) = right.col(first).cast<Complex>() + j * right.col(second).cast<Complex>();
+    out.left.col(i) = left.col(first).cast<Complex>() + j * left.col(second).cast<Complex>();
+  }
+  return out;
+}
+
+// The equations in coordinates in which the mass is one, of first order in [σ p; ṗ; x]:
+//   [0 σ 0; −K̃/σ −D̃ F̃; G̃_p/σ G̃_v G_x].
+struct Companion {
+  Companion(const SmallMotion& s, const MatrixXd& L) : m(s.M.rows()), x(s.G_x.rows()), A(MatrixXd::Zero(2 * m + x, 2 * m + x)) {
+    const auto lower = L.triangularView<Eigen::Lower>();
+    const auto weighed = [&](const MatrixXd& of) -> MatrixXd {
+      const MatrixXd half = lower.solve(of);
+      return lower.solve(half.transpose()).transpose();
+    };
+    const MatrixXd K = weighed(s.K), D = weighed(s.D);
+    if (m > 0) sigma = std::max({std::sqrt(K.cwiseAbs().maxCoeff()), D.cwiseAbs().maxCoeff(), 1e-150});
+    A.block(0, m, m, m).diagonal().setConstant(sigma);
+    A.block(m, 0, m, m) = -K / sigma;
+    A.block(m, m, m, m) = -D;
+    if (x == 0) return;
+    A.topRightCorner(2 * m, x).bottomRows(m) = lower.solve(s.F);
+    A.bottomLeftCorner(x, 2 * m) << MatrixXd(lower.solve(s.G_p.transpose())).transpose() / sigma,
+        MatrixXd(lower.solve(s.G_v.transpose())).transpose();
+    A.bottomRightCorner(x, x) = s.G_x;
+  }
+  Index m, x;
+  double sigma = 1;
+  MatrixXd A;
+};
+
+std::vector<QuadraticRoot> companion_roots(const SmallMotion& s, const MatrixXd& L) {
+  const Companion of(s, L);
+  const Eigenpairs pairs = eigenpairs(of.A);
+  const auto back = L.transpose().triangularView<Eigen::Upper>();
+  std::vector<QuadraticRoot> out;
+  for (Index i = 0; i < pairs.value.size(); ++i) {
     QuadraticRoot& root = out.emplace_back();
-    root.lambda = {re[i], im[i]};
-    VectorXcd x = right.col(i).head(m), y = left.col(i).tail(m);
-    if (im[i] != 0) {  // a pair: real and imaginary part stand side by side
-      const Index first = im[i] > 0 ? i : i - 1;
-      const Complex j(0, im[i] > 0 ? 1 : -1);
-      x = right.col(first).head(m).cast<Complex>() + j * right.col(first + 1).head(m).cast<Complex>();
-      y = left.col(first).tail(m).cast<Complex>() + j * left.col(first + 1).tail(m).cast<Complex>();
+    root.lambda = pairs.value[i];
+    const VectorXcd x = pairs.right.col(i), y = pairs.left.col(i);
+    root.right = back.solve(x.head(of.m)), root.left = back.solve(y.segment(of.m, of.m));
+    if (of.x > 0) {  // what rounding of A's entries makes of it
+      const double size = std::abs(root.lambda), of_pair = std::abs(y.dot(x));
+      root.uncertainty = of_pair > 0 ? std::min(rounding * bilinear(y, of.A.cwiseAbs(), x) / of_pair, size) : size;
+      root.zero = size <= root.uncertainty;
+      continue;
     }
-    const auto back = L.transpose().triangularView<Eigen::Upper>();
-    root.right = back.solve(x), root.left = back.solve(y);
     const Complex a = root.left.dot(s.M * root.right), b = root.left.dot(s.D * root.right), c = root.left.dot(s.K * root.right);
     if (a == 0.0) continue;
     const Complex better = nearest_root(a, b, c, root.lambda);
-    if (std::abs(better - root.lambda) <= 1e-6 * sigma && (im[i] != 0 || better.imag() == 0)) root.lambda = better;
+    if (std::abs(better - root.lambda) <= 1e-6 * of.sigma && (root.lambda.imag() != 0 || better.imag() == 0)) root.lambda = better;
   }
   return out;
 }
@@ -105,7 +138,7 @@ std::vector<QuadraticRoot> companion_roots(const SmallMotion& s, const MatrixXd&
 }  // namespace
 
 std::vector<QuadraticRoot> roots_of(const SmallMotion& s, const SmallMotion& size) {
-  if (s.M.rows() == 0) return {};
+  if (s.M.rows() == 0 && s.G_x.rows() == 0) return {};
   const Eigen::LLT<MatrixXd> llt((s.M + s.M.transpose()) / 2);
   if (llt.info() != Eigen::Success) throw std::runtime_error("the mass matrix of the free motion is not positive");
   const MatrixXd L = llt.matrixL();
@@ -113,6 +146,10 @@ std::vector<QuadraticRoot> roots_of(const SmallMotion& s, const SmallMotion& siz
   double fastest = 0;
   for (const QuadraticRoot& r : out) fastest = std::max(fastest, std::abs(r.lambda));
   for (QuadraticRoot& r : out) {
+    if (s.G_x.size() > 0) {
+      r.zero = r.zero || std::abs(r.lambda) <= 1e-10 * fastest;
+      continue;
+    }
     const double l = std::abs(r.lambda), noise = rounding * bilinear(r.left, size.K, r.right);
     const double inertia = l * l * std::abs(r.left.dot(s.M * r.right)), drag = l * std::abs(r.left.dot(s.D * r.right));
     r.zero = std::max(inertia, drag) <= noise || l <= 1e-10 * fastest;

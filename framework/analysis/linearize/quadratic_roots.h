@@ -7,7 +7,7 @@
 
 namespace pintle {
 
-/// A root of (λ² M + λ D + K) x = 0, yᴴ (λ² M + λ D + K) = 0.
+/// A root of (λ² M + λ D + K) x = 0, yᴴ (λ² M + λ D + K) = 0; with internal states, of their part besides.
 struct QuadraticRoot {
   std::complex<double> lambda;  ///< [1/s]
   Eigen::VectorXcd right, left;
@@ -15,9 +15,9 @@ struct QuadraticRoot {
   bool zero = false;       ///< nothing but rounding
 };
 
-/// All 2m roots, by size. Where D is nothing and K symmetric they are those of a symmetric problem, exactly on an
+/// All 2m + n_x roots, by size. Where D is nothing and K symmetric they are those of a symmetric problem, exactly on an
 /// axis; else LAPACK's of the balanced companion matrix. Each is then made better by the quotient of its own
-/// quadratic yᴴ(λ² M + λ D + K)x, which keeps slow roots beside fast ones.
+/// quadratic yᴴ(λ² M + λ D + K)x, which keeps slow roots beside fast ones. With internal states they are as LAPACK gives them.
 /// @param size  what was summed to the coefficients, without cancellation: sets what counts as rounding
 /// @pre M is symmetric positive definite
 /// @throws std::runtime_error  M is not, or the iteration for roots does not converge

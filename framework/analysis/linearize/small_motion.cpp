@@ -84,12 +84,19 @@ MotionAt::MotionAt(const System& system, const State& at) : state(at), eq(system
   M = matrix({.a = 1});
   D = matrix({.s = 1});
   K = matrix({.q = 1});
+  x = tangent.internal(system, state, eq);
 }
 
 double MotionAt::rate(const System& system) const {
   const Index n = system.n();
   if (n == 0) return 0;
-  const double speed = state.y.segment(n, n).cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>();
+  double speed = state.y.segment(n, n).cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>();
+  for (const InternalStates& owner : system.internal)
+    for (int i = 0; i < owner.n; ++i) {
+      const double scale = system.x_scale[owner.begin + i];
+      speed = std::max(speed, std::abs(eq.force[static_cast<std::size_t>(owner.force)].x_rate[static_cast<std::size_t>(i)]) /
+                                  (scale > 0 ? scale : system.length));
+    }
   return std::max(speed, std::sqrt(eq.a.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>()));
 }
 
@@ -144,7 +151,13 @@ FreeMotion::FreeMotion(const System& system, const MotionAt& at, const Axes& axe
 
 SmallMotion FreeMotion::project(const MotionAt& at) const {
   const auto Z = X.leftCols(m()), Z1 = X1.leftCols(m()), Z2 = X2.leftCols(m());
-  return {Z.transpose() * at.M * Z, Z.transpose() * (2 * at.M * Z1 + at.D * Z), Z.transpose() * (at.M * Z2 + at.D * Z1 + at.K * Z)};
+  return {Z.transpose() * at.M * Z,
+          Z.transpose() * (2 * at.M * Z1 + at.D * Z),
+          Z.transpose() * (at.M * Z2 + at.D * Z1 + at.K * Z),
+          Z.transpose() * at.x.f_x,
+          at.x.g_q * Z + at.x.g_s * Z1,
+          at.x.g_s * Z,
+          at.x.g_x};
 }
 
 }  // namespace pintle

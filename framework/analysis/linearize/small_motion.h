@@ -5,14 +5,15 @@
 #include <Eigen/Core>
 
 #include "eigen_layout.h"
-#include "framework/dynamics/equations/equations.h"
+#include "framework/dynamics/equations/tangent.h"
 
 /// Small motion about a motion, the constraints eliminated: docs/theory/linearisation.md.
 namespace pintle {
 
-/// M p̈ + D ṗ + K p = …, of m coordinates.
+/// M p̈ + D ṗ + K p = F x + …,  ẋ = G_p p + G_v ṗ + G_x x, of m coordinates and the internal states x.
 struct SmallMotion {
   Eigen::MatrixXd M, D, K;
+  Eigen::MatrixXd F = {}, G_p = {}, G_v = {}, G_x = {};
 };
 
 /// The equations of motion at a state: where it goes and how the residual answers, n × n.
@@ -20,11 +21,12 @@ struct MotionAt {
   MotionAt(const System&, const State&);
   State state;
   Equations eq;             ///< evaluated there
-  Eigen::MatrixXd M, D, K;  ///< ∂r/∂a, ∂r/∂s, ∂r/∂q
+  Eigen::MatrixXd M, D, K;  ///< ∂r/∂a, ∂r/∂s, ∂r/∂q, internal states held
+  Tangent::Internal x;      ///< how these answer
   bool regular = false;     ///< false: a singular pose, and nothing but `state` is there
 
-  /// How fast the pose changes: the greatest of speeds over scale and the roots of accelerations over scale
-  /// [1/s]; 0 at rest.
+  /// How fast the pose changes: the greatest of speeds and rates of internal states over scale and the roots of
+  /// accelerations over scale [1/s]; 0 at rest.
   double rate(const System&) const;
 };
 
@@ -49,7 +51,7 @@ struct FreeMotion {
   Eigen::MatrixXd Cq, Cq_rate, Cq_accel;  ///< with its derivatives along the motion
 
   Eigen::Index m() const { return static_cast<Eigen::Index>(independent.size()); }
-  /// Zᵀ(…): M, D and K of p.
+  /// Zᵀ(…): the equations of p.
   SmallMotion project(const MotionAt&) const;
 };
 

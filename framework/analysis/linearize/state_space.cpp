@@ -36,6 +36,8 @@ MatrixXd load_inputs(const System& system, const Equations& eq, std::vector<std:
   return out;
 }
 
+bool acts_along_a_line(const Force& f) { return std::holds_alternative<Spring>(f) || std::holds_alternative<Maxwell>(f); }
+
 /// What is measured of a pose: rows of ∂(measure)/∂q.
 struct Measures {
   explicit Measures(const Model& model, const System& of) : system(of) {
@@ -46,7 +48,7 @@ struct Measures {
     springs = static_cast<Index>(names.size());
     first_marker = static_cast<int>(system.markers.size() - model.points.size());
     for (std::size_t k = 0; k < system.forces.size(); ++k) {
-      if (std::holds_alternative<Spring>(system.forces[k])) add(system.force_names[k] + ".length [m]");
+      if (acts_along_a_line(system.forces[k])) add(system.force_names[k] + ".length [m]");
       if (std::holds_alternative<TorsionSpring>(system.forces[k])) add(system.force_names[k] + ".twist [rad]");
     }
     for (const std::string& c : system.contact_names) add(c + ".ex [m]"), add(c + ".ey [m]");
@@ -64,12 +66,13 @@ struct Measures {
     }
     for (int m = first_marker; m < static_cast<int>(system.markers.size()); ++m, row += 2) place(eq, m, 1, row, H);
     for (const Force& f : system.forces) {
-      if (const auto* spring = std::get_if<Spring>(&f)) {
-        const Eigen::Vector2d d = eq.motion[at(spring->b)].r - eq.motion[at(spring->a)].r;
+      if (acts_along_a_line(f)) {
+        const int a = marker_a(f), b = marker_b(f);
+        const Eigen::Vector2d d = eq.motion[at(b)].r - eq.motion[at(a)].r;
         const double length = d.norm();
         const Eigen::Vector2d along = length > 0 ? Eigen::Vector2d(d / length) : Eigen::Vector2d(0, 0);
-        visit_motion(system, eq, spring->b, [&](int j, const Eigen::Vector3d& p) { H(row, j) += along.dot(p.head<2>()); });
-        visit_motion(system, eq, spring->a, [&](int j, const Eigen::Vector3d& p) { H(row, j) -= along.dot(p.head<2>()); });
+        visit_motion(system, eq, b, [&](int j, const Eigen::Vector3d& p) { H(row, j) += along.dot(p.head<2>()); });
+        visit_motion(system, eq, a, [&](int j, const Eigen::Vector3d& p) { H(row, j) -= along.dot(p.head<2>()); });
         ++row;
       } else if (const auto* torsion = std::get_if<TorsionSpring>(&f)) {
         visit_motion(system, eq, torsion->b, [&](int j, const Eigen::Vector3d& p) { H(row, j) += p[2]; });
@@ -159,9 +162,13 @@ StateSpace state_space(const Model& model, const System& system, const MotionAt&
                        const std::vector<std::string>& coordinates) {
   StateSpace out;
   const MatrixXd loads = load_inputs(system, here.eq, out.inputs);
-  const Index m = free.m(), offsets = free.X.cols() - m, forces = loads.cols(), inputs = forces + 3 * offsets, all = 2 * m + inputs;
+  const Index m = free.m(), offsets = free.X.cols() - m, forces = loads.cols(), inputs = forces + 3 * offsets, x = system.n_x(),
+              states = 2 * m + x, all = states + inputs;
   for (const int i : free.independent) out.states.push_back(coordinates[at(i)]);
   for (const int i : free.independent) out.states.push_back(per_second(coordinates[at(i)], " rate"));
+  for (const InternalStates& owner : system.internal)
+    for (const InternalState& s : internal_states(system.forces[at(owner.force)]))
+      out.states.push_back(system.force_names[at(owner.force)] + s.name + " [" + s.unit + "]");
   for (std::size_t k = 0; k < system.joints.size(); ++k)
     if (is_driver(system.joints[k])) {
       const std::string name = system.joint_names[k], unit = is_angle_row(system.joints[k], 0) ? "rad" : "m";
@@ -169,7 +176,7 @@ StateSpace state_space(const Model& model, const System& system, const MotionAt&
                                            name + ".offset acceleration [" + unit + "/s^2]"});
     }
 
-  // Columns of [p; ṗ; loads; u₁ u̇₁ ü₁ u₂ …].
+  // Columns of [p; ṗ; x; loads; u₁ u̇₁ ü₁ u₂ …].
   const auto Z = free.X.leftCols(m), Z1 = free.X1.leftCols(m), Z2 = free.X2.leftCols(m);
   const MatrixXd none = MatrixXd::Zero(system.n(), all);
   Maps maps{none, none, none, none};
@@ -178,9 +185,10 @@ StateSpace state_space(const Model& model, const System& system, const MotionAt&
   maps.s.middleCols(m, m) = Z;
   maps.a.leftCols(m) = Z2;
   maps.a.middleCols(m, m) = 2 * Z1;
-  maps.load.middleCols(2 * m, forces) = loads;
+  maps.load.middleCols(2 * m, x) = here.x.f_x;
+  maps.load.middleCols(states, forces) = loads;
   for (Index k = 0; k < offsets; ++k) {
-    const Index u = 2 * m + forces + 3 * k;
+    const Index u = states + forces + 3 * k;
     maps.q.col(u) = maps.s.col(u + 1) = maps.a.col(u + 2) = free.X.col(m + k);
     maps.s.col(u) = free.X1.col(m + k);
     maps.a.col(u + 1) = 2 * free.X1.col(m + k);
@@ -190,11 +198,13 @@ StateSpace state_space(const Model& model, const System& system, const MotionAt&
   MatrixXd p2(m, all);
   if (m > 0) p2 = -motion.M.llt().solve(Z.transpose() * (here.M * maps.a + here.D * maps.s + here.K * maps.q - maps.load));
   maps.a += Z * p2;
-  out.A.setZero(2 * m, 2 * m);
-  out.A.topRightCorner(m, m).setIdentity();
-  out.A.bottomRows(m) = p2.leftCols(2 * m);
-  out.B.setZero(2 * m, inputs);
-  out.B.bottomRows(m) = p2.rightCols(inputs);
+  MatrixXd rates = MatrixXd::Zero(states, all);  // of [p; ṗ; x]
+  rates.block(0, m, m, m).setIdentity();
+  rates.middleRows(m, m) = p2;
+  rates.bottomRows(x) = here.x.g_q * maps.q + here.x.g_s * maps.s;
+  rates.block(2 * m, 2 * m, x, x) += here.x.g_x;
+  out.A = rates.leftCols(states);
+  out.B = rates.rightCols(inputs);
 
   const Measures measures(model, system);
   const auto rows = static_cast<Index>(measures.names.size());
@@ -210,6 +220,11 @@ StateSpace state_space(const Model& model, const System& system, const MotionAt&
   for (std::size_t k = 0; k < system.forces.size(); ++k) {
     if (const auto* s = std::get_if<Spring>(&system.forces[k])) {
       outputs.add(system.force_names[k] + ".pull [N]", s->k * value.row(row) + s->c * rate.row(row));
+      ++row;
+    } else if (const auto* series = std::get_if<Maxwell>(&system.forces[k])) {
+      VectorXd pull = series->k * value.row(row).transpose();
+      pull[2 * m + system.force_x[k]] -= series->k;
+      outputs.add(system.force_names[k] + ".pull [N]", pull.transpose());
       ++row;
     } else if (const auto* r = std::get_if<TorsionSpring>(&system.forces[k])) {
       outputs.add(system.force_names[k] + ".restoring torque [N m]", r->k * value.row(row) + r->c * rate.row(row));

@@ -76,11 +76,11 @@ class Sum : public ValueWriter<Sum> {
   }
   void add(const System& s) {
     const auto& [gravity, bodies, markers, joints, forces, contacts, joint_names, force_names, contact_names, length, eta_begin, scale,
-                 row_begin, end_begin, end_marker, row_scale, integrals, contact_z, force_z, joint_z] = s;
+                 row_begin, end_begin, end_marker, row_scale, integrals, contact_z, force_z, joint_z, internal, force_x, x_scale] = s;
     add(gravity, bodies, markers, joints, forces, contacts, joint_names, force_names, contact_names, length, eta_begin, scale, row_begin,
         end_begin, end_marker, row_scale);
     for (const Integral& z : integrals) add(z);
-    add(contact_z, force_z, joint_z);
+    add(contact_z, force_z, joint_z, force_x, x_scale);
   }
 
  private:

@@ -21,7 +21,7 @@ void SlowContacts::see(const System& system, const Step& step, const Equations& 
     const double over = chi * gap.rate / onset;
     const bool beyond = gap.depth > 0 && gap.rate > faster * onset && over > outweighs;
     if (beyond || s.beyond) {
-      const Eigen::Index z = 2 * system.n() + system.contact_z[c];
+      const Eigen::Index z = system.z_begin() + system.contact_z[c];
       s.lost += step.to.state.y[z] - step.from.state.y[z];
     }
     if (beyond && s.since < 0) s.since = step.to.state.t;

@@ -22,7 +22,7 @@ Energies energies(const System& system, const State& state, const Equations& eq)
   for (int i = 0; i < system.n_z(); ++i) {
     const Account account = system.integrals[static_cast<std::size_t>(i)].account;
     const bool input = account == Account::load || account == Account::driver;
-    (input ? e.input : e.lost) += state.y[2 * system.n() + i];
+    (input ? e.input : e.lost) += state.y[system.z_begin() + i];
   }
   return e;
 }

@@ -255,9 +255,10 @@ void apply_forces(const System& system, const State& state, Equations& eq) {
   eq.f.setZero();
   if (has_gravity(system)) add_weight(system, eq);
   for (FlexibleInertia& body : eq.flexible) add_forces(system, state.y, body, eq.f);
+  const double* x = state.y.data() + system.x_begin();
   for (std::size_t i = 0; i < system.forces.size(); ++i) {
     const int ma = marker_a(system.forces[i]), mb = marker_b(system.forces[i]);
-    eq.force[i] = evaluate(system.forces[i], eq.motion[at(ma)], eq.motion[at(mb)], state.t);
+    eq.force[i] = evaluate(system.forces[i], eq.motion[at(ma)], eq.motion[at(mb)], state.t, x + system.force_x[i]);
     add_wrench(system, eq, ma, eq.force[i].on_a, eq.f);
     add_wrench(system, eq, mb, eq.force[i].on_b, eq.f);
   }
@@ -298,6 +299,8 @@ void fill_derivative(const System& system, const VectorXd& y, const Equations& e
   const Index n = system.n();
   dy.head(n) = y.segment(n, n);
   dy.segment(n, n) = eq.a;
+  for (const InternalStates& owner : system.internal)
+    std::copy_n(eq.force[at(owner.force)].x_rate.begin(), owner.n, dy.data() + system.x_begin() + owner.begin);
   for (Index i = 0; i < system.n_z(); ++i) {
     const Integral& z = system.integrals[static_cast<std::size_t>(i)];
     const std::size_t k = at(z.index);
@@ -311,7 +314,7 @@ void fill_derivative(const System& system, const VectorXd& y, const Equations& e
       case Account::damping: rate = damping_loss(system, y, z.index); break;
       case Account::scheme: break;  // no rate: booked step by step
     }
-    dy[2 * n + i] = rate;
+    dy[system.z_begin() + i] = rate;
   }
 }
 

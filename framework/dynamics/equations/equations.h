@@ -89,7 +89,7 @@ void accelerate(const System&, const State&, Equations&);
 void add_mass_times(const System&, const Equations&, const Eigen::VectorXd& v, Eigen::VectorXd& out);
 /// out += Cqᵀ x, x of n_rows. After pose.
 void add_reaction(const Equations&, const Eigen::VectorXd& x, Eigen::VectorXd& out);
-/// ẏ = [s, a, ż] after accelerate.
+/// ẏ = [s, a, ẋ, ż] after accelerate.
 void fill_derivative(const System&, const Eigen::VectorXd& y, const Equations&, Eigen::VectorXd& dy);
 
 /// Everything above in order. @returns false if there are no accelerations

@@ -10,6 +10,7 @@ namespace pintle {
 
 using Eigen::Index;
 using Eigen::Matrix3d;
+using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Block = Eigen::Map<Eigen::MatrixXd>;
@@ -46,7 +47,8 @@ Tangent::Tangent(const System& system) {
 // Notes the interaction with 0 for each block that it has; lay_out turns these into places.
 void Tangent::add(const System& system, Interaction::Kind kind, std::size_t index, const JointEnds& ends, const WrenchPattern& pattern) {
   const auto moves = [&](std::size_t end) { return system.markers[at(ends.marker[end])].body != ground; };
-  Interaction x{kind, index, at(ends.n), ends.marker, {}, pattern.rate};
+  const bool internal = kind == Interaction::force && !internal_states(system.forces[index]).empty();
+  Interaction x{kind, index, at(ends.n), ends.marker, {}, pattern.rate, internal};
   bool any = false;
   for (std::size_t i = 0; i < x.n; ++i)
     for (std::size_t j = 0; j < x.n; ++j) {
@@ -199,13 +201,16 @@ void Tangent::move(const System& system, const State& state, const Equations& eq
 void Tangent::add_interactions(const System& system, const State& state, const Equations& eq, const VectorXd& lambda, const Weights& w,
                                double* values) {
   for (const Interaction& x : interactions_) {
-    if (w.q == 0 && !x.rate) continue;
+    const bool follows = w.x != 0 && x.internal;
+    const bool rate = x.rate || follows;
+    if (w.q == 0 && !rate) continue;
     if (x.kind == Interaction::contact && eq.contact[x.index].normal.force == 0) continue;
     const MarkerMotion &a = eq.motion[at(x.marker[0])], &b = eq.motion[at(x.marker[1])];
-    const WrenchTangent tangent = x.kind == Interaction::joint
-                                      ? wrench_tangent(system.joints[x.index], eq.motion.data(), lambda.data() + system.row_begin[x.index])
-                                  : x.kind == Interaction::force ? wrench_tangent(system.forces[x.index], eq.force[x.index], a, b)
-                                                                 : wrench_tangent(system.contacts[x.index], eq.contact[x.index], a, b);
+    WrenchTangent tangent = x.kind == Interaction::joint
+                                ? wrench_tangent(system.joints[x.index], eq.motion.data(), lambda.data() + system.row_begin[x.index])
+                            : x.kind == Interaction::force ? wrench_tangent(system.forces[x.index], eq.force[x.index], a, b)
+                                                           : wrench_tangent(system.contacts[x.index], eq.contact[x.index], a, b);
+    if (follows) condense(internal_tangent(system.forces[x.index], eq.force[x.index], a, b), w.x, tangent);
     for (std::size_t i = 0; i < x.n; ++i) move(system, state, eq, x.marker[i], ends_[i]);
 
     for (std::size_t i = 0; i < x.n; ++i)
@@ -215,7 +220,7 @@ void Tangent::add_interactions(const System& system, const State& state, const E
         const Index row = static_cast<Index>(3 * i), column = static_cast<Index>(3 * j);
         Matrix3d K = w.q * tangent.pose.block<3, 3>(row, column);
         Matrix3d D = Matrix3d::Zero();
-        if (x.rate) {
+        if (rate) {
           D = tangent.rate.block<3, 3>(row, column);
           K += w.s * D;
           D *= w.q;
@@ -238,6 +243,36 @@ void Tangent::add_interactions(const System& system, const State& state, const E
         }
       }
   }
+}
+
+Tangent::Internal Tangent::internal(const System& system, const State& state, const Equations& eq) {
+  const Index n = system.n(), n_x = system.n_x();
+  Internal out{MatrixXd::Zero(n, n_x), MatrixXd::Zero(n_x, n), MatrixXd::Zero(n_x, n), MatrixXd::Zero(n_x, n_x)};
+  for (const InternalStates& owner : system.internal) {
+    const Force& force = system.forces[at(owner.force)];
+    const std::array<int, 2> markers{marker_a(force), marker_b(force)};
+    const InternalTangent of = internal_tangent(force, eq.force[at(owner.force)], eq.motion[at(markers[0])], eq.motion[at(markers[1])]);
+    out.g_x.block(owner.begin, owner.begin, owner.n, owner.n) = of.g_x;
+    for (std::size_t i = 0; i < markers.size(); ++i) {
+      const int body = system.markers[at(markers[i])].body;
+      if (body == ground) continue;
+      End& end = ends_[i];
+      move(system, state, eq, markers[i], end);
+      Eigen::Matrix3Xd J(3, 3 + end.n), V = Eigen::Matrix3Xd::Zero(3, 3 + end.n);
+      J << Eigen::Matrix<double, 3, 2>::Identity(), end.J_theta, end.J_eta.topRows(end.n).transpose();
+      V.rightCols(1 + end.n) << end.V_theta, end.V_eta.topRows(end.n).transpose();
+      const Index part = 3 * static_cast<Index>(i);
+      const MatrixXd f_x = J.transpose() * of.wrench.middleRows(part, 3), g_s = of.g_rate.middleCols(part, 3) * J,
+                     g_q = of.g_pose.middleCols(part, 3) * J + of.g_rate.middleCols(part, 3) * V;
+      for (Index c = 0; c < J.cols(); ++c) {
+        const int q = coordinate(system, body, static_cast<int>(c));
+        out.f_x.row(q).segment(owner.begin, owner.n) += f_x.row(c);
+        out.g_q.col(q).segment(owner.begin, owner.n) += g_q.col(c);
+        out.g_s.col(q).segment(owner.begin, owner.n) += g_s.col(c);
+      }
+    }
+  }
+  return out;
 }
 
 Eigen::MatrixXd dense(const System& system, const Tangent& tangent, const std::vector<double>& values) {

@@ -25,10 +25,16 @@ class Tangent {
   const std::vector<Place>& places() const { return places_; }
 
   using Weights = TangentWeights;
-  /// values[i] ← summand i of  w.q ∂r/∂q + w.s ∂r/∂s + w.a M,  λ and a held. No allocation.
+  /// values[i] ← summand i of  w.q ∂r/∂q + w.s ∂r/∂s + w.a M,  λ and a held, internal states as w.x says. No allocation.
   /// @pre pose, speed, update_mass and apply_forces were called at `state`; values has places().size()
   void evaluate(const System&, const State&, const Equations&, const Eigen::VectorXd& a, const Eigen::VectorXd& lambda, const Weights& w,
                 std::vector<double>& values);
+
+  /// ∂f/∂x, and of g = ẋ the derivatives in q, s and x: how forces and internal states answer to each other. Same @pre.
+  struct Internal {
+    Eigen::MatrixXd f_x, g_q, g_s, g_x;  ///< n × n_x, n_x × n, n_x × n, n_x × n_x
+  };
+  Internal internal(const System&, const State&, const Equations&);
 
  private:
   /// A body's own block, by columns: entry (i, j) on [x y θ η] is summand begin + i + j·stride. A rigid
@@ -43,7 +49,7 @@ class Tangent {
     std::size_t index, n;
     std::array<int, most_ends> marker;
     std::array<std::array<int, most_ends>, most_ends> block;
-    bool rate;
+    bool rate, internal;
   };
   /// A marker's motion in its body's coordinates: ṗ = [1 J_θ J_ηᵀ]s and its derivatives V by θ and, transposed, by η.
   struct End {

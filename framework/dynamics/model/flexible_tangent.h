@@ -5,8 +5,9 @@
 /// How the inertia and elasticity of a flexible body answer to its motion: docs/theory/tangent.md.
 namespace pintle {
 
+/// x: of ẋ in internal states that follow the motion, x = base + w.x ẋ; 0: they are held.
 struct TangentWeights {
-  double q = 0, s = 0, a = 0;
+  double q = 0, s = 0, a = 0, x = 0;
 };
 
 /// Scratch for a body of n modes.

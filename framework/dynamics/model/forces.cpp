@@ -12,7 +12,7 @@ using M = const MarkerMotion&;
 constexpr WrenchPattern constant{};
 constexpr WrenchPattern between(bool rate) { return {{{{true, true}, {true, true}}}, rate}; }
 
-ForceEffect effect(const PointForce& f, M, M b, double t) {
+ForceEffect effect(const PointForce& f, M, M b, double t, const double*) {
   Vector2d force(f.x(t).value, f.y(t).value);
   if (f.follows) force = force.x() * b.u + force.y() * perp(b.u);
   ForceEffect e;
@@ -25,7 +25,7 @@ void curve(const PointForce& f, const ForceEffect& now, M, M, WrenchTangent& out
   if (f.follows) out.pose.block<2, 1>(place_of(1), angle_of(1)) = perp(now.on_b.head<2>());
 }
 
-ForceEffect effect(const Torque& f, M a, M b, double t) {
+ForceEffect effect(const Torque& f, M a, M b, double t, const double*) {
   const double torque = f.law(t).value;
   ForceEffect e;
   e.on_a[2] = -torque;
@@ -36,7 +36,7 @@ ForceEffect effect(const Torque& f, M a, M b, double t) {
 WrenchPattern pattern(const Torque&) { return constant; }
 void curve(const Torque&, const ForceEffect&, M, M, WrenchTangent&) {}
 
-ForceEffect effect(const Spring& f, M a, M b, double) {
+ForceEffect effect(const Spring& f, M a, M b, double, const double*) {
   const Vector2d d = b.r - a.r;
   const double length = d.norm(), stretch = length - f.free_length;
   ForceEffect e;
@@ -62,7 +62,7 @@ void curve(const Spring& f, const ForceEffect&, M a, M b, WrenchTangent& out) {
   oppose(f.c * along * along.transpose(), out.rate);
 }
 
-ForceEffect effect(const TorsionSpring& f, M a, M b, double) {
+ForceEffect effect(const TorsionSpring& f, M a, M b, double, const double*) {
   const double twist = b.angle - a.angle - f.free_angle, rate = b.w - a.w;
   const double torque = f.k * twist + f.c * rate;
   ForceEffect e;
@@ -78,10 +78,56 @@ void curve(const TorsionSpring& f, const ForceEffect&, M, M, WrenchTangent& out)
   twist(f.c, out.rate);
 }
 
+ForceEffect effect(const Maxwell& f, M a, M b, double, const double* x) {
+  const Vector2d d = b.r - a.r;
+  const double length = d.norm(), pull = f.k * (length - x[0]);
+  ForceEffect e;
+  e.stored = 0.5 * f.k * (length - x[0]) * (length - x[0]);
+  e.x_rate[0] = pull / f.c;
+  e.dissipation = pull * e.x_rate[0];
+  if (length == 0) return e;
+  e.on_a << pull / length * d, 0;
+  e.on_b = -e.on_a;
+  return e;
+}
+WrenchPattern pattern(const Maxwell&) { return between(false); }
+void curve(const Maxwell& f, const ForceEffect& now, M a, M b, WrenchTangent& out) {
+  const Vector2d d = b.r - a.r;
+  const double length = d.norm();
+  if (length == 0) return;
+  const Vector2d along = d / length, across = perp(along);
+  oppose(f.k * along * along.transpose() + now.x_rate[0] * f.c / length * across * across.transpose(), out.pose);
+}
+constexpr InternalState damper_length[] = {{".damper length", "m", 0}};
+std::span<const InternalState> states(const Maxwell&) { return damper_length; }
+void curve(const Maxwell& f, M a, M b, InternalTangent& out) {
+  const Vector2d d = b.r - a.r;
+  const double length = d.norm();
+  out.g_x(0, 0) = -f.k / f.c;
+  if (length == 0) return;
+  const Vector2d along = d / length;
+  out.wrench.block<2, 1>(place_of(0), 0) = -f.k * along;
+  out.wrench.block<2, 1>(place_of(1), 0) = f.k * along;
+  out.g_pose.block<1, 2>(0, place_of(0)) = -f.k / f.c * along.transpose();
+  out.g_pose.block<1, 2>(0, place_of(1)) = f.k / f.c * along.transpose();
+}
+
+// Most remember nothing.
+template <class Kind>
+std::span<const InternalState> states(const Kind&) {
+  return {};
+}
+template <class Kind>
+void curve(const Kind&, M, M, InternalTangent&) {}
+
 }  // namespace
 
-ForceEffect evaluate(const Force& f, const MarkerMotion& a, const MarkerMotion& b, double t) {
-  return std::visit([&](const auto& k) { return effect(k, a, b, t); }, f);
+ForceEffect evaluate(const Force& f, const MarkerMotion& a, const MarkerMotion& b, double t, const double* x) {
+  return std::visit([&](const auto& k) { return effect(k, a, b, t, x); }, f);
+}
+
+std::span<const InternalState> internal_states(const Force& f) {
+  return std::visit([](const auto& k) { return states(k); }, f);
 }
 
 WrenchPattern wrench_pattern(const Force& f) {
@@ -91,6 +137,12 @@ WrenchPattern wrench_pattern(const Force& f) {
 WrenchTangent wrench_tangent(const Force& f, const ForceEffect& now, const MarkerMotion& a, const MarkerMotion& b) {
   WrenchTangent out(2);
   std::visit([&](const auto& k) { curve(k, now, a, b, out); }, f);
+  return out;
+}
+
+InternalTangent internal_tangent(const Force& f, const ForceEffect&, const MarkerMotion& a, const MarkerMotion& b) {
+  InternalTangent out(2, static_cast<int>(internal_states(f).size()));
+  std::visit([&](const auto& k) { curve(k, a, b, out); }, f);
   return out;
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
+#include <span>
 #include <tuple>
 #include <variant>
 
 #include "framework/common/time_law.h"
+#include "framework/dynamics/model/internal_states.h"
 #include "framework/dynamics/model/marker.h"
 #include "framework/dynamics/model/wrench_tangent.h"
 
@@ -13,9 +16,10 @@ namespace pintle {
 /// Promise: wrench_a·ṗ_a + wrench_b·ṗ_b = input − dissipation − d(stored)/dt.
 struct ForceEffect {
   Wrench on_a = Wrench::Zero(), on_b = Wrench::Zero();
-  double stored = 0;       ///< recoverable energy [J]
-  double dissipation = 0;  ///< power lost, never negative [W]
-  double input = 0;        ///< power put in by the outside [W]
+  double stored = 0;                           ///< recoverable energy [J]
+  double dissipation = 0;                      ///< power lost, never negative [W]
+  double input = 0;                            ///< power put in by the outside [W]
+  std::array<double, most_internal> x_rate{};  ///< of its internal states
 };
 
 /// A force on b, in world axes, or turning with b's direction if `follows`. a is unused (ground).
@@ -44,14 +48,33 @@ struct TorsionSpring {
   auto members() const { return std::tie(a, b, k, c, free_angle); }
 };
 
-using Force = std::variant<PointForce, Torque, Spring, TorsionSpring>;
+/// A spring and a damper in series along the line from a to b [Maxwell1867]. Its internal state x is the damper's length:
+/// f = k(ℓ − x), ẋ = f/c.
+struct Maxwell {
+  int a, b;
+  double k, c;  ///< [N/m], [N s/m]
+  auto members() const { return std::tie(a, b, k, c); }
+};
+
+using Force = std::variant<PointForce, Torque, Spring, TorsionSpring, Maxwell>;
+
+/// An internal state as results name it.
+struct InternalState {
+  const char *name, *unit;
+  double scale;  ///< what its errors are measured by; 0: as lengths are
+};
+/// Those of a force element, in order.
+std::span<const InternalState> internal_states(const Force&);
 
 /// Cannot fail. A spring of no length has no direction and gives no force.
-ForceEffect evaluate(const Force&, const MarkerMotion& a, const MarkerMotion& b, double t);
+/// @param x  the internal states, if it has any
+ForceEffect evaluate(const Force&, const MarkerMotion& a, const MarkerMotion& b, double t, const double* x);
 
 WrenchPattern wrench_pattern(const Force&);
-/// How the wrenches answer to the motion. @param now  what the force does in this state
+/// How the wrenches answer to the motion, internal states held. @param now  what the force does in this state
 WrenchTangent wrench_tangent(const Force&, const ForceEffect& now, const MarkerMotion& a, const MarkerMotion& b);
+/// How wrenches and internal states answer to each other and to the motion.
+InternalTangent internal_tangent(const Force&, const ForceEffect& now, const MarkerMotion& a, const MarkerMotion& b);
 
 inline int marker_a(const Force& f) {
   return std::visit([](const auto& k) { return k.a; }, f);

@@ -46,8 +46,9 @@ void number(System& system, bool scheme_loses) {
     const Force& f = system.forces[i];
     const auto* spring = std::get_if<Spring>(&f);
     const auto* torsion = std::get_if<TorsionSpring>(&f);
-    const bool passive = spring || torsion;
-    const double c = spring ? spring->c : torsion ? torsion->c : 0;
+    const auto* maxwell = std::get_if<Maxwell>(&f);
+    const bool passive = spring || torsion || maxwell;
+    const double c = spring ? spring->c : torsion ? torsion->c : maxwell ? maxwell->c : 0;
     system.force_z.push_back(!passive ? account(Account::load, i) : c > 0 ? account(Account::damper, i) : -1);
   }
   for (std::size_t i = 0; i < system.joints.size(); ++i)
@@ -55,6 +56,18 @@ void number(System& system, bool scheme_loses) {
   for (std::size_t i = 0; i < system.bodies.size(); ++i)
     if (system.bodies[i].modes() > 0 && !system.bodies[i].flex->zeta.isZero()) account(Account::damping, i);
   if (scheme_loses) account(Account::scheme, 0);
+
+  std::vector<double> x_scale;
+  system.internal.clear();
+  system.force_x.clear();
+  for (const Force& f : system.forces) {
+    const auto states = internal_states(f);
+    const int begin = static_cast<int>(x_scale.size()), n = static_cast<int>(states.size());
+    if (n > 0) system.internal.push_back({static_cast<int>(system.force_x.size()), begin, n});
+    system.force_x.push_back(begin);
+    for (const InternalState& s : states) x_scale.push_back(s.scale);
+  }
+  system.x_scale = Eigen::Map<const Eigen::VectorXd>(x_scale.data(), static_cast<Eigen::Index>(x_scale.size()));
 }
 
 bool feels_shapes(const System& system, const Joint& joint, int marker) {

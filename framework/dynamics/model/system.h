@@ -27,6 +27,11 @@ struct Body {
   int modes() const { return flex ? static_cast<int>(flex->omega.size()) : 0; }
 };
 
+/// Internal states that one owner has: n numbers of x from `begin` on.
+struct InternalStates {
+  int force, begin, n;  ///< force: index of the owner
+};
+
 /// What an integral of the ledger accounts for.
 enum class Account { hysteresis, friction, damper, load, driver, damping, scheme };
 struct Integral {
@@ -56,12 +61,19 @@ struct System {
   Eigen::VectorXd row_scale;                     ///< 1/length for a row in metres, 1 for an angle
   std::vector<Integral> integrals;               ///< what z accounts for, in order
   std::vector<int> contact_z, force_z, joint_z;  ///< first integral of each, −1 for none
+  std::vector<InternalStates> internal;          ///< of each owner that has any
+  std::vector<int> force_x;                      ///< first internal state of each force, 0 if it has none
+  Eigen::VectorXd x_scale;                       ///< what their errors are measured by; 0: as lengths are
 
   int n_rigid() const { return 3 * static_cast<int>(bodies.size()); }
   int n() const { return eta_begin.empty() ? n_rigid() : eta_begin.back(); }
   int n_rows() const { return row_begin.empty() ? 0 : row_begin.back(); }
   int n_z() const { return static_cast<int>(integrals.size()); }
-  int n_y() const { return 2 * n() + n_z(); }
+  int n_x() const { return static_cast<int>(x_scale.size()); }
+  int n_s() const { return n() + n_x(); }  ///< what is of first order: speeds and internal states
+  int x_begin() const { return 2 * n(); }  ///< of the internal states in y
+  int z_begin() const { return n() + n_s(); }
+  int n_y() const { return z_begin() + n_z(); }
 };
 
 /// Fills what follows from the lists: coordinates, rows, integrals. Call once, after the lists are complete.
@@ -79,7 +91,7 @@ inline bool has_gravity(const System& s) { return s.gravity.x() != 0 || s.gravit
 /// Everything that changes in time. Copy one to branch a run, store one to restart it.
 struct State {
   double t = 0;                     ///< [s]
-  Eigen::VectorXd y;                ///< coordinates q, speeds s, ledger integrals z: n + n + n_z
+  Eigen::VectorXd y;                ///< coordinates q, speeds s, internal states x, ledger integrals z: n + n + n_x + n_z
   std::vector<double> impact_rate;  ///< per contact, latched approach speed; 0 while open [m/s]
 };
 

@@ -49,7 +49,7 @@ ImpactLog::ImpactLog(const System& system)
     : system_(system), open_(system.contacts.size(), -1), loss_at_begin_(system.contacts.size(), 0.0) {}
 
 double ImpactLog::loss(int contact, const State& state) const {
-  const Eigen::Index z = 2 * system_.n() + system_.contact_z[at(contact)];
+  const Eigen::Index z = system_.z_begin() + system_.contact_z[at(contact)];
   return state.y[z] + (system_.contacts[at(contact)].friction ? state.y[z + 1] : 0);
 }
 

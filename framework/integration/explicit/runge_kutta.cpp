@@ -40,7 +40,7 @@ bool RungeKutta::sample(const Step& step, double t, Equations& eq, State& out) {
   } else {
     if (inside) {
       interpolate_quintic(system_, step, t, node.state);
-      stages_.refine_integrals(system_, step, node.state);
+      stages_.refine_cubics(system_, step, node.state);
     } else {
       node.state = step.to.state;
     }

@@ -151,14 +151,14 @@ const std::array<double, 7>* quartic_of(const Tableau& tableau) {
 
 }  // namespace
 
-// Of the cubic alone the integrals would err by h⁴ inside a step and by h⁶ at its end.
-void Stages::refine_integrals(const System& system, const Step& step, State& out) const {
+// Of the cubic alone they would err by h⁴ inside a step and by h⁶ at its end.
+void Stages::refine_cubics(const System& system, const Step& step, State& out) const {
   const std::array<double, 7>* d = quartic_of(tableau_);
   if (d == nullptr) return;
   const double x = (out.t - step.from.state.t) / step.h, bend = step.h * x * x * (1 - x) * (1 - x);
-  const Index nz = system.n_z();
+  const Index cubic = system.n_x() + system.n_z();
   for (std::size_t i = 0; i < d->size(); ++i)
-    if ((*d)[i] != 0) out.y.tail(nz) += (bend * (*d)[i]) * (i + 1 < d->size() ? k_[i] : step.dy_end()).tail(nz);
+    if ((*d)[i] != 0) out.y.tail(cubic) += (bend * (*d)[i]) * (i + 1 < d->size() ? k_[i] : step.dy_end()).tail(cubic);
 }
 
 double Stages::stiffness(const System& system, const Step& step) const {
@@ -167,6 +167,8 @@ double Stages::stiffness(const System& system, const Step& step) const {
   const auto apart = [&](const Eigen::VectorXd& u, const Eigen::VectorXd& v) {
     double sum = 0;
     for (Index i = 0; i < 2 * system.n(); ++i) sum += std::pow((u[i] - v[i]) / system.scale[i % system.n()], 2);
+    for (Index i = 0; i < system.n_x(); ++i)
+      sum += std::pow((u[system.x_begin() + i] - v[system.x_begin() + i]) / (system.x_scale[i] > 0 ? system.x_scale[i] : system.length), 2);
     return std::sqrt(sum);
   };
   const double moved = apart(step.to.state.y, stage_.y);

@@ -25,9 +25,9 @@ class Stages {
   bool reach(const System&, const Instant& from, double h, Instant& to, Equations&);
   /// Chooses a new independent set if the present one has worn out. After an accepted step.
   void refresh(const System&, Equations&);
-  /// Adds to the integrals that `interpolate` has put into `out` what the last attempt's stages know of them between its ends.
+  /// Adds to the internal states and integrals that `interpolate` has put into `out` what the last attempt's stages know of them between its ends.
   /// @pre the step is that of the last attempt
-  void refine_integrals(const System&, const Step&, State& out) const;
+  void refine_cubics(const System&, const Step&, State& out) const;
 
   /// Has the same coordinates follow from the others.
   void take_partition(const Stages& other) { partition_.take_set(other.partition_); }

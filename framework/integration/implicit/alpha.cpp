@@ -5,6 +5,7 @@
 
 #include "framework/common/index.h"
 #include "framework/common/worse.h"
+#include "framework/dynamics/equations/internal.h"
 #include "framework/integration/dense_output.h"
 
 namespace pintle {
@@ -37,15 +38,16 @@ Alpha::Alpha(const System& system, const Equations& eq, double rho, double toler
       kkt_(system, eq, tangent_),
       values_(tangent_.places().size()),
       q_base_(VectorXd::Zero(system.n())),
-      s_base_(q_base_),
+      s_base_(VectorXd::Zero(system.n_s())),
       p_(q_base_),
-      start_(q_base_),
+      start_(s_base_),
+      own_(s_base_),
       dv_(q_base_),
       dp_(q_base_),
       mu_(VectorXd::Zero(system.n_rows())),
       work_(q_base_) {
   for (int i = 0; i < system.n_z(); ++i)
-    if (system.integrals[at(i)].account == Account::scheme) loss_ = 2 * system.n() + i;
+    if (system.integrals[at(i)].account == Account::scheme) loss_ = system.z_begin() + i;
   VectorXd reach = VectorXd::Zero(static_cast<Index>(system.bodies.size()));
   for (const Marker& m : system.markers)
     if (m.body != ground) reach[m.body] = std::max(reach[m.body], m.x_BP.norm());
@@ -55,10 +57,18 @@ Alpha::Alpha(const System& system, const Equations& eq, double rho, double toler
   }
 }
 
-void Alpha::evaluate_at(const System& system, const State& state, const VectorXd& dy, const VectorXd& lambda, Equations& eq) {
+void Alpha::move_to(const System& system, const State& state, Equations& eq) {
   pose(system, state.t, state.y, eq);
   update_mass(system, state.y, eq);
   speed(system, state.t, state.y, eq);
+}
+
+void Alpha::evaluate_at(const System& system, const State& state, const VectorXd& dy, const VectorXd& lambda, Equations& eq) {
+  move_to(system, state, eq);
+  balance(system, state, dy, lambda, eq);
+}
+
+void Alpha::balance(const System& system, const State& state, const VectorXd& dy, const VectorXd& lambda, Equations& eq) {
   apply_forces(system, state, eq);
   eq.a = dy.segment(system.n(), system.n());
   eq.lambda = lambda;
@@ -108,7 +118,7 @@ bool Alpha::settle(const System& system, Instant& node, Equations& eq) {
   fill_derivative(system, node.state.y, eq, node.dy);
   Memory& memory = node.memory;
   memory.h = 0;
-  memory.a = eq.a;
+  memory.a = node.dy.segment(system.n(), system.n_s());
   memory.lambda = memory.lambda_before = eq.lambda;
   memory.dy_before = node.dy;
   forces_of(system, eq, memory);
@@ -127,16 +137,16 @@ void Alpha::forces_of(const System& system, const Equations& eq, Memory& memory)
 // q_base, s_base, and a first guess of v̇₁, λ₁. At a start a₀ is v̇ at `shift` steps after it, by the line
 // through v̇₀ and v̇₁, which makes the step Newmark's with γ = ½ and β + shift/2: second order from the first on.
 Alpha::Weights Alpha::predict(double h, const Instant& from, Instant& to) {
-  const Index n = unit_.size();
-  const auto q0 = from.state.y.head(n), s0 = from.state.y.segment(n, n), v0 = from.dy.segment(n, n);
-  auto guess = to.dy.segment(n, n);
+  const Index n = unit_.size(), n_s = s_base_.size();
+  const auto q0 = from.state.y.head(n), s0 = from.state.y.segment(n, n_s), v0 = from.dy.segment(n, n_s);
+  auto guess = to.dy.segment(n, n_s);
   const Memory& memory = from.memory;
   const double m = weights_.m, f = weights_.f, beta = weights_.beta, gamma = weights_.gamma;
   Weights w;
   p_.setZero();
   if (memory.h == 0) {
     w = start_weights(h);
-    q_base_ = q0 + h * s0 + (h * h / 2 - w.q) * start_;
+    q_base_ = q0 + h * s0.head(n) + (h * h / 2 - w.q) * start_.head(n);
     s_base_ = s0 + h / 2 * start_;
     guess = start_;
     to.memory.lambda = memory.lambda;
@@ -144,11 +154,11 @@ Alpha::Weights Alpha::predict(double h, const Instant& from, Instant& to) {
   }
   w = {h * h * beta * (1 - f) / (1 - m), h * gamma * (1 - f) / (1 - m)};
   const double ratio = h / memory.h;
-  work_ = v0 + ratio * (memory.a - v0);  // a₀, `shift` times this step after the node
-  q_base_ = q0 + h * s0 + h * h * ((0.5 - beta) * work_ + beta / (1 - m) * (f * v0 - m * work_));
-  s_base_ = s0 + h * ((1 - gamma) * work_ + gamma / (1 - m) * (f * v0 - m * work_));
+  own_ = v0 + ratio * (memory.a - v0);  // a₀, `shift` times this step after the node
+  q_base_ = q0 + h * s0.head(n) + h * h * ((0.5 - beta) * own_ + beta / (1 - m) * (f * v0 - m * own_)).head(n);
+  s_base_ = s0 + h * ((1 - gamma) * own_ + gamma / (1 - m) * (f * v0 - m * own_));
   const double reach = std::min(ratio, 2.0);
-  guess = v0 + reach * (v0 - memory.dy_before.segment(n, n));
+  guess = v0 + reach * (v0 - memory.dy_before.segment(n, n_s));
   to.memory.lambda = memory.lambda + reach * (memory.lambda - memory.lambda_before);
   return w;
 }
@@ -157,12 +167,13 @@ Alpha::Weights Alpha::start_weights(double h) const { return {h * h * (weights_.
 
 // v̇ at a start as the step can follow it. Of a spring out of balance that is stiff for the step, v̇₀ would be taken for a whole
 // step, and leave it with hω times the speed that it could ever reach. With F v = (M + w.s D + w.q K)⁻¹M v, kept to the
-// constraints, v̇₀ − (1 − F)²v̇₀ is v̇₀ to h² where nothing is stiff. With ρ = 1 the start is the trapezoid's rule, which keeps energies as they are.
+// constraints, v̇₀ − (1 − F)²v̇₀ is v̇₀ to h² where nothing is stiff. Likewise ẋ₀. With ρ = 1 the start is the trapezoid's rule, which keeps energies as they are.
 bool Alpha::soften_start(const System& system, double h, const Instant& from, Equations& eq) {
   const Index n = system.n();
-  start_ = from.dy.segment(n, n);
+  start_ = from.dy.segment(n, system.n_s());
   if (weights_.shift == 0) return true;
   evaluate_at(system, from.state, from.dy, from.memory.lambda, eq);
+  if (system.n_x() > 0) soften_internal(system, start_weights(h).s, eq);
   if (!refactor(system, start_weights(h), from, eq)) return blame(system, eq, "the iteration matrix is singular");
   for (int i = 0; i < 2; ++i) {
     dp_.setZero();
@@ -170,14 +181,22 @@ bool Alpha::soften_start(const System& system, double h, const Instant& from, Eq
     mu_.setZero();
     visit_jacobian(eq, [&](int row, int column, double value) { mu_[row] += value * (i == 0 ? start_ : work_)[column]; });
     kkt_.solve(dp_, mu_);
-    if (i == 0) work_ = 2 * start_ - dp_;  // F(2 − F)
+    if (i == 0) work_ = 2 * start_.head(n) - dp_;  // F(2 − F)
   }
-  start_ = dp_;
+  start_.head(n) = dp_;
   return true;
 }
 
+void Alpha::soften_internal(const System& system, double weight, const Equations& eq) {
+  own_ = start_;
+  double *x = start_.data() + system.n(), *once = own_.data() + system.n();
+  filter_internal_states(system, eq, weight, once);
+  for (int i = 0; i < system.n_x(); ++i) x[i] = 2 * x[i] - once[i];
+  filter_internal_states(system, eq, weight, x);
+}
+
 bool Alpha::refactor(const System& system, const Weights& w, const Instant& node, Equations& eq) {
-  tangent_.evaluate(system, node.state, eq, eq.a, eq.lambda, {.q = w.q, .s = w.s, .a = 1}, values_);
+  tangent_.evaluate(system, node.state, eq, eq.a, eq.lambda, {.q = w.q, .s = w.s, .a = 1, .x = w.s}, values_);
   lent_ = nullptr;
   factored_ = kkt_.factor(system, eq, values_);
   ++eq.factorizations;
@@ -212,8 +231,10 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
   bool fresh = false, enough = false;
   for (int i = 0; i <= most_iterations; ++i) {
     y.head(n) = q_base_ + w.q * v + p_;
-    y.segment(n, n) = s_base_ + w.s * v;
-    evaluate_at(system, to.state, to.dy, to.memory.lambda, eq);
+    y.segment(n, n) = s_base_.head(n) + w.s * v;
+    move_to(system, to.state, eq);
+    if (system.n_x() > 0) follow_internal_states(system, eq, to.state.t, w.s, s_base_.data() + n, y.data() + system.x_begin());
+    balance(system, to.state, to.dy, to.memory.lambda, eq);
     if (enough) {
       const double left = position_violation(system, eq) - std::min(8 * angle_rounding(system, y), still_near);
       const double drift = velocity_violation(system, y, eq);
@@ -271,7 +292,7 @@ bool Alpha::attempt(const System& system, double h, Step& step, Equations& eq) {
   to.state.t = from.t + h;
   to.state.impact_rate = from.impact_rate;
   to.state.y.resize(system.n_y());
-  to.state.y.tail(system.n_z()) = from.y.tail(system.n_z());
+  to.state.y.tail(system.n_x() + system.n_z()) = from.y.tail(system.n_x() + system.n_z());
   trouble_.clear();
   if (step.from.memory.h == 0 && !soften_start(system, h, step.from, eq)) return false;
   Weights w = predict(h, step.from, to);
@@ -297,24 +318,24 @@ void Alpha::share_out(const System& system, Instant& to, Equations& eq) {
 }
 
 void Alpha::remember(const System& system, double h, const Instant& from, Instant& to, Equations& eq) {
-  const Index n = system.n();
+  const Index n = system.n(), n_s = system.n_s();
   fill_derivative(system, to.state.y, eq, to.dy);
-  const auto v1 = to.dy.segment(n, n);
+  const auto v1 = to.dy.segment(n, n_s);
   Memory& memory = to.memory;
   const double m = weights_.m, f = weights_.f;
   memory.dy_before = from.dy;
-  if (from.memory.h == 0) memory.dy_before.segment(n, n) = start_;
-  const auto v0 = memory.dy_before.segment(n, n);
+  if (from.memory.h == 0) memory.dy_before.segment(n, n_s) = start_;
+  const auto v0 = memory.dy_before.segment(n, n_s);
   if (from.memory.h == 0)
-    work_ = v0 + weights_.shift * (v1 - v0);
+    own_ = v0 + weights_.shift * (v1 - v0);
   else
-    work_ = v0 + (h / from.memory.h) * (from.memory.a - v0);
-  memory.a = ((1 - f) * v1 + f * v0 - m * work_) / (1 - m);
+    own_ = v0 + (h / from.memory.h) * (from.memory.a - v0);
+  memory.a = ((1 - f) * v1 + f * v0 - m * own_) / (1 - m);
   memory.h = h;
   memory.lambda_before = from.memory.lambda;
   if (eq.permanent > 0) share_out(system, to, eq);
   forces_of(system, eq, memory);
-  for (Index i = 2 * n; i < system.n_y(); ++i) to.state.y[i] = from.state.y[i] + h / 2 * (from.dy[i] + to.dy[i]);
+  for (Index i = system.z_begin(); i < system.n_y(); ++i) to.state.y[i] = from.state.y[i] + h / 2 * (from.dy[i] + to.dy[i]);
 }
 
 // e ← the solution of (M + w.s D + w.q K) x + Cqᵀμ = M e, Cq x = 0. Once leaves of a ring at hω ≫ 1 its displacement, which
@@ -347,6 +368,9 @@ void Alpha::estimate(const System& system, Step& step, Equations& eq) {
   }
   filter(system, step.error.head(n), 1, eq);
   filter(system, step.error.segment(n, n), 2, eq);
+  if (system.n_x() == 0) return;
+  double* x = step.error.data() + system.x_begin();
+  for (int i = 0; i < 2; ++i) filter_internal_states(system, eq, kept_.s, x);
 }
 
 // With F the forces and P = M v̇ at both ends and w = Δs − ½h(v̇₀ + v̇₁), the energy of a linear system

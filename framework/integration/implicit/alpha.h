@@ -23,6 +23,7 @@ struct AlphaWeights {
 ///   M(q₁) v̇₁ + Cqᵀλ₁ = f(q₁, s₁),  C(q₁) = 0,
 ///   q₁ = q₀ + h s₀ + h² ((½ − β) a₀ + β a₁) + p,   s₁ = s₀ + h ((1 − γ) a₀ + γ a₁),
 ///   (1 − α_m) a₁ + α_m a₀ = (1 − α_f) v̇₁ + α_f v̇₀.
+/// Internal states x are stepped as s is [JansenWhitingHulbert2000]; at each iterate they are solved for, owner by owner.
 /// The stabilised index 2: λ serves Ċ(q₁, s₁) = 0, and p, small as h³, C = 0, by the shortest way in the metric of
 /// the iteration matrix, which leaves stiff directions alone. Theory: docs/theory/implicit.md.
 class Alpha {
@@ -69,8 +70,11 @@ class Alpha {
   };
   Weights start_weights(double h) const;
   bool soften_start(const System&, double h, const Instant& from, Equations&);
+  void soften_internal(const System&, double weight, const Equations&);
   Weights predict(double h, const Instant& from, Instant& to);
   bool iterate(const System&, const Weights&, Instant& to, Equations&);
+  void move_to(const System&, const State&, Equations&);
+  void balance(const System&, const State&, const Eigen::VectorXd& dy, const Eigen::VectorXd& lambda, Equations&);
   void evaluate_at(const System&, const State&, const Eigen::VectorXd& dy, const Eigen::VectorXd& lambda, Equations&);
   bool refactor(const System&, const Weights&, const Instant&, Equations&);
   void solve(Eigen::VectorXd& x, Eigen::VectorXd& y) { (lent_ ? *lent_ : kkt_).solve(x, y); }
@@ -91,8 +95,9 @@ class Alpha {
   Kkt kkt_;
   Kkt* lent_ = nullptr;  ///< another's factor, used in place of kkt_'s until a new one is made
   std::vector<double> values_;
-  Eigen::VectorXd q_base_, s_base_, p_;  ///< q₁ = q_base + w.q v̇₁ + p, s₁ = s_base + w.s v̇₁
-  Eigen::VectorXd start_;                ///< v̇ at a start, as the step takes it
+  Eigen::VectorXd q_base_, s_base_, p_;  ///< q₁ = q_base + w.q v̇₁ + p, [s₁; x₁] = s_base + w.s [v̇₁; ẋ₁]
+  Eigen::VectorXd start_;                ///< [v̇; ẋ] at a start, as the step takes them
+  Eigen::VectorXd own_;                  ///< of the scheme at the step's begin, as Memory::a
   Eigen::VectorXd dv_, dp_, mu_, work_;
   double rate_ = 1;                       ///< contraction of Newton's iteration, as last seen
   bool tired_ = true, factored_ = false;  ///< the factor should be made again; there is one

@@ -62,6 +62,6 @@ bool GeneralizedAlpha::sample(const Step& step, double t, Equations& eq, State& 
 void GeneralizedAlpha::save(Writer& out) const { out.whole(alpha_); }
 void GeneralizedAlpha::load(Reader& in) { in.whole(alpha_); }
 
-bool GeneralizedAlpha::fits(const Instant& node) const { return node.memory.a.size() == system_.n(); }
+bool GeneralizedAlpha::fits(const Instant& node) const { return node.memory.a.size() == system_.n_s(); }
 
 }  // namespace pintle

@@ -125,6 +125,7 @@ Json load(const SceneTorsionSpring& f) {
   if (f.stiffness > 0) out["stiffness"] = f.stiffness;
   return out;
 }
+Json load(const SceneMaxwell& f) { return {{"maxwell", ends(f.a, f.b)}, {"stiffness", f.stiffness}, {"damping", f.damping}}; }
 
 Json json(const StartBody& start) {
   Json out = Json::object();

@@ -173,6 +173,7 @@ const std::vector<KeyTable>& tables() {
         {"from"},
         {"spring"},
         {"torsion spring"},
+        {"maxwell"},
         {"stiffness"},
         {"damping"},
         {"free length"},

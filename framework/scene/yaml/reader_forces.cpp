@@ -9,10 +9,11 @@ namespace {
 
 const std::array<KindKeys, 2> driver_kinds{{{"angle", {"law"}}, {"distance", {"law"}}}};
 
-const std::array<KindKeys, 4> force_kinds{{{"force", {"at", "follows"}},
+const std::array<KindKeys, 5> force_kinds{{{"force", {"at", "follows"}},
                                            {"torque", {"on", "from"}},
                                            {"spring", {"stiffness", "damping", "free length"}},
-                                           {"torsion spring", {"stiffness", "damping", "free angle"}}}};
+                                           {"torsion spring", {"stiffness", "damping", "free angle"}},
+                                           {"maxwell", {"stiffness", "damping"}}}};
 
 void must_have(const Node& node, std::string_view key, const std::string& example) {
   if (!node.has(key)) node.fail("lacks a required key; add for example " + std::string(key) + ": " + example);
@@ -58,6 +59,16 @@ SceneTorsionSpring read_torsion_spring(const Node& node) {
   return spring;
 }
 
+SceneMaxwell read_maxwell(const Node& node) {
+  must_have(node, "stiffness", "200 N/mm");
+  must_have(node, "damping", "4 N s/mm");
+  SceneMaxwell out;
+  std::tie(out.a, out.b) = read_ends(node.at("maxwell"));
+  read_optional(node, "stiffness", dimension::stiffness, rule::positive, out.stiffness);
+  read_optional(node, "damping", dimension::damping, rule::positive, out.damping);
+  return out;
+}
+
 // Until when laws are judged.
 double end_of_run(const Scene& scene) { return scene.has_run ? scene.run.until : 0; }
 
@@ -88,7 +99,8 @@ void read_forces(const Node& root, const std::filesystem::path& folder, Scene& s
       case 0: load.what = read_force(node, folder, end_of_run(scene)); break;
       case 1: load.what = read_torque(node, folder, end_of_run(scene)); break;
       case 2: load.what = read_spring(node); break;
-      default: load.what = read_torsion_spring(node);
+      case 3: load.what = read_torsion_spring(node); break;
+      default: load.what = read_maxwell(node);
     }
     scene.loads.push_back(std::move(load));
   }

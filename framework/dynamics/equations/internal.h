@@ -1,0 +1,18 @@
+#pragma once
+
+#include "framework/dynamics/equations/equations.h"
+
+namespace pintle {
+
+/// x ← the solution of x = base + weight g(p, ṗ, x, t) for the internal states of every owner, by Newton's method from the x that is
+/// there; without_end: of g = 0, and base is not read. After speed. Allocates nothing.
+/// @param base, x  n_x numbers each
+void follow_internal_states(const System&, const Equations&, double t, double weight, const double* base, double* x);
+
+/// The internal states in y that have come to rest in its pose: g(p, 0, x, t) = 0.
+void relax_internal_states(const System&, double t, Eigen::VectorXd& y);
+
+/// v ← (1 − weight g_x)⁻¹ v: how a step of that weight takes a change of internal states that are stiff. After apply_forces.
+void filter_internal_states(const System&, const Equations&, double weight, double* v);
+
+}  // namespace pintle
