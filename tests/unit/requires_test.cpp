@@ -40,6 +40,7 @@ forces:
   twist: {torque: 0.1 N m, on: crank}
   coil: {torsion spring: [ground, crank], stiffness: 0.1, damping: 1e-3}
   spring: {spring: [ground.far, slider.P], stiffness: 200 N/m, damping: 2, free length: 0.1}
+  mount: {maxwell: [ground.far, slider.P], stiffness: 100 N/m, damping: 3}
 start:
   gudgeon pin: {eccentricity: [0.11 mm, 0]}
 run: {until: 1 ms, method: rkf45}
@@ -70,6 +71,7 @@ const Feature features[] = {
     {"torque", [](Scene& s) { drop_load(s, "twist"); }},
     {"torsion spring", [](Scene& s) { drop_load(s, "coil"); }},
     {"spring", [](Scene& s) { drop_load(s, "spring"); }},
+    {"internal state", [](Scene& s) { drop_load(s, "mount"); }},
     {"contact", [](Scene& s) { s.joints.erase(s.joints.begin() + 2), s.start_journals.clear(); }},
     {"stiffening", [](Scene& s) { coupler(s).stiffening = Stiffening::none; }},
     {"second shape", [](Scene& s) { coupler(s).modes->keep.count = 1; }},
@@ -129,7 +131,8 @@ const std::vector<Term> terms{
     {"contact", entry_of(static_cast<ContactEffect (*)(const ContactPair&, const MarkerMotion&, const MarkerMotion&, double)>(evaluate))},
     {"impact law", entry_of(static_cast<NormalForce (*)(const ImpactLaw&, const Approach&)>(evaluate))},
     {"friction law", entry_of(static_cast<FrictionForce (*)(const Ambrosio&, double, double)>(evaluate))},
-    {"force or spring", entry_of(static_cast<ForceEffect (*)(const Force&, const MarkerMotion&, const MarkerMotion&, double)>(evaluate))},
+    {"force or spring",
+     entry_of(static_cast<ForceEffect (*)(const Force&, const MarkerMotion&, const MarkerMotion&, double, const double*)>(evaluate))},
     {"inertia of shapes", entry_of(evaluate_inertia)},
     {"forces on shapes", entry_of(add_forces)},
     {"rows on shapes", entry_of(to_metric)},
