@@ -321,6 +321,7 @@ void say_there_was_no_memory() {
 int main(int argc, char** argv) {
   leave_failed_writes_to_us();
   end_on_signals();
+  tell_of_crashes();
   std::set_terminate(end_without_memory);
   try {
     return carry_out(argc, argv);

@@ -40,6 +40,22 @@ extern "C" void end_at_once(int signal) {
   ::_exit(stopped);
 }
 
+const char* crash_words(int signal) {
+  switch (signal) {
+    case SIGSEGV: return "SIGSEGV";
+    case SIGBUS: return "SIGBUS";
+    case SIGFPE: return "SIGFPE";
+    case SIGILL: return "SIGILL";
+    default: return "SIGABRT";
+  }
+}
+
+extern "C" void tell_of_crash(int signal) {
+  say("pintle: it crashed ("), say(crash_words(signal)), say(") while "), say(activity);
+  say(": a fault in the program, or in a library where memory did not suffice; please report it"), say(where_results_are()), say("\n");
+  ::raise(signal);  // as it would have ended: the handler served once
+}
+
 extern "C" void ask_to_stop(int signal) {
   if (asked_by == 0) {
     asked_by = signal;
@@ -66,6 +82,21 @@ void handle(int signal) {
 void leave_failed_writes_to_us() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void tell_of_crashes() {
+  static char stack[1 << 14];  // the crash may be one of the stack
+  stack_t own{};
+  own.ss_sp = stack, own.ss_size = sizeof stack;
+  ::sigaltstack(&own, nullptr);
+  struct sigaction tells {};
+  tells.sa_handler = tell_of_crash;
+  tells.sa_flags = SA_RESETHAND | SA_ONSTACK | SA_NODEFER;
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler == SIG_DFL) ::sigaction(signal, &tells, nullptr);  // a sanitizer's, or a debugger's, stays
+  }
 }
 
 void heed_signals() {

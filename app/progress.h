@@ -12,6 +12,10 @@ void leave_failed_writes_to_us();
 /// What the caller had ignored stays ignored.
 void end_on_signals();
 
+/// At the start of the program: where a fault of it, or of a library that lacks memory, ends it, it says what it was doing and
+/// where what was computed is. It still ends by the signal.
+void tell_of_crashes();
+
 /// From now on, Ctrl-C, a request to terminate and the end of the terminal do not end the program but are asked for by
 /// asked_to_stop; the second of them ends it. What the caller had ignored (nohup) stays ignored.
 void heed_signals();

@@ -1,6 +1,7 @@
 #include "framework/output/results_directory.h"
 
 #include <limits.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -74,17 +75,19 @@ ResultsDirectory::ResultsDirectory(const fs::path& directory) : final_(without_s
   if (final_.has_parent_path()) fs::create_directories(final_.parent_path(), error);
   if (error) throw FileError(final_.parent_path(), error.value(), "cannot be made");
   staging_ = make_unique_folder(final_);
-  fs::create_directory(staging_ / "frames", error);
+  try {
+    frames_ = staging_ / "frames";
+  } catch (...) {
+    ::rmdir(staging_.c_str());
+    throw;
+  }
+  ::mkdir(frames_.c_str(), 0777);
 }
 
 ResultsDirectory::~ResultsDirectory() {
-  std::error_code ignored;
-  try {
-    if (committed_ || holds_files()) return;
-    fs::remove(staging_ / "frames", ignored);
-    fs::remove(staging_, ignored);
-  } catch (...) {  // no memory: it stays
-  }
+  if (committed_) return;
+  ::rmdir(frames_.c_str());  // an empty one only, without asking for memory
+  ::rmdir(staging_.c_str());
 }
 
 bool ResultsDirectory::holds_files() const { return !tree_of(staging_).files.empty(); }
@@ -93,8 +96,7 @@ void ResultsDirectory::commit() {
   const auto moved = [](const fs::path& where, const std::string& why) {
     return std::runtime_error(why + "; the results are in " + where.string());
   };
-  std::error_code not_empty;
-  fs::remove(staging_ / "frames", not_empty);
+  ::rmdir(frames_.c_str());  // if it is empty
   try {
     sync_tree(staging_);
   } catch (const FileError& e) {

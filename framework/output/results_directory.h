@@ -20,7 +20,7 @@ class ResultsDirectory {
   void commit();
 
  private:
-  std::filesystem::path final_, staging_;
+  std::filesystem::path final_, staging_, frames_;
   bool committed_ = false;
 };
 
