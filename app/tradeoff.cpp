@@ -16,6 +16,7 @@
 #include "framework/common/file.h"
 #include "framework/common/text.h"
 #include "framework/output/results.h"
+#include "framework/plots/tradeoff_plot.h"
 #include "framework/scene/text_file.h"
 #include "framework/scene/yaml/yaml_node.h"
 #include "framework/study/tradeoff/share_and_duration.h"
@@ -138,7 +139,10 @@ int tradeoff(const Options& options) {
     };
     report = run_tradeoff(asked.plan, asked.measures, run, listener);
   }
-  write_whole(options, out, [&](const fs::path& folder) { write_tradeoff(folder, out, asked.scene, report); });
+  write_whole(options, out, [&](const fs::path& folder) {
+    write_tradeoff(folder, out, asked.scene, report);
+    write_text(folder / "tradeoff.svg", tradeoff_svg(report));
+  });
   if (!options.markdown.empty()) {
     write_synced(picture, tradeoff_svg(report));
     write_synced(page, tradeoff_markdown(report, picture.filename().string()));

@@ -12,6 +12,7 @@
 #include "framework/common/file.h"
 #include "framework/common/printed.h"
 #include "framework/common/text.h"
+#include "framework/plots/tradeoff_plot.h"
 #include "framework/scene/units/expression.h"
 #include "framework/study/tradeoff/tradeoff.h"
 #include "framework/study/tradeoff/tradeoff_words.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "framework/common/printed.h"
-#include "framework/study/tradeoff/plot.h"
+#include "framework/plots/plot.h"
 
 /// The page on Ebrahimi, Salahshoor and Moradi (2017): see page.cpp.
 namespace paper {

@@ -171,14 +171,13 @@ std::vector<AxisEffect> free_coarsenings(const TradeReport&, std::size_t point);
 /// "tolerance 1e-6, coupler rigid"
 std::string setting_text(const TradePlan&, const TradePoint&);
 
-/// tradeoff.csv, .json, .svg, .md and recommended.yaml in `directory`.
+/// tradeoff.csv, .json, .md, which shows tradeoff.svg, and recommended.yaml in `directory`.
 /// @param final_directory  where they will stand, for the paths in recommended.yaml
 /// @throws std::runtime_error  naming the path that cannot be written
 void write_tradeoff(const std::filesystem::path& directory, const std::filesystem::path& final_directory, const CaseSource&,
                     const TradeReport&);
 std::string tradeoff_csv(const TradeReport&);
 std::string tradeoff_json(const TradeReport&);
-std::string tradeoff_svg(const TradeReport&);
 /// The report as text for a terminal, or as Markdown; `figure` is the path of the picture, empty: none.
 std::string tradeoff_text(const TradeReport&);
 std::string tradeoff_markdown(const TradeReport&, const std::string& figure, const std::string& heading = "#");

@@ -1,4 +1,4 @@
-#include "framework/study/tradeoff/plot.h"
+#include "framework/plots/plot.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "framework/study/tradeoff/tradeoff.h"
+
+namespace pintle {
+
+/// Error against time of every setting, the front, and what was recommended, as the text of an SVG picture.
+std::string tradeoff_svg(const TradeReport&);
+
+}  // namespace pintle
