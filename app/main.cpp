@@ -322,6 +322,7 @@ int main(int argc, char** argv) {
   leave_failed_writes_to_us();
   end_on_signals();
   tell_of_crashes();
+  keep_memory_in_reserve();
   std::set_terminate(end_without_memory);
   try {
     return carry_out(argc, argv);

@@ -148,7 +148,7 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
     rows.emplace_back("  " + integral_name(s, integral), number(booked) + " J");
   }
   for (std::size_t c = 0; c < s.contacts.size(); ++c) {
-    if (s.contacts[c].link >= 0) {
+    if (is_held(s.contacts[c])) {
       rows.emplace_back("massless link at " + s.contact_names[c],
                         "force at the outputs from " + number(run.links[c].least, 4) + " to " + number(run.links[c].greatest, 4) + " N");
       continue;

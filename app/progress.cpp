@@ -2,10 +2,13 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <iomanip>
 #include <iostream>
+#include <new>
 
 #include "meshes/limits.h"
 
@@ -82,6 +85,15 @@ void handle(int signal) {
 void leave_failed_writes_to_us() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void keep_memory_in_reserve() {
+  static std::atomic<void*> reserve = std::malloc(std::size_t{1} << 20);
+  std::set_new_handler([] {
+    void* const kept_back = reserve.exchange(nullptr);
+    if (!kept_back) throw std::bad_alloc();
+    std::free(kept_back);
+  });
 }
 
 void tell_of_crashes() {

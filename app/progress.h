@@ -12,6 +12,10 @@ void leave_failed_writes_to_us();
 /// What the caller had ignored stays ignored.
 void end_on_signals();
 
+/// At the start of the program: a megabyte, given back where memory first does not suffice, so that libraries which do not look
+/// for that (JSON's and VTK's) get what they ask for and the program comes to a place that does.
+void keep_memory_in_reserve();
+
 /// At the start of the program: where a fault of it, or of a library that lacks memory, ends it, it says what it was doing and
 /// where what was computed is. It still ends by the signal.
 void tell_of_crashes();
