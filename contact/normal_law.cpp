@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -31,6 +32,28 @@ NormalForce evaluate(const ImpactLaw& law, const Approach& at) {
   out.d_depth = law.n * (elastic / at.depth) * factor;
   out.d_rate = elastic * loss + law.d;
   return out;
+}
+
+double stored_at(const ImpactLaw& law, double depth) { return law.k * std::pow(depth, law.n + 1) / (law.n + 1); }
+double depth_storing(const ImpactLaw& law, double energy) { return std::pow((law.n + 1) * energy / law.k, 1 / (law.n + 1)); }
+double stiffness_at(const ImpactLaw& law, double depth) { return law.n * law.k * std::pow(depth, law.n - 1); }
+bool begins_with_jump(const ImpactLaw& law) { return law.d > 0; }
+double damping_share(const ImpactLaw& law, double rate, double impact_rate) { return law.chi * rate / impact_rate; }
+double viscous_damping(const ImpactLaw& law) { return law.d; }
+double part_of_depth(const ImpactLaw& law, double share) { return std::pow(share / (1 + law.chi), 1 / (law.n + 1)); }
+
+double restitution_of(const ImpactLaw& law, double mass) {
+  return law.d > 0 ? linear_restitution(law.d / (2 * std::sqrt(law.k * mass))) : effective_restitution(law.chi);
+}
+
+std::string stiffness_text(const ImpactLaw& law, int digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, law.n == 1 ? "%.*g N/m" : "%.*g N/m^%.*g", digits, law.k, digits, law.n);
+  return text;
+}
+
+std::vector<std::pair<std::string, double>> constants_of(const ImpactLaw& law) {
+  return {{"stiffness [N/m^n]", law.k}, {"exponent", law.n}, {"hysteresis factor", law.chi}, {"damping [N s/m]", law.d}};
 }
 
 namespace {

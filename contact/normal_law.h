@@ -1,7 +1,10 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace pintle {
 
@@ -35,6 +38,30 @@ struct ImpactLaw {
 /// force is clamped counts as lost.
 /// No allocation. @pre impact_rate > 0 where depth > 0
 NormalForce evaluate(const ImpactLaw&, const Approach&);
+
+// What others ask of a law: only this file and its implementation know its constants.
+
+/// What it stores at a depth ≥ 0 [J], and the depth at which it stores an energy ≥ 0 [m].
+double stored_at(const ImpactLaw&, double depth);
+double depth_storing(const ImpactLaw&, double energy);
+/// ∂f/∂δ at a depth > 0, of what it stores alone [N/m].
+double stiffness_at(const ImpactLaw&, double depth);
+/// Its force begins with a jump, d δ̇.
+bool begins_with_jump(const ImpactLaw&);
+/// Its damping over its elastic force, at a rate [m/s] in a contact that began at another; 0 of a law whose damping does not
+/// depend on how the contact began.
+double damping_share(const ImpactLaw&, double rate, double impact_rate);
+/// Damping of a spring and damper, whatever the impact [N s/m].
+double viscous_damping(const ImpactLaw&);
+/// The part x of the depth that an impact reaches at which its force, growing as it does at first, has taken ½ share of the
+/// speed: (1 + χ) xⁿ⁺¹ = share.
+double part_of_depth(const ImpactLaw&, double share);
+/// The restitution that it delivers to a reduced mass [kg].
+double restitution_of(const ImpactLaw&, double mass);
+/// "1e+10 N/m^1.5"
+std::string stiffness_text(const ImpactLaw&, int digits = 6);
+/// Its constants: name with unit, value.
+std::vector<std::pair<std::string, double>> constants_of(const ImpactLaw&);
 
 /// A published factor χ(e).
 struct ImpactFactor {

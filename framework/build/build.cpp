@@ -271,7 +271,7 @@ class Builder {
       if (found == known.end()) wrong(s.place, quoted(s.joint) + " is not a joint with clearance" + suggestion(s.joint, known));
       const ContactPair& pair = model_.system.contacts[static_cast<std::size_t>(found - known.begin())];
       const JournalBearing& gap = pair.gap;
-      if (pair.link < 0 && vector(s.eccentricity).norm() > gap.clearance() + too_deep * gap.journal)
+      if (!is_held(pair) && vector(s.eccentricity).norm() > gap.clearance() + too_deep * gap.journal)
         wrong(s.place,
               "eccentricity puts the journal deeper into the wall than a tenth of its radius, where no contact law holds; "
               "the clearance is " +

@@ -67,11 +67,11 @@ class Parts {
   }
   // The rate at which the force of a contact changes that comes by a hundredth of the motion's speed.
   void see(const ContactPair& pair, double motion, const std::string& name) {
-    if (pair.link >= 0) return;
+    if (is_held(pair)) return;
     const double w = mobility(system_, pair.journal).force + mobility(system_, pair.bearing).force;
-    const double speed = std::max(motion * system_.length * 1e-2, pair.slowest_impact), n = pair.normal.n;
-    const double depth = std::pow((n + 1) * speed * speed / (2 * pair.normal.k * w), 1 / (n + 1));
-    if (depth > 0) found.parts.push_back({speed / depth, pair.normal.d * w, "contact at \"" + name + "\""});
+    const double speed = std::max(motion * system_.length * 1e-2, pair.slowest_impact),
+                 depth = depth_storing(pair.normal, speed * speed / (2 * w));
+    if (depth > 0) found.parts.push_back({speed / depth, viscous_damping(pair.normal) * w, "contact at \"" + name + "\""});
     if (depth > 0 && found.parts.back().decay > found.most_damped.decay) found.most_damped = found.parts.back();
     found.struck = true;
     if (depth > 0) found.strike = std::max(found.strike, speed / depth);

@@ -66,13 +66,13 @@ std::string match(const Scene& scene, const SceneClearance& c, const IdealPin& p
   std::string words;
   if (!c.stiffness) {
     const double energy = pin.force * radial;
-    const double depth = energy > 0 ? std::pow((law.n + 1) * energy / law.k, 1 / (law.n + 1)) : 0.01 * radial;
-    pair.normal.k = 2 * law.k * std::pow(depth, law.n - 1) / (law.n + 1);
+    const double depth = energy > 0 ? depth_storing(law, energy) : 0.01 * radial;
+    pair.normal.k = 2 * stored_at(law, depth) / (depth * depth);
     words += "; the stiffness stores what the contact law does at a depth of " + text(depth) + " m" +
              (energy > 0 ? ", which " + text(pin.force) + " N, the ideal joint's force, brings it to over the clearance" : "");
   }
   if (!c.damping) {
-    const double e = effective_restitution(law.chi);
+    const double e = restitution_of(law, pin.mass);
     pair.normal.d = 2 * damping_ratio(e) * std::sqrt(pair.normal.k * pin.mass);
     words += "; the damping gives the law's restitution of " + text(e) + " to the " + text(pin.mass) + " kg that meet there";
   }
@@ -127,11 +127,12 @@ std::vector<std::string> complete_clearances(const Scene& scene, System& system,
     ContactPair& pair = system.contacts[i];
     std::string words = model_name(c.model);
     if (c.model == ClearanceModel::contact) {
-      words += ", stiffness " + text(pair.normal.k) + " N/m^" + text(pair.normal.n) + ", restitution delivered " +
-               text(effective_restitution(pair.normal.chi)) + friction_text(pair);
+      words += ", stiffness " + stiffness_text(pair.normal) + ", restitution delivered " + text(restitution_of(pair.normal, 1)) +
+               friction_text(pair);
     } else if (c.model == ClearanceModel::spring_damper) {
       const std::string how = c.stiffness && c.damping ? "" : match(scene, c, pins[i], pair);
-      words += ", stiffness " + text(pair.normal.k) + " N/m, damping " + text(pair.normal.d) + " N s/m" + friction_text(pair) + how;
+      words += ", stiffness " + stiffness_text(pair.normal) + ", damping " + text(viscous_damping(pair.normal)) + " N s/m" +
+               friction_text(pair) + how;
     } else if (rubs(c)) {
       warnings.push_back("\"" + joints[i]->name + "\": a massless link has no wall to slide on; its friction is left out");
     }

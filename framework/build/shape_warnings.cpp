@@ -27,9 +27,8 @@ double stiffness_of_blow(const System& system, const ContactPair& pair, double m
     const Body& b = system.bodies[static_cast<std::size_t>(m.body)];
     mobility += 1 / b.m + m.x_BP.squaredNorm() / b.J;
   }
-  const double speed = 1e-2 * motion * system.length, n = pair.normal.n, k = pair.normal.k;
-  const double depth = speed > 0 ? std::pow((n + 1) * speed * speed / (2 * k * mobility), 1 / (n + 1)) : 1e-2 * pair.gap.clearance();
-  return n * k * std::pow(depth, n - 1);
+  const double speed = 1e-2 * motion * system.length;
+  return stiffness_at(pair.normal, speed > 0 ? depth_storing(pair.normal, speed * speed / (2 * mobility)) : 1e-2 * pair.gap.clearance());
 }
 
 }  // namespace

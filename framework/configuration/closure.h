@@ -41,7 +41,7 @@ class Closure {
           offset_[c] << s.eccentricity[0], s.eccentricity[1];
           drift_[c] << s.speed[0], s.speed[1];
         }
-      if (system.contacts[c].link < 0) continue;
+      if (!is_held(system.contacts[c])) continue;
       const Eigen::Vector2d n = offset_[c].norm() > 0 ? Eigen::Vector2d(offset_[c].normalized()) : pressed[c];
       offset_[c] = system.contacts[c].gap.clearance() * n;
       drift_[c] -= n.dot(drift_[c]) * n;

@@ -175,8 +175,8 @@ class Search {
   // d of [K + σM, Cqᵀ; Cq, 0] [d; ·] = [forces out of balance; 0], shortened until it does what it should.
   bool step(bool by_potential, double sigma) {
     const System& held = rest_.held;
-    rest_.tangent.evaluate(held, state_, rest_.eq, VectorXd::Zero(held.n()), rest_.eq.lambda, {.q = 1, .s = 0, .a = sigma, .x = without_end},
-                           rest_.values);
+    rest_.tangent.evaluate(held, state_, rest_.eq, VectorXd::Zero(held.n()), rest_.eq.lambda,
+                           {.q = 1, .s = 0, .a = sigma, .x = without_end}, rest_.values);
     if (!rest_.kkt.factor(held, rest_.eq, rest_.values)) return false;
     VectorXd d = rest_.out_of_balance, y = VectorXd::Zero(held.n_rows());
     const double before = rest_.potential, unrest = rest_.unrest(), rounding = rest_.rounding();
@@ -260,18 +260,10 @@ std::vector<std::string> restless(const System& system, const VectorXd& a) {
   return out;
 }
 
-// ½ m v² = k δⁿ⁺¹/(n + 1): the approach that would have come so deep, as the start of a run has it.
-double speed_to_reach(const System& system, const ContactPair& pair, double depth) {
-  double inverse_mass = 0;
-  for (int marker : {pair.journal, pair.bearing})
-    if (const int body = system.markers[at(marker)].body; body != ground) inverse_mass += 1 / system.bodies[at(body)].m;
-  return std::sqrt(2 * inverse_mass * pair.normal.k * std::pow(depth, pair.normal.n + 1) / (pair.normal.n + 1));
-}
-
 void warn(const Model& model, const Equations& eq, Equilibrium& out) {
   const System& system = model.system;
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
-    if (system.contacts[c].link >= 0) {
+    if (is_held(system.contacts[c])) {
       if (const double N = clearance_effect(system, eq, c).normal.force; N < 0)
         out.warnings.push_back("\"" + system.contact_names[c] + "\": its massless link pushes by " + number_text(-N) +
                                " N, as no wall could pull; the joint would be open there");
@@ -360,7 +352,7 @@ Equilibrium find_equilibrium(const Scene&, const Model& model, const Assembly& a
   out.state = last;
   rest.eq.a.setZero();
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
-    const double depth = system.contacts[c].link >= 0 ? 0 : rest.eq.contact[c].gap.depth;
+    const double depth = is_held(system.contacts[c]) ? 0 : rest.eq.contact[c].gap.depth;
     out.state.impact_rate[c] =
         depth > 0 ? std::max(speed_to_reach(system, system.contacts[c], depth), system.contacts[c].slowest_impact) : 0;
   }

@@ -132,18 +132,11 @@ double mass_against(const System& open, const VectorXd& y, const ContactPair& pa
   return 1 / (apart[1] - apart[0]);
 }
 
-double reduced_mass(const System& system, const ContactPair& pair) {
-  double inverse = 0;
-  for (const int marker : {pair.journal, pair.bearing})
-    if (const int body = system.markers[at(marker)].body; body != ground) inverse += 1 / system.bodies[at(body)].m;
-  return 1 / inverse;
-}
-
 }  // namespace
 
 std::vector<Vector2d> pressed_directions(const Scene& scene, const System& system) {
   std::vector<Vector2d> out(system.contacts.size(), Vector2d::Zero());
-  if (std::none_of(system.contacts.begin(), system.contacts.end(), [](const ContactPair& c) { return c.link >= 0; })) return out;
+  if (std::none_of(system.contacts.begin(), system.contacts.end(), [](const ContactPair& c) { return is_held(c); })) return out;
   const System open = opened(system);
   out = pressing_at(open, assemble(scene, open).start.y);
   const Vector2d other = system.gravity.isZero() ? Vector2d::UnitX() : Vector2d(system.gravity.normalized());
@@ -161,7 +154,7 @@ std::vector<IdealPin> ideal_pins(const Scene& scene, const System& system) {
     const Vector2d n = at_start[c].isZero() ? Vector2d::UnitX() : Vector2d(at_start[c].normalized());
     const double mass = mass_against(open, y, open.contacts[c], n);
     out.push_back(
-        {mean[c] > 0 ? mean[c] : at_start[c].norm(), mass > 0 && std::isfinite(mass) ? mass : reduced_mass(open, open.contacts[c])});
+        {mean[c] > 0 ? mean[c] : at_start[c].norm(), mass > 0 && std::isfinite(mass) ? mass : 1 / lightness(open, open.contacts[c])});
   }
   return out;
 }

@@ -116,12 +116,9 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     const ContactPair& p = system.contacts[c];
     Json& out = contacts[system.contact_names[c]] = {{"model", model.clearances[c]}};
-    if (p.link < 0) {
-      out["stiffness [N/m^n]"] = p.normal.k;
-      out["exponent"] = p.normal.n;
-      out["hysteresis factor"] = p.normal.chi;
-      out["damping [N s/m]"] = p.normal.d;
-      if (p.normal.d == 0) out["restitution delivered"] = effective_restitution(p.normal.chi);
+    if (!is_held(p)) {
+      for (const auto& [name, value] : constants_of(p.normal)) out[name] = value;
+      if (!begins_with_jump(p.normal)) out["restitution delivered"] = restitution_of(p.normal, 1);  // to any mass
     }
     out["journal radius [m]"] = p.gap.journal;
     out["bearing radius [m]"] = p.gap.bearing;

@@ -57,7 +57,7 @@ void drop_link(System& system, ContactPair& pair) {
 /// The clearance as an ideal pin.
 void close_gap(System& system, int contact) {
   ContactPair& pair = system.contacts[at(contact)];
-  if (pair.link >= 0) drop_link(system, pair);
+  if (is_held(pair)) drop_link(system, pair);
   system.joints.emplace_back(Revolute{pair.journal, pair.bearing});
   system.joint_names.push_back(system.contact_names[at(contact)]);
   system.contacts.erase(system.contacts.begin() + contact);
@@ -114,7 +114,7 @@ class Maker {
   State start_for(const System& simpler) const {
     System open = model_.system;
     for (std::size_t c = 0; c < open.contacts.size(); ++c)
-      if (open.contacts[c].link >= 0 && std::ranges::find(simpler.contact_names, open.contact_names[c]) == simpler.contact_names.end())
+      if (is_held(open.contacts[c]) && std::ranges::find(simpler.contact_names, open.contact_names[c]) == simpler.contact_names.end())
         drop_link(open, open.contacts[c]);
     if (open.joints.size() == model_.system.joints.size()) return start_of(model_.system, start_, simpler);
     number(open);

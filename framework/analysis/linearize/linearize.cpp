@@ -271,10 +271,10 @@ void add_notes(const Scene& scene, const System& system, const MotionAt& here, L
         (moves ? "" : "; --equilibrium linearizes where it rests"));
   for (std::size_t i = 0; i < out.contacts.size(); ++i) {
     const LinearContact& c = out.contacts[i];
-    if (system.contacts[i].link >= 0)
+    if (is_held(system.contacts[i]))
       out.notes.push_back("\"" + c.name + "\" is a massless link that carries " + text(c.force) + " N" +
                           (c.force < 0 ? ", pushing as no wall could pull" : ""));
-    else if (c.closed && system.contacts[i].normal.d > 0)
+    else if (c.closed && begins_with_jump(system.contacts[i].normal))
       out.notes.push_back("\"" + c.name + "\" is closed: stiffness " + text(c.stiffness) + " N/m along its normal, damping " +
                           text(c.damping) + " N s/m");
     else if (c.closed)

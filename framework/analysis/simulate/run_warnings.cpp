@@ -18,14 +18,14 @@ void warn_of_depth(const System& system, Run& run) {
       std::ostringstream s;
       s.precision(3);
       s << "\"" << system.contact_names[c] << "\": the journal went " << deepest[c]
-        << " m into the wall, more than a tenth of its radius; no contact law holds there (is the stiffness " << system.contacts[c].normal.k
-        << " N/m^" << system.contacts[c].normal.n << " meant?)";
+        << " m into the wall, more than a tenth of its radius; no contact law holds there (is the stiffness "
+        << stiffness_text(system.contacts[c].normal, 3) << " meant?)";
       run.warnings.push_back(s.str());
     }
 }
 
 void warn_of_gap(const System& system, const Model& model, const SavedState& from, Run& run) {
-  const bool linked = std::ranges::any_of(system.contacts, [](const ContactPair& c) { return c.link >= 0; });
+  const bool linked = std::ranges::any_of(system.contacts, [](const ContactPair& c) { return is_held(c); });
   if (!linked && model.bending.empty()) return;
   run.warnings.push_back(
       "this run goes on from " + number_text(from.t, 3) + " s: " + (linked ? "whether a massless link pushed" : "how far bodies bent") +
@@ -34,7 +34,7 @@ void warn_of_gap(const System& system, const Model& model, const SavedState& fro
 
 void warn_of_pushing(const System& system, Run& run) {
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
-    if (system.contacts[c].link < 0) continue;
+    if (!is_held(system.contacts[c])) continue;
     const Run::LinkForce& force = run.links[c];
     if (force.pushing == 0) continue;
     std::ostringstream s;

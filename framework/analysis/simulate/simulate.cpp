@@ -67,7 +67,7 @@ class RowFigures {
     run.links.resize(system.contacts.size());
     run.greatest_integrals.assign(n_z_, 0);
     for (std::size_t c = 0; c < system.contacts.size(); ++c) {
-      if (system.contacts[c].link < 0) continue;
+      if (!is_held(system.contacts[c])) continue;
       const auto& header = run.trajectory.header;
       normal_.emplace_back(c, std::ranges::find(header, system.contact_names[c] + ".normal [N]") - header.begin());
     }

@@ -12,13 +12,13 @@ void SlowContacts::see(const System& system, const Step& step, const Equations& 
   for (std::size_t c = 0; c < seen_.size(); ++c) {
     Seen& s = seen_[c];
     const ContactPair& pair = system.contacts[c];
-    const double onset = step.to.state.impact_rate[c], chi = pair.normal.chi;
-    if (!(onset > 0) || chi == 0 || pair.link >= 0) {
+    const double onset = step.to.state.impact_rate[c];
+    if (!(onset > 0) || is_held(pair) || damping_share(pair.normal, 1, 1) == 0) {
       s.beyond = false;
       continue;
     }
     const Gap& gap = eq.contact[c].gap;
-    const double over = chi * gap.rate / onset;
+    const double over = damping_share(pair.normal, gap.rate, onset);
     const bool beyond = gap.depth > 0 && gap.rate > faster * onset && over > outweighs;
     if (beyond || s.beyond) {
       const Eigen::Index z = system.z_begin() + system.contact_z[c];

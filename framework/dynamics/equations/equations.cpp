@@ -320,7 +320,7 @@ void fill_derivative(const System& system, const VectorXd& y, const Equations& e
 
 ContactEffect clearance_effect(const System& system, const Equations& eq, std::size_t c) {
   ContactEffect out = eq.contact[c];
-  if (system.contacts[c].link < 0) return out;
+  if (!is_held(system.contacts[c])) return out;
   const double N = eq.lambda[system.row_begin[at(system.contacts[c].link)]];
   out.normal.force = N;
   out.on_journal << -N * out.gap.n, 0;

@@ -7,7 +7,7 @@ MovingPoint moving_point(const MarkerMotion& m) { return {m.r, m.v, m.w}; }
 ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& journal, const MarkerMotion& bearing, double impact_rate) {
   ContactEffect out;
   out.gap = evaluate(pair.gap, moving_point(journal), moving_point(bearing));
-  if (impact_rate <= 0 || pair.link >= 0 || (out.gap.depth <= 0 && pair.normal.d == 0)) return out;
+  if (impact_rate <= 0 || is_held(pair) || (out.gap.depth <= 0 && !begins_with_jump(pair.normal))) return out;
 
   out.normal = evaluate(pair.normal, Approach{out.gap.depth, out.gap.rate, impact_rate});
   Eigen::Vector2d force = -out.normal.force * out.gap.n;

@@ -34,6 +34,9 @@ struct ContactEffect {
   double friction_loss = 0;  ///< as the law sees it: −force · its own sliding speed [W]
 };
 
+/// Its two centres are kept apart by a massless link: no law acts, nothing is touched or left.
+inline bool is_held(const ContactPair& pair) { return pair.link >= 0; }
+
 MovingPoint moving_point(const MarkerMotion&);
 
 /// @param impact_rate  latched approach speed [m/s]; 0 while open: then only the gap is found

@@ -70,6 +70,20 @@ void number(System& system, bool scheme_loses) {
   system.x_scale = Eigen::Map<const Eigen::VectorXd>(x_scale.data(), static_cast<Eigen::Index>(x_scale.size()));
 }
 
+double lightness(const System& system, const ContactPair& pair) {
+  double out = 0;
+  for (const int marker : {pair.journal, pair.bearing})
+    if (const int body = system.markers[static_cast<std::size_t>(marker)].body; body != ground)
+      out += 1 / system.bodies[static_cast<std::size_t>(body)].m;
+  return out;
+}
+double speed_to_reach(const System& system, const ContactPair& pair, double depth) {
+  return std::sqrt(2 * lightness(system, pair) * stored_at(pair.normal, depth));
+}
+double depth_reached(const System& system, const ContactPair& pair, double speed) {
+  return depth_storing(pair.normal, speed * speed / (2 * lightness(system, pair)));
+}
+
 bool feels_shapes(const System& system, const Joint& joint, int marker) {
   const Marker& m = system.markers[static_cast<std::size_t>(marker)];
   if (m.body == ground) return false;

@@ -21,7 +21,7 @@ std::string ContactEvents::name(int contact) const { return "contact \"" + syste
 // A contact that is open waits for its onset, a closed one for its loss; a massless link for neither.
 WatchedGuard ContactEvents::watch(int contact) const {
   const ContactPair& pair = system_.contacts[at(contact)];
-  if (pair.link >= 0) return {};
+  if (is_held(pair)) return {};
   const double zero = 1e-9 * pair.gap.clearance();
   if (log_.touching(contact))
     return {.direction = Direction::falling, .zero = zero, .overshoot = onset_cut_ > 0 ? infinite : 0, .kink = true};
@@ -36,15 +36,15 @@ Guard ContactEvents::guard(int contact, const State&, const Equations& eq) const
 // Until what the contact stores at the depth that is left is, of the impact's energy, a ten-thousandth of the tolerance.
 bool ContactEvents::met(int contact, const Guard& gap) const {
   const double enough = 1e-15 * system_.length, part = std::sqrt(1e-4 * tolerance_), depth = std::abs(gap.value);
-  return depth <= enough || gap.rate == 0 || speed_to_reach(contact, depth) <= part * std::abs(gap.rate);
+  return depth <= enough || gap.rate == 0 || speed_to_reach(system_, system_.contacts[at(contact)], depth) <= part * std::abs(gap.rate);
 }
 
 // A start inside the wall has no approach speed. It gets that of the impact which would have come this deep.
 void ContactEvents::start(Step& step) {
   for (int c = 0; c < size(); ++c) {
-    if (system_.contacts[at(c)].link >= 0) continue;
+    if (is_held(system_.contacts[at(c)])) continue;
     const Guard now = guard(c, step.to.state);
-    if (now.value > 0) begin(c, step, std::max(now.rate, speed_to_reach(c, now.value)));
+    if (now.value > 0) begin(c, step, std::max(now.rate, speed_to_reach(system_, system_.contacts[at(c)], now.value)));
   }
 }
 
@@ -58,7 +58,7 @@ EventOutcome ContactEvents::act(int contact, Step& step, const Guard& gap) {
     begin(contact, step, guard(contact, step.to.state).rate);
   else
     end(contact, step);
-  return {.change = system_.contacts[at(contact)].normal.d > 0 ? EventOutcome::Change::jump : EventOutcome::Change::forces,
+  return {.change = begins_with_jump(system_.contacts[at(contact)].normal) ? EventOutcome::Change::jump : EventOutcome::Change::forces,
           .first_step = onset ? onset_step(contact, gap.rate, step.to.state.t) : infinite};
 }
 
@@ -83,31 +83,15 @@ double ContactEvents::moment(const Step& step, const Guard& gap) const {
   return !(onset_cut_ > 0) && std::abs(gap.value) < std::abs(gap.rate) * step.h ? t - gap.value / gap.rate : t;
 }
 
-// ½ v² = w k δⁿ⁺¹/(n + 1), 1/w the two bodies' reduced mass.
-double ContactEvents::speed_to_reach(int contact, double depth) const {
-  const ImpactLaw& law = system_.contacts[at(contact)].normal;
-  return std::sqrt(2 * lightness(contact) * law.k * std::pow(depth, law.n + 1) / (law.n + 1));
-}
-
-// Sum of the bodies' 1/m [1/kg].
-double ContactEvents::lightness(int contact) const {
-  const ContactPair& pair = system_.contacts[at(contact)];
-  double out = 0;
-  for (int marker : {pair.journal, pair.bearing})
-    if (const int body = system_.markers[at(marker)].body; body != ground) out += 1 / system_.bodies[at(body)].m;
-  return out;
-}
-
 // The first explicit step of an impact. Its force begins as (1 + χ)(vt)ⁿ, which no series of whole powers follows and no embedded
 // error sees in full: of the (1 + χ) ½ v (hv/δ)ⁿ⁺¹ by which it changes the speed v in the step h, δ the depth that v can reach, a
 // pair misses some thousandth, and that is to be the tolerance [s].
 double ContactEvents::onset_step(int contact, double v, double t) const {
   constexpr double missed = 1e-3, clock = 1e-14;
   if (!(v > 0)) return infinite;
-  const ImpactLaw& law = system_.contacts[at(contact)].normal;
-  const double depth = std::pow((law.n + 1) * v * v / (2 * lightness(contact) * law.k), 1 / (law.n + 1));
-  const double part = std::pow(tolerance_ / (missed * (1 + law.chi)), 1 / (law.n + 1));
-  return std::max(part * depth / v, clock * std::abs(t));
+  const ContactPair& pair = system_.contacts[at(contact)];
+  const double part = part_of_depth(pair.normal, tolerance_ / missed);
+  return std::max(part * depth_reached(system_, pair, v) / v, clock * std::abs(t));
 }
 
 void ContactEvents::save(Writer& out) const { out.whole(log_); }

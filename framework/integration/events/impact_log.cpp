@@ -57,7 +57,7 @@ void ImpactLog::begin(int contact, const Step& step, const Guard& gap, double be
   const ContactPair& pair = system_.contacts[at(contact)];
   open_[at(contact)] = static_cast<int>(impacts_.size());
   Impact impact{.contact = contact, .begin = begin, .approach = latched};
-  if (gap.value > 0 || pair.normal.d > 0) {
+  if (gap.value > 0 || begins_with_jump(pair.normal)) {
     impact.deepest = std::max(gap.value, 0.0);  // a start inside the wall, or a force that begins with a jump
     impact.peak_force = evaluate(pair.normal, Approach{gap.value, gap.rate, latched}).force;
   }

@@ -97,7 +97,7 @@ class Measuring {
   }
   bool is_asked(std::size_t contact) const { return asked_.owner.empty() || model_.system.contact_names[contact] == asked_.owner; }
   /// Its model, a massless link, never lets the journal go: at the wall, and no impact.
-  bool held(std::size_t contact) const { return model_.system.contacts[contact].link >= 0; }
+  bool held(std::size_t contact) const { return is_held(model_.system.contacts[contact]); }
   double contact_time(double from, double to) const {
     double sum = 0;
     for (const Impact& i : run_.impacts)
@@ -144,7 +144,7 @@ class Measuring {
   Signal zero() const { return {{}, std::vector<double>(run_.trajectory.rows(), 0.0), {}, true, true}; }
   /// Forces and accelerations jump where journals meet walls.
   Signal of(std::vector<double> y, bool magnitude = false) const {
-    const bool jumps = std::ranges::any_of(model_.system.contacts, [](const ContactPair& c) { return c.link < 0; });
+    const bool jumps = std::ranges::any_of(model_.system.contacts, [](const ContactPair& c) { return !is_held(c); });
     return {{}, std::move(y), {}, !jumps, magnitude};
   }
 
