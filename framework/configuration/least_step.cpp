@@ -1,9 +1,10 @@
 #include "framework/configuration/least_step.h"
 
 #include <algorithm>
-#include <new>
 
 #include <Eigen/CholmodSupport>
+
+#include "framework/common/suitesparse_memory.h"
 
 namespace pintle {
 
@@ -14,18 +15,11 @@ namespace {
 using Index = Eigen::Index;
 using Sparse = Eigen::SparseMatrix<double>;
 
-thread_local bool out_of_memory;
-// CHOLMOD may go on with another ordering, whose result differs in its last digits, and then forgets that it lacked memory.
-void remember(int status, const char*, int, const char*) { out_of_memory = out_of_memory || status == CHOLMOD_OUT_OF_MEMORY; }
-void require_memory() {
-  if (out_of_memory) throw std::bad_alloc();
-}
-
-void factor(Eigen::CholmodDecomposition<Sparse>& solver, const Sparse& S) {
+void factor(Eigen::CholmodDecomposition<Sparse>& solver, const Sparse& S, const SuiteSparseMemory& memory) {
   solver.analyzePattern(S);
-  require_memory();  // Eigen's factorize takes the analysis for granted
+  memory.require();  // Eigen's factorize takes the analysis for granted
   solver.factorize(S);
-  require_memory();
+  memory.require();
 }
 
 }  // namespace
@@ -38,21 +32,20 @@ VectorXd least_step(const Sparse& J, const VectorXd& W, const VectorXd& r, doubl
   Sparse I(S.rows(), S.cols());
   I.setIdentity();
   S += shift * I;
+  const SuiteSparseMemory memory;
   Eigen::CholmodDecomposition<Sparse> solver;
   solver.cholmod().print = 0;
-  solver.cholmod().error_handler = remember;
-  out_of_memory = false;
-  factor(solver, S);
+  factor(solver, S, memory);
   for (int i = 0; i < 10 && solver.info() != Eigen::Success; ++i) {  // rounding has eaten the shift
     S += 99 * shift * I;
     shift *= 100;
-    factor(solver, S);
+    factor(solver, S, memory);
   }
   if (solver.info() != Eigen::Success) return VectorXd::Zero(J.cols());
   VectorXd y = VectorXd::Zero(r.size()), x = VectorXd::Zero(J.cols());
   for (int i = 0; i < sweeps; ++i) {
     y += solver.solve(r - J * x);
-    require_memory();
+    memory.require();
     x = W.asDiagonal() * (J.transpose() * y);
   }
   return x;

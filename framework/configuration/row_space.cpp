@@ -10,6 +10,7 @@
 #include <Eigen/SparseCore>
 
 #include "framework/common/index.h"
+#include "framework/common/suitesparse_memory.h"
 
 namespace pintle {
 
@@ -39,6 +40,7 @@ using Weights = std::vector<std::pair<int, double>>;
 class QR {
  public:
   QR(const Sparse& A, double tolerance) {
+    const SuiteSparseMemory memory;
     cholmod_l_start(&common_);
     common_.print = 0;
     cholmod_sparse* matrix = cholmod_l_allocate_sparse(static_cast<std::size_t>(A.rows()), static_cast<std::size_t>(A.cols()),
@@ -56,7 +58,7 @@ class QR {
     SuiteSparseQR<double>(SPQR_ORDERING_COLAMD, tolerance, 0, matrix, &R_, &order_, &common_);
     cholmod_l_free_sparse(&matrix, &common_);
     columns_ = static_cast<int>(A.cols());
-    if (!R_ || common_.status == CHOLMOD_OUT_OF_MEMORY) fail();
+    if (!R_ || memory.lacked()) fail();
   }
   ~QR() { free(); }
   QR(const QR&) = delete;

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "framework/common/suitesparse_memory.h"
+
 namespace pintle {
 
 namespace {
@@ -130,7 +132,9 @@ void Factor::analyse(const Sparse& A) {
   if (d.L && places == d.places) return;
   cholmod_sparse a = view(A);
   cholmod_free_factor(&d.L, &d.common);
+  const SuiteSparseMemory memory;
   d.L = cholmod_analyze(&a, &d.common);
+  memory.require();
   d.places = std::move(places);
   d.judge(A);
 }

@@ -12,6 +12,7 @@ extern "C" {  // it says nothing of C++
 #include <utility>
 
 #include "framework/common/index.h"
+#include "framework/common/suitesparse_memory.h"
 
 namespace pintle {
 
@@ -56,12 +57,14 @@ struct Order {
 
   void find(Pattern p) {
     cholmod_sparse A = upper(p, nullptr);
+    const SuiteSparseMemory memory;
     cholmod_factor* found = cholmod_analyze(&A, &common);
     if (!found) throw std::bad_alloc();
     const int* perm = static_cast<const int*>(found->Perm);
     order.assign(perm, perm + n);
     thick = found->is_super != 0;
     cholmod_free_factor(&found, &common);
+    memory.require();
   }
 
   int n;
