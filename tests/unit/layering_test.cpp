@@ -89,9 +89,9 @@ const std::vector<Layer> layers{
       "framework/study/study.h"}},
     {"framework/study/tradeoff/",
      {"framework/common/", "framework/scene/", "framework/build/", "framework/analysis/simulate/", "framework/study/study.h"}},
-    {"framework/plots/", {"framework/study/tradeoff/"}},
     {"framework/study/",
      {"meshes/limits.h", "framework/common/", "framework/scene/", "framework/bodies/", "framework/build/", "framework/study/measures/"}},
+    {"framework/plots/", {"framework/common/", "framework/study/tradeoff/"}},
 
     {"app/", {"files/", "elements/", "contact/", "meshes/", "framework/"}},
     {"examples/", {"elements/", "contact/", "meshes/", "framework/"}},
