@@ -34,13 +34,21 @@ NormalForce evaluate(const ImpactLaw& law, const Approach& at) {
   return out;
 }
 
-double stored_at(const ImpactLaw& law, double depth) { return law.k * std::pow(depth, law.n + 1) / (law.n + 1); }
 double depth_storing(const ImpactLaw& law, double energy) { return std::pow((law.n + 1) * energy / law.k, 1 / (law.n + 1)); }
+double stiffness_of_equal_energy(const ImpactLaw& law, double depth) { return 2 * law.k * std::pow(depth, law.n - 1) / (law.n + 1); }
 double stiffness_at(const ImpactLaw& law, double depth) { return law.n * law.k * std::pow(depth, law.n - 1); }
 bool begins_with_jump(const ImpactLaw& law) { return law.d > 0; }
 double damping_share(const ImpactLaw& law, double rate, double impact_rate) { return law.chi * rate / impact_rate; }
 double viscous_damping(const ImpactLaw& law) { return law.d; }
-double part_of_depth(const ImpactLaw& law, double share) { return std::pow(share / (1 + law.chi), 1 / (law.n + 1)); }
+double depth_reached(const ImpactLaw& law, double lightness, double speed) {
+  return std::pow((law.n + 1) * speed * speed / (2 * lightness * law.k), 1 / (law.n + 1));
+}
+double speed_to_reach(const ImpactLaw& law, double lightness, double depth) {
+  return std::sqrt(2 * lightness * law.k * std::pow(depth, law.n + 1) / (law.n + 1));
+}
+double part_of_depth(const ImpactLaw& law, double tolerance, double missed) {
+  return std::pow(tolerance / (missed * (1 + law.chi)), 1 / (law.n + 1));
+}
 
 double restitution_of(const ImpactLaw& law, double mass) {
   return law.d > 0 ? linear_restitution(law.d / (2 * std::sqrt(law.k * mass))) : effective_restitution(law.chi);

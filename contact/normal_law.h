@@ -41,9 +41,9 @@ NormalForce evaluate(const ImpactLaw&, const Approach&);
 
 // What others ask of a law: only this file and its implementation know its constants.
 
-/// What it stores at a depth ≥ 0 [J], and the depth at which it stores an energy ≥ 0 [m].
-double stored_at(const ImpactLaw&, double depth);
+/// The depth at which it stores an energy ≥ 0 [m], and the stiffness of the linear spring that stores as much at a depth > 0 [N/m].
 double depth_storing(const ImpactLaw&, double energy);
+double stiffness_of_equal_energy(const ImpactLaw&, double depth);
 /// ∂f/∂δ at a depth > 0, of what it stores alone [N/m].
 double stiffness_at(const ImpactLaw&, double depth);
 /// Its force begins with a jump, d δ̇.
@@ -53,9 +53,13 @@ bool begins_with_jump(const ImpactLaw&);
 double damping_share(const ImpactLaw&, double rate, double impact_rate);
 /// Damping of a spring and damper, whatever the impact [N s/m].
 double viscous_damping(const ImpactLaw&);
-/// The part x of the depth that an impact reaches at which its force, growing as it does at first, has taken ½ share of the
-/// speed: (1 + χ) xⁿ⁺¹ = share.
-double part_of_depth(const ImpactLaw&, double share);
+/// ½ v² = lightness · stored, 1/lightness the reduced mass: the depth that an approach at v reaches without loss [m], and the
+/// approach that reaches a depth [m/s]. @param lightness  > 0 [1/kg]
+double depth_reached(const ImpactLaw&, double lightness, double speed);
+double speed_to_reach(const ImpactLaw&, double lightness, double depth);
+/// The part x of the depth that an impact reaches up to which a scheme errs by the tolerance that misses a share `missed` of the
+/// change of speed there: missed (1 + χ) xⁿ⁺¹ = tolerance, the force growing as it does at first.
+double part_of_depth(const ImpactLaw&, double tolerance, double missed);
 /// The restitution that it delivers to a reduced mass [kg].
 double restitution_of(const ImpactLaw&, double mass);
 /// "1e+10 N/m^1.5"

@@ -67,7 +67,7 @@ std::string match(const Scene& scene, const SceneClearance& c, const IdealPin& p
   if (!c.stiffness) {
     const double energy = pin.force * radial;
     const double depth = energy > 0 ? depth_storing(law, energy) : 0.01 * radial;
-    pair.normal.k = 2 * stored_at(law, depth) / (depth * depth);
+    pair.normal.k = stiffness_of_equal_energy(law, depth);
     words += "; the stiffness stores what the contact law does at a depth of " + text(depth) + " m" +
              (energy > 0 ? ", which " + text(pin.force) + " N, the ideal joint's force, brings it to over the clearance" : "");
   }

@@ -28,7 +28,7 @@ double stiffness_of_blow(const System& system, const ContactPair& pair, double m
     mobility += 1 / b.m + m.x_BP.squaredNorm() / b.J;
   }
   const double speed = 1e-2 * motion * system.length;
-  return stiffness_at(pair.normal, speed > 0 ? depth_storing(pair.normal, speed * speed / (2 * mobility)) : 1e-2 * pair.gap.clearance());
+  return stiffness_at(pair.normal, speed > 0 ? depth_reached(pair.normal, mobility, speed) : 1e-2 * pair.gap.clearance());
 }
 
 }  // namespace

@@ -353,8 +353,9 @@ Equilibrium find_equilibrium(const Scene&, const Model& model, const Assembly& a
   rest.eq.a.setZero();
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     const double depth = is_held(system.contacts[c]) ? 0 : rest.eq.contact[c].gap.depth;
-    out.state.impact_rate[c] =
-        depth > 0 ? std::max(speed_to_reach(system, system.contacts[c], depth), system.contacts[c].slowest_impact) : 0;
+    out.state.impact_rate[c] = depth > 0 ? std::max(speed_to_reach(system.contacts[c].normal, lightness(system, system.contacts[c]), depth),
+                                                    system.contacts[c].slowest_impact)
+                                         : 0;
   }
   warn(model, rest.eq, out);
   record(model, out.state, rest.eq, out.table);

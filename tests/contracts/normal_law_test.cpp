@@ -192,6 +192,31 @@ TEST_P(NormalLawContract, StoredPlusLostIsWorkDone) {
   });
 }
 
+// What callers ask instead of constants, against the force itself.
+TEST_P(NormalLawContract, AnswersAgreeWithItsForce) {
+  for (const double k : stiffnesses)
+    for (const double n : exponents)
+      for (const double depth : depths) {
+        const ImpactLaw law{.k = k, .n = n, .chi = GetParam().chi(0.7)};
+        const NormalForce still = evaluate(law, {depth, 0, 1});
+        const auto near = [](double a, double b) { EXPECT_NEAR(a, b, rounding * std::abs(b)); };
+        near(depth_storing(law, still.stored), depth);
+        near(stiffness_of_equal_energy(law, depth) * depth * depth / 2, still.stored);
+        near(stiffness_at(law, depth), still.d_depth);
+        for (const double lightness : {1e-3, 40.0}) {
+          const double speed = speed_to_reach(law, lightness, depth);
+          near(speed * speed / 2, lightness * still.stored);
+          near(depth_reached(law, lightness, speed), depth);
+        }
+        const NormalForce moving = evaluate(law, {depth, 0.3, 0.2});
+        near(moving.force, still.force * (1 + damping_share(law, 0.3, 0.2)));
+        EXPECT_FALSE(begins_with_jump(law));
+        near(restitution_of(law, 3), effective_restitution(law.chi));
+        const double part = part_of_depth(law, 1e-9, 1e-3);
+        near(1e-3 * (1 + law.chi) * std::pow(part, n + 1), 1e-9);
+      }
+}
+
 TEST_P(NormalLawContract, NeverReturnsMoreThanItTook) {
   for_approaches_over_decades(GetParam(), [](const ImpactLaw& law, const Approach& at) {
     const NormalForce f = evaluate(law, at);
@@ -351,6 +376,16 @@ TEST(SpringDamperLaw, ImpactReboundsWithTheLinearRestitution) {
     }
     EXPECT_NEAR(-rate / impact.speed, linear_restitution(zeta), integration) << "zeta " << zeta;
   }
+}
+
+TEST(SpringDamperLaw, AnswersForItself) {
+  const ImpactLaw law{.k = 4e5, .n = 1, .d = 30};
+  EXPECT_TRUE(begins_with_jump(law));
+  EXPECT_EQ(viscous_damping(law), 30);
+  EXPECT_EQ(damping_share(law, 0.4, 0.1), 0);
+  EXPECT_DOUBLE_EQ(restitution_of(law, 2), linear_restitution(30 / (2 * std::sqrt(4e5 * 2))));
+  EXPECT_EQ(stiffness_text(law), "400000 N/m");
+  EXPECT_EQ(stiffness_text({.k = 1e10, .n = 1.5}), "1e+10 N/m^1.5");
 }
 
 TEST(SpringDamperLaw, DampingRatioIsTheInverseOfTheRestitution) {

@@ -47,6 +47,10 @@ class Drawing {
     copies();
     drivers();
     loads();
+    Chance own(~seed);  // so that a seed without it draws what it drew before
+    std::swap(chance_, own);
+    if (chance_.one_in(4)) series();
+    std::swap(chance_, own);
     std::ostringstream title;
     title << "seed " << seed;
     return written(title.str(), drawn_, chance_);
@@ -364,6 +368,17 @@ class Drawing {
       }
     }
     drawn_.forces.push_back(name("load") + ": " + s.str());
+  }
+
+  /// A spring and a damper in series.
+  void series() {
+    const int b = chance_.below(bodies());
+    const Attachment g = some(b), h = some(chance_.one_in(2) || bodies() == 1 ? ground : (b + 1) % bodies());
+    std::ostringstream s;
+    s.precision(17);
+    s << "{maxwell: [" << h.text << ", " << g.text << "], stiffness: " << chance_.decades(-1, chance_.one_in(4) ? 8 : 3) / drawn_.size
+      << ", damping: " << chance_.decades(-3, 2) << "}";
+    drawn_.forces.push_back(name("mount") + ": " + s.str());
   }
 
   Chance chance_;

@@ -77,12 +77,6 @@ double lightness(const System& system, const ContactPair& pair) {
       out += 1 / system.bodies[static_cast<std::size_t>(body)].m;
   return out;
 }
-double speed_to_reach(const System& system, const ContactPair& pair, double depth) {
-  return std::sqrt(2 * lightness(system, pair) * stored_at(pair.normal, depth));
-}
-double depth_reached(const System& system, const ContactPair& pair, double speed) {
-  return depth_storing(pair.normal, speed * speed / (2 * lightness(system, pair)));
-}
 
 bool feels_shapes(const System& system, const Joint& joint, int marker) {
   const Marker& m = system.markers[static_cast<std::size_t>(marker)];

@@ -84,9 +84,6 @@ bool is_link(const System&, int joint);
 
 /// Sum of 1/m of the bodies that meet in a contact [1/kg].
 double lightness(const System&, const ContactPair&);
-/// ½ v² = lightness · stored: the approach at which a contact would come to a depth without loss [m/s], and that depth [m].
-double speed_to_reach(const System&, const ContactPair&, double depth);
-double depth_reached(const System&, const ContactPair&, double speed);
 
 /// Does bending of its body change a joint's rows at this marker, or what they weigh? Not where shapes stand still, as at a
 /// pin in which the body's frame is fixed.

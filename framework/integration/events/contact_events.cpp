@@ -36,7 +36,7 @@ Guard ContactEvents::guard(int contact, const State&, const Equations& eq) const
 // Until what the contact stores at the depth that is left is, of the impact's energy, a ten-thousandth of the tolerance.
 bool ContactEvents::met(int contact, const Guard& gap) const {
   const double enough = 1e-15 * system_.length, part = std::sqrt(1e-4 * tolerance_), depth = std::abs(gap.value);
-  return depth <= enough || gap.rate == 0 || speed_to_reach(system_, system_.contacts[at(contact)], depth) <= part * std::abs(gap.rate);
+  return depth <= enough || gap.rate == 0 || speed_to_reach(contact, depth) <= part * std::abs(gap.rate);
 }
 
 // A start inside the wall has no approach speed. It gets that of the impact which would have come this deep.
@@ -44,7 +44,7 @@ void ContactEvents::start(Step& step) {
   for (int c = 0; c < size(); ++c) {
     if (is_held(system_.contacts[at(c)])) continue;
     const Guard now = guard(c, step.to.state);
-    if (now.value > 0) begin(c, step, std::max(now.rate, speed_to_reach(system_, system_.contacts[at(c)], now.value)));
+    if (now.value > 0) begin(c, step, std::max(now.rate, speed_to_reach(c, now.value)));
   }
 }
 
@@ -83,6 +83,11 @@ double ContactEvents::moment(const Step& step, const Guard& gap) const {
   return !(onset_cut_ > 0) && std::abs(gap.value) < std::abs(gap.rate) * step.h ? t - gap.value / gap.rate : t;
 }
 
+double ContactEvents::speed_to_reach(int contact, double depth) const {
+  const ContactPair& pair = system_.contacts[at(contact)];
+  return pintle::speed_to_reach(pair.normal, lightness(system_, pair), depth);
+}
+
 // The first explicit step of an impact. Its force begins as (1 + χ)(vt)ⁿ, which no series of whole powers follows and no embedded
 // error sees in full: of the (1 + χ) ½ v (hv/δ)ⁿ⁺¹ by which it changes the speed v in the step h, δ the depth that v can reach, a
 // pair misses some thousandth, and that is to be the tolerance [s].
@@ -90,8 +95,8 @@ double ContactEvents::onset_step(int contact, double v, double t) const {
   constexpr double missed = 1e-3, clock = 1e-14;
   if (!(v > 0)) return infinite;
   const ContactPair& pair = system_.contacts[at(contact)];
-  const double part = part_of_depth(pair.normal, tolerance_ / missed);
-  return std::max(part * depth_reached(system_, pair, v) / v, clock * std::abs(t));
+  const double part = part_of_depth(pair.normal, tolerance_, missed);
+  return std::max(part * depth_reached(pair.normal, lightness(system_, pair), v) / v, clock * std::abs(t));
 }
 
 void ContactEvents::save(Writer& out) const { out.whole(log_); }

@@ -32,6 +32,7 @@ class ContactEvents final : public EventGroup {
   void begin(int contact, Step&, double rate);
   void end(int contact, Step&);
   double moment(const Step&, const Guard& gap) const;
+  double speed_to_reach(int contact, double depth) const;
   double onset_step(int contact, double rate, double t) const;
 
   const System& system_;
