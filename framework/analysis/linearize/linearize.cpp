@@ -219,7 +219,9 @@ void add_zero_modes(const System& system, const std::vector<QuadraticRoot>& root
   }
 }
 
+// Coefficients that change by `drift` in `window` let amplitudes grow or fall at their own pace, which is no growth of the motion.
 std::vector<LinearMode> modes_of(const System& system, const MotionAt& here, const SmallMotion& size, const Linearization& lin) {
+  const double pace = lin.coefficients != Coefficients::frozen && lin.window > 0 ? lin.drift / lin.window : 0;
   std::vector<LinearMode> out;
   const std::vector<QuadraticRoot> roots = roots_of(lin.motion, size);
   add_zero_modes(system, roots, lin, out);
@@ -227,7 +229,7 @@ std::vector<LinearMode> modes_of(const System& system, const MotionAt& here, con
     if (r.zero || r.lambda.imag() < 0) continue;
     LinearMode& mode = out.emplace_back();
     mode.root = r.lambda;
-    mode.uncertainty = r.uncertainty;
+    mode.uncertainty = r.uncertainty + pace;
     mode.roots = r.lambda.imag() == 0 ? 1 : 2;
     mode.kind = r.lambda.real() > r.uncertainty ? LinearMode::Kind::growing
                 : r.lambda.imag() == 0          ? LinearMode::Kind::decaying

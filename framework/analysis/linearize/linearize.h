@@ -41,7 +41,7 @@ struct LinearContact {
 struct LinearMode {
   enum class Kind { oscillating, decaying, growing, zero } kind = Kind::oscillating;
   std::complex<double> root;  ///< [1/s]; exactly 0 of a zero mode
-  double uncertainty = 0;     ///< of the root, from rounding of the coefficients [1/s]
+  double uncertainty = 0;     ///< of the root, from rounding of the coefficients and what is left of their change [1/s]
   int roots = 2;              ///< how many of the roots it stands for
   Eigen::VectorXcd shape;     ///< n; the coordinate that moves most, by its scale, is 1 · its scale
   std::string carrier;        ///< the coordinate that moves most in the body of the greatest kinetic energy
