@@ -22,7 +22,8 @@ void follow_internal_states(const System& system, const Equations& eq, double t,
     for (int i = 0; i < most; ++i) {
       const ForceEffect now = evaluate(force, eq.motion[at(marker_a(force))], eq.motion[at(marker_b(force))], t, own);
       InternalVector left(owner.n);
-      for (int k = 0; k < owner.n; ++k) left[k] = now.x_rate[at(k)] - (weight == without_end ? 0 : (own[k] - base[owner.begin + k]) / weight);
+      for (int k = 0; k < owner.n; ++k)
+        left[k] = now.x_rate[at(k)] - (weight == without_end ? 0 : (own[k] - base[owner.begin + k]) / weight);
       const InternalVector change = internal_change(tangent_of(system, eq, owner, now).g_x, weight, left);
       double largest = 0;
       for (int k = 0; k < owner.n; ++k) {
