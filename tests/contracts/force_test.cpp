@@ -91,7 +91,8 @@ class ForceContract : public testing::TestWithParam<Kind> {
 // wrench_a·ṗ_a + wrench_b·ṗ_b = input − dissipation − d(stored)/dt
 TEST_P(ForceContract, PowerGoesWhereItSays) {
   for (int n = 0; n < draws; ++n) {
-    const auto [a, b] = apart(draw_);
+    const auto poses = apart(draw_);
+    const Vector3d &a = poses.first, &b = poses.second;
     const Vector3d da = draw_.rates(), db = draw_.rates();
     const ForceEffect e = effect(a, b, da, db, x_, draw_.within(-3, 3));
     const double power = e.on_a.dot(da) + e.on_b.dot(db);
@@ -154,7 +155,8 @@ TEST_P(ForceContract, ItsTwoWrenchesCancel) {
 TEST_P(ForceContract, InternalTangentIsDifferences) {
   if (n_x_ == 0) return;
   for (int n = 0; n < draws; ++n) {
-    const auto [a, b] = apart(draw_);
+    const auto poses = apart(draw_);
+    const Vector3d &a = poses.first, &b = poses.second;
     const Vector3d da = draw_.rates(), db = draw_.rates();
     const InternalTangent ours = internal_tangent(force_, effect(a, b, da, db, x_, 0.3), moving(a, da), moving(b, db));
     const auto slope = [&](int pose, int rate, int x) {  // of [wrenches; ẋ] in component `pose`, `rate` or `x`, −1 for none

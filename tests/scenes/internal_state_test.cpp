@@ -187,6 +187,40 @@ TEST(Mount, GoesOnBitForBitFromAnyStep) {
   }
 }
 
+// Between the nodes of a step the damper's length follows the points: by itself it would be off by what the interpolation errs, which
+// 1e10 N/m make a force of. There the spring is none, and the pull is the damper's, c times the rate of the distance.
+TEST(Mount, OfAStiffSpringPullsLikeItsDamperInEveryRow) {
+  for (const double stiffness : {1e9, 1e10, 1e11}) {
+    Scene s;
+    s.gravity = {0, -9.81};
+    s.ground = {pintle_scenes::point("G", 0.3, 0.2)};
+    s.bodies = {body("bob", 2, 0.03, {pintle_scenes::point("O", -0.25), pintle_scenes::point("P", 0.15, 0.05)})};
+    s.joints = {joint("hinge", JointKind::revolute, "ground", "bob.O")};
+    s.loads = {{"sp", SceneSpring{ref("ground.G"), ref("bob.P"), 60, 0, 0.3}, {}}, maxwell("ground.G", "bob.P", stiffness, 30)};
+    s.start_bodies = {pintle_scenes::start_angle("bob", -0.17, 2)};
+    s.run.until = 1, s.run.tolerance = 1e-6, s.run.method = "generalized-alpha";
+    s.output.every = 1e-3, s.output.points = {ref("bob.P")};
+    const Whole w = pintle_scenes::run(s);
+    ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
+    const auto x = w.column("bob.P.x [m]"), y = w.column("bob.P.y [m]"), vx = w.column("bob.P.vx [m/s]"), vy = w.column("bob.P.vy [m/s]"),
+               fx = w.column("mount.fx on bob [N]"), fy = w.column("mount.fy on bob [N]");
+    for (std::size_t i = 1; i < x.size(); ++i) {  // at the start it does not pull yet
+      const Eigen::Vector2d d(x[i] - 0.3, y[i] - 0.2), along = d.normalized();
+      const double pull = 30 * along.dot(Eigen::Vector2d(vx[i], vy[i]));
+      EXPECT_NEAR(-along.dot(Eigen::Vector2d(fx[i], fy[i])), pull, 0.05 + 1e-15 * stiffness) << stiffness << " at row " << i;
+    }
+  }
+}
+
+TEST(Mount, WithoutLengthIsSaidToAddNothing) {
+  Scene s = cart();
+  s.start_bodies = {start_at("cart", 0, 0, 0, 0, 0, 0)};
+  s.loads.erase(s.loads.begin());
+  const Model model = build(s);
+  const Linearization lin = linearize(s, model, assemble(s, model).start);
+  EXPECT_TRUE(std::ranges::any_of(lin.notes, [](const std::string& n) { return n.find("\"mount\" has no length") != std::string::npos; }));
+}
+
 // What it writes does not change its motion.
 TEST(Mount, MovesTheSameWhateverIsWritten) {
   for (const char* method : {"dopri5", "verner87", "generalized-alpha"}) {

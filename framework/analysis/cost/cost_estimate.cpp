@@ -170,7 +170,7 @@ std::vector<std::string> terms_of(const System& s) {
   const auto drivers = how_many(s.joints, is_driver);
   if (s.joints.size() > drivers) out.push_back(counted(s.joints.size() - drivers, "joint"));
   if (drivers > 0) out.push_back(counted(drivers, "driver"));
-  const char* kinds[] = {"point force", "torque", "spring", "torsion spring", "spring and damper in series"};
+  const char* kinds[] = {"point force", "torque", "spring", "torsion spring", "Maxwell element"};
   for (std::size_t k = 0; k < std::size(kinds); ++k) {
     const auto n = how_many(s.forces, [&](const Force& f) { return f.index() == k; });
     if (n > 0) out.push_back(counted(n, kinds[k]));

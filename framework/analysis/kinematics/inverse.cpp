@@ -159,10 +159,11 @@ Inverse inverse(const Scene& scene, const Model& model, const Assembly& assembly
     solve_by_algebra(scene, model, assembly, listeners, out);
     return out;
   }
-  out.how = std::string("integrated forward with the drivers as constraints: ") + (bends ? "bodies bend"
-                                                                                   : !system.contacts.empty()
-                                                                                       ? "clearances leave freedoms"
-                                                                                       : std::to_string(open) + " freedoms are not driven");
+  const std::string why = bends                      ? "bodies bend"
+                          : !system.contacts.empty() ? "clearances leave freedoms"
+                          : open > 0                 ? std::to_string(open) + " freedoms are not driven"
+                                                     : "springs in series with dampers remember what was before";
+  out.how = "integrated forward with the drivers as constraints: " + why;
   integrate(scene, model, assembly, listeners, out);
   return out;
 }

@@ -290,7 +290,13 @@ void add_notes(const Scene& scene, const System& system, const MotionAt& here, L
   if (laws_vary(scene))
     out.notes.push_back(laws == Laws::hold ? "loads are held at what they are at t = " + text(out.about.t, 6) + " s"
                                            : "loads that vary in time count as they are at t = " + text(out.about.t, 6) + " s");
-  if (out.independent.empty()) out.notes.emplace_back("joints and drivers leave nothing free: there are no modes");
+  for (std::size_t k = 0; k < system.forces.size(); ++k)
+    if (acts_along_a_line(system.forces[k]) &&
+        here.eq.motion[at(marker_a(system.forces[k]))].r == here.eq.motion[at(marker_b(system.forces[k]))].r)
+      out.notes.push_back("\"" + system.force_names[k] + "\" has no length here, so no direction, and adds nothing");
+  if (out.independent.empty())
+    out.notes.push_back(std::string("joints and drivers leave nothing free: ") +
+                        (out.modes.empty() ? "there are no modes" : "the modes are those of internal states"));
   if (std::ranges::any_of(out.modes, [](const LinearMode& m) { return m.kind == LinearMode::Kind::growing; }) &&
       out.coefficients != Coefficients::frozen)
     out.notes.emplace_back("unstable: a mode grows");

@@ -36,8 +36,6 @@ MatrixXd load_inputs(const System& system, const Equations& eq, std::vector<std:
   return out;
 }
 
-bool acts_along_a_line(const Force& f) { return std::holds_alternative<Spring>(f) || std::holds_alternative<Maxwell>(f); }
-
 /// What is measured of a pose: rows of ∂(measure)/∂q.
 struct Measures {
   explicit Measures(const Model& model, const System& of) : system(of) {
@@ -150,6 +148,8 @@ void add_efforts(const System& system, const MotionAt& here, const FreeMotion& f
 }
 
 }  // namespace
+
+bool acts_along_a_line(const Force& f) { return std::holds_alternative<Spring>(f) || std::holds_alternative<Maxwell>(f); }
 
 std::vector<int> driven_rows(const System& system) {
   std::vector<int> out;

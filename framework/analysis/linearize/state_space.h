@@ -7,6 +7,8 @@
 
 namespace pintle {
 
+/// Along the line between its two points, which it needs to be apart.
+bool acts_along_a_line(const Force&);
 /// Rows of C that drivers impose.
 std::vector<int> driven_rows(const System&);
 

@@ -92,17 +92,21 @@ void Alpha::evaluate_between(const System& system, const Step& step, const State
   eq.lambda += (1 - x) * (step.from.memory.lambda - step.to.memory.lambda);
 }
 
-// The cubic's bend of a stiff coordinate is h s, of which ω² makes a force that never was: it goes through the
-// iteration matrix, as steps do.
 void Alpha::interpolate_between(const System& system, const Step& step, double t, State& out, Equations& eq) {
   interpolate_cubic(system, step, t, out);
-  const Index n = system.n();
   const double x = (t - step.from.state.t) / step.h;
-  if (!factored_ || !(x > 0 && x < 1)) return;
+  if (factored_ && x > 0 && x < 1) soften_bend(system, step, x, out, eq);
+  if (system.n_x() > 0) interpolate_internal(system, step, x, out, eq);
+}
+
+// The cubic's bend of a stiff coordinate is h s, of which ω² makes a force that never was: it goes through the
+// iteration matrix, as steps do.
+void Alpha::soften_bend(const System& system, const Step& step, double x, State& out, Equations& eq) {
+  const Index n = system.n();
   work_ = (1 - x) * step.from.state.y.head(n) + x * step.to.state.y.head(n);
   dv_ = out.y.head(n) - work_;
   out.y.head(n) = work_;
-  pose(system, t, out.y, eq);
+  pose(system, out.t, out.y, eq);
   update_mass(system, out.y, eq);
   mu_.setZero();
   visit_jacobian(eq, [&](int row, int column, double value) { mu_[row] += value * dv_[column]; });
@@ -110,6 +114,16 @@ void Alpha::interpolate_between(const System& system, const Step& step, double t
   add_mass_times(system, eq, dv_, dp_);
   solve(dp_, mu_);
   out.y.head(n) += dp_;
+}
+
+// Interpolated by itself, x would be off from what it follows by the interpolation's error, of which a stiff law makes a force. So its
+// rate here is to be what it is between the nodes: where the law is stiff it follows the pose, else it stays as interpolated.
+void Alpha::interpolate_internal(const System& system, const Step& step, double x, State& out, Equations& eq) {
+  const Index n_x = system.n_x(), begin = system.x_begin();
+  pose(system, out.t, out.y, eq);
+  speed(system, out.t, out.y, eq);
+  own_.tail(n_x) = out.y.segment(begin, n_x) - step.h * ((1 - x) * step.from.dy + x * step.dy_end()).segment(begin, n_x);
+  follow_internal_states(system, eq, out.t, step.h, own_.data() + system.n(), out.y.data() + begin);
 }
 
 bool Alpha::settle(const System& system, Instant& node, Equations& eq) {

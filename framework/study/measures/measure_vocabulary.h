@@ -84,6 +84,7 @@ inline constexpr std::array point_columns{ColumnPart{"x", "m"},       ColumnPart
 inline constexpr std::array actor_columns{ColumnPart{"fx", "N"},
                                           ColumnPart{"fy", "N"},
                                           ColumnPart{"torque", "N m"},
+                                          ColumnPart{"damper length", "m"},
                                           ColumnPart{"ex", "m"},
                                           ColumnPart{"ey", "m"},
                                           ColumnPart{"depth", "m"},
