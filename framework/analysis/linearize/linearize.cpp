@@ -231,9 +231,9 @@ std::vector<LinearMode> modes_of(const System& system, const MotionAt& here, con
     mode.root = r.lambda;
     mode.uncertainty = r.uncertainty + pace;
     mode.roots = r.lambda.imag() == 0 ? 1 : 2;
-    mode.kind = r.lambda.real() > r.uncertainty ? LinearMode::Kind::growing
-                : r.lambda.imag() == 0          ? LinearMode::Kind::decaying
-                                                : LinearMode::Kind::oscillating;
+    mode.kind = r.lambda.real() > mode.uncertainty ? LinearMode::Kind::growing
+                : r.lambda.imag() == 0             ? LinearMode::Kind::decaying
+                                                   : LinearMode::Kind::oscillating;
     mode.shape = normalised(system, lin.Z.cast<Complex>() * r.right);
   }
   for (LinearMode& mode : out) name_carrier(system, here, lin.coordinates, mode);
