@@ -6,7 +6,6 @@
 #include "framework/common/index.h"
 #include "framework/common/worse.h"
 #include "framework/dynamics/equations/internal.h"
-#include "framework/integration/dense_output.h"
 
 namespace pintle {
 
@@ -73,57 +72,6 @@ void Alpha::balance(const System& system, const State& state, const VectorXd& dy
   eq.a = dy.segment(system.n(), system.n());
   eq.lambda = lambda;
   ++eq.evaluations;
-}
-
-void Alpha::begin_beside(Alpha& other) {
-  kkt_.forget();
-  lent_ = other.factored_ ? &other.kkt_ : nullptr;
-  factored_ = other.factored_, tired_ = other.tired_;
-  kept_ = other.kept_;
-  rate_ = 1;
-  length_ = other.length_, speed_ = other.speed_;
-}
-
-void Alpha::evaluate_between(const System& system, const Step& step, const State& state, Equations& eq) {
-  const double x = step.h > 0 ? (state.t - step.from.state.t) / step.h : 1;
-  evaluate_at(system, state, step.to.dy, step.to.memory.lambda, eq);
-  if (x >= 1 || step.from.memory.lambda.size() != eq.lambda.size()) return;
-  eq.a += (1 - x) * (step.from.dy - step.to.dy).segment(system.n(), system.n());
-  eq.lambda += (1 - x) * (step.from.memory.lambda - step.to.memory.lambda);
-}
-
-void Alpha::interpolate_between(const System& system, const Step& step, double t, State& out, Equations& eq) {
-  interpolate_cubic(system, step, t, out);
-  const double x = (t - step.from.state.t) / step.h;
-  if (factored_ && x > 0 && x < 1) soften_bend(system, step, x, out, eq);
-  if (system.n_x() > 0) interpolate_internal(system, step, x, out, eq);
-}
-
-// The cubic's bend of a stiff coordinate is h s, of which ω² makes a force that never was: it goes through the
-// iteration matrix, as steps do.
-void Alpha::soften_bend(const System& system, const Step& step, double x, State& out, Equations& eq) {
-  const Index n = system.n();
-  work_ = (1 - x) * step.from.state.y.head(n) + x * step.to.state.y.head(n);
-  dv_ = out.y.head(n) - work_;
-  out.y.head(n) = work_;
-  pose(system, out.t, out.y, eq);
-  update_mass(system, out.y, eq);
-  mu_.setZero();
-  visit_jacobian(eq, [&](int row, int column, double value) { mu_[row] += value * dv_[column]; });
-  dp_.setZero();
-  add_mass_times(system, eq, dv_, dp_);
-  solve(dp_, mu_);
-  out.y.head(n) += dp_;
-}
-
-// Interpolated by itself, x would be off from what it follows by the interpolation's error, of which a stiff law makes a force. So its
-// rate here is to be what it is between the nodes: where the law is stiff it follows the pose, else it stays as interpolated.
-void Alpha::interpolate_internal(const System& system, const Step& step, double x, State& out, Equations& eq) {
-  const Index n_x = system.n_x(), begin = system.x_begin();
-  pose(system, out.t, out.y, eq);
-  speed(system, out.t, out.y, eq);
-  own_.tail(n_x) = out.y.segment(begin, n_x) - step.h * ((1 - x) * step.from.dy + x * step.dy_end()).segment(begin, n_x);
-  follow_internal_states(system, eq, out.t, step.h, own_.data() + system.n(), out.y.data() + begin);
 }
 
 bool Alpha::settle(const System& system, Instant& node, Equations& eq) {
