@@ -57,7 +57,7 @@ class Rest {
     if (!project(held, t_, state.y, eq) || !(size(state.y.head(held.n()) - before) <= farthest)) return false;
     state.y.tail(state.y.size() - held.n()).setZero();
     speed(held, t_, state.y, eq);
-    follow_internal_states(held, eq, t_, without_end, nullptr, state.y.data() + held.x_begin());
+    follow_internal_states(held, eq, t_, internal_at_rest, nullptr, state.y.data() + held.x_begin());
     accelerate(held, state, eq);
     out_of_balance = eq.f;
     add_reaction(eq, -eq.lambda, out_of_balance);
@@ -176,7 +176,7 @@ class Search {
   bool step(bool by_potential, double sigma) {
     const System& held = rest_.held;
     rest_.tangent.evaluate(held, state_, rest_.eq, VectorXd::Zero(held.n()), rest_.eq.lambda,
-                           {.q = 1, .s = 0, .a = sigma, .x = without_end}, rest_.values);
+                           {.q = 1, .s = 0, .a = sigma, .x = internal_at_rest}, rest_.values);
     if (!rest_.kkt.factor(held, rest_.eq, rest_.values)) return false;
     VectorXd d = rest_.out_of_balance, y = VectorXd::Zero(held.n_rows());
     const double before = rest_.potential, unrest = rest_.unrest(), rounding = rest_.rounding();

@@ -60,7 +60,7 @@ Stability stability_of(const System& system, const State& state, const Equations
   if (out.freedoms == 0) return out;
   Tangent tangent(system);
   std::vector<double> values(tangent.places().size());
-  tangent.evaluate(system, state, eq, VectorXd::Zero(system.n()), lambda, {.q = 1, .s = 0, .a = 0, .x = without_end}, values);
+  tangent.evaluate(system, state, eq, VectorXd::Zero(system.n()), lambda, {.q = 1, .s = 0, .a = 0, .x = internal_at_rest}, values);
   const MatrixXd K = system.scale.asDiagonal() * dense(system, tangent, values) * system.scale.asDiagonal();
   const MatrixXd H = Z.transpose() * K * Z;
   const double size = H.cwiseAbs().maxCoeff(), zero = std::max(1e-13 * size, 1e-9 * at_work(system, eq, lambda));

@@ -190,7 +190,7 @@ struct Held {
   // x = base + weight ẋ is solved for in each state; a weight without end is rest.
   void internal_states_that_follow_are_differences() {
     if (system_.n_x() == 0) return;
-    for (const double weight : {0.03, 2.0, without_end})
+    for (const double weight : {0.03, 2.0, internal_at_rest})
       for (const bool of_speed : {false, true}) {
         Sample sample(system_, draw_, eq_);
         const VectorXd base = sample.state.y.segment(system_.x_begin(), system_.n_x());

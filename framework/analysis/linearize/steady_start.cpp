@@ -72,7 +72,7 @@ Assembly steady_start(const Model& model, const Assembly& assembly) {
     pose(system, 0, state.y, eq);
     if (!frames.fill(state.y, eq, a)) return assembly;
     update_mass(system, state.y, eq);
-    follow_internal_states(system, eq, 0, without_end, nullptr, state.y.data() + system.x_begin());
+    follow_internal_states(system, eq, 0, internal_at_rest, nullptr, state.y.data() + system.x_begin());
     apply_forces(system, state, eq);
     r = eq.f;
     add_mass_times(system, eq, -a, r);
@@ -82,7 +82,7 @@ Assembly steady_start(const Model& model, const Assembly& assembly) {
     if (!std::isfinite(left)) return assembly;
     if (i > 1 && position_violation(system, eq) <= 1e-13 && (left <= balanced || (left <= nearly && left > 0.5 * before))) return out;
     before = left;
-    tangent.evaluate(system, state, eq, a, lambda, {.q = 1, .s = 0, .a = 0, .x = without_end}, values);
+    tangent.evaluate(system, state, eq, a, lambda, {.q = 1, .s = 0, .a = 0, .x = internal_at_rest}, values);
     if (!kkt.factor(system, eq, values)) return assembly;
     VectorXd y = -eq.C;
     kkt.solve(r, y);

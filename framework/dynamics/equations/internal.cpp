@@ -23,7 +23,7 @@ void follow_internal_states(const System& system, const Equations& eq, double t,
       const ForceEffect now = evaluate(force, eq.motion[at(marker_a(force))], eq.motion[at(marker_b(force))], t, own);
       InternalVector left(owner.n);
       for (int k = 0; k < owner.n; ++k)
-        left[k] = now.x_rate[at(k)] - (weight == without_end ? 0 : (own[k] - base[owner.begin + k]) / weight);
+        left[k] = now.x_rate[at(k)] - (weight == internal_at_rest ? 0 : (own[k] - base[owner.begin + k]) / weight);
       const InternalVector change = internal_change(tangent_of(system, eq, owner, now).g_x, weight, left);
       double largest = 0;
       for (int k = 0; k < owner.n; ++k) {
@@ -42,7 +42,7 @@ void relax_internal_states(const System& system, double t, Eigen::VectorXd& y) {
   still.segment(system.n(), system.n()).setZero();
   pose(system, t, still, eq);
   speed(system, t, still, eq);
-  follow_internal_states(system, eq, t, without_end, nullptr, y.data() + system.x_begin());
+  follow_internal_states(system, eq, t, internal_at_rest, nullptr, y.data() + system.x_begin());
 }
 
 void filter_internal_states(const System& system, const Equations& eq, double weight, double* v) {

@@ -5,7 +5,7 @@
 namespace pintle {
 
 /// x ← the solution of x = base + weight g(p, ṗ, x, t) for the internal states of every owner, by Newton's method from the x that is
-/// there; without_end: of g = 0, and base is not read. After speed. Allocates nothing.
+/// there; internal_at_rest: of g = 0, and base is not read. After speed. Allocates nothing.
 /// @param base, x  n_x numbers each
 void follow_internal_states(const System&, const Equations&, double t, double weight, const double* base, double* x);
 

@@ -34,7 +34,7 @@ struct InternalTangent {
 };
 
 /// The weight at which internal states have come to rest: ẋ = 0.
-inline constexpr double without_end = std::numeric_limits<double>::infinity();
+inline constexpr double internal_at_rest = std::numeric_limits<double>::infinity();
 
 /// (1/weight − g_x)⁻¹ r: the change of x in x = base + weight g where g changes by r. Nothing where g at rest does not depend on x.
 inline InternalVector internal_change(const InternalMatrix& g_x, double weight, const InternalVector& r) {
