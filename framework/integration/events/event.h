@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -63,13 +64,17 @@ class EventGroup {
   virtual Guard guard(int event, const State&) const = 0;
   /// The same where the equations are evaluated at the state.
   virtual Guard guard(int event, const State&, const Equations&) const = 0;
+  /// A time in a step at both ends of which the guard is below zero, at which it is not: where the guard's own rates at the ends
+  /// do not lead there.
+  virtual std::optional<double> positive_inside(int, const Step&, const DenseOutput&) const { return std::nullopt; }
   /// Steps end so near the guard's zero that nothing can be gained by ending them nearer.
   virtual bool met(int event, const Guard&) const = 0;
 
   /// Modes as a start has them; the step ends there and begins nowhere.
   virtual void start(Step&) = 0;
-  /// After each accepted step, before any event that ends it acts. Guards are those of the step's two ends.
-  virtual void follow(const Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) = 0;
+  /// After each accepted step, before any event that ends it acts. Guards are those of the step's two ends. May change the modes of
+  /// the step's end where forces there stay the same.
+  virtual void follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) = 0;
   /// At the step's end. May change modes and the end's state.
   virtual EventOutcome act(int event, Step&, const Guard&) = 0;
 

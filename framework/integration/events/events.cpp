@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "framework/integration/events/roots.h"
+
 namespace pintle {
 
 namespace {
@@ -12,39 +14,6 @@ namespace {
 double sign_of(Direction d) { return d == Direction::falling ? -1 : 1; }
 /// The event is where it becomes positive.
 Guard turned(const Guard& g, const WatchedGuard& w) { return {sign_of(w.direction) * g.value, sign_of(w.direction) * g.rate}; }
-
-// Where a guard becomes positive between two times of a step: Newton's method on the dense output, bisection where the rate is not known
-// or leads out of the bracket or, going away, back, by as little as rounding hides.
-template <class F>
-double crossing(F guard, double t0, double t1, double fine) {
-  const double f0 = guard(t0).value, f1 = guard(t1).value;
-  if (f0 >= 0) return t0;
-  double t = t0 - f0 * (t1 - t0) / (f1 - f0);
-  for (int i = 0; i < 100; ++i) {
-    const Guard now = guard(t);
-    (now.value < 0 ? t0 : t1) = t;
-    double next = t - now.value / now.rate;
-    if (!(now.rate > 0 && next >= t0 && next <= t1)) next = t0 + (t1 - t0) / 2;
-    if (std::abs(next - t) <= fine) return next;
-    t = next;
-  }
-  return t;
-}
-
-// When a guard that rises at first and falls at last is positive in between: secants of the rate lead to its summit.
-template <class F>
-std::optional<double> positive_between(F guard, double t0, double t1, double rate0, double rate1) {
-  double low = t0, high = t1;
-  for (int i = 0; i < 8; ++i) {
-    const double t = low + (high - low) * rate0 / (rate0 - rate1);
-    const Guard now = guard(t);
-    if (now.value > 0) return t;
-    if (now.value + std::max(now.rate * (high - t), now.rate * (low - t)) <= 0) break;  // nor is the summit
-    (now.rate > 0 ? low : high) = t;
-    (now.rate > 0 ? rate0 : rate1) = now.rate;
-  }
-  return std::nullopt;
-}
 
 }  // namespace
 
@@ -123,8 +92,11 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
   const bool spent = spent_[at];
   if (spent && from.rate > 0) return std::nullopt;  // it is the passage of before
   if (!(to.value > 0)) {
-    if (!(from.rate > 0 && to.rate < 0)) return std::nullopt;
-    const std::optional<double> between = positive_between(along, t0, t1, from.rate, to.rate);
+    std::optional<double> between;
+    if (from.rate > 0 && to.rate < 0) between = positive_between(along, t0, t1, from.rate, to.rate);
+    const bool parted = std::abs(from.value) <= w.zero && from.rate < 0;
+    if (!between && (parted || may_be_positive_between(from, to, t1 - t0))) between = positive_in_parts(along, t0, from, t1);
+    if (!between && !(from.value > w.zero)) between = group(at).positive_inside(places_[at].event, step, motion);
     if (!between) return std::nullopt;
     end = *between;
   }
@@ -182,7 +154,7 @@ Events::Ending Events::end_at(const EventInStep& event, Stepper& stepper, const 
   return Ending::missed;
 }
 
-void Events::follow(const Step& step, const DenseOutput& motion) {
+void Events::follow(Step& step, const DenseOutput& motion) {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const std::size_t size = begin_[g + 1] - begin_[g];
     groups_[g]->follow(step, {from_.data() + begin_[g], size}, {to_.data() + begin_[g], size}, motion);

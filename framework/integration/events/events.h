@@ -39,7 +39,7 @@ class Events {
   /// Where the step really ended.
   void look_at_end(const Step&, const Equations* evaluated);
 
-  void follow(const Step&, const DenseOutput&);
+  void follow(Step&, const DenseOutput&);
   /// At the step's end. @param wish  the step's length had no event been near [s]
   EventOutcome act(const EventInStep&, Step&, double wish);
   /// The length of step wished for when the event's group was last in its present mode; 0 if it never was [s].

@@ -199,13 +199,38 @@ INSTANTIATE_TEST_SUITE_P(Events, EveryMethod, testing::Values("rkf45", "dopri5",
   return method == "generalized-alpha" ? std::string("alpha") : method;
 });
 
+// The rates at the two ends of a step rise both: in between the guard has passed its summit and its valley.
+TEST(Events, AreFoundBeforeTheGuardTurnsTwiceInAStep) {
+  System system = free_body();
+  system.gravity.setZero();  // at rest: one step
+  Scheme scheme = scheme_of("verner87", 1e-6);
+  std::vector<double> seen;
+  add(scheme, {"summit",
+               [](const State& x) {
+                 const double t = x.t;
+                 return Guard{t * t * t - 1.425 * t * t + 0.45 * t - 0.03, 3 * t * t - 2.85 * t + 0.45};
+               },
+               Direction::rising,
+               [&](State& x) {
+                 seen.push_back(x.t);
+                 return EventOutcome{Change::nothing};
+               }});
+  State start;
+  start.y.setZero(system.n_y());
+  Integrator run(system, scheme, start);
+  while (run.state().t < 1 && run.advance(1)) {
+  }
+  ASSERT_EQ(seen.size(), 1u);
+  EXPECT_LT(seen[0], 0.2);
+}
+
 // A contact whose onset is cut rather than located leaves the events of others where they are.
 TEST(Events, AreLocatedBesideAnOnsetThatIsCut) {
   System system = free_body();
   system.markers = {{ground, {0, 0}, 0}, {0, {0, 0}, 0}};
   ContactPair pair;
-  pair.journal = 1, pair.bearing = 0;
-  pair.gap = {0.5, 0.5 + height + 1e-3};
+  pair.a = 1, pair.b = 0;
+  pair.gap = JournalBearing{0.5, 0.5 + height + 1e-3};
   pair.normal = {1e6, 1.5, 0.3};
   system.contacts = {pair};
   system.contact_names = {"rim"};

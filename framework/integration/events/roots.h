@@ -1,0 +1,77 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "framework/integration/events/event.h"
+
+/// Zeros of guards along the dense output of a step.
+namespace pintle {
+
+/// Where a guard becomes positive between two times of a step: Newton's method on the dense output, bisection where the rate is not known
+/// or leads out of the bracket or, going away, back, by as little as rounding hides.
+template <class F>
+double crossing(F guard, double t0, double t1, double fine) {
+  const double f0 = guard(t0).value, f1 = guard(t1).value;
+  if (f0 >= 0) return t0;
+  double t = t0 - f0 * (t1 - t0) / (f1 - f0);
+  for (int i = 0; i < 100; ++i) {
+    const Guard now = guard(t);
+    (now.value < 0 ? t0 : t1) = t;
+    double next = t - now.value / now.rate;
+    if (!(now.rate > 0 && next >= t0 && next <= t1)) next = t0 + (t1 - t0) / 2;
+    if (std::abs(next - t) <= fine) return next;
+    t = next;
+  }
+  return t;
+}
+
+/// When a guard that rises at first and falls at last is positive in between: secants of the rate lead to its summit.
+template <class F>
+std::optional<double> positive_between(F guard, double t0, double t1, double rate0, double rate1) {
+  double low = t0, high = t1;
+  for (int i = 0; i < 8; ++i) {
+    const double t = low + (high - low) * rate0 / (rate0 - rate1);
+    const Guard now = guard(t);
+    if (now.value > 0) return t;
+    if (now.value + std::max(now.rate * (high - t), now.rate * (low - t)) <= 0) break;  // nor is the summit
+    (now.rate > 0 ? low : high) = t;
+    (now.rate > 0 ? rate0 : rate1) = now.rate;
+  }
+  return std::nullopt;
+}
+
+/// By the cubic through the values and rates at both ends of h: may the guard, below zero at both, be above in between? It is asked to
+/// stay below by a tenth of what it changes by.
+inline bool may_be_positive_between(const Guard& from, const Guard& to, double h) {
+  constexpr double part = 0.1;
+  const double a = h * from.rate, b = h * to.rate, d = to.value - from.value;
+  const double change = std::abs(a) + std::abs(b) + std::abs(d);
+  const double c3 = a + b - 2 * d, c2 = 3 * d - 2 * a - b;  // from + a x + c2 x² + c3 x³
+  const double root = c2 * c2 - 3 * c3 * a;
+  if (!(root >= 0)) return false;
+  const double q = -(c2 + std::copysign(std::sqrt(root), c2));
+  for (const double x : {q / (3 * c3), a / q})
+    if (x > 0 && x < 1 && from.value + x * (a + x * (c2 + x * c3)) > -part * change) return true;
+  return false;
+}
+
+/// The first time at which a guard, looked at in parts of a step, is found above zero.
+template <class F>
+std::optional<double> positive_in_parts(F guard, double t0, const Guard& at_t0, double t1) {
+  constexpr int parts = 8;
+  double begin = t0;
+  Guard from = at_t0;
+  for (int i = 1; i <= parts; ++i) {
+    const double end = t0 + (t1 - t0) * i / parts;
+    const Guard to = guard(end);
+    if (to.value > 0) return end;
+    if (from.rate > 0 && to.rate < 0)
+      if (const std::optional<double> between = positive_between(guard, begin, end, from.rate, to.rate)) return between;
+    begin = end, from = to;
+  }
+  return std::nullopt;
+}
+
+}  // namespace pintle
