@@ -112,7 +112,7 @@ void print_check(const Scene& scene, const Model& model, const Assembly& a) {
        {"constraint rows", std::to_string(s.n_rows()) + ", rank " + std::to_string(a.rank) +
                                (a.redundant.empty() ? "" : ", " + std::to_string(a.redundant.size()) + " redundant")},
        {"mobility", std::to_string(s.n() - a.rank)},
-       {"clearance joints", s.contacts.empty() ? "none" : std::to_string(s.contacts.size())},
+       {"clearance joints", n_clearances(s) == 0 ? "none" : std::to_string(n_clearances(s))},
        {"forces", s.forces.empty() ? "none" : std::to_string(s.forces.size())},
        {"gravity", s.gravity.isZero() ? "off" : number(s.gravity.x()) + ", " + number(s.gravity.y()) + " m/s^2"},
        {"ledger integrals", std::to_string(s.n_z())},
@@ -120,10 +120,14 @@ void print_check(const Scene& scene, const Model& model, const Assembly& a) {
        {"method", model.scheme.reason},
        {"constraint equations", Schur(s).solver()},
        {"assembly", "closed in " + std::to_string(a.iterations) + " iterations, worst coordinate moved by " + number(a.moved, 3)}});
-  for (std::size_t c = 0; c < s.contacts.size(); ++c) {
+  for (std::size_t c = 0; c < static_cast<std::size_t>(n_clearances(s)); ++c) {
     std::cout << "  clearance at \"" << s.contact_names[c] << "\": " << number(s.contacts[c].gap.clearance()) << " m, "
               << model.clearances[c] << "\n";
   }
+  std::size_t words = 0;
+  for (std::size_t c = 0; c < s.contacts.size(); ++c)
+    if (s.contacts[c].profiles && s.contacts[c].pair == 0)
+      std::cout << "  contact \"" << s.contact_names[c] << "\": " << model.contacts[words++] << "\n";
   if (!model.flexible.empty()) {
     print_flexible(model);
     print_estimates(model);
@@ -153,10 +157,11 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
                         "force at the outputs from " + number(run.links[c].least, 4) + " to " + number(run.links[c].greatest, 4) + " N");
       continue;
     }
+    if (s.contacts[c].pair > 0) continue;
     long begun = 0, ended = 0;
     double deepest = 0, force = 0;
     for (const Impact& i : run.impacts)
-      if (i.contact == static_cast<int>(c)) {
+      if (i.contact >= static_cast<int>(c) && i.contact < static_cast<int>(c) + s.contacts[c].pairs) {
         ++begun;
         ended += std::isnan(i.end) ? 0 : 1;
         deepest = std::max(deepest, i.deepest);

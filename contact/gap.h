@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <limits>
+
 #include <Eigen/Core>
 
 #include "eigen_layout.h"
@@ -10,31 +13,61 @@ namespace pintle {
 struct MovingPoint {
   Eigen::Vector2d r, v;  ///< [m], [m/s]
   double w;              ///< [rad/s]
+  double angle = 0;      ///< of the axes that it carries [rad]
 };
 
-/// A journal (disc of radius `journal`) inside a bearing (hole of radius `bearing`).
-/// Eqs. (18)–(23) of Ebrahimi, Salahshoor, Moradi (2017); theory: docs/theory/contact.md.
-/// Contact acts at each body's own surface, centre + radius · n, so the two points are `depth`
-/// apart.
+/// A piece of a body's surface: an arc, of radius 0 a corner, or a straight line; in the axes of the point that carries it.
+/// Normals point out of the material; the surface goes on with the material at its left.
+struct Piece {
+  double radius = 0;                                      ///< of an arc, < 0 where it is hollow; of a line 0 [m]
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();       ///< of the arc; of a line its middle [m]
+  double normal = 0;                                      ///< direction of the normal in the middle of the piece [rad]
+  double half = std::numeric_limits<double>::infinity();  ///< half its extent: of an arc [rad], of a line [m]; infinite: a circle
+  bool straight = false;
+};
+
+/// Two pieces that may touch, not both straight, nor both hollow.
+struct PiecePair {
+  Piece a, b;
+  /// How far a round piece can go from the middle of the hollow one that it is in [m]; below 0 where neither is hollow.
+  double clearance() const { return -(a.radius + b.radius); }
+  bool hollow() const { return a.radius < 0 || b.radius < 0; }
+};
+
+/// A journal (disc) inside a bearing (hole), radii [m].
 struct JournalBearing {
-  double journal, bearing;  ///< radii [m], journal < bearing
+  double journal, bearing;
   double clearance() const { return bearing - journal; }
+  operator PiecePair() const { return {{.radius = journal}, {.radius = -bearing}}; }
 };
+inline double journal_radius(const PiecePair& pair) { return pair.a.radius; }
+inline double bearing_radius(const PiecePair& pair) { return -pair.b.radius; }
 
-/// Where the two bodies stand to each other; Z is the quarter turn [0 −1; 1 0].
-/// A force −N n + T Zn on the journal's surface point and its opposite on the bearing's give the
-/// two bodies the power −N · rate + T · material_slip.
+/// Where two pieces stand to each other; Z is the quarter turn [0 −1; 1 0]. Eqs. (18)–(23) of Ebrahimi, Salahshoor, Moradi
+/// (2017) are the case of a journal in its bearing; theory: docs/theory/contact.md.
+/// A force F = −N n + T Zn at the middle of a's piece with the couple ρ_a T − s N if it is straight, and −F at that of b's with
+/// ρ_b T − s N if it is, give the two bodies the power −N · rate + T · material_slip.
 struct Gap {
-  Eigen::Vector2d e;      ///< eccentricity: journal centre less bearing centre [m]
-  Eigen::Vector2d n;      ///< unit, from bearing centre to journal centre; (1, 0) if concentric
-  double depth;           ///< |e| − c, positive into contact [m]
-  double rate;            ///< d(depth)/dt [m/s]
-  double material_slip;   ///< of the journal's surface point over the bearing's, along Zn [m/s]
-  double geometric_slip;  ///< that of the wandering contact points, as Eq. (22): depth · (turning
-                          ///< rate of n); 0 if concentric [m/s]
+  Eigen::Vector2d e = {0, 0};  ///< from the middle (of arcs the centre) of b's piece to that of a's [m]
+  Eigen::Vector2d n = {1, 0};  ///< unit, along the normal of a's surface; (1, 0) between concentric arcs
+  double depth = 0;            ///< positive into contact [m]
+  double rate = 0;             ///< d(depth)/dt [m/s]
+  double material_slip = 0;    ///< of a's surface point over b's, along Zn [m/s]
+  double geometric_slip = 0;   ///< of a round piece in a hollow one: depth · (turning rate of n), Eq. (22); 0 if concentric [m/s]
+  double across = 0;           ///< s = e·Zn, where a straight piece is touched; 0 between arcs [m]
+  double turning = 0;          ///< of n [rad/s]
+  double sideways = 0;         ///< of the two middles along Zn [m/s]
+  Eigen::Vector2d arm_a = {0, 0}, arm_b = {0, 0};  ///< from the carrying points to the middles [m]
 };
 
 /// Cannot fail.
-Gap evaluate(const JournalBearing&, const MovingPoint& journal, const MovingPoint& bearing);
+Gap evaluate(const PiecePair&, const MovingPoint& a, const MovingPoint& b);
+
+/// Where on a piece contact is, and the rate of that: −1 where the piece begins, 1 where it ends, beyond that outside; 0 on a whole
+/// circle [–], [1/s].
+struct PlaceOn {
+  double at = 0, rate = 0;
+};
+std::array<PlaceOn, 2> places(const PiecePair&, const Gap&, const MovingPoint& a, const MovingPoint& b);
 
 }  // namespace pintle

@@ -150,11 +150,15 @@ double damping_ratio(double e) {
   return sign_change(0, std::max(1.0, 1 / std::sqrt(e)), [e](double zeta) { return e - linear_restitution(zeta); });
 }
 
+double hertz_stiffness(double R, double young_i, double nu_i, double young_j, double nu_j) {
+  const double h = (1 - nu_i * nu_i) / young_i + (1 - nu_j * nu_j) / young_j;
+  return 4 / (3 * h) * std::sqrt(R);
+}
+
 double hertz_stiffness(double journal_radius, double bearing_radius, double young_i, double nu_i, double young_j, double nu_j,
                        bool internal) {
-  const double h = (1 - nu_i * nu_i) / young_i + (1 - nu_j * nu_j) / young_j;
   const double signed_sum = internal ? bearing_radius - journal_radius : bearing_radius + journal_radius;
-  return 4 / (3 * h) * std::sqrt(journal_radius * bearing_radius / signed_sum);
+  return hertz_stiffness(journal_radius * bearing_radius / signed_sum, young_i, nu_i, young_j, nu_j);
 }
 
 }  // namespace pintle

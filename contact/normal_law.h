@@ -93,6 +93,7 @@ double damping_ratio(double e);
 
 /// Hertz-type stiffness K = 4/(3(hᵢ + hⱼ)) √R, h = (1 − ν²)/E  [N/m^1.5].
 /// Internal contact (journal in bearing): R = RᵢRⱼ/(Rⱼ − Rᵢ); external: R = RᵢRⱼ/(Rᵢ + Rⱼ).
+double hertz_stiffness(double R, double young_i, double nu_i, double young_j, double nu_j);
 double hertz_stiffness(double journal_radius, double bearing_radius, double young_i, double nu_i, double young_j, double nu_j,
                        bool internal);
 

@@ -14,7 +14,7 @@ using Eigen::Index;
 Wrench wrench(const System& system, const Equations& eq, const Attachment& g) {
   if (g.of == Attachment::contact) {
     const ContactEffect now = clearance_effect(system, eq, g.k);
-    return g.end == 0 ? now.on_journal : now.on_bearing;
+    return g.end == 0 ? now.on_a : now.on_b;
   }
   if (g.of == Attachment::force) return g.end == 0 ? eq.force[g.k].on_a : eq.force[g.k].on_b;
   return reaction(system, eq, g.k, g.end);

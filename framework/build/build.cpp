@@ -14,6 +14,7 @@
 #include "framework/bodies/mechanism_body.h"
 #include "framework/bodies/modal_basis.h"
 #include "framework/build/clearance.h"
+#include "framework/build/contacts.h"
 #include "framework/build/laws.h"
 #include "framework/build/choose_method.h"
 #include "framework/build/elastic_bodies.h"
@@ -43,6 +44,7 @@ class Builder {
     elements_.resize(scene_.bodies.size());
     for (const SceneBody& b : scene_.bodies) add(b);
     for (const SceneJoint& j : scene_.joints) add(j);
+    for (const SceneContact& c : scene_.contacts) add(c);
     for (const SceneDriver& d : scene_.drivers) add(d);
     for (const SceneLoad& l : scene_.loads) add(l);
     validate_starts();
@@ -201,16 +203,53 @@ class Builder {
   void add_contact(const SceneJoint& j) {
     ContactPair pair = contact_of(scene_, j);
     const bool b_bears = j.clearance->bearing == j.b.body;
-    pair.journal = marker(b_bears ? j.a : j.b);
-    pair.bearing = marker(b_bears ? j.b : j.a);
+    pair.a = marker(b_bears ? j.a : j.b);
+    pair.b = marker(b_bears ? j.b : j.a);
     if (j.clearance->model == ClearanceModel::massless_link) {
       pair.link = static_cast<int>(model_.system.joints.size());
-      model_.system.joints.push_back(Distance{pair.bearing, pair.journal, pair.gap.clearance()});
+      model_.system.joints.push_back(Distance{pair.b, pair.a, pair.gap.clearance()});
       model_.system.joint_names.push_back(j.name);
     }
     model_.order.joints.push_back(static_cast<int>(model_.system.contacts.size()));
     model_.system.contacts.push_back(pair);
     model_.system.contact_names.push_back(j.name);
+  }
+
+  void add(const SceneContact& c) {
+    unique(c.name, "contact", c.place);
+    two_bodies(c.a, c.b, c.place);
+    for (const SceneJoint& j : scene_.joints)
+      if (j.kind == JointKind::weld && std::minmax(j.a.body, j.b.body) == std::minmax(c.a.body, c.b.body))
+        wrong(c.place, "the weld " + quoted(j.name) + " holds its two bodies together: they cannot touch anew; leave the contact out");
+    ContactPair like = contact_of(scene_, c);
+    like.a = profile_marker(c.a), like.b = profile_marker(c.b);
+    std::vector<ContactPair> pairs = pairs_between(scene_, c, profile(c.a), profile(c.b), like);
+    for (ContactPair& pair : pairs)
+      for (int& other : pair.beyond)
+        if (other >= 0) other += static_cast<int>(model_.system.contacts.size());
+    model_.contacts.push_back(contact_text(like, pairs.size()));
+    model_.system.contacts.insert(model_.system.contacts.end(), pairs.begin(), pairs.end());
+    model_.system.contact_names.insert(model_.system.contact_names.end(), pairs.size(), c.name);
+  }
+
+  /// Of the axes that a body's profiles are given in.
+  int profile_marker(const PointRef& ref) {
+    const int b = body(ref);
+    if (b != ground && elements_[static_cast<std::size_t>(b)])
+      wrong(ref.place, quoted(ref.body) +
+                           " is made of elements, the surface of which no contact follows yet; put the profile on a rigid body "
+                           "and weld that to a point of it");
+    return marker({ref.body, "", ref.place});
+  }
+  const Profile& profile(const PointRef& ref) {
+    const auto [known, is_new] = profiles_.try_emplace({ref.body, ref.point});
+    if (!is_new) return known->second;
+    const int b = body(ref);
+    known->second = profile_of(scene_, ref);
+    const Vector2d origin = b == ground ? Vector2d(0, 0) : model_.system.bodies[static_cast<std::size_t>(b)].x_BO;
+    DrawnProfile& made = model_.profiles.emplace_back(DrawnProfile{b, solid(known->second), drawn(known->second)});
+    for (Vector2d& x : made.points) x += origin;
+    return known->second;
   }
 
   void add(const SceneDriver& d) {
@@ -266,12 +305,13 @@ class Builder {
       }
     bend_starts();
     for (const StartJournal& s : scene_.start_journals) {
-      const auto& known = model_.system.contact_names;
+      const auto& all = model_.system.contact_names;
+      const std::vector<std::string> known(all.begin(), all.begin() + n_clearances(model_.system));
       const auto found = std::find(known.begin(), known.end(), s.joint);
       if (found == known.end()) wrong(s.place, quoted(s.joint) + " is not a joint with clearance" + suggestion(s.joint, known));
       const ContactPair& pair = model_.system.contacts[static_cast<std::size_t>(found - known.begin())];
-      const JournalBearing& gap = pair.gap;
-      if (!is_held(pair) && vector(s.eccentricity).norm() > gap.clearance() + too_deep * gap.journal)
+      const PiecePair& gap = pair.gap;
+      if (!is_held(pair) && vector(s.eccentricity).norm() > gap.clearance() + too_deep * journal_radius(gap))
         wrong(s.place,
               "eccentricity puts the journal deeper into the wall than a tenth of its radius, where no contact law holds; "
               "the clearance is " +
@@ -339,7 +379,11 @@ class Builder {
     for (const Marker& m : model_.system.markers) length = std::max(length, m.x_BP.norm());
     for (const Joint& j : model_.system.joints)
       if (const auto* d = std::get_if<Distance>(&j)) length = std::max(length, d->length);
-    for (const ContactPair& c : model_.system.contacts) length = std::max(length, c.gap.bearing);
+    for (const ContactPair& c : model_.system.contacts)
+      if (!c.profiles) length = std::max(length, bearing_radius(c.gap));
+    for (const DrawnProfile& p : model_.profiles)
+      if (p.body != ground || length == 0)
+        for (const Vector2d& x : p.points) length = std::max(length, x.norm());
     return length > 0 ? length : 1;
   }
 
@@ -365,6 +409,7 @@ class Builder {
   ElasticBodies elastic_;
   std::vector<std::optional<MechanismBody>> elements_;  ///< of bodies made of elements
   std::map<std::tuple<int, double, double, double, std::string>, int> markers_;
+  std::map<std::pair<std::string, std::string>, Profile> profiles_;
   std::set<std::string> names_;
 };
 

@@ -67,8 +67,8 @@ class Parts {
   }
   // The rate at which the force of a contact changes that comes by a hundredth of the motion's speed.
   void see(const ContactPair& pair, double motion, const std::string& name) {
-    if (is_held(pair)) return;
-    const double w = mobility(system_, pair.journal).force + mobility(system_, pair.bearing).force;
+    if (is_held(pair) || pair.pair > 0) return;
+    const double w = mobility(system_, pair.a).force + mobility(system_, pair.b).force;
     const double speed = std::max(motion * system_.length * 1e-2, pair.slowest_impact), depth = depth_reached(pair.normal, w, speed);
     if (depth > 0) found.parts.push_back({speed / depth, viscous_damping(pair.normal) * w, "contact at \"" + name + "\""});
     if (depth > 0 && found.parts.back().decay > found.most_damped.decay) found.most_damped = found.parts.back();

@@ -22,23 +22,7 @@ std::string text(double x) {
 bool has_normal(const SceneClearance& c) { return c.normal.stiffness || c.normal.bearing.young > 0; }
 
 /// The contact law of the scene's words.
-ImpactLaw law_of(const Scene& scene, const SceneClearance& c) {
-  const SceneNormal& n = c.normal;
-  const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, n.place, message); };
-  const ImpactFactor* factor = find_impact_factor(n.law);
-  if (!factor) {
-    std::vector<std::string> known;
-    for (const ImpactFactor& f : impact_factors()) known.emplace_back(f.name);
-    wrong("there is no impact law \"" + n.law + "\"." + did_you_mean(n.law, known));
-  }
-  if (n.restitution < 0 || n.restitution > 1 || (n.restitution == 0 && !factor->zero_allowed))
-    wrong("restitution must lie in " + std::string(factor->zero_allowed ? "[0, 1]" : "(0, 1]") + " for " + n.law);
-  if (!n.stiffness && n.exponent != 1.5)
-    wrong("`young` and `poisson` give the stiffness of exponent 1.5; with another exponent give `stiffness`");
-  const double k = contact_stiffness(c);
-  if (!(k > 0) || !std::isfinite(k)) wrong("no stiffness: give `young` and `poisson`, or `stiffness`");
-  return {k, n.exponent, factor->chi(n.restitution)};
-}
+ImpactLaw law_of(const Scene& scene, const SceneClearance& c) { return impact_law(scene, c.normal, contact_stiffness(c)); }
 
 bool rubs(const SceneClearance& c) { return c.friction && c.friction->coefficient != 0; }
 
@@ -81,6 +65,22 @@ std::string match(const Scene& scene, const SceneClearance& c, const IdealPin& p
 
 }  // namespace
 
+ImpactLaw impact_law(const Scene& scene, const SceneNormal& n, double k) {
+  const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, n.place, message); };
+  const ImpactFactor* factor = find_impact_factor(n.law);
+  if (!factor) {
+    std::vector<std::string> known;
+    for (const ImpactFactor& f : impact_factors()) known.emplace_back(f.name);
+    wrong("there is no impact law \"" + n.law + "\"." + did_you_mean(n.law, known));
+  }
+  if (n.restitution < 0 || n.restitution > 1 || (n.restitution == 0 && !factor->zero_allowed))
+    wrong("restitution must lie in " + std::string(factor->zero_allowed ? "[0, 1]" : "(0, 1]") + " for " + n.law);
+  if (!n.stiffness && n.exponent != 1.5)
+    wrong("`young` and `poisson` give the stiffness of exponent 1.5; with another exponent give `stiffness`");
+  if (!(k > 0) || !std::isfinite(k)) wrong("no stiffness: give `young` and `poisson`, or `stiffness`");
+  return {k, n.exponent, factor->chi(n.restitution)};
+}
+
 ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
   const auto wrong = [&](const Place& place, const std::string& message) { throw SceneError(scene.file, place, message); };
   const SceneClearance& c = *j.clearance;
@@ -94,8 +94,9 @@ ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
     wrong(c.place, "radial clearance is less than the last digit of the bearing radius; leave out `clearance` for an ideal joint");
 
   ContactPair pair{};
-  pair.gap = {c.bearing_radius - c.radial, c.bearing_radius};
+  pair.gap = JournalBearing{c.bearing_radius - c.radial, c.bearing_radius};
   pair.slowest_impact = c.normal.slowest_impact;
+  pair.follows = c.normal.follows;
   if (c.model == ClearanceModel::massless_link) return pair;
   if (c.model == ClearanceModel::contact) {
     pair.normal = law_of(scene, c);

@@ -14,6 +14,10 @@ namespace pintle {
 /// @throws SceneError  another kind of joint; radii, restitution, law or stiffness that cannot be
 ContactPair contact_of(const Scene&, const SceneJoint&);
 
+/// The law that a scene names, of a stiffness [N/mⁿ].
+/// @throws SceneError  restitution, law or stiffness that cannot be
+ImpactLaw impact_law(const Scene&, const SceneNormal&, double stiffness);
+
 /// Gives springs and dampers what the scene leaves to its contact law: docs/theory/contact.md.
 /// @param system    all but numbered
 /// @param warnings  gets what a model leaves out of the scene and a result would miss

@@ -21,7 +21,7 @@ std::string percent(double part) { return number_text(std::round(1000 * part) / 
 /// ∂f/∂δ at the depth that a hundredth of the motion's speed reaches, or at a hundredth of the clearance where nothing moves yet [N/m].
 double stiffness_of_blow(const System& system, const ContactPair& pair, double motion) {
   double mobility = 0;  // 1/m of the two bodies there
-  for (const int marker : {pair.journal, pair.bearing}) {
+  for (const int marker : {pair.a, pair.b}) {
     const Marker& m = system.markers[static_cast<std::size_t>(marker)];
     if (m.body == ground) continue;
     const Body& b = system.bodies[static_cast<std::size_t>(m.body)];

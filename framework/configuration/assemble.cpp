@@ -15,6 +15,7 @@
 #include "framework/configuration/least_step.h"
 #include "framework/configuration/row_space.h"
 #include "framework/dynamics/equations/internal.h"
+#include "framework/integration/events/impact_log.h"
 #include "framework/scene/error.h"
 
 namespace pintle {
@@ -33,6 +34,8 @@ Place place_of(const Scene& scene, const std::string& name) {
     if (d.name == name) return d.place;
   for (const StartBody& s : scene.start_bodies)
     if (s.body == name) return s.place;
+  for (const SceneContact& c : scene.contacts)
+    if (c.name == name) return c.place;
   return {};
 }
 /// The same, naming the thing itself where the scene was not read from a file.
@@ -331,6 +334,22 @@ Assembly assembled(const Scene& scene, const System& system, const Bent& bent) {
   return out;
 }
 
+/// Profiles that start deep in each other are more likely a mistake than a contact.
+void require_apart(const Scene& scene, const System& system, const State& start) {
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    const ContactPair& pair = system.contacts[c];
+    if (!pair.profiles || !(onset_of(system, static_cast<int>(c), start).value > 0)) continue;
+    const double depth = gap_of(system, static_cast<int>(c), start).value;
+    if (!(depth > too_deep * contact_size(pair, system.length))) continue;
+    std::ostringstream s;
+    s.precision(4);
+    s << "the two profiles overlap by " << depth
+      << " m at the start, more than a tenth of their smallest radius; move a body by `start` or `pose`, "
+      << "or turn round the side of the material";
+    throw AssemblyError(scene.file, named_place(scene, system.contact_names[c]), s.str());
+  }
+}
+
 /// The speeds that drivers ask for where the mechanism would rest without them.
 void start_at_rest(const Scene& scene, const Model& model, Assembly& out) {
   const Equilibrium rest = find_equilibrium(scene, model, out);
@@ -350,6 +369,7 @@ Assembly assemble(const Scene& scene, const System& system) { return assembled(s
 
 Assembly assemble(const Scene& scene, const Model& model) {
   Assembly out = assembled(scene, model.system, model.bent);
+  require_apart(scene, model.system, out.start);
   if (scene.start_at_rest) start_at_rest(scene, model, out);
   return out;
 }

@@ -32,8 +32,8 @@ class Closure {
  public:
   /// @param pressed  unit vectors along which massless links stand that the scene gives no eccentricity
   Closure(const Scene& scene, const System& system, const std::vector<Eigen::Vector2d>& pressed)
-      : system_(system), eq_(system), offset_(system.contacts.size()), drift_(system.contacts.size()) {
-    for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+      : system_(system), eq_(system), offset_(at(n_clearances(system))), drift_(offset_.size()) {
+    for (std::size_t c = 0; c < offset_.size(); ++c) {
       offset_[c].setZero();
       drift_[c].setZero();
       for (const StartJournal& s : scene.start_journals)
@@ -58,7 +58,7 @@ class Closure {
     C.head(system_.n_rows()) = eq_.C.cwiseProduct(system_.row_scale);
     for (std::size_t c = 0; c < offset_.size(); ++c) {
       const ContactPair& pair = system_.contacts[c];
-      C.segment<2>(first(c)) = (eq_.motion[at(pair.journal)].r - eq_.motion[at(pair.bearing)].r - offset_[c]) / system_.length;
+      C.segment<2>(first(c)) = (eq_.motion[at(pair.a)].r - eq_.motion[at(pair.b)].r - offset_[c]) / system_.length;
     }
     for (std::size_t p = 0; p < pins_.size(); ++p) {
       const Pin& pin = pins_[p];
@@ -76,7 +76,7 @@ class Closure {
     D.head(system_.n_rows()) = eq_.Cdot.cwiseProduct(system_.row_scale);
     for (std::size_t c = 0; c < offset_.size(); ++c) {
       const ContactPair& pair = system_.contacts[c];
-      D.segment<2>(first(c)) = (eq_.motion[at(pair.journal)].v - eq_.motion[at(pair.bearing)].v - drift_[c]) / system_.length;
+      D.segment<2>(first(c)) = (eq_.motion[at(pair.a)].v - eq_.motion[at(pair.b)].v - drift_[c]) / system_.length;
     }
     for (std::size_t p = 0; p < pins_.size(); ++p) {
       const Pin& pin = pins_[p];
@@ -143,8 +143,8 @@ class Closure {
           for (int i = 0; i < 2; ++i) entries.emplace_back(row + i, column, sign * dp[i] / system_.length);
         });
       };
-      add(system_.contacts[c].journal, 1);
-      add(system_.contacts[c].bearing, -1);
+      add(system_.contacts[c].a, 1);
+      add(system_.contacts[c].b, -1);
     }
     for (std::size_t p = 0; p < pins_.size(); ++p) {
       const Pin& pin = pins_[p];

@@ -10,6 +10,7 @@
 #include "framework/common/text.h"
 #include "framework/dynamics/equations/internal.h"
 #include "framework/dynamics/newton/kkt.h"
+#include "framework/integration/events/impact_log.h"
 
 namespace pintle {
 
@@ -53,9 +54,12 @@ class Rest {
     state.t = t_;
     state.y.tail(state.y.size() - held.n()).setZero();
     state.impact_rate.resize(held.contacts.size());
-    for (std::size_t c = 0; c < held.contacts.size(); ++c) state.impact_rate[c] = held.contacts[c].slowest_impact;
     if (!project(held, t_, state.y, eq) || !(size(state.y.head(held.n()) - before) <= farthest)) return false;
     state.y.tail(state.y.size() - held.n()).setZero();
+    for (std::size_t c = 0; c < held.contacts.size(); ++c) {
+      const ContactPair& pair = held.contacts[c];
+      state.impact_rate[c] = !pair.profiles || onset_of(held, static_cast<int>(c), state).value > 0 ? pair.slowest_impact : 0;
+    }
     speed(held, t_, state.y, eq);
     follow_internal_states(held, eq, t_, internal_at_rest, nullptr, state.y.data() + held.x_begin());
     accelerate(held, state, eq);
@@ -112,7 +116,7 @@ class Rest {
     for (const Body& b : held.bodies) most = std::max(most, b.m * held.gravity.norm() * held.length);
     const auto see = [&](const Wrench& w) { most = std::max({most, w.head<2>().norm() * held.length, std::abs(w[2])}); };
     for (const ForceEffect& f : eq.force) see(f.on_b);
-    for (const ContactEffect& c : eq.contact) see(c.on_journal);
+    for (const ContactEffect& c : eq.contact) see(c.on_a);
     if (eq.lambda.size() > 0) most = std::max(most, eq.lambda.cwiseQuotient(held.row_scale).lpNorm<Eigen::Infinity>());
     return most;
   }
@@ -270,10 +274,13 @@ void warn(const Model& model, const Equations& eq, Equilibrium& out) {
       continue;
     }
     const double depth = eq.contact[c].gap.depth;
-    if (depth > too_deep * system.contacts[c].gap.journal)
-      out.warnings.push_back("\"" + system.contact_names[c] + "\": the journal rests " + number_text(depth) +
-                             " m in the wall, more than a tenth of its radius; no contact law holds there");
-    if (depth > 0 && system.contacts[c].friction)
+    if (!(depth > 0)) continue;
+    if (const double size = contact_size(system.contacts[c], system.length); depth > too_deep * size)
+      out.warnings.push_back("\"" + system.contact_names[c] +
+                             "\": " + (system.contacts[c].profiles ? "the surfaces overlap by " : "the journal rests ") +
+                             number_text(depth) + (system.contacts[c].profiles ? " m" : " m in the wall") +
+                             ", more than a tenth of its radius; no contact law holds there");
+    if (system.contacts[c].friction)
       out.warnings.push_back("\"" + system.contact_names[c] +
                              "\": its friction law gives nothing without sliding, so friction holds nothing here");
   }

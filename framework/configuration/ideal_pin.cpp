@@ -28,11 +28,11 @@ System opened(const System& system) {
   return out;
 }
 
-/// Clearances closed as ideal pins, the last joints of all.
+/// Clearances closed as ideal pins, the last joints of all; profiles do not meet.
 System pinned(const System& open) {
   System out = open;
-  for (std::size_t c = 0; c < open.contacts.size(); ++c) {
-    out.joints.emplace_back(Revolute{open.contacts[c].bearing, open.contacts[c].journal});
+  for (std::size_t c = 0; c < at(n_clearances(open)); ++c) {
+    out.joints.emplace_back(Revolute{open.contacts[c].b, open.contacts[c].a});
     out.joint_names.push_back(open.contact_names[c]);
   }
   out.contacts.clear();
@@ -63,7 +63,7 @@ std::vector<Vector2d> pressing_at(const System& open, const VectorXd& y) {
   const System pins = pinned(open);
   Equations eq(pins);
   VectorXd dy = VectorXd::Zero(pins.n_y());
-  std::vector<Vector2d> out(open.contacts.size(), Vector2d::Zero());
+  std::vector<Vector2d> out(at(n_clearances(open)), Vector2d::Zero());
   if (!evaluate(pins, state_of(pins, y), eq, dy)) return out;
   const double most = eq.f.lpNorm<Eigen::Infinity>() + eq.lambda.lpNorm<Eigen::Infinity>();
   const std::vector<Vector2d> found = pressing(pins, eq, out.size());
@@ -76,7 +76,7 @@ std::vector<Vector2d> pressing_at(const System& open, const VectorXd& y) {
 std::vector<double> mean_forces(const Scene& scene, const System& open, const VectorXd& y) {
   constexpr long most_steps = 2000;
   const System pins = pinned(open);
-  const std::size_t count = open.contacts.size();
+  const std::size_t count = at(n_clearances(open));
   Scheme scheme;
   scheme.tableau = find_tableau("dopri5");
   scheme.tolerance = 1e-4;
@@ -119,15 +119,15 @@ double mass_against(const System& open, const VectorXd& y, const ContactPair& pa
   double apart[] = {0, 0};
   for (const double size : {0.0, 1.0}) {  // what drivers do is in both
     probe.forces.clear();
-    push(pair.journal, size * n);
-    push(pair.bearing, -size * n);
+    push(pair.a, size * n);
+    push(pair.b, -size * n);
     number(probe);
     State state = state_of(probe, y);
     state.y.tail(state.y.size() - probe.n()).setZero();
     Equations eq(probe);
     VectorXd dy = VectorXd::Zero(probe.n_y());
     if (!evaluate(probe, state, eq, dy)) return 0;
-    apart[size > 0] = n.dot(moved(probe, eq, pair.journal) - moved(probe, eq, pair.bearing));
+    apart[size > 0] = n.dot(moved(probe, eq, pair.a) - moved(probe, eq, pair.b));
   }
   return 1 / (apart[1] - apart[0]);
 }
@@ -135,7 +135,7 @@ double mass_against(const System& open, const VectorXd& y, const ContactPair& pa
 }  // namespace
 
 std::vector<Vector2d> pressed_directions(const Scene& scene, const System& system) {
-  std::vector<Vector2d> out(system.contacts.size(), Vector2d::Zero());
+  std::vector<Vector2d> out(at(n_clearances(system)), Vector2d::Zero());
   if (std::none_of(system.contacts.begin(), system.contacts.end(), [](const ContactPair& c) { return is_held(c); })) return out;
   const System open = opened(system);
   out = pressing_at(open, assemble(scene, open).start.y);

@@ -26,7 +26,7 @@ ErrorNorm::ErrorNorm(const System& system, double tolerance) : system_(system), 
   for (double& r : reach_)
     if (r == 0) r = system.length;
   fine_length_ = system.length;
-  for (const ContactPair& c : system.contacts) fine_length_ = std::min(fine_length_, c.gap.clearance());
+  for (const ContactPair& c : system.contacts) fine_length_ = std::min(fine_length_, fine_length(c, system.length));
 }
 
 double ErrorNorm::fastest_speed(const Eigen::VectorXd& y) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "framework/common/index.h"
 
@@ -70,14 +71,20 @@ Drafting::Drafting(const Scene& scene, const Model& model) {
   pin = 0.03 * system.length;
   double half = 1.6 * pin;  // of a block, large enough for its bearings
   for (const ContactPair& c : system.contacts) {
-    pin = std::min(pin, c.gap.bearing);
-    half = std::max(half, c.gap.bearing);
+    if (c.profiles) break;
+    pin = std::min(pin, bearing_radius(c.gap));
+    half = std::max(half, bearing_radius(c.gap));
   }
   const double width = 1.6 * pin;
   deformation = scene.output.deformation;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     owners.push_back(system.bodies[b].name);
     if (system.bodies[b].flex) {  // drawn as it is
+      links.emplace_back();
+      continue;
+    }
+    const auto of_body = [b](const DrawnProfile& p) { return p.body == static_cast<int>(b); };
+    if (std::ranges::any_of(model.profiles, of_body)) {  // its surface is drawn
       links.emplace_back();
       continue;
     }
@@ -96,10 +103,12 @@ Drafting::Drafting(const Scene& scene, const Model& model) {
   }
   for (const auto& name : system.joint_names) owners.push_back(name);
   for (const auto& name : system.contact_names) owners.push_back(name);
+  if (std::ranges::any_of(model.profiles, [](const DrawnProfile& p) { return p.body == ground; })) owners.emplace_back("ground");
   if (scene.output.exaggerate > 0)
     exaggeration = scene.output.exaggerate;
   else
-    for (const ContactPair& c : system.contacts) exaggeration = std::max(exaggeration, 0.3 * c.gap.bearing / c.gap.clearance());
+    for (const ContactPair& c : std::span(system.contacts).first(at(n_clearances(system))))
+      exaggeration = std::max(exaggeration, 0.3 * bearing_radius(c.gap) / c.gap.clearance());
 }
 
 namespace {
@@ -107,16 +116,40 @@ namespace {
 // Bearing and journal of each clearance, the gap between them exaggerated, and the force on the bearing.
 void draw_clearances(const System& system, const Drafting& drafting, const Equations& eq, Drawing& out) {
   const int first = static_cast<int>(system.bodies.size() + system.joints.size());
-  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+  for (std::size_t c = 0; c < at(n_clearances(system)); ++c) {
     const ContactPair& pair = system.contacts[c];
     const int owner = first + static_cast<int>(c);
-    const Vector2d center = eq.motion[at(pair.bearing)].r;
+    const Vector2d center = eq.motion[at(pair.b)].r;
     const ContactEffect now = clearance_effect(system, eq, c);
     const double s = drafting.exaggeration;
-    out.lines.push_back({Part::bearing, owner, true, circle(center, pair.gap.bearing)});
-    out.lines.push_back({Part::journal, owner, true,
-                         circle(center + s * now.gap.e, std::max(pair.gap.bearing - s * pair.gap.clearance(), 0.05 * pair.gap.bearing))});
-    out.forces.push_back({center + pair.gap.bearing * now.gap.n, now.on_bearing.head<2>(), owner});
+    out.lines.push_back({Part::bearing, owner, true, circle(center, bearing_radius(pair.gap))});
+    out.lines.push_back(
+        {Part::journal, owner, true,
+         circle(center + s * now.gap.e, std::max(bearing_radius(pair.gap) - s * pair.gap.clearance(), 0.05 * bearing_radius(pair.gap)))});
+    out.forces.push_back({center + bearing_radius(pair.gap) * now.gap.n, now.on_b.head<2>(), owner});
+  }
+}
+
+// Surfaces, and what each pair that touches does to b.
+void draw_profiles(const Model& model, const State& state, const Equations& eq, Drawing& out) {
+  const System& system = model.system;
+  const int first = static_cast<int>(system.bodies.size() + system.joints.size()), of_ground = static_cast<int>(out.owners.size()) - 1;
+  for (const DrawnProfile& p : model.profiles) {
+    DrawnLine line{p.body == ground ? Part::guide : Part::link, p.body == ground ? of_ground : p.body, p.solid, p.points};
+    if (p.body != ground) {
+      const double* q = state.y.data() + 3 * p.body;
+      const Eigen::Rotation2Dd A(q[2]);
+      for (Vector2d& x : line.points) x = Vector2d(q[0], q[1]) + A * x;
+    }
+    out.lines.push_back(std::move(line));
+  }
+  for (std::size_t c = at(n_clearances(system)); c < system.contacts.size(); ++c) {
+    const ContactEffect& now = eq.contact[c];
+    if (now.normal.force == 0) continue;
+    const ContactPair& pair = system.contacts[c];
+    const Vector2d middle = eq.motion[at(pair.b)].r + now.gap.arm_b;
+    const Vector2d touched = middle - pair.gap.b.radius * now.gap.n + (pair.gap.b.straight ? now.gap.across : 0) * perp(now.gap.n);
+    out.forces.push_back({touched, now.on_b.head<2>(), first + static_cast<int>(c)});
   }
 }
 
@@ -143,6 +176,7 @@ Drawing draw(const Model& model, const Drafting& drafting, const State& state, c
       continue;
     }
     const Eigen::Rotation2Dd A(q[2]);
+    if (drafting.links[at(b)].empty()) continue;
     DrawnLine line{Part::link, b, true, {}};
     for (const Vector2d& x : drafting.links[at(b)]) line.points.emplace_back(Vector2d(q[0], q[1]) + A * x);
     out.lines.push_back(std::move(line));
@@ -165,6 +199,7 @@ Drawing draw(const Model& model, const Drafting& drafting, const State& state, c
     }
   }
   draw_clearances(system, drafting, eq, out);
+  draw_profiles(model, state, eq, out);
   for (std::size_t f = 0; f < system.forces.size(); ++f)
     if (std::holds_alternative<Spring>(system.forces[f]) || std::holds_alternative<Maxwell>(system.forces[f])) {
       const Vector2d a = eq.motion[at(marker_a(system.forces[f]))].r, b = eq.motion[at(marker_b(system.forces[f]))].r;

@@ -28,6 +28,13 @@ struct RecordedStress {
   StressProbe probe;
 };
 
+/// A profile as it is drawn.
+struct DrawnProfile {
+  int body;
+  bool solid;                           ///< the material is inside a closed line
+  std::vector<Eigen::Vector2d> points;  ///< from the mass centre, body axes; of the ground in the world [m]
+};
+
 /// What stays of the rigid run that modes and doubts were judged by.
 struct PreliminaryRun {
   double until = 0, seconds = 0;  ///< reached, and of computing [s]
@@ -44,6 +51,8 @@ struct Model {
   std::vector<RecordedStress> stresses;
   std::vector<FlexibleDrawing> drawings;               ///< of flexible bodies, in their order
   std::vector<std::string> clearances;                 ///< how each is modelled, in words
+  std::vector<std::string> contacts;                   ///< of profiles, likewise
+  std::vector<DrawnProfile> profiles;                  ///< those that contacts use
   std::vector<std::string> warnings;                   ///< what makes the model doubtful, in words
   std::vector<std::vector<Eigen::Vector2d>> outlines;  ///< points of each body, named or joined, for drawing [m]
   std::vector<FlexibleReport> flexible;                ///< of flexible bodies, in their order

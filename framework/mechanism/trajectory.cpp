@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -118,8 +119,42 @@ void contact_columns(const System& system, std::size_t k, Out& out) {
         return std::array{c.gap.e.x(), c.gap.e.y(), c.gap.depth, c.gap.rate, slip, c.normal.force, c.friction};
       });
   wrench_columns(
-      system, system.contact_names[k], true, false, pair.journal,
-      [&](const Now& now) { return clearance_effect(system, now.eq, k).on_journal; }, out);
+      system, system.contact_names[k], true, false, pair.a, [&](const Now& now) { return clearance_effect(system, now.eq, k).on_a; }, out);
+}
+
+// Of two profiles: where they touch or are nearest to that, the pair that is pressed most; forces of all pairs.
+template <class Out>
+void profile_columns(const System& system, std::size_t first, Out& out) {
+  struct Sum {
+    Gap gap;
+    Eigen::Vector2d at{0, 0};
+    double normal = 0, friction = 0;
+    Wrench on_b = Wrench::Zero();
+  };
+  const auto sum = [&system, first](const Now& now) {
+    Sum s;
+    double nearest = -std::numeric_limits<double>::infinity();
+    for (std::size_t k = first; k < first + at(system.contacts[first].pairs); ++k) {
+      const ContactPair& pair = system.contacts[k];
+      const ContactEffect& effect = now.eq.contact[k];
+      s.normal += effect.normal.force, s.friction += effect.friction, s.on_b += effect.on_b;
+      const MovingPoint a = moving_point(now.eq.motion[at(pair.a)]), b = moving_point(now.eq.motion[at(pair.b)]);
+      const Gap gap = evaluate(pair.gap, a, b);
+      const double near = std::min({gap.depth, pair.deepest - gap.depth, margin(pair, gap, a, b).value});
+      if (near > nearest)
+        nearest = near, s.gap = gap,
+        s.at = a.r + gap.arm_a + pair.gap.a.radius * gap.n - (pair.gap.a.straight ? gap.across : 0) * perp(gap.n);
+    }
+    return s;
+  };
+  out(system.contact_names[first],
+      {{".x", "m"}, {".y", "m"}, {".depth", "m"}, {".rate", "m/s"}, {".sliding", "m/s"}, {".normal", "N"}, {".friction", "N"}},
+      [&](const Now& now) {
+        const Sum s = sum(now);
+        return std::array{s.at.x(), s.at.y(), s.gap.depth, s.gap.rate, s.gap.material_slip, s.normal, s.friction};
+      });
+  wrench_columns(
+      system, system.contact_names[first], true, false, system.contacts[first].b, [&](const Now& now) { return sum(now).on_b; }, out);
 }
 
 template <class Out>
@@ -173,7 +208,12 @@ void trajectory_columns(const Model& model, Out out) {
         system, system.joint_names[at(k)], of.force, of.couple, written_marker(system, k),
         [&](const Now& now) { return joint_wrench(system, now.eq, k); }, out);
   }
-  for (std::size_t k = 0; k < system.contacts.size(); ++k) contact_columns(system, k, out);
+  for (std::size_t k = 0; k < system.contacts.size(); ++k) {
+    if (!system.contacts[k].profiles)
+      contact_columns(system, k, out);
+    else if (system.contacts[k].pair == 0)
+      profile_columns(system, k, out);
+  }
   for (std::size_t k = 0; k < system.forces.size(); ++k) {
     const bool turns = is_turning(system.forces[k]);
     wrench_columns(

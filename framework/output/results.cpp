@@ -41,7 +41,7 @@ Json assembly_json(const System& system, const Assembly& a) {
           {"constraint rows", system.n_rows()},
           {"rank", a.rank},
           {"mobility", system.n() - a.rank},
-          {"contacts", system.contacts.size()},
+          {"contacts", std::ranges::count(system.contacts, 0, &ContactPair::pair)},
           {"forces", system.forces.size()},
           {"ledger integrals", system.n_z()},
           {"redundant rows", redundant},
@@ -113,15 +113,21 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
   Json losses = Json::object();
   for (std::size_t i = 0; i < run.integrals.size(); ++i) losses[integral_name(system, system.integrals[i])] = run.integrals[i];
   Json contacts = Json::object();
+  std::size_t profiles = 0;
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     const ContactPair& p = system.contacts[c];
-    Json& out = contacts[system.contact_names[c]] = {{"model", model.clearances[c]}};
+    if (p.pair > 0) continue;
+    Json& out = contacts[system.contact_names[c]] = {{"model", p.profiles ? model.contacts[profiles++] : model.clearances[c]}};
     if (!is_held(p)) {
       for (const auto& [name, value] : constants_of(p.normal)) out[name] = value;
       if (!begins_with_jump(p.normal)) out["restitution delivered"] = restitution_of(p.normal, 1);  // to any mass
     }
-    out["journal radius [m]"] = p.gap.journal;
-    out["bearing radius [m]"] = p.gap.bearing;
+    if (p.profiles) {
+      out["pairs of pieces"] = p.pairs;
+      continue;
+    }
+    out["journal radius [m]"] = journal_radius(p.gap);
+    out["bearing radius [m]"] = bearing_radius(p.gap);
   }
   Json out = run_head(scene, run);
   out.update(Json{{"model", assembly_json(system, assembly)},

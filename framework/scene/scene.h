@@ -38,12 +38,36 @@ struct PointRef {
   Place place;
 };
 
+/// A point of a path: a named one of the body, or a place in body axes; and the arc that leads on from there.
+struct ScenePathPoint {
+  std::string point;  ///< empty: `at`
+  Pair at{0, 0};      ///< [m]
+  double arc = 0;     ///< radius, > 0 turning left; 0: a straight line [m]
+  Place place = {};
+};
+
+/// The surface of a body, that contacts are made of: a disc or a hole about a point, or a path of lines and arcs.
+struct SceneProfile {
+  enum Kind { disc, hole, path };
+  enum Side { left, right, inside, outside };  ///< where the material is: of an open path, of a closed one
+  std::string name;
+  Kind kind = disc;
+  ScenePathPoint centre = {};  ///< of a disc or hole
+  double radius = 0;           ///< likewise [m]
+  std::vector<ScenePathPoint> points = {};
+  bool closed = false;
+  Side material = left;
+  double round = 0;  ///< radius of the arc at corners between straight lines [m]
+  Place place = {};
+};
+
 struct SceneBody {
   std::string name;
   double mass = 0;     ///< [kg]; 0: not given, which kinematics alone can do without
   double inertia = 0;  ///< about the mass centre [kg m²]; likewise
   Pair center{0, 0};   ///< mass centre in body axes [m]
   std::vector<ScenePoint> points;
+  std::vector<SceneProfile> profiles = {};
   std::optional<SceneElastic> elastic = {};  ///< made of elements: mass, inertia, center come from them
   Pair at{0, 0};                             ///< rough starting position of the body's origin, world [m]
   double angle = 0;                          ///< rough starting angle [rad]
@@ -70,6 +94,8 @@ struct SceneNormal {
   RadiusConvention radii = RadiusConvention::internal;
   double slowest_impact = 1e-6;  ///< floor of the latched approach speed [m/s]
   Place place;
+  bool follows = false;  ///< its damping is scaled by the largest approach speed since the onset; false: by that of the onset
+  double damping = 0;    ///< of the law "spring-damper", which contacts of profiles may name [N s/m]
 };
 
 enum class SlidingSpeed { material, geometric };
@@ -111,6 +137,15 @@ struct SceneJoint {
   double ratio = 1;                         ///< differential: turns of a against the cage for one of b's the other way
   std::optional<SceneClearance> clearance;  ///< revolute only
   Place place;
+};
+
+/// Two profiles of two bodies that may touch. In `normal`, `bearing` is the first body's elasticity, `journal` the second's.
+struct SceneContact {
+  std::string name;
+  PointRef a, b;  ///< the point is a profile
+  SceneNormal normal;
+  std::optional<SceneFriction> friction = {};
+  Place place = {};
 };
 
 enum class DriverKind { angle, distance };
@@ -210,8 +245,10 @@ struct Scene {
   std::vector<SceneMaterial> materials;
   std::optional<SceneStatic> statics;
   std::vector<ScenePoint> ground;  ///< points of the ground
+  std::vector<SceneProfile> ground_profiles;
   std::vector<SceneBody> bodies;
   std::vector<SceneJoint> joints;
+  std::vector<SceneContact> contacts;
   std::vector<SceneDriver> drivers;
   std::vector<SceneLoad> loads;
   std::vector<StartBody> start_bodies;

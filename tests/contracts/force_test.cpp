@@ -265,7 +265,7 @@ class ContactBetween : public testing::TestWithParam<Carriers> {};
 TEST_P(ContactBetween, PowerOnTheBodiesGoesToStorageHysteresisAndFriction) {
   constexpr double clearance = 0.01, depth = 1e-3, h = 3e-8;
   System system = two_bodies(GetParam());
-  system.contacts = {{0, 1, {0.1 - clearance, 0.1}, {1e6, 1.5, 0.6}, Ambrosio{0.3, 1e-3, 1e-2}}};
+  system.contacts = {{0, 1, JournalBearing{0.1 - clearance, 0.1}, {1e6, 1.5, 0.6}, Ambrosio{0.3, 1e-3, 1e-2}}};
   system.contact_names = {"pair"};
   number(system);
   Equations eq(system);
@@ -314,7 +314,7 @@ std::vector<Touching> overlaps(std::optional<Ambrosio> friction) {
       for (double clearance : {1e-5, 1e-3})
         for (int n = 0; n < 12; ++n) {
           Touching c;
-          c.pair = {0, 1, {0.02 - clearance, 0.02}, law, friction};
+          c.pair = {0, 1, JournalBearing{0.02 - clearance, 0.02}, law, friction};
           c.bearing << 0, 0, draw.within(-12, 12);  // far from the origin, depth loses its digits
           c.journal = draw.pose();
           const double angle = draw.within(-M_PI, M_PI);
@@ -336,7 +336,7 @@ TEST(ContactPair, PowerGoesToStorageHysteresisAndFriction) {
     for (const Touching& c : overlaps(rough ? std::optional<Ambrosio>({0.3, 1e-3, 1e-2}) : std::nullopt)) {
       const ContactEffect e = effect_after(c, 0);
       ASSERT_GT(e.gap.depth, 0);
-      const double power = e.on_journal.dot(c.journal_rate) + e.on_bearing.dot(c.bearing_rate);
+      const double power = e.on_a.dot(c.journal_rate) + e.on_b.dot(c.bearing_rate);
       const double h = 1e-4 * e.gap.depth;  // rates below 1 m/s: 1e-8 cut-off
       const double rate = (effect_after(c, h).normal.stored - effect_after(c, -h).normal.stored) / (2 * h);
       const double terms = std::abs(rate) + e.normal.dissipation + std::abs(e.friction_loss) + e.normal.force * std::abs(e.gap.rate);
@@ -358,8 +358,8 @@ TEST(ContactPair, OnlyLoses) {
 TEST(ContactPair, ForcesAreOppositeAndMomentsUpToTheOverlap) {
   for (const Touching& c : overlaps(Ambrosio{0.3, 1e-3, 1e-2})) {
     const ContactEffect e = effect_after(c, 0);
-    EXPECT_EQ((e.on_journal + e.on_bearing).head<2>().norm(), 0);
-    const double couple = moment(c.journal, e.on_journal) + moment(c.bearing, e.on_bearing);
+    EXPECT_EQ((e.on_a + e.on_b).head<2>().norm(), 0);
+    const double couple = moment(c.journal, e.on_a) + moment(c.bearing, e.on_b);
     EXPECT_NEAR(couple, e.gap.depth * e.friction, 10 * rounding * (1 + e.normal.force));
   }
 }
@@ -367,11 +367,11 @@ TEST(ContactPair, ForcesAreOppositeAndMomentsUpToTheOverlap) {
 TEST(ContactPair, ActsOnlyOnceLatchedAndOverlapping) {
   Touching c = overlaps(std::nullopt).front();
   c.impact_rate = 0;
-  EXPECT_EQ(effect_after(c, 0).on_journal.norm(), 0);
+  EXPECT_EQ(effect_after(c, 0).on_a.norm(), 0);
   c.impact_rate = 0.1;
   c.journal.head<2>() = c.bearing.head<2>();
   const ContactEffect e = effect_after(c, 0);
-  EXPECT_EQ(e.on_journal.norm() + e.on_bearing.norm() + e.normal.stored, 0);
+  EXPECT_EQ(e.on_a.norm() + e.on_b.norm() + e.normal.stored, 0);
   EXPECT_DOUBLE_EQ(e.gap.depth, -c.pair.gap.clearance());
 }
 

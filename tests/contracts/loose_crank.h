@@ -20,8 +20,8 @@ inline Case loose_crank() {
   const VectorXd before = k.start.y;
   s.joints.erase(s.joints.begin() + 2);
   ContactPair pair;
-  pair.journal = 5, pair.bearing = 4;
-  pair.gap = {0.0099, 0.01};
+  pair.a = 5, pair.b = 4;
+  pair.gap = JournalBearing{0.0099, 0.01};
   pair.normal = {6.61e10, 1.5, 0.3};
   s.contacts = {pair};
   s.contact_names = {"pin"};

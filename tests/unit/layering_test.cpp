@@ -61,7 +61,7 @@ const std::vector<Layer> layers{
     {"framework/configuration/",
      {"framework/common/", "framework/scene/", "framework/dynamics/", "framework/integration/", "framework/mechanism/"}},
     {"framework/build/",
-     {"framework/common/", "framework/scene/", "framework/component/", "framework/dynamics/model/", "framework/integration/",
+     {"contact/", "framework/common/", "framework/scene/", "framework/component/", "framework/dynamics/model/", "framework/integration/",
       "framework/bodies/", "framework/mechanism/", "framework/configuration/"}},
 
     {"framework/analysis/simulate/",

@@ -119,6 +119,8 @@ TEST(SceneSchema, OffersExactlyTheNormalLawsOfContact) {
   std::set<std::string> known;
   for (const ImpactFactor& factor : impact_factors()) known.emplace(factor.name);
   EXPECT_EQ(keys_in(schemas_at("joints.*.clearance.normal")), known);
+  known.insert("spring-damper");
+  EXPECT_EQ(keys_in(schemas_at("contacts.*.normal")), known);
 }
 
 // Groups of the schema that no table of the reader describes would be keys it does not know.
@@ -189,9 +191,12 @@ parameters: {c: 0.1 mm}
 materials:
   steel: {young: 2e11, poisson: 0.3, density: 7850}
   ply: {orthotropic: {young: [1e11, 1e10], poisson: 0.3, shear: 5e9, angle: 30 deg}}
-ground: {points: {C: [0, 1], D: {at: [0, 0], angle: 1}}}
+ground:
+  points: {C: [0, 1], D: {at: [0, 0], angle: 1}}
+  profiles: {floor: {path: [C, [1, 0], {arc: 2 m}, [2, 0]], material: right, round: 1 mm}, socket: {hole: D, radius: 20 mm}}
 bodies:
-  crank: {rigid: {mass: 1 kg, inertia: 0.1, center: [0, 0]}, points: {A: [10 mm, 0]}, pose: {at: [0, 0], angle: 1}}
+  crank: {rigid: {mass: 1 kg, inertia: 0.1, center: [0, 0]}, points: {A: [10 mm, 0]}, pose: {at: [0, 0], angle: 1},
+          profiles: {pin: {disc: A, radius: 10 mm}, cam: {path: [[0, 0], {arc: 0.6}, [1, 0], {arc: 0.6}], closed: true, material: inside}}}
   rod:
     beam: {from: A, to: B, section: {tube: [0.02, 0.01]}, taper to: {tube: [0.01, 5 mm]}, material: ply, mass: 1,
            theory: timoshenko, shear factor: 5/6, rotary inertia: false, elements: 4, pieces: 2}
@@ -241,6 +246,11 @@ joints:
         friction: {ambrosio: {coefficient: 0.1, v0: 0.001, v1: 0.01, sliding: geometric}}}}
   rod: {distance: [ground, crank], length: 1}
   track: {slot: [ground, crank]}
+contacts:
+  roll: {between: [crank.pin, ground.floor], normal: {hunt-crossley: {restitution: 0.5, stiffness: 1e9, exponent: 2, slowest impact: 1e-3}},
+         friction: {ambrosio: {coefficient: 0.1, v0: 0.001, v1: 0.01}}}
+  turn: {between: [crank.pin, ground.socket], normal: {hertz: {young: 2e11, poisson: 0.3, second: {young: 1 GPa, poisson: 0.2}}}}
+  stop: {between: [crank.cam, ground.floor], normal: {spring-damper: {stiffness: 1e5 N/m, damping: 15}}}
 drivers: {motor: {angle: [ground, crank], law: 3*t}, jack: {distance: [ground, crank], law: 1 + t}}
 forces:
   load: {force: [0, 1 N], at: crank.A, follows: true}
@@ -354,6 +364,14 @@ TEST(SceneSchema, RefusesWithTheReader) {
       {"torque: 1, at: foot", "torque: 1"},
       {"torque: 1, at", "torque: 1, on"},
       {"pressure: 1, on: eye 2", "pressure: [1, 2], on: eye 2"},
+      {"between: [crank.pin, ground.socket]", "between: [crank.pin]"},
+      {"hole: D, radius: 20 mm", "hole: D"},
+      {"material: right", "material: up"},
+      {"closed: true", "closed: maybe"},
+      {"damping: 15", "damping: -1"},
+      {"second: {young: 1 GPa, ", "second: {"},
+      {"{arc: 2 m}", "{ark: 2 m}"},
+      {"round: 1 mm", "round: 0"},
       {"  body: bracket\n  loads:", "  body: bracket\n  load:"}};
   for (const auto& [from, to] : spoiled) {
     std::string text = base;

@@ -46,11 +46,21 @@ struct Kind {
 void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 // Friction that grows with the sliding speeds drawn here.
 ContactPair contact(double chi, std::optional<Ambrosio> friction = {}, Sliding sliding = Sliding::material) {
-  return {0, 1, {0.1 - clearance, 0.1}, {1e6, 1.5, chi}, friction, sliding};
+  return {0, 1, JournalBearing{0.1 - clearance, 0.1}, {1e6, 1.5, chi}, friction, sliding};
 }
 ContactPair spring_damper(std::optional<Ambrosio> friction = {}) {
   ContactPair pair = contact(0, friction);
   pair.normal = {1e5, 1, 0, 20};
+  return pair;
+}
+// Pieces of profiles, away from the points that carry them.
+const Piece disc{.radius = 0.07, .centre = {0.02, -0.03}}, hollow{.radius = -0.3, .centre = {-0.04, 0.05}},
+    corner{.radius = 0, .centre = {0.03, 0.02}, .normal = 0.3, .half = 0.8},
+    flat{.centre = {-0.02, 0.06}, .normal = -0.7, .half = 0.5, .straight = true};
+ContactPair profiles(const Piece& a, const Piece& b) {
+  ContactPair pair = contact(2, Ambrosio{0.3, 0, 50});
+  pair.gap = {a, b};
+  pair.profiles = pair.follows = true;
   return pair;
 }
 const std::vector<Kind> kinds{
@@ -78,6 +88,14 @@ const std::vector<Kind> kinds{
     {"ContactWithFriction", {}, {}, {contact(2, Ambrosio{0.3, 0, 50})}},
     {"ContactInFullSliding", {}, {}, {contact(0.6, Ambrosio{0.3, 1e-6, 2e-6})}},
     {"ContactOfGeometricSliding", {}, {}, {contact(0.6, Ambrosio{0.3, 0, 50}, Sliding::geometric)}},
+    {"DiscOnDisc", {}, {}, {profiles(disc, disc)}},
+    {"DiscInHollow", {}, {}, {profiles(disc, hollow)}},
+    {"HollowRoundDisc", {}, {}, {profiles(hollow, disc)}},
+    {"DiscOnLine", {}, {}, {profiles(disc, flat)}},
+    {"LineOnDisc", {}, {}, {profiles(flat, disc)}},
+    {"CornerOnLine", {}, {}, {profiles(corner, flat)}},
+    {"LineOnCorner", {}, {}, {profiles(flat, corner)}},
+    {"CornerOnDisc", {}, {}, {profiles(corner, disc)}},
     {"Several",
      {Slot{0, 1}, Revolute{1, 0}},
      {Spring{1, 0, 40, 3, 0.5}, Maxwell{1, 0, 60, 5}, TorsionSpring{0, 1, 25, 2, -0.8}, PointForce{1, 0, sine, steady, true}}},
@@ -103,7 +121,11 @@ State make_state(const System& system, Draw& draw, Equations& eq) {
   s.impact_rate = {draw.within(0.5, 4)};
   const double angle = draw.within(-M_PI, M_PI);
   const Vector2d wanted = (clearance + depth) * Vector2d(std::cos(angle), std::sin(angle));
-  const Vector2d shift = wanted - (eq.motion[0].r - eq.motion[1].r);
+  Vector2d shift = wanted - (eq.motion[0].r - eq.motion[1].r);
+  if (const ContactPair& pair = system.contacts[0]; pair.profiles) {
+    const Gap gap = evaluate(pair.gap, moving_point(eq.motion[0]), moving_point(eq.motion[1]));
+    shift = (depth - gap.depth) * gap.n;
+  }
   if (system.markers[0].body != ground)
     s.y.head<2>() += shift;
   else

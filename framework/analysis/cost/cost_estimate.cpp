@@ -175,9 +175,10 @@ std::vector<std::string> terms_of(const System& s) {
     const auto n = how_many(s.forces, [&](const Force& f) { return f.index() == k; });
     if (n > 0) out.push_back(counted(n, kinds[k]));
   }
-  const auto rough = how_many(s.contacts, [](const ContactPair& c) { return c.friction.has_value(); });
+  const auto rough = how_many(s.contacts, [](const ContactPair& c) { return c.pair == 0 && c.friction.has_value(); });
   if (!s.contacts.empty())
-    out.push_back(counted(s.contacts.size(), "contact") + (rough > 0 ? ", " + std::to_string(rough) + " with friction" : ""));
+    out.push_back(counted(how_many(s.contacts, [](const ContactPair& c) { return c.pair == 0; }), "contact") +
+                  (rough > 0 ? ", " + std::to_string(rough) + " with friction" : ""));
   return out;
 }
 

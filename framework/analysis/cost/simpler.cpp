@@ -58,7 +58,7 @@ void drop_link(System& system, ContactPair& pair) {
 void close_gap(System& system, int contact) {
   ContactPair& pair = system.contacts[at(contact)];
   if (is_held(pair)) drop_link(system, pair);
-  system.joints.emplace_back(Revolute{pair.journal, pair.bearing});
+  system.joints.emplace_back(Revolute{pair.a, pair.b});
   system.joint_names.push_back(system.contact_names[at(contact)]);
   system.contacts.erase(system.contacts.begin() + contact);
   system.contact_names.erase(system.contact_names.begin() + contact);
@@ -84,7 +84,7 @@ class Maker {
   Maker(const Scene& scene, const Model& model, const State& start) : scene_(scene), model_(model), start_(start) {
     for (int b = 0; b < static_cast<int>(model.system.bodies.size()); ++b)
       if (model.system.bodies[at(b)].modes() > 0) flexible_.push_back(b);
-    gaps_.resize(model.system.contacts.size());
+    gaps_.resize(at(n_clearances(model.system)));
     std::iota(gaps_.begin(), gaps_.end(), 0);
   }
 

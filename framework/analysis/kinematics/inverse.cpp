@@ -160,7 +160,8 @@ Inverse inverse(const Scene& scene, const Model& model, const Assembly& assembly
     return out;
   }
   const std::string why = bends                      ? "bodies bend"
-                          : !system.contacts.empty() ? "clearances leave freedoms"
+                          : n_clearances(system) > 0 ? "clearances leave freedoms"
+                          : !system.contacts.empty() ? "profiles may touch"
                           : open > 0                 ? std::to_string(open) + " freedoms are not driven"
                                                      : "springs in series with dampers remember what was before";
   out.how = "integrated forward with the drivers as constraints: " + why;

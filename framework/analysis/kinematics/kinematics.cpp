@@ -165,7 +165,8 @@ void require_driven(const Scene& scene, const Model& model, const Assembly& asse
   const System& system = model.system;
   const int open = system.n() - assembly.rank;
   std::vector<std::string> loose;
-  for (const std::string& name : system.contact_names) loose.push_back(name);
+  const auto clearances = static_cast<std::size_t>(n_clearances(system));
+  for (std::size_t c = 0; c < clearances; ++c) loose.push_back(system.contact_names[c]);
   const Place place{scene.drivers.empty() ? 0 : scene.drivers.front().place.line, "drivers"};
   if (!loose.empty())
     throw AssemblyError(
@@ -240,6 +241,8 @@ Run kinematics(const Scene& scene, const Model& model, const Assembly& assembly,
   told.system.joints.clear(), told.system.forces.clear(), told.system.contacts.clear(), told.stresses.clear();
   Run run;
   run.warnings = model.warnings;
+  if (!model.system.contacts.empty())
+    run.warnings.push_back("whether profiles touch is not looked at: kinematics knows no forces; use `pintle run`");
   DrivenMotion motion(model.system, assembly.start);
   const auto advance = [&](double t) {
     if (!motion.advance(t)) return false;

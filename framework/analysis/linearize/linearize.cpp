@@ -243,9 +243,10 @@ std::vector<LinearMode> modes_of(const System& system, const MotionAt& here, con
 std::vector<LinearContact> contacts_of(const System& system, const MotionAt& here) {
   std::vector<LinearContact> out;
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    if (system.contacts[c].profiles && !(here.eq.contact[c].normal.force > 0)) continue;
     const ContactEffect e = clearance_effect(system, here.eq, c);
     out.push_back({system.contact_names[c], e.normal.force > 0, e.gap.depth, e.normal.force, e.normal.d_depth, e.normal.d_rate,
-                   here.state.impact_rate[c]});
+                   here.state.impact_rate[c], c});
   }
   return out;
 }
@@ -271,12 +272,11 @@ void add_notes(const Scene& scene, const System& system, const MotionAt& here, L
         ": roots are those of the coefficients frozen at this instant, which depend on the choice of coordinates and "
         "decide no stability" +
         (moves ? "" : "; --equilibrium linearizes where it rests"));
-  for (std::size_t i = 0; i < out.contacts.size(); ++i) {
-    const LinearContact& c = out.contacts[i];
-    if (is_held(system.contacts[i]))
+  for (const LinearContact& c : out.contacts) {
+    if (is_held(system.contacts[c.pair]))
       out.notes.push_back("\"" + c.name + "\" is a massless link that carries " + text(c.force) + " N" +
                           (c.force < 0 ? ", pushing as no wall could pull" : ""));
-    else if (c.closed && begins_with_jump(system.contacts[i].normal))
+    else if (c.closed && begins_with_jump(system.contacts[c.pair].normal))
       out.notes.push_back("\"" + c.name + "\" is closed: stiffness " + text(c.stiffness) + " N/m along its normal, damping " +
                           text(c.damping) + " N s/m");
     else if (c.closed)

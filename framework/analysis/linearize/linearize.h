@@ -34,6 +34,7 @@ struct LinearContact {
   double depth, force;        ///< at the state [m], [N]
   double stiffness, damping;  ///< ∂force/∂depth [N/m], ∂force/∂rate [N s/m], at the latched approach speed
   double impact_rate;         ///< that speed [m/s]
+  std::size_t pair;           ///< its index in System::contacts
 };
 
 /// A solution  q = shape exp(root t)  of the small motion; of an oscillating pair the root with positive

@@ -49,7 +49,10 @@ struct Measures {
       if (acts_along_a_line(system.forces[k])) add(system.force_names[k] + ".length [m]");
       if (std::holds_alternative<TorsionSpring>(system.forces[k])) add(system.force_names[k] + ".twist [rad]");
     }
-    for (const std::string& c : system.contact_names) add(c + ".ex [m]"), add(c + ".ey [m]");
+    for (int c = 0; c < n_clearances(system); ++c) {
+      const std::string& name = system.contact_names[at(c)];
+      add(name + ".ex [m]"), add(name + ".ey [m]");
+    }
   }
 
   void fill(const Equations& eq, MatrixXd& H) const {
@@ -79,8 +82,9 @@ struct Measures {
       }
     }
     for (const ContactPair& c : system.contacts) {
-      place(eq, c.journal, 1, row, H);
-      place(eq, c.bearing, -1, row, H);
+      if (c.profiles) break;
+      place(eq, c.a, 1, row, H);
+      place(eq, c.b, -1, row, H);
       row += 2;
     }
   }

@@ -44,8 +44,12 @@ class Sum : public ValueWriter<Sum> {
     std::apply([this](const auto&... member) { this->add(member...); }, joint_or_force.members());
   }
   void add(const ContactPair& p) {
-    const auto& [journal, bearing, gap, normal, friction, sliding, slowest, link] = p;
-    add(journal, bearing, gap.journal, gap.bearing, normal, friction, sliding, slowest, link);
+    const auto& [a, b, gap, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond] = p;
+    add(a, b, gap.a, gap.b, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond);
+  }
+  void add(const Piece& piece) {
+    const auto& [radius, centre, normal, half, straight] = piece;
+    add(radius, centre, normal, half, straight);
   }
   void add(const ImpactLaw& law) {
     const auto& [k, n, chi, d] = law;

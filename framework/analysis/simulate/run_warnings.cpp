@@ -10,16 +10,16 @@ namespace pintle {
 void warn_of_depth(const System& system, Run& run) {
   std::vector<double> deepest(system.contacts.size(), 0.0);
   for (const Impact& i : run.impacts) {
-    double& d = deepest[static_cast<std::size_t>(i.contact)];
+    double& d = deepest[static_cast<std::size_t>(i.contact - system.contacts[static_cast<std::size_t>(i.contact)].pair)];
     d = std::max(d, i.deepest);
   }
   for (std::size_t c = 0; c < deepest.size(); ++c)
-    if (deepest[c] > too_deep * system.contacts[c].gap.journal) {
+    if (const ContactPair& pair = system.contacts[c]; deepest[c] > too_deep * contact_size(pair, system.length)) {
       std::ostringstream s;
       s.precision(3);
-      s << "\"" << system.contact_names[c] << "\": the journal went " << deepest[c]
-        << " m into the wall, more than a tenth of its radius; no contact law holds there (is the stiffness "
-        << stiffness_text(system.contacts[c].normal, 3) << " meant?)";
+      s << "\"" << system.contact_names[c] << "\": the " << (pair.profiles ? "surfaces overlapped by " : "journal went ") << deepest[c]
+        << (pair.profiles ? " m, more than a tenth of their smallest radius" : " m into the wall, more than a tenth of its radius")
+        << "; no contact law holds there (is the stiffness " << stiffness_text(pair.normal, 3) << " meant?)";
       run.warnings.push_back(s.str());
     }
 }

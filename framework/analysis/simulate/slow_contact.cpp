@@ -13,7 +13,7 @@ void SlowContacts::see(const System& system, const Step& step, const Equations& 
     Seen& s = seen_[c];
     const ContactPair& pair = system.contacts[c];
     const double onset = step.to.state.impact_rate[c];
-    if (!(onset > 0) || is_held(pair) || damping_share(pair.normal, 1, 1) == 0) {
+    if (!(onset > 0) || is_held(pair) || pair.follows || damping_share(pair.normal, 1, 1) == 0) {
       s.beyond = false;
       continue;
     }
@@ -41,7 +41,7 @@ void SlowContacts::warn(const System& system, double in_play, std::vector<std::s
          << " m/s was pressed in at up to " << s.rate << " m/s, where the damping of its law is " << s.over
          << " times the elastic force; the law is made for impacts, which slow down from their onset. Doubtful are " << s.lost
          << " J of hysteresis, " << 100 * s.lost / in_play
-         << " % of the energy in play; raise `slowest impact` to the speeds meant, set restitution: 1, or take "
+         << " % of the energy in play; set `approach speed: largest`, raise `slowest impact` to the speeds meant, or take "
          << "model: spring-damper";
     warnings.push_back(text.str());
   }

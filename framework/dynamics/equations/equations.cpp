@@ -264,10 +264,10 @@ void apply_forces(const System& system, const State& state, Equations& eq) {
   }
   for (std::size_t i = 0; i < system.contacts.size(); ++i) {
     const ContactPair& pair = system.contacts[i];
-    eq.contact[i] = evaluate(pair, eq.motion[at(pair.journal)], eq.motion[at(pair.bearing)], state.impact_rate[i]);
+    eq.contact[i] = evaluate(pair, eq.motion[at(pair.a)], eq.motion[at(pair.b)], state.impact_rate[i]);
     if (eq.contact[i].normal.force == 0) continue;
-    add_wrench(system, eq, pair.journal, eq.contact[i].on_journal, eq.f);
-    add_wrench(system, eq, pair.bearing, eq.contact[i].on_bearing, eq.f);
+    add_wrench(system, eq, pair.a, eq.contact[i].on_a, eq.f);
+    add_wrench(system, eq, pair.b, eq.contact[i].on_b, eq.f);
   }
 }
 
@@ -306,8 +306,12 @@ void fill_derivative(const System& system, const VectorXd& y, const Equations& e
     const std::size_t k = at(z.index);
     double rate = 0;
     switch (z.account) {
-      case Account::hysteresis: rate = eq.contact[k].normal.dissipation; break;
-      case Account::friction: rate = eq.contact[k].friction_loss; break;
+      case Account::hysteresis:
+        for (int p = 0; p < system.contacts[k].pairs; ++p) rate += eq.contact[k + at(p)].normal.dissipation;
+        break;
+      case Account::friction:
+        for (int p = 0; p < system.contacts[k].pairs; ++p) rate += eq.contact[k + at(p)].friction_loss;
+        break;
       case Account::damper: rate = eq.force[k].dissipation; break;
       case Account::load: rate = eq.force[k].input; break;
       case Account::driver: rate = eq.lambda[system.row_begin[k]] * eq.rows[k].Ct[0]; break;
@@ -323,8 +327,8 @@ ContactEffect clearance_effect(const System& system, const Equations& eq, std::s
   if (!is_held(system.contacts[c])) return out;
   const double N = eq.lambda[system.row_begin[at(system.contacts[c].link)]];
   out.normal.force = N;
-  out.on_journal << -N * out.gap.n, 0;
-  out.on_bearing << N * out.gap.n, 0;
+  out.on_a << -N * out.gap.n, 0;
+  out.on_b << N * out.gap.n, 0;
   return out;
 }
 

@@ -30,7 +30,7 @@ Tangent::Tangent(const System& system) {
   for (std::size_t i = 0; i < system.forces.size(); ++i)
     add(system, Interaction::force, i, {{marker_a(system.forces[i]), marker_b(system.forces[i])}, 2}, wrench_pattern(system.forces[i]));
   for (std::size_t i = 0; i < system.contacts.size(); ++i)
-    add(system, Interaction::contact, i, {{system.contacts[i].journal, system.contacts[i].bearing}, 2}, contact_pattern);
+    add(system, Interaction::contact, i, {{system.contacts[i].a, system.contacts[i].b}, 2}, contact_pattern);
   lay_out(system);
 
   Index most = 0;
@@ -149,8 +149,8 @@ void Tangent::add_geometric_stiffness_of_forces(const System& system, const Equa
   for (std::size_t k = 0; k < system.contacts.size(); ++k) {
     const ContactEffect& now = eq.contact[k];
     if (now.normal.force == 0) continue;
-    add_geometric_stiffness(system, eq, system.contacts[k].journal, weight * now.on_journal[0], weight * now.on_journal[1], values);
-    add_geometric_stiffness(system, eq, system.contacts[k].bearing, weight * now.on_bearing[0], weight * now.on_bearing[1], values);
+    add_geometric_stiffness(system, eq, system.contacts[k].a, weight * now.on_a[0], weight * now.on_a[1], values);
+    add_geometric_stiffness(system, eq, system.contacts[k].b, weight * now.on_b[0], weight * now.on_b[1], values);
   }
 }
 

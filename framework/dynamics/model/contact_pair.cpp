@@ -1,68 +1,153 @@
 #include "framework/dynamics/model/contact_pair.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace pintle {
 
-MovingPoint moving_point(const MarkerMotion& m) { return {m.r, m.v, m.w}; }
+using Eigen::Vector2d;
 
-ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& journal, const MarkerMotion& bearing, double impact_rate) {
+MovingPoint moving_point(const MarkerMotion& m) { return {m.r, m.v, m.w, m.angle}; }
+
+double contact_size(const ContactPair& pair, double mechanism) {
+  double out = mechanism;
+  for (const Piece* piece : {&pair.gap.a, &pair.gap.b})
+    if (piece->radius != 0) out = std::min(out, std::abs(piece->radius));
+  return out;
+}
+
+double fine_length(const ContactPair& pair, double mechanism) {
+  constexpr double part = 1e-2;
+  return pair.gap.hollow() ? pair.gap.clearance() : part * contact_size(pair, mechanism);
+}
+
+Margin margin(const ContactPair& pair, const Gap& gap, const MovingPoint& a, const MovingPoint& b) {
+  Margin out{std::numeric_limits<double>::infinity(), 0, -1};
+  const std::array<PlaceOn, 2> place = places(pair.gap, gap, a, b);
+  const std::array<const Piece*, 2> pieces{&pair.gap.a, &pair.gap.b};
+  const auto size = [](const Piece& p) { return p.straight ? p.half : std::abs(p.radius); };
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Piece& piece = *pieces[i];
+    if (std::isinf(piece.half)) continue;
+    const double length = piece.half * (piece.straight ? 1 : std::max(size(piece), size(*pieces[1 - i])));
+    for (const int side : {-1, 1}) {
+      const std::size_t k = 2 * i + (side > 0);
+      const double left = (pair.extent[k] - side * place[i].at) * length;
+      if (left < out.value) out = {left, -side * place[i].rate * length, static_cast<int>(k)};
+    }
+  }
+  return out;
+}
+
+Approach approach_of(const ContactPair& pair, double depth, double rate, double latched) {
+  return {depth, rate, pair.follows ? std::max(latched, rate) : latched};
+}
+
+ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& a, const MarkerMotion& b, double impact_rate) {
   ContactEffect out;
-  out.gap = evaluate(pair.gap, moving_point(journal), moving_point(bearing));
+  if (pair.profiles && impact_rate <= 0) return out;
+  out.gap = evaluate(pair.gap, moving_point(a), moving_point(b));
   if (impact_rate <= 0 || is_held(pair) || (out.gap.depth <= 0 && !begins_with_jump(pair.normal))) return out;
 
-  out.normal = evaluate(pair.normal, Approach{out.gap.depth, out.gap.rate, impact_rate});
-  Eigen::Vector2d force = -out.normal.force * out.gap.n;
+  out.normal = evaluate(pair.normal, approach_of(pair, out.gap.depth, out.gap.rate, impact_rate));
+  if (pair.follows && out.gap.rate > impact_rate) out.normal.d_rate = viscous_damping(pair.normal);
+  Vector2d force = -out.normal.force * out.gap.n;
   if (pair.friction) {
     const double slip = pair.sliding == Sliding::material ? out.gap.material_slip : out.gap.geometric_slip;
     out.friction = evaluate(*pair.friction, slip, out.normal.force).force;
     out.friction_loss = -out.friction * slip;
     force += out.friction * perp(out.gap.n);
   }
-  out.on_journal << force, pair.gap.journal * cross(out.gap.n, force);
-  out.on_bearing << -force, -pair.gap.bearing * cross(out.gap.n, force);
+  const double couple = cross(out.gap.n, force);
+  out.on_a << force, pair.gap.a.radius * couple;
+  out.on_b << -force, pair.gap.b.radius * couple;
+  if (!pair.profiles) return out;
+  const double pressed = out.gap.across * out.normal.force;
+  out.on_a[2] += cross(out.gap.arm_a, force) - (pair.gap.a.straight ? pressed : 0);
+  out.on_b[2] -= cross(out.gap.arm_b, force) + (pair.gap.b.straight ? pressed : 0);
   return out;
 }
 
-WrenchTangent wrench_tangent(const ContactPair& pair, const ContactEffect& now, const MarkerMotion& a, const MarkerMotion& b) {
-  using Eigen::Matrix2d;
-  using Eigen::Vector2d;
-  WrenchTangent out(2);
-  if (now.normal.force == 0) return out;
-  const Gap& gap = now.gap;
-  const Vector2d &n = gap.n, t = perp(n), v = a.v - b.v;
-  const double distance = gap.e.norm(), N = now.normal.force;
-  const double across = v.dot(t), turning = across / distance;  // of n
+namespace {
 
-  // Gradients in e = r_journal − r_bearing and in ė: of the normal force, then of friction.
-  const Vector2d N_e = now.normal.d_depth * n + now.normal.d_rate * turning * t, N_v = now.normal.d_rate * n;
-  Vector2d T_e = Vector2d::Zero(), T_v = T_e;
-  double T = 0, T_w = 0;  // T_w: per sliding speed that a spin makes
+using Row = Eigen::Matrix<double, 1, 6>;  // derivatives in the poses of the two middles, or in their rates
+
+// The tangent at the middles of the pieces, each with its own v: docs/theory/contact.md.
+WrenchTangent at_middles(const ContactPair& pair, const ContactEffect& now, const Vector2d& v, double w_a, double w_b) {
+  const Gap& gap = now.gap;
+  const Piece &a = pair.gap.a, &b = pair.gap.b;
+  const Vector2d &n = gap.n, t = perp(n);
+  const double N = now.normal.force, s = gap.across;
+  const double spin = a.straight ? w_a : b.straight ? w_b : 0;                          // that turns n
+  const double curving = a.straight || b.straight ? 0 : 1 / n.dot(gap.e);               // of n by e across
+  const double across = v.dot(t), along = v.dot(n), turning = curving * across + spin;  // of n
+
+  const auto between = [](const Vector2d& d) { return (Row() << d.transpose(), 0, -d.transpose(), 0).finished(); };
+  Row n_p = between(curving * t);  // dn = Zn · n_p dp
+  n_p[2] += a.straight, n_p[5] += b.straight;
+  const Row depth_p = between(n) + s * n_p, s_p = between(t) - n.dot(gap.e) * n_p;
+  const Row rate_v = [&] {
+    Row out = between(n);
+    out[2] += s * a.straight, out[5] += s * b.straight;
+    return out;
+  }();
+  const Row rate_p = across * n_p + spin * (a.straight || b.straight ? s_p : Row::Zero());
+  const Row N_p = now.normal.d_depth * depth_p + now.normal.d_rate * rate_p, N_v = now.normal.d_rate * rate_v;
+
+  Row T_p = Row::Zero(), T_v = Row::Zero();
+  double T = 0;
   if (pair.friction) {
     const bool material = pair.sliding == Sliding::material;
     const FrictionForce law = evaluate(*pair.friction, material ? gap.material_slip : gap.geometric_slip, N);
     T = law.force;
-    const double share = material ? 1 : gap.depth / distance;  // of ė's part across
-    Vector2d slip_e = -share * gap.rate / distance * t;
-    if (!material) slip_e += turning * (1 - share) * n;
-    T_e = law.d_speed * slip_e + law.d_normal * N_e;
-    T_v = law.d_speed * share * t + law.d_normal * N_v;
-    T_w = material ? law.d_speed : 0;
+    Row slip_v = between(t), slip_p = -along * n_p;
+    if (material) {
+      slip_v[2] += a.radius, slip_v[5] += b.radius;
+    } else {  // depth · turning, of arcs
+      slip_v *= gap.depth * curving;
+      slip_p = turning * depth_p + gap.depth * curving * slip_p - gap.depth * curving * turning * between(n);
+    }
+    T_p = law.d_speed * slip_p + law.d_normal * N_p;
+    T_v = law.d_speed * slip_v + law.d_normal * N_v;
   }
 
-  // The wrench per unit of e, of ė and of sliding speed made by spins, as on the journal but for the radius.
-  const Matrix2d F_e = t * T_e.transpose() - n * N_e.transpose() - (N / distance * t + T / distance * n) * t.transpose();
-  const Matrix2d F_v = t * T_v.transpose() - n * N_v.transpose();
-  const double radius[] = {pair.gap.journal, pair.gap.bearing};
-  for (int i = 0; i < 2; ++i)
-    for (int j = 0; j < 2; ++j) {
-      const double on = i == 0 ? 1 : -1, by = j == 0 ? 1 : -1;
-      auto pose = out.pose.block<3, 3>(3 * i, 3 * j), rate = out.rate.block<3, 3>(3 * i, 3 * j);
-      pose.topLeftCorner<2, 2>() = on * by * F_e;
-      pose.bottomLeftCorner<1, 2>() = on * by * radius[i] * T_e.transpose();
-      rate.topLeftCorner<2, 2>() = on * by * F_v;
-      rate.bottomLeftCorner<1, 2>() = on * by * radius[i] * T_v.transpose();
-      rate.topRightCorner<2, 1>() = on * by * radius[j] * T_w * t;
-      rate(2, 2) = on * by * radius[i] * radius[j] * T_w;
-    }
+  WrenchTangent out(2);
+  const auto place = [&](auto& of, const Row& dN, const Row& dT, const Row& dn, const Row& ds) {
+    const Eigen::Matrix<double, 2, 6> force = t * dT - n * dN - (N * t + T * n) * dn;
+    of.template topRows<2>() = force;
+    of.template middleRows<2>(3) = -force;
+    of.row(2) = a.radius * dT - a.straight * (s * dN + N * ds);
+    of.row(5) = b.radius * dT - b.straight * (s * dN + N * ds);
+  };
+  place(out.pose, N_p, T_p, n_p, s_p);
+  place(out.rate, N_v, T_v, Row::Zero(), Row::Zero());
+  return out;
+}
+
+// From the middles, on arms that the carrying points turn, to these points.
+void move_to_carriers(const std::array<Vector2d, 2>& arm, const std::array<double, 2>& w, const Vector2d& force, WrenchTangent& tangent) {
+  for (int j = 0; j < 2; ++j) {  // dp = dr + Zd dθ, dṗ = dv + Zd dw − d w dθ
+    const Vector2d &d = arm[static_cast<std::size_t>(j)], side = perp(d);
+    const auto r = Eigen::seqN(3 * j, 2);
+    const int angle = 3 * j + 2;
+    tangent.pose.col(angle) += tangent.pose(Eigen::all, r) * side - w[static_cast<std::size_t>(j)] * tangent.rate(Eigen::all, r) * d;
+    tangent.rate.col(angle) += tangent.rate(Eigen::all, r) * side;
+  }
+  for (int i = 0; i < 2; ++i) {  // d × F
+    const Vector2d& d = arm[static_cast<std::size_t>(i)];
+    for (auto* of : {&tangent.pose, &tangent.rate}) of->row(3 * i + 2) += d.x() * of->row(3 * i + 1) - d.y() * of->row(3 * i);
+    tangent.pose(3 * i + 2, 3 * i + 2) -= (i == 0 ? 1 : -1) * d.dot(force);
+  }
+}
+
+}  // namespace
+
+WrenchTangent wrench_tangent(const ContactPair& pair, const ContactEffect& now, const MarkerMotion& a, const MarkerMotion& b) {
+  if (now.normal.force == 0) return WrenchTangent(2);
+  const Gap& gap = now.gap;
+  const Vector2d v = a.v + a.w * perp(gap.arm_a) - b.v - b.w * perp(gap.arm_b);
+  WrenchTangent out = at_middles(pair, now, v, a.w, b.w);
+  if (pair.profiles) move_to_carriers({gap.arm_a, gap.arm_b}, {a.w, b.w}, now.on_a.head<2>(), out);
   return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "contact/friction_law.h"
@@ -13,38 +14,63 @@ namespace pintle {
 /// Which relative speed friction opposes; see docs/theory/contact.md.
 enum class Sliding { material, geometric };
 
-/// A clearance joint: a journal in a bearing. By its model a contact without constraint rows, or, with
-/// `link`, a massless link between the two centres, one row that some joint of the system holds.
+/// Two pieces of surface that may touch at one point: a journal a in a bearing b, which is a clearance joint, or pieces of two
+/// profiles. By its model a contact without constraint rows, or, of a clearance joint with `link`, a massless link between the two
+/// centres, one row that some joint of the system holds.
 struct ContactPair {
-  int journal, bearing;  ///< markers at the two centres
-  JournalBearing gap;
+  int a, b;  ///< markers that carry the pieces: of a clearance joint at the two centres
+  PiecePair gap;
   ImpactLaw normal;
   std::optional<Ambrosio> friction;
   Sliding sliding = Sliding::material;
   double slowest_impact = 1e-6;  ///< floor of the latched approach speed [m/s]
+  bool follows = false;          ///< the latched speed grows with the approach of the same contact; false: that of its onset
   int link = -1;                 ///< the joint that holds the centres apart; then no law acts. −1: a contact
+  // Of profiles, the contact of which is made of several pairs, one after another:
+  int pair = 0, pairs = 1;                                   ///< which of them, of how many
+  bool profiles = false;                                     ///< false: a clearance joint
+  double deepest = std::numeric_limits<double>::infinity();  ///< beyond this depth it is no longer these pieces that face each other [m]
+  /// What lies before a, after a, before b, after b: where the pieces end, in their half extents, and the pair that has the contact
+  /// there, −1 for none.
+  std::array<double, 4> extent{1, 1, 1, 1};
+  std::array<int, 4> beyond{-1, -1, -1, -1};
 };
 
-/// What a clearance joint does at an instant. Friction acts on each body's own surface, Eq. (19).
+/// What a contact does at an instant. Friction acts on each body's own surface, Eq. (19).
 struct ContactEffect {
   Gap gap;
-  Wrench on_journal = Wrench::Zero(), on_bearing = Wrench::Zero();
+  Wrench on_a = Wrench::Zero(), on_b = Wrench::Zero();
   NormalForce normal;
-  double friction = 0;       ///< on the journal along Zn [N]
+  double friction = 0;       ///< on a along Zn [N]
   double friction_loss = 0;  ///< as the law sees it: −force · its own sliding speed [W]
 };
 
 /// Its two centres are kept apart by a massless link: no law acts, nothing is touched or left.
 inline bool is_held(const ContactPair& pair) { return pair.link >= 0; }
 
+/// The smallest radius of its pieces, the mechanism's length between a corner and a line [m].
+double contact_size(const ContactPair&, double mechanism);
+/// The length that its depth is judged against: the clearance round a piece in a hollow one, else a hundredth of their size [m].
+double fine_length(const ContactPair&, double mechanism);
+
 MovingPoint moving_point(const MarkerMotion&);
 
-/// @param impact_rate  latched approach speed [m/s]; 0 while open: then only the gap is found
-ContactEffect evaluate(const ContactPair&, const MarkerMotion& journal, const MarkerMotion& bearing, double impact_rate);
+/// @param impact_rate  latched approach speed [m/s]; 0 while open: then only the gap is found, of profiles not even that
+ContactEffect evaluate(const ContactPair&, const MarkerMotion& a, const MarkerMotion& b, double impact_rate);
+
+/// What the normal law is told. @param latched  approach speed at onset or, if it follows, the largest since [m/s]
+Approach approach_of(const ContactPair&, double depth, double rate, double latched);
+
+/// How far inside the ends of its pieces a contact is, where that is least [m]; below 0: outside.
+struct Margin {
+  double value, rate;  ///< [m], [m/s]
+  int side;            ///< index into ContactPair::beyond; −1: neither piece ends
+};
+Margin margin(const ContactPair&, const Gap&, const MovingPoint& a, const MovingPoint& b);
 
 inline constexpr WrenchPattern contact_pattern{{{{true, true}, {true, true}}}, true};
-/// How the wrenches [journal; bearing] answer to the motion, the latched approach speed held. Zero while open.
+/// How the wrenches [a; b] answer to the motion, the latched approach speed held. Zero while open.
 /// @param now  what the contact does in this state
-WrenchTangent wrench_tangent(const ContactPair&, const ContactEffect& now, const MarkerMotion& journal, const MarkerMotion& bearing);
+WrenchTangent wrench_tangent(const ContactPair&, const ContactEffect& now, const MarkerMotion& a, const MarkerMotion& b);
 
 }  // namespace pintle

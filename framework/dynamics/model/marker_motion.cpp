@@ -62,12 +62,12 @@ void move_on_flexible(const System& system, const Marker& marker, const VectorXd
 // In the order of the two above and of `pose` and `speed`, so that a gap is the same to the last bit by either way.
 MovingPoint moving_point(const System& system, int marker, const VectorXd& y) {
   const Marker& m = system.markers[at(marker)];
-  if (m.body == ground) return {m.x_BP, Vector2d::Zero(), 0};
+  if (m.body == ground) return {m.x_BP, Vector2d::Zero(), 0, m.angle};
   const double* q = y.data() + 3 * m.body;
   const double* s = q + system.n();
   const double c = std::cos(q[2]), d = std::sin(q[2]);
   Vector2d x = m.x_BP, drift = Vector2d::Zero();
-  double w = s[2];
+  double w = s[2], angle = q[2] + m.angle;
   if (const Index n = m.shape.cols(); n > 0) {
     const int begin = system.eta_begin[at(m.body)];
     const Modal eta(y.data() + begin, n), rate(y.data() + system.n() + begin, n);
@@ -77,9 +77,10 @@ MovingPoint moving_point(const System& system, int marker, const VectorXd& y) {
       drift += turned(c, d, f) * rate[i];
     }
     w += m.slope.dot(rate);
+    angle += m.slope.dot(eta);
   }
   const Vector2d arm = turned(c, d, x);
-  return {Vector2d(q[0] + arm.x(), q[1] + arm.y()), Vector2d(s[0] - s[2] * arm.y(), s[1] + s[2] * arm.x()) + drift, w};
+  return {Vector2d(q[0] + arm.x(), q[1] + arm.y()), Vector2d(s[0] - s[2] * arm.y(), s[1] + s[2] * arm.x()) + drift, w, angle};
 }
 
 }  // namespace pintle

@@ -39,6 +39,10 @@ void number(System& system, bool scheme_loses) {
   system.force_z.clear();
   system.joint_z.clear();
   for (std::size_t i = 0; i < system.contacts.size(); ++i) {
+    if (system.contacts[i].pair > 0) {  // of two profiles, the pairs of which share them
+      system.contact_z.push_back(system.contact_z.back());
+      continue;
+    }
     system.contact_z.push_back(account(Account::hysteresis, i));
     if (system.contacts[i].friction) account(Account::friction, i);
   }
@@ -70,9 +74,13 @@ void number(System& system, bool scheme_loses) {
   system.x_scale = Eigen::Map<const Eigen::VectorXd>(x_scale.data(), static_cast<Eigen::Index>(x_scale.size()));
 }
 
+int n_clearances(const System& system) {
+  return static_cast<int>(std::ranges::find(system.contacts, true, &ContactPair::profiles) - system.contacts.begin());
+}
+
 double lightness(const System& system, const ContactPair& pair) {
   double out = 0;
-  for (const int marker : {pair.journal, pair.bearing})
+  for (const int marker : {pair.a, pair.b})
     if (const int body = system.markers[static_cast<std::size_t>(marker)].body; body != ground)
       out += 1 / system.bodies[static_cast<std::size_t>(body)].m;
   return out;

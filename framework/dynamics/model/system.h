@@ -89,6 +89,9 @@ double lightness(const System&, const ContactPair&);
 /// pin in which the body's frame is fixed.
 bool feels_shapes(const System&, const Joint&, int marker);
 
+/// Clearance joints, the contacts of which stand before those of profiles.
+int n_clearances(const System&);
+
 inline bool has_gravity(const System& s) { return s.gravity.x() != 0 || s.gravity.y() != 0; }
 
 /// Everything that changes in time. Copy one to branch a run, store one to restart it.

@@ -5,6 +5,8 @@
 
 #include "framework/common/index.h"
 #include "framework/common/archive.h"
+#include "framework/integration/events/roots.h"
+#include "framework/integration/stepper.h"
 
 namespace pintle {
 
@@ -14,65 +16,158 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 }  // namespace
 
 ContactEvents::ContactEvents(const System& system, const Scheme& scheme)
-    : system_(system), tolerance_(scheme.tolerance), onset_cut_(scheme.onset_cut), log_(system) {}
+    : system_(system), tolerance_(scheme.tolerance), onset_cut_(scheme.onset_cut), log_(system) {
+  for (int c = 0; c < contacts(); ++c) {
+    const ContactPair& pair = system.contacts[at(c)];
+    if (pair.profiles && (std::isfinite(pair.gap.a.half) || std::isfinite(pair.gap.b.half))) leaving_.push_back(c);
+  }
+}
 
-std::string ContactEvents::name(int contact) const { return "contact \"" + system_.contact_names[at(contact)] + "\""; }
+std::string ContactEvents::name(int event) const {
+  const int contact = leaving(event) < 0 ? event : leaving(event);
+  return "contact \"" + system_.contact_names[at(contact)] + "\"";
+}
+
+// It would begin where the contact of a neighbour goes on.
+bool ContactEvents::continues_another(int contact) const {
+  const ContactPair& pair = system_.contacts[at(contact)];
+  return pair.profiles && std::ranges::any_of(pair.beyond, [&](int other) { return other >= 0 && log_.touching(other); });
+}
 
 // A contact that is open waits for its onset, a closed one for its loss; a massless link for neither.
-WatchedGuard ContactEvents::watch(int contact) const {
+WatchedGuard ContactEvents::watch(int event) const {
+  const int leaves = leaving(event), contact = leaves < 0 ? event : leaves;
   const ContactPair& pair = system_.contacts[at(contact)];
   if (is_held(pair)) return {};
-  const double zero = 1e-9 * pair.gap.clearance();
+  const double zero = 1e-9 * fine_length(pair, system_.length);
+  if (leaves >= 0) return {.direction = log_.touching(contact) ? Direction::falling : Direction::none, .zero = zero, .at_once = true};
   if (log_.touching(contact))
     return {.direction = Direction::falling, .zero = zero, .overshoot = onset_cut_ > 0 ? infinite : 0, .kink = true};
+  if (continues_another(contact)) return {};
   return {.direction = Direction::rising, .zero = zero, .overshoot = onset_cut_, .at_once = true};
 }
 
-Guard ContactEvents::guard(int contact, const State&, const Equations& eq) const {
-  const Gap& gap = eq.contact[at(contact)].gap;
+Guard ContactEvents::guard(int event, const State& state) const {
+  if (const int contact = leaving(event); contact >= 0) {
+    const Margin inside = margin_of(system_, contact, state);
+    return {inside.value, inside.rate};
+  }
+  return log_.touching(event) ? gap_of(system_, event, state) : onset_of(system_, event, state);
+}
+
+Guard ContactEvents::guard(int event, const State& state, const Equations& eq) const {
+  if (leaving(event) >= 0 || system_.contacts[at(event)].profiles) return guard(event, state);
+  const Gap& gap = eq.contact[at(event)].gap;
   return {gap.depth, gap.rate};
 }
 
+namespace {
+
+// When a guard that is not positive at `begin` becomes so before `end`, and a little more.
+template <class F>
+std::optional<double> rise(const F& guard, double begin, const Guard& from, double end, const Guard& to) {
+  const double fine = 1e-9 * (end - begin);
+  if (!(to.value > 0)) {
+    if (!(from.rate >= 0 && to.rate < 0)) return std::nullopt;
+    const std::optional<double> summit = positive_between(guard, begin, end, from.rate > 0 ? from.rate : -to.rate, to.rate);
+    if (!summit) return std::nullopt;
+    end = *summit;
+  }
+  double t = from.value < 0 ? crossing(guard, begin, end, fine) : begin;
+  for (double past = fine; !(guard(t).value > 0) && t < end; past *= 4) t = std::min(t + past, end);
+  return t;
+}
+
+}  // namespace
+
+// A long step may take a body through a wall, or from beside a piece onto it. So parts of the step are looked at: where in one the
+// overlap or the margin becomes positive, the other may be.
+std::optional<double> ContactEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
+  if (leaving(event) >= 0 || !system_.contacts[at(event)].profiles || log_.touching(event)) return std::nullopt;
+  if (out_of_reach(system_, event, step)) return std::nullopt;
+  constexpr int parts = 16;
+  const auto depth = [&](double t) { return gap_of(system_, event, motion.at(t)); };
+  const auto inside = [&](double t) {
+    const Margin m = margin_of(system_, event, motion.at(t));
+    return Guard{m.value, m.rate};
+  };
+  const auto touches = [&](const std::optional<double>& t) { return t && onset_of(system_, event, motion.at(*t)).value > 0; };
+  double begin = step.from.state.t + 1e-9 * step.h;
+  Guard depth_before = depth(begin), inside_before = inside(begin);
+  for (int i = 1; i <= parts; ++i) {
+    const double end = step.from.state.t + step.h * i / parts;
+    const Guard depth_now = depth(end), inside_now = inside(end);
+    std::optional<double> overlaps, enters;
+    if (!(depth_before.value > 0)) overlaps = rise(depth, begin, depth_before, end, depth_now);
+    if (!(inside_before.value > 0)) enters = rise(inside, begin, inside_before, end, inside_now);
+    if (!touches(overlaps)) overlaps.reset();
+    if (!touches(enters)) enters.reset();
+    if (overlaps || enters) return std::min(overlaps.value_or(end), enters.value_or(end));
+    begin = end, depth_before = depth_now, inside_before = inside_now;
+  }
+  return std::nullopt;
+}
+
 // Until what the contact stores at the depth that is left is, of the impact's energy, a ten-thousandth of the tolerance.
-bool ContactEvents::met(int contact, const Guard& gap) const {
+bool ContactEvents::met(int event, const Guard& gap) const {
   const double enough = 1e-15 * system_.length, part = std::sqrt(1e-4 * tolerance_), depth = std::abs(gap.value);
-  return depth <= enough || gap.rate == 0 || speed_to_reach(contact, depth) <= part * std::abs(gap.rate);
+  if (leaving(event) >= 0) return depth <= watch(event).zero;
+  return depth <= enough || gap.rate == 0 || speed_to_reach(event, depth) <= part * std::abs(gap.rate);
 }
 
 // A start inside the wall has no approach speed. It gets that of the impact which would have come this deep.
 void ContactEvents::start(Step& step) {
-  for (int c = 0; c < size(); ++c) {
-    if (is_held(system_.contacts[at(c)])) continue;
-    const Guard now = guard(c, step.to.state);
-    if (now.value > 0) begin(c, step, std::max(now.rate, speed_to_reach(c, now.value)));
+  for (int c = 0; c < contacts(); ++c) {
+    if (is_held(system_.contacts[at(c)]) || !(onset_of(system_, c, step.to.state).value > 0)) continue;
+    const Guard now = gap_of(system_, c, step.to.state);
+    begin(c, step, std::max(now.rate, speed_to_reach(c, now.value)));
   }
 }
 
-void ContactEvents::follow(const Step& step, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput& motion) {
+void ContactEvents::follow(Step& step, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput& motion) {
   log_.follow(step, from, to, motion);
+  for (int c = 0; c < contacts(); ++c)
+    if (double& latched = step.to.state.impact_rate[at(c)]; system_.contacts[at(c)].follows && latched > 0 && to[at(c)].value > 0)
+      latched = std::max(latched, to[at(c)].rate);
 }
 
-EventOutcome ContactEvents::act(int contact, Step& step, const Guard& gap) {
-  const bool onset = !log_.touching(contact);
+EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {
+  if (const int contact = leaving(event); contact >= 0) return leave(contact, step);
+  const bool onset = !log_.touching(event);
+  const ContactPair& pair = system_.contacts[at(event)];
+  const Guard now = gap_of(system_, event, step.to.state);
+  const bool inside = onset && pair.profiles && now.value > watch(event).zero;  // it comes in from the side
   if (onset)
-    begin(contact, step, guard(contact, step.to.state).rate);
+    begin(event, step, inside ? std::max(now.rate, speed_to_reach(event, now.value)) : now.rate);
   else
+    end(event, step);
+  return {.change = inside || begins_with_jump(pair.normal) ? EventOutcome::Change::jump : EventOutcome::Change::forces,
+          .first_step = onset ? onset_step(event, gap.rate, step.to.state.t) : infinite};
+}
+
+EventOutcome ContactEvents::leave(int contact, Step& step) {
+  const int side = margin_of(system_, contact, step.to.state).side;
+  const int to = side < 0 ? -1 : system_.contacts[at(contact)].beyond[at(side)];
+  if (to < 0 || log_.touching(to)) {
     end(contact, step);
-  return {.change = begins_with_jump(system_.contacts[at(contact)].normal) ? EventOutcome::Change::jump : EventOutcome::Change::forces,
-          .first_step = onset ? onset_step(contact, gap.rate, step.to.state.t) : infinite};
+    return {.change = EventOutcome::Change::jump};
+  }
+  std::swap(step.to.state.impact_rate[at(contact)], step.to.state.impact_rate[at(to)]);
+  log_.pass(contact, to);
+  return {};
 }
 
 void ContactEvents::begin(int contact, Step& step, double rate) {
   State& state = step.to.state;
   const double latched = std::max(rate, system_.contacts[at(contact)].slowest_impact);
   state.impact_rate[at(contact)] = latched;
-  const Guard now = guard(contact, state);
+  const Guard now = gap_of(system_, contact, state);
   log_.begin(contact, step, now, moment(step, now), latched);
 }
 
 void ContactEvents::end(int contact, Step& step) {
   State& state = step.to.state;
-  const Guard now = guard(contact, state);
+  const Guard now = gap_of(system_, contact, state);
   log_.end(contact, moment(step, now), -now.rate);
   state.impact_rate[at(contact)] = 0;
 }

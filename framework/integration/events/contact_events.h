@@ -6,8 +6,9 @@
 
 namespace pintle {
 
-/// Onset and loss of contact in clearance joints: the guard is the overlap. Onset latches the approach speed in
-/// State::impact_rate, loss clears it.
+/// Onset and loss of contact: the guard is the overlap. Onset latches the approach speed in State::impact_rate, loss clears it.
+/// Between profiles a contact that comes to the end of its pieces goes on, with the speed latched, at the pair that lies beyond, or
+/// ends: one more event for each pair.
 class ContactEvents final : public EventGroup {
  public:
   ContactEvents(const System&, const Scheme&);
@@ -15,20 +16,26 @@ class ContactEvents final : public EventGroup {
   const std::vector<Impact>& impacts() const { return log_.impacts(); }
 
   int order() const override { return 0; }
-  int size() const override { return static_cast<int>(system_.contacts.size()); }
-  std::string name(int contact) const override;
-  WatchedGuard watch(int contact) const override;
-  Guard guard(int contact, const State& state) const override { return gap_of(system_, contact, state); }
-  Guard guard(int contact, const State&, const Equations&) const override;
-  bool met(int contact, const Guard&) const override;
+  int size() const override { return contacts() + static_cast<int>(leaving_.size()); }
+  std::string name(int event) const override;
+  WatchedGuard watch(int event) const override;
+  Guard guard(int event, const State& state) const override;
+  Guard guard(int event, const State&, const Equations&) const override;
+  std::optional<double> positive_inside(int event, const Step&, const DenseOutput&) const override;
+  bool met(int event, const Guard&) const override;
   void start(Step&) override;
-  void follow(const Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) override;
-  EventOutcome act(int contact, Step&, const Guard&) override;
+  void follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) override;
+  EventOutcome act(int event, Step&, const Guard&) override;
   void save(Writer&) const override;
   void load(Reader&) override;
   const char* fault() const override { return log_.fault(); }
 
  private:
+  int contacts() const { return static_cast<int>(system_.contacts.size()); }
+  /// Of an event beyond those of onset and loss: the pair that leaves its pieces; −1 of the others.
+  int leaving(int event) const { return event < contacts() ? -1 : leaving_[static_cast<std::size_t>(event - contacts())]; }
+  bool continues_another(int contact) const;
+  EventOutcome leave(int contact, Step&);
   void begin(int contact, Step&, double rate);
   void end(int contact, Step&);
   double moment(const Step&, const Guard& gap) const;
@@ -37,6 +44,7 @@ class ContactEvents final : public EventGroup {
 
   const System& system_;
   double tolerance_, onset_cut_;
+  std::vector<int> leaving_;  ///< pairs whose pieces end somewhere
   ImpactLog log_;
 };
 

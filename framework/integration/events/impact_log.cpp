@@ -59,7 +59,7 @@ void ImpactLog::begin(int contact, const Step& step, const Guard& gap, double be
   Impact impact{.contact = contact, .begin = begin, .approach = latched};
   if (gap.value > 0 || begins_with_jump(pair.normal)) {
     impact.deepest = std::max(gap.value, 0.0);  // a start inside the wall, or a force that begins with a jump
-    impact.peak_force = evaluate(pair.normal, Approach{gap.value, gap.rate, latched}).force;
+    impact.peak_force = evaluate(pair.normal, approach_of(pair, gap.value, gap.rate, latched)).force;
   }
   loss_at_begin_[at(contact)] = loss(contact, step.to.state);
   impacts_.push_back(impact);
@@ -70,6 +70,12 @@ void ImpactLog::end(int contact, double end, double separation) {
   impact.end = end;
   impact.separation = separation;
   open_[at(contact)] = -1;
+}
+
+void ImpactLog::pass(int contact, int to) {
+  impacts_[at(open_[at(contact)])].contact = to;
+  loss_at_begin_[at(to)] = loss_at_begin_[at(contact)];
+  std::swap(open_[at(to)], open_[at(contact)]);
 }
 
 void ImpactLog::follow(const Step& step, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput& motion) {
@@ -83,7 +89,7 @@ void ImpactLog::follow(int c, const Step& step, const Guard& from, const Guard& 
   const double t0 = step.from.state.t, latched = step.from.state.impact_rate[at(c)];
   const auto inside = [&](double x) { return gap_of(system_, c, motion.at(t0 + x * step.h)); };
   const auto force = [&](const Guard& now) {
-    return now.value > 0 && latched > 0 ? evaluate(pair.normal, Approach{now.value, now.rate, latched}) : NormalForce{};
+    return now.value > 0 && latched > 0 ? evaluate(pair.normal, approach_of(pair, now.value, now.rate, latched)) : NormalForce{};
   };
   const NormalForce first = force(from), last = force(to);
   impact.deepest = std::max(impact.deepest, to.value);
@@ -109,10 +115,50 @@ const char* ImpactLog::fault() const {
   return nullptr;
 }
 
+namespace {
+
+struct Facing {
+  MovingPoint a, b;
+  Gap gap;
+};
+Facing facing(const System& system, const ContactPair& pair, const State& state) {
+  const MovingPoint a = moving_point(system, pair.a, state.y), b = moving_point(system, pair.b, state.y);
+  return {a, b, evaluate(pair.gap, a, b)};
+}
+
+}  // namespace
+
 Guard gap_of(const System& system, int contact, const State& state) {
-  const ContactPair& pair = system.contacts[at(contact)];
-  const Gap gap = evaluate(pair.gap, moving_point(system, pair.journal, state.y), moving_point(system, pair.bearing, state.y));
+  const Gap gap = facing(system, system.contacts[at(contact)], state).gap;
   return {gap.depth, gap.rate};
+}
+
+Guard onset_of(const System& system, int contact, const State& state) {
+  const ContactPair& pair = system.contacts[at(contact)];
+  const Facing now = facing(system, pair, state);
+  Guard out{now.gap.depth, now.gap.rate};
+  if (!pair.profiles) return out;
+  if (pair.deepest - now.gap.depth < out.value) out = {pair.deepest - now.gap.depth, -now.gap.rate};
+  if (const Margin inside = margin(pair, now.gap, now.a, now.b); inside.value < out.value) out = {inside.value, inside.rate};
+  return out;
+}
+
+bool out_of_reach(const System& system, int contact, const Step& step) {
+  constexpr double faster = 2;
+  const ContactPair& pair = system.contacts[at(contact)];
+  double speed = 0, near = -std::numeric_limits<double>::infinity();
+  for (const State* state : {&step.from.state, &step.to.state}) {
+    const Gap gap = facing(system, pair, *state).gap;
+    speed = std::max(speed, std::hypot(gap.rate, gap.sideways));
+    near = std::max(near, gap.depth);
+  }
+  return near < -faster * speed * step.h;
+}
+
+Margin margin_of(const System& system, int contact, const State& state) {
+  const ContactPair& pair = system.contacts[at(contact)];
+  const Facing now = facing(system, pair, state);
+  return margin(pair, now.gap, now.a, now.b);
 }
 
 }  // namespace pintle

@@ -10,6 +10,13 @@ namespace pintle {
 
 /// Overlap of a contact and its rate, from the coordinates and speeds alone.
 Guard gap_of(const System&, int contact, const State&);
+/// What is above zero where a contact that is open touches: the overlap; of profiles also how far inside its pieces it is.
+Guard onset_of(const System&, int contact, const State&);
+/// Of profiles, how far inside its pieces a contact is, and the side where it is nearest to leaving them.
+Margin margin_of(const System&, int contact, const State&);
+
+/// Too far apart at both ends of a step to meet within it, at twice the speeds of its ends.
+bool out_of_reach(const System&, int contact, const Step&);
 
 /// What each stay of a journal at its bearing's wall does: written as it begins, lasts and ends.
 class ImpactLog {
@@ -20,6 +27,8 @@ class ImpactLog {
   /// @param gap  where it begins   @param begin  moment, perhaps between the clock's   @param latched  its approach speed
   void begin(int contact, const Step&, const Guard& gap, double begin, double latched);
   void end(int contact, double end, double separation);
+  /// The stay goes on at another pair of the same two profiles.
+  void pass(int contact, int to);
   /// Deepest penetration, peak force and loss of the contacts that are closed during an accepted step.
   void follow(const Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&);
   const std::vector<Impact>& impacts() const { return impacts_; }  ///< in order of beginning

@@ -44,6 +44,32 @@ Json parameter(const std::string& name, double value, const Parameters& paramete
   return Json(value).dump() + " " + unit;
 }
 
+Json place(const ScenePathPoint& p) { return p.point.empty() ? json(p.at) : Json(p.point); }
+
+Json json(const SceneProfile& p) {
+  if (p.kind != SceneProfile::path) {
+    Json out = Json::object();
+    out[p.kind == SceneProfile::disc ? "disc" : "hole"] = place(p.centre);
+    out["radius"] = p.radius;
+    return out;
+  }
+  Json path = Json::array();
+  for (const ScenePathPoint& point : p.points) {
+    path.push_back(place(point));
+    if (point.arc != 0) path.push_back({{"arc", point.arc}});
+  }
+  constexpr std::array sides{"left", "right", "inside", "outside"};
+  Json out = {{"path", path}, {"closed", p.closed}, {"material", sides[p.material]}};
+  if (p.round > 0) out["round"] = p.round;
+  return out;
+}
+
+Json profiles(const std::vector<SceneProfile>& all) {
+  Json out = Json::object();
+  for (const SceneProfile& p : all) append(out, p.name, json(p));
+  return out;
+}
+
 Json rigid(const SceneBody& body) {
   Json out = Json::object();
   if (body.mass > 0) out["mass"] = body.mass;
@@ -59,25 +85,43 @@ Json json(const SceneBody& body) {
   else
     out["rigid"] = rigid(body);
   out["points"] = points(body.points);
+  if (!body.profiles.empty()) out["profiles"] = profiles(body.profiles);
   out["pose"] = {{"at", json(body.at)}, {"angle", body.angle}};
   return out;
 }
 
-Json json(const SceneNormal& normal) {
+Json json(const SceneNormal& normal, bool in_joint) {
   Json law = Json::object();
-  if (normal.law != "hertz") law["restitution"] = normal.restitution;
-  law["exponent"] = normal.exponent;
-  law["radii"] = normal.radii == RadiusConvention::internal ? "internal" : "external";
-  law["slowest impact"] = normal.slowest_impact;
-  if (normal.stiffness) {
-    law["stiffness"] = *normal.stiffness;
+  if (normal.law == "spring-damper") {
+    law = {{"stiffness", *normal.stiffness}, {"damping", normal.damping}};
   } else {
-    law["young"] = normal.bearing.young;
-    law["poisson"] = normal.bearing.poisson;
-    law["journal"] = {{"young", normal.journal.young}, {"poisson", normal.journal.poisson}};
+    if (normal.law != "hertz") law["restitution"] = normal.restitution;
+    law["exponent"] = normal.exponent;
+    if (in_joint) law["radii"] = normal.radii == RadiusConvention::internal ? "internal" : "external";
+    law["slowest impact"] = normal.slowest_impact;
+    law["approach speed"] = normal.follows ? "largest" : "onset";
+    if (normal.stiffness) {
+      law["stiffness"] = *normal.stiffness;
+    } else {
+      law["young"] = normal.bearing.young;
+      law["poisson"] = normal.bearing.poisson;
+      law[in_joint ? "journal" : "second"] = {{"young", normal.journal.young}, {"poisson", normal.journal.poisson}};
+    }
   }
   Json out = Json::object();
   out[normal.law] = law;
+  return out;
+}
+
+Json json(const SceneFriction& f, bool in_joint) {
+  Json law = {{"coefficient", f.coefficient}, {"v0", f.v0}, {"v1", f.v1}};
+  if (in_joint) law["sliding"] = f.sliding == SlidingSpeed::material ? "material" : "geometric";
+  return {{"ambrosio", law}};
+}
+
+Json json(const SceneContact& c) {
+  Json out = {{"between", ends(c.a, c.b)}, {"normal", json(c.normal, false)}};
+  if (c.friction) out["friction"] = json(*c.friction, false);
   return out;
 }
 
@@ -86,14 +130,10 @@ Json json(const SceneClearance& clearance) {
               {"bearing radius", clearance.bearing_radius},
               {"bearing", clearance.bearing},
               {"model", model_name(clearance.model)}};
-  if (clearance.normal.stiffness || clearance.normal.bearing.young > 0) out["normal"] = json(clearance.normal);
+  if (clearance.normal.stiffness || clearance.normal.bearing.young > 0) out["normal"] = json(clearance.normal, true);
   if (clearance.stiffness) out["stiffness"] = *clearance.stiffness;
   if (clearance.damping) out["damping"] = *clearance.damping;
-  if (const auto& f = clearance.friction)
-    out["friction"]["ambrosio"] = {{"coefficient", f->coefficient},
-                                   {"v0", f->v0},
-                                   {"v1", f->v1},
-                                   {"sliding", f->sliding == SlidingSpeed::material ? "material" : "geometric"}};
+  if (clearance.friction) out["friction"] = json(*clearance.friction, true);
   return out;
 }
 
@@ -189,10 +229,13 @@ std::string filled_in(const Scene& scene, const Parameters& parameters) {
   Json& materials = out["materials"] = Json::object();
   for (const SceneMaterial& m : scene.materials) append(materials, m.name, json(m));
   out["ground"]["points"] = points(scene.ground);
+  if (!scene.ground_profiles.empty()) out["ground"]["profiles"] = profiles(scene.ground_profiles);
   Json& bodies = out["bodies"] = Json::object();
   for (const SceneBody& b : scene.bodies) append(bodies, b.name, json(b));
   Json& joints = out["joints"] = Json::object();
   for (const SceneJoint& j : scene.joints) append(joints, j.name, json(j));
+  Json& contacts = out["contacts"] = Json::object();
+  for (const SceneContact& c : scene.contacts) append(contacts, c.name, json(c));
   Json& drivers = out["drivers"] = Json::object();
   for (const SceneDriver& d : scene.drivers) append(drivers, d.name, json(d));
   Json& forces = out["forces"] = Json::object();

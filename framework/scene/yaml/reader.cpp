@@ -96,6 +96,7 @@ Scene read(const std::string& text, const std::string& file, const Overrides& ov
   read_materials(root, scene);
   read_bodies(root, scene);
   read_joints(root, scene);
+  read_contacts(root, scene);
   read_drivers(root, folder, scene);
   read_forces(root, folder, scene);
   read_start(root, scene);

@@ -52,8 +52,10 @@ void read_rigid(const Node& node, SceneBody& body) {
   if (node.has("center")) body.center = node.at("center").pair(dimension::length);
 }
 
-const std::vector<std::string> beside_elements{"points", "pose", "modes", "damping", "stiffening", "mass matrix", "lumps", "supports"};
-const std::array<KindKeys, 3> body_kinds{{{"rigid", {"points", "pose"}}, {"beam", beside_elements}, {"plate", beside_elements}}};
+const std::vector<std::string> beside_elements{"points",     "profiles",    "pose",  "modes",   "damping",
+                                               "stiffening", "mass matrix", "lumps", "supports"};
+const std::array<KindKeys, 3> body_kinds{
+    {{"rigid", {"points", "profiles", "pose"}}, {"beam", beside_elements}, {"plate", beside_elements}}};
 
 SceneBody read_body(const Node& node, const std::vector<SceneMaterial>& materials) {
   SceneBody body;
@@ -67,6 +69,7 @@ SceneBody read_body(const Node& node, const std::vector<SceneMaterial>& material
     read_rigid(node.at("rigid"), body);
   else
     body.elastic = read_elastic(node, body, materials);
+  body.profiles = read_profiles(node, "bodies.*.profiles.*", body.points, body.name);
   if (node.has("pose")) {
     const Node pose = node.at("pose");
     check_keys(pose, "bodies.*.pose");
@@ -82,6 +85,7 @@ void read_bodies(const Node& root, Scene& scene) {
   if (root.has("ground")) {
     check_keys(root.at("ground"), "ground");
     scene.ground = read_points(root.at("ground"), "ground.points.*", false);
+    scene.ground_profiles = read_profiles(root.at("ground"), "ground.profiles.*", scene.ground, "ground");
   }
   const Node bodies = root.at("bodies");
   for (const Node& node : bodies.entries("names and bodies: {crank: {rigid: {…}}}"))

@@ -20,62 +20,6 @@ const std::vector<KindKeys>& joint_keys() {
   return keys;
 }
 
-void read_stiffness(const Node& node, SceneNormal& normal) {
-  const bool elastic = node.has("young") || node.has("poisson");
-  if (node.has("stiffness")) {
-    if (elastic || node.has("journal")) node.at("stiffness").fail("stands beside young and poisson; give either the stiffness or those");
-    const Dimension expected{1 - normal.exponent, 1, -2, 0};  // N/mⁿ
-    normal.stiffness = node.at("stiffness").quantity(expected, rule::positive);
-    return;
-  }
-  if (!(node.has("young") && node.has("poisson"))) node.fail("does not say how stiff the contact is; add young and poisson, or stiffness");
-  normal.bearing = {node.at("young").quantity(dimension::stress, rule::positive),
-                    node.at("poisson").quantity(dimension::number, rule::poisson)};
-  normal.journal = normal.bearing;
-  if (!node.has("journal")) return;
-  const Node journal = node.at("journal");
-  check_keys(journal, "joints.*.clearance.normal.*.journal");
-  normal.journal = {journal.at("young").quantity(dimension::stress, rule::positive),
-                    journal.at("poisson").quantity(dimension::number, rule::poisson)};
-}
-
-SceneNormal read_normal(const Node& node) {
-  const char* remedy = "one law: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}";
-  const auto laws = node.entries(remedy);
-  if (laws.size() != 1) node.fail("names " + std::to_string(laws.size()) + " laws; write " + remedy);
-  const Node& law = laws.front();
-  constexpr std::string_view keys = "joints.*.clearance.normal.*";
-  check_keys(law, keys);
-  SceneNormal normal;
-  normal.law = law.name();
-  normal.place = law.place();
-  const bool lossless = normal.law == "hertz";
-  if (lossless && law.has("restitution")) law.at("restitution").fail("hertz loses nothing; leave restitution out");
-  if (!lossless && !law.has("restitution")) law.fail("lacks a required key; add for example restitution: 0.8");
-  read_optional(law, "restitution", dimension::number, rule::zero_to_one, normal.restitution);
-  read_optional(law, "exponent", dimension::number, rule::at_least_one, normal.exponent);
-  read_optional(law, "slowest impact", dimension::speed, rule::positive, normal.slowest_impact);
-  if (law.has("radii") && law.at("radii").one_of(choices(keys, "radii")) == "external") normal.radii = RadiusConvention::external;
-  read_stiffness(law, normal);
-  return normal;
-}
-
-SceneFriction read_friction(const Node& node) {
-  check_keys(node, "joints.*.clearance.friction");
-  const Node law = node.at("ambrosio");
-  constexpr std::string_view keys = "joints.*.clearance.friction.ambrosio";
-  check_keys(law, keys);
-  SceneFriction friction;
-  friction.place = law.place();
-  friction.coefficient = law.at("coefficient").quantity(dimension::number, rule::not_negative);
-  read_optional(law, "v0", dimension::speed, rule::not_negative, friction.v0);
-  read_optional(law, "v1", dimension::speed, rule::positive, friction.v1);
-  if (friction.v0 >= friction.v1)
-    (law.has("v1") ? law.at("v1") : law.at("v0")).fail("v0 must be less than v1: friction grows from none at v0 to its whole at v1");
-  if (law.has("sliding") && law.at("sliding").one_of(choices(keys, "sliding")) == "geometric") friction.sliding = SlidingSpeed::geometric;
-  return friction;
-}
-
 void read_model(const Node& node, SceneClearance& clearance) {
   if (node.has("model")) {
     const std::string word = node.at("model").one_of(choices("joints.*.clearance", "model"));
@@ -97,7 +41,7 @@ SceneClearance read_clearance(const Node& node, const SceneJoint& joint) {
   SceneClearance clearance;
   clearance.place = node.place();
   read_model(node, clearance);
-  if (node.has("normal")) clearance.normal = read_normal(node.at("normal"));
+  if (node.has("normal")) clearance.normal = read_normal(node.at("normal"), "joints.*.clearance.normal.*");
   const Node radius = node.at("bearing radius"), radial = node.at("radial");
   clearance.bearing_radius = radius.quantity(dimension::length, rule::positive);
   clearance.radial = radial.quantity(dimension::length, rule::positive);
@@ -107,7 +51,7 @@ SceneClearance read_clearance(const Node& node, const SceneJoint& joint) {
   clearance.bearing = bearing.text("the body that carries the bearing");
   if (clearance.bearing != joint.a.body && clearance.bearing != joint.b.body)
     bearing.fail(bearing.shown() + " is not joined here; write " + joint.a.body + " or " + joint.b.body);
-  if (node.has("friction")) clearance.friction = read_friction(node.at("friction"));
+  if (node.has("friction")) clearance.friction = read_friction(node.at("friction"), "joints.*.clearance.friction");
   return clearance;
 }
 

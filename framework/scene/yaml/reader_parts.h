@@ -16,6 +16,7 @@ namespace pintle {
 void read_materials(const Node& root, Scene&);
 void read_bodies(const Node& root, Scene&);  ///< ground and bodies; after materials
 void read_joints(const Node& root, Scene&);
+void read_contacts(const Node& root, Scene&);  ///< after bodies
 void read_drivers(const Node& root, const std::filesystem::path& folder, Scene&);
 void read_forces(const Node& root, const std::filesystem::path& folder, Scene&);
 void read_start(const Node& root, Scene&);   ///< after bodies and joints
@@ -30,6 +31,14 @@ std::string checked_name(const Node&);
 PointRef read_point_ref(const Node&);
 /// [a, b]
 std::pair<PointRef, PointRef> read_ends(const Node&);
+
+/// Profiles of a body or the ground that has these points. @param keys  path of a profile's keys
+std::vector<SceneProfile> read_profiles(const Node& owner, std::string_view keys, const std::vector<ScenePoint>&, const std::string& body);
+
+/// A law of a clearance joint or, other keys, of a contact. @param keys  path of the law's keys
+SceneNormal read_normal(const Node&, std::string_view keys);
+/// @param keys  path of friction's keys
+SceneFriction read_friction(const Node&, const std::string& keys);
 
 enum class Smoothness { driver, load };  ///< a driver needs two derivatives, a load only the value
 /// An expression in t, or {table: file}; judged to be finite from 0 to `until`.

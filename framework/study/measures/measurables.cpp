@@ -30,6 +30,7 @@ std::string said(const Names& names, const char* one, const char* many) {
 Measurables measurables_of(const Scene& scene) {
   Measurables o;
   for (const SceneJoint& j : scene.joints) o.joints.push_back(j.name);
+  for (const SceneContact& c : scene.contacts) o.contacts.push_back(c.name);
   for (const SceneDriver& d : scene.drivers) o.drivers.push_back(d.name);
   for (const SceneLoad& l : scene.loads) o.loads.push_back(l.name);
   for (const SceneBody& b : scene.bodies) {
@@ -40,14 +41,16 @@ Measurables measurables_of(const Scene& scene) {
       if (!whole.empty()) o.points.push_back(whole + "." + p.name);
     }
   }
-  for (const Names* names : {&o.joints, &o.drivers, &o.loads}) o.actors.insert(o.actors.end(), names->begin(), names->end());
+  for (const Names* names : {&o.joints, &o.contacts}) o.walls.insert(o.walls.end(), names->begin(), names->end());
+  for (const Names* names : {&o.joints, &o.contacts, &o.drivers, &o.loads}) o.actors.insert(o.actors.end(), names->begin(), names->end());
   return o;
 }
 
 std::string described(const Measurables& o) {
   std::string out;
-  for (const std::string& part : {said(o.joints, "the joint", "the joints"), said(o.drivers, "the driver", "the drivers"),
-                                  said(o.loads, "the force", "the forces"), said(o.bodies, "the body", "the bodies")})
+  for (const std::string& part :
+       {said(o.joints, "the joint", "the joints"), said(o.contacts, "the contact", "the contacts"),
+        said(o.drivers, "the driver", "the drivers"), said(o.loads, "the force", "the forces"), said(o.bodies, "the body", "the bodies")})
     if (!part.empty()) out += (out.empty() ? " The scene has " : "; ") + part;
   return out + ".";
 }

@@ -9,7 +9,9 @@ namespace pintle {
 
 /// What a measure can be about in this scene.
 struct Measurables {
-  Names joints, drivers, loads, bodies, points, actors;  ///< actors: what has a force
+  Names joints, contacts, drivers, loads, bodies, points;
+  Names walls;   ///< where something may be touched: joints and contacts
+  Names actors;  ///< what has a force
 };
 Measurables measurables_of(const Scene&);
 /// " The scene has the joints …; the bodies …." for messages.

@@ -98,26 +98,44 @@ class Measuring {
   bool is_asked(std::size_t contact) const { return asked_.owner.empty() || model_.system.contact_names[contact] == asked_.owner; }
   /// Its model, a massless link, never lets the journal go: at the wall, and no impact.
   bool held(std::size_t contact) const { return is_held(model_.system.contacts[contact]); }
+  /// Stays at a wall, in order of beginning; of two profiles those of all their pairs.
+  std::vector<const Impact*> stays(std::size_t contact) const {
+    std::vector<const Impact*> out;
+    const int first = static_cast<int>(contact), past = first + model_.system.contacts[contact].pairs;
+    for (const Impact& i : run_.impacts)
+      if (i.contact >= first && i.contact < past) out.push_back(&i);
+    return out;
+  }
+  /// of(contact) for each that is asked about.
+  template <class F>
+  void each_contact(F of) const {
+    for (std::size_t c = 0; c < model_.system.contacts.size(); ++c)
+      if (is_asked(c) && model_.system.contacts[c].pair == 0) of(c);
+  }
   double contact_time(double from, double to) const {
     double sum = 0;
-    for (const Impact& i : run_.impacts)
-      if (concerns(i)) sum += std::max(0.0, std::min(end_of(i), to) - std::max(i.begin, from));
-    for (std::size_t c = 0; c < model_.system.contacts.size(); ++c)
-      if (is_asked(c) && held(c)) sum += to - from;
+    each_contact([&](std::size_t c) {
+      if (held(c)) sum += to - from;
+      double until = from;
+      for (const Impact* i : stays(c)) {
+        sum += std::max(0.0, std::min(end_of(*i), to) - std::max(i->begin, until));
+        until = std::max(until, end_of(*i));
+      }
+    });
     return sum;
   }
   double free_flight(double from, double to) const {
     double longest = 0;
-    for (std::size_t c = 0; c < model_.system.contacts.size(); ++c) {
-      if (!is_asked(c) || held(c)) continue;
+    each_contact([&](std::size_t c) {
+      if (held(c)) return;
       double since = from;
-      for (const Impact& i : run_.impacts) {
-        if (i.contact != static_cast<int>(c) || end_of(i) < from) continue;
-        longest = std::max(longest, std::min(i.begin, to) - since);
-        since = std::max(since, end_of(i));
+      for (const Impact* i : stays(c)) {
+        if (end_of(*i) < from) continue;
+        longest = std::max(longest, std::min(i->begin, to) - since);
+        since = std::max(since, end_of(*i));
       }
       longest = std::max(longest, to - since);
-    }
+    });
     return longest;
   }
 

@@ -169,18 +169,17 @@ class Reading {
 
   bool read_contact() {
     if (words_.take("eccentricity")) return is(What::eccentricity, "m", "", need("joint", measurables_.joints));
-    if (!words_.take_any({"depth", "penetration"}).empty()) return is(What::depth, "m", "", need("joint", measurables_.joints));
+    if (!words_.take_any({"depth", "penetration"}).empty()) return is(What::depth, "m", "", need("joint or contact", measurables_.walls));
     if (!words_.take_any({"number of impacts", "number of contacts", "impacts", "impact count", "count of impacts"}).empty())
-      return is(What::impacts, "", "", may_have(measurables_.joints));
+      return is(What::impacts, "", "", may_have(measurables_.walls));
     if (!words_.take_any({"longest free flight", "longest flight"}).empty() ||
         (asked_.statistic != Statistic::none && !words_.take_any({"free flight"}).empty())) {
       if (asked_.statistic != Statistic::none && asked_.statistic != Statistic::greatest && asked_.statistic != Statistic::peak)
         fail("of free flights the longest alone is known; write longest free flight");
       asked_.statistic = Statistic::none;
-      return is(What::free_flight, "s", "", may_have(measurables_.joints));
+      return is(What::free_flight, "s", "", may_have(measurables_.walls));
     }
-    if (!words_.take_any({"time in contact", "contact time"}).empty())
-      return is(What::contact_time, "s", "", may_have(measurables_.joints));
+    if (!words_.take_any({"time in contact", "contact time"}).empty()) return is(What::contact_time, "s", "", may_have(measurables_.walls));
     return false;
   }
 

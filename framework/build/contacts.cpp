@@ -1,0 +1,165 @@
+#include "framework/build/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include "framework/build/clearance.h"
+#include "framework/common/index.h"
+#include "framework/common/text.h"
+#include "framework/scene/error.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Vector2d;
+
+Vector2d place(const ScenePathPoint& p, const std::vector<ScenePoint>& points) {
+  const auto named = std::ranges::find(points, p.point, &ScenePoint::name);
+  const Pair& at = p.point.empty() || named == points.end() ? p.at : named->at;
+  return {at[0], at[1]};
+}
+
+struct Owner {
+  const std::vector<SceneProfile>& profiles;
+  const std::vector<ScenePoint>& points;
+};
+Owner owner_of(const Scene& scene, const PointRef& ref) {
+  if (ref.body == "ground") return {scene.ground_profiles, scene.ground};
+  const auto body = std::ranges::find(scene.bodies, ref.body, &SceneBody::name);
+  if (body == scene.bodies.end()) throw SceneError(scene.file, ref.place, "there is no body " + quoted(ref.body));
+  return {body->profiles, body->points};
+}
+
+/// The one curvature of all its lines and arcs [1/m]; nothing if they differ.
+std::optional<double> curvature(const Profile& profile) {
+  std::optional<double> out;
+  for (const Piece& p : profile.pieces) {
+    if (!p.straight && p.radius == 0) continue;
+    const double now = p.straight ? 0 : 1 / p.radius;
+    if (out && *out != now) return std::nullopt;
+    out = now;
+  }
+  return out;
+}
+
+double stiffness_of(const Scene& scene, const SceneContact& c) {
+  const SceneNormal& n = c.normal;
+  if (n.stiffness) return *n.stiffness;
+  const std::optional<double> a = curvature(profile_of(scene, c.a)), b = curvature(profile_of(scene, c.b));
+  if (!a || !b || !(*a + *b > 0))
+    throw SceneError(
+        scene.file, n.place,
+        "`young` and `poisson` give a stiffness where each profile has one radius all along, and the two no common centre; give "
+        "`stiffness` for " +
+            quoted(c.name));
+  return hertz_stiffness(1 / (*a + *b), n.bearing.young, n.bearing.poisson, n.journal.young, n.journal.poisson);
+}
+
+bool is_corner(const Piece& p) { return !p.straight && p.radius == 0; }
+
+/// Can they touch at a point inside both? Where two lines lie on each other, or a line in a hollow, corners do.
+bool may_touch(const Piece& a, const Piece& b) {
+  if ((a.straight || is_corner(a)) && (b.straight || is_corner(b))) return a.straight != b.straight;
+  const bool hollow_a = a.radius < 0, hollow_b = b.radius < 0;
+  if (!hollow_a && !hollow_b) return true;
+  return !(hollow_a && hollow_b) && !a.straight && !b.straight && a.radius + b.radius < 0;
+}
+
+}  // namespace
+
+Profile profile_of(const Scene& scene, const PointRef& ref) {
+  const Owner owner = owner_of(scene, ref);
+  const auto found = std::ranges::find(owner.profiles, ref.point, &SceneProfile::name);
+  if (found == owner.profiles.end()) throw SceneError(scene.file, ref.place, quoted(ref.body) + " has no profile " + quoted(ref.point));
+  const SceneProfile& p = *found;
+  const auto wrong = [&](const std::string& message) {
+    throw SceneError(scene.file, p.place, "the profile " + quoted(p.name) + ": " + message);
+  };
+  if (p.kind != SceneProfile::path) {
+    if (!(p.radius > 0)) wrong("radius must be above 0");
+    return circle(place(p.centre, owner.points), p.kind == SceneProfile::disc ? p.radius : -p.radius);
+  }
+  std::vector<PathPoint> path;
+  for (const ScenePathPoint& point : p.points) path.push_back({place(point, owner.points), point.arc});
+  try {
+    const bool clockwise = p.closed && area(path) < 0;
+    const bool turn = p.closed ? clockwise != (p.material == SceneProfile::outside) : p.material == SceneProfile::right;
+    return profile_along(turn ? reversed(path, p.closed) : path, p.closed, p.round);
+  } catch (const std::invalid_argument& error) {
+    wrong(error.what());
+  }
+  return {};
+}
+
+ContactPair contact_of(const Scene& scene, const SceneContact& c) {
+  ContactPair pair{};
+  pair.profiles = true;
+  pair.slowest_impact = c.normal.slowest_impact;
+  pair.follows = c.normal.follows;
+  pair.normal = c.normal.law == "spring-damper" ? ImpactLaw{.k = *c.normal.stiffness, .n = 1, .chi = 0, .d = c.normal.damping}
+                                                : impact_law(scene, c.normal, stiffness_of(scene, c));
+  if (c.friction && c.friction->coefficient != 0) pair.friction = Ambrosio{c.friction->coefficient, c.friction->v0, c.friction->v1};
+  return pair;
+}
+
+std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c, const Profile& a, const Profile& b,
+                                       const ContactPair& like) {
+  const int n_a = static_cast<int>(a.pieces.size()), n_b = static_cast<int>(b.pieces.size());
+  std::vector<ContactPair> out;
+  std::vector<int> pair_of(at(n_a * n_b), -1);
+  for (int i = 0; i < n_a; ++i)
+    for (int j = 0; j < n_b; ++j) {
+      if (!may_touch(a.pieces[at(i)], b.pieces[at(j)])) continue;
+      pair_of[at(i * n_b + j)] = static_cast<int>(out.size());
+      ContactPair& pair = out.emplace_back(like);
+      pair.gap = {a.pieces[at(i)], b.pieces[at(j)]};
+      pair.pair = static_cast<int>(out.size()) - 1;
+      pair.deepest = std::min(a.deepest[at(i)], b.deepest[at(j)]);
+    }
+  if (out.empty())
+    throw SceneError(scene.file, c.place,
+                     quoted(c.a.body + "." + c.a.point) + " and " + quoted(c.b.body + "." + c.b.point) +
+                         " cannot touch: both are hollow, or one is too large for the other");
+
+  // What lies beyond the ends of pieces: another pair; or, where pieces lie along each other, none, and the contact stays a while.
+  constexpr double while_turning = std::numbers::pi / 4, while_sliding = 0.5;
+  for (int i = 0; i < n_a; ++i)
+    for (int j = 0; j < n_b; ++j) {
+      const int pair = pair_of[at(i * n_b + j)];
+      if (pair < 0) continue;
+      ContactPair& now = out[at(pair)];
+      now.pairs = static_cast<int>(out.size());
+      for (std::size_t side = 0; side < 4; ++side) {
+        const bool of_a = side < 2, forwards = side % 2;
+        const Profile& profile = of_a ? a : b;
+        const int n = of_a ? n_a : n_b, here = of_a ? i : j, next = (here + (forwards ? 1 : n - 1)) % n;
+        const bool at_an_end = !profile.closed && (forwards ? here == n - 1 : here == 0);
+        if (at_an_end || n == 1) continue;
+        const bool joined = profile.goes_on[at(forwards ? here : next)];
+        if (joined) now.beyond[side] = pair_of[at(of_a ? next * n_b + j : i * n_b + next)];
+        const Piece &piece = profile.pieces[at(here)], &other = of_a ? b.pieces[at(j)] : a.pieces[at(i)];
+        const bool off_a_corner = joined && is_corner(profile.pieces[at(next)]) && is_corner(other);
+        if (now.beyond[side] < 0 && !off_a_corner) now.extent[side] += piece.straight ? while_sliding : while_turning / piece.half;
+      }
+    }
+  return out;
+}
+
+std::string contact_text(const ContactPair& pair, std::size_t pairs) {
+  std::ostringstream s;
+  s << "stiffness " << stiffness_text(pair.normal);
+  if (begins_with_jump(pair.normal))
+    s << ", damping " << viscous_damping(pair.normal) << " N s/m";
+  else
+    s << ", restitution delivered " << restitution_of(pair.normal, 1);
+  s << (pair.friction ? ", friction " + number_text(pair.friction->mu) : ", no friction") << "; " << pairs
+    << (pairs == 1 ? " pair" : " pairs") << " of pieces";
+  return s.str();
+}
+
+}  // namespace pintle

@@ -1,0 +1,199 @@
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+#include "framework/common/nearest.h"
+#include "framework/scene/yaml/reader_parts.h"
+
+namespace pintle {
+
+namespace {
+
+Elasticity read_elasticity(const Node& node) {
+  return {node.at("young").quantity(dimension::stress, rule::positive), node.at("poisson").quantity(dimension::number, rule::poisson)};
+}
+
+// `young` and `poisson` are those of both bodies, unless the other has its own.
+void read_stiffness(const Node& node, std::string_view keys, SceneNormal& normal) {
+  const char* other = keys.starts_with("joints") ? "journal" : "second";
+  const bool elastic = node.has("young") || node.has("poisson");
+  if (node.has("stiffness")) {
+    if (elastic || node.has(other)) node.at("stiffness").fail("stands beside young and poisson; give either the stiffness or those");
+    const Dimension expected{1 - normal.exponent, 1, -2, 0};  // N/mⁿ
+    normal.stiffness = node.at("stiffness").quantity(expected, rule::positive);
+    return;
+  }
+  if (!(node.has("young") && node.has("poisson"))) node.fail("does not say how stiff the contact is; add young and poisson, or stiffness");
+  normal.bearing = normal.journal = read_elasticity(node);
+  if (!node.has(other)) return;
+  check_keys(node.at(other), std::string(keys) + "." + other);
+  normal.journal = read_elasticity(node.at(other));
+}
+
+constexpr const char* spring_damper = "spring-damper";
+
+void read_spring_damper(const Node& law, SceneNormal& normal) {
+  for (const char* key : {"stiffness", "damping"})
+    if (!law.has(key))
+      law.fail(std::string("lacks a required key; add for example ") + (key[0] == 's' ? "stiffness: 1e6 N/m" : "damping: 100 N s/m"));
+  for (const std::string& key : law.keys())
+    if (key != "stiffness" && key != "damping") law.at(key).fail("does not belong to spring-damper; leave it out");
+  normal.exponent = 1;
+  normal.stiffness = law.at("stiffness").quantity({0, 1, -2, 0}, rule::positive);
+  normal.damping = law.at("damping").quantity({0, 1, -1, 0}, rule::not_negative);
+}
+
+ScenePathPoint read_place(const Node& node, const std::vector<ScenePoint>& points, const std::string& body) {
+  ScenePathPoint out;
+  out.place = node.place();
+  if (node.is_list()) {
+    out.at = node.pair(dimension::length);
+    return out;
+  }
+  out.point = node.text("a point of the body, or [x, y]");
+  std::vector<std::string> known;
+  for (const ScenePoint& p : points) known.push_back(p.name);
+  if (std::ranges::find(known, out.point) == known.end())
+    node.fail("\"" + body + "\" has no point \"" + out.point + "\"" +
+              (known.empty() ? "; write a place, [10 mm, 0], or name it under points" : "." + did_you_mean(out.point, known)));
+  return out;
+}
+
+// Points and, between two of them, arcs.
+std::vector<ScenePathPoint> read_path(const Node& node, std::string_view keys, const std::vector<ScenePoint>& points,
+                                      const std::string& body) {
+  std::vector<ScenePathPoint> out;
+  bool arc = false;
+  for (const Node& item : node.list(2, "points and arcs: [A, B, {arc: 20 mm}, C]")) {
+    if (!item.is_map()) {
+      out.push_back(read_place(item, points, body));
+      arc = false;
+      continue;
+    }
+    check_keys(item, std::string(keys) + ".path.*");
+    if (out.empty() || arc) item.fail("stands where a point should; an arc leads from the point before it to the next");
+    out.back().arc = item.at("arc").quantity(dimension::length);
+    if (out.back().arc == 0) item.fail("must not be 0: it turns left with a radius above 0, right with one below");
+    arc = true;
+  }
+  return out;
+}
+
+const std::array<KindKeys, 3> profile_kinds{{{"disc", {"radius"}}, {"hole", {"radius"}}, {"path", {"closed", "material", "round"}}}};
+
+SceneProfile read_profile(const Node& node, std::string_view keys, const std::vector<ScenePoint>& points, const std::string& body) {
+  SceneProfile out;
+  out.name = checked_name(node);
+  out.place = node.place();
+  check_keys(node, keys);
+  out.kind = std::array{SceneProfile::disc, SceneProfile::hole, SceneProfile::path}[which_kind(node, profile_kinds)];
+  if (out.kind != SceneProfile::path) {
+    out.centre = read_place(node.at(out.kind == SceneProfile::disc ? "disc" : "hole"), points, body);
+    if (!node.has("radius")) node.fail("lacks a required key; add for example radius: 20 mm");
+    out.radius = read_size(node.at("radius"));
+    return out;
+  }
+  out.points = read_path(node.at("path"), keys, points, body);
+  if (node.has("closed")) out.closed = node.at("closed").yes();
+  if (!out.closed && out.points.back().arc != 0)
+    node.at("path").fail("ends with an arc; add the point that it leads to, or closed: true to lead it to the first");
+  if (node.has("round")) out.round = read_size(node.at("round"));
+  out.material = out.closed ? SceneProfile::inside : SceneProfile::left;
+  if (!node.has("material")) return out;
+  const std::string side = node.at("material").one_of(choices(keys, "material"));
+  if (out.closed != (side == "inside" || side == "outside"))
+    node.at("material")
+        .fail(out.closed ? "of a closed path is inside or outside" : "of an open path is left or right, as one goes along it");
+  out.material = side == "left"     ? SceneProfile::left
+                 : side == "right"  ? SceneProfile::right
+                 : side == "inside" ? SceneProfile::inside
+                                    : SceneProfile::outside;
+  return out;
+}
+
+SceneContact read_contact(const Node& node, const Scene& scene) {
+  SceneContact out;
+  out.name = checked_name(node);
+  out.place = node.place();
+  check_keys(node, "contacts.*");
+  std::tie(out.a, out.b) = read_ends(node.at("between"));
+  for (const PointRef* ref : {&out.a, &out.b}) {
+    const auto body = std::ranges::find(scene.bodies, ref->body, &SceneBody::name);
+    if (ref->body != "ground" && body == scene.bodies.end()) continue;  // told when it is built
+    const auto& profiles = ref->body == "ground" ? scene.ground_profiles : body->profiles;
+    std::vector<std::string> known;
+    for (const SceneProfile& p : profiles) known.push_back(p.name);
+    if (std::ranges::find(known, ref->point) == known.end())
+      throw SceneError(
+          scene.file, ref->place,
+          "\"" + ref->body + "\" has no profile \"" + ref->point + "\"" +
+              (known.empty() ? "; give it one: profiles: {rim: {disc: A, radius: 20 mm}}" : "." + did_you_mean(ref->point, known)));
+  }
+  out.normal = read_normal(node.at("normal"), "contacts.*.normal.*");
+  if (node.has("friction")) out.friction = read_friction(node.at("friction"), "contacts.*.friction");
+  return out;
+}
+
+}  // namespace
+
+SceneNormal read_normal(const Node& node, std::string_view keys) {
+  const char* remedy = "one law: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}";
+  const auto laws = node.entries(remedy);
+  if (laws.size() != 1) node.fail("names " + std::to_string(laws.size()) + " laws; write " + remedy);
+  const Node& law = laws.front();
+  check_keys(law, keys);
+  SceneNormal normal;
+  normal.law = law.name();
+  normal.place = law.place();
+  if (keys.starts_with("contacts")) {
+    if (normal.law == spring_damper) {
+      read_spring_damper(law, normal);
+      return normal;
+    }
+    if (law.has("damping")) law.at("damping").fail("belongs to spring-damper; leave it out");
+  }
+  const bool lossless = normal.law == "hertz";
+  if (lossless && law.has("restitution")) law.at("restitution").fail("hertz loses nothing; leave restitution out");
+  if (!lossless && !law.has("restitution")) law.fail("lacks a required key; add for example restitution: 0.8");
+  read_optional(law, "restitution", dimension::number, rule::zero_to_one, normal.restitution);
+  read_optional(law, "exponent", dimension::number, rule::at_least_one, normal.exponent);
+  read_optional(law, "slowest impact", dimension::speed, rule::positive, normal.slowest_impact);
+  normal.follows = law.has("approach speed") ? law.at("approach speed").one_of(choices(keys, "approach speed")) == "largest"
+                                             : keys.starts_with("contacts");
+  if (law.has("radii") && law.at("radii").one_of(choices(keys, "radii")) == "external") normal.radii = RadiusConvention::external;
+  read_stiffness(law, keys, normal);
+  return normal;
+}
+
+SceneFriction read_friction(const Node& node, const std::string& path) {
+  check_keys(node, path);
+  const Node law = node.at("ambrosio");
+  const std::string keys = path + ".ambrosio";
+  check_keys(law, keys);
+  SceneFriction friction;
+  friction.place = law.place();
+  friction.coefficient = law.at("coefficient").quantity(dimension::number, rule::not_negative);
+  read_optional(law, "v0", dimension::speed, rule::not_negative, friction.v0);
+  read_optional(law, "v1", dimension::speed, rule::positive, friction.v1);
+  if (friction.v0 >= friction.v1)
+    (law.has("v1") ? law.at("v1") : law.at("v0")).fail("v0 must be less than v1: friction grows from none at v0 to its whole at v1");
+  if (law.has("sliding") && law.at("sliding").one_of(choices(keys, "sliding")) == "geometric") friction.sliding = SlidingSpeed::geometric;
+  return friction;
+}
+
+std::vector<SceneProfile> read_profiles(const Node& owner, std::string_view keys, const std::vector<ScenePoint>& points,
+                                        const std::string& body) {
+  std::vector<SceneProfile> out;
+  if (!owner.has("profiles")) return out;
+  for (const Node& node : owner.at("profiles").entries("names and profiles: {rim: {disc: A, radius: 20 mm}}"))
+    out.push_back(read_profile(node, keys, points, body));
+  return out;
+}
+
+void read_contacts(const Node& root, Scene& scene) {
+  if (!root.has("contacts")) return;
+  for (const Node& node : root.at("contacts").entries("names and contacts: {stop: {between: [arm.tip, ground.stop], normal: {…}}}"))
+    scene.contacts.push_back(read_contact(node, scene));
+}
+
+}  // namespace pintle
