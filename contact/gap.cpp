@@ -14,13 +14,7 @@ Vector2d turned(double angle, const Vector2d& v) {
 }
 Vector2d quarter_turn(const Vector2d& v) { return {-v.y(), v.x()}; }
 
-// Place and velocity of a piece's middle.
-void carry(const Piece& piece, const MovingPoint& by, Vector2d& arm, Vector2d& r, Vector2d& v) {
-  r = by.r, v = by.v;
-  if (piece.centre.x() == 0 && piece.centre.y() == 0) return;
-  arm = turned(by.angle, piece.centre);
-  r += arm, v += by.w * quarter_turn(arm);
-}
+bool off_its_point(const Piece& piece) { return piece.centre.x() != 0 || piece.centre.y() != 0; }
 
 PlaceOn place(const Piece& piece, const Gap& gap, const Vector2d& normal, const MovingPoint& by) {
   if (piece.straight) return {-gap.across / piece.half, (gap.n.dot(gap.e) * gap.turning - gap.sideways) / piece.half};
@@ -32,42 +26,56 @@ PlaceOn place(const Piece& piece, const Gap& gap, const Vector2d& normal, const 
 
 }  // namespace
 
-Gap evaluate(const PiecePair& pair, const MovingPoint& a, const MovingPoint& b) {
-  // Below this eccentricity its square is no longer a normal number, and n would not be unit [m].
-  constexpr double concentric = 1e-140;
+namespace {
 
-  Gap out;
-  Vector2d r_a, r_b, v_a, v_b;
-  carry(pair.a, a, out.arm_a, r_a, v_a);
-  carry(pair.b, b, out.arm_b, r_b, v_b);
-  out.e = r_a - r_b;
-  const Vector2d e_rate = v_a - v_b;
-  const bool straight = pair.a.straight || pair.b.straight;
-  double distance = 0;
-  if (straight) {
-    const double towards = pair.a.straight ? a.angle + pair.a.normal : b.angle + pair.b.normal;
-    out.n = pair.a.straight ? Vector2d(std::cos(towards), std::sin(towards)) : Vector2d(-std::cos(towards), -std::sin(towards));
-    out.depth = pair.a.radius + pair.b.radius + out.n.dot(out.e);
-  } else {
-    distance = out.e.norm();
-    const bool has_direction = !(distance < concentric);
-    const double side = pair.hollow() ? 1 : -1;
-    out.n = has_direction ? Vector2d(side * out.e / distance) : Vector2d::UnitX();
-    out.depth = side * distance - pair.clearance();
-  }
+// Below this eccentricity its square is no longer a normal number, and n would not be unit [m].
+constexpr double concentric = 1e-140;
 
+// Two arcs, of which out.e is known.
+void between_arcs(const PiecePair& pair, const Vector2d& e_rate, double w_a, double w_b, Gap& out) {
+  const double distance = out.e.norm(), side = pair.hollow() ? 1 : -1;
+  const bool has_direction = !(distance < concentric);
+  if (has_direction) out.n = side * out.e / distance;
+  out.depth = side * distance - pair.clearance();
+  out.sideways = e_rate.y() * out.n.x() - e_rate.x() * out.n.y();
+  out.rate = e_rate.x() * out.n.x() + e_rate.y() * out.n.y();
+  out.material_slip = out.sideways + w_a * pair.a.radius + w_b * pair.b.radius;
+  if (!has_direction) return;
+  out.turning = side * (out.sideways / distance);
+  out.geometric_slip = out.depth * out.turning;
+}
+
+void along_a_line(const PiecePair& pair, const Vector2d& e_rate, const MovingPoint& a, const MovingPoint& b, Gap& out) {
+  const bool of_a = pair.a.straight;
+  const double towards = of_a ? a.angle + pair.a.normal : b.angle + pair.b.normal;
+  out.n = (of_a ? 1 : -1) * Vector2d(std::cos(towards), std::sin(towards));
   const Vector2d t = quarter_turn(out.n);
+  out.depth = pair.a.radius + pair.b.radius + out.n.dot(out.e);
+  out.turning = of_a ? a.w : b.w;
+  out.across = out.e.dot(t);
   out.sideways = e_rate.dot(t);
-  out.rate = e_rate.dot(out.n);
+  out.rate = e_rate.dot(out.n) + out.across * out.turning;
   out.material_slip = out.sideways + a.w * pair.a.radius + b.w * pair.b.radius;
-  if (straight) {
-    out.turning = pair.a.straight ? a.w : b.w;
-    out.across = out.e.dot(t);
-    out.rate += out.across * out.turning;
-  } else if (!(distance < concentric)) {
-    out.turning = (pair.hollow() ? 1 : -1) * (out.sideways / distance);
-    out.geometric_slip = out.depth * out.turning;
+}
+
+}  // namespace
+
+Gap evaluate(const PiecePair& pair, const MovingPoint& a, const MovingPoint& b) {
+  Gap out;
+  out.e = a.r - b.r;
+  Vector2d e_rate = a.v - b.v;
+  if (off_its_point(pair.a)) {
+    out.arm_a = turned(a.angle, pair.a.centre);
+    out.e += out.arm_a, e_rate += a.w * quarter_turn(out.arm_a);
   }
+  if (off_its_point(pair.b)) {
+    out.arm_b = turned(b.angle, pair.b.centre);
+    out.e -= out.arm_b, e_rate -= b.w * quarter_turn(out.arm_b);
+  }
+  if (pair.a.straight || pair.b.straight)
+    along_a_line(pair, e_rate, a, b, out);
+  else
+    between_arcs(pair, e_rate, a.w, b.w, out);
   return out;
 }
 

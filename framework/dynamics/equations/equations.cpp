@@ -307,10 +307,12 @@ void fill_derivative(const System& system, const VectorXd& y, const Equations& e
     double rate = 0;
     switch (z.account) {
       case Account::hysteresis:
-        for (int p = 0; p < system.contacts[k].pairs; ++p) rate += eq.contact[k + at(p)].normal.dissipation;
+        rate = eq.contact[k].normal.dissipation;
+        for (int p = 1; p < system.contacts[k].pairs; ++p) rate += eq.contact[k + at(p)].normal.dissipation;
         break;
       case Account::friction:
-        for (int p = 0; p < system.contacts[k].pairs; ++p) rate += eq.contact[k + at(p)].friction_loss;
+        rate = eq.contact[k].friction_loss;
+        for (int p = 1; p < system.contacts[k].pairs; ++p) rate += eq.contact[k + at(p)].friction_loss;
         break;
       case Account::damper: rate = eq.force[k].dissipation; break;
       case Account::load: rate = eq.force[k].input; break;
