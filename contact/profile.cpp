@@ -100,11 +100,12 @@ std::vector<Segment> segments_of(const std::vector<Piece>& pieces) {
   return out;
 }
 
-void require_simple(const std::vector<Piece>& pieces) {
+void require_simple(const std::vector<Piece>& pieces, bool closed) {
   const std::vector<Segment> all = segments_of(pieces);
   const auto side = [](const Segment& s, const Vector2d& p) { return cross(s.to - s.from, p - s.from); };
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t j = i + 2; j < all.size(); ++j) {
+      if (closed && i == 0 && j + 1 == all.size()) continue;  // they meet where the path closes
       const Segment &a = all[i], &b = all[j];
       if (side(a, b.from) * side(a, b.to) < 0 && side(b, a.from) * side(b, a.to) < 0) {
         const Vector2d at = b.from + (b.to - b.from) * side(a, b.from) / (side(a, b.from) - side(a, b.to));
@@ -226,7 +227,7 @@ Profile profile_along(std::vector<PathPoint> path, bool closed, double round) {
     else if (turn[i] > smooth)
       add(corner(s.to, s.arrives + turn[i] / 2 - pi / 2, turn[i] / 2), true);
   }
-  require_simple(out.pieces);
+  require_simple(out.pieces, closed);
   const std::vector<Segment> all = segments_of(out.pieces);
   for (const Piece& p : out.pieces) out.deepest.push_back(half_material(p, all));
   return out;

@@ -75,6 +75,23 @@ TEST(Profile, ReentrantCornersAreNoPieces) {
   ASSERT_EQ(step.pieces.size(), 6u);  // two ends, three sides, the corner that points outwards
 }
 
+// Where a path closes, rounding does not make its first and last side cross.
+TEST(Profile, AnyConvexPolygonIsSimple) {
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int n = 3; n <= 8; ++n)
+    for (int draw = 0; draw < 200; ++draw) {
+      std::vector<PathPoint> path;
+      const double first = pi * unit(generator);
+      for (int i = 0; i < n; ++i) {
+        const double angle = first + 2 * pi * (i + 0.2 * unit(generator)) / n;
+        path.push_back({{0.07 * std::cos(angle), 0.07 * std::sin(angle)}});
+      }
+      EXPECT_NO_THROW(profile_along(path, true));
+      EXPECT_NO_THROW(profile_along(path, true, 1e-3));
+    }
+}
+
 struct Bad {
   std::vector<PathPoint> path;
   bool closed;

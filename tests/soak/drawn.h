@@ -20,6 +20,7 @@ struct Link {
   double angle = 0, length = 0;                 ///< length: of a beam
   bool beam = false;
   std::vector<Point> points = {};
+  std::string profile = {};  ///< its surface; empty: none
 };
 
 /// A mechanism as it has been drawn: bodies in the pose in which they were joined, and the lines that a scene says of the rest.
@@ -31,7 +32,7 @@ struct Drawn {
   Eigen::Vector2d gravity = Eigen::Vector2d::Zero();  ///< [m/s²]
   Link ground{.name = "ground"};
   std::vector<Link> links;
-  std::vector<std::string> joints, drivers, forces, starts;
+  std::vector<std::string> joints, contacts, drivers, forces, starts;
 };
 
 /// An angular speed or frequency that suits a size of bodies [rad/s].

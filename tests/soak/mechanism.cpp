@@ -10,6 +10,7 @@
 
 #include "contact/normal_law.h"
 #include "tests/soak/drawn.h"
+#include "tests/soak/surfaces.h"
 
 namespace soak {
 
@@ -51,6 +52,10 @@ class Drawing {
     std::swap(chance_, own);
     if (chance_.one_in(4)) series();
     std::swap(chance_, own);
+    if (seed >= first_with_surfaces) {
+      Chance more(seed * 3);
+      add_surfaces(drawn_, more);
+    }
     std::ostringstream title;
     title << "seed " << seed;
     return written(title.str(), drawn_, chance_);

@@ -15,9 +15,11 @@ class Writing {
     out_ << "# " << title << ": " << drawn_.links.size() << " bodies" << (drawn_.aligned ? drawn_.flat ? ", flat" : ", aligned" : "")
          << (drawn_.wild_masses ? ", masses over 8 decades" : "") << (drawn_.rough ? ", rough poses" : "") << "\n";
     out_ << "gravity: [" << drawn_.gravity.x() << ", " << drawn_.gravity.y() << "]\n";
-    if (!drawn_.ground.points.empty()) {
+    const Link& ground = drawn_.ground;
+    if (!ground.points.empty() || !ground.profile.empty()) {
       out_ << "ground: {";
-      write_points(drawn_.ground);
+      if (!ground.points.empty()) write_points(ground);
+      if (!ground.profile.empty()) out_ << (ground.points.empty() ? "" : ", ") << "profiles: {skin: " << ground.profile << "}";
       out_ << "}\n";
     }
     out_ << "bodies:\n";
@@ -32,10 +34,12 @@ class Writing {
         out_ << ", ";
         write_points(l);
       }
+      if (!l.profile.empty()) out_ << ", profiles: {skin: " << l.profile << "}";
       out_ << ", pose: {at: [" << l.r.x() + off * chance_.either_way(drawn_.size) << ", " << l.r.y() + off * chance_.either_way(drawn_.size)
            << "], angle: " << l.angle + off * chance_.either_way(1) << "}}\n";
     }
     write_list("joints", drawn_.joints);
+    write_list("contacts", drawn_.contacts);
     write_list("drivers", drawn_.drivers);
     write_list("forces", drawn_.forces);
     std::vector<std::string> starts = drawn_.starts;
