@@ -195,7 +195,7 @@ double area(const std::vector<PathPoint>& path) {
 }
 
 Profile profile_along(std::vector<PathPoint> path, bool closed, double round) {
-  constexpr double smooth = 1e-9;  // [rad]
+  constexpr double smooth = 1e-9, kink = 1e-2;  // [rad]; over so small a hollow kink a contact goes on
   if (path.size() < 2) wrong("it has fewer than two points");
   const bool arcs = std::any_of(path.begin(), path.end(), [](const PathPoint& p) { return p.arc != 0; });
   if (closed && path.size() < 3 && !arcs) wrong("it encloses nothing with fewer than three points");
@@ -218,7 +218,7 @@ Profile profile_along(std::vector<PathPoint> path, bool closed, double round) {
   for (std::size_t i = 0; i < n; ++i) {
     const Stretch& s = stretches[i];
     const bool last = i == joins;  // of an open path
-    const bool reentrant = !last && !arc[i] && turn[i] < -smooth;
+    const bool reentrant = !last && !arc[i] && turn[i] < -kink;
     if ((s.to - s.from).norm() > 1e-9 * (path[0].at - path[1].at).norm()) add(piece_of(s), !reentrant);
     if (last)
       add(corner(s.to, s.arrives - pi / 4, pi / 4), false);

@@ -228,6 +228,10 @@ class Builder {
       for (int& other : pair.beyond)
         if (other >= 0) other += static_cast<int>(model_.system.contacts.size());
     model_.contacts.push_back(contact_text(like, pairs.size()));
+    if (has_sharp_corners(profile(c.a)) && has_sharp_corners(profile(c.b)))
+      model_.warnings.push_back(quoted(c.name) +
+                                ": both profiles have sharp corners; nothing holds two of these that meet point to point, and energy comes "
+                                "from nothing there; give one of the profiles `round`");
     model_.system.contacts.insert(model_.system.contacts.end(), pairs.begin(), pairs.end());
     model_.system.contact_names.insert(model_.system.contact_names.end(), pairs.size(), c.name);
   }

@@ -119,7 +119,11 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
       ContactPair& pair = out.emplace_back(like);
       pair.gap = {a.pieces[at(i)], b.pieces[at(j)]};
       pair.pair = static_cast<int>(out.size()) - 1;
-      pair.deepest = std::min(a.deepest[at(i)], b.deepest[at(j)]);
+      const auto until = [&](const Piece& piece, double half_material, const Piece& other) {  // round ones end by their normals
+        if (piece.straight || piece.radius < 0) pair.deepest = std::min(pair.deepest, half_material + std::max(other.radius, 0.0));
+      };
+      until(pair.gap.a, a.deepest[at(i)], pair.gap.b);
+      until(pair.gap.b, b.deepest[at(j)], pair.gap.a);
     }
   if (out.empty())
     throw SceneError(scene.file, c.place,
@@ -144,10 +148,17 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
         if (joined) now.beyond[side] = pair_of[at(of_a ? next * n_b + j : i * n_b + next)];
         const Piece &piece = profile.pieces[at(here)], &other = of_a ? b.pieces[at(j)] : a.pieces[at(i)];
         const bool off_a_corner = joined && is_corner(profile.pieces[at(next)]) && is_corner(other);
-        if (now.beyond[side] < 0 && !off_a_corner) now.extent[side] += piece.straight ? while_sliding : while_turning / piece.half;
+        const bool into_the_air = piece.radius < 0;  // a hollow arc, gone on with, leaves the surface
+        if (now.beyond[side] < 0 && !off_a_corner && !into_the_air)
+          now.extent[side] += piece.straight ? while_sliding : while_turning / piece.half;
       }
     }
   return out;
+}
+
+bool has_sharp_corners(const Profile& profile) {
+  const auto ends = profile.closed ? 0 : 2;
+  return std::ranges::count_if(profile.pieces, is_corner) > ends;
 }
 
 std::string contact_text(const ContactPair& pair, std::size_t pairs) {

@@ -22,6 +22,9 @@ ContactPair contact_of(const Scene&, const SceneContact&);
 /// @throws SceneError  there is none
 std::vector<ContactPair> pairs_between(const Scene&, const SceneContact&, const Profile& a, const Profile& b, const ContactPair& like);
 
+/// It has corners without an arc, beside the ends of an open path.
+bool has_sharp_corners(const Profile&);
+
 /// "stiffness 1e9 N/m^1.5, restitution delivered 0.8, no friction; 8 pairs of pieces"
 std::string contact_text(const ContactPair&, std::size_t pairs);
 

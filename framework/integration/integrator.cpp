@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "framework/common/index.h"
 #include "framework/common/text.h"
 #include "framework/common/worse.h"
 #include "framework/integration/law_changes.h"
@@ -177,7 +178,8 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   }
   const double remembered = events_.remembered_wish(event);
   control_.wish_for(remembered > 0 ? control_.bounded(remembered) : wish);
-  if (stepper_->traits().follows_impacts) control_.wish_for(std::min(control_.wish(), outcome.first_step));
+  const bool profiles = at(n_clearances(system_)) < system_.contacts.size();  // which a long implicit step would pass
+  if (profiles || stepper_->traits().follows_impacts) control_.wish_for(std::min(control_.wish(), outcome.first_step));
   control_.forget_errors();
   step_.struck = outcome.change == EventOutcome::Change::jump;
   if (step_.struck) step_.dy_before = step_.to.dy;

@@ -148,7 +148,12 @@ EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {
 EventOutcome ContactEvents::leave(int contact, Step& step) {
   const int side = margin_of(system_, contact, step.to.state).side;
   const int to = side < 0 ? -1 : system_.contacts[at(contact)].beyond[at(side)];
-  if (to < 0 || log_.touching(to)) {
+  if (to < 0 || log_.touching(to)) {  // what it has stored is lost with it
+    const ContactPair& pair = system_.contacts[at(contact)];
+    State& state = step.to.state;
+    const Guard now = gap_of(system_, contact, state);
+    const Approach approach = approach_of(pair, now.value, now.rate, state.impact_rate[at(contact)]);
+    state.y[system_.z_begin() + system_.contact_z[at(contact)]] += evaluate(pair.normal, approach).stored;
     end(contact, step);
     return {.change = EventOutcome::Change::jump};
   }

@@ -99,6 +99,8 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
     if (!between && !(from.value > w.zero)) between = group(at).positive_inside(places_[at].event, step, motion);
     if (!between) return std::nullopt;
     end = *between;
+  } else if (from.value < 0) {  // it may have been above zero before, and below again
+    end = group(at).positive_inside(places_[at].event, step, motion).value_or(t1);
   }
   if (spent || (from.value > -w.zero && from.rate < 0)) {  // at zero and going away: search from where it has gone away
     const double away = std::min(from.value, spent ? -w.zero : 0.0);
