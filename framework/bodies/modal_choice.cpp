@@ -75,6 +75,7 @@ class Watched {
   }
   MatrixXd of(const MatrixXd& nodal_field, const MatrixXd& ports) const {
     MatrixXd out(2 * static_cast<Index>(rows_.size()) + ports.rows(), nodal_field.cols());
+    if (out.cols() == 0) return out;
     Index row = 0;
     for (const int r : rows_) out.middleRows<2>(row) = nodal_field.middleRows<2>(r), row += 2;
     out.bottomRows(ports.rows()) = ports;
@@ -82,7 +83,7 @@ class Watched {
   }
   MatrixXd of(const ModalModel& m) const {
     MatrixXd ports(2 * static_cast<Index>(ports_.size()), m.omega.size());
-    for (std::size_t p = 0; p < ports_.size(); ++p)
+    for (std::size_t p = 0; p < ports_.size() && ports.cols() > 0; ++p)
       ports.middleRows<2>(2 * static_cast<Index>(p)) = m.ports.middleRows<2>(3 * static_cast<Index>(p));
     return of(m.shapes, ports);
   }

@@ -25,6 +25,7 @@ MatrixXd open_directions(const System& system, const Equations& eq) {
   qr.setThreshold(1e-9);
   const Index open = system.n() - qr.rank();
   MatrixXd Z = MatrixXd::Zero(system.n(), open);
+  if (open == 0) return Z;
   Z.bottomRows(open).setIdentity();
   return qr.householderQ() * Z;
 }

@@ -29,7 +29,7 @@ MatrixXd turned_rows(const System& system, double angle, const MatrixXd& X) { re
 // J X: a quarter turn of translations, zero elsewhere. A J is −(J Aᵀ)ᵀ.
 MatrixXd quarter(const System& system, const MatrixXd& X) {
   MatrixXd out = MatrixXd::Zero(X.rows(), X.cols());
-  for (Index i = 0; i < system.n_rigid(); i += 3) {
+  for (Index i = 0; i < system.n_rigid() && X.cols() > 0; i += 3) {
     out.row(i) = -X.row(i + 1);
     out.row(i + 1) = X.row(i);
   }
@@ -38,6 +38,7 @@ MatrixXd quarter(const System& system, const MatrixXd& X) {
 MatrixXd times_quarter(const System& system, const MatrixXd& A) { return -quarter(system, A.transpose()).transpose(); }
 // E X: translations alone.
 MatrixXd translations(const System& system, MatrixXd X) {
+  if (X.cols() == 0) return X;
   for (Index i = 2; i < system.n_rigid(); i += 3) X.row(i).setZero();
   X.bottomRows(system.n() - system.n_rigid()).setZero();
   return X;

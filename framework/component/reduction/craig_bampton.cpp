@@ -52,6 +52,7 @@ Eigen::MatrixXd static_shapes(const Component& c, const std::vector<int>& interf
 
 Sparse columns_of_identity(int n, const std::vector<int>& which) {
   Sparse S(n, static_cast<Eigen::Index>(which.size()));
+  if (which.empty()) return S;  // Eigen reads beyond the columns of a matrix that has none
   S.reserve(Eigen::VectorXi::Constant(S.cols(), 1));
   for (int k = 0; k < S.cols(); ++k) S.insert(which[static_cast<std::size_t>(k)], k) = 1;
   S.makeCompressed();

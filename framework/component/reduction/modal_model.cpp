@@ -25,6 +25,7 @@ void fix_signs(ModalModel& model) {
 
 Eigen::MatrixXd at_ports(const FeModel& model, const Eigen::MatrixXd& shapes) {
   Eigen::MatrixXd ports = Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(model.ports.size()), shapes.cols());
+  if (shapes.cols() == 0) return ports;
   Eigen::Index row = 0;
   for (const Port& port : model.ports)
     for (const int freedom : port.freedom) {

@@ -111,6 +111,7 @@ Sparse permitted_motions(const Component& c, const ReferenceConditions& conditio
 }
 
 Eigen::MatrixXd meeting_conditions(const Component& c, const ReferenceConditions& conditions, const Eigen::MatrixXd& V) {
+  if (V.cols() == 0) return V;
   const Eigen::MatrixXd B = reference_condition_rows(c, conditions);
   const Eigen::MatrixX3d r = scaled_rigid_motions(c.model);
   const Eigen::Matrix3d Br = B * r;
