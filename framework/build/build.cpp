@@ -218,22 +218,13 @@ class Builder {
   void add(const SceneContact& c) {
     unique(c.name, "contact", c.place);
     two_bodies(c.a, c.b, c.place);
-    for (const SceneJoint& j : scene_.joints)
-      if (j.kind == JointKind::weld && std::minmax(j.a.body, j.b.body) == std::minmax(c.a.body, c.b.body))
-        wrong(c.place, "the weld " + quoted(j.name) + " holds its two bodies together: they cannot touch anew; leave the contact out");
-    ContactPair like = contact_of(scene_, c);
-    like.a = profile_marker(c.a), like.b = profile_marker(c.b);
-    std::vector<ContactPair> pairs = pairs_between(scene_, c, profile(c.a), profile(c.b), like);
-    for (ContactPair& pair : pairs)
-      for (int& other : pair.beyond)
-        if (other >= 0) other += static_cast<int>(model_.system.contacts.size());
-    model_.contacts.push_back(contact_text(like, pairs.size()));
-    if (has_sharp_corners(profile(c.a)) && has_sharp_corners(profile(c.b)))
-      model_.warnings.push_back(quoted(c.name) +
-                                ": both profiles have sharp corners; nothing holds two of these that meet point to point, and energy comes "
-                                "from nothing there; give one of the profiles `round`");
-    model_.system.contacts.insert(model_.system.contacts.end(), pairs.begin(), pairs.end());
-    model_.system.contact_names.insert(model_.system.contact_names.end(), pairs.size(), c.name);
+    const Profile &a = profile(c.a), &b = profile(c.b);
+    auto& contacts = model_.system.contacts;
+    BuiltContact made = build_contact(scene_, c, a, b, {profile_marker(c.a), profile_marker(c.b)}, static_cast<int>(contacts.size()));
+    contacts.insert(contacts.end(), made.pairs.begin(), made.pairs.end());
+    model_.system.contact_names.insert(model_.system.contact_names.end(), made.pairs.size(), c.name);
+    model_.contacts.push_back(std::move(made.words));
+    if (!made.warning.empty()) model_.warnings.push_back(std::move(made.warning));
   }
 
   /// Of the axes that a body's profiles are given in.
@@ -308,19 +299,7 @@ class Builder {
         wrong(s.place, "there is no body " + quoted(s.body) + suggestion(s.body, known));
       }
     bend_starts();
-    for (const StartJournal& s : scene_.start_journals) {
-      const auto& all = model_.system.contact_names;
-      const std::vector<std::string> known(all.begin(), all.begin() + n_clearances(model_.system));
-      const auto found = std::find(known.begin(), known.end(), s.joint);
-      if (found == known.end()) wrong(s.place, quoted(s.joint) + " is not a joint with clearance" + suggestion(s.joint, known));
-      const ContactPair& pair = model_.system.contacts[static_cast<std::size_t>(found - known.begin())];
-      const PiecePair& gap = pair.gap;
-      if (!is_held(pair) && vector(s.eccentricity).norm() > gap.clearance() + too_deep * journal_radius(gap))
-        wrong(s.place,
-              "eccentricity puts the journal deeper into the wall than a tenth of its radius, where no contact law holds; "
-              "the clearance is " +
-                  std::to_string(1e3 * gap.clearance()) + " mm");
-    }
+    validate_start_journals(scene_, model_.system);
   }
 
   void bend_starts() {

@@ -6,7 +6,9 @@
 #include <sstream>
 
 #include "framework/common/nearest.h"
+#include "framework/common/text.h"
 #include "framework/configuration/ideal_pin.h"
+#include "framework/mechanism/model.h"
 #include "framework/scene/error.h"
 
 namespace pintle {
@@ -140,6 +142,21 @@ std::vector<std::string> complete_clearances(const Scene& scene, System& system,
     out.push_back(words + left_out(c));
   }
   return out;
+}
+
+void validate_start_journals(const Scene& scene, const System& system) {
+  const std::vector<std::string> known(system.contact_names.begin(), system.contact_names.begin() + n_clearances(system));
+  for (const StartJournal& s : scene.start_journals) {
+    const auto found = std::find(known.begin(), known.end(), s.joint);
+    if (found == known.end())
+      throw SceneError(scene.file, s.place, quoted(s.joint) + " is not a joint with clearance." + did_you_mean(s.joint, known));
+    const ContactPair& pair = system.contacts[static_cast<std::size_t>(found - known.begin())];
+    if (!is_held(pair) && std::hypot(s.eccentricity[0], s.eccentricity[1]) > pair.gap.clearance() + too_deep * journal_radius(pair.gap))
+      throw SceneError(scene.file, s.place,
+                       "eccentricity puts the journal deeper into the wall than a tenth of its radius, where no contact law holds; "
+                       "the clearance is " +
+                           std::to_string(1e3 * pair.gap.clearance()) + " mm");
+  }
 }
 
 double contact_stiffness(const SceneClearance& c) {

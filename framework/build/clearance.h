@@ -25,6 +25,9 @@ ImpactLaw impact_law(const Scene&, const SceneNormal&, double stiffness);
 /// @throws AssemblyError  as assemble, where a spring and damper have to be found
 std::vector<std::string> complete_clearances(const Scene&, System& system, std::vector<std::string>& warnings);
 
+/// @throws SceneError  a start of a journal that is in no clearance joint, or deep in the wall
+void validate_start_journals(const Scene&, const System&);
+
 /// Contact stiffness as the scene's words give it [N/mⁿ].
 double contact_stiffness(const SceneClearance&);
 

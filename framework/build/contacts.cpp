@@ -47,10 +47,10 @@ std::optional<double> curvature(const Profile& profile) {
   return out;
 }
 
-double stiffness_of(const Scene& scene, const SceneContact& c) {
+double stiffness_of(const Scene& scene, const SceneContact& c, const Profile& profile_a, const Profile& profile_b) {
   const SceneNormal& n = c.normal;
   if (n.stiffness) return *n.stiffness;
-  const std::optional<double> a = curvature(profile_of(scene, c.a)), b = curvature(profile_of(scene, c.b));
+  const std::optional<double> a = curvature(profile_a), b = curvature(profile_b);
   if (!a || !b || !(*a + *b > 0))
     throw SceneError(
         scene.file, n.place,
@@ -70,43 +70,19 @@ bool may_touch(const Piece& a, const Piece& b) {
   return !(hollow_a && hollow_b) && !a.straight && !b.straight && a.radius + b.radius < 0;
 }
 
-}  // namespace
-
-Profile profile_of(const Scene& scene, const PointRef& ref) {
-  const Owner owner = owner_of(scene, ref);
-  const auto found = std::ranges::find(owner.profiles, ref.point, &SceneProfile::name);
-  if (found == owner.profiles.end()) throw SceneError(scene.file, ref.place, quoted(ref.body) + " has no profile " + quoted(ref.point));
-  const SceneProfile& p = *found;
-  const auto wrong = [&](const std::string& message) {
-    throw SceneError(scene.file, p.place, "the profile " + quoted(p.name) + ": " + message);
-  };
-  if (p.kind != SceneProfile::path) {
-    if (!(p.radius > 0)) wrong("radius must be above 0");
-    return circle(place(p.centre, owner.points), p.kind == SceneProfile::disc ? p.radius : -p.radius);
-  }
-  std::vector<PathPoint> path;
-  for (const ScenePathPoint& point : p.points) path.push_back({place(point, owner.points), point.arc});
-  try {
-    const bool clockwise = p.closed && area(path) < 0;
-    const bool turn = p.closed ? clockwise != (p.material == SceneProfile::outside) : p.material == SceneProfile::right;
-    return profile_along(turn ? reversed(path, p.closed) : path, p.closed, p.round);
-  } catch (const std::invalid_argument& error) {
-    wrong(error.what());
-  }
-  return {};
-}
-
-ContactPair contact_of(const Scene& scene, const SceneContact& c) {
+// Its laws; pieces are left to fill in.
+ContactPair laws_of(const Scene& scene, const SceneContact& c, const Profile& a, const Profile& b) {
   ContactPair pair{};
   pair.profiles = true;
   pair.slowest_impact = c.normal.slowest_impact;
   pair.follows = c.normal.follows;
   pair.normal = c.normal.law == "spring-damper" ? ImpactLaw{.k = *c.normal.stiffness, .n = 1, .chi = 0, .d = c.normal.damping}
-                                                : impact_law(scene, c.normal, stiffness_of(scene, c));
+                                                : impact_law(scene, c.normal, stiffness_of(scene, c, a, b));
   if (c.friction && c.friction->coefficient != 0) pair.friction = Ambrosio{c.friction->coefficient, c.friction->v0, c.friction->v1};
   return pair;
 }
 
+// The pairs of pieces that may touch, each as `like`; what lies beyond their ends by number among them.
 std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c, const Profile& a, const Profile& b,
                                        const ContactPair& like) {
   const int n_a = static_cast<int>(a.pieces.size()), n_b = static_cast<int>(b.pieces.size());
@@ -156,6 +132,7 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
   return out;
 }
 
+// It has corners without an arc, beside the ends of an open path.
 bool has_sharp_corners(const Profile& profile) {
   const auto ends = profile.closed ? 0 : 2;
   return std::ranges::count_if(profile.pieces, is_corner) > ends;
@@ -171,6 +148,54 @@ std::string contact_text(const ContactPair& pair, std::size_t pairs) {
   s << (pair.friction ? ", friction " + number_text(pair.friction->mu) : ", no friction") << "; " << pairs
     << (pairs == 1 ? " pair" : " pairs") << " of pieces";
   return s.str();
+}
+
+}  // namespace
+
+Profile profile_of(const Scene& scene, const PointRef& ref) {
+  const Owner owner = owner_of(scene, ref);
+  const auto found = std::ranges::find(owner.profiles, ref.point, &SceneProfile::name);
+  if (found == owner.profiles.end()) throw SceneError(scene.file, ref.place, quoted(ref.body) + " has no profile " + quoted(ref.point));
+  const SceneProfile& p = *found;
+  const auto wrong = [&](const std::string& message) {
+    throw SceneError(scene.file, p.place, "the profile " + quoted(p.name) + ": " + message);
+  };
+  if (p.kind != SceneProfile::path) {
+    if (!(p.radius > 0)) wrong("radius must be above 0");
+    return circle(place(p.centre, owner.points), p.kind == SceneProfile::disc ? p.radius : -p.radius);
+  }
+  std::vector<PathPoint> path;
+  for (const ScenePathPoint& point : p.points) path.push_back({place(point, owner.points), point.arc});
+  try {
+    const bool clockwise = p.closed && area(path) < 0;
+    const bool turn = p.closed ? clockwise != (p.material == SceneProfile::outside) : p.material == SceneProfile::right;
+    return profile_along(turn ? reversed(path, p.closed) : path, p.closed, p.round);
+  } catch (const std::invalid_argument& error) {
+    wrong(error.what());
+  }
+  return {};
+}
+
+BuiltContact build_contact(const Scene& scene, const SceneContact& c, const Profile& a, const Profile& b, const std::array<int, 2>& markers,
+                           int first) {
+  for (const SceneJoint& j : scene.joints)
+    if (j.kind == JointKind::weld && std::minmax(j.a.body, j.b.body) == std::minmax(c.a.body, c.b.body))
+      throw SceneError(scene.file, c.place,
+                       "the weld " + quoted(j.name) + " holds its two bodies together: they cannot touch anew; leave the contact out");
+  ContactPair like = laws_of(scene, c, a, b);
+  like.a = markers[0], like.b = markers[1];
+  BuiltContact out;
+  out.pairs = pairs_between(scene, c, a, b, like);
+  for (ContactPair& pair : out.pairs)
+    for (int& other : pair.beyond)
+      if (other >= 0) other += first;
+  out.words = contact_text(like, out.pairs.size());
+  if (has_sharp_corners(a) && has_sharp_corners(b))
+    out.warning =
+        quoted(c.name) +
+        ": both profiles have sharp corners; nothing holds two of these that meet point to point, and energy comes from nothing there; "
+        "give one of the profiles `round`";
+  return out;
 }
 
 }  // namespace pintle

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -14,18 +15,16 @@ namespace pintle {
 /// @throws SceneError  a path that cannot be
 Profile profile_of(const Scene&, const PointRef& ref);
 
-/// A contact's laws; its markers and pieces are left to fill in.
-/// @throws SceneError  laws that cannot be; elasticity where the profiles have no one radius
-ContactPair contact_of(const Scene&, const SceneContact&);
-
-/// The pairs of pieces by which two profiles may touch, each as `like`; what lies beyond their ends by number among them.
-/// @throws SceneError  there is none
-std::vector<ContactPair> pairs_between(const Scene&, const SceneContact&, const Profile& a, const Profile& b, const ContactPair& like);
-
-/// It has corners without an arc, beside the ends of an open path.
-bool has_sharp_corners(const Profile&);
-
-/// "stiffness 1e9 N/m^1.5, restitution delivered 0.8, no friction; 8 pairs of pieces"
-std::string contact_text(const ContactPair&, std::size_t pairs);
+/// A contact of two profiles.
+struct BuiltContact {
+  std::vector<ContactPair> pairs;  ///< of pieces that may touch
+  std::string words;               ///< "stiffness 1e9 N/m^1.5, restitution delivered 0.8, no friction; 8 pairs of pieces"
+  std::string warning;             ///< what makes it doubtful; empty: nothing
+};
+/// @param markers  that carry the two profiles   @param first  index that its first pair will have in System::contacts
+/// @throws SceneError  laws that cannot be; elasticity where a profile has no one radius; bodies that a weld holds together; no two
+/// pieces that could touch
+BuiltContact build_contact(const Scene&, const SceneContact&, const Profile& a, const Profile& b, const std::array<int, 2>& markers,
+                           int first);
 
 }  // namespace pintle
