@@ -5,6 +5,15 @@
 
 namespace pintle {
 
+namespace {
+
+// Of |f| = c(|v|) N and dc/d|v|.
+FrictionForce against(double v, double normal, double c, double slope) {
+  return {std::copysign(c, -v) * normal, -slope * normal, std::copysign(c, -v)};
+}
+
+}  // namespace
+
 FrictionForce evaluate(const Ambrosio& law, double v, double normal) {
   const double speed = std::abs(v);
   if (speed <= law.v0) return {};
@@ -17,6 +26,44 @@ FrictionForce evaluate(const Ambrosio& law, double v, double normal) {
   out.d_speed = speed < law.v1 ? -law.mu * normal / ramp : 0;
   out.d_normal = against * cd;
   return out;
+}
+
+FrictionForce evaluate(const Threlfall& law, double v, double normal) {
+  const double x = 3 * std::abs(v) / law.v1;
+  return against(v, normal, -law.mu * std::expm1(-x), 3 * law.mu / law.v1 * std::exp(-x));
+}
+
+FrictionForce evaluate(const HyperbolicTangent& law, double v, double normal) {
+  const double c = std::tanh(std::abs(v) / law.v1);
+  return against(v, normal, law.mu * c, law.mu * (1 - c * c) / law.v1);
+}
+
+FrictionForce evaluate(const BengisuAkay& law, double v, double normal) {
+  const double speed = std::abs(v);
+  if (speed < law.v0) {
+    const double x = speed / law.v0;
+    return against(v, normal, law.mu_static * x * (2 - x), 2 * law.mu_static * (1 - x) / law.v0);
+  }
+  const double more = (law.mu_static - law.mu) * std::exp(-(speed - law.v0) / law.v1);
+  return against(v, normal, law.mu + more, -more / law.v1);
+}
+
+FrictionForce evaluate(const Coulomb& law, double v, double normal, double direction) {
+  if (law.stribeck == 0) return {-direction * law.mu * normal, 0, -direction * law.mu};
+  const double x = v / law.stribeck, more = (law.mu_static - law.mu) * std::exp(-x * x);
+  return {-direction * (law.mu + more) * normal, 2 * direction * more * x / law.stribeck * normal, -direction * (law.mu + more)};
+}
+
+FrictionForce evaluate(const Coulomb& law, double v, double normal) {
+  return v == 0 ? FrictionForce{} : evaluate(law, v, normal, std::copysign(1.0, v));
+}
+
+FrictionForce evaluate(const FrictionLaw& law, double v, double normal) {
+  return std::visit([&](const auto& l) { return evaluate(l, v, normal); }, law);
+}
+
+double coefficient_of(const FrictionLaw& law) {
+  return std::visit([](const auto& l) { return l.mu; }, law);
 }
 
 }  // namespace pintle

@@ -26,7 +26,7 @@ bool has_normal(const SceneClearance& c) { return c.normal.stiffness || c.normal
 /// The contact law of the scene's words.
 ImpactLaw law_of(const Scene& scene, const SceneClearance& c) { return impact_law(scene, c.normal, contact_stiffness(c)); }
 
-bool rubs(const SceneClearance& c) { return c.friction && c.friction->coefficient != 0; }
+bool rubs(const SceneClearance& c) { return c.friction && rubs(*c.friction); }
 
 /// What of the scene's words the model does not use.
 std::string left_out(const SceneClearance& c) {
@@ -41,8 +41,6 @@ std::string left_out(const SceneClearance& c) {
   for (const std::string& word : unused) out += (out.empty() ? "; not used: " : ", ") + word;
   return out;
 }
-
-std::string friction_text(const ContactPair& pair) { return pair.friction ? ", friction " + text(pair.friction->mu) : ", no friction"; }
 
 /// Completes the spring and damper. E = F c is the energy that the ideal joint's force F has over the clearance c; the
 /// spring stores it at the depth at which the contact does, the damper takes as much of it. @returns this, in words
@@ -83,6 +81,28 @@ ImpactLaw impact_law(const Scene& scene, const SceneNormal& n, double k) {
   return {k, n.exponent, factor->chi(n.restitution)};
 }
 
+bool rubs(const SceneFriction& f) { return f.coefficient != 0 || f.holds.value_or(0) != 0; }
+
+FrictionLaw friction_law(const Scene& scene, const SceneFriction& f) {
+  const double holds = f.holds.value_or(f.coefficient);
+  if (holds < f.coefficient) throw SceneError(scene.file, f.place, "the static coefficient of friction must be the other or above");
+  if (f.law == "ambrosio") return Ambrosio{f.coefficient, f.v0, f.v1};
+  if (f.law == "threlfall") return Threlfall{f.coefficient, f.v1};
+  if (f.law == "tanh") return HyperbolicTangent{f.coefficient, f.v1};
+  if (f.law == "bengisu-akay") return BengisuAkay{f.coefficient, holds, f.v0, f.v1};
+  if (f.law == "coulomb") return Coulomb{f.coefficient, holds, f.stribeck};
+  throw SceneError(scene.file, f.place,
+                   "there is no law of friction " + quoted(f.law) + "; write coulomb, ambrosio, threlfall, tanh or bengisu-akay");
+}
+
+std::string friction_text(const ContactPair& pair) {
+  if (!pair.friction) return ", no friction";
+  const auto* coulomb = std::get_if<Coulomb>(&*pair.friction);
+  const std::string slides = text(coefficient_of(*pair.friction));
+  return coulomb ? ", dry friction " + slides + (coulomb->mu_static > coulomb->mu ? ", static " + text(coulomb->mu_static) : "")
+                 : ", friction " + slides;
+}
+
 ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
   const auto wrong = [&](const Place& place, const std::string& message) { throw SceneError(scene.file, place, message); };
   const SceneClearance& c = *j.clearance;
@@ -109,7 +129,7 @@ ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
     pair.normal = {.k = c.stiffness.value_or(0), .n = 1, .chi = 0, .d = c.damping.value_or(0)};
   }
   if (rubs(c)) {
-    pair.friction = Ambrosio{c.friction->coefficient, c.friction->v0, c.friction->v1};
+    pair.friction = friction_law(scene, *c.friction);
     pair.sliding = c.friction->sliding == SlidingSpeed::material ? Sliding::material : Sliding::geometric;
   }
   return pair;

@@ -18,6 +18,14 @@ ContactPair contact_of(const Scene&, const SceneJoint&);
 /// @throws SceneError  restitution, law or stiffness that cannot be
 ImpactLaw impact_law(const Scene&, const SceneNormal&, double stiffness);
 
+/// The law that a scene names.
+/// @throws SceneError  a law or a static coefficient that cannot be
+FrictionLaw friction_law(const Scene&, const SceneFriction&);
+/// It is more than none.
+bool rubs(const SceneFriction&);
+/// ", dry friction 0.2, static 0.3"
+std::string friction_text(const ContactPair&);
+
 /// Gives springs and dampers what the scene leaves to its contact law: docs/theory/contact.md.
 /// @param system    all but numbered
 /// @param warnings  gets what a model leaves out of the scene and a result would miss

@@ -78,7 +78,7 @@ ContactPair laws_of(const Scene& scene, const SceneContact& c, const Profile& a,
   pair.follows = c.normal.follows;
   pair.normal = c.normal.law == "spring-damper" ? ImpactLaw{.k = *c.normal.stiffness, .n = 1, .chi = 0, .d = c.normal.damping}
                                                 : impact_law(scene, c.normal, stiffness_of(scene, c, a, b));
-  if (c.friction && c.friction->coefficient != 0) pair.friction = Ambrosio{c.friction->coefficient, c.friction->v0, c.friction->v1};
+  if (c.friction && rubs(*c.friction)) pair.friction = friction_law(scene, *c.friction);
   return pair;
 }
 
@@ -145,8 +145,7 @@ std::string contact_text(const ContactPair& pair, std::size_t pairs) {
     s << ", damping " << viscous_damping(pair.normal) << " N s/m";
   else
     s << ", restitution delivered " << restitution_of(pair.normal, 1);
-  s << (pair.friction ? ", friction " + number_text(pair.friction->mu) : ", no friction") << "; " << pairs
-    << (pairs == 1 ? " pair" : " pairs") << " of pieces";
+  s << friction_text(pair) << "; " << pairs << (pairs == 1 ? " pair" : " pairs") << " of pieces";
   return s.str();
 }
 

@@ -282,7 +282,7 @@ void warn(const Model& model, const Equations& eq, Equilibrium& out) {
                              ", more than a tenth of its radius; no contact law holds there");
     if (system.contacts[c].friction)
       out.warnings.push_back("\"" + system.contact_names[c] +
-                             "\": its friction law gives nothing without sliding, so friction holds nothing here");
+                             "\": what friction would hold depends on how the mechanism came to rest, so it holds nothing here");
   }
   for (const BendingProbe& p : model.bending) {
     const auto eta = out.state.y.segment(system.eta_begin[at(p.index)], p.displacement.cols());

@@ -4,6 +4,16 @@ namespace pintle {
 
 using Index = Eigen::Index;
 
+namespace {
+
+void interpolate_friction(const Step& step, double x, State& out) {
+  out.friction = step.from.state.friction;
+  for (std::size_t c = 0; c < out.friction.size(); ++c)
+    out.friction[c].force += x * (step.to.state.friction[c].force - step.from.state.friction[c].force);
+}
+
+}  // namespace
+
 void interpolate_quintic(const System& system, const Step& step, double t, State& out) {
   const Index n = system.n();
   const double h = step.h, x = (t - step.from.state.t) / h;
@@ -13,6 +23,7 @@ void interpolate_quintic(const System& system, const Step& step, double t, State
   const auto& dy1 = step.dy_end();
   out.t = t;
   out.impact_rate = step.from.state.impact_rate;
+  interpolate_friction(step, x, out);
   out.y.resize(system.n_y());
 
   // q = Σ of the six quintic Hermite polynomials, s = q′/h
@@ -39,6 +50,7 @@ void interpolate_cubic(const System& system, const Step& step, double t, State& 
   const auto &y0 = step.from.state.y, &y1 = step.to.state.y, &dy1 = step.dy_end();
   out.t = t;
   out.impact_rate = step.from.state.impact_rate;
+  interpolate_friction(step, x, out);
   out.y.resize(system.n_y());
   for (Index i = 0; i < system.n_y(); ++i) out.y[i] = y0[i] + rise * (y1[i] - y0[i]) + from * step.from.dy[i] + to * dy1[i];
 }

@@ -10,6 +10,7 @@
 #include "framework/common/index.h"
 #include "framework/common/text.h"
 #include "framework/common/worse.h"
+#include "framework/integration/events/friction_events.h"
 #include "framework/integration/law_changes.h"
 
 namespace pintle {
@@ -23,6 +24,7 @@ Events events_of(const System& system, const Scheme& scheme, ContactEvents*& con
   auto of_contacts = std::make_unique<ContactEvents>(system, scheme);
   contacts = of_contacts.get();
   groups.push_back(std::move(of_contacts));
+  if (has_dry_friction(system)) groups.push_back(std::make_unique<FrictionEvents>(system, scheme));
   for (const auto& make : scheme.events) groups.push_back(make(system));
   return Events(std::move(groups));
 }
@@ -41,6 +43,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
     throw std::invalid_argument("a start of " + std::to_string(start.y.size()) + " numbers for a system of " +
                                 std::to_string(system.n_y()));
   start.impact_rate.resize(system.contacts.size(), 0.0);
+  start.friction.resize(has_dry_friction(system) ? system.contacts.size() : 0);
   step_.to.state = std::move(start);
   step_.to.dy.setZero(system.n_y());
   step_.error.setZero(system.n_y());
@@ -178,8 +181,7 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   }
   const double remembered = events_.remembered_wish(event);
   control_.wish_for(remembered > 0 ? control_.bounded(remembered) : wish);
-  const bool profiles = at(n_clearances(system_)) < system_.contacts.size();  // which a long implicit step would pass
-  if (profiles || stepper_->traits().follows_impacts) control_.wish_for(std::min(control_.wish(), outcome.first_step));
+  if (outcome.of_every_method || stepper_->traits().follows_impacts) control_.wish_for(std::min(control_.wish(), outcome.first_step));
   control_.forget_errors();
   step_.struck = outcome.change == EventOutcome::Change::jump;
   if (step_.struck) step_.dy_before = step_.to.dy;

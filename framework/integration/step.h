@@ -28,7 +28,7 @@ struct Instant {
   Memory memory = {};
   template <class A>
   void archive(A& x) {
-    x(PINTLE_MEMBERS(state.t, state.y, state.impact_rate, dy, memory));
+    x(PINTLE_MEMBERS(state.t, state.y, state.impact_rate, state.friction, dy, memory));
   }
 };
 

@@ -101,10 +101,13 @@ struct SceneNormal {
 enum class SlidingSpeed { material, geometric };
 
 struct SceneFriction {
-  double coefficient = 0;       ///< –
-  double v0 = 1e-3, v1 = 1e-2;  ///< Ambrósio's two speeds [m/s], v0 < v1
+  double coefficient = 0;       ///< while sliding, –
+  double v0 = 1e-3, v1 = 1e-2;  ///< speeds of a curve [m/s]; Ambrósio's v0 < v1
   SlidingSpeed sliding = SlidingSpeed::material;
-  Place place;
+  Place place = {};
+  std::string law = "ambrosio";      ///< or threlfall, tanh, bengisu-akay, coulomb
+  std::optional<double> holds = {};  ///< static coefficient, ≥ coefficient; unset: the same, –
+  double stribeck = 0;               ///< of coulomb: the speed over which the static coefficient falls to the other [m/s]
 };
 
 /// How the journal is kept in its bearing: docs/theory/contact.md. A scene changes it by one word; what belongs to

@@ -27,9 +27,8 @@ void expect_same(const Integrator& a, const Integrator& b) {
   ASSERT_EQ(a.counts().evaluations, b.counts().evaluations);
 }
 
-// Contacts of profiles, which go over from piece to piece.
-Case tumbling_box() {
-  const Scene scene = read_scene(std::string(PINTLE_SOURCE_DIR) + "/examples/box_and_ramp.yaml");
+Case of_example(const std::string& name) {
+  const Scene scene = read_scene(std::string(PINTLE_SOURCE_DIR) + "/examples/" + name);
   const Model model = build(scene);
   Case k = crank::make();
   k.system = model.system;
@@ -65,7 +64,8 @@ void goes_on_from_any_step(const Case& k, double until) {
 }
 
 TEST(Restart, FromAnyStepGoesOnBitForBitThroughImpacts) { goes_on_from_any_step(loose_crank(), 1); }
-TEST(Restart, FromAnyStepGoesOnBitForBitFromPieceToPiece) { goes_on_from_any_step(tumbling_box(), 100); }
+TEST(Restart, FromAnyStepGoesOnBitForBitFromPieceToPiece) { goes_on_from_any_step(of_example("box_and_ramp.yaml"), 100); }
+TEST(Restart, FromAnyStepGoesOnBitForBitThroughStickAndSlip) { goes_on_from_any_step(of_example("stick_slip.yaml"), 100); }
 
 // What `method: auto` takes may change with the length of the run and the rows asked for, which a restart may change.
 TEST(Restart, GoesOnWithTheExplicitPairThatWasSaved) {

@@ -211,7 +211,7 @@ pintle::Scene worn_everywhere(double c, double friction) {
   pintle::Scene s = scene(SliderCrank{.clearance = c, .until = 0.01, .tolerance = 1e-10});
   s.joints[0].clearance = clearance("ground", c, 0.8);
   s.joints[1].clearance = clearance("coupler", c, 0.8);
-  for (std::size_t i = 0; i < 3 && friction > 0; ++i) s.joints[i].clearance->friction = pintle::SceneFriction{friction, 1e-3, 1e-2, {}, {}};
+  for (std::size_t i = 0; i < 3 && friction > 0; ++i) s.joints[i].clearance->friction = pintle::SceneFriction{.coefficient = friction};
   return s;
 }
 

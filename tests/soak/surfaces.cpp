@@ -48,9 +48,16 @@ std::string laws(const Drawn& drawn, Chance& chance) {
     if (law.name != "hertz") s << "restitution: " << chance.between(0.05, 1) << ", ";
     s << "stiffness: " << chance.decades(5, 9) << ", exponent: " << (chance.one_in(2) ? 1.5 : chance.between(1, 2)) << "}}";
   }
-  if (chance.one_in(2))
-    s << ", friction: {ambrosio: {coefficient: " << chance.between(0, 0.6) << ", v0: " << 1e-3 * drawn.size << ", v1: " << 1e-2 * drawn.size
-      << "}}";
+  if (!chance.one_in(2)) return s.str();
+  const double coefficient = chance.between(0, 0.6);
+  s << ", friction: {";
+  if (chance.one_in(2)) {
+    s << "ambrosio: {coefficient: " << coefficient << ", v0: " << 1e-3 * drawn.size << ", v1: " << 1e-2 * drawn.size << "}}";
+  } else {
+    s << "coulomb: {coefficient: " << coefficient << ", static: " << coefficient * (chance.one_in(2) ? 1 : chance.between(1, 2));
+    if (chance.one_in(3)) s << ", stribeck speed: " << drawn.size * chance.decades(-3, 0);
+    s << "}}";
+  }
   return s.str();
 }
 

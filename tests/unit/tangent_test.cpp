@@ -44,7 +44,7 @@ struct Kind {
 };
 void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 // Friction that grows with the sliding speeds drawn here.
-ContactPair contact(double chi, std::optional<Ambrosio> friction = {}, Sliding sliding = Sliding::material) {
+ContactPair contact(double chi, std::optional<FrictionLaw> friction = {}, Sliding sliding = Sliding::material) {
   return {0, 1, JournalBearing{0.1 - clearance, 0.1}, {1e6, 1.5, chi}, friction, sliding};
 }
 ContactPair spring_damper(std::optional<Ambrosio> friction = {}) {
@@ -60,6 +60,10 @@ ContactPair profiles(const Piece& a, const Piece& b) {
   ContactPair pair = contact(2, Ambrosio{0.3, 0, 50});
   pair.gap = {a, b};
   pair.profiles = pair.follows = true;
+  return pair;
+}
+ContactPair dry(ContactPair pair) {
+  pair.friction = Coulomb{0.2, 0.3, 5};
   return pair;
 }
 const std::vector<Kind> kinds{
@@ -87,6 +91,8 @@ const std::vector<Kind> kinds{
     {"ContactWithFriction", {}, {}, {contact(2, Ambrosio{0.3, 0, 50})}},
     {"ContactInFullSliding", {}, {}, {contact(0.6, Ambrosio{0.3, 1e-6, 2e-6})}},
     {"ContactOfGeometricSliding", {}, {}, {contact(0.6, Ambrosio{0.3, 0, 50}, Sliding::geometric)}},
+    {"ContactOfDryFriction", {}, {}, {contact(2, Coulomb{0.2, 0.3, 5})}},
+    {"DiscOnLineOfDryFriction", {}, {}, {dry(profiles(disc, flat))}},
     {"DiscOnDisc", {}, {}, {profiles(disc, disc)}},
     {"DiscInHollow", {}, {}, {profiles(disc, hollow)}},
     {"HollowRoundDisc", {}, {}, {profiles(hollow, disc)}},
@@ -118,6 +124,7 @@ State make_state(const System& system, Draw& draw, Equations& eq) {
   State s = random_state(system, draw, eq);
   if (system.contacts.empty()) return s;
   s.impact_rate = {draw.within(0.5, 4)};
+  if (has_dry_friction(system)) s.friction = {{std::floor(draw.within(-1, 2)), draw.within(-90, 90)}};  // slides either way, or sticks
   const double angle = draw.within(-M_PI, M_PI);
   const Vector2d wanted = (clearance + depth) * Vector2d(std::cos(angle), std::sin(angle));
   Vector2d shift = wanted - (eq.motion[0].r - eq.motion[1].r);
@@ -279,7 +286,7 @@ struct Held {
     EXPECT_LT(largest(sample.ours(w, eq_) - sum), (1 + largest(sum)) * rounding);
   }
 
-  // At rest, without accelerations, r is the gradient of λ·C and of energies. Friction needs speed; forces that
+  // At rest, without accelerations, r is the gradient of λ·C and of energies. Friction needs speed, or to have been decided; forces that
   // follow a body have no potential and are left out.
   void coordinates_is_symmetric_at_rest() {
     Kind kind = kind_;
@@ -289,6 +296,7 @@ struct Held {
     for (int k = 0; k < draws; ++k) {
       Sample sample(system, draw_, eq);
       sample.state.y.tail(system.n_y() - n_).setZero();
+      sample.state.friction.clear();
       sample.a.setZero();
       const MatrixXd K = sample.ours({1, 0, 0}, eq);
       EXPECT_LT(largest(K - K.transpose()), (1 + largest(K)) * rounding) << K;

@@ -59,6 +59,22 @@ class Sum : public ValueWriter<Sum> {
     const auto& [mu, v0, v1] = law;
     add(mu, v0, v1);
   }
+  void add(const Threlfall& law) {
+    const auto& [mu, v1] = law;
+    add(mu, v1);
+  }
+  void add(const HyperbolicTangent& law) {
+    const auto& [mu, v1] = law;
+    add(mu, v1);
+  }
+  void add(const BengisuAkay& law) {
+    const auto& [mu, mu_static, v0, v1] = law;
+    add(mu, mu_static, v0, v1);
+  }
+  void add(const Coulomb& law) {
+    const auto& [mu, mu_static, stribeck] = law;
+    add(mu, mu_static, stribeck);
+  }
   void add(const Foreshortening& f) {
     const auto& [S, j, h] = f;
     add(S, j, h);

@@ -6,6 +6,7 @@
 #include "framework/common/index.h"
 #include "framework/common/worse.h"
 #include "framework/dynamics/equations/bifurcation.h"
+#include "framework/dynamics/equations/sticking.h"
 
 namespace pintle {
 
@@ -264,7 +265,8 @@ void apply_forces(const System& system, const State& state, Equations& eq) {
   }
   for (std::size_t i = 0; i < system.contacts.size(); ++i) {
     const ContactPair& pair = system.contacts[i];
-    eq.contact[i] = evaluate(pair, eq.motion[at(pair.a)], eq.motion[at(pair.b)], state.impact_rate[i]);
+    eq.contact[i] = evaluate(pair, eq.motion[at(pair.a)], eq.motion[at(pair.b)], state.impact_rate[i],
+                             state.friction.empty() ? DryFriction{} : state.friction[i]);
     if (eq.contact[i].normal.force == 0) continue;
     add_wrench(system, eq, pair.a, eq.contact[i].on_a, eq.f);
     add_wrench(system, eq, pair.b, eq.contact[i].on_b, eq.f);
@@ -293,6 +295,7 @@ void accelerate(const System& system, const State& state, Equations& eq) {
   solve_reactions(system, eq);
   ++eq.evaluations;
   if (eq.schur.lost() > 0) eq.regular = agree(system, eq) && follow_bifurcation_branch(system, state, eq);
+  if (!state.friction.empty() && eq.regular) hold_sticking(system, state, eq);
 }
 
 void fill_derivative(const System& system, const VectorXd& y, const Equations& eq, VectorXd& dy) {
@@ -376,6 +379,15 @@ bool project(const System& system, double t, VectorXd& y, Equations& eq) {
     return largest(eq.g.cwiseQuotient(system.scale));
   };
   return onto_constraints(system, t, y, eq, factored, subtract);
+}
+
+void respond(const System& system, Equations& eq, VectorXd& a, VectorXd& lambda) {
+  multiply_inverse_mass(system, eq, a);
+  lambda.setZero(system.n_rows());
+  if (system.n_rows() == 0) return;
+  add_product(eq, a.data(), lambda);
+  eq.schur.solve(lambda);
+  subtract_reaction(system, eq, lambda, a.data());
 }
 
 void keep_allowed(const System& system, Equations& eq, double* v) {

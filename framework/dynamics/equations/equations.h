@@ -13,6 +13,14 @@
 
 namespace pintle {
 
+/// Contacts of dry friction that stick, and what the forces that hold them do to the motion: sticking.h.
+struct Sticking {
+  std::vector<std::size_t> contact;
+  Eigen::MatrixXd J;       ///< n × sticking: ∂slip/∂s, a column each
+  Eigen::MatrixXd a;       ///< n × sticking: accelerations by 1 N
+  Eigen::MatrixXd lambda;  ///< n_rows × sticking: multipliers by 1 N
+};
+
 /// Scratch of one evaluation of the equations of motion, sized by the system; one per thread.
 ///   M a + Cqᵀ λ = f(q, s, t),   Cq a = γ,   Cq s = −Ct,   C = 0.
 /// Nothing here allocates after construction while the rows are few enough to be dense.
@@ -60,6 +68,7 @@ struct Equations {
   Eigen::VectorXd f, a, lambda;  ///< forces, accelerations, multipliers
   std::vector<ContactEffect> contact;
   std::vector<ForceEffect> force;
+  Sticking sticking;
   bool regular = true;  ///< false: no accelerations can be had here
   bool uneven = false;  ///< inertias so unlike that λ and a need a second look
   int permanent = 0;    ///< rows that others imply wherever it has moved so far
@@ -85,6 +94,8 @@ void acceleration_side(const Equations&, Eigen::VectorXd& gamma);
 /// Loads, λ, a. After speed and factor. Clears `regular` where rows contradict each other, and in a
 /// singular pose that speeds do not lead out of.
 void accelerate(const System&, const State&, Equations&);
+/// a ← accelerations by the forces a under the joints, λ ← multipliers that go with them. After factor.
+void respond(const System&, Equations&, Eigen::VectorXd& a, Eigen::VectorXd& lambda);
 /// out += M v, n. After update_mass.
 void add_mass_times(const System&, const Equations&, const Eigen::VectorXd& v, Eigen::VectorXd& out);
 /// out += Cqᵀ x, x of n_rows. After pose.

@@ -43,7 +43,23 @@ Approach approach_of(const ContactPair& pair, double depth, double rate, double 
   return {depth, rate, pair.follows ? std::max(latched, rate) : latched};
 }
 
-ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& a, const MarkerMotion& b, double impact_rate) {
+const Coulomb* dry_friction(const ContactPair& pair) {
+  return pair.friction && !is_held(pair) ? std::get_if<Coulomb>(&*pair.friction) : nullptr;
+}
+
+namespace {
+
+FrictionForce friction_of(const ContactPair& pair, double slip, double normal, const DryFriction& dry) {
+  const auto* coulomb = std::get_if<Coulomb>(&*pair.friction);
+  if (!coulomb) return evaluate(*pair.friction, slip, normal);
+  if (dry.direction == 0) return {.force = dry.force};
+  if (dry.direction == DryFriction::undecided) return {};
+  return evaluate(*coulomb, slip, normal, dry.direction);
+}
+
+}  // namespace
+
+ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& a, const MarkerMotion& b, double impact_rate, const DryFriction& dry) {
   ContactEffect out;
   if (pair.profiles && impact_rate <= 0) return out;
   out.gap = evaluate(pair.gap, moving_point(a), moving_point(b));
@@ -54,8 +70,9 @@ ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& a, const Mar
   Vector2d force = -out.normal.force * out.gap.n;
   if (pair.friction) {
     const double slip = pair.sliding == Sliding::material ? out.gap.material_slip : out.gap.geometric_slip;
-    out.friction = evaluate(*pair.friction, slip, out.normal.force).force;
-    out.friction_loss = -out.friction * slip;
+    const FrictionForce law = friction_of(pair, slip, out.normal.force, dry);
+    out.friction = law.force, out.d_slip = law.d_speed, out.d_normal = law.d_normal;
+    if (law.d_normal != 0) out.friction_loss = -out.friction * slip;  // else nothing slides
     force += out.friction * perp(out.gap.n);
   }
   const double couple = cross(out.gap.n, force);
@@ -66,6 +83,27 @@ ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& a, const Mar
   out.on_a[2] += cross(out.gap.arm_a, force) - (pair.gap.a.straight ? pressed : 0);
   out.on_b[2] -= cross(out.gap.arm_b, force) + (pair.gap.b.straight ? pressed : 0);
   return out;
+}
+
+std::array<Wrench, 2> unit_friction(const ContactPair& pair, const Gap& gap) {
+  const Vector2d t = perp(gap.n);
+  return {Wrench(t.x(), t.y(), pair.gap.a.radius + cross(gap.arm_a, t)), Wrench(-t.x(), -t.y(), pair.gap.b.radius - cross(gap.arm_b, t))};
+}
+
+void add_friction(const ContactPair& pair, double force, ContactEffect& effect) {
+  const std::array<Wrench, 2> unit = unit_friction(pair, effect.gap);
+  effect.friction += force;
+  effect.on_a += force * unit[0];
+  effect.on_b += force * unit[1];
+}
+
+double slip_acceleration(const ContactPair& pair, const ContactEffect& now, const MarkerMotion& a, const MarkerMotion& b) {
+  const Gap& gap = now.gap;
+  const std::array<Wrench, 2> unit = unit_friction(pair, gap);
+  const Vector2d along = a.v + a.w * perp(gap.arm_a) - b.v - b.w * perp(gap.arm_b);
+  const Vector2d inwards = b.w * b.w * gap.arm_b - a.w * a.w * gap.arm_a;
+  return unit[0].head<2>().dot(a.a0) + unit[0][2] * a.alpha0 + unit[1].head<2>().dot(b.a0) + unit[1][2] * b.alpha0 +
+         inwards.dot(perp(gap.n)) - gap.turning * along.dot(gap.n);
 }
 
 namespace {
@@ -98,8 +136,7 @@ WrenchTangent at_middles(const ContactPair& pair, const ContactEffect& now, cons
   double T = 0;
   if (pair.friction) {
     const bool material = pair.sliding == Sliding::material;
-    const FrictionForce law = evaluate(*pair.friction, material ? gap.material_slip : gap.geometric_slip, N);
-    T = law.force;
+    T = now.friction;
     Row slip_v = between(t), slip_p = -along * n_p;
     if (material) {
       slip_v[2] += a.radius, slip_v[5] += b.radius;
@@ -107,8 +144,8 @@ WrenchTangent at_middles(const ContactPair& pair, const ContactEffect& now, cons
       slip_v *= gap.depth * curving;
       slip_p = turning * depth_p + gap.depth * curving * slip_p - gap.depth * curving * turning * between(n);
     }
-    T_p = law.d_speed * slip_p + law.d_normal * N_p;
-    T_v = law.d_speed * slip_v + law.d_normal * N_v;
+    T_p = now.d_slip * slip_p + now.d_normal * N_p;
+    T_v = now.d_slip * slip_v + now.d_normal * N_v;
   }
 
   WrenchTangent out(2);

@@ -6,6 +6,7 @@
 #include "contact/friction_law.h"
 #include "contact/gap.h"
 #include "contact/normal_law.h"
+#include "framework/common/members.h"
 #include "framework/dynamics/model/marker.h"
 #include "framework/dynamics/model/wrench_tangent.h"
 
@@ -21,7 +22,7 @@ struct ContactPair {
   int a, b;  ///< markers that carry the pieces: of a clearance joint at the two centres
   PiecePair gap;
   ImpactLaw normal;
-  std::optional<Ambrosio> friction;
+  std::optional<FrictionLaw> friction;
   Sliding sliding = Sliding::material;
   double slowest_impact = 1e-6;  ///< floor of the latched approach speed [m/s]
   bool follows = false;          ///< the latched speed grows with the approach of the same contact; false: that of its onset
@@ -36,12 +37,25 @@ struct ContactPair {
   std::array<int, 4> beyond{-1, -1, -1, -1};
 };
 
+/// What a contact of dry friction is doing, and the force that holds it where it sticks.
+struct DryFriction {
+  static constexpr double undecided = 2;  ///< the surfaces have met, and neither slide nor stick yet: without friction
+  double direction = undecided;           ///< −1, 1: they slide, a over b along Zn; 0: they stick
+  double force = 0;                       ///< on a along Zn, where they stick [N]
+  template <class A>
+  void archive(A& x) {
+    x(PINTLE_MEMBERS(direction, force));
+  }
+};
+
 /// What a contact does at an instant. Friction acts on each body's own surface, Eq. (19).
 struct ContactEffect {
   Gap gap;
   Wrench on_a = Wrench::Zero(), on_b = Wrench::Zero();
   NormalForce normal;
   double friction = 0;       ///< on a along Zn [N]
+  double d_slip = 0;         ///< of that, in the sliding speed [N s/m] …
+  double d_normal = 0;       ///< … and in the normal force, –
   double friction_loss = 0;  ///< as the law sees it: −force · its own sliding speed [W]
 };
 
@@ -56,7 +70,17 @@ double fine_length(const ContactPair&, double mechanism);
 MovingPoint moving_point(const MarkerMotion&);
 
 /// @param impact_rate  latched approach speed [m/s]; 0 while open: then only the gap is found, of profiles not even that
-ContactEffect evaluate(const ContactPair&, const MarkerMotion& a, const MarkerMotion& b, double impact_rate);
+/// @param dry  read where friction is Coulomb's
+ContactEffect evaluate(const ContactPair&, const MarkerMotion& a, const MarkerMotion& b, double impact_rate, const DryFriction& dry = {});
+
+/// Its friction, if that is Coulomb's and acts; else nullptr.
+const Coulomb* dry_friction(const ContactPair&);
+/// What friction of 1 N does to a and to b: by power, the material slip of unit rates.
+std::array<Wrench, 2> unit_friction(const ContactPair&, const Gap&);
+/// Adds friction to what the contact does.
+void add_friction(const ContactPair&, double force, ContactEffect&);
+/// The rate of the material slip where no coordinate is accelerated [m/s²].
+double slip_acceleration(const ContactPair&, const ContactEffect& now, const MarkerMotion& a, const MarkerMotion& b);
 
 /// What the normal law is told. @param latched  approach speed at onset or, if it follows, the largest since [m/s]
 Approach approach_of(const ContactPair&, double depth, double rate, double latched);

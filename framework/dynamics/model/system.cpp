@@ -78,6 +78,10 @@ int n_clearances(const System& system) {
   return static_cast<int>(std::ranges::find(system.contacts, true, &ContactPair::profiles) - system.contacts.begin());
 }
 
+bool has_dry_friction(const System& system) {
+  return std::ranges::any_of(system.contacts, [](const ContactPair& c) { return dry_friction(c) != nullptr; });
+}
+
 double lightness(const System& system, const ContactPair& pair) {
   double out = 0;
   for (const int marker : {pair.a, pair.b})

@@ -92,13 +92,17 @@ bool feels_shapes(const System&, const Joint&, int marker);
 /// Clearance joints, the contacts of which stand before those of profiles.
 int n_clearances(const System&);
 
+/// Some contact's friction is Coulomb's: stick and slip are events.
+bool has_dry_friction(const System&);
+
 inline bool has_gravity(const System& s) { return s.gravity.x() != 0 || s.gravity.y() != 0; }
 
 /// Everything that changes in time. Copy one to branch a run, store one to restart it.
 struct State {
-  double t = 0;                     ///< [s]
-  Eigen::VectorXd y;                ///< coordinates q, speeds s, internal states x, ledger integrals z: n + n + n_x + n_z
-  std::vector<double> impact_rate;  ///< per contact, latched approach speed; 0 while open [m/s]
+  double t = 0;                            ///< [s]
+  Eigen::VectorXd y;                       ///< coordinates q, speeds s, internal states x, ledger integrals z: n + n + n_x + n_z
+  std::vector<double> impact_rate;         ///< per contact, latched approach speed; 0 while open [m/s]
+  std::vector<DryFriction> friction = {};  ///< per contact; empty where none has dry friction
 };
 
 }  // namespace pintle

@@ -142,7 +142,8 @@ EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {
   else
     end(event, step);
   return {.change = inside || begins_with_jump(pair.normal) ? EventOutcome::Change::jump : EventOutcome::Change::forces,
-          .first_step = onset ? onset_step(event, gap.rate, step.to.state.t) : infinite};
+          .first_step = onset ? onset_step(event, gap.rate, step.to.state.t) : infinite,
+          .of_every_method = pair.profiles};  // which a long implicit step would pass
 }
 
 EventOutcome ContactEvents::leave(int contact, Step& step) {
@@ -158,6 +159,7 @@ EventOutcome ContactEvents::leave(int contact, Step& step) {
     return {.change = EventOutcome::Change::jump};
   }
   std::swap(step.to.state.impact_rate[at(contact)], step.to.state.impact_rate[at(to)]);
+  if (auto& friction = step.to.state.friction; !friction.empty()) std::swap(friction[at(contact)], friction[at(to)]);
   log_.pass(contact, to);
   return {};
 }
@@ -166,6 +168,7 @@ void ContactEvents::begin(int contact, Step& step, double rate) {
   State& state = step.to.state;
   const double latched = std::max(rate, system_.contacts[at(contact)].slowest_impact);
   state.impact_rate[at(contact)] = latched;
+  if (!state.friction.empty()) state.friction[at(contact)] = {};
   const Guard now = gap_of(system_, contact, state);
   log_.begin(contact, step, now, moment(step, now), latched);
 }

@@ -43,6 +43,7 @@ struct WatchedGuard {
 struct EventOutcome {
   enum class Change { nothing, forces, jump } change = Change::forces;  ///< jump: forces jump, or the state does
   double first_step = std::numeric_limits<double>::infinity();  ///< the next step's bound by accuracy, of methods that follow impacts [s]
+  bool of_every_method = false;                                 ///< that bound
   std::string end = {};                                         ///< the integration ends here, and why; empty: it goes on
 };
 

@@ -133,6 +133,15 @@ Guard gap_of(const System& system, int contact, const State& state) {
   return {gap.depth, gap.rate};
 }
 
+ContactEffect pressing(const System& system, int contact, const State& state) {
+  const ContactPair& pair = system.contacts[at(contact)];
+  ContactEffect out;
+  out.gap = facing(system, pair, state).gap;
+  if (const double latched = state.impact_rate[at(contact)]; latched > 0)
+    out.normal = evaluate(pair.normal, approach_of(pair, out.gap.depth, out.gap.rate, latched));
+  return out;
+}
+
 Guard onset_of(const System& system, int contact, const State& state) {
   const ContactPair& pair = system.contacts[at(contact)];
   const Facing now = facing(system, pair, state);

@@ -10,6 +10,8 @@ namespace pintle {
 
 /// Overlap of a contact and its rate, from the coordinates and speeds alone.
 Guard gap_of(const System&, int contact, const State&);
+/// The gap of a contact and its normal force, likewise; nothing else of what it does.
+ContactEffect pressing(const System&, int contact, const State&);
 /// What is above zero where a contact that is open touches: the overlap; of profiles also how far inside its pieces it is.
 Guard onset_of(const System&, int contact, const State&);
 /// Of profiles, how far inside its pieces a contact is, and the side where it is nearest to leaving them.

@@ -1,5 +1,7 @@
 #include "framework/integration/explicit/stages.h"
 
+#include "framework/dynamics/equations/sticking.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -77,10 +79,13 @@ bool Stages::settle(const System& system, Instant& node, Equations& eq) {
       pose(system, node.state.t, node.state.y, eq);
       partition_.choose(system, eq);
     }
-    return evaluate_stage(system, node.state, eq, node.dy);
+    if (!partition_.correct(system, node.state.t, node.state.y, eq)) return false;
+  } else if (!project(system, node.state.t, node.state.y, eq)) {
+    return false;
   }
-  if (!project(system, node.state.t, node.state.y, eq)) return false;
+  remove_slip(system, node.state, eq);
   accelerate(system, node.state, eq);
+  keep_holding_forces(eq, node.state);
   fill_derivative(system, node.state.y, eq, node.dy);
   return eq.regular;
 }
@@ -97,6 +102,7 @@ bool Stages::evaluate_inner(const System& system, const Instant& from_node, doub
   const State& from = from_node.state;
   const std::size_t inner = tableau_.closes ? k_.size() - 1 : k_.size();
   stage_.impact_rate = from.impact_rate;
+  stage_.friction = from.friction;
   k_[0] = from_node.dy;
   project_stages_ = false;
   for (std::size_t i = 1; i < inner; ++i) {
@@ -119,6 +125,7 @@ bool Stages::reach(const System& system, const Instant& from_node, double h, Ins
   State& to = to_node.state;
   to.t = from.t + h;
   to.impact_rate = from.impact_rate;
+  to.friction = from.friction;
   to.y = from.y;
   add_combination(h, tableau_.b, k_, to.y);  // a closing stage has no weight
   if (!to.y.allFinite() || !settle(system, to_node, eq)) return false;

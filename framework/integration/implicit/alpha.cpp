@@ -6,6 +6,7 @@
 #include "framework/common/index.h"
 #include "framework/common/worse.h"
 #include "framework/dynamics/equations/internal.h"
+#include "framework/dynamics/equations/sticking.h"
 
 namespace pintle {
 
@@ -69,6 +70,7 @@ void Alpha::evaluate_at(const System& system, const State& state, const VectorXd
 
 void Alpha::balance(const System& system, const State& state, const VectorXd& dy, const VectorXd& lambda, Equations& eq) {
   apply_forces(system, state, eq);
+  if (!state.friction.empty()) list_sticking(system, state, eq);
   eq.a = dy.segment(system.n(), system.n());
   eq.lambda = lambda;
   ++eq.evaluations;
@@ -76,7 +78,9 @@ void Alpha::balance(const System& system, const State& state, const VectorXd& dy
 
 bool Alpha::settle(const System& system, Instant& node, Equations& eq) {
   if (!project(system, node.state.t, node.state.y, eq)) return false;
+  remove_slip(system, node.state, eq);
   accelerate(system, node.state, eq);
+  keep_holding_forces(eq, node.state);
   fill_derivative(system, node.state.y, eq, node.dy);
   Memory& memory = node.memory;
   memory.h = 0;
@@ -137,12 +141,14 @@ bool Alpha::soften_start(const System& system, double h, const Instant& from, Eq
   evaluate_at(system, from.state, from.dy, from.memory.lambda, eq);
   if (system.n_x() > 0) soften_internal(system, start_weights(h).s, eq);
   if (!refactor(system, start_weights(h), from, eq)) return blame(system, eq, "the iteration matrix is singular");
+  border(system, eq);
   for (int i = 0; i < 2; ++i) {
     dp_.setZero();
     add_mass_times(system, eq, i == 0 ? start_ : work_, dp_);
     mu_.setZero();
     visit_jacobian(eq, [&](int row, int column, double value) { mu_[row] += value * (i == 0 ? start_ : work_)[column]; });
     kkt_.solve(dp_, mu_);
+    keep_slip(system, eq, dp_);
     if (i == 0) work_ = 2 * start_.head(n) - dp_;  // F(2 − F)
   }
   start_.head(n) = dp_;
@@ -199,7 +205,7 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     balance(system, to.state, to.dy, to.memory.lambda, eq);
     if (enough) {
       const double left = position_violation(system, eq) - std::min(8 * angle_rounding(system, y), still_near);
-      const double drift = velocity_violation(system, y, eq);
+      const double drift = worse(velocity_violation(system, y, eq), slip_violation(system, to.state, eq));
       if (worse(left, drift) <= (i > most_iterations / 2 ? nearly : on_constraints)) {
         tired_ = tired_ || i > many_iterations || rate_ > slow;
         return true;
@@ -210,6 +216,7 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
       if (!refactor(system, w, to, eq)) return blame(system, eq, "the iteration matrix is singular");
       fresh = true;
     }
+    if (i == 0) border(system, eq);
     dv_ = eq.f;
     work_.setZero();
     add_mass_times(system, eq, eq.a, work_);
@@ -217,8 +224,9 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     dv_ -= work_;
     mu_ = eq.Cdot * (-1 / w.s);
     solve(dv_, mu_);
-    v += dv_;
     to.memory.lambda += mu_;
+    correct_slip(system, w.s, to.state, to.memory, eq);
+    v += dv_;
     dp_.setZero();
     if (system.n_rows() > 0) {
       mu_ = (w.q / w.s) * eq.Cdot - eq.C;  // what δv̇ does to C taken off
@@ -253,6 +261,7 @@ bool Alpha::attempt(const System& system, double h, Step& step, Equations& eq) {
   step.h = h;
   to.state.t = from.t + h;
   to.state.impact_rate = from.impact_rate;
+  to.state.friction = from.friction;
   to.state.y.resize(system.n_y());
   to.state.y.tail(system.n_x() + system.n_z()) = from.y.tail(system.n_x() + system.n_z());
   trouble_.clear();
@@ -271,6 +280,56 @@ bool Alpha::attempt(const System& system, double h, Step& step, Equations& eq) {
   return to.state.y.allFinite() && to.dy.allFinite() && step.error.allFinite();
 }
 
+// Contacts that stick, beside the rows that the factor knows: what a newton that holds each of them does.
+void Alpha::border(const System& system, Equations& eq) {
+  const auto held = static_cast<Index>(eq.sticking.contact.size());
+  border_.resize(system.n(), held), border_lambda_.resize(system.n_rows(), held), W_.resize(held, held);
+  if (held == 0) return;
+  const Eigen::MatrixXd& J = eq.sticking.J;
+  for (Index i = 0; i < J.cols(); ++i) {
+    work_ = J.col(i);
+    mu_.setZero();
+    solve(work_, mu_);
+    border_.col(i) = work_, border_lambda_.col(i) = mu_;
+  }
+  W_ = J.transpose() * border_;
+}
+
+// The holding forces that, with what Newton does to the speeds, leave no slip.
+void Alpha::correct_slip(const System& system, double weight, State& state, Memory& memory, Equations& eq) {
+  const std::vector<std::size_t>& held = eq.sticking.contact;
+  if (held.empty()) return;
+  const VectorXd force = share_out_friction(system, eq, W_, -slips(eq) / weight - eq.sticking.J.transpose() * dv_);
+  dv_ += border_ * force;
+  memory.lambda += border_lambda_ * force;
+  for (Index i = 0; i < force.size(); ++i) state.friction[held[static_cast<std::size_t>(i)]].force += force[i];
+}
+
+// Largest slip that what sticks could take away, over the mechanism's length and fastest angular rate.
+double Alpha::slip_violation(const System& system, const State& state, const Equations& eq) const {
+  if (border_.cols() == 0) return 0;
+  return largest(W_ * share_out_friction(system, eq, W_, slips(eq))) / (system.length * fastest_rate(system, state.y));
+}
+
+// x less what would make contacts slip that stick.
+void Alpha::keep_slip(const System& system, const Equations& eq, VectorXd& x) const {
+  if (border_.cols() > 0) x -= border_ * share_out_friction(system, eq, W_, eq.sticking.J.transpose() * x);
+}
+
+// As share_out, of contacts that could hold in one another's stead.
+void Alpha::share_out_holding_forces(const System& system, State& state, Equations& eq) {
+  const std::vector<std::size_t>& held = eq.sticking.contact;
+  if (held.size() < 2) return;
+  VectorXd force(border_.cols());
+  for (Index i = 0; i < force.size(); ++i) force[i] = state.friction[held[static_cast<std::size_t>(i)]].force;
+  const VectorXd change = share_out_friction(system, eq, W_, W_ * force) - force;
+  for (Index i = 0; i < force.size(); ++i) {
+    const std::size_t c = held[static_cast<std::size_t>(i)];
+    state.friction[c].force += change[i];
+    add_friction(system.contacts[c], change[i], eq.contact[c]);
+  }
+}
+
 // What forces of dependent rows share is not settled by the step: taken on from one to the next, it would grow without bound.
 void Alpha::share_out(const System& system, Instant& to, Equations& eq) {
   factor(system, to.state.y, eq);
@@ -281,6 +340,7 @@ void Alpha::share_out(const System& system, Instant& to, Equations& eq) {
 
 void Alpha::remember(const System& system, double h, const Instant& from, Instant& to, Equations& eq) {
   const Index n = system.n(), n_s = system.n_s();
+  share_out_holding_forces(system, to.state, eq);
   fill_derivative(system, to.state.y, eq, to.dy);
   const auto v1 = to.dy.segment(n, n_s);
   Memory& memory = to.memory;
@@ -310,6 +370,7 @@ void Alpha::filter(const System& system, Eigen::Ref<VectorXd> e, int times, Equa
     add_mass_times(system, eq, work_, dp_);
     mu_.setZero();
     solve(dp_, mu_);
+    keep_slip(system, eq, dp_);
     work_ = dp_;
   }
   e = work_;

@@ -114,9 +114,14 @@ Json json(const SceneNormal& normal, bool in_joint) {
 }
 
 Json json(const SceneFriction& f, bool in_joint) {
-  Json law = {{"coefficient", f.coefficient}, {"v0", f.v0}, {"v1", f.v1}};
-  if (in_joint) law["sliding"] = f.sliding == SlidingSpeed::material ? "material" : "geometric";
-  return {{"ambrosio", law}};
+  Json law = {{"coefficient", f.coefficient}};
+  const bool coulomb = f.law == "coulomb", ambrosio = f.law == "ambrosio";
+  if (coulomb || f.law == "bengisu-akay") law["static"] = f.holds.value_or(f.coefficient);
+  if (ambrosio || f.law == "bengisu-akay") law["v0"] = f.v0;
+  if (!coulomb) law["v1"] = f.v1;
+  if (coulomb && f.stribeck > 0) law["stribeck speed"] = f.stribeck;
+  if (in_joint && ambrosio) law["sliding"] = f.sliding == SlidingSpeed::material ? "material" : "geometric";
+  return {{f.law, law}};
 }
 
 Json json(const SceneContact& c) {

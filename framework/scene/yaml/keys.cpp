@@ -28,6 +28,10 @@ const std::vector<Key> profile_keys{{"disc"},
                                     {"closed", optional, "", {"true", "false"}},
                                     {"material", optional, "", {"left", "right", "inside", "outside"}},
                                     {"round"}};
+const std::vector<Key> friction_laws{{"coulomb"}, {"ambrosio"}, {"threlfall"}, {"tanh"}, {"bengisu-akay"}};
+const std::vector<Key> coulomb_keys{{"coefficient", required, "0.3"}, {"static"}, {"stribeck speed"}};
+const std::vector<Key> curve_keys{{"coefficient", required, "0.1"}, {"v1"}};
+const std::vector<Key> peak_keys{{"coefficient", required, "0.1"}, {"static"}, {"v0"}, {"v1"}};
 const std::vector<Key> arc_keys{{"arc", required, "20 mm"}};
 constexpr const char* two_eyes = "[{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]";
 
@@ -173,9 +177,13 @@ const std::vector<KeyTable>& tables() {
         {"approach speed", optional, "", {"onset", "largest"}},
         {"journal"}}},
       {"joints.*.clearance.normal.*.journal", {{"young", required, "207 GPa"}, {"poisson", required, "0.3"}}},
-      {"joints.*.clearance.friction", {{"ambrosio", required, "{coefficient: 0.1}"}}},
+      {"joints.*.clearance.friction", friction_laws},
       {"joints.*.clearance.friction.ambrosio",
        {{"coefficient", required, "0.1"}, {"v0"}, {"v1"}, {"sliding", optional, "", {"material", "geometric"}}}},
+      {"joints.*.clearance.friction.threlfall", curve_keys},
+      {"joints.*.clearance.friction.tanh", curve_keys},
+      {"joints.*.clearance.friction.bengisu-akay", peak_keys},
+      {"joints.*.clearance.friction.coulomb", coulomb_keys},
       {"contacts.*",
        {{"between", required, "[cam.rim, follower.roller]"},
         {"normal", required, "{lankarani-nikravesh: {restitution: 0.8, stiffness: 1e9 N/m^1.5}}"},
@@ -191,8 +199,12 @@ const std::vector<KeyTable>& tables() {
         {"approach speed", optional, "", {"onset", "largest"}},
         {"second"}}},
       {"contacts.*.normal.*.second", {{"young", required, "207 GPa"}, {"poisson", required, "0.3"}}},
-      {"contacts.*.friction", {{"ambrosio", required, "{coefficient: 0.1}"}}},
+      {"contacts.*.friction", friction_laws},
       {"contacts.*.friction.ambrosio", {{"coefficient", required, "0.1"}, {"v0"}, {"v1"}}},
+      {"contacts.*.friction.threlfall", curve_keys},
+      {"contacts.*.friction.tanh", curve_keys},
+      {"contacts.*.friction.bengisu-akay", peak_keys},
+      {"contacts.*.friction.coulomb", coulomb_keys},
       {"drivers.*", {{"angle"}, {"distance"}, {"law", required, "150 rad/s*t"}}},
       {"drivers.*.law",
        {{"table", required, "motion.csv"}, {"interpolation", optional, "", {"spline", "linear"}}, {"time unit"}, {"value unit"}}},

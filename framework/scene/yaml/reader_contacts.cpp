@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "framework/common/nearest.h"
+#include "framework/common/text.h"
 #include "framework/scene/yaml/reader_parts.h"
 
 namespace pintle {
@@ -167,15 +168,25 @@ SceneNormal read_normal(const Node& node, std::string_view keys) {
 
 SceneFriction read_friction(const Node& node, const std::string& path) {
   check_keys(node, path);
-  const Node law = node.at("ambrosio");
-  const std::string keys = path + ".ambrosio";
-  check_keys(law, keys);
   SceneFriction friction;
+  friction.law =
+      which_key(node, std::vector<std::string>{"coulomb", "ambrosio", "threlfall", "tanh", "bengisu-akay"}, "its law of friction");
+  const Node law = node.at(friction.law);
+  const std::string keys = path + "." + friction.law;
+  check_keys(law, keys);
   friction.place = law.place();
   friction.coefficient = law.at("coefficient").quantity(dimension::number, rule::not_negative);
+  if (law.has("static")) {
+    friction.holds = law.at("static").quantity(dimension::number, rule::not_negative);
+    if (*friction.holds < friction.coefficient)
+      law.at("static").fail("must be coefficient, " + number_text(friction.coefficient) +
+                            ", or above: what sticks holds no less than what slides");
+  }
+  read_optional(law, "stribeck speed", dimension::speed, rule::positive, friction.stribeck);
+  if (friction.law == "bengisu-akay" && law.has("v0")) law.at("v0").quantity(dimension::speed, rule::positive);
   read_optional(law, "v0", dimension::speed, rule::not_negative, friction.v0);
   read_optional(law, "v1", dimension::speed, rule::positive, friction.v1);
-  if (friction.v0 >= friction.v1)
+  if (friction.law == "ambrosio" && friction.v0 >= friction.v1)
     (law.has("v1") ? law.at("v1") : law.at("v0")).fail("v0 must be less than v1: friction grows from none at v0 to its whole at v1");
   if (law.has("sliding") && law.at("sliding").one_of(choices(keys, "sliding")) == "geometric") friction.sliding = SlidingSpeed::geometric;
   return friction;

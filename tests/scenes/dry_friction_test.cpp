@@ -1,0 +1,310 @@
+// Dry friction that sticks and slips, in whole runs: against closed forms.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "framework/build/build.h"
+#include "framework/scene/error.h"
+#include "framework/scene/yaml/reader.h"
+#include "tests/scenes/mechanisms.h"
+
+namespace pintle::dry_friction_test {
+namespace {
+
+using pintle_scenes::Whole;
+
+constexpr double g = 9.81, pi = std::numbers::pi;
+
+struct Method {
+  const char* name;
+  std::string words;
+  double tolerance, near;  ///< of the run; of what it shows, relative
+};
+void PrintTo(const Method& m, std::ostream* out) { *out << m.name; }
+const std::array methods{Method{"Dopri5", "dopri5", 1e-9, 1e-6}, Method{"Rkf45", "rkf45", 1e-9, 1e-6},
+                         Method{"Verner87", "verner87", 1e-7, 2e-5}, Method{"GeneralizedAlpha", "generalized-alpha", 1e-8, 2e-4}};
+
+Whole run(const std::string& text, const Method& method = methods[0]) {
+  Scene s = read_scene_text(text, "scene.yaml");
+  s.run.method = method.words;
+  s.run.tolerance = method.tolerance;
+  return pintle_scenes::run(s);
+}
+void expect_sound(const Whole& w) {
+  ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
+  EXPECT_LT(std::abs(w.run.unexplained), 1e-5 * w.run.energy_in_play);
+}
+std::string number(double x) {
+  std::ostringstream s;
+  s.precision(17);
+  s << x;
+  return s.str();
+}
+
+class DryFriction : public testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(By, DryFriction, testing::ValuesIn(methods), [](const auto& i) { return std::string(i.param.name); });
+
+/// A slider of 1 kg in a straight guide, pressed by N on a belt that moves at V, held by a spring of k from rest at x = 0. The guide holds
+/// it at the depth at which a contact of Hertz's law gives N.
+struct Oscillator {
+  double N = 10, k = 400, V = 0.1, slides = 0.2, holds = 0.3, start = 0, until = 4;
+  std::string stribeck = "";
+  std::string text() const {
+    constexpr double stiffness = 1e9, radius = 0.02;
+    const double y = radius - std::pow(N / stiffness, 2.0 / 3);
+    return "bodies:\n  slider: {rigid: {mass: 1, inertia: 1e-3}, profiles: {shoe: {disc: [0, 0], radius: 20 mm}}}\n"
+           "  belt: {rigid: {mass: 1, inertia: 1}, profiles: {face: {path: [[50, 0], [-50, 0]]}}}\n"
+           "ground: {points: {G: [0, " +
+           number(y) + "], S: [-1, " + number(y) +
+           "], Z: [-100, 0]}}\n"
+           "joints: {guide: {prismatic: [ground.G, slider]}, bed: {prismatic: [ground, belt]}}\n"
+           "drivers: {motor: {distance: [ground.Z, belt], law: 100 m + " +
+           number(V) +
+           " m/s*t}}\n"
+           "forces: {spring: {spring: [ground.S, slider], stiffness: " +
+           number(k) +
+           ", free length: 1}}\n"
+           "contacts: {rub: {between: [slider.shoe, belt.face], normal: {hertz: {stiffness: 1e9}}, friction: {coulomb: {coefficient: " +
+           number(slides) + ", static: " + number(holds) + stribeck +
+           "}}}}\n"
+           "start: {slider: {x: " +
+           number(start) + ", vx: " + number(start == 0 ? V : 0) + "}}\nrun: {until: " + number(until) + "}\noutput: {every: 1 ms}\n";
+  }
+};
+
+// It sticks from one static deflection, μ_s N/k, back to the other of the swing, and slides through π + 2φ of a harmonic motion.
+TEST_P(DryFriction, StickSlipHasItsClosedFormPeriod) {
+  const Oscillator o;
+  const double omega = std::sqrt(o.k), D = (o.holds - o.slides) * o.N / o.k, middle = o.slides * o.N / o.k;
+  const double sticks = 2 * D / o.V, slides = (pi + 2 * std::atan2(o.V / omega, D)) / omega;
+  const double first = (middle + D) / o.V, period = sticks + slides;
+  const Whole w = run(o.text(), GetParam());
+  expect_sound(w);
+  const std::vector<double> t = w.column("t [s]"), x = w.column("slider.x [m]"), v = w.column("slider.vx [m/s]");
+  const double amplitude = std::hypot(D, o.V / omega);
+  int stuck = 0, slid = 0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double in = t[i] < first ? 0 : std::fmod(t[i] - first, period);
+    const bool slipping = t[i] >= first && in < slides;
+    const double expected = t[i] < first ? o.V * t[i]
+                            : slipping   ? middle + amplitude * std::cos(omega * in - std::atan2(o.V / omega, D))
+                                         : middle - D + o.V * (in - slides);
+    ASSERT_NEAR(x[i], expected, 30 * GetParam().near * amplitude) << "t = " << t[i];
+    if (slipping)
+      ++slid;
+    else if (t[i] > first + 0.01 && in > slides + 2e-3 && in < period - 2e-3) {
+      ASSERT_NEAR(v[i], o.V, 1e-9) << "t = " << t[i];
+      ++stuck;
+    }
+  }
+  EXPECT_GT(stuck, 500);
+  EXPECT_GT(slid, 500);
+  // Each swing loses what friction takes while it slides: μ N times the slip.
+  const double whole_swings = std::floor((o.until - first) / period), slip = o.V * slides + 2 * D;
+  EXPECT_NEAR(w.ledger("rub.lost to friction [J]"), o.slides * o.N * slip * whole_swings, o.slides * o.N * slip);
+}
+
+// Above μ_s the block goes at once at g (sin α − μ cos α); below it stays where it is. It starts as deep as it rests, and rocks a little
+// until both its corners bear what they will.
+std::string block_on_ramp(double angle, double until, const std::string& start = "") {
+  return "gravity: [" + number(-g * std::sin(angle)) + ", " + number(-g * std::cos(angle)) +
+         "]\n"
+         "bodies: {block: {rigid: {mass: 2, inertia: 5e-3}, profiles: {outline: {path: [[-8 cm, -2 cm], [8 cm, -2 cm], [8 cm, 2 cm], [-8 "
+         "cm, 2 cm]], "
+         "closed: true, round: 2 mm}}}}\nground: {profiles: {ramp: {path: [[50, 0], [-50, 0]]}}}\n"
+         "contacts: {rest: {between: [block.outline, ground.ramp], normal: {spring-damper: {stiffness: 1e6, damping: 1e3}}, "
+         "friction: {coulomb: {coefficient: 0.3, static: 0.4}}}}\n"
+         "start: {block: {y: " +
+         number(0.02 - g * std::cos(angle) / 1e6) + start + "}}\nrun: {until: " + number(until) +
+         "}\noutput: {every: " + number(until / 200) + "}\n";
+}
+
+TEST_P(DryFriction, ABlockStaysBelowTheFrictionAngle) {
+  const Whole w = run(block_on_ramp(std::atan(0.35), 2), GetParam());
+  expect_sound(w);
+  const std::vector<double> x = w.column("block.x [m]"), t = w.column("t [s]");
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (t[i] > 0.1) {
+      ASSERT_NEAR(x[i], x.back(), 1e-12) << "t = " << t[i];
+    }
+  EXPECT_LT(std::abs(x.back()), 1e-4);
+}
+
+TEST_P(DryFriction, ABlockSlidesAboveTheFrictionAngle) {
+  const double angle = std::atan(0.41), a = g * (std::sin(angle) - 0.3 * std::cos(angle));
+  const Whole w = run(block_on_ramp(angle, 1), GetParam());
+  expect_sound(w);
+  EXPECT_NEAR(w.last("block.vx [m/s]"), -a, 2e-3 * a);  // what it sinks in at first holds it for a moment
+  const std::vector<double> v = w.column("block.vx [m/s]"), t = w.column("t [s]");
+  const std::size_t half = t.size() / 2;
+  EXPECT_NEAR((v.back() - v[half]) / (t.back() - t[half]), -a, 10 * GetParam().near * a);
+}
+
+// All of its kinetic energy goes to friction in v²/(2 μ g), and there it stays.
+TEST_P(DryFriction, ASlidingBlockStopsAndLosesItsKineticEnergy) {
+  const double v = 1.5, mu = 0.3;
+  const Whole w = run(block_on_ramp(0, 1, ", vx: " + number(v)), GetParam());
+  expect_sound(w);
+  EXPECT_NEAR(w.last("block.x [m]"), v * v / (2 * mu * g), 2e-3 * v * v / (2 * mu * g));  // its weight bounces a little at first
+  EXPECT_NEAR(w.ledger("rest.lost to friction [J]"), 0.5 * 2 * v * v, 1e-3 * v * v);
+  const std::vector<double> x = w.column("block.x [m]"), t = w.column("t [s]");
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (t[i] > v / (mu * g) + 0.02) {
+      ASSERT_NEAR(x[i], x.back(), 1e-12) << "t = " << t[i];
+    }
+}
+
+// Pulled harder and harder it goes when the pull is μ_s m g: both its corners at once, whatever each of them bears.
+TEST_P(DryFriction, APulledBlockGoesWhenThePullIsWhatFrictionHolds) {
+  std::string text = block_on_ramp(0, 1.2);
+  text += "forces: {pull: {force: [10 N/s*t, 0], at: block}}\n";
+  const Whole w = run(text, GetParam());
+  expect_sound(w);
+  const double breaks = 0.4 * 2 * g / 10;
+  const std::vector<double> v = w.column("block.vx [m/s]"), t = w.column("t [s]");
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    if (t[i] > 0.1 && t[i] < breaks - 1e-3) {
+      ASSERT_NEAR(v[i], 0, 1e-6) << "t = " << t[i];
+    }
+    const double after = t[i] - breaks, expected = (10 * (t[i] * t[i] - breaks * breaks) / 2 - 0.3 * 2 * g * after) / 2;
+    if (after > 1e-3) {
+      ASSERT_NEAR(v[i], expected, 3e-4) << "t = " << t[i];
+    }
+  }
+}
+
+// A disc that slides at first rolls from v₀/(3 μ g) on, at ⅔ v₀; a third of its energy is gone, and no more goes.
+TEST_P(DryFriction, ADiscComesToRollAtTwoThirdsOfItsSpeed) {
+  const double v = 2, mu = 0.25, m = 0.5, r = 0.05;
+  const Whole w = run("gravity: [0, -9.81]\nbodies: {disc: {rigid: {mass: 0.5, inertia: " + number(m * r * r / 2) +
+                          "}, profiles: {rim: {disc: [0, 0], radius: 50 mm}}}}\nground: {profiles: {floor: {path: [[50, 0], [-50, 0]]}}}\n"
+                          "contacts: {roll: {between: [disc.rim, ground.floor], normal: {spring-damper: {stiffness: 1e6, damping: 500}}, "
+                          "friction: {coulomb: {coefficient: 0.25}}}}\nstart: {disc: {y: 50 mm, vx: 2}}\n"
+                          "run: {until: 1}\noutput: {every: 5 ms}\n",
+                      GetParam());
+  expect_sound(w);
+  EXPECT_NEAR(w.last("disc.vx [m/s]"), 2 * v / 3, 1e-3 * v);
+  EXPECT_NEAR(w.last("disc.speed [rad/s]") * r, -w.last("disc.vx [m/s]"), 1e-4);  // it has sunk in by a millionth of a metre
+  EXPECT_NEAR(w.ledger("roll.lost to friction [J]"), m * v * v / 6, 2e-3 * m * v * v);
+  const std::vector<double> lost = w.run.ledger.column("roll.lost to friction [J]"), t = w.column("t [s]");
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (t[i] > v / (3 * mu * g) + 0.02) {
+      ASSERT_NEAR(lost[i], lost.back(), 1e-12);
+    }
+}
+
+// On a slope it rolls where tan α < 3 μ, at ⅔ of its free fall, else it slides.
+TEST(DryFriction, ADiscRollsDownASlopeWithoutLoss) {
+  const double r = 0.05, angle = 0.5, mu = 0.3;  // tan 0.5 = 0.55 < 3 μ: it rolls
+  const auto text = [&](double coefficient) {
+    return "gravity: [" + number(g * std::sin(angle)) + ", " + number(-g * std::cos(angle)) +
+           "]\nbodies: {disc: {rigid: {mass: 0.5, inertia: " + number(0.5 * r * r / 2) +
+           "}, profiles: {rim: {disc: [0, 0], radius: 50 mm}}}}\nground: {profiles: {floor: {path: [[50, 0], [-50, 0]]}}}\n"
+           "contacts: {roll: {between: [disc.rim, ground.floor], normal: {spring-damper: {stiffness: 1e6, damping: 500}}, "
+           "friction: {coulomb: {coefficient: " +
+           number(coefficient) + "}}}}\nstart: {disc: {y: 50 mm}}\nrun: {until: 1}\noutput: {every: 5 ms}\n";
+  };
+  const Whole rolls = run(text(mu));
+  expect_sound(rolls);
+  const auto slope = [](const Whole& w, const std::string& of) {
+    const std::vector<double> v = w.column(of), t = w.column("t [s]");
+    return (v.back() - v[v.size() / 2]) / (t.back() - t[t.size() / 2]);
+  };
+  EXPECT_NEAR(slope(rolls, "disc.vx [m/s]"), 2 * g * std::sin(angle) / 3, 1e-4 * g);
+  const Whole slides = run(text(0.15));
+  expect_sound(slides);
+  EXPECT_NEAR(slope(slides, "disc.vx [m/s]"), g * (std::sin(angle) - 0.15 * std::cos(angle)), 1e-4 * g);
+  EXPECT_NEAR(slope(slides, "disc.speed [rad/s]"), -2 * 0.15 * g * std::cos(angle) / r, 1e-4 * g / r);
+}
+
+// A journal that is turned slowly climbs in its bearing, rolling, until the contact stands at the friction angle, and slides there.
+TEST(DryFriction, AJournalClimbsToTheFrictionAngle) {
+  const double mu = 0.35;
+  const Whole w =
+      run("gravity: [0, -9.81]\nbodies:\n  shaft: {rigid: {mass: 1, inertia: 1e-3}}\n"
+          "  rider: {rigid: {mass: 2, inertia: 1}, points: {C: [0, 0], T: [0, -2]}}\n"
+          "joints:\n  axle: {revolute: [ground, shaft]}\n"
+          "  eye: {revolute: [shaft, rider.C], clearance: {radial: 1 mm, bearing radius: 20 mm, bearing: rider, "
+          "normal: {hunt-crossley: {restitution: 0.3, stiffness: 1e9, approach speed: largest}}, friction: {coulomb: {coefficient: " +
+          number(mu) +
+          "}}}}\n"
+          "drivers: {motor: {angle: [ground, shaft], law: 2 rad/s*t}}\n"
+          "forces: {settle: {spring: [ground.S, rider.T], stiffness: 1e-3, damping: 3, free length: 1}}\n"
+          "ground: {points: {S: [5, -2]}}\n"
+          "start: {eye: {eccentricity: [0, 1 mm]}}\nrun: {until: 6}\noutput: {every: 10 ms}\n");
+  ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
+  const double ex = w.last("eye.ex [m]"), ey = w.last("eye.ey [m]");
+  EXPECT_NEAR(w.last("eye.friction [N]") / w.last("eye.normal [N]"), mu * (w.last("eye.friction [N]") > 0 ? 1 : -1), 1e-9);
+  EXPECT_GT(std::abs(std::atan2(ex, ey)), 0.05);
+}
+
+// It is there after eleven days.
+TEST(DryFriction, ABlockStaysForAMillionSeconds) {
+  const Whole w = run(block_on_ramp(std::atan(0.35), 1e6), methods[3]);
+  expect_sound(w);
+  const std::vector<double> x = w.column("block.x [m]");
+  for (std::size_t i = 1; i < x.size(); ++i) ASSERT_NEAR(x[i], x.back(), 1e-12);
+  EXPECT_LT(w.run.counts.steps, 5000);
+}
+
+TEST(BadFriction, IsRefusedInOneLineWithKeyAndRemedy) {
+  struct Bad {
+    const char *law, *key, *says;
+  };
+  for (const Bad& bad :
+       std::vector<Bad>{{"coulomb: {coefficient: 0.3, static: 0.2}", "friction.coulomb.static", "must be coefficient, 0.3, or above"},
+                        {"coulomb: {static: 0.2}", "friction.coulomb", "add for example coefficient"},
+                        {"coulomb: {coefficient: -1}", "friction.coulomb.coefficient", "must not be negative"},
+                        {"coulomb: {coefficient: 0.3, stribeck speed: 0}", "friction.coulomb.stribeck speed", "greater than 0"},
+                        {"coulomb: {coefficient: 0.3, v0: 1}", "friction.coulomb.v0", "unknown key"},
+                        {"coulomb: {coefficient: 0.3}, tanh: {coefficient: 0.3}", "contacts.rest.friction", "one"},
+                        {"columb: {coefficient: 0.3}", "friction.columb", "Did you mean \"coulomb\""},
+                        {"tanh: {coefficient: 0.3, v1: 0}", "friction.tanh.v1", "greater than 0"},
+                        {"threlfall: {coefficient: 0.3, static: 0.4}", "friction.threlfall.static", "unknown key"},
+                        {"bengisu-akay: {coefficient: 0.3, static: 0.1}", "friction.bengisu-akay.static", "or above"},
+                        {"bengisu-akay: {coefficient: 0.3, v0: 0}", "friction.bengisu-akay.v0", "greater than 0"}}) {
+    std::string text = block_on_ramp(0, 1);
+    const std::string usual = "coulomb: {coefficient: 0.3, static: 0.4}";
+    const std::size_t at = text.find(usual);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, usual.size(), bad.law);
+    try {
+      read_scene_text(text, "scene.yaml");
+      FAIL() << bad.law << " was taken";
+    } catch (const SceneError& error) {
+      const std::string said = error.what();
+      EXPECT_NE(said.find(bad.key), std::string::npos) << said;
+      EXPECT_NE(said.find(bad.says), std::string::npos) << said;
+      EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+    }
+  }
+}
+
+// Each law by its name gives the force that its formula says, and creeps where it does.
+TEST(FrictionLaws, ActAsTheirFormulasSay) {
+  struct Law {
+    const char* words;
+    double at_2cm_per_s;  ///< of N
+  };
+  for (const Law& law :
+       std::vector<Law>{{"ambrosio: {coefficient: 0.3, v0: 10 mm/s, v1: 30 mm/s}", 0.15},
+                        {"threlfall: {coefficient: 0.3, v1: 30 mm/s}", 0.3 * (1 - std::exp(-2.0))},
+                        {"tanh: {coefficient: 0.3, v1: 20 mm/s}", 0.3 * std::tanh(1.0)},
+                        {"bengisu-akay: {coefficient: 0.3, static: 0.5, v0: 10 mm/s, v1: 10 mm/s}", 0.3 + 0.2 * std::exp(-1.0)},
+                        {"coulomb: {coefficient: 0.3, static: 0.5, stribeck speed: 20 mm/s}", 0.3 + 0.2 * std::exp(-1.0)}}) {
+    Oscillator o;
+    o.V = 0.02, o.until = 1e-3, o.k = 1e-3;
+    std::string text = o.text();
+    const std::size_t at = text.find("coulomb"), end = text.find("}}}}", at);
+    text.replace(at, end + 1 - at, law.words);
+    text.replace(text.find("vx: 0.02"), 8, "vx: 0.0");
+    const Whole w = run(text);
+    expect_sound(w);
+    EXPECT_NEAR(std::abs(w.column("rub.friction [N]").front()), law.at_2cm_per_s * o.N, 1e-6) << law.words;
+  }
+}
+
+}  // namespace
+}  // namespace pintle::dry_friction_test
