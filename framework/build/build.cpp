@@ -15,6 +15,7 @@
 #include "framework/bodies/modal_basis.h"
 #include "framework/build/clearance.h"
 #include "framework/build/contacts.h"
+#include "framework/build/play.h"
 #include "framework/build/laws.h"
 #include "framework/build/choose_method.h"
 #include "framework/build/elastic_bodies.h"
@@ -44,6 +45,8 @@ class Builder {
     elements_.resize(scene_.bodies.size());
     for (const SceneBody& b : scene_.bodies) add(b);
     for (const SceneJoint& j : scene_.joints) add(j);
+    for (std::size_t i = 0; i < scene_.joints.size(); ++i)
+      if (scene_.joints[i].play) add_play(scene_.joints[i], model_.order.joints[i]);
     for (const SceneContact& c : scene_.contacts) add(c);
     for (const SceneDriver& d : scene_.drivers) add(d);
     for (const SceneLoad& l : scene_.loads) add(l);
@@ -157,30 +160,48 @@ class Builder {
     unique(j.name, "joint", j.place);
     two_bodies(j.a, j.b, j.place);
     const JointWord& word = word_of(j);
-    const PointRef c = j.c.value_or(PointRef{"ground", "", j.place});
+    const PointRef c = cage_of(j);
     if (word.third) two_bodies(j.a, c, j.place), two_bodies(j.b, c, j.place);
     if (j.clearance) return add_contact(j);
+    if (j.play) return model_.order.joints.push_back(-1);
+    const Joint made = joint_of(j);
+    model_.order.joints.push_back(static_cast<int>(model_.system.joints.size()));
+    model_.system.joints.push_back(made);
+    model_.system.joint_names.push_back(j.name);
+  }
+
+  Joint joint_of(const SceneJoint& j) {
+    const JointWord& word = word_of(j);
     const bool turns = word.clamps || word.turns;
     const int a = marker(j.a, turns || word.guides ? Holds::direction : Holds::point);
     const int b = marker(j.b, turns ? Holds::direction : Holds::point);
-    auto& joints = model_.system.joints;
-    model_.order.joints.push_back(static_cast<int>(joints.size()));
     switch (j.kind) {
-      case JointKind::revolute: joints.push_back(Revolute{a, b}); break;
-      case JointKind::slot: joints.push_back(Slot{a, b}); break;
-      case JointKind::prismatic: joints.push_back(Prismatic{a, b, nearest_turn(j)}); break;
-      case JointKind::weld: joints.push_back(Weld{a, b, nearest_turn(j)}); break;
+      case JointKind::revolute: return Revolute{a, b};
+      case JointKind::slot: return Slot{a, b};
+      case JointKind::prismatic: return Prismatic{a, b, nearest_turn(j)};
+      case JointKind::weld: return Weld{a, b, nearest_turn(j)};
       case JointKind::distance:
         if (!(j.length > 0)) wrong(j.place, "length must be above 0; for two points that coincide use revolute");
-        joints.push_back(Distance{a, b, j.length});
-        break;
-      case JointKind::differential:
-        if (j.ratio == 0) wrong(j.place, "ratio must not be 0: the first shaft would be fixed to the cage; use weld");
-        joints.push_back(Differential{a, b, marker(c, Holds::direction), j.ratio,
-                                      drawn_angle(j.a) + j.ratio * drawn_angle(j.b) - (1 + j.ratio) * drawn_angle(c)});
-        break;
+        return Distance{a, b, j.length};
+      case JointKind::differential: break;
     }
-    model_.system.joint_names.push_back(j.name);
+    if (j.ratio == 0) wrong(j.place, "ratio must not be 0: the first shaft would be fixed to the cage; use weld");
+    const PointRef c = cage_of(j);
+    return Differential{a, b, marker(c, Holds::direction), j.ratio,
+                        drawn_angle(j.a) + j.ratio * drawn_angle(j.b) - (1 + j.ratio) * drawn_angle(c)};
+  }
+  static PointRef cage_of(const SceneJoint& j) { return j.c.value_or(PointRef{"ground", "", j.place}); }
+
+  /// The contact that it is, and the joint that it would be.
+  void add_play(const SceneJoint& j, int& order) {
+    for (const PointRef* p : points_of(j)) reject_elements(*p);
+    const Joint ideal = joint_of(j);
+    const std::array<Profile, 2> profiles = profiles_of(scene_, j);
+    order = static_cast<int>(model_.system.contacts.size());
+    add(contact_with_play(j), profiles[0], profiles[1], {marker(j.a, Holds::direction), marker(j.b, Holds::direction)});
+    if (j.kind == JointKind::distance && j.play->only != ScenePlay::both) return;  // a rope may start slack
+    model_.system.loose.push_back(ideal);
+    model_.system.loose_names.push_back(j.name);
   }
 
   /// A point's direction where its body's rough pose and start put it.
@@ -219,8 +240,11 @@ class Builder {
     unique(c.name, "contact", c.place);
     two_bodies(c.a, c.b, c.place);
     const Profile &a = profile(c.a), &b = profile(c.b);
+    add(c, a, b, {profile_marker(c.a), profile_marker(c.b)});
+  }
+  void add(const SceneContact& c, const Profile& a, const Profile& b, const std::array<int, 2>& markers) {
     auto& contacts = model_.system.contacts;
-    BuiltContact made = build_contact(scene_, c, a, b, {profile_marker(c.a), profile_marker(c.b)}, static_cast<int>(contacts.size()));
+    BuiltContact made = build_contact(scene_, c, a, b, markers, static_cast<int>(contacts.size()));
     contacts.insert(contacts.end(), made.pairs.begin(), made.pairs.end());
     model_.system.contact_names.insert(model_.system.contact_names.end(), made.pairs.size(), c.name);
     model_.contacts.push_back(std::move(made.words));
@@ -229,12 +253,15 @@ class Builder {
 
   /// Of the axes that a body's profiles are given in.
   int profile_marker(const PointRef& ref) {
+    reject_elements(ref);
+    return marker({ref.body, "", ref.place});
+  }
+  void reject_elements(const PointRef& ref) const {
     const int b = body(ref);
     if (b != ground && elements_[static_cast<std::size_t>(b)])
       wrong(ref.place, quoted(ref.body) +
                            " is made of elements, the surface of which no contact follows yet; put the profile on a rigid body "
                            "and weld that to a point of it");
-    return marker({ref.body, "", ref.place});
   }
   const Profile& profile(const PointRef& ref) {
     const auto [known, is_new] = profiles_.try_emplace({ref.body, ref.point});

@@ -311,14 +311,23 @@ std::vector<std::string> warnings_of(const Model& model, const Assembly& assembl
 
 namespace {
 
+System without_play(System system) {
+  system.joints.insert(system.joints.end(), system.loose.begin(), system.loose.end());
+  system.joint_names.insert(system.joint_names.end(), system.loose_names.begin(), system.loose_names.end());
+  number(system);
+  return system;
+}
+
 Assembly assembled(const Scene& scene, const System& system, const Bent& bent) {
-  Closure closure(scene, system, pressed_directions(scene, system));
-  Rough r = rough_state(scene, system, bent);
+  const System closed = without_play(system);
+  Closure closure(scene, closed, pressed_directions(scene, closed));
+  Rough r = rough_state(scene, closed, bent);
   const VectorXd before = r.y.head(system.n());
   Assembly out;
-  out.iterations = undeformed_first(system, r, &Rough::W_pose, [&](Rough& from) { return close_joints(scene, closure, system, from); });
+  out.iterations = undeformed_first(closed, r, &Rough::W_pose, [&](Rough& from) { return close_joints(scene, closure, closed, from); });
   out.moved = (r.y.head(system.n()) - before).lpNorm<Eigen::Infinity>();
-  undeformed_first(system, r, &Rough::W_speed, [&](Rough& from) { return match_speeds(scene, closure, system, from); });
+  undeformed_first(closed, r, &Rough::W_speed, [&](Rough& from) { return match_speeds(scene, closure, closed, from); });
+  r.y.conservativeResizeLike(VectorXd::Zero(system.n_y()));
   out.start.t = 0;
   out.start.y = r.y;
   relax_internal_states(system, 0, out.start.y);

@@ -9,10 +9,10 @@ std::span<const JointWord> joint_words() {
       length{JointNumber::length, "length", &SceneJoint::length, "length: 120 mm"}, ratio{JointNumber::ratio, "ratio", &SceneJoint::ratio};
   static const std::vector<JointWord> words{
       {.kind = JointKind::revolute, .word = "revolute", .clearance = true},
-      {.kind = JointKind::prismatic, .word = "prismatic", .guides = true, .clamps = true, .numbers = {angle}},
-      {.kind = JointKind::slot, .word = "slot", .guides = true},
+      {.kind = JointKind::prismatic, .word = "prismatic", .guides = true, .clamps = true, .clearance = true, .numbers = {angle}},
+      {.kind = JointKind::slot, .word = "slot", .guides = true, .clearance = true},
       {.kind = JointKind::weld, .word = "weld", .clamps = true, .numbers = {angle}},
-      {.kind = JointKind::distance, .word = "distance", .numbers = {length}},
+      {.kind = JointKind::distance, .word = "distance", .clearance = true, .numbers = {length}},
       {.kind = JointKind::differential, .word = "differential", .third = true, .turns = true, .numbers = {ratio}},
   };
   return words;

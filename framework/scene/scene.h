@@ -128,6 +128,19 @@ struct SceneClearance {
 /// As a scene file calls it.
 const char* model_name(ClearanceModel);
 
+/// Play in a prismatic, slot or distance joint.
+struct ScenePlay {
+  double gap = 0;                     ///< of a block or pin in the middle, to either wall; of a rod to either side of its length [m]
+  double length = 0, height = 0;      ///< of the block in a prismatic joint, along and across the guide [m]
+  double round = 0;                   ///< radius of its corners [m]
+  double pin_radius = 0;              ///< of a slot's pin [m]
+  std::optional<double> travel = {};  ///< of the pin from end to end of its slot, a in the middle; unset: no ends [m]
+  enum Only { both, pull, push } only = both;  ///< a rod that only pulls: a rope
+  SceneNormal normal = {};
+  std::optional<SceneFriction> friction = {};
+  Place place = {};
+};
+
 enum class JointKind { revolute, prismatic, slot, weld, distance, differential };
 
 struct SceneJoint {
@@ -140,6 +153,7 @@ struct SceneJoint {
   double ratio = 1;                         ///< differential: turns of a against the cage for one of b's the other way
   std::optional<SceneClearance> clearance;  ///< revolute only
   Place place;
+  std::optional<ScenePlay> play = {};  ///< prismatic, slot and distance only
 };
 
 /// Two profiles of two bodies that may touch. In `normal`, `bearing` is the first body's elasticity, `journal` the second's.

@@ -249,6 +249,52 @@ TEST(DryFriction, ABlockStaysForAMillionSeconds) {
   EXPECT_LT(w.run.counts.steps, 5000);
 }
 
+// 400 N press the shoe: sliding it takes 0.35 · 400 N · 0.15 m of the drum, 15 N m the load.
+TEST_P(DryFriction, ADrumBrakeStopsItsLoadAndHoldsIt) {
+  Scene s = read_scene(std::string(PINTLE_SOURCE_DIR) + "/examples/drum_brake.yaml");
+  s.run.method = GetParam().words, s.run.tolerance = GetParam().tolerance, s.output.frames = 0;
+  const Whole w = pintle_scenes::run(s);
+  expect_sound(w);
+  EXPECT_NEAR(w.last("drum.angle [rad]"), 15, 0.01);  // the shoe bounces a little at first
+  const std::vector<double> speed = w.column("drum.speed [rad/s]"), t = w.column("t [s]");
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    if (t[i] < 0.49) {
+      EXPECT_NEAR(speed[i], 60 - 120 * t[i], 0.06) << t[i];
+    }
+    if (t[i] > 0.51) {
+      EXPECT_NEAR(speed[i], 0, 1e-12) << t[i];
+    }
+  }
+  EXPECT_NEAR(w.ledger("brake.lost to friction [J]"), 90 + 15 * 15, 0.3);
+  EXPECT_NEAR(w.last("brake.friction [N]") * (w.last("brake.friction [N]") > 0 ? 1 : -1), 100, 1e-3);  // 15 N m over 0.15 m
+}
+
+// A block on one corner comes down to its base in the time that a rigid one takes about a corner that neither slips nor lifts:
+// I θ″ = −m g R sin(α − θ).
+TEST(DryFriction, ABlockRocksAboutItsCorner) {
+  const double b = 0.05, h = 0.2, m = 4, I = m * (b * b + h * h) / 3, R = std::hypot(b, h), alpha = std::atan2(b, h), start = 0.1;
+  const Whole w = run("gravity: [0, -9.81]\nbodies: {block: {rigid: {mass: 4, inertia: " + number(I) +
+                      "}, profiles: {outline: {path: [[-5 cm, -20 cm], [5 cm, -20 cm], [5 cm, 20 cm], [-5 cm, 20 cm]], closed: true}}}}\n"
+                      "ground: {profiles: {floor: {path: [[5, 0], [-5, 0]]}}}\n"
+                      "contacts: {rest: {between: [block.outline, ground.floor], normal: {spring-damper: {stiffness: 1e8, damping: 2e4}}, "
+                      "friction: {coulomb: {coefficient: 0.7}}}}\n"
+                      "start: {block: {angle: " +
+                      number(-start) + ", x: " + number(R * std::sin(start - alpha)) +
+                      ", y: " + number(R * std::cos(alpha - start) - 4 * g / 1e8) + "}}\nrun: {until: 0.4}\noutput: {every: 1 ms}\n");
+  expect_sound(w);
+  double theta = start, rate = 0, time = 0;
+  const double step = 1e-6, inertia = I + m * R * R;
+  for (; theta > 0; time += step) {
+    rate -= step * m * g * R * std::sin(alpha - theta) / inertia;
+    theta += step * rate;
+  }
+  const std::vector<double> angle = w.column("block.angle [rad]"), t = w.column("t [s]");
+  std::size_t i = 0;
+  while (i + 1 < t.size() && angle[i] < 0) ++i;
+  const double down = t[i - 1] + (t[i] - t[i - 1]) * angle[i - 1] / (angle[i - 1] - angle[i]);
+  EXPECT_NEAR(down, time, 2e-3 * time);
+}
+
 TEST(BadFriction, IsRefusedInOneLineWithKeyAndRemedy) {
   struct Bad {
     const char *law, *key, *says;

@@ -118,8 +118,8 @@ TEST(SceneSchema, OffersExactlyTheChoicesOfTheReader) {
 TEST(SceneSchema, OffersExactlyTheNormalLawsOfContact) {
   std::set<std::string> known;
   for (const ImpactFactor& factor : impact_factors()) known.emplace(factor.name);
-  EXPECT_EQ(keys_in(schemas_at("joints.*.clearance.normal")), known);
   known.insert("spring-damper");
+  EXPECT_EQ(keys_in(schemas_at("joints.*.clearance.normal")), known);
   EXPECT_EQ(keys_in(schemas_at("contacts.*.normal")), known);
 }
 

@@ -95,10 +95,11 @@ class Sum : public ValueWriter<Sum> {
     if (z.account != Account::scheme) add(z.account, z.index);  // which `method: auto` may add as the run becomes longer
   }
   void add(const System& s) {
-    const auto& [gravity, bodies, markers, joints, forces, contacts, joint_names, force_names, contact_names, length, eta_begin, scale,
-                 row_begin, end_begin, end_marker, row_scale, integrals, contact_z, force_z, joint_z, internal, force_x, x_scale] = s;
-    add(gravity, bodies, markers, joints, forces, contacts, joint_names, force_names, contact_names, length, eta_begin, scale, row_begin,
-        end_begin, end_marker, row_scale);
+    const auto& [gravity, bodies, markers, joints, forces, contacts, joint_names, force_names, contact_names, loose, loose_names, length,
+                 eta_begin, scale, row_begin, end_begin, end_marker, row_scale, integrals, contact_z, force_z, joint_z, internal, force_x,
+                 x_scale] = s;
+    add(gravity, bodies, markers, joints, forces, contacts, joint_names, force_names, contact_names, loose, loose_names, length, eta_begin,
+        scale, row_begin, end_begin, end_marker, row_scale);
     for (const Integral& z : integrals) add(z);
     add(contact_z, force_z, joint_z, force_x, x_scale);
   }

@@ -48,6 +48,9 @@ struct System {
   std::vector<Force> forces;
   std::vector<ContactPair> contacts;
   std::vector<std::string> joint_names, force_names, contact_names;
+  /// Joints with play as they are without it: they hold where the mechanism is assembled.
+  std::vector<Joint> loose;
+  std::vector<std::string> loose_names;
 
   double length = 1;  ///< size of the mechanism, for scaling [m]
   /// First modal coordinate of body i in q, one past: q is [x y θ] body by body, then η body by body.

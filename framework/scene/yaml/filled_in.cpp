@@ -142,12 +142,25 @@ Json json(const SceneClearance& clearance) {
   return out;
 }
 
+Json json(const ScenePlay& play) {
+  Json out = {{"normal", json(play.normal, false)}};
+  const auto put = [&](const char* key, double value) {
+    if (value > 0) out[key] = value;
+  };
+  put("gap", play.gap), put("length", play.length), put("height", play.height), put("round", play.round);
+  put("pin radius", play.pin_radius), put("travel", play.travel.value_or(0));
+  if (play.only != ScenePlay::both) out["only"] = play.only == ScenePlay::pull ? "pull" : "push";
+  if (play.friction) out["friction"] = json(*play.friction, false);
+  return out;
+}
+
 Json json(const SceneJoint& joint) {
   const JointWord& word = word_of(joint);
   Json out = Json::object();
   for (const PointRef* point : points_of(joint)) out[word.word].push_back(json(*point));
   for (const JointNumber& number : word.numbers) out[number.key] = joint.*number.value;
   if (joint.clearance) out["clearance"] = json(*joint.clearance);
+  if (joint.play) out["clearance"] = json(*joint.play);
   return out;
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <tuple>
 
 #include "framework/scene/joint_words.h"
@@ -36,8 +37,66 @@ void read_model(const Node& node, SceneClearance& clearance) {
               (clearance.model == ClearanceModel::spring_damper ? ", or both stiffness and damping" : ""));
 }
 
-SceneClearance read_clearance(const Node& node, const SceneJoint& joint) {
+// The keys of a clearance in one kind of joint, with an example of those that it needs.
+struct ClearanceKeys {
+  JointKind kind;
+  std::vector<std::pair<std::string, std::string>> needs;
+  std::vector<std::string> takes;
+  bool knows(const std::string& name) const {
+    return std::ranges::find(takes, name) != takes.end() || std::ranges::any_of(needs, [&](const auto& key) { return key.first == name; });
+  }
+};
+const std::vector<ClearanceKeys>& clearance_keys() {
+  static const std::vector<ClearanceKeys> all{
+      {JointKind::revolute,
+       {{"radial", "0.1 mm"}, {"bearing radius", "10 mm"}, {"bearing", "slider"}},
+       {"model", "normal", "stiffness", "damping", "friction"}},
+      {JointKind::prismatic, {{"gap", "0.1 mm"}, {"length", "60 mm"}, {"height", "20 mm"}, {"normal", ""}}, {"round", "friction"}},
+      {JointKind::slot, {{"gap", "0.1 mm"}, {"pin radius", "5 mm"}, {"normal", ""}}, {"travel", "friction"}},
+      {JointKind::distance, {{"normal", ""}}, {"gap", "only"}},
+  };
+  return all;
+}
+
+void check_clearance(const Node& node, const SceneJoint& joint) {
   check_keys(node, "joints.*.clearance");
+  const ClearanceKeys& keys = *std::ranges::find(clearance_keys(), joint.kind, &ClearanceKeys::kind);
+  for (const Node& entry : node.entries("keys and values")) {
+    if (keys.knows(entry.name())) continue;
+    SceneJoint of = joint;
+    of.kind = std::ranges::find_if(clearance_keys(), [&](const ClearanceKeys& k) { return k.knows(entry.name()); })->kind;
+    entry.fail(std::string("belongs to the clearance of a ") + word_of(of).word + " joint, and this is a " + word_of(joint).word +
+               " joint; leave it out");
+  }
+  for (const auto& [key, example] : keys.needs)
+    if (!node.has(key))
+      node.fail("lacks a required key; add for example " + key + ": " +
+                (example.empty() ? "{lankarani-nikravesh: {restitution: 0.8, stiffness: 1e9 N/m^1.5}}" : example));
+}
+
+ScenePlay read_play(const Node& node, const SceneJoint& joint) {
+  check_clearance(node, joint);
+  ScenePlay play;
+  play.place = node.place();
+  read_optional(node, "gap", dimension::length, rule::positive, play.gap);
+  read_optional(node, "length", dimension::length, rule::positive, play.length);
+  read_optional(node, "height", dimension::length, rule::positive, play.height);
+  read_optional(node, "round", dimension::length, rule::positive, play.round);
+  read_optional(node, "pin radius", dimension::length, rule::positive, play.pin_radius);
+  if (node.has("travel")) play.travel = node.at("travel").quantity(dimension::length, rule::positive);
+  if (node.has("only"))
+    play.only = node.at("only").one_of(choices("joints.*.clearance", "only")) == "pull" ? ScenePlay::pull : ScenePlay::push;
+  if (joint.kind == JointKind::distance && play.only == ScenePlay::both && !node.has("gap"))
+    node.fail("lacks a required key; add for example gap: 1 mm, or only: pull for a rope");
+  if (play.gap >= joint.length && joint.kind == JointKind::distance)
+    node.at("gap").fail(node.at("gap").shown() + " must be less than the length of the joint");
+  play.normal = read_normal(node.at("normal"), "contacts.*.normal.*");
+  if (node.has("friction")) play.friction = read_friction(node.at("friction"), "contacts.*.friction");
+  return play;
+}
+
+SceneClearance read_clearance(const Node& node, const SceneJoint& joint) {
+  check_clearance(node, joint);
   SceneClearance clearance;
   clearance.place = node.place();
   read_model(node, clearance);
@@ -83,7 +142,11 @@ SceneJoint read_joint(const Node& node) {
                                                                    : dimension::number;
     read_optional(node, number.key, expected, number.required ? rule::positive : rule::any, joint.*number.value);
   }
-  if (node.has("clearance")) joint.clearance = read_clearance(node.at("clearance"), joint);
+  if (!node.has("clearance")) return joint;
+  if (joint.kind == JointKind::revolute)
+    joint.clearance = read_clearance(node.at("clearance"), joint);
+  else
+    joint.play = read_play(node.at("clearance"), joint);
   return joint;
 }
 
