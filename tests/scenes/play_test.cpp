@@ -95,7 +95,8 @@ TEST(Play, RoundCornersTouchLater) {
   double phi = sharp;
   for (int i = 0; i < 50; ++i)
     phi -= (0.07 * std::sin(phi) + 0.02 * std::cos(phi) + 0.01 - 0.03 - 8e-4) / (0.07 * std::cos(phi) - 0.02 * std::sin(phi));
-  EXPECT_NEAR(round, phi, 2e-5);
+  const double lever = 0.07 * std::cos(phi) - 0.02 * std::sin(phi);
+  EXPECT_NEAR(round, phi + 2 * 2 / lever / 1e7 / lever, 1e-6);
   EXPECT_GT(round, sharp);
 }
 // The guide is turned, the block stands across it.
@@ -107,7 +108,8 @@ TEST(Play, AGuideMayBeTurned) {
           "forces: {push: {force: [0, 50], at: block, follows: false}}\nrun: {until: 0.2}\noutput: {every: 1 ms}\n");
   expect_sound(w);
   const double x = w.last("block.x [m]") - 0.1, y = w.last("block.y [m]") - 0.2;
-  const double across = y * std::cos(M_PI / 6) - x * std::sin(M_PI / 6), along = x * std::cos(M_PI / 6) + y * std::sin(M_PI / 6);
+  const double across = y * std::cos(M_PI / 6) - x * std::sin(M_PI / 6),
+               along = x * std::cos(M_PI / 6) + y * std::sin(M_PI / 6) + 0.1 * std::cos(M_PI / 6) + 0.2 * std::sin(M_PI / 6);
   EXPECT_NEAR(across, 2e-4 + 50 * std::cos(M_PI / 6) / 2 / 1e7, 1e-8);
   EXPECT_NEAR(along, 50 * std::sin(M_PI / 6) / 2 * 0.04, 1e-6);
   EXPECT_NEAR(w.last("block.angle [rad]"), 2 * M_PI / 3, 1e-7);
@@ -158,13 +160,13 @@ TEST(Play, ARopePullsOnlyWhereItIsTaut) {
       run("gravity: [0, -9.81]\nbodies: {weight: {rigid: {mass: 2, inertia: 1e-3}}}\n"
           "joints: {rope: {distance: [ground, weight], length: 1 m, clearance: {only: pull, normal: {exact: {restitution: 0.5, stiffness: "
           "1e8}}}}}\n"
-          "start: {weight: {x: 0, y: -0.4}}\nrun: {until: 0.6, tolerance: 1e-10}\noutput: {every: 1 ms}\n");
+          "start: {weight: {x: 0, y: -0.4}}\nrun: {until: 0.9, tolerance: 1e-10}\noutput: {every: 1 ms}\n");
   expect_sound(w);
   ASSERT_GE(w.run.impacts.size(), 2u);
   const double taut = std::sqrt(2 * 0.6 / g), fast = std::sqrt(2 * g * 0.6);
   EXPECT_NEAR(w.run.impacts[0].begin, taut, 1e-9);
   EXPECT_NEAR(w.run.impacts[0].approach, fast, 1e-8);
-  EXPECT_NEAR(w.run.impacts[0].separation, 0.5 * fast, 2e-3 * fast);
+  EXPECT_NEAR(w.run.impacts[0].separation, 0.5 * fast, 5e-3 * fast);  // its weight goes on pulling
   EXPECT_NEAR(w.run.impacts[1].begin - w.run.impacts[0].end, 2 * w.run.impacts[0].separation / g, 1e-7);
 }
 TEST(Play, APropPushesOnlyWhereItIsShort) {
