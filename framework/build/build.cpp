@@ -166,6 +166,7 @@ class Builder {
     if (j.play) return model_.order.joints.push_back(-1);
     const Joint made = joint_of(j);
     model_.order.joints.push_back(static_cast<int>(model_.system.joints.size()));
+    if (j.friction && rubs(j.friction->law)) add_friction(j);
     model_.system.joints.push_back(made);
     model_.system.joint_names.push_back(j.name);
   }
@@ -191,6 +192,15 @@ class Builder {
                         drawn_angle(j.a) + j.ratio * drawn_angle(j.b) - (1 + j.ratio) * drawn_angle(c)};
   }
   static PointRef cage_of(const SceneJoint& j) { return j.c.value_or(PointRef{"ground", "", j.place}); }
+
+  void add_friction(const SceneJoint& j) {
+    const SceneJointFriction& f = *j.friction;
+    const FrictionLaw law = friction_law(scene_, f.law);
+    if (!word_of(j).friction || !std::holds_alternative<Coulomb>(law))
+      wrong(j.place, "friction in a joint is Coulomb's, and in a revolute, prismatic or slot joint");
+    if ((j.kind == JointKind::revolute && !(f.radius > 0)) || !(f.preload >= 0)) wrong(j.place, "friction needs the pin's radius, above 0");
+    model_.system.frictions.push_back({model_.order.joints.back(), std::get<Coulomb>(law), f.radius, f.length, f.preload});
+  }
 
   /// The contact that it is, and the joint that it would be.
   void add_play(const SceneJoint& j, int& order) {

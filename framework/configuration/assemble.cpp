@@ -318,15 +318,35 @@ System without_play(System system) {
   return system;
 }
 
+// A step of the assembly, first with joints that have play as they are without it; where the scene starts them otherwise, without them.
+template <class Do>
+auto as_if_ideal(const Scene& scene, const System& system, const System& closed, Rough& r, Do does) {
+  const auto with = [&](const System& these) {
+    Closure closure(scene, these, pressed_directions(scene, these));
+    return does(closure, these);
+  };
+  if (system.loose.empty()) return with(system);
+  const Rough before = r;
+  try {
+    return with(closed);
+  } catch (const AssemblyError&) {
+    r = before;
+    return with(system);
+  }
+}
+
 Assembly assembled(const Scene& scene, const System& system, const Bent& bent) {
   const System closed = without_play(system);
-  Closure closure(scene, closed, pressed_directions(scene, closed));
   Rough r = rough_state(scene, closed, bent);
   const VectorXd before = r.y.head(system.n());
   Assembly out;
-  out.iterations = undeformed_first(closed, r, &Rough::W_pose, [&](Rough& from) { return close_joints(scene, closure, closed, from); });
+  out.iterations = as_if_ideal(scene, system, closed, r, [&](Closure& closure, const System& these) {
+    return undeformed_first(these, r, &Rough::W_pose, [&](Rough& from) { return close_joints(scene, closure, these, from); });
+  });
   out.moved = (r.y.head(system.n()) - before).lpNorm<Eigen::Infinity>();
-  undeformed_first(closed, r, &Rough::W_speed, [&](Rough& from) { return match_speeds(scene, closure, closed, from); });
+  as_if_ideal(scene, system, closed, r, [&](Closure& closure, const System& these) {
+    return undeformed_first(these, r, &Rough::W_speed, [&](Rough& from) { return match_speeds(scene, closure, these, from); });
+  });
   r.y.conservativeResizeLike(VectorXd::Zero(system.n_y()));
   out.start.t = 0;
   out.start.y = r.y;

@@ -266,6 +266,7 @@ std::vector<std::string> restless(const System& system, const VectorXd& a) {
 
 void warn(const Model& model, const Equations& eq, Equilibrium& out) {
   const System& system = model.system;
+  std::string last;
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     if (is_held(system.contacts[c])) {
       if (const double N = clearance_effect(system, eq, c).normal.force; N < 0)
@@ -280,10 +281,13 @@ void warn(const Model& model, const Equations& eq, Equilibrium& out) {
                              "\": " + (system.contacts[c].profiles ? "the surfaces overlap by " : "the journal rests ") +
                              number_text(depth) + (system.contacts[c].profiles ? " m" : " m in the wall") +
                              ", more than a tenth of its radius; no contact law holds there");
-    if (system.contacts[c].friction)
+    if (system.contacts[c].friction && std::exchange(last, system.contact_names[c]) != system.contact_names[c])
       out.warnings.push_back("\"" + system.contact_names[c] +
                              "\": what friction would hold depends on how the mechanism came to rest, so it holds nothing here");
   }
+  for (const JointFriction& f : system.frictions)
+    out.warnings.push_back("\"" + system.joint_names[at(f.joint)] +
+                           "\": what its friction would hold depends on how the mechanism came to rest, so it holds nothing here");
   for (const BendingProbe& p : model.bending) {
     const auto eta = out.state.y.segment(system.eta_begin[at(p.index)], p.displacement.cols());
     const VectorXd u = p.displacement * eta;

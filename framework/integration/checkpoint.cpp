@@ -42,8 +42,8 @@ const char* Integrator::fault_of_loaded() const {
                            m.dy_before.size() == n_y && m.F.size() == n && m.P.size() == n;
     const bool empty = m.a.size() + m.lambda.size() + m.lambda_before.size() + m.dy_before.size() + m.F.size() + m.P.size() == 0;
     return node.state.y.size() == n_y && node.dy.size() == n_y && node.state.impact_rate.size() == system_.contacts.size() &&
-           node.state.friction.size() == (has_dry_friction(system_) ? system_.contacts.size() : 0) && node.state.y.allFinite() &&
-           node.dy.allFinite() && std::isfinite(node.state.t) && (remembers || empty);
+           node.state.friction.size() == dry_states(system_) && node.state.y.allFinite() && node.dy.allFinite() &&
+           std::isfinite(node.state.t) && (remembers || empty);
   };
   if (step_.to.state.y.size() != n_y) return "it has another number of coordinates or of energies in its ledger";
   if (!whole(step_.from) || !whole(step_.to) || !stepper_->fits(step_.to)) return "it is of another system, or has numbers that are none";

@@ -8,8 +8,11 @@ namespace {
 
 void interpolate_friction(const Step& step, double x, State& out) {
   out.friction = step.from.state.friction;
-  for (std::size_t c = 0; c < out.friction.size(); ++c)
-    out.friction[c].force += x * (step.to.state.friction[c].force - step.from.state.friction[c].force);
+  for (std::size_t k = 0; k < out.friction.size(); ++k) {
+    const DryFriction& to = step.to.state.friction[k];
+    out.friction[k].force += x * (to.force - out.friction[k].force);
+    out.friction[k].load += x * (to.load - out.friction[k].load);
+  }
 }
 
 }  // namespace

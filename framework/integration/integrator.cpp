@@ -24,7 +24,7 @@ Events events_of(const System& system, const Scheme& scheme, ContactEvents*& con
   auto of_contacts = std::make_unique<ContactEvents>(system, scheme);
   contacts = of_contacts.get();
   groups.push_back(std::move(of_contacts));
-  if (has_dry_friction(system)) groups.push_back(std::make_unique<FrictionEvents>(system, scheme));
+  if (dry_states(system) > 0) groups.push_back(std::make_unique<FrictionEvents>(system, scheme));
   for (const auto& make : scheme.events) groups.push_back(make(system));
   return Events(std::move(groups));
 }
@@ -43,7 +43,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
     throw std::invalid_argument("a start of " + std::to_string(start.y.size()) + " numbers for a system of " +
                                 std::to_string(system.n_y()));
   start.impact_rate.resize(system.contacts.size(), 0.0);
-  start.friction.resize(has_dry_friction(system) ? system.contacts.size() : 0);
+  start.friction.resize(dry_states(system));
   step_.to.state = std::move(start);
   step_.to.dy.setZero(system.n_y());
   step_.error.setZero(system.n_y());

@@ -208,6 +208,12 @@ void trajectory_columns(const Model& model, Out out) {
         system, system.joint_names[at(k)], of.force, of.couple, written_marker(system, k),
         [&](const Now& now) { return joint_wrench(system, now.eq, k); }, out);
   }
+  for (std::size_t k = 0; k < system.frictions.size(); ++k)
+    out(system.joint_names[at(system.frictions[k].joint)], {{".sliding", "m/s"}, {".load", "N"}, {".friction", "N"}},
+        [&, k](const Now& now) {
+          const JointFrictionEffect& f = now.eq.friction[k];
+          return std::array{f.slip, f.load, f.force};
+        });
   for (std::size_t k = 0; k < system.contacts.size(); ++k) {
     if (!system.contacts[k].profiles)
       contact_columns(system, k, out);
@@ -258,6 +264,7 @@ std::string integral_name(const System& system, const Integral& i) {
   switch (i.account) {
     case Account::hysteresis: return system.contact_names[at(i.index)] + ".lost to hysteresis";
     case Account::friction: return system.contact_names[at(i.index)] + ".lost to friction";
+    case Account::joint_friction: return system.joint_names[at(system.frictions[at(i.index)].joint)] + ".lost to friction";
     case Account::damper: return system.force_names[at(i.index)] + ".lost to damper";
     case Account::load: return system.force_names[at(i.index)] + ".work in";
     case Account::driver: return system.joint_names[at(i.index)] + ".work in";

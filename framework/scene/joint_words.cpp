@@ -8,9 +8,15 @@ std::span<const JointWord> joint_words() {
   static const JointNumber angle{JointNumber::angle, "angle", &SceneJoint::angle},
       length{JointNumber::length, "length", &SceneJoint::length, "length: 120 mm"}, ratio{JointNumber::ratio, "ratio", &SceneJoint::ratio};
   static const std::vector<JointWord> words{
-      {.kind = JointKind::revolute, .word = "revolute", .clearance = true},
-      {.kind = JointKind::prismatic, .word = "prismatic", .guides = true, .clamps = true, .clearance = true, .numbers = {angle}},
-      {.kind = JointKind::slot, .word = "slot", .guides = true, .clearance = true},
+      {.kind = JointKind::revolute, .word = "revolute", .clearance = true, .friction = true},
+      {.kind = JointKind::prismatic,
+       .word = "prismatic",
+       .guides = true,
+       .clamps = true,
+       .clearance = true,
+       .friction = true,
+       .numbers = {angle}},
+      {.kind = JointKind::slot, .word = "slot", .guides = true, .clearance = true, .friction = true},
       {.kind = JointKind::weld, .word = "weld", .clamps = true, .numbers = {angle}},
       {.kind = JointKind::distance, .word = "distance", .clearance = true, .numbers = {length}},
       {.kind = JointKind::differential, .word = "differential", .third = true, .turns = true, .numbers = {ratio}},

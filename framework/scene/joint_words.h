@@ -24,6 +24,7 @@ struct JointWord {
   bool guides = false;     ///< along the direction of its first point
   bool clamps = false;     ///< holds the directions of its points to each other
   bool clearance = false;  ///< takes one
+  bool friction = false;   ///< likewise
   std::vector<JointNumber> numbers = {};
 };
 

@@ -141,6 +141,14 @@ struct ScenePlay {
   Place place = {};
 };
 
+/// Dry friction in an ideal joint.
+struct SceneJointFriction {
+  SceneFriction law;
+  double radius = 0;   ///< of a revolute's pin [m]
+  double length = 0;   ///< of a prismatic's block along its guide; 0: it bears no couple by friction [m]
+  double preload = 0;  ///< [N]
+};
+
 enum class JointKind { revolute, prismatic, slot, weld, distance, differential };
 
 struct SceneJoint {
@@ -153,7 +161,8 @@ struct SceneJoint {
   double ratio = 1;                         ///< differential: turns of a against the cage for one of b's the other way
   std::optional<SceneClearance> clearance;  ///< revolute only
   Place place;
-  std::optional<ScenePlay> play = {};  ///< prismatic, slot and distance only
+  std::optional<ScenePlay> play = {};               ///< prismatic, slot and distance only
+  std::optional<SceneJointFriction> friction = {};  ///< revolute, prismatic and slot, without clearance
 };
 
 /// Two profiles of two bodies that may touch. In `normal`, `bearing` is the first body's elasticity, `journal` the second's.

@@ -295,6 +295,100 @@ TEST(DryFriction, ABlockRocksAboutItsCorner) {
   EXPECT_NEAR(down, time, 2e-3 * time);
 }
 
+// With one coefficient all that share the load give way together: the box's corners, at any height of the pull, and several pads.
+TEST_P(DryFriction, WhatSharesALoadGivesWayTogether) {
+  for (const double height : {0.0, -0.02, 0.01}) {
+    std::string text = block_on_ramp(0, 1.2);
+    text.replace(text.find("coefficient: 0.3, static: 0.4"), 29, "coefficient: 0.3");
+    text.replace(text.find("profiles: {outline"), 18, "points: {p: [0, " + number(height) + "]}, profiles: {outline");
+    const Whole w = run(text + "forces: {pull: {force: [10 N/s*t, 0], at: block.p}}\n", GetParam());
+    expect_sound(w);
+    const double breaks = 0.3 * 2 * g / 10;
+    const std::vector<double> v = w.column("block.vx [m/s]"), t = w.column("t [s]");
+    for (std::size_t i = 0; i < t.size(); ++i)
+      if (t[i] > breaks + 1e-3) {
+        ASSERT_NEAR(v[i], 10 * std::pow(t[i] - breaks, 2) / 4, 3e-4) << "t = " << t[i];
+      }
+  }
+}
+TEST_P(DryFriction, TwoPadsOfOneCalliperHoldTogether) {
+  const Whole w =
+      run("bodies:\n  drum: {rigid: {mass: 2, inertia: 0.1}, profiles: {rim: {disc: [0, 0], radius: 0.1}}}\n"
+          "  left: {rigid: {mass: 1, inertia: 0.1}, profiles: {face: {path: [[0, -0.1], [0, 0.1]], material: left}}}\n"
+          "  right: {rigid: {mass: 1, inertia: 0.1}, profiles: {face: {path: [[0, 0.1], [0, -0.1]], material: left}}}\n"
+          "joints: {axle: {revolute: [ground, drum]}, a: {prismatic: [ground, left]}, b: {prismatic: [ground, right]}}\n"
+          "forces: {p: {force: [500, 0], at: left}, q: {force: [-400, 0], at: right}, turn: {torque: 60 N m/s*t, on: drum}}\n"
+          "contacts:\n  l: {between: [left.face, drum.rim], normal: {spring-damper: {stiffness: 1e7, damping: 5e3}}, friction: {coulomb: "
+          "{coefficient: 0.5}}}\n"
+          "  r: {between: [right.face, drum.rim], normal: {spring-damper: {stiffness: 1e7, damping: 5e3}}, friction: {coulomb: "
+          "{coefficient: 0.5}}}\n"
+          "start: {left: {x: -99.95 mm}, right: {x: 99.96 mm}}\nrun: {until: 1.2}\noutput: {every: 10 ms}\n",
+          GetParam());
+  expect_sound(w);
+  const double breaks = 0.5 * 900 * 0.1 / 60;
+  const std::vector<double> speed = w.column("drum.speed [rad/s]"), t = w.column("t [s]");
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double after = std::max(t[i] - breaks, 0.0);
+    ASSERT_NEAR(speed[i], 60 * after * after / 2 / 0.1, 0.02) << "t = " << t[i];
+  }
+}
+
+// Sharp boxes on a sharp pedestal: a corner that has come through one side is not taken for one that is deep under another, wherever
+// it lies and however it comes there.
+TEST(DryFriction, ASharpBoxSlidesOverAPedestalFromEndToEnd) {
+  for (const double height : {0.0, 1e-4})
+    for (const double x : {-0.45, -0.3, -0.05, 0.07})
+      for (const double speed : {0.0, 0.9}) {
+        const double y = 0.05 + height - (height > 0 ? 0 : g * 2 / 2 / 1e6);
+        const Whole w =
+            run("gravity: [0, -9.81]\nbodies: {box: {rigid: {mass: 2, inertia: 1e-2}, profiles: {outline: {path: "
+                "[[-10 cm, -5 cm], [10 cm, -5 cm], [10 cm, 5 cm], [-10 cm, 5 cm]], closed: true}}}}\n"
+                "ground: {profiles: {top: {path: [[-60 cm, -40 cm], [60 cm, -40 cm], [60 cm, 0], [-60 cm, 0]], closed: true}}}\n"
+                "contacts: {rest: {between: [box.outline, ground.top], normal: {spring-damper: {stiffness: 1e6, damping: 1e3}}, "
+                "friction: {coulomb: {coefficient: 0.1}}}}\nstart: {box: {x: " +
+                number(x) + ", y: " + number(y) + ", vx: " + number(speed) + "}}\nrun: {until: 1}\noutput: {every: 10 ms}\n");
+        expect_sound(w);
+        for (const Impact& i : w.run.impacts) EXPECT_LT(i.deepest, 1e-3) << x << ", " << speed << ", " << height;
+        EXPECT_NEAR(w.last("box.x [m]"), x + speed * speed / 2 / 0.1 / g, 3e-3) << speed << ", " << height;
+        EXPECT_NEAR(w.last("box.angle [rad]"), 0, 1e-3);
+      }
+}
+
+// A mechanism a thousand times as slow, all else alike, is as right.
+TEST(DryFriction, ASlowBeltIsAsRightAsAFastOne) {
+  const auto lost = [](double slower) {
+    const Oscillator o{.N = 10 / slower / slower, .k = 400 / slower / slower, .V = 0.1 / slower, .until = 4 * slower};
+    std::string text = o.text();
+    text.replace(text.find("every: 1 ms"), 11, "every: " + number(0.01 * slower));
+    const Whole w = run(text);
+    expect_sound(w);
+    return w.ledger("rub.lost to friction [J]") * slower * slower;
+  };
+  EXPECT_NEAR(lost(1000), lost(1), 1e-6 * lost(1));
+}
+
+// The first accelerations after a disc has come to stick on a bar that turns are those of the explicit pairs.
+TEST(DryFriction, GeneralizedAlphaBeginsToStickWithTheRightForce) {
+  const std::string text =
+      "gravity: [0, -9.81]\nbodies:\n  arm: {rigid: {mass: 1.2, inertia: 0.05, center: [0.2, 0]}, points: {tip: [0.4, 0]}, "
+      "profiles: {tip: {disc: [0.4, 0], radius: 50 mm}}}\n  belt: {rigid: {mass: 5, inertia: 1}, profiles: {face: {path: [[3, 0], [-3, "
+      "0]]}}}\n"
+      "ground: {points: {P: [0, 0.2], Z: [-10, 0]}}\njoints: {hinge: {revolute: [ground.P, arm]}, bed: {prismatic: [ground, belt]}}\n"
+      "drivers: {motor: {distance: [ground.Z, belt], law: 10 m + 0.1 m*sin(12 rad/s*t)}}\n"
+      "contacts: {rub: {between: [arm.tip, belt.face], normal: {spring-damper: {stiffness: 2e4, damping: 50}}, friction: {coulomb: "
+      "{coefficient: 0.35, static: 0.5}}}}\n"
+      "start: {arm: {angle: -0.35}}\nrun: {until: 0.8}\noutput: {every: 0.2 ms}\n";
+  const Whole w = run(text, {"", "generalized-alpha", 1e-8, 0}), reference = run(text, {"", "dopri5", 1e-11, 0});
+  expect_sound(w);
+  const std::vector<double> T = w.column("rub.friction [N]"), expected = reference.column("rub.friction [N]");
+  double most = 0;
+  for (const double x : expected) most = std::max(most, std::abs(x));
+  int far = 0;
+  for (std::size_t i = 0; i < T.size(); ++i) far += std::abs(T[i] - expected[i]) > 2e-4 * most;
+  EXPECT_GT(most, 1);
+  EXPECT_LT(far, 12);  // rows beside a jump
+}
+
 TEST(BadFriction, IsRefusedInOneLineWithKeyAndRemedy) {
   struct Bad {
     const char *law, *key, *says;
@@ -304,6 +398,7 @@ TEST(BadFriction, IsRefusedInOneLineWithKeyAndRemedy) {
                         {"coulomb: {static: 0.2}", "friction.coulomb", "add for example coefficient"},
                         {"coulomb: {coefficient: -1}", "friction.coulomb.coefficient", "must not be negative"},
                         {"coulomb: {coefficient: 0.3, stribeck speed: 0}", "friction.coulomb.stribeck speed", "greater than 0"},
+                        {"coulomb: {coefficient: 0.3, stribeck speed: 1 mm/s}", "friction.coulomb.stribeck speed", "needs `static`"},
                         {"coulomb: {coefficient: 0.3, v0: 1}", "friction.coulomb.v0", "unknown key"},
                         {"coulomb: {coefficient: 0.3}, tanh: {coefficient: 0.3}", "contacts.rest.friction", "one"},
                         {"columb: {coefficient: 0.3}", "friction.columb", "Did you mean \"coulomb\""},

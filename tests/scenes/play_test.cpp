@@ -189,7 +189,7 @@ TEST(Play, ARodHasPlayAtBothEnds) {
   ASSERT_GE(w.run.impacts.size(), 4u);
   EXPECT_NEAR(w.run.impacts[0].begin, 2e-3 / 0.3, 1e-10);
   for (std::size_t i = 1; i < 4; ++i) EXPECT_NEAR(w.run.impacts[i].begin - w.run.impacts[i - 1].end, 4e-3 / 0.3, 1e-6);
-  for (const double x : w.column("mass.x [m]")) EXPECT_NEAR(x, 0.5, 2.01e-3);
+  for (const double x : w.column("mass.x [m]")) EXPECT_NEAR(x, 0.5, 2e-3 + 1e-4);  // v √(m/k) and a little deep
 }
 
 TEST(BadPlay, IsRefusedInOneLineWithKeyAndRemedy) {
@@ -203,14 +203,14 @@ TEST(BadPlay, IsRefusedInOneLineWithKeyAndRemedy) {
            {"prismatic: [ground, a], clearance: {gap: 1 mm, height: 1, " + law + "}", "joints.j.clearance", "add for example length"},
            {"prismatic: [ground, a], clearance: {gap: 1 mm, length: 1, height: 1}", "joints.j.clearance", "add for example normal"},
            {"prismatic: [ground, a], clearance: {gap: 1 mm, length: 1, height: 1, radial: 1 mm, " + law + "}", "clearance.radial",
-            "a revolute joint"},
+            "does not belong"},
            {"prismatic: [ground, a], clearance: {gap: 1 mm, length: 1, height: 1, round: 1, " + law + "}", "joints.j.clearance", "round"},
            {"slot: [ground, a], clearance: {gap: 1 mm, " + law + "}", "joints.j.clearance", "add for example pin radius"},
-           {"slot: [ground, a], clearance: {gap: 1 mm, pin radius: 5 mm, only: pull, " + law + "}", "clearance.only", "a distance joint"},
+           {"slot: [ground, a], clearance: {gap: 1 mm, pin radius: 5 mm, only: pull, " + law + "}", "clearance.only", "does not belong"},
            {"distance: [ground, a], length: 1, clearance: {" + law + "}", "joints.j.clearance", "gap: 1 mm, or only: pull"},
            {"distance: [ground, a], length: 1, clearance: {gap: 2, " + law + "}", "clearance.gap", "less than the length"},
            {"distance: [ground, a], length: 1, clearance: {only: push, friction: {coulomb: {coefficient: 0.1}}, " + law + "}",
-            "clearance.friction", ""},
+            "clearance.friction", "does not belong"},
            {"weld: [ground, a], clearance: {gap: 1 mm}", "joints.j.clearance", ""},
            {"revolute: [ground, a], clearance: {gap: 1 mm, bearing radius: 1 cm, bearing: a, " + law + "}", "clearance.gap",
             "prismatic"}}) {

@@ -61,6 +61,23 @@ std::string laws(const Drawn& drawn, Chance& chance) {
   return s.str();
 }
 
+// Dry friction in some of the ideal joints.
+void rub_joints(Drawn& drawn, Chance& chance) {
+  for (std::string& joint : drawn.joints) {
+    const auto is = [&](const char* kind) { return joint.find(std::string("{") + kind + ": ") != std::string::npos; };
+    if (joint.find("clearance") != std::string::npos || !(is("revolute") || is("prismatic") || is("slot")) || !chance.one_in(4)) continue;
+    std::ostringstream s;
+    s.precision(17);
+    const double coefficient = chance.between(0, 0.4);
+    s << ", friction: {coulomb: {coefficient: " << coefficient
+      << ", static: " << coefficient * (chance.one_in(2) ? 1 : chance.between(1, 2)) << "}";
+    if (is("revolute")) s << ", radius: " << drawn.size * chance.decades(-3, -1);
+    if (is("prismatic")) s << ", length: " << drawn.size * chance.between(0.3, 2);
+    if (chance.one_in(3)) s << ", preload: " << chance.decades(-2, 2);
+    joint.insert(joint.size() - 1, s.str() + "}");
+  }
+}
+
 }  // namespace
 
 void add_surfaces(Drawn& drawn, Chance& chance) {
@@ -90,6 +107,7 @@ void add_surfaces(Drawn& drawn, Chance& chance) {
     for (std::size_t j = 0; j < i; ++j)
       if (!drawn.links[j].profile.empty() && chance.one_in(4)) between(drawn.links[i].name, drawn.links[j].name);
   }
+  if (chance.one_in(2)) rub_joints(drawn, chance);
 }
 
 }  // namespace soak

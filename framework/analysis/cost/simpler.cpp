@@ -52,6 +52,8 @@ void drop_link(System& system, ContactPair& pair) {
   system.joint_names.erase(system.joint_names.begin() + link);
   for (ContactPair& c : system.contacts)
     if (c.link > link) --c.link;
+  for (JointFriction& f : system.frictions)
+    if (f.joint > link) --f.joint;
 }
 
 /// The clearance as an ideal pin.
@@ -97,10 +99,11 @@ class Maker {
     bodies("without stiffening", drop_stiffening, [](const Body& b) { return b.flex->second.has_value(); });
     each(
         gaps_, [&](int c) { return "\"" + model_.system.contact_names[at(c)] + "\" ideal"; }, "every clearance ideal", close_gap);
-    if (std::any_of(model_.system.contacts.begin(), model_.system.contacts.end(),
-                    [](const ContactPair& c) { return c.friction.has_value(); }))
+    if (!model_.system.frictions.empty() || std::any_of(model_.system.contacts.begin(), model_.system.contacts.end(),
+                                                        [](const ContactPair& c) { return c.friction.has_value(); }))
       add("no friction", [](System& s) {
         for (ContactPair& c : s.contacts) c.friction.reset();
+        s.frictions.clear();
       });
     loosen();
     return std::move(made_);

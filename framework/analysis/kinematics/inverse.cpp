@@ -153,17 +153,18 @@ Inverse inverse(const Scene& scene, const Model& model, const Assembly& assembly
         "there is no driver whose torque or force could be found; add for example motor: {angle: [ground, crank], law: 10 rad/s*t}");
   const bool bends = system.n() > system.n_rigid();
   const int open = system.n() - assembly.rank;
-  out.by_algebra = !bends && system.contacts.empty() && system.n_x() == 0 && open <= 0;
+  out.by_algebra = !bends && system.contacts.empty() && system.frictions.empty() && system.n_x() == 0 && open <= 0;
   if (out.by_algebra) {
     out.how = "by algebra: the drivers leave no freedom";
     solve_by_algebra(scene, model, assembly, listeners, out);
     return out;
   }
-  const std::string why = bends                      ? "bodies bend"
-                          : n_clearances(system) > 0 ? "clearances leave freedoms"
-                          : !system.contacts.empty() ? "profiles may touch"
-                          : open > 0                 ? std::to_string(open) + " freedoms are not driven"
-                                                     : "springs in series with dampers remember what was before";
+  const std::string why = bends                       ? "bodies bend"
+                          : n_clearances(system) > 0  ? "clearances leave freedoms"
+                          : !system.contacts.empty()  ? "profiles may touch"
+                          : !system.frictions.empty() ? "friction in joints remembers what was before"
+                          : open > 0                  ? std::to_string(open) + " freedoms are not driven"
+                                                      : "springs in series with dampers remember what was before";
   out.how = "integrated forward with the drivers as constraints: " + why;
   integrate(scene, model, assembly, listeners, out);
   return out;

@@ -240,6 +240,18 @@ std::vector<LinearMode> modes_of(const System& system, const MotionAt& here, con
   return out;
 }
 
+// Surfaces that overlap where the state knows of no impact, as a start does.
+State with_contacts_closed(const System& system, State state) {
+  state.impact_rate.resize(system.contacts.size(), 0.0);
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    const ContactPair& pair = system.contacts[c];
+    if (is_held(pair) || state.impact_rate[c] > 0 || !(onset_of(system, static_cast<int>(c), state).value > 0)) continue;
+    const double depth = gap_of(system, static_cast<int>(c), state).value;
+    state.impact_rate[c] = std::max(speed_to_reach(pair.normal, lightness(system, pair), depth), pair.slowest_impact);
+  }
+  return state;
+}
+
 std::vector<LinearContact> contacts_of(const System& system, const MotionAt& here) {
   std::vector<LinearContact> out;
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
@@ -287,6 +299,12 @@ void add_notes(const Scene& scene, const System& system, const MotionAt& here, L
     else
       out.notes.push_back("\"" + c.name + "\" is open and adds nothing");
   }
+  std::string last;
+  for (const LinearContact& c : out.contacts)
+    if (c.closed && system.contacts[c.pair].friction && std::exchange(last, c.name) != c.name)
+      out.notes.push_back("friction at \"" + c.name + "\" is left out: what it holds is free to slide here");
+  for (const JointFriction& f : system.frictions)
+    out.notes.push_back("friction in \"" + system.joint_names[at(f.joint)] + "\" is left out: what it holds is free to slide here");
   if (laws_vary(scene))
     out.notes.push_back(laws == Laws::hold ? "loads are held at what they are at t = " + text(out.about.t, 6) + " s"
                                            : "loads that vary in time count as they are at t = " + text(out.about.t, 6) + " s");
@@ -318,8 +336,9 @@ const char* kind_text(LinearMode::Kind kind) {
   return "";
 }
 
-Linearization linearize(const Scene& scene, const Model& model, const State& state, Laws laws) {
-  const System system = prepared(model, state.t, laws);
+Linearization linearize(const Scene& scene, const Model& model, const State& given, Laws laws) {
+  const System system = prepared(model, given.t, laws);
+  const State state = with_contacts_closed(system, given);
   if (system.n() > most_linearized)
     throw SceneError(scene.file, {},
                      "a linearisation is dense and meant for up to " + std::to_string(most_linearized) + " coordinates, this scene has " +

@@ -75,6 +75,10 @@ class Sum : public ValueWriter<Sum> {
     const auto& [mu, mu_static, stribeck] = law;
     add(mu, mu_static, stribeck);
   }
+  void add(const JointFriction& f) {
+    const auto& [joint, law, radius, length, preload] = f;
+    add(joint, law, radius, length, preload);
+  }
   void add(const Foreshortening& f) {
     const auto& [S, j, h] = f;
     add(S, j, h);
@@ -95,11 +99,11 @@ class Sum : public ValueWriter<Sum> {
     if (z.account != Account::scheme) add(z.account, z.index);  // which `method: auto` may add as the run becomes longer
   }
   void add(const System& s) {
-    const auto& [gravity, bodies, markers, joints, forces, contacts, joint_names, force_names, contact_names, loose, loose_names, length,
-                 eta_begin, scale, row_begin, end_begin, end_marker, row_scale, integrals, contact_z, force_z, joint_z, internal, force_x,
-                 x_scale] = s;
-    add(gravity, bodies, markers, joints, forces, contacts, joint_names, force_names, contact_names, loose, loose_names, length, eta_begin,
-        scale, row_begin, end_begin, end_marker, row_scale);
+    const auto& [gravity, bodies, markers, joints, frictions, forces, contacts, joint_names, force_names, contact_names, loose, loose_names,
+                 length, eta_begin, scale, row_begin, end_begin, end_marker, row_scale, integrals, contact_z, force_z, joint_z, internal,
+                 force_x, x_scale] = s;
+    add(gravity, bodies, markers, joints, frictions, forces, contacts, joint_names, force_names, contact_names, loose, loose_names, length,
+        eta_begin, scale, row_begin, end_begin, end_marker, row_scale);
     for (const Integral& z : integrals) add(z);
     add(contact_z, force_z, joint_z, force_x, x_scale);
   }

@@ -250,6 +250,21 @@ void add_weight(const System& system, Equations& eq) {
   }
 }
 
+void add_joint_friction(const System& system, const State& state, Equations& eq) {
+  for (std::size_t k = 0; k < system.frictions.size(); ++k) {
+    const JointFriction& rub = system.frictions[k];
+    const JointEnds ends = ends_of(system.joints[at(rub.joint)]);
+    const MarkerMotion &a = eq.motion[at(ends.marker[0])], &b = eq.motion[at(ends.marker[1])];
+    JointFrictionEffect& effect = eq.friction[k];
+    effect.unit = unit_friction(system.joints[at(rub.joint)], rub, a, b);
+    effect.slip = slip(system.joints[at(rub.joint)], rub, a, b);
+    if (state.friction.empty()) continue;
+    const DryFriction& now = state.friction[system.contacts.size() + k];
+    effect.force = now.force, effect.load = now.load, effect.sticks = now.direction == 0;
+    for (std::size_t i = 0; i < 2; ++i) add_wrench(system, eq, ends.marker[i], effect.force * effect.unit[i], eq.f);
+  }
+}
+
 }  // namespace
 
 void apply_forces(const System& system, const State& state, Equations& eq) {
@@ -263,6 +278,7 @@ void apply_forces(const System& system, const State& state, Equations& eq) {
     add_wrench(system, eq, ma, eq.force[i].on_a, eq.f);
     add_wrench(system, eq, mb, eq.force[i].on_b, eq.f);
   }
+  if (!eq.friction.empty()) add_joint_friction(system, state, eq);
   for (std::size_t i = 0; i < system.contacts.size(); ++i) {
     const ContactPair& pair = system.contacts[i];
     eq.contact[i] = evaluate(pair, eq.motion[at(pair.a)], eq.motion[at(pair.b)], state.impact_rate[i],
@@ -295,7 +311,7 @@ void accelerate(const System& system, const State& state, Equations& eq) {
   solve_reactions(system, eq);
   ++eq.evaluations;
   if (eq.schur.lost() > 0) eq.regular = agree(system, eq) && follow_bifurcation_branch(system, state, eq);
-  if (!state.friction.empty() && eq.regular) hold_sticking(system, state, eq);
+  if (!state.friction.empty() && eq.regular) eq.regular = hold_sticking(system, state, eq);
 }
 
 void fill_derivative(const System& system, const VectorXd& y, const Equations& eq, VectorXd& dy) {
@@ -317,6 +333,7 @@ void fill_derivative(const System& system, const VectorXd& y, const Equations& e
         rate = eq.contact[k].friction_loss;
         for (int p = 1; p < system.contacts[k].pairs; ++p) rate += eq.contact[k + at(p)].friction_loss;
         break;
+      case Account::joint_friction: rate = eq.friction[k].sticks ? 0 : -eq.friction[k].force * eq.friction[k].slip; break;
       case Account::damper: rate = eq.force[k].dissipation; break;
       case Account::load: rate = eq.force[k].input; break;
       case Account::driver: rate = eq.lambda[system.row_begin[k]] * eq.rows[k].Ct[0]; break;

@@ -13,12 +13,14 @@
 
 namespace pintle {
 
-/// Contacts of dry friction that stick, and what the forces that hold them do to the motion: sticking.h.
+/// Dry friction that the accelerations decide: of contacts that stick and, behind these, of joints, whether they stick or slide. Each by
+/// its index in State::friction; and what its force does to the motion: sticking.h.
 struct Sticking {
-  std::vector<std::size_t> contact;
-  Eigen::MatrixXd J;       ///< n × sticking: ∂slip/∂s, a column each
-  Eigen::MatrixXd a;       ///< n × sticking: accelerations by 1 N
-  Eigen::MatrixXd lambda;  ///< n_rows × sticking: multipliers by 1 N
+  std::vector<std::size_t> of;
+  std::vector<bool> holds;  ///< it sticks
+  Eigen::MatrixXd J;        ///< n × of: ∂slip/∂s, a column each
+  Eigen::MatrixXd a;        ///< n × of: accelerations by 1 N
+  Eigen::MatrixXd lambda;   ///< n_rows × of: multipliers by 1 N
 };
 
 /// Scratch of one evaluation of the equations of motion, sized by the system; one per thread.
@@ -68,6 +70,7 @@ struct Equations {
   Eigen::VectorXd f, a, lambda;  ///< forces, accelerations, multipliers
   std::vector<ContactEffect> contact;
   std::vector<ForceEffect> force;
+  std::vector<JointFrictionEffect> friction;  ///< in joints
   Sticking sticking;
   bool regular = true;  ///< false: no accelerations can be had here
   bool uneven = false;  ///< inertias so unlike that λ and a need a second look

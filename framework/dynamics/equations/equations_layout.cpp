@@ -25,6 +25,7 @@ Equations::Equations(const System& system)
       lambda(C),
       contact(system.contacts.size()),
       force(system.forces.size()),
+      friction(system.frictions.size()),
       gamma(C),
       mu(C),
       g(f),

@@ -6,42 +6,109 @@
 
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
+#include "framework/common/worse.h"
 
 namespace pintle {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Places = std::vector<Index>;
 
-bool sticks(const System& system, const State& state, std::size_t c) {
-  return !state.friction.empty() && state.friction[c].direction == 0 && state.impact_rate[c] > 0 && dry_friction(system.contacts[c]);
+namespace {
+
+bool of_contact(const System& system, std::size_t k) { return k < system.contacts.size(); }
+std::size_t joint_friction(const System& system, std::size_t k) { return k - system.contacts.size(); }
+Index count(const Sticking& s) { return static_cast<Index>(s.of.size()); }
+std::size_t place(Index i) { return static_cast<std::size_t>(i); }
+
+// The columns that stick, or those that slide.
+Places those(const Sticking& s, bool that_hold) {
+  Places out;
+  for (Index i = 0; i < count(s); ++i)
+    if (s.holds[place(i)] == that_hold) out.push_back(i);
+  return out;
 }
 
-double holds_at_most(const System& system, const Equations& eq, std::size_t c) {
-  return dry_friction(system.contacts[c])->mu_static * eq.contact[c].normal.force;
+VectorXd part(const VectorXd& v, const Places& of) {
+  VectorXd out(static_cast<Index>(of.size()));
+  for (Index i = 0; i < out.size(); ++i) out[i] = v[of[place(i)]];
+  return out;
+}
+MatrixXd part(const MatrixXd& A, const Places& rows, const Places& columns) {
+  MatrixXd out(static_cast<Index>(rows.size()), static_cast<Index>(columns.size()));
+  for (Index j = 0; j < out.cols(); ++j)
+    for (Index i = 0; i < out.rows(); ++i) out(i, j) = A(rows[place(i)], columns[place(j)]);
+  return out;
+}
+void put(const VectorXd& values, const Places& at, VectorXd& v) {
+  for (Index i = 0; i < values.size(); ++i) v[at[place(i)]] = values[i];
+}
+
+// N of a friction in a joint, of any multipliers.
+double load_of(const System& system, const Equations& eq, std::size_t k, const VectorXd& lambda) {
+  const JointFriction& rub = system.frictions[k];
+  const std::size_t joint = at(rub.joint);
+  const int row = system.row_begin[joint], m = system.row_begin[joint + 1] - row;
+  const Wrench on_b = -eq.L[at(system.end_begin[joint]) + 1].topRows(m).transpose() * lambda.segment(row, m);
+  return load(system.joints[joint], rub, eq.motion[at(ends_of(system.joints[joint]).marker[0])], on_b);
+}
+
+}  // namespace
+
+const Coulomb* dry_law(const System& system, std::size_t k) {
+  return of_contact(system, k) ? dry_friction(system.contacts[k]) : &system.frictions[joint_friction(system, k)].law;
+}
+
+bool sticks(const System& system, const State& state, std::size_t k) {
+  if (state.friction.empty() || state.friction[k].direction != 0 || !dry_law(system, k)) return false;
+  return !of_contact(system, k) || state.impact_rate[k] > 0;
+}
+
+FrictionNow friction_now(const System& system, const Equations& eq, std::size_t k) {
+  const double static_part = dry_law(system, k)->mu_static;
+  if (of_contact(system, k)) {
+    const ContactEffect& now = eq.contact[k];
+    return {now.friction, now.gap.material_slip, static_part * now.normal.force};
+  }
+  const JointFrictionEffect& now = eq.friction[joint_friction(system, k)];
+  return {now.force, now.slip, static_part * now.load};
 }
 
 void list_sticking(const System& system, const State& state, Equations& eq) {
   Sticking& s = eq.sticking;
-  s.contact.clear();
-  for (std::size_t c = 0; c < system.contacts.size(); ++c)
-    if (sticks(system, state, c)) s.contact.push_back(c);
-  s.J.resize(system.n(), static_cast<Index>(s.contact.size()));
+  s.of.clear(), s.holds.clear();
+  for (std::size_t k = 0; k < state.friction.size(); ++k) {
+    const bool holds = sticks(system, state, k);
+    if (!holds && of_contact(system, k)) continue;
+    s.of.push_back(k);
+    s.holds.push_back(holds);
+  }
+  s.J.resize(system.n(), count(s));
   VectorXd column(system.n());
-  for (Index i = 0; i < s.J.cols(); ++i) {
-    const ContactPair& pair = system.contacts[s.contact[static_cast<std::size_t>(i)]];
-    const std::array<Wrench, 2> unit = unit_friction(pair, eq.contact[s.contact[static_cast<std::size_t>(i)]].gap);
+  for (Index i = 0; i < count(s); ++i) {
+    const std::size_t k = s.of[place(i)];
+    std::array<int, 2> markers;
+    std::array<Wrench, 2> unit;
+    if (of_contact(system, k)) {
+      markers = {system.contacts[k].a, system.contacts[k].b};
+      unit = unit_friction(system.contacts[k], eq.contact[k].gap);
+    } else {
+      const JointFriction& rub = system.frictions[joint_friction(system, k)];
+      const Joint& joint = system.joints[at(rub.joint)];
+      markers = {ends_of(joint).marker[0], ends_of(joint).marker[1]};
+      unit = unit_friction(joint, rub, eq.motion[at(markers[0])], eq.motion[at(markers[1])]);
+    }
     column.setZero();
-    add_wrench(system, eq, pair.a, unit[0], column);
-    add_wrench(system, eq, pair.b, unit[1], column);
+    for (std::size_t end = 0; end < 2; ++end) add_wrench(system, eq, markers[end], unit[end], column);
     s.J.col(i) = column;
   }
 }
 
 namespace {
 
-// @returns W = Jᵀ a, the slip's acceleration by the forces
-MatrixXd respond_to_sticking(const System& system, Equations& eq) {
+// @returns W = Jᵀ a
+MatrixXd respond_to_friction(const System& system, Equations& eq) {
   Sticking& s = eq.sticking;
   s.a.resize(s.J.rows(), s.J.cols());
   s.lambda.resize(system.n_rows(), s.J.cols());
@@ -55,18 +122,16 @@ MatrixXd respond_to_sticking(const System& system, Equations& eq) {
   return s.J.transpose() * s.a;
 }
 
-}  // namespace
-
-VectorXd share_out_friction(const System& system, const Equations& eq, const MatrixXd& W, const VectorXd& rhs) {
+// x of W x = rhs, of which Σ x²/capacity is least.
+VectorXd share_out(const MatrixXd& W, const VectorXd& rhs, const VectorXd& capacity) {
   constexpr double least = 1e-9;
   constexpr double dependent = 1e-4;  // of unit slips: where feet differ in height by a hundredth, their give decides, not their lever
   const Index m = rhs.size();
+  if (m == 0) return rhs;
   if (m == 1) return W(0, 0) > 0 ? VectorXd(rhs / W(0, 0)) : VectorXd(VectorXd::Zero(1));
-  VectorXd weight(m);
-  for (Index i = 0; i < m; ++i) weight[i] = holds_at_most(system, eq, eq.sticking.contact[static_cast<std::size_t>(i)]);
-  const double most = weight.maxCoeff();
-  weight = most > 0 ? VectorXd(weight.cwiseMax(least * most).cwiseSqrt()) : VectorXd(VectorXd::Ones(m));
-  // The rows that count, U, are those of W between unit slips; among their solutions the least.
+  const double most = capacity.maxCoeff();
+  const VectorXd weight = most > 0 ? VectorXd(capacity.cwiseMax(least * most).cwiseSqrt()) : VectorXd(VectorXd::Ones(m));
+  // The rows that count are those of W between unit slips; among their solutions the least.
   const VectorXd unit = W.diagonal().cwiseAbs().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
   const Eigen::JacobiSVD<MatrixXd> svd(unit.asDiagonal() * W * unit.asDiagonal(), Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Index rank = (svd.singularValues().array() > dependent * svd.singularValues()[0]).count();
@@ -77,32 +142,106 @@ VectorXd share_out_friction(const System& system, const Equations& eq, const Mat
   return weight.cwiseProduct(least_norm.solve(svd.matrixU().leftCols(rank).transpose() * unit.cwiseProduct(rhs)));
 }
 
-void hold_sticking(const System& system, const State& state, Equations& eq) {
+VectorXd capacity(const System& system, const Equations& eq, const Places& of) {
+  VectorXd out(static_cast<Index>(of.size()));
+  for (Index i = 0; i < out.size(); ++i) out[i] = friction_now(system, eq, eq.sticking.of[place(of[place(i)])]).holds;
+  return out;
+}
+
+}  // namespace
+
+VectorXd holding_forces(const System& system, const Equations& eq, const MatrixXd& W, const VectorXd& slip) {
+  const Places hold = those(eq.sticking, true);
+  VectorXd out = VectorXd::Zero(slip.size());
+  put(share_out(part(W, hold, hold), part(slip, hold), capacity(system, eq, hold)), hold, out);
+  return out;
+}
+
+// What slides in joints makes this nonlinear, for N is a norm of λ: Newton's method on T_i + d_i μ_i N_i = 0, what sticks solved for in each.
+VectorXd friction_change(const System& system, const State& state, const Equations& eq, const FrictionResponse& by, Shares shares,
+                         const VectorXd& slips, const VectorXd& lambda, const VectorXd& before) {
+  constexpr int most = 30;
+  constexpr double enough = 1e-13, little = 1e-6;
+  const Sticking& s = eq.sticking;
+  const Places hold = those(s, true), slide = those(s, false);
+  const MatrixXd W_hold = part(by.W, hold, hold), W_slide = part(by.W, hold, slide);
+  const VectorXd holds = capacity(system, eq, hold), held = shares == Shares::all ? part(before, hold) : VectorXd::Zero(W_hold.rows()),
+                 asked = W_hold * held + part(slips, hold);
+  VectorXd change = VectorXd::Zero(before.size()), loads(static_cast<Index>(slide.size()));
+  const auto missed = [&](const VectorXd& sliding) {  // a change of what slides
+    put(sliding, slide, change);
+    put(share_out(W_hold, asked - W_slide * sliding, holds) - held, hold, change);
+    const VectorXd now = lambda + by.lambda * change;
+    VectorXd out = part(before, slide) + sliding;
+    for (Index i = 0; i < out.size(); ++i) {
+      const std::size_t k = s.of[place(slide[place(i)])], own = joint_friction(system, k);
+      loads[i] = load_of(system, eq, own, now);
+      if (const double d = state.friction[k].direction; d != DryFriction::undecided)
+        out[i] -= evaluate(system.frictions[own].law, eq.friction[own].slip, loads[i], d).force;
+    }
+    return out;
+  };
+  VectorXd sliding = VectorXd::Zero(loads.size()), left = missed(sliding);
+  for (int i = 0; i < most && slide.size() > 0; ++i) {
+    const double scale = largest(loads) + largest(left);
+    if (largest(left) <= enough * scale) break;
+    if (i + 1 == most) return VectorXd::Constant(before.size(), std::numeric_limits<double>::quiet_NaN());
+    MatrixXd slope(sliding.size(), sliding.size());
+    const double h = little * scale;
+    for (Index j = 0; j < sliding.size(); ++j) {
+      VectorXd moved = sliding;
+      moved[j] += h;
+      slope.col(j) = (missed(moved) - left) / h;
+    }
+    sliding -= slope.partialPivLu().solve(left);
+    left = missed(sliding);
+  }
+  return change;
+}
+
+bool hold_sticking(const System& system, const State& state, Equations& eq) {
   list_sticking(system, state, eq);
   const Sticking& s = eq.sticking;
-  const auto m = static_cast<Index>(s.contact.size());
-  if (m == 0) return;
-  const MatrixXd W = respond_to_sticking(system, eq);
-  VectorXd rhs = -s.J.transpose() * eq.a, before(m);
-  for (Index i = 0; i < m; ++i) {
-    const std::size_t c = s.contact[static_cast<std::size_t>(i)];
-    const ContactPair& pair = system.contacts[c];
-    rhs[i] -= slip_acceleration(pair, eq.contact[c], eq.motion[at(pair.a)], eq.motion[at(pair.b)]);
-    before[i] = eq.contact[c].friction;
+  if (s.of.empty()) return true;
+  const MatrixXd W = respond_to_friction(system, eq);
+  VectorXd rhs = -s.J.transpose() * eq.a, before(count(s));
+  for (Index i = 0; i < count(s); ++i) {
+    const std::size_t k = s.of[place(i)];
+    before[i] = friction_now(system, eq, k).force;
+    if (of_contact(system, k)) {
+      const ContactPair& pair = system.contacts[k];
+      rhs[i] -= slip_acceleration(pair, eq.contact[k], eq.motion[at(pair.a)], eq.motion[at(pair.b)]);
+    } else {
+      const JointFriction& rub = system.frictions[joint_friction(system, k)];
+      const Joint& joint = system.joints[at(rub.joint)];
+      const JointEnds ends = ends_of(joint);
+      rhs[i] -= slip_acceleration(joint, rub, eq.motion[at(ends.marker[0])], eq.motion[at(ends.marker[1])]);
+    }
   }
-  const VectorXd change = share_out_friction(system, eq, W, rhs + W * before) - before;
+  const VectorXd change = friction_change(system, state, eq, {W, s.lambda}, Shares::all, rhs, eq.lambda, before);
+  if (!change.allFinite()) return false;
   eq.a += s.a * change;
   eq.lambda += s.lambda * change;
   eq.f += s.J * change;
-  for (Index i = 0; i < m; ++i) {
-    const std::size_t c = s.contact[static_cast<std::size_t>(i)];
-    add_friction(system.contacts[c], change[i], eq.contact[c]);
+  for (Index i = 0; i < count(s); ++i) {
+    const std::size_t k = s.of[place(i)];
+    if (of_contact(system, k)) {
+      add_friction(system.contacts[k], change[i], eq.contact[k]);
+    } else {
+      JointFrictionEffect& now = eq.friction[joint_friction(system, k)];
+      now.force += change[i];
+      now.load = load_of(system, eq, joint_friction(system, k), eq.lambda);
+    }
   }
+  return true;
 }
 
-void keep_holding_forces(const Equations& eq, State& state) {
+void keep_friction(const System& system, const Equations& eq, State& state) {
   if (state.friction.empty()) return;
-  for (const std::size_t c : eq.sticking.contact) state.friction[c].force = eq.contact[c].friction;
+  for (const std::size_t k : eq.sticking.of) {
+    state.friction[k].force = friction_now(system, eq, k).force;
+    if (!of_contact(system, k)) state.friction[k].load = eq.friction[joint_friction(system, k)].load;
+  }
 }
 
 void remove_slip(const System& system, State& state, Equations& eq) {
@@ -114,17 +253,31 @@ void remove_slip(const System& system, State& state, Equations& eq) {
   }
   list_sticking(system, state, eq);
   const Sticking& s = eq.sticking;
-  if (s.contact.empty()) return;
-  const MatrixXd W = respond_to_sticking(system, eq);
+  if (std::ranges::find(s.holds, true) == s.holds.end()) return;
+  const MatrixXd W = respond_to_friction(system, eq);
   auto speeds = state.y.segment(system.n(), system.n());
-  speeds -= s.a * share_out_friction(system, eq, W, s.J.transpose() * speeds);
+  speeds -= s.a * holding_forces(system, eq, W, s.J.transpose() * speeds);
   speed(system, state.t, state.y, eq);
 }
 
-VectorXd slips(const Equations& eq) {
-  VectorXd out(static_cast<Index>(eq.sticking.contact.size()));
-  for (Index i = 0; i < out.size(); ++i) out[i] = eq.contact[eq.sticking.contact[static_cast<std::size_t>(i)]].gap.material_slip;
+VectorXd forces(const State& state, const Equations& eq) {
+  VectorXd out(count(eq.sticking));
+  for (Index i = 0; i < out.size(); ++i) out[i] = state.friction[eq.sticking.of[place(i)]].force;
   return out;
+}
+
+VectorXd slips(const System& system, const Equations& eq) {
+  VectorXd out(count(eq.sticking));
+  for (Index i = 0; i < out.size(); ++i) out[i] = friction_now(system, eq, eq.sticking.of[place(i)]).slip;
+  return out;
+}
+
+void put_forces(const System& system, const Equations& eq, const VectorXd& force, const VectorXd& lambda, State& state) {
+  for (Index i = 0; i < force.size(); ++i) {
+    const std::size_t k = eq.sticking.of[place(i)];
+    state.friction[k].force = force[i];
+    if (!of_contact(system, k)) state.friction[k].load = load_of(system, eq, joint_friction(system, k), lambda);
+  }
 }
 
 }  // namespace pintle

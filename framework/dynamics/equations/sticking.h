@@ -2,28 +2,48 @@
 
 #include "framework/dynamics/equations/equations.h"
 
-/// Contacts of dry friction that stick: each holds its slip σ at 0 by a force T along Zn, as a constraint equation Jᵀs = 0 does by
-/// its multiplier. They come and go, so they are bordered onto the solution without them instead of being rows of Cq.
-/// Theory: docs/theory/friction.md.
+/// Dry friction that the accelerations decide. What sticks holds its slip σ at 0 by a force T, as a constraint equation Jᵀs = 0 does by
+/// its multiplier; what slides in a joint has T = −d μ N with N of the joint's own multipliers. These come and go, so they are bordered
+/// onto the solution without them instead of being rows of Cq. Theory: docs/theory/friction.md.
 namespace pintle {
 
-bool sticks(const System&, const State&, std::size_t contact);
-/// The most that friction holds, μ_s N [N]. @pre dry_friction(system.contacts[contact]), evaluated
-double holds_at_most(const System&, const Equations&, std::size_t contact);
+/// The friction at this place of State::friction sticks.
+bool sticks(const System&, const State&, std::size_t at);
+/// The law of the friction at this place; nullptr where that is not dry.
+const Coulomb* dry_law(const System&, std::size_t at);
+/// What it says of the friction at this place, in evaluated equations: force, slip, and the most that it holds, μ_s N.
+struct FrictionNow {
+  double force, slip, holds;
+};
+FrictionNow friction_now(const System&, const Equations&, std::size_t at);
 
-/// Notes in eq.sticking which contacts stick, and J. After speed, contacts evaluated.
+/// Fills `of`, `holds` and J of eq.sticking. After speed, contacts evaluated.
 void list_sticking(const System&, const State&, Equations&);
-/// Adds to λ, a, f and the contacts the forces under which nothing that sticks is accelerated along its slip. In `accelerate`.
-void hold_sticking(const System&, const State&, Equations&);
-/// Takes out of the speeds what slip there is of contacts that stick; leaves `speed` as for the corrected state. After `project`.
+/// Brings λ, a, f, contacts and joints to the forces under which nothing that sticks is accelerated along its slip, and what slides in
+/// joints rubs as these are pressed. In `accelerate`. @returns false where no such forces are found
+bool hold_sticking(const System&, const State&, Equations&);
+/// Takes out of the speeds what slip there is of what sticks; leaves `speed` as for the corrected state. After `project`.
 void remove_slip(const System&, State&, Equations&);
-/// The forces that hold, kept in the state. After accelerate.
-void keep_holding_forces(const Equations&, State&);
+/// What was decided, kept in the state. After accelerate.
+void keep_friction(const System&, const Equations&, State&);
 
-/// T of W T = rhs. Where others could hold as well, as at two corners of a box on one ground, each bears a part after what it
-/// holds at most: Σ T²/(μ_s N) is least. Slips that hardly differ count as one.
-Eigen::VectorXd share_out_friction(const System&, const Equations&, const Eigen::MatrixXd& W, const Eigen::VectorXd& rhs);
-/// Of what sticks, as contacts were last evaluated [m/s].
-Eigen::VectorXd slips(const Equations&);
+/// Of the columns of eq.sticking, what 1 N of each does to the slips and to λ.
+struct FrictionResponse {
+  const Eigen::MatrixXd &W, &lambda;
+};
+/// Does a change of forces share out anew what several could hold, or only what it changes, to its own last digits?
+enum class Shares { all, change };
+/// Change of the forces T of eq.sticking from `before`: W δT = slips for what sticks, T = −d μ N for what slides, N of the multipliers
+/// λ + response δT. Where others could hold as well, as at two corners of a box on one ground, each bears a part after what it
+/// holds at most: Σ T²/(μ_s N) is least. Slips that hardly differ count as one. Not finite where nothing is found.
+Eigen::VectorXd friction_change(const System&, const State&, const Equations&, const FrictionResponse&, Shares,
+                                const Eigen::VectorXd& slips, const Eigen::VectorXd& lambda, const Eigen::VectorXd& before);
+/// Of what sticks alone: forces that take away these slips, 0 for what slides.
+Eigen::VectorXd holding_forces(const System&, const Equations&, const Eigen::MatrixXd& W, const Eigen::VectorXd& slips);
+/// Of eq.sticking, in the state and as last evaluated [N], [m/s].
+Eigen::VectorXd forces(const State&, const Equations&);
+Eigen::VectorXd slips(const System&, const Equations&);
+/// Puts forces, and the loads of joints that go with these multipliers, into the state.
+void put_forces(const System&, const Equations&, const Eigen::VectorXd& forces, const Eigen::VectorXd& lambda, State&);
 
 }  // namespace pintle

@@ -37,14 +37,15 @@ struct ContactPair {
   std::array<int, 4> beyond{-1, -1, -1, -1};
 };
 
-/// What a contact of dry friction is doing, and the force that holds it where it sticks.
+/// What a contact or a joint of dry friction is doing, and what the accelerations have decided of its force.
 struct DryFriction {
   static constexpr double undecided = 2;  ///< the surfaces have met, and neither slide nor stick yet: without friction
   double direction = undecided;           ///< −1, 1: they slide, a over b along Zn; 0: they stick
-  double force = 0;                       ///< on a along Zn, where they stick [N]
+  double force = 0;                       ///< of a contact on a along Zn, where it sticks; of a joint on b along the slip [N]
+  double load = 0;                        ///< of a joint: what presses it [N]
   template <class A>
   void archive(A& x) {
-    x(PINTLE_MEMBERS(direction, force));
+    x(PINTLE_MEMBERS(direction, force, load));
   }
 };
 

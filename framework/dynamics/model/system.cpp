@@ -57,6 +57,7 @@ void number(System& system, bool scheme_loses) {
   }
   for (std::size_t i = 0; i < system.joints.size(); ++i)
     system.joint_z.push_back(is_driver(system.joints[i]) ? account(Account::driver, i) : -1);
+  for (std::size_t i = 0; i < system.frictions.size(); ++i) account(Account::joint_friction, i);
   for (std::size_t i = 0; i < system.bodies.size(); ++i)
     if (system.bodies[i].modes() > 0 && !system.bodies[i].flex->zeta.isZero()) account(Account::damping, i);
   if (scheme_loses) account(Account::scheme, 0);
@@ -78,8 +79,10 @@ int n_clearances(const System& system) {
   return static_cast<int>(std::ranges::find(system.contacts, true, &ContactPair::profiles) - system.contacts.begin());
 }
 
-bool has_dry_friction(const System& system) {
-  return std::ranges::any_of(system.contacts, [](const ContactPair& c) { return dry_friction(c) != nullptr; });
+std::size_t dry_states(const System& system) {
+  const bool any =
+      !system.frictions.empty() || std::ranges::any_of(system.contacts, [](const ContactPair& c) { return dry_friction(c) != nullptr; });
+  return any ? system.contacts.size() + system.frictions.size() : 0;
 }
 
 double lightness(const System& system, const ContactPair& pair) {

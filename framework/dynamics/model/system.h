@@ -10,6 +10,7 @@
 #include "framework/component/reduction/inertia.h"
 #include "framework/dynamics/model/contact_pair.h"
 #include "framework/dynamics/model/forces.h"
+#include "framework/dynamics/model/joint_friction.h"
 #include "framework/dynamics/model/joints.h"
 #include "framework/dynamics/model/marker.h"
 
@@ -33,10 +34,10 @@ struct InternalStates {
 };
 
 /// What an integral of the ledger accounts for.
-enum class Account { hysteresis, friction, damper, load, driver, damping, scheme };
+enum class Account { hysteresis, friction, damper, load, driver, damping, scheme, joint_friction };
 struct Integral {
   Account account;
-  int index;  ///< contact, force, joint; of damping the body; of the scheme 0
+  int index;  ///< contact, force, joint, friction in a joint; of damping the body; of the scheme 0
 };
 
 /// A scene made ready to run: built once, then never changed. Ground is not among the bodies.
@@ -45,6 +46,7 @@ struct System {
   std::vector<Body> bodies;
   std::vector<Marker> markers;  ///< every marker that a joint, force or contact uses
   std::vector<Joint> joints;    ///< drivers included
+  std::vector<JointFriction> frictions;
   std::vector<Force> forces;
   std::vector<ContactPair> contacts;
   std::vector<std::string> joint_names, force_names, contact_names;
@@ -95,8 +97,8 @@ bool feels_shapes(const System&, const Joint&, int marker);
 /// Clearance joints, the contacts of which stand before those of profiles.
 int n_clearances(const System&);
 
-/// Some contact's friction is Coulomb's: stick and slip are events.
-bool has_dry_friction(const System&);
+/// As many as contacts and frictions in joints, if some are Coulomb's, so that stick and slip are events; else 0.
+std::size_t dry_states(const System&);
 
 inline bool has_gravity(const System& s) { return s.gravity.x() != 0 || s.gravity.y() != 0; }
 
@@ -105,7 +107,7 @@ struct State {
   double t = 0;                            ///< [s]
   Eigen::VectorXd y;                       ///< coordinates q, speeds s, internal states x, ledger integrals z: n + n + n_x + n_z
   std::vector<double> impact_rate;         ///< per contact, latched approach speed; 0 while open [m/s]
-  std::vector<DryFriction> friction = {};  ///< per contact; empty where none has dry friction
+  std::vector<DryFriction> friction = {};  ///< per contact, then per friction in a joint; empty where none is dry
 };
 
 }  // namespace pintle

@@ -142,7 +142,8 @@ Events::Ending Events::end_at(const EventInStep& event, Stepper& stepper, const 
   constexpr double last_digits = 4.5e-16;  // two of the clock's: between them zero cannot be met more nearly
   double t_before = t0;
   Guard now = from_[event.at];
-  for (int i = 0; i < 6 && t > t0; ++i) {
+  const int most = std::isnan(now.rate) ? 12 : 6;  // by secants, or by Newton's method
+  for (int i = 0; i < most && t > t0; ++i) {
     if (!stepper.attempt(t - t0, norm, step, eq)) return Ending::impossible;
     const Guard before = std::exchange(now, guard(event.at, step.to.state));
     if (group(event.at).met(places_[event.at].event, now)) return Ending::there;

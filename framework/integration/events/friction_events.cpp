@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "framework/common/archive.h"
 #include "framework/common/index.h"
-#include "framework/dynamics/equations/sticking.h"
 #include "framework/integration/events/impact_log.h"
 #include "framework/integration/stepper.h"
 
@@ -12,110 +13,188 @@ namespace pintle {
 
 namespace {
 
-double slip_limit(const System& system, std::size_t c, const ContactEffect& now) {
-  return dry_friction(system.contacts[c])->mu_static * now.normal.force;
+// How much of the slip that 1 N would change between free bodies it changes under the joints, of column i of what sticks. Near 0, as at a
+// dead centre, nothing can hold it there.
+double leverage(const System& system, Equations& eq, Eigen::Index i) {
+  Eigen::VectorXd a = eq.sticking.J.col(i), lambda;
+  double free = 0;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const Eigen::Vector3d J = a.segment<3>(3 * static_cast<Eigen::Index>(b));
+    free += J.head<2>().squaredNorm() / system.bodies[b].m + J[2] * J[2] / system.bodies[b].J;
+  }
+  respond(system, eq, a, lambda);
+  return free > 0 ? eq.sticking.J.col(i).dot(a) / free : 1;
+}
+
+MarkerMotion motion_of(const System& system, int marker, const Eigen::VectorXd& y) {
+  const MovingPoint p = moving_point(system, marker, y);
+  MarkerMotion out;
+  out.r = p.r, out.v = p.v, out.w = p.w, out.angle = p.angle;
+  out.u = {std::cos(p.angle), std::sin(p.angle)};
+  return out;
 }
 
 }  // namespace
 
-FrictionEvents::FrictionEvents(const System& system, const Scheme& scheme)
-    : system_(system), tolerance_(scheme.tolerance), still_(1e-9 * system.length) {
-  for (std::size_t c = 0; c < system.contacts.size(); ++c)
-    if (dry_friction(system.contacts[c])) dry_.push_back(c);
+FrictionEvents::FrictionEvents(const System& system, const Scheme& scheme) : system_(system), tolerance_(scheme.tolerance) {
+  for (std::size_t k = 0; k < dry_states(system); ++k)
+    if (dry_law(system, k)) dry_.push_back(k);
+  fastest_.resize(dry_.size());
+}
+
+// A slip below this is none, beside what has been [m/s].
+double FrictionEvents::still(int event) const {
+  constexpr double part = 1e-10, least = 1e-13;  // of its fastest; of the mechanism's length in a second
+  return std::max(part * fastest_[static_cast<std::size_t>(event / 2)], least * system_.length);
 }
 
 std::string FrictionEvents::name(int event) const {
-  return (of_sliding(event) ? "slip at contact \"" : "sticking at contact \"") + system_.contact_names[contact(event)] + "\"";
+  const std::size_t k = place(event), contacts = system_.contacts.size();
+  const std::string where =
+      k < contacts ? "contact \"" + system_.contact_names[k] : "joint \"" + system_.joint_names[at(system_.frictions[k - contacts].joint)];
+  return (of_sliding(event) ? "slip at " : "sticking at ") + where + "\"";
 }
 
-// Whether a contact slides or sticks is its state's, so guards of what it is not doing stay off zero.
+// Whether something slides or sticks is its state's, so guards of what it is not doing stay off zero.
 WatchedGuard FrictionEvents::watch(int event) const {
   constexpr double known = 1e-6;  // of the force that holds, at worst
-  if (of_sliding(event)) return {.direction = Direction::falling, .zero = still_, .at_once = true};
+  if (of_sliding(event)) return {.direction = Direction::falling, .zero = still(event), .at_once = true};
   return {.direction = Direction::rising, .zero = known, .at_once = true};
 }
 
+bool FrictionEvents::touches(std::size_t k, const State& state) const { return k >= system_.contacts.size() || state.impact_rate[k] > 0; }
+
+FrictionNow FrictionEvents::now(std::size_t k, const State& state) const {
+  const DryFriction& dry = state.friction[k];
+  const double part = dry_law(system_, k)->mu_static;
+  if (k < system_.contacts.size()) {
+    const ContactEffect effect = pressing(system_, static_cast<int>(k), state);
+    return {dry.force, effect.gap.material_slip, part * effect.normal.force};
+  }
+  const JointFriction& rub = system_.frictions[k - system_.contacts.size()];
+  const Joint& joint = system_.joints[at(rub.joint)];
+  const JointEnds ends = ends_of(joint);
+  return {dry.force, slip(joint, rub, motion_of(system_, ends.marker[0], state.y), motion_of(system_, ends.marker[1], state.y)),
+          part * dry.load};
+}
+
 Guard FrictionEvents::guard(int event, const State& state) const {
-  if (state.impact_rate[contact(event)] <= 0) return {of_sliding(event) ? 1.0 : -1.0};
-  return guard(event, state, pressing(system_, static_cast<int>(contact(event)), state));
+  if (!touches(place(event), state)) return {of_sliding(event) ? 1.0 : -1.0};
+  return guard(event, state, now(place(event), state));
 }
 
 Guard FrictionEvents::guard(int event, const State& state, const Equations& eq) const {
-  if (state.impact_rate[contact(event)] <= 0) return {of_sliding(event) ? 1.0 : -1.0};
-  return guard(event, state, eq.contact[contact(event)]);
+  if (!touches(place(event), state)) return {of_sliding(event) ? 1.0 : -1.0};
+  return guard(event, state, friction_now(system_, eq, place(event)));
 }
 
 // Sliding ends a little past 0, so that it can begin at 0. What holds is measured by what can be held.
-Guard FrictionEvents::guard(int event, const State& state, const ContactEffect& now) const {
-  const DryFriction& dry = state.friction[contact(event)];
+Guard FrictionEvents::guard(int event, const State& state, const FrictionNow& now) const {
+  const DryFriction& dry = state.friction[place(event)];
   const bool undecided = dry.direction == DryFriction::undecided;
-  if (of_sliding(event)) return {undecided || dry.direction == 0 ? 1.0 : dry.direction * now.gap.material_slip + 2 * still_};
+  if (of_sliding(event)) return {undecided || dry.direction == 0 ? 1.0 : dry.direction * now.slip + 2 * still(event)};
   if (undecided || dry.direction != 0) return {undecided ? 1.0 : -1.0};
-  const double force = std::abs(dry.force), limit = slip_limit(system_, contact(event), now);
+  const double force = std::abs(dry.force), limit = now.holds;
   return {force <= limit ? (limit > 0 ? force / limit : 0) - 1 : std::min(force / std::max(limit, 1e-300), 1e300) - 1};
 }
 
 // A slip that comes to 0 and back in one step.
 std::optional<double> FrictionEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
   constexpr int parts = 8;
-  const DryFriction& dry = step.from.state.friction[contact(event)];
+  const DryFriction& dry = step.from.state.friction[place(event)];
   if (!of_sliding(event) || dry.direction == 0 || dry.direction == DryFriction::undecided) return std::nullopt;
-  if (step.from.state.impact_rate[contact(event)] <= 0) return std::nullopt;
+  if (!touches(place(event), step.from.state)) return std::nullopt;
   for (int i = 1; i < parts; ++i)
     if (const double t = step.from.state.t + step.h * i / parts; guard(event, motion.at(t)).value < 0) return t;
   return std::nullopt;
 }
 
-bool FrictionEvents::met(int event, const Guard& now) const {
+bool FrictionEvents::met(int event, const Guard& at_end) const {
   constexpr double part = 1e-2, rounding = 1e-13;
-  return std::abs(now.value) <= (of_sliding(event) ? still_ / 2 : std::max(part * tolerance_, rounding));
+  return std::abs(at_end.value) <= (of_sliding(event) ? still(event) / 2 : std::max(part * tolerance_, rounding));
+}
+
+void FrictionEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard> to, const DenseOutput&) {
+  for (int event = 0; event < size(); event += 2)
+    if (const double d = step.to.state.friction[place(event)].direction; std::abs(d) == 1 && touches(place(event), step.to.state)) {
+      double& fastest = fastest_[static_cast<std::size_t>(event / 2)];
+      fastest = std::max(fastest, std::abs(to[static_cast<std::size_t>(event)].value - 2 * still(event)));
+    }
+}
+
+void FrictionEvents::save(Writer& out) const { out.whole(fastest_); }
+void FrictionEvents::load(Reader& in) { in.whole(fastest_); }
+const char* FrictionEvents::fault() const {
+  const bool sound = fastest_.size() == dry_.size() && std::ranges::all_of(fastest_, [](double v) { return std::isfinite(v) && v >= 0; });
+  return sound ? nullptr : "it is of another system, or has numbers that are none";
 }
 
 void FrictionEvents::start(Step& step) { decide(step.to.state, {}); }
 
 EventOutcome FrictionEvents::act(int event, Step& step, const Guard&) {
-  const std::size_t c = contact(event);
-  const bool breaks_away = !of_sliding(event) && step.to.state.friction[c].direction == 0;
-  decide(step.to.state, breaks_away ? std::optional(c) : std::nullopt);
+  const std::size_t k = place(event);
+  const bool breaks_away = !of_sliding(event) && step.to.state.friction[k].direction == 0;
+  decide(step.to.state, breaks_away ? std::optional(k) : std::nullopt);
   return {.change = EventOutcome::Change::jump};
 }
 
-// All that are at rest stick, to begin with. Then, of those that cannot hold, the one that is asked for most slides, against the
-// force that would have held it, until all can.
-void FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
-  constexpr double little = 1e-9;
-  std::vector<std::size_t> still;
-  for (const std::size_t c : dry_) {
-    DryFriction& dry = state.friction[c];
-    if (state.impact_rate[c] <= 0) continue;
-    const double slip = pressing(system_, static_cast<int>(c), state).gap.material_slip;
-    const bool at_rest = dry.direction == 0 || std::abs(slip) <= 4 * still_;
-    if (c == slips && std::abs(slip) <= 4 * still_) {
-      dry = {-std::copysign(1.0, dry.force), 0};
-    } else if (c == slips || !at_rest) {
-      dry = {std::copysign(1.0, slip), 0};
-    } else {
-      still.push_back(c);
-      dry = {0, 0};
-    }
+// What slid until now and cannot be held goes on the other way.
+void FrictionEvents::pass_dead_centres(const std::vector<std::size_t>& resting, const std::vector<double>& came, State& state) {
+  constexpr double dead = 1e-4;
+  pose(system_, state.t, state.y, *eq_);
+  factor(system_, state.y, *eq_);
+  if (!eq_->regular) return;
+  speed(system_, state.t, state.y, *eq_);
+  apply_forces(system_, state, *eq_);
+  list_sticking(system_, state, *eq_);
+  const std::vector<std::size_t>& of = eq_->sticking.of;
+  for (std::size_t i = 0; i < resting.size(); ++i) {
+    const auto column = std::ranges::find(of, resting[i]) - of.begin();
+    if (std::abs(came[i]) == 1 && leverage(system_, *eq_, column) < dead) state.friction[resting[i]].direction = -came[i];
   }
-  if (still.empty()) return;
+}
+
+// All that is at rest sticks, to begin with. Then, of what cannot hold, that which is asked for most slides, against the
+// force that would have held it, until the rest can.
+void FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
+  constexpr double little = 1e-9, nearly = 1e-6;
+  std::vector<std::size_t> resting;
+  std::vector<double> came;  // the directions in which these slid before
+  for (int event = 0; event < size(); event += 2) {
+    const std::size_t k = place(event);
+    DryFriction& dry = state.friction[k];
+    if (!touches(k, state)) continue;
+    const double slip = now(k, state).slip;
+    const bool slow = std::abs(slip) <= 4 * still(event);
+    if (k == slips && slow) {
+      dry.direction = -std::copysign(1.0, dry.force);
+    } else if (k == slips || !(slow || dry.direction == 0)) {
+      dry.direction = std::copysign(1.0, slip);
+    } else {
+      resting.push_back(k);
+      came.push_back(dry.direction);
+      dry.direction = 0;
+    }
+    if (k < system_.contacts.size()) dry.force = 0;
+  }
+  if (resting.empty()) return;
   if (!eq_) eq_ = std::make_unique<Equations>(system_);
+  pass_dead_centres(resting, came, state);
   Eigen::VectorXd dy(system_.n_y());
-  for (std::size_t tries = 0; tries < 4 * still.size() + 4; ++tries) {
+  for (std::size_t tries = 0; tries < 4 * resting.size() + 4; ++tries) {
     if (!evaluate(system_, state, *eq_, dy)) return;
     std::optional<std::size_t> worst;
-    double most = 1 + little;
-    for (const std::size_t c : still) {
-      if (state.friction[c].direction != 0) continue;
-      const double force = std::abs(eq_->contact[c].friction), limit = holds_at_most(system_, *eq_, c);
-      const double share = force == 0 ? 0 : force / std::max(limit, 1e-300);
-      if (share > most) worst = c, most = share;
+    double most = slips ? 1 - nearly : 1 + little;  // what shares the load gives way together
+    for (const std::size_t k : resting) {
+      if (state.friction[k].direction != 0) continue;
+      const FrictionNow held = friction_now(system_, *eq_, k);
+      const double share = held.force == 0 ? 0 : std::abs(held.force) / std::max(held.holds, 1e-300);
+      if (share > most) worst = k, most = share;
     }
     if (!worst) break;
-    state.friction[*worst] = {-std::copysign(1.0, eq_->contact[*worst].friction), 0};
+    state.friction[*worst].direction = -std::copysign(1.0, friction_now(system_, *eq_, *worst).force);
   }
-  keep_holding_forces(*eq_, state);
+  keep_friction(system_, *eq_, state);
 }
 
 }  // namespace pintle

@@ -3,14 +3,15 @@
 #include <memory>
 #include <vector>
 
+#include "framework/dynamics/equations/sticking.h"
 #include "framework/integration/events/event.h"
 #include "framework/integration/scheme.h"
 
 namespace pintle {
 
-/// Stick and slip of contacts of dry friction. Two events each: sliding ends where the slip comes to 0; sticking ends where the force that
-/// holds comes to μ_s N. At either, all contacts that do not slide are looked at together: which of them can hold, and which way the
-/// others go. What a contact is doing stands in State::friction.
+/// Stick and slip of dry friction, of contacts and in joints. Two events each: sliding ends where the slip comes to 0; sticking ends where the force that
+/// holds comes to μ_s N. At either, all that does not slide is looked at together: which of it can hold, and which way the
+/// rest goes. What each is doing stands in State::friction.
 class FrictionEvents final : public EventGroup {
  public:
   FrictionEvents(const System&, const Scheme&);
@@ -24,22 +25,26 @@ class FrictionEvents final : public EventGroup {
   std::optional<double> positive_inside(int event, const Step&, const DenseOutput&) const override;
   bool met(int event, const Guard&) const override;
   void start(Step&) override;
-  void follow(Step&, std::span<const Guard>, std::span<const Guard>, const DenseOutput&) override {}
+  void follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) override;
   EventOutcome act(int event, Step&, const Guard&) override;
-  void save(Writer&) const override {}
-  void load(Reader&) override {}
-  const char* fault() const override { return nullptr; }
+  void save(Writer&) const override;
+  void load(Reader&) override;
+  const char* fault() const override;
 
  private:
   static bool of_sliding(int event) { return event % 2 == 0; }
-  std::size_t contact(int event) const { return dry_[static_cast<std::size_t>(event / 2)]; }
-  Guard guard(int event, const State&, const ContactEffect&) const;
+  std::size_t place(int event) const { return dry_[static_cast<std::size_t>(event / 2)]; }
+  double still(int event) const;
+  bool touches(std::size_t at, const State&) const;
+  FrictionNow now(std::size_t at, const State&) const;
+  Guard guard(int event, const State&, const FrictionNow&) const;
+  void pass_dead_centres(const std::vector<std::size_t>& resting, const std::vector<double>& came, State&);
   void decide(State&, std::optional<std::size_t> slips);
 
   const System& system_;
   double tolerance_;
-  double still_;                   ///< a slip below this is none [m/s]
-  std::vector<std::size_t> dry_;   ///< contacts of dry friction
+  std::vector<double> fastest_;    ///< slip of each so far [m/s]
+  std::vector<std::size_t> dry_;   ///< places in State::friction
   std::unique_ptr<Equations> eq_;  ///< from the first decision on
 };
 

@@ -142,6 +142,27 @@ ContactEffect pressing(const System& system, int contact, const State& state) {
   return out;
 }
 
+namespace {
+
+// Of a straight piece by whose side the other one is inside the material: how much nearer it is to this piece than to the ends of it,
+// and so to the pieces there. Through which of them it came is not to be told later.
+Guard belonging(const ContactPair& pair, const Facing& now) {
+  Guard out{std::numeric_limits<double>::infinity(), 0};
+  const std::array<PlaceOn, 2> place = places(pair.gap, now.gap, now.a, now.b);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Piece &line = i == 0 ? pair.gap.a : pair.gap.b, &other = i == 0 ? pair.gap.b : pair.gap.a;
+    if (!line.straight || std::isinf(line.half)) continue;
+    const double inside = now.gap.depth - std::max(other.radius, 0.0);
+    for (const int side : {-1, 1}) {
+      const double left = (pair.extent[2 * i + (side > 0)] - side * place[i].at) * line.half - inside;
+      if (inside > 0 && left < out.value) out = {left, -side * place[i].rate * line.half - now.gap.rate};
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
 Guard onset_of(const System& system, int contact, const State& state) {
   const ContactPair& pair = system.contacts[at(contact)];
   const Facing now = facing(system, pair, state);
@@ -149,6 +170,7 @@ Guard onset_of(const System& system, int contact, const State& state) {
   if (!pair.profiles) return out;
   if (pair.deepest - now.gap.depth < out.value) out = {pair.deepest - now.gap.depth, -now.gap.rate};
   if (const Margin inside = margin(pair, now.gap, now.a, now.b); inside.value < out.value) out = {inside.value, inside.rate};
+  if (const Guard nearest = belonging(pair, now); nearest.value < out.value) out = nearest;
   return out;
 }
 

@@ -85,7 +85,7 @@ bool Stages::settle(const System& system, Instant& node, Equations& eq) {
   }
   remove_slip(system, node.state, eq);
   accelerate(system, node.state, eq);
-  keep_holding_forces(eq, node.state);
+  keep_friction(system, eq, node.state);
   fill_derivative(system, node.state.y, eq, node.dy);
   return eq.regular;
 }

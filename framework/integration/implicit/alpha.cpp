@@ -80,7 +80,7 @@ bool Alpha::settle(const System& system, Instant& node, Equations& eq) {
   if (!project(system, node.state.t, node.state.y, eq)) return false;
   remove_slip(system, node.state, eq);
   accelerate(system, node.state, eq);
-  keep_holding_forces(eq, node.state);
+  keep_friction(system, eq, node.state);
   fill_derivative(system, node.state.y, eq, node.dy);
   Memory& memory = node.memory;
   memory.h = 0;
@@ -148,7 +148,7 @@ bool Alpha::soften_start(const System& system, double h, const Instant& from, Eq
     mu_.setZero();
     visit_jacobian(eq, [&](int row, int column, double value) { mu_[row] += value * (i == 0 ? start_ : work_)[column]; });
     kkt_.solve(dp_, mu_);
-    keep_slip(system, eq, dp_);
+    if (border_.cols() > 0) keep_slip(system, eq, eq.sticking.J.transpose() * (i == 0 ? start_.head(n) : work_), dp_);
     if (i == 0) work_ = 2 * start_.head(n) - dp_;  // F(2 − F)
   }
   start_.head(n) = dp_;
@@ -205,7 +205,8 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     balance(system, to.state, to.dy, to.memory.lambda, eq);
     if (enough) {
       const double left = position_violation(system, eq) - std::min(8 * angle_rounding(system, y), still_near);
-      const double drift = worse(velocity_violation(system, y, eq), slip_violation(system, to.state, eq));
+      const double now = fastest_rate(system, y), pace = std::max(now, largest(s_base_.head(n).cwiseQuotient(system.scale)));
+      const double drift = worse(velocity_violation(system, y, eq), slip_violation(system, to.state, eq)) * now / pace;  // where all stops
       if (worse(left, drift) <= (i > most_iterations / 2 ? nearly : on_constraints)) {
         tired_ = tired_ || i > many_iterations || rate_ > slow;
         return true;
@@ -225,7 +226,7 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     mu_ = eq.Cdot * (-1 / w.s);
     solve(dv_, mu_);
     to.memory.lambda += mu_;
-    correct_slip(system, w.s, to.state, to.memory, eq);
+    if (!correct_friction(system, w.s, to.state, to.memory, eq)) return blame(system, eq, "no force of friction in the joints is found");
     v += dv_;
     dp_.setZero();
     if (system.n_rows() > 0) {
@@ -280,11 +281,11 @@ bool Alpha::attempt(const System& system, double h, Step& step, Equations& eq) {
   return to.state.y.allFinite() && to.dy.allFinite() && step.error.allFinite();
 }
 
-// Contacts that stick, beside the rows that the factor knows: what a newton that holds each of them does.
+// Friction that the accelerations decide, beside the rows that the factor knows: what a newton of each of it does.
 void Alpha::border(const System& system, Equations& eq) {
-  const auto held = static_cast<Index>(eq.sticking.contact.size());
-  border_.resize(system.n(), held), border_lambda_.resize(system.n_rows(), held), W_.resize(held, held);
-  if (held == 0) return;
+  const auto count = static_cast<Index>(eq.sticking.of.size());
+  border_.resize(system.n(), count), border_lambda_.resize(system.n_rows(), count), W_.resize(count, count);
+  if (count == 0) return;
   const Eigen::MatrixXd& J = eq.sticking.J;
   for (Index i = 0; i < J.cols(); ++i) {
     work_ = J.col(i);
@@ -295,39 +296,37 @@ void Alpha::border(const System& system, Equations& eq) {
   W_ = J.transpose() * border_;
 }
 
-// The holding forces that, with what Newton does to the speeds, leave no slip.
-void Alpha::correct_slip(const System& system, double weight, State& state, Memory& memory, Equations& eq) {
-  const std::vector<std::size_t>& held = eq.sticking.contact;
-  if (held.empty()) return;
-  const VectorXd force = share_out_friction(system, eq, W_, -slips(eq) / weight - eq.sticking.J.transpose() * dv_);
-  dv_ += border_ * force;
-  memory.lambda += border_lambda_ * force;
-  for (Index i = 0; i < force.size(); ++i) state.friction[held[static_cast<std::size_t>(i)]].force += force[i];
+// The forces that, with what Newton does to speeds and multipliers, leave no slip of what sticks and are what presses asks of what slides.
+bool Alpha::correct_friction(const System& system, double weight, State& state, Memory& memory, Equations& eq) {
+  if (border_.cols() == 0) return true;
+  const VectorXd before = forces(state, eq), asked = -slips(system, eq) / weight - eq.sticking.J.transpose() * dv_;
+  const VectorXd change = friction_change(system, state, eq, {W_, border_lambda_}, Shares::change, asked, memory.lambda, before);
+  if (!change.allFinite()) return false;
+  dv_ += border_ * change;
+  memory.lambda += border_lambda_ * change;
+  put_forces(system, eq, before + change, memory.lambda, state);
+  return true;
 }
 
 // Largest slip that what sticks could take away, over the mechanism's length and fastest angular rate.
 double Alpha::slip_violation(const System& system, const State& state, const Equations& eq) const {
   if (border_.cols() == 0) return 0;
-  return largest(W_ * share_out_friction(system, eq, W_, slips(eq))) / (system.length * fastest_rate(system, state.y));
+  return largest(W_ * holding_forces(system, eq, W_, slips(system, eq))) / (system.length * fastest_rate(system, state.y));
 }
 
-// x less what would make contacts slip that stick.
-void Alpha::keep_slip(const System& system, const Equations& eq, VectorXd& x) const {
-  if (border_.cols() > 0) x -= border_ * share_out_friction(system, eq, W_, eq.sticking.J.transpose() * x);
+// x with these slips of what sticks.
+void Alpha::keep_slip(const System& system, const Equations& eq, const VectorXd& slips, VectorXd& x) const {
+  x -= border_ * holding_forces(system, eq, W_, eq.sticking.J.transpose() * x - slips);
 }
 
-// As share_out, of contacts that could hold in one another's stead.
-void Alpha::share_out_holding_forces(const System& system, State& state, Equations& eq) {
-  const std::vector<std::size_t>& held = eq.sticking.contact;
-  if (held.size() < 2) return;
-  VectorXd force(border_.cols());
-  for (Index i = 0; i < force.size(); ++i) force[i] = state.friction[held[static_cast<std::size_t>(i)]].force;
-  const VectorXd change = share_out_friction(system, eq, W_, W_ * force) - force;
-  for (Index i = 0; i < force.size(); ++i) {
-    const std::size_t c = held[static_cast<std::size_t>(i)];
-    state.friction[c].force += change[i];
-    add_friction(system.contacts[c], change[i], eq.contact[c]);
-  }
+// As share_out, of what could hold in one another's stead.
+void Alpha::share_out_friction(const System& system, Instant& to, Equations& eq) {
+  if (std::ranges::count(eq.sticking.holds, true) < 2) return;
+  const VectorXd before = forces(to.state, eq), change = friction_change(system, to.state, eq, {W_, border_lambda_}, Shares::all,
+                                                                         VectorXd::Zero(before.size()), to.memory.lambda, before);
+  if (!change.allFinite()) return;
+  put_forces(system, eq, before + change, to.memory.lambda, to.state);
+  apply_forces(system, to.state, eq);
 }
 
 // What forces of dependent rows share is not settled by the step: taken on from one to the next, it would grow without bound.
@@ -340,7 +339,7 @@ void Alpha::share_out(const System& system, Instant& to, Equations& eq) {
 
 void Alpha::remember(const System& system, double h, const Instant& from, Instant& to, Equations& eq) {
   const Index n = system.n(), n_s = system.n_s();
-  share_out_holding_forces(system, to.state, eq);
+  share_out_friction(system, to, eq);
   fill_derivative(system, to.state.y, eq, to.dy);
   const auto v1 = to.dy.segment(n, n_s);
   Memory& memory = to.memory;
@@ -370,7 +369,7 @@ void Alpha::filter(const System& system, Eigen::Ref<VectorXd> e, int times, Equa
     add_mass_times(system, eq, work_, dp_);
     mu_.setZero();
     solve(dp_, mu_);
-    keep_slip(system, eq, dp_);
+    if (border_.cols() > 0) keep_slip(system, eq, VectorXd::Zero(border_.cols()), dp_);
     work_ = dp_;
   }
   e = work_;

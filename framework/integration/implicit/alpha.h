@@ -81,10 +81,10 @@ class Alpha {
   bool refactor(const System&, const Weights&, const Instant&, Equations&);
   void solve(Eigen::VectorXd& x, Eigen::VectorXd& y) { (lent_ ? *lent_ : kkt_).solve(x, y); }
   void border(const System&, Equations&);
-  void correct_slip(const System&, double weight, State&, Memory&, Equations&);
+  bool correct_friction(const System&, double weight, State&, Memory&, Equations&);
   double slip_violation(const System&, const State&, const Equations&) const;
-  void keep_slip(const System&, const Equations&, Eigen::VectorXd& x) const;
-  void share_out_holding_forces(const System&, State&, Equations&);
+  void keep_slip(const System&, const Equations&, const Eigen::VectorXd& slips, Eigen::VectorXd& x) const;
+  void share_out_friction(const System&, Instant& to, Equations&);
   double judge(const System&, const Weights&, const State&) const;
   void forces_of(const System&, const Equations&, Memory&);
   void share_out(const System&, Instant& to, Equations&);
@@ -100,7 +100,7 @@ class Alpha {
   Eigen::VectorXd unit_;  ///< of each coordinate, for a length of 1 m
   Tangent tangent_;
   Kkt kkt_;
-  Eigen::MatrixXd border_, border_lambda_, W_;  ///< v̇ and λ by 1 N that holds a contact, by the factor; what they do to slips
+  Eigen::MatrixXd border_, border_lambda_, W_;  ///< v̇ and λ by 1 N of friction, by the factor; what they do to slips
   Kkt* lent_ = nullptr;                         ///< another's factor, used in place of kkt_'s until a new one is made
   std::vector<double> values_;
   Eigen::VectorXd q_base_, s_base_, p_;  ///< q₁ = q_base + w.q v̇₁ + p, [s₁; x₁] = s_base + w.s [v̇₁; ẋ₁]

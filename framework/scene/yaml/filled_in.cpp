@@ -160,6 +160,12 @@ Json json(const SceneJoint& joint) {
   for (const PointRef* point : points_of(joint)) out[word.word].push_back(json(*point));
   for (const JointNumber& number : word.numbers) out[number.key] = joint.*number.value;
   if (joint.clearance) out["clearance"] = json(*joint.clearance);
+  if (joint.friction) {
+    out["friction"] = json(joint.friction->law, false);
+    out["friction"]["preload"] = joint.friction->preload;
+    if (joint.friction->radius > 0) out["friction"]["radius"] = joint.friction->radius;
+    if (joint.friction->length > 0) out["friction"]["length"] = joint.friction->length;
+  }
   if (joint.play) out["clearance"] = json(*joint.play);
   return out;
 }

@@ -36,7 +36,7 @@ const std::vector<Key> arc_keys{{"arc", required, "20 mm"}};
 constexpr const char* two_eyes = "[{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]";
 
 std::vector<Key> joint_keys() {
-  std::vector<Key> keys{{"clearance"}};
+  std::vector<Key> keys{{"clearance"}, {"friction"}};
   const auto add = [&](const char* key) {
     if (std::ranges::find(keys, key, &Key::name) == keys.end()) keys.push_back({key});
   };
@@ -157,6 +157,8 @@ const std::vector<KeyTable>& tables() {
       {"static.loads.*",
        {{"force"}, {"torque"}, {"at"}, {"pressure"}, {"traction"}, {"on"}, {"acceleration"}, {"spin"}, {"about"}, {"line load"}}},
       {"joints.*", joint_keys()},
+      {"joints.*.friction", {{"coulomb", required, "{coefficient: 0.1}"}, {"radius"}, {"length"}, {"preload"}}},
+      {"joints.*.friction.coulomb", coulomb_keys},
       {"joints.*.clearance",
        {{"radial"},
         {"bearing radius"},

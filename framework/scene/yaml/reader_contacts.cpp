@@ -168,12 +168,15 @@ SceneNormal read_normal(const Node& node, std::string_view keys) {
 
 SceneFriction read_friction(const Node& node, const std::string& path) {
   check_keys(node, path);
-  SceneFriction friction;
-  friction.law =
+  const std::string law =
       which_key(node, std::vector<std::string>{"coulomb", "ambrosio", "threlfall", "tanh", "bengisu-akay"}, "its law of friction");
-  const Node law = node.at(friction.law);
-  const std::string keys = path + "." + friction.law;
+  return read_friction_law(node.at(law), path + "." + law);
+}
+
+SceneFriction read_friction_law(const Node& law, const std::string& keys) {
   check_keys(law, keys);
+  SceneFriction friction;
+  friction.law = law.name();
   friction.place = law.place();
   friction.coefficient = law.at("coefficient").quantity(dimension::number, rule::not_negative);
   if (law.has("static")) {
@@ -183,6 +186,8 @@ SceneFriction read_friction(const Node& node, const std::string& path) {
                             ", or above: what sticks holds no less than what slides");
   }
   read_optional(law, "stribeck speed", dimension::speed, rule::positive, friction.stribeck);
+  if (law.has("stribeck speed") && !(friction.holds.value_or(0) > friction.coefficient))
+    law.at("stribeck speed").fail("needs `static` above coefficient, to fall from; add it, or leave this out");
   if (friction.law == "bengisu-akay" && law.has("v0")) law.at("v0").quantity(dimension::speed, rule::positive);
   read_optional(law, "v0", dimension::speed, rule::not_negative, friction.v0);
   read_optional(law, "v1", dimension::speed, rule::positive, friction.v1);

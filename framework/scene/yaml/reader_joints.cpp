@@ -15,6 +15,7 @@ const std::vector<KindKeys>& joint_keys() {
       KindKeys& k = out.emplace_back(KindKeys{word.word, {}});
       for (const JointNumber& number : word.numbers) k.beside.emplace_back(number.key);
       if (word.clearance) k.beside.emplace_back("clearance");
+      if (word.friction) k.beside.emplace_back("friction");
     }
     return out;
   }();
@@ -63,10 +64,7 @@ void check_clearance(const Node& node, const SceneJoint& joint) {
   const ClearanceKeys& keys = *std::ranges::find(clearance_keys(), joint.kind, &ClearanceKeys::kind);
   for (const Node& entry : node.entries("keys and values")) {
     if (keys.knows(entry.name())) continue;
-    SceneJoint of = joint;
-    of.kind = std::ranges::find_if(clearance_keys(), [&](const ClearanceKeys& k) { return k.knows(entry.name()); })->kind;
-    entry.fail(std::string("belongs to the clearance of a ") + word_of(of).word + " joint, and this is a " + word_of(joint).word +
-               " joint; leave it out");
+    entry.fail(std::string("does not belong to the clearance of a ") + word_of(joint).word + " joint; leave it out");
   }
   for (const auto& [key, example] : keys.needs)
     if (!node.has(key))
@@ -127,6 +125,24 @@ void read_points(const Node& node, const JointWord& word, SceneJoint& joint) {
   if (points.size() == 3) joint.c = read_point_ref(points[2]);
 }
 
+SceneJointFriction read_joint_friction(const Node& node, const SceneJoint& joint, bool has_clearance) {
+  check_keys(node, "joints.*.friction");
+  if (has_clearance) node.fail("belongs to an ideal joint, and this one has a clearance; write friction inside it, beside its normal law");
+  SceneJointFriction out;
+  out.law = read_friction_law(node.at("coulomb"), "joints.*.friction.coulomb");
+  const auto own = [&](const char* key, JointKind kind, double& value) {
+    if (node.has(key) && joint.kind != kind)
+      node.at(key).fail(std::string("does not belong to a ") + word_of(joint).word + " joint; leave it out");
+    read_optional(node, key, dimension::length, rule::positive, value);
+  };
+  own("radius", JointKind::revolute, out.radius);
+  own("length", JointKind::prismatic, out.length);
+  if (joint.kind == JointKind::revolute && !node.has("radius")) node.fail("lacks a required key; add for example radius: 10 mm");
+  if (joint.kind == JointKind::prismatic && !node.has("length")) node.fail("lacks a required key; add for example length: 60 mm");
+  read_optional(node, "preload", {1, 1, -2, 0}, rule::not_negative, out.preload);
+  return out;
+}
+
 SceneJoint read_joint(const Node& node) {
   SceneJoint joint;
   joint.name = checked_name(node);
@@ -142,6 +158,7 @@ SceneJoint read_joint(const Node& node) {
                                                                    : dimension::number;
     read_optional(node, number.key, expected, number.required ? rule::positive : rule::any, joint.*number.value);
   }
+  if (node.has("friction")) joint.friction = read_joint_friction(node.at("friction"), joint, node.has("clearance"));
   if (!node.has("clearance")) return joint;
   if (joint.kind == JointKind::revolute)
     joint.clearance = read_clearance(node.at("clearance"), joint);

@@ -39,6 +39,8 @@ std::vector<SceneProfile> read_profiles(const Node& owner, std::string_view keys
 SceneNormal read_normal(const Node&, std::string_view keys);
 /// @param keys  path of friction's keys
 SceneFriction read_friction(const Node&, const std::string& keys);
+/// @param keys  path of the law's own keys
+SceneFriction read_friction_law(const Node&, const std::string& keys);
 
 enum class Smoothness { driver, load };  ///< a driver needs two derivatives, a load only the value
 /// An expression in t, or {table: file}; judged to be finite from 0 to `until`.

@@ -86,7 +86,8 @@ void read_start_entry(const Node& node, Scene& scene) {
   } else if (journal) {
     scene.start_journals.push_back(read_start_journal(node));
   } else if (joint != scene.joints.end()) {
-    node.fail("the joint \"" + name + "\" has no clearance for a journal to start in; " + "give it one, or start a body");
+    node.fail(joint->play ? "the play of \"" + name + "\" starts as its bodies do; start one of these, off the middle"
+                          : "the joint \"" + name + "\" has no clearance for a journal to start in; give it one, or start a body");
   } else {
     std::vector<std::string> known;
     for (const SceneBody& b : scene.bodies) known.push_back(b.name);
