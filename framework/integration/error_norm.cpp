@@ -6,7 +6,6 @@
 #include "framework/common/index.h"
 #include "framework/common/worse.h"
 #include "framework/dynamics/equations/energy.h"
-#include "framework/integration/events/impact_log.h"
 
 namespace pintle {
 
@@ -15,32 +14,6 @@ using Index = Eigen::Index;
 namespace {
 
 constexpr double slowest_speed = 1e-6;  // over the finest length and the step: slower is rest
-
-// What rounded places make of the speeds of a body in a step, through the stiffness of the surfaces that touch it: no step is
-// short enough to be better than that, where all that moves is slower.
-std::vector<double> speed_rounding(const System& system, const std::vector<double>& reach, const Step& step) {
-  constexpr double several = 10, epsilon = 1.1e-16;
-  std::vector<double> out(system.bodies.size(), 0.0);
-  const State& state = step.to.state;
-  for (std::size_t c = at(n_clearances(system)); c < system.contacts.size(); ++c) {
-    if (state.impact_rate[c] <= 0) continue;
-    const ContactPair& pair = system.contacts[c];
-    const double depth = gap_of(system, static_cast<int>(c), state).value;
-    if (!(depth > 0)) continue;
-    double far = 0;  // from the origin, and from one another
-    for (const int marker : {pair.a, pair.b})
-      if (const int b = system.markers[at(marker)].body; b != ground)
-        far = std::max({far, std::abs(state.y[3 * b]), std::abs(state.y[3 * b + 1]), reach[at(b)]});
-    for (const int marker : {pair.a, pair.b})
-      if (const int b = system.markers[at(marker)].body; b != ground) {
-        const Body& body = system.bodies[at(b)];
-        const double lightness = 1 / body.m + reach[at(b)] * reach[at(b)] / body.J;
-        out[at(b)] += several * epsilon * far * stiffness_at(pair.normal, depth) * lightness * step.h;
-      }
-  }
-  return out;
-}
-
 }  // namespace
 
 ErrorNorm::ErrorNorm(const System& system, double tolerance) : system_(system), tolerance_(tolerance), reach_(system.bodies.size(), 0.0) {
@@ -85,21 +58,19 @@ double ErrorNorm::of(const Step& step, bool follows_impacts) const {
       std::max(std::sqrt(length * fastest * std::max(fastest / system_.length, lowest_shape_)), known / tolerance_ * fastest);
   const double speed = std::max(follows_impacts ? std::min(fastest, across) : fastest, slowest);
   const double energy = std::max({energy_, kinetic_energy(system_, y), mass_ * slowest * slowest / 2});
-  const bool surfaces = at(n_clearances(system_)) < system_.contacts.size();
-  const std::vector<double> rounded = surfaces ? speed_rounding(system_, reach_, step) : std::vector<double>();
   double worst = 0;
   for (Index b = 0; b < static_cast<Index>(reach_.size()); ++b) {
-    const double reach = reach_[at(static_cast<int>(b))], of_speed = surfaces ? rounded[at(static_cast<int>(b))] : 0;
-    const auto judge = [&](Index i, double scale, double noise = 0) {
-      const double rounding = 1e-15 * std::abs(y[i]) + noise;
+    const double reach = reach_[at(static_cast<int>(b))];
+    const auto judge = [&](Index i, double scale) {
+      const double rounding = 1e-15 * std::abs(y[i]);
       worst = worse(worst, std::abs(step.error[i]) / (tolerance_ * scale + rounding));
     };
     judge(3 * b, length);
     judge(3 * b + 1, length);
     judge(3 * b + 2, length / reach);
-    judge(n + 3 * b, speed, of_speed);
-    judge(n + 3 * b + 1, speed, of_speed);
-    judge(n + 3 * b + 2, speed / reach, of_speed / reach);
+    judge(n + 3 * b, speed);
+    judge(n + 3 * b + 1, speed);
+    judge(n + 3 * b + 2, speed / reach);
     const double per_metre = std::sqrt(system_.bodies[at(static_cast<int>(b))].m);  // shapes of 1/√m
     const Index begin = system_.eta_begin[at(static_cast<int>(b))], end = system_.eta_begin[at(static_cast<int>(b)) + 1];
     for (Index i = begin; i < end; ++i) {

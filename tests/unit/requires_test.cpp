@@ -132,7 +132,7 @@ const std::vector<Term> terms{
      entry_of(static_cast<ContactEffect (*)(const ContactPair&, const MarkerMotion&, const MarkerMotion&, double, const DryFriction&)>(
          evaluate))},
     {"impact law", entry_of(static_cast<NormalForce (*)(const ImpactLaw&, const Approach&)>(evaluate))},
-    {"friction law", entry_of(static_cast<FrictionForce (*)(const Ambrosio&, double, double)>(evaluate))},
+    {"friction law", entry_of(static_cast<FrictionForce (*)(const FrictionLaw&, double, double)>(evaluate))},
     {"force or spring",
      entry_of(static_cast<ForceEffect (*)(const Force&, const MarkerMotion&, const MarkerMotion&, double, const double*)>(evaluate))},
     {"inertia of shapes", entry_of(evaluate_inertia)},
