@@ -250,21 +250,6 @@ void add_weight(const System& system, Equations& eq) {
   }
 }
 
-void add_joint_friction(const System& system, const State& state, Equations& eq) {
-  for (std::size_t k = 0; k < system.frictions.size(); ++k) {
-    const JointFriction& rub = system.frictions[k];
-    const JointEnds ends = ends_of(system.joints[at(rub.joint)]);
-    const MarkerMotion &a = eq.motion[at(ends.marker[0])], &b = eq.motion[at(ends.marker[1])];
-    JointFrictionEffect& effect = eq.friction[k];
-    effect.unit = unit_friction(system.joints[at(rub.joint)], rub, a, b);
-    effect.slip = slip(system.joints[at(rub.joint)], rub, a, b);
-    if (state.friction.empty()) continue;
-    const DryFriction& now = state.friction[system.contacts.size() + k];
-    effect.force = now.force, effect.load = now.load, effect.sticks = now.direction == 0;
-    for (std::size_t i = 0; i < 2; ++i) add_wrench(system, eq, ends.marker[i], effect.force * effect.unit[i], eq.f);
-  }
-}
-
 }  // namespace
 
 void apply_forces(const System& system, const State& state, Equations& eq) {

@@ -17,6 +17,8 @@ struct FrictionNow {
 };
 FrictionNow friction_now(const System&, const Equations&, std::size_t at);
 
+/// What friction in joints does with the forces that the state has: eq.friction, and their share of f. In `apply_forces`.
+void add_joint_friction(const System&, const State&, Equations&);
 /// Fills `of`, `holds` and J of eq.sticking. After speed, contacts evaluated.
 void list_sticking(const System&, const State&, Equations&);
 /// Brings λ, a, f, contacts and joints to the forces under which nothing that sticks is accelerated along its slip, and what slides in

@@ -146,9 +146,27 @@ EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {
           .of_every_method = pair.profiles};  // which a long implicit step would pass
 }
 
+namespace {
+
+// The pair that lies beyond the end; where that would be left at once, as where an arc comes to the end of a line, the one beyond
+// another end that is entered there.
+int next(const System& system, const ImpactLog& log, int contact, const State& state) {
+  const ContactPair& pair = system.contacts[at(contact)];
+  const int side = margin_of(system, contact, state).side, to = side < 0 ? -1 : pair.beyond[at(side)];
+  if (to < 0 || !(margin_of(system, to, state).rate < 0)) return to;
+  const double near = 1e-6 * fine_length(pair, system.length), depth = gap_of(system, contact, state).value;
+  for (const int other : pair.beyond) {
+    if (other < 0 || other == to || log.touching(other)) continue;
+    const Margin entered = margin_of(system, other, state);
+    if (entered.rate > 0 && std::abs(entered.value) <= near && std::abs(gap_of(system, other, state).value - depth) <= near) return other;
+  }
+  return to;
+}
+
+}  // namespace
+
 EventOutcome ContactEvents::leave(int contact, Step& step) {
-  const int side = margin_of(system_, contact, step.to.state).side;
-  const int to = side < 0 ? -1 : system_.contacts[at(contact)].beyond[at(side)];
+  const int to = next(system_, log_, contact, step.to.state);
   if (to < 0 || log_.touching(to)) {  // what it has stored is lost with it
     const ContactPair& pair = system_.contacts[at(contact)];
     State& state = step.to.state;

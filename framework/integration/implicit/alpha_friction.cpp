@@ -1,0 +1,61 @@
+// Generalised-α with dry friction that the accelerations decide: bordered onto the factor of Newton's matrix.
+#include <algorithm>
+
+#include "framework/common/worse.h"
+#include "framework/dynamics/equations/sticking.h"
+#include "framework/integration/implicit/alpha.h"
+
+namespace pintle {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// Friction that the accelerations decide, beside the rows that the factor knows: what a newton of each of it does.
+void Alpha::border(const System& system, Equations& eq) {
+  const auto count = static_cast<Index>(eq.sticking.of.size());
+  border_.resize(system.n(), count), border_lambda_.resize(system.n_rows(), count), W_.resize(count, count);
+  if (count == 0) return;
+  const Eigen::MatrixXd& J = eq.sticking.J;
+  for (Index i = 0; i < J.cols(); ++i) {
+    work_ = J.col(i);
+    mu_.setZero();
+    solve(work_, mu_);
+    border_.col(i) = work_, border_lambda_.col(i) = mu_;
+  }
+  W_ = J.transpose() * border_;
+}
+
+// The forces that, with what Newton does to speeds and multipliers, leave no slip of what sticks and are what presses asks of what slides.
+bool Alpha::correct_friction(const System& system, double weight, State& state, Memory& memory, Equations& eq) {
+  if (border_.cols() == 0) return true;
+  const VectorXd before = forces(state, eq), asked = -slips(system, eq) / weight - eq.sticking.J.transpose() * dv_;
+  const VectorXd change = friction_change(system, state, eq, {W_, border_lambda_}, Shares::change, asked, memory.lambda, before);
+  if (!change.allFinite()) return false;
+  dv_ += border_ * change;
+  memory.lambda += border_lambda_ * change;
+  put_forces(system, eq, before + change, memory.lambda, state);
+  return true;
+}
+
+// Largest slip that what sticks could take away, over the mechanism's length and fastest angular rate.
+double Alpha::slip_violation(const System& system, const State& state, const Equations& eq) const {
+  if (border_.cols() == 0) return 0;
+  return largest(W_ * holding_forces(system, eq, W_, slips(system, eq))) / (system.length * fastest_rate(system, state.y));
+}
+
+// x with these slips of what sticks.
+void Alpha::keep_slip(const System& system, const Equations& eq, const VectorXd& slips, VectorXd& x) const {
+  x -= border_ * holding_forces(system, eq, W_, eq.sticking.J.transpose() * x - slips);
+}
+
+// As share_out, of what could hold in one another's stead.
+void Alpha::share_out_friction(const System& system, Instant& to, Equations& eq) {
+  if (std::ranges::count(eq.sticking.holds, true) < 2) return;
+  const VectorXd before = forces(to.state, eq), change = friction_change(system, to.state, eq, {W_, border_lambda_}, Shares::all,
+                                                                         VectorXd::Zero(before.size()), to.memory.lambda, before);
+  if (!change.allFinite()) return;
+  put_forces(system, eq, before + change, to.memory.lambda, to.state);
+  apply_forces(system, to.state, eq);
+}
+
+}  // namespace pintle
