@@ -54,8 +54,9 @@ std::string laws(const Drawn& drawn, Chance& chance) {
   if (chance.one_in(2)) {
     s << "ambrosio: {coefficient: " << coefficient << ", v0: " << 1e-3 * drawn.size << ", v1: " << 1e-2 * drawn.size << "}}";
   } else {
-    s << "coulomb: {coefficient: " << coefficient << ", static: " << coefficient * (chance.one_in(2) ? 1 : chance.between(1, 2));
-    if (chance.one_in(3)) s << ", stribeck speed: " << drawn.size * chance.decades(-3, 0);
+    const double holds = coefficient * (chance.one_in(2) ? 1 : chance.between(1, 2));
+    s << "coulomb: {coefficient: " << coefficient << ", static: " << holds;
+    if (holds > coefficient && chance.one_in(3)) s << ", stribeck speed: " << drawn.size * chance.decades(-3, 0);
     s << "}}";
   }
   return s.str();
