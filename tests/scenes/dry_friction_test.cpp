@@ -191,7 +191,7 @@ TEST_P(DryFriction, ADiscComesToRollAtTwoThirdsOfItsSpeed) {
   const std::vector<double> lost = w.run.ledger.column("roll.lost to friction [J]"), t = w.column("t [s]");
   for (std::size_t i = 0; i < t.size(); ++i)
     if (t[i] > v / (3 * mu * g) + 0.02) {
-      ASSERT_NEAR(lost[i], lost.back(), 1e-10);
+      ASSERT_NEAR(lost[i], lost.back(), 1e-12);
     }
 }
 
@@ -262,7 +262,7 @@ TEST_P(DryFriction, ADrumBrakeStopsItsLoadAndHoldsIt) {
       EXPECT_NEAR(speed[i], 60 - 120 * t[i], 0.06) << t[i];
     }
     if (t[i] > 0.51) {
-      EXPECT_NEAR(speed[i], 0, 1e-9) << t[i];
+      EXPECT_NEAR(speed[i], 0, 1e-12) << t[i];
     }
   }
   EXPECT_NEAR(w.ledger("brake.lost to friction [J]"), 90 + 15 * 15, 0.3);
