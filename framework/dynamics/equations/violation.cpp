@@ -1,0 +1,31 @@
+#include <cmath>
+
+#include "framework/common/worse.h"
+#include "framework/dynamics/equations/equations.h"
+
+namespace pintle {
+
+using Eigen::VectorXd;
+using Index = Eigen::Index;
+
+double position_violation(const System& system, const Equations& eq) { return largest(eq.C.cwiseProduct(system.row_scale)); }
+
+double velocity_violation(const System& system, const VectorXd& y, const Equations& eq) {
+  if (eq.Cdot.size() == 0) return 0;
+  return largest(eq.Cdot.cwiseProduct(system.row_scale)) / fastest_rate(system, y);
+}
+
+double angle_rounding(const System& system, const VectorXd& y) {
+  double angle = 0;
+  for (Index b = 2; b < system.n_rigid(); b += 3) angle = worse(angle, std::abs(y[b]));
+  return 1.1e-16 * angle;
+}
+
+double fastest_rate(const System& system, const VectorXd& y) {
+  double fastest = 1e-9;  // less is rest
+  const Index n = system.n();
+  for (Index i = 0; i < n; ++i) fastest = worse(fastest, std::abs(y[n + i]) / system.scale[i]);
+  return fastest;
+}
+
+}  // namespace pintle
