@@ -9,6 +9,7 @@
 #include <Eigen/SparseCore>
 
 #include "framework/common/index.h"
+#include "framework/configuration/branching.h"
 #include "framework/configuration/closure.h"
 #include "framework/configuration/equilibrium.h"
 #include "framework/configuration/ideal_pin.h"
@@ -101,29 +102,6 @@ Rough rough_state(const Scene& scene, const System& system, const Bent& bent) {
   throw AssemblyError(scene.file, named_place(scene, closure.owner(worst)), message + "; " + remedy);
 }
 
-// Near a pose where motions branch C grows with the square of the distance, so what passes for closed may be a million
-// roundings away, too far to choose a branch: Newton's steps, doubled as a double root asks, while they lessen C.
-void close_in(Closure& closure, const System& system, Rough& r, VectorXd& C, Sparse& J) {
-  constexpr double near = 1e-4, rounding = 4e-16, far = 1e-3;
-  Equations eq(system);
-  for (int i = 0; i < 20 && C.size() > 0 && C.lpNorm<Eigen::Infinity>() > rounding; ++i) {
-    pose(system, 0, r.y, eq);
-    if (i == 0 && row_space(system, eq, near).dependences.empty()) return;
-    const VectorXd step = least_step(J, r.W_pose, -C, 1e-18, 2), from = r.y.head(system.n());
-    if (!step.allFinite() || step.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>() > far) return;
-    bool better = false;
-    for (const double times : {2.0, 1.0}) {
-      r.y.head(system.n()) = from + times * step;
-      const VectorXd C_trial = closure.violation(r.y);
-      better = C_trial.norm() < 0.7 * C.norm();
-      if (better) break;
-    }
-    if (!better) r.y.head(system.n()) = from;
-    C = closure.violation(r.y, &J);
-    if (!better) return;
-  }
-}
-
 // What of C a run takes for met (onto_constraints); here no more may be left.
 double constraints_met(const System& system, const VectorXd& y) {
   constexpr double met = 1e-11, still_good = 1e-8;
@@ -171,63 +149,8 @@ int close_joints(const Scene& scene, Closure& closure, const System& system, Rou
                            "more digits, or leave a joint out"
                          : "check lengths and points, or give the bodies rough poses (`pose`) nearer to the wanted one");
   }
-  close_in(closure, system, r, C, J);
+  close_in(closure, system, r.W_pose, r.y, C, J);
   return i;
-}
-
-/// Where motions branch: brings speeds that meet Ċ = 0 to a branch, Nᵀ dĊ/dt = 0 for every dependence N that holds at this
-/// pose only. With H = Σ N ∂²C that is sᵀH s − Nᵀ∂²law/∂t² = 0; 2 sᵀH is the change of Nᵀ Cq along s.
-bool choose_branch(Closure& closure, const System& system, const Sparse& J, const std::vector<Dependence>& singular, Rough& r) {
-  const Index n = system.n(), count = static_cast<Index>(singular.size());
-  const auto bend = [&](Sparse& G, VectorXd& g) {
-    const VectorXd s = r.y.segment(n, n);
-    const double rate = s.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>();
-    if (rate == 0) return 0.0;
-    const double step = 1e-4 / rate;
-    Equations eq(system);
-    std::vector<Eigen::Triplet<double>> entries;
-    VectorXd change = VectorXd::Zero(system.n_rows());
-    std::vector<std::vector<std::pair<Index, double>>> of_row(at(system.n_rows()));
-    for (Index d = 0; d < count; ++d)
-      for (const auto& [row, weight] : singular[static_cast<std::size_t>(d)].N)
-        of_row[at(row)].emplace_back(d, weight * system.row_scale[row]);
-    for (double sign : {-1.0, 1.0}) {
-      VectorXd to = r.y;
-      to.head(n) += sign * step * s;
-      pose(system, sign * step, to, eq);
-      speed(system, sign * step, to, eq);
-      change += sign / (2 * step) * eq.Cdot;
-      visit_jacobian(eq, [&](int row, int column, double value) {
-        for (const auto& [d, weight] : of_row[at(row)])
-          entries.emplace_back(static_cast<int>(J.rows() + d), column, sign * weight * value / (step * rate));
-      });
-    }
-    for (Index c = 0; c < J.outerSize(); ++c)
-      for (Sparse::InnerIterator it(J, c); it; ++it)
-        entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(it.col()), it.value());
-    G.resize(J.rows() + count, n);
-    G.setFromTriplets(entries.begin(), entries.end());
-    g.setZero(J.rows() + count);
-    g.head(J.rows()) = closure.drift(r.y);
-    for (std::size_t row = 0; row < of_row.size(); ++row)
-      for (const auto& [d, weight] : of_row[row]) g[J.rows() + d] += weight * change[static_cast<Index>(row)] / rate;
-    return rate;
-  };
-  Sparse G;
-  VectorXd g;
-  for (int i = 0; i < 60; ++i) {
-    const double rate = bend(G, g);
-    if (g.size() == 0 || g.lpNorm<Eigen::Infinity>() <= 1e-7 * rate) return true;
-    const double before = g.norm();
-    const VectorXd step = least_step(G, r.W_speed, -g, i == 0 ? 1e-6 : 1e-12, i == 0 ? 1 : 4), from = r.y.segment(n, n);
-    double part = 1;
-    for (; part > 1e-3; part /= 2) {
-      r.y.segment(n, n) = from + part * step;
-      bend(G, g);
-      if (g.norm() < before) break;
-    }
-  }
-  return false;
 }
 
 int match_speeds(const Scene& scene, Closure& closure, const System& system, Rough& r) {
@@ -252,7 +175,7 @@ int match_speeds(const Scene& scene, Closure& closure, const System& system, Rou
   if (left.lpNorm<Eigen::Infinity>() > 1e-8 * scale)
     cannot(scene, "cannot move as `start` and the drivers ask", closure, left, "/s", "leave out a speed in `start`, or a driver");
   const std::vector<Dependence> singular = singular_dependences(system, 0, r.y);
-  if (!singular.empty() && !choose_branch(closure, system, J, singular, r))
+  if (!singular.empty() && !choose_branch(closure, system, J, singular, r.W_speed, r.y))
     throw AssemblyError(scene.file, named_place(scene, closure.owner(singular.front().N.back().first)),
                         "the start is a singular pose, where motions branch, and no branch has these speeds; start elsewhere, "
                         "or give other speeds in `start`");
