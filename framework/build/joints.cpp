@@ -1,0 +1,69 @@
+#include "framework/build/joints.h"
+
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+#include "framework/build/clearance.h"
+#include "framework/scene/error.h"
+#include "framework/scene/joint_words.h"
+
+namespace pintle {
+
+namespace {
+
+/// A point's direction where its body's rough pose and start put it.
+double drawn_angle(const Scene& scene, const PointRef& ref, const Markers& markers) {
+  const int b = markers.body(ref);
+  double angle = markers.marker_at(ref, Holds::direction).angle;
+  if (b == ground) return angle;
+  angle += scene.bodies[static_cast<std::size_t>(b)].angle;
+  for (const StartBody& s : scene.start_bodies)
+    if (s.body == ref.body && s.angle) angle += *s.angle - scene.bodies[static_cast<std::size_t>(b)].angle;
+  return angle;
+}
+
+/// The joint's angle with the whole turns that its bodies' rough poses show.
+double nearest_turn(const Scene& scene, const SceneJoint& j, const Markers& markers) {
+  constexpr double turn = 2 * std::numbers::pi;
+  const double drawn = drawn_angle(scene, j.b, markers) - drawn_angle(scene, j.a, markers);
+  return j.angle + turn * std::round((drawn - j.angle) / turn);
+}
+
+}  // namespace
+
+PointRef cage_of(const SceneJoint& j) { return j.c.value_or(PointRef{"ground", "", j.place}); }
+
+Joint joint_of(const Scene& scene, const SceneJoint& j, Markers& markers) {
+  const JointWord& word = word_of(j);
+  const bool turns = word.clamps || word.turns;
+  const int a = markers.marker(j.a, turns || word.guides ? Holds::direction : Holds::point);
+  const int b = markers.marker(j.b, turns ? Holds::direction : Holds::point);
+  switch (j.kind) {
+    case JointKind::revolute: return Revolute{a, b};
+    case JointKind::slot: return Slot{a, b};
+    case JointKind::prismatic: return Prismatic{a, b, nearest_turn(scene, j, markers)};
+    case JointKind::weld: return Weld{a, b, nearest_turn(scene, j, markers)};
+    case JointKind::distance:
+      if (!(j.length > 0)) throw SceneError(scene.file, j.place, "length must be above 0; for two points that coincide use revolute");
+      return Distance{a, b, j.length};
+    case JointKind::differential: break;
+  }
+  if (j.ratio == 0) throw SceneError(scene.file, j.place, "ratio must not be 0: the first shaft would be fixed to the cage; use weld");
+  const PointRef c = cage_of(j);
+  return Differential{
+      a, b, markers.marker(c, Holds::direction), j.ratio,
+      drawn_angle(scene, j.a, markers) + j.ratio * drawn_angle(scene, j.b, markers) - (1 + j.ratio) * drawn_angle(scene, c, markers)};
+}
+
+JointFriction friction_of(const Scene& scene, const SceneJoint& j, int joint) {
+  const SceneJointFriction& f = *j.friction;
+  const FrictionLaw law = friction_law(scene, f.law);
+  if (!word_of(j).friction || !std::holds_alternative<Coulomb>(law))
+    throw SceneError(scene.file, j.place, "friction in a joint is Coulomb's, and in a revolute, prismatic or slot joint");
+  if ((j.kind == JointKind::revolute && !(f.radius > 0)) || !(f.preload >= 0))
+    throw SceneError(scene.file, j.place, "friction needs the pin's radius, above 0");
+  return {joint, std::get<Coulomb>(law), f.radius, f.length, f.preload};
+}
+
+}  // namespace pintle

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "framework/build/markers.h"
+#include "framework/dynamics/model/joint_friction.h"
+#include "framework/dynamics/model/joints.h"
+#include "framework/scene/scene.h"
+
+namespace pintle {
+
+/// The joint that a scene names, ideal, between markers of its points; its angles with the whole turns that rough poses show.
+/// @throws SceneError  points that are not there or have no direction; a length or ratio that cannot be
+Joint joint_of(const Scene&, const SceneJoint&, Markers&);
+
+/// The third point of a differential: the ground where it is left out.
+PointRef cage_of(const SceneJoint&);
+
+/// @param joint  its index in System::joints
+/// @throws SceneError  another law than Coulomb's; a joint that takes no friction; a radius or preload that cannot be
+JointFriction friction_of(const Scene&, const SceneJoint&, int joint);
+
+}  // namespace pintle

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "framework/bodies/mechanism_body.h"
+#include "framework/mechanism/model.h"
+#include "framework/scene/scene.h"
+
+namespace pintle {
+
+/// What takes hold of a direction needs one: on bodies of elements not every point has it.
+enum class Holds { point, direction };
+
+/// Turns a scene's names of bodies and points into indices and markers.
+class Markers {
+ public:
+  /// @param elements  of each body of the scene, nothing where it is rigid   @param model  gets the markers
+  Markers(const Scene& scene, const std::vector<std::optional<MechanismBody>>& elements, Model& model);
+
+  /// By name; `ground` is not among them.
+  const std::map<std::string, int>& bodies() const { return bodies_; }
+  /// @throws SceneError  no such body
+  int body(const PointRef&) const;
+  /// @returns nullptr for the ground and rigid bodies
+  const MechanismBody* elements(int body) const;
+
+  /// @throws SceneError  no such point, or none with a direction
+  Marker marker_at(const PointRef&, Holds) const;
+  /// Its index in System::markers; made when first asked for.
+  int marker(const PointRef&, Holds = Holds::point);
+  /// As its motion is recorded: of second order unless it is held at first order.
+  Marker recorded_at(const PointRef&) const;
+
+  /// @throws SceneError  both are on one body
+  void two_bodies(const PointRef& a, const PointRef& b, const Place&) const;
+  /// @throws SceneError  the body is made of elements, where no contact can be
+  void reject_elements(const PointRef&) const;
+
+ private:
+  [[noreturn]] void wrong(const Place&, const std::string& message) const;
+
+  const Scene& scene_;
+  const std::vector<std::optional<MechanismBody>>& elements_;
+  Model& model_;
+  std::map<std::string, int> bodies_;
+  std::map<std::tuple<int, double, double, double, std::string>, int> known_;
+};
+
+}  // namespace pintle
