@@ -79,6 +79,10 @@ Gap evaluate(const PiecePair& pair, const MovingPoint& a, const MovingPoint& b) 
   return out;
 }
 
+Vector2d touched(const Piece& piece, const Vector2d& middle, const Vector2d& normal, double across) {
+  return middle + piece.radius * normal - (piece.straight ? across : 0) * quarter_turn(normal);
+}
+
 std::array<PlaceOn, 2> places(const PiecePair& pair, const Gap& gap, const MovingPoint& a, const MovingPoint& b) {
   return {place(pair.a, gap, gap.n, a), place(pair.b, gap, -gap.n, b)};
 }

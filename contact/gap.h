@@ -63,6 +63,10 @@ struct Gap {
 /// Cannot fail.
 Gap evaluate(const PiecePair&, const MovingPoint& a, const MovingPoint& b);
 
+/// The point of a piece's surface that is touched, world axes [m].
+/// @param middle  of the piece [m]   @param normal  out of it: n of a's, −n of b's   @param across  as in `Gap` [m]
+Eigen::Vector2d touched(const Piece&, const Eigen::Vector2d& middle, const Eigen::Vector2d& normal, double across);
+
 /// Where on a piece contact is, and the rate of that: −1 where the piece begins, 1 where it ends, beyond that outside; 0 on a whole
 /// circle [–], [1/s].
 struct PlaceOn {

@@ -148,8 +148,7 @@ void draw_profiles(const Model& model, const State& state, const Equations& eq, 
     if (now.normal.force == 0) continue;
     const ContactPair& pair = system.contacts[c];
     const Vector2d middle = eq.motion[at(pair.b)].r + now.gap.arm_b;
-    const Vector2d touched = middle - pair.gap.b.radius * now.gap.n + (pair.gap.b.straight ? now.gap.across : 0) * perp(now.gap.n);
-    out.forces.push_back({touched, now.on_b.head<2>(), first + static_cast<int>(c)});
+    out.forces.push_back({touched(pair.gap.b, middle, -now.gap.n, now.gap.across), now.on_b.head<2>(), first + static_cast<int>(c)});
   }
 }
 

@@ -1,8 +1,10 @@
 #include "framework/mechanism/trajectory.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -122,39 +124,43 @@ void contact_columns(const System& system, std::size_t k, Out& out) {
       system, system.contact_names[k], true, false, pair.a, [&](const Now& now) { return clearance_effect(system, now.eq, k).on_a; }, out);
 }
 
-// Of two profiles: where they touch or are nearest to that, the pair that is pressed most; forces of all pairs.
+/// Of two profiles: where they touch or are nearest to that, the pair that is pressed most; forces of all pairs.
+struct ProfileContact {
+  Gap gap;
+  Eigen::Vector2d at{0, 0};
+  double normal = 0, friction = 0;
+  Wrench on_b = Wrench::Zero();
+};
+ProfileContact profile_contact(const System& system, std::size_t first, const Equations& eq) {
+  ProfileContact out;
+  double nearest = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = first; k < first + at(system.contacts[first].pairs); ++k) {
+    const ContactPair& pair = system.contacts[k];
+    const ContactEffect& effect = eq.contact[k];
+    out.normal += effect.normal.force, out.friction += effect.friction, out.on_b += effect.on_b;
+    const MovingPoint a = moving_point(eq.motion[at(pair.a)]), b = moving_point(eq.motion[at(pair.b)]);
+    const Gap gap = evaluate(pair.gap, a, b);
+    const double near = std::min({gap.depth, pair.deepest - gap.depth, margin(pair, gap, a, b).value});
+    if (near > nearest) nearest = near, out.gap = gap, out.at = touched(pair.gap.a, a.r + gap.arm_a, gap.n, gap.across);
+  }
+  return out;
+}
+
 template <class Out>
 void profile_columns(const System& system, std::size_t first, Out& out) {
-  struct Sum {
-    Gap gap;
-    Eigen::Vector2d at{0, 0};
-    double normal = 0, friction = 0;
-    Wrench on_b = Wrench::Zero();
-  };
-  const auto sum = [&system, first](const Now& now) {
-    Sum s;
-    double nearest = -std::numeric_limits<double>::infinity();
-    for (std::size_t k = first; k < first + at(system.contacts[first].pairs); ++k) {
-      const ContactPair& pair = system.contacts[k];
-      const ContactEffect& effect = now.eq.contact[k];
-      s.normal += effect.normal.force, s.friction += effect.friction, s.on_b += effect.on_b;
-      const MovingPoint a = moving_point(now.eq.motion[at(pair.a)]), b = moving_point(now.eq.motion[at(pair.b)]);
-      const Gap gap = evaluate(pair.gap, a, b);
-      const double near = std::min({gap.depth, pair.deepest - gap.depth, margin(pair, gap, a, b).value});
-      if (near > nearest)
-        nearest = near, s.gap = gap,
-        s.at = a.r + gap.arm_a + pair.gap.a.radius * gap.n - (pair.gap.a.straight ? gap.across : 0) * perp(gap.n);
-    }
-    return s;
+  std::optional<ProfileContact> found;  // once a row
+  const auto contact = [&](const Now& now) -> const ProfileContact& {
+    if (!found) found = profile_contact(system, first, now.eq);
+    return *found;
   };
   out(system.contact_names[first],
       {{".x", "m"}, {".y", "m"}, {".depth", "m"}, {".rate", "m/s"}, {".sliding", "m/s"}, {".normal", "N"}, {".friction", "N"}},
       [&](const Now& now) {
-        const Sum s = sum(now);
-        return std::array{s.at.x(), s.at.y(), s.gap.depth, s.gap.rate, s.gap.material_slip, s.normal, s.friction};
+        const ProfileContact& c = contact(now);
+        return std::array{c.at.x(), c.at.y(), c.gap.depth, c.gap.rate, c.gap.material_slip, c.normal, c.friction};
       });
   wrench_columns(
-      system, system.contact_names[first], true, false, system.contacts[first].b, [&](const Now& now) { return sum(now).on_b; }, out);
+      system, system.contact_names[first], true, false, system.contacts[first].b, [&](const Now& now) { return contact(now).on_b; }, out);
 }
 
 template <class Out>

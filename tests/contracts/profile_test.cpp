@@ -169,9 +169,7 @@ TEST_P(GapBetween, DepthIsThatOfTheSurfacePoints) {
     const MovingPoint b = any(), a = pressed(any(), b, 1e-3);
     const Gap gap = evaluate({A, B}, a, b);
     EXPECT_NEAR(gap.depth, 1e-3, 1e-14);
-    const Vector2d t(-gap.n.y(), gap.n.x());
-    const Vector2d on_a = a.r + gap.arm_a + A.radius * gap.n - (A.straight ? gap.across : 0) * t,
-                   on_b = b.r + gap.arm_b - B.radius * gap.n + (B.straight ? gap.across : 0) * t;
+    const Vector2d on_a = touched(A, a.r + gap.arm_a, gap.n, gap.across), on_b = touched(B, b.r + gap.arm_b, -gap.n, gap.across);
     EXPECT_LT((on_a - on_b - gap.depth * gap.n).norm(), 1e-13);
     EXPECT_NEAR(outside(A, in_body(a, on_a)), 0, 1e-13);
     EXPECT_NEAR(outside(B, in_body(b, on_b)), 0, 1e-13);
@@ -206,7 +204,7 @@ TEST_P(GapBetween, SlipIsThatOfTheMaterial) {
   for (int i = 0; i < 20; ++i) {
     const MovingPoint b = any(), a = pressed(any(), b, 0);
     const Gap gap = evaluate({A, B}, a, b);
-    const Vector2d t(-gap.n.y(), gap.n.x()), at = b.r + gap.arm_b - B.radius * gap.n + (B.straight ? gap.across : 0) * t;
+    const Vector2d t(-gap.n.y(), gap.n.x()), at = touched(B, b.r + gap.arm_b, -gap.n, gap.across);
     EXPECT_NEAR(gap.material_slip, t.dot(velocity(a, at) - velocity(b, at)), 1e-12);
     EXPECT_NEAR(gap.rate, gap.n.dot(velocity(a, at) - velocity(b, at)), 1e-12);
   }
