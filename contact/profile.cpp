@@ -40,12 +40,12 @@ std::vector<Stretch> stretches_of(const std::vector<PathPoint>& path, bool close
   for (std::size_t i = 0; i < count; ++i) {
     const Vector2d &from = path[i].at, &to = path[(i + 1) % n].at;
     const double chord = (to - from).norm(), radius = path[i].arc;
-    if (!(chord > no_length * size)) wrong("it has no length " + between(i + 1, n));
+    if (!(chord > no_length * size)) wrong("it has no length " + between(i + 1, n) + "; leave one of them out");
     double half = 0;
     if (radius != 0) {
       if (chord > 2 * std::abs(radius))
         wrong("an arc of radius " + std::to_string(std::abs(radius)) + " m does not reach over the " + std::to_string(chord) + " m " +
-              between(i + 1, n));
+              between(i + 1, n) + "; make its radius half of that or more");
       half = std::copysign(std::asin(std::min(1.0, chord / (2 * std::abs(radius)))), radius);
     }
     const double along = angle_of(to - from);
@@ -76,7 +76,7 @@ Stretch rounded(Stretch& before, Stretch& after, double turn, double radius, std
   for (const Stretch* s : {&before, &after})
     if (cut > (s->to - s->from).norm() * (1 + 1e-12))
       wrong("there is no room to round its corner at point " + std::to_string(after.point) + " by " + std::to_string(radius) + " m " +
-            between(s->point, points));
+            between(s->point, points) + "; make `round` smaller");
   Stretch arc{before.to - cut * towards(before.arrives),
               after.from + cut * towards(after.leaves),
               std::copysign(radius, turn),
@@ -109,7 +109,8 @@ void require_simple(const std::vector<Piece>& pieces, bool closed) {
       const Segment &a = all[i], &b = all[j];
       if (side(a, b.from) * side(a, b.to) < 0 && side(b, a.from) * side(b, a.to) < 0) {
         const Vector2d at = b.from + (b.to - b.from) * side(a, b.from) / (side(a, b.from) - side(a, b.to));
-        wrong("it crosses itself at (" + std::to_string(at.x()) + ", " + std::to_string(at.y()) + ") m");
+        wrong("it crosses itself at (" + std::to_string(at.x()) + ", " + std::to_string(at.y()) +
+              ") m; list its points in their order along the surface");
       }
     }
 }
@@ -196,9 +197,9 @@ double area(const std::vector<PathPoint>& path) {
 
 Profile profile_along(std::vector<PathPoint> path, bool closed, double round) {
   constexpr double smooth = 1e-9, kink = 1e-2;  // [rad]; over so small a hollow kink a contact goes on
-  if (path.size() < 2) wrong("it has fewer than two points");
+  if (path.size() < 2) wrong("it has fewer than two points; add points");
   const bool arcs = std::any_of(path.begin(), path.end(), [](const PathPoint& p) { return p.arc != 0; });
-  if (closed && path.size() < 3 && !arcs) wrong("it encloses nothing with fewer than three points");
+  if (closed && path.size() < 3 && !arcs) wrong("it encloses nothing with fewer than three points; add one, or an arc");
   std::vector<Stretch> stretches = stretches_of(path, closed);
   const std::size_t n = stretches.size(), joins = closed ? n : n - 1;
   std::vector<double> turn(joins);
@@ -206,7 +207,8 @@ Profile profile_along(std::vector<PathPoint> path, bool closed, double round) {
   for (std::size_t i = 0; i < joins; ++i) {
     Stretch &before = stretches[i], &after = stretches[(i + 1) % n];
     turn[i] = turn_between(before, after);
-    if (std::abs(turn[i]) > pi - 1e-6) wrong("it turns back on itself at point " + std::to_string(after.point));
+    if (std::abs(turn[i]) > pi - 1e-6)
+      wrong("it turns back on itself at point " + std::to_string(after.point) + "; move that point or leave it out");
     if (round > 0 && before.arc == 0 && after.arc == 0 && std::abs(turn[i]) > smooth)
       arc[i] = rounded(before, after, turn[i], round, path.size());
   }

@@ -31,7 +31,8 @@ struct Owner {
 Owner owner_of(const Scene& scene, const PointRef& ref) {
   if (ref.body == "ground") return {scene.ground_profiles, scene.ground};
   const auto body = std::ranges::find(scene.bodies, ref.body, &SceneBody::name);
-  if (body == scene.bodies.end()) throw SceneError(scene.file, ref.place, "there is no body " + quoted(ref.body));
+  if (body == scene.bodies.end())
+    throw SceneError(scene.file, ref.place, "there is no body " + quoted(ref.body) + "; name one of the scene, or the ground");
   return {body->profiles, body->points};
 }
 
@@ -104,7 +105,7 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
   if (out.empty())
     throw SceneError(scene.file, c.place,
                      quoted(c.a.body + "." + c.a.point) + " and " + quoted(c.b.body + "." + c.b.point) +
-                         " cannot touch: both are hollow, or one is too large for the other");
+                         " cannot touch: both are hollow, or one is too large for the other; change `material` or a radius");
 
   // What lies beyond the ends of pieces: another pair; or, where pieces lie along each other, none, and the contact stays a while.
   constexpr double while_turning = std::numbers::pi / 4, while_sliding = 0.5;
@@ -154,7 +155,8 @@ std::string contact_text(const ContactPair& pair, std::size_t pairs) {
 Profile profile_of(const Scene& scene, const PointRef& ref) {
   const Owner owner = owner_of(scene, ref);
   const auto found = std::ranges::find(owner.profiles, ref.point, &SceneProfile::name);
-  if (found == owner.profiles.end()) throw SceneError(scene.file, ref.place, quoted(ref.body) + " has no profile " + quoted(ref.point));
+  if (found == owner.profiles.end())
+    throw SceneError(scene.file, ref.place, quoted(ref.body) + " has no profile " + quoted(ref.point) + "; give it one, or name another");
   const SceneProfile& p = *found;
   const auto wrong = [&](const std::string& message) {
     throw SceneError(scene.file, p.place, "the profile " + quoted(p.name) + ": " + message);

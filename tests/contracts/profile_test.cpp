@@ -116,6 +116,7 @@ TEST(Profile, RefusesWhatIsNoSurface) {
       ADD_FAILURE() << bad.says;
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string(error.what()).find(bad.says), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("; "), std::string::npos) << "no remedy: " << error.what();
     }
   }
 }

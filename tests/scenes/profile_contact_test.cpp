@@ -332,6 +332,8 @@ TEST(BadProfile, IsRefusedInOneLineWithKeyAndRemedy) {
       {"[1, 1]", "{arc: 1}, {arc: 2}, [1, 1]", "scene.yaml:3: bodies.b.profiles.skin.path", "stands where a point should"},
       {"closed: true", "closed: true, material: left", "scene.yaml:3: bodies.b.profiles.skin.material", "inside or outside"},
       {"round: 1 cm", "round: 2 m", "scene.yaml:3: bodies.b.profiles.skin", "no room to round"},
+      {"b.skin]", "b]", "scene.yaml:5: contacts.c.between", "names no profile. Known here: skin"},
+      {"[a.skin, b.skin]", "[a.skin]", "scene.yaml:5: contacts.c.between", "two profiles, each as BODY.PROFILE"},
       {"b.skin]", "b.skim]", "scene.yaml:5: contacts.c.between", "Did you mean \"skin\""},
       {"b.skin]", "a.skin]", "scene.yaml:5: contacts.c", "two different bodies"},
       {"stiffness: 1e9", "young: 2e11, poisson: 0.3", "scene.yaml:5: contacts.c.normal.flores", "give `stiffness`"},

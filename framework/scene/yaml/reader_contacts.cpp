@@ -117,7 +117,7 @@ SceneContact read_contact(const Node& node, const Scene& scene) {
   out.name = checked_name(node);
   out.place = node.place();
   check_keys(node, "contacts.*");
-  std::tie(out.a, out.b) = read_ends(node.at("between"));
+  std::tie(out.a, out.b) = read_ends(node.at("between"), "two profiles, each as BODY.PROFILE: [box.outline, ground.floor]");
   for (const PointRef* ref : {&out.a, &out.b}) {
     const auto body = std::ranges::find(scene.bodies, ref->body, &SceneBody::name);
     if (ref->body != "ground" && body == scene.bodies.end()) continue;  // told when it is built
@@ -127,7 +127,7 @@ SceneContact read_contact(const Node& node, const Scene& scene) {
     if (std::ranges::find(known, ref->point) == known.end())
       throw SceneError(
           scene.file, ref->place,
-          "\"" + ref->body + "\" has no profile \"" + ref->point + "\"" +
+          "\"" + ref->body + "\" " + (ref->point.empty() ? "names no profile" : "has no profile \"" + ref->point + "\"") +
               (known.empty() ? "; give it one: profiles: {rim: {disc: A, radius: 20 mm}}" : "." + did_you_mean(ref->point, known)));
   }
   out.normal = read_normal(node.at("normal"), "contacts.*.normal.*");

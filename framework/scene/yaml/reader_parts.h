@@ -29,8 +29,8 @@ void read_output(const Node& root, Scene&);  ///< after run
 std::string checked_name(const Node&);
 /// "crank.A", "crank" or "ground".
 PointRef read_point_ref(const Node&);
-/// [a, b]
-std::pair<PointRef, PointRef> read_ends(const Node&);
+/// [a, b]   @param remedy  what to write in place of another list
+std::pair<PointRef, PointRef> read_ends(const Node&, const std::string& remedy = "two points [a, b] such as [crank.A, coupler.A]");
 
 /// Profiles of a body or the ground that has these points. @param keys  path of a profile's keys
 std::vector<SceneProfile> read_profiles(const Node& owner, std::string_view keys, const std::vector<ScenePoint>&, const std::string& body);

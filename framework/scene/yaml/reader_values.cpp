@@ -136,8 +136,8 @@ std::vector<double> read_quantities(const Node& node, std::size_t n, const Dimen
   return out;
 }
 
-std::pair<PointRef, PointRef> read_ends(const Node& node) {
-  const auto two = node.items(2, "two points [a, b] such as [crank.A, coupler.A]");
+std::pair<PointRef, PointRef> read_ends(const Node& node, const std::string& remedy) {
+  const auto two = node.items(2, remedy);
   return {read_point_ref(two[0]), read_point_ref(two[1])};
 }
 
