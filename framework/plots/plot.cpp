@@ -10,6 +10,7 @@ namespace pintle {
 namespace {
 
 constexpr double panel_width = 520, panel_height = 390, left = 78, right = 16, top = 62, bottom = 50;
+constexpr double width = panel_width - left - right, height = panel_height - top - bottom;  // of the axes
 const std::array<const char*, 6> colours{"#1b6ca8", "#d1495b", "#2e933c", "#edae49", "#6a4c93", "#444444"};
 
 std::string escaped(const std::string& s) {
@@ -44,7 +45,16 @@ void thin(const std::vector<double>& x, const std::vector<double>& y, std::size_
   thin(x, y, at, b, keep);
 }
 
-std::string draw(const Panel& p, double x_at, double y_at, int id) {
+/// A panel's axes: their ranges, and where on the picture the panel begins.
+struct Axes {
+  double x0, x1, y0, y1;
+  double x_at, y_at;
+  double px(double x) const { return x_at + left + (x - x0) / (x1 - x0) * width; }
+  double py(double y) const { return y_at + top + (y1 - y) / (y1 - y0) * height; }
+};
+
+// Ranges as the panel says, else around its curves.
+Axes axes_of(const Panel& p, double x_at, double y_at) {
   double x0 = p.x_range[0], x1 = p.x_range[1], y0 = p.y_range[0], y1 = p.y_range[1];
   const bool fit_x = x0 == x1, fit_y = y0 == y1;
   if (fit_x) x0 = INFINITY, x1 = -INFINITY;
@@ -58,84 +68,111 @@ std::string draw(const Panel& p, double x_at, double y_at, int id) {
     const double room = y1 > y0 ? 0.05 * (y1 - y0) : 1e-3 * std::max(1.0, std::abs(y0));
     y0 -= room, y1 += room;
   }
-  const double width = panel_width - left - right, height = panel_height - top - bottom;
   if (p.equal) {
     const double scale = std::max((x1 - x0) / width, (y1 - y0) / height) * 1.05;
     const double xm = (x0 + x1) / 2, ym = (y0 + y1) / 2;
     x0 = xm - scale * width / 2, x1 = xm + scale * width / 2;
     y0 = ym - scale * height / 2, y1 = ym + scale * height / 2;
   }
-  const auto px = [&](double x) { return x_at + left + (x - x0) / (x1 - x0) * width; };
-  const auto py = [&](double y) { return y_at + top + (y1 - y) / (y1 - y0) * height; };
-  std::string s = text(x_at + left + width / 2, y_at + 18, p.title, "middle", " font-weight='bold'");
-  const auto tick = [&](double at, bool horizontal, const std::string& number) {
-    if (horizontal) {
-      s += printed("<path d='M%.1f %.1fv%.1f' stroke='#ddd'/>\n", px(at), py(y0), -height);
-      s += text(px(at), py(y0) + 16, number);
-    } else {
-      s += printed("<path d='M%.1f %.1fh%.1f' stroke='#ddd'/>\n", px(x0), py(at), width);
-      s += text(px(x0) - 6, py(at) + 4, number, "end");
-    }
-  };
-  const auto axis = [&](double a, double b, bool horizontal) {
-    if (p.log && b - a < 2.2) {  // too few whole decades to read numbers between them
-      for (double decade = std::floor(a); decade <= b; ++decade)
-        for (const double m : {1.0, 2.0, 5.0})
-          if (const double at = decade + std::log10(m); at >= a - 1e-9 && at <= b + 1e-9)
-            tick(at, horizontal, printed("%.0fe%.0f", m, decade));
-      return;
-    }
-    const double step = p.log ? std::max(1.0, std::round(tick_step(b - a))) : tick_step(b - a);
-    const int digits = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 9);
-    for (double k = std::ceil(a / step - 1e-9); k * step <= b + 1e-9 * step; ++k)
-      tick(k * step, horizontal, p.log ? printed("1e%.0f", k * step) : printed("%.*f", digits, k * step + 0.0));
-  };
-  axis(x0, x1, true);
-  axis(y0, y1, false);
-  s += text(x_at + left + width / 2, y_at + panel_height - 14, p.x_label);
-  s +=
-      text(0, 0, p.y_label, "middle", printed(" transform='translate(%.1f %.1f) rotate(-90)'", x_at + 16, y_at + top + height / 2).c_str());
-  s += printed("<clipPath id='c%d'><rect x='%.1f' y='%.1f' width='%.1f' height='%.1f'/></clipPath>\n", id, px(x0), py(y1), width, height);
-  s += printed("<g clip-path='url(#c%d)' fill='none' stroke-width='1.4' stroke-linejoin='round'>\n", id);
-  double legend = x_at + left;
-  std::string legends;
+  return {x0, x1, y0, y1, x_at, y_at};
+}
+
+std::string tick(const Axes& axes, double at, bool horizontal, const std::string& number) {
+  const double x = axes.px(horizontal ? at : axes.x0), y = axes.py(horizontal ? axes.y0 : at);
+  if (horizontal) return printed("<path d='M%.1f %.1fv%.1f' stroke='#ddd'/>\n", x, y, -height) + text(x, y + 16, number);
+  return printed("<path d='M%.1f %.1fh%.1f' stroke='#ddd'/>\n", x, y, width) + text(x - 6, y + 4, number, "end");
+}
+
+std::string ticks(const Axes& axes, bool horizontal, bool log) {
+  const double a = horizontal ? axes.x0 : axes.y0, b = horizontal ? axes.x1 : axes.y1;
+  std::string s;
+  if (log && b - a < 2.2) {  // too few whole decades to read numbers between them
+    for (double decade = std::floor(a); decade <= b; ++decade)
+      for (const double m : {1.0, 2.0, 5.0})
+        if (const double at = decade + std::log10(m); at >= a - 1e-9 && at <= b + 1e-9)
+          s += tick(axes, at, horizontal, printed("%.0fe%.0f", m, decade));
+    return s;
+  }
+  const double step = log ? std::max(1.0, std::round(tick_step(b - a))) : tick_step(b - a);
+  const int digits = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 9);
+  for (double k = std::ceil(a / step - 1e-9); k * step <= b + 1e-9 * step; ++k)
+    s += tick(axes, k * step, horizontal, log ? printed("1e%.0f", k * step) : printed("%.*f", digits, k * step + 0.0));
+  return s;
+}
+
+std::string labels(const Panel& p, const Axes& axes) {
+  const double middle = axes.x_at + left + width / 2;
+  const std::string turned = printed(" transform='translate(%.1f %.1f) rotate(-90)'", axes.x_at + 16, axes.y_at + top + height / 2);
+  return text(middle, axes.y_at + panel_height - 14, p.x_label) + text(0, 0, p.y_label, "middle", turned.c_str());
+}
+
+const char* colour_of(std::size_t curve) { return colours[curve % colours.size()]; }
+
+std::string stroke_of(const Panel& p, std::size_t curve) {
+  return printed("stroke='%s'%s", colour_of(curve), p.curves[curve].dashed ? " stroke-dasharray='6 4'" : "");
+}
+
+std::string polyline(const std::vector<double>& x, const std::vector<double>& y, const std::string& stroke) {
+  std::vector<bool> keep(x.size(), false);
+  keep.front() = keep.back() = true;
+  thin(x, y, 0, x.size() - 1, keep);
+  std::string s = "<path " + stroke + " d='";
+  bool first = true;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (keep[i]) s += printed("%c%.1f %.1f", first ? 'M' : 'L', x[i], y[i]), first = false;
+  return s + "'/>\n";
+}
+
+std::string curve_of(const Panel& p, const Axes& axes, std::size_t k) {
+  const Curve& c = p.curves[k];
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i < c.x.size(); ++i) {
+    const bool near = p.equal || p.log || (c.x[std::min(i + 1, c.x.size() - 1)] >= axes.x0 && c.x[i > 0 ? i - 1 : 0] <= axes.x1);
+    if (near) x.push_back(axes.px(c.x[i])), y.push_back(std::clamp(axes.py(c.y[i]), -2000.0, 6000.0));
+  }
+  std::string s;
+  if (!x.empty() && !c.points) s += polyline(x, y, stroke_of(p, k));
+  for (std::size_t i = 0; (p.log || c.points) && i < x.size(); ++i)
+    s += printed("<circle cx='%.1f' cy='%.1f' r='2.5' fill='%s'/>\n", x[i], y[i], colour_of(k));
+  return s;
+}
+
+std::string legend(const Panel& p, const Axes& axes) {
+  std::string s;
+  double x = axes.x_at + left;
+  const double y = axes.y_at + top;
   for (std::size_t k = 0; k < p.curves.size(); ++k) {
     const Curve& c = p.curves[k];
-    const std::string line = printed("stroke='%s'%s", colours[k % colours.size()], c.dashed ? " stroke-dasharray='6 4'" : "");
-    std::vector<double> x, y;
-    for (std::size_t i = 0; i < c.x.size(); ++i) {
-      const bool near = p.equal || p.log || (c.x[std::min(i + 1, c.x.size() - 1)] >= x0 && c.x[i > 0 ? i - 1 : 0] <= x1);
-      if (near) x.push_back(px(c.x[i])), y.push_back(std::clamp(py(c.y[i]), -2000.0, 6000.0));
-    }
-    if (!x.empty() && !c.points) {
-      std::vector<bool> keep(x.size(), false);
-      keep.front() = keep.back() = true;
-      thin(x, y, 0, x.size() - 1, keep);
-      s += "<path " + line + " d='";
-      bool first = true;
-      for (std::size_t i = 0; i < x.size(); ++i)
-        if (keep[i]) s += printed("%c%.1f %.1f", first ? 'M' : 'L', x[i], y[i]), first = false;
-      s += "'/>\n";
-    }
-    {
-      for (std::size_t i = 0; (p.log || c.points) && i < x.size(); ++i)
-        s += printed("<circle cx='%.1f' cy='%.1f' r='2.5' fill='%s'/>\n", x[i], y[i], colours[k % colours.size()]);
-    }
     if (c.label.empty()) continue;
-    legends += c.points
-                   ? printed("<circle cx='%.1f' cy='%.1f' r='3' fill='%s'/>\n", legend + 10, y_at + top - 18, colours[k % colours.size()])
-                   : printed("<path d='M%.1f %.1fh20' %s stroke-width='2'/>\n", legend, y_at + top - 18, line.c_str());
-    legends += text(legend + 25, y_at + top - 14, c.label, "start");
-    legend += 41 + 6.3 * static_cast<double>(c.label.size());
+    s += c.points ? printed("<circle cx='%.1f' cy='%.1f' r='3' fill='%s'/>\n", x + 10, y - 18, colour_of(k))
+                  : printed("<path d='M%.1f %.1fh20' %s stroke-width='2'/>\n", x, y - 18, stroke_of(p, k).c_str());
+    s += text(x + 25, y - 14, c.label, "start");
+    x += 41 + 6.3 * static_cast<double>(c.label.size());
   }
-  for (const Mark& m : p.marks) s += printed("<circle cx='%.1f' cy='%.1f' r='7' stroke='#111' stroke-width='1.6'/>\n", px(m.x), py(m.y));
-  s += "</g>\n" + legends;
-  for (const Mark& m : p.marks) {
-    const bool right_half = px(m.x) > px(x0) + 0.6 * width;
-    s += text(px(m.x) + (right_half ? -11 : 11), py(m.y) - 7, m.label, right_half ? "end" : "start");
-  }
-  s += printed("<rect x='%.1f' y='%.1f' width='%.1f' height='%.1f' fill='none' stroke='#333'/>\n", px(x0), py(y1), width, height);
   return s;
+}
+
+std::string ring(const Mark& m, const Axes& axes) {
+  return printed("<circle cx='%.1f' cy='%.1f' r='7' stroke='#111' stroke-width='1.6'/>\n", axes.px(m.x), axes.py(m.y));
+}
+
+std::string words_beside(const Mark& m, const Axes& axes) {
+  const bool right_half = axes.px(m.x) > axes.px(axes.x0) + 0.6 * width;
+  return text(axes.px(m.x) + (right_half ? -11 : 11), axes.py(m.y) - 7, m.label, right_half ? "end" : "start");
+}
+
+std::string draw(const Panel& p, double x_at, double y_at, int id) {
+  const Axes axes = axes_of(p, x_at, y_at);
+  const std::string box = printed("<rect x='%.1f' y='%.1f' width='%.1f' height='%.1f'", axes.px(axes.x0), axes.py(axes.y1), width, height);
+  std::string s = text(x_at + left + width / 2, y_at + 18, p.title, "middle", " font-weight='bold'");
+  s += ticks(axes, true, p.log) + ticks(axes, false, p.log) + labels(p, axes);
+  s += printed("<clipPath id='c%d'>", id) + box + "/></clipPath>\n";
+  s += printed("<g clip-path='url(#c%d)' fill='none' stroke-width='1.4' stroke-linejoin='round'>\n", id);
+  for (std::size_t k = 0; k < p.curves.size(); ++k) s += curve_of(p, axes, k);
+  for (const Mark& m : p.marks) s += ring(m, axes);
+  s += "</g>\n" + legend(p, axes);
+  for (const Mark& m : p.marks) s += words_beside(m, axes);
+  return s + box + " fill='none' stroke='#333'/>\n";
 }
 
 }  // namespace
