@@ -46,22 +46,19 @@ vtkNew<vtkLookupTable> colours(vtkDataArray* values) {
   return table;
 }
 
-}  // namespace
+/// The values of a field on points or else on cells.
+struct FieldValues {
+  vtkDataArray* values;
+  bool on_cells;
+};
+FieldValues field_of(vtkUnstructuredGrid* grid, const std::string& name, const std::filesystem::path& file) {
+  if (vtkDataArray* values = grid->GetPointData()->GetArray(name.c_str())) return {values, false};
+  if (vtkDataArray* values = grid->GetCellData()->GetArray(name.c_str())) return {values, true};
+  throw std::runtime_error(file.string() + ": has no field \"" + name + "\"; it has " + names(grid->GetPointData()) + " on points, " +
+                           names(grid->GetCellData()) + " on cells");
+}
 
-void write_field_picture(const std::filesystem::path& file, const std::string& field, int width, const std::filesystem::path& picture) {
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  if (reader->CanReadFile(file.c_str()) == 0) throw std::runtime_error(file.string() + ": is not a .vtu file that can be read");
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  vtkUnstructuredGrid* grid = reader->GetOutput();
-  vtkDataArray* values = grid->GetPointData()->GetArray(field.c_str());
-  const bool on_cells = values == nullptr;
-  if (on_cells) values = grid->GetCellData()->GetArray(field.c_str());
-  if (!values)
-    throw std::runtime_error(file.string() + ": has no field \"" + field + "\"; it has " + names(grid->GetPointData()) + " on points, " +
-                             names(grid->GetCellData()) + " on cells");
-
-  const auto table = colours(values);
+vtkNew<vtkActor> painted(vtkUnstructuredGrid* grid, const std::string& field, bool on_cells, vtkLookupTable* table) {
   vtkNew<vtkDataSetSurfaceFilter> surface;
   surface->SetInputData(grid);
   surface->SetNonlinearSubdivisionLevel(2);
@@ -77,7 +74,10 @@ void write_field_picture(const std::filesystem::path& file, const std::string& f
   vtkNew<vtkActor> body;
   body->SetMapper(mapper);
   body->GetProperty()->LightingOff();
+  return body;
+}
 
+vtkNew<vtkScalarBarActor> scale_of(vtkLookupTable* table, const std::string& field, int font_size) {
   vtkNew<vtkScalarBarActor> scale;
   scale->SetLookupTable(table);
   scale->SetTitle(field.c_str());
@@ -92,12 +92,46 @@ void write_field_picture(const std::filesystem::path& file, const std::string& f
     text->ShadowOff();
     text->ItalicOff();
     text->BoldOff();
-    text->SetFontSize(width / 45);
+    text->SetFontSize(font_size);
   }
+  return scale;
+}
 
+/// The middle and the size of what is seen, in the axes of the file.
+struct Extent {
+  double x, y, w, h;
+};
+Extent extent_of(vtkUnstructuredGrid* grid) {
   double b[6];
   grid->GetBounds(b);
-  const double w = b[1] - b[0], h = b[3] - b[2], height = width * std::min(1.0, std::max(0.35, 1.25 * h / w));
+  return {(b[0] + b[1]) / 2, (b[2] + b[3]) / 2, b[1] - b[0], b[3] - b[2]};
+}
+
+double height_of(const Extent& e, int width) { return width * std::min(1.0, std::max(0.35, 1.25 * e.h / e.w)); }
+
+void aim(vtkCamera* camera, const Extent& e, int width) {
+  camera->ParallelProjectionOn();
+  const double half = std::max(0.5 * e.h / 0.78, 0.5 * e.w * height_of(e, width) / width / 0.95);  // room below for the scale
+  const double x = e.x, y = e.y - 0.1 * half;
+  camera->SetParallelScale(half);
+  camera->SetFocalPoint(x, y, 0);
+  camera->SetPosition(x, y, 10 * (e.w + e.h));
+}
+
+}  // namespace
+
+void write_field_picture(const std::filesystem::path& file, const std::string& field, int width, const std::filesystem::path& picture) {
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  if (reader->CanReadFile(file.c_str()) == 0) throw std::runtime_error(file.string() + ": is not a .vtu file that can be read");
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  vtkUnstructuredGrid* grid = reader->GetOutput();
+  const auto [values, on_cells] = field_of(grid, field, file);
+  const Extent extent = extent_of(grid);
+  const auto table = colours(values);
+  const auto body = painted(grid, field, on_cells, table);
+  const auto scale = scale_of(table, field, width / 45);
+
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   renderer->AddActor(body);
@@ -105,14 +139,9 @@ void write_field_picture(const std::filesystem::path& file, const std::string& f
   vtkNew<vtkRenderWindow> window;
   window->OffScreenRenderingOn();
   window->SetMultiSamples(8);
-  window->SetSize(width, static_cast<int>(height));
+  window->SetSize(width, static_cast<int>(height_of(extent, width)));
   window->AddRenderer(renderer);
-  vtkCamera* camera = renderer->GetActiveCamera();
-  camera->ParallelProjectionOn();
-  const double half = std::max(0.5 * h / 0.78, 0.5 * w * height / width / 0.95);  // room below for the scale
-  camera->SetParallelScale(half);
-  camera->SetFocalPoint((b[0] + b[1]) / 2, (b[2] + b[3]) / 2 - 0.1 * half, 0);
-  camera->SetPosition((b[0] + b[1]) / 2, (b[2] + b[3]) / 2 - 0.1 * half, 10 * (w + h));
+  aim(renderer->GetActiveCamera(), extent, width);
   renderer->ResetCameraClippingRange();
   window->Render();
 
