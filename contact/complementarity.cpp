@@ -1,0 +1,142 @@
+#include "contact/complementarity.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace pintle {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+// w = q + M z + d z₀ as a tableau [basic | w z z₀ | rhs] that is pivoted; the variables are numbered w: 0 … n − 1, z: n … 2n − 1, z₀: 2n.
+class Lemke {
+ public:
+  Lemke(const MatrixXd& M, const VectorXd& q) : n_(q.size()), table_(n_, 2 * n_ + 2), basic_(static_cast<std::size_t>(n_)) {
+    table_ << MatrixXd::Identity(n_, n_), -M, VectorXd::Constant(n_, -1), q;
+    for (Index i = 0; i < n_; ++i) basic(i) = i;
+  }
+
+  std::optional<VectorXd> solve() {
+    Index row;
+    if (table_.col(rhs()).minCoeff(&row) >= 0) return VectorXd(VectorXd::Zero(n_));
+    Index enters = z0();
+    for (Index pivots = 0; pivots < 50 * (n_ + 1); ++pivots) {
+      const Index leaves = basic(row);
+      pivot(row, enters);
+      if (leaves == z0()) return solution();
+      enters = leaves < n_ ? leaves + n_ : leaves - n_;
+      const std::optional<Index> blocks = blocking(enters);
+      if (!blocks) return std::nullopt;
+      row = *blocks;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  Index z0() const { return 2 * n_; }
+  Index rhs() const { return 2 * n_ + 1; }
+  Index& basic(Index row) { return basic_[static_cast<std::size_t>(row)]; }
+
+  void pivot(Index row, Index enters) {
+    table_.row(row) /= table_(row, enters);
+    for (Index i = 0; i < n_; ++i) {
+      if (i == row || table_(i, enters) == 0) continue;
+      table_.row(i) -= table_(i, enters) * table_.row(row).eval();
+      table_(i, enters) = 0;
+    }
+    basic(row) = enters;
+  }
+
+  // The row that comes to 0 first as the variable grows; of several z₀'s, else that of the largest pivot.
+  std::optional<Index> blocking(Index enters) {
+    constexpr double rounding = 1e-12, tie = 1e-12;
+    const double size = table_.col(enters).cwiseAbs().maxCoeff();
+    std::optional<Index> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (Index i = 0; i < n_; ++i) {
+      const double slope = table_(i, enters);
+      if (!(slope > rounding * std::max(size, 1.0))) continue;
+      const double ratio = std::max(table_(i, rhs()), 0.0) / slope;
+      const double near = tie * (std::abs(least) + std::abs(ratio));
+      const bool same = best && std::abs(ratio - least) <= near;
+      const bool better = !best || (same ? basic(*best) != z0() && (basic(i) == z0() || slope > table_(*best, enters)) : ratio < least);
+      if (better) best = i, least = same ? std::min(least, ratio) : ratio;
+    }
+    return best;
+  }
+
+  VectorXd solution() {
+    VectorXd z = VectorXd::Zero(n_);
+    for (Index i = 0; i < n_; ++i)
+      if (basic(i) >= n_ && basic(i) < z0()) z[basic(i) - n_] = std::max(table_(i, rhs()), 0.0);
+    return z;
+  }
+
+  Index n_;
+  MatrixXd table_;
+  std::vector<Index> basic_;  ///< variable of each row
+};
+
+}  // namespace
+
+std::optional<VectorXd> solve_complementarity(const MatrixXd& M, const VectorXd& q) {
+  if (q.size() == 0) return q;
+  return Lemke(M, q).solve();
+}
+
+// T = R − μ(N + N₀) with R ≥ 0 and L = 2μ(N + N₀) − R ≥ 0; the slip is t = w − u, w ⊥ R, u ⊥ L. Unknown z = (N, R, u) against
+// (g, w, L), each unknown over the root of its own W.
+std::optional<VectorXd> unilateral_forces(std::span<const UnilateralContact> contacts, const MatrixXd& W, const VectorXd& c) {
+  const auto n = static_cast<Index>(contacts.size());
+  std::vector<const UnilateralContact*> rub;
+  for (const UnilateralContact& k : contacts)
+    if (k.tangent >= 0) rub.push_back(&k);
+  const auto m = static_cast<Index>(rub.size()), size = n + 2 * m;
+
+  // x = X z + x₀
+  MatrixXd X = MatrixXd::Zero(c.size(), size);
+  VectorXd x0 = VectorXd::Zero(c.size());
+  std::vector<Index> at_tangent(contacts.size(), -1);
+  for (Index i = 0, j = 0; i < n; ++i) {
+    const UnilateralContact& k = contacts[static_cast<std::size_t>(i)];
+    X(k.normal, i) = 1;
+    if (k.sliding >= 0) X(k.sliding, i) = -k.direction * k.mu;
+    if (k.sliding >= 0) x0[k.sliding] = -k.direction * k.mu * k.preload;
+    if (k.tangent < 0) continue;
+    X(k.tangent, i) = -k.mu;
+    X(k.tangent, n + j) = 1;
+    x0[k.tangent] = -k.mu * k.preload;
+    at_tangent[static_cast<std::size_t>(i)] = j++;
+  }
+  const MatrixXd respond = W * X;
+  const VectorXd at_rest = W * x0 + c;
+  MatrixXd M = MatrixXd::Zero(size, size);
+  VectorXd q = VectorXd::Zero(size), unit = VectorXd::Ones(size);
+  for (Index i = 0; i < n; ++i) {
+    const UnilateralContact& k = contacts[static_cast<std::size_t>(i)];
+    M.row(i) = respond.row(k.normal);
+    q[i] = at_rest[k.normal];
+    unit[i] = 1 / std::sqrt(std::max(W(k.normal, k.normal), std::numeric_limits<double>::min()));
+    const Index j = at_tangent[static_cast<std::size_t>(i)];
+    if (j < 0) continue;
+    M.row(n + j) = respond.row(k.tangent);
+    M(n + j, n + m + j) = 1;
+    q[n + j] = at_rest[k.tangent];
+    M(n + m + j, i) = 2 * k.mu;
+    M(n + m + j, n + j) = -1;
+    q[n + m + j] = 2 * k.mu * k.preload;
+    unit[n + j] = 1 / std::sqrt(std::max(W(k.tangent, k.tangent), std::numeric_limits<double>::min()));
+    unit[n + m + j] = 1 / unit[n + j];  // u is a slip
+  }
+  const double most = q.cwiseProduct(unit).cwiseAbs().maxCoeff();
+  if (!(most > 0)) return VectorXd(x0);
+  const auto z = solve_complementarity(unit.asDiagonal() * M * unit.asDiagonal(), q.cwiseProduct(unit) / most);
+  if (!z) return std::nullopt;
+  return VectorXd(X * (most * unit.cwiseProduct(*z)) + x0);
+}
+
+}  // namespace pintle

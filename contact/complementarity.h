@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "eigen_layout.h"
+
+namespace pintle {
+
+/// z ≥ 0, M z + q ≥ 0, zᵀ(M z + q) = 0, by Lemke's method [CottlePangStone1992, 4.4].
+/// @returns nothing where it ends on a ray: there is no solution, or none that it finds
+std::optional<Eigen::VectorXd> solve_complementarity(const Eigen::MatrixXd& M, const Eigen::VectorXd& q);
+
+/// A rigid contact among others: its normal force N ≥ 0 and its friction T, |T| ≤ μ(N + preload), as indices of the unknowns.
+struct UnilateralContact {
+  int normal;            ///< –
+  int tangent = -1;      ///< −1: it has no friction, or slides
+  double mu = 0;         ///< –
+  double preload = 0;    ///< of the normal force, that the unknowns come on top of; it counts for friction alone
+  int sliding = -1;      ///< of a contact that slides, the column of its friction, which is −direction μN …
+  double direction = 0;  ///< … −1 or 1
+};
+
+/// Forces, or impulses, x of contacts under which their opening g = W x + c meets 0 ≤ N ⊥ g ≥ 0, and their slip, the rows of
+/// `tangent`, is 0 where |T| is less than μN and else opposes T. One unit for all of x, one for all of W x: docs/theory/impact.md.
+/// @param W  responses, symmetric positive semidefinite   @param c  without the forces
+/// @returns nothing where none is found, as in Painlevé's situations
+std::optional<Eigen::VectorXd> unilateral_forces(std::span<const UnilateralContact>, const Eigen::MatrixXd& W, const Eigen::VectorXd& c);
+
+}  // namespace pintle
