@@ -54,6 +54,8 @@ class Builder {
     keep_drawings();
     report_flexible(scene_, elements_, elastic_, model_);
     model_.system.length = size();
+    for (ContactPair& pair : model_.system.contacts)
+      if (is_rigid(pair)) pair.slack = touching_part * model_.system.length;
     for (const SceneJoint& j : scene_.joints)
       if (const std::string warning = j.clearance ? rounding_warning(scene_, j, model_.system.length) : ""; !warning.empty())
         model_.warnings.push_back(warning);

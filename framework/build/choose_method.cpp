@@ -68,11 +68,12 @@ class Parts {
   // The rate at which the force of a contact changes that comes by a hundredth of the motion's speed.
   void see(const ContactPair& pair, double motion, const std::string& name) {
     if (is_held(pair) || pair.pair > 0) return;
+    found.struck = true;
+    if (is_rigid(pair)) return;
     const double w = mobility(system_, pair.a).force + mobility(system_, pair.b).force;
     const double speed = std::max(motion * system_.length * 1e-2, pair.slowest_impact), depth = depth_reached(pair.normal, w, speed);
     if (depth > 0) found.parts.push_back({speed / depth, viscous_damping(pair.normal) * w, "contact at \"" + name + "\""});
     if (depth > 0 && found.parts.back().decay > found.most_damped.decay) found.most_damped = found.parts.back();
-    found.struck = true;
     if (depth > 0) found.strike = std::max(found.strike, speed / depth);
   }
   RateSpectrum found;
@@ -119,11 +120,16 @@ Constraints constraints_of(const Scene& scene, bool is_explicit) {
 // At one tolerance a whole run of generalised-α errs by its power ⅔, an explicit one by the tolerance itself.
 constexpr double dearer = 8;
 
+bool has_rigid_contacts(const System& system) {
+  return std::ranges::any_of(system.contacts, [](const ContactPair& c) { return is_rigid(c); });
+}
+
 void choose(const Scene& scene, const System& system, Scheme& scheme) {
   const RateSpectrum s = spectrum(scene, system);
   const Demand d = demand(s, scene.run.tolerance);
   const double needed = std::max(d.stability, d.accuracy);
-  const bool is_implicit = needed > dearer * d.implicit && scene.run.constraints != "partitioning";
+  const bool rigid = has_rigid_contacts(system);
+  const bool is_implicit = !rigid && needed > dearer * d.implicit && scene.run.constraints != "partitioning";
   if (!is_implicit) scheme.tableau = automatic_explicit(scene, s, d);
   if (!is_implicit && scheme.tableau != find_tableau("dopri5")) scheme.fallback = find_tableau("dopri5");
   std::string& why = scheme.reason;
@@ -135,8 +141,8 @@ void choose(const Scene& scene, const System& system, Scheme& scheme) {
   } else {
     why += " for its accuracy";
   }
-  why += ", and generalised-alpha about " + short_number(d.implicit);
-  const bool can_stiffen = !s.parts.empty();
+  why += rigid ? "; each impact of rigid bodies is an event" : ", and generalised-alpha about " + short_number(d.implicit);
+  const bool can_stiffen = !rigid && !s.parts.empty();
   if (!is_implicit && can_stiffen && scene.run.constraints == "projection" && d.implicit > 0) scheme.switch_below = 0.5 / d.implicit;
 }
 
@@ -191,6 +197,11 @@ void choose_method(const Scene& scene, const System& system, Scheme& scheme) {
       for (const Tableau& t : tableaus()) known.emplace_back(t.name);
       throw SceneError(scene.file, run.place, "there is no method \"" + run.method + "\"." + did_you_mean(run.method, known));
     }
+    if (!scheme.tableau && has_rigid_contacts(system))
+      throw SceneError(
+          scene.file, run.place,
+          "generalized-alpha does not take impacts of rigid bodies (model: impact); take auto or dopri5, or give the contacts a law "
+          "with a stiffness");
     scheme.reason = run.method + ", as the scene says";
   }
   scheme.constraints = constraints_of(scene, scheme.tableau != nullptr);

@@ -32,7 +32,8 @@ bool rubs(const SceneClearance& c) { return c.friction && rubs(*c.friction); }
 std::string left_out(const SceneClearance& c) {
   std::vector<std::string> unused;
   const bool given = c.stiffness && c.damping;
-  if (has_normal(c) && (c.model == ClearanceModel::massless_link || (c.model == ClearanceModel::spring_damper && given)))
+  if (has_normal(c) && (c.model == ClearanceModel::massless_link || c.model == ClearanceModel::impact ||
+                        (c.model == ClearanceModel::spring_damper && given)))
     unused.emplace_back("normal");
   if (rubs(c) && c.model == ClearanceModel::massless_link) unused.emplace_back("friction");
   if (c.stiffness && c.model != ClearanceModel::spring_damper) unused.emplace_back("stiffness");
@@ -81,6 +82,21 @@ ImpactLaw impact_law(const Scene& scene, const SceneNormal& n, double k) {
   return {k, n.exponent, factor->chi(n.restitution)};
 }
 
+RigidImpact rigid_impact(const Scene& scene, const SceneImpact& impact, const Place& place) {
+  for (const double e : {impact.restitution, impact.tangential})
+    if (!(e >= 0 && e <= 1)) throw SceneError(scene.file, place, "restitution must lie in [0, 1]");
+  return {impact.restitution, impact.tangential, impact.poisson};
+}
+
+std::string impact_text(const RigidImpact& impact) {
+  return "impact, restitution " + text(impact.restitution) + (impact.poisson ? " of impulses" : " of speeds") +
+         (impact.tangential > 0 ? ", tangential " + text(impact.tangential) : "");
+}
+
+void check_rigid_friction(const Scene& scene, const SceneFriction& f) {
+  if (f.law != "coulomb" && rubs(f)) throw SceneError(scene.file, f.place, "friction of rigid bodies is dry; take the law coulomb");
+}
+
 bool rubs(const SceneFriction& f) { return f.coefficient != 0 || f.holds.value_or(0) != 0; }
 
 FrictionLaw friction_law(const Scene& scene, const SceneFriction& f) {
@@ -120,7 +136,10 @@ ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
   pair.slowest_impact = c.normal.slowest_impact;
   pair.follows = c.normal.follows;
   if (c.model == ClearanceModel::massless_link) return pair;
-  if (c.model == ClearanceModel::contact) {
+  if (c.model == ClearanceModel::impact) {
+    pair.rigid = rigid_impact(scene, c.impact, c.place);
+    if (c.friction) check_rigid_friction(scene, *c.friction);
+  } else if (c.model == ClearanceModel::contact) {
     pair.normal = law_of(scene, c);
   } else {
     if (!(c.stiffness && c.damping)) law_of(scene, c);  // judged now, asked for what is missing by complete_clearances
@@ -149,7 +168,9 @@ std::vector<std::string> complete_clearances(const Scene& scene, System& system,
     const SceneClearance& c = *joints[i]->clearance;
     ContactPair& pair = system.contacts[i];
     std::string words = model_name(c.model);
-    if (c.model == ClearanceModel::contact) {
+    if (c.model == ClearanceModel::impact) {
+      words = impact_text(*pair.rigid) + friction_text(pair);
+    } else if (c.model == ClearanceModel::contact) {
       words += ", stiffness " + stiffness_text(pair.normal) + ", restitution delivered " + text(restitution_of(pair.normal, 1)) +
                friction_text(pair);
     } else if (c.model == ClearanceModel::spring_damper) {

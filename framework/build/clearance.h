@@ -18,6 +18,13 @@ ContactPair contact_of(const Scene&, const SceneJoint&);
 /// @throws SceneError  restitution, law or stiffness that cannot be
 ImpactLaw impact_law(const Scene&, const SceneNormal&, double stiffness);
 
+/// @throws SceneError  restitution that cannot be
+RigidImpact rigid_impact(const Scene&, const SceneImpact&, const Place&);
+/// "impact, restitution 0.8 of speeds"
+std::string impact_text(const RigidImpact&);
+/// @throws SceneError  friction of rigid bodies that is not dry
+void check_rigid_friction(const Scene&, const SceneFriction&);
+
 /// The law that a scene names.
 /// @throws SceneError  a law or a static coefficient that cannot be
 FrictionLaw friction_law(const Scene&, const SceneFriction&);

@@ -77,9 +77,13 @@ ContactPair laws_of(const Scene& scene, const SceneContact& c, const Profile& a,
   pair.profiles = true;
   pair.slowest_impact = c.normal.slowest_impact;
   pair.follows = c.normal.follows;
-  pair.normal = c.normal.law == "spring-damper" ? ImpactLaw{.k = *c.normal.stiffness, .n = 1, .chi = 0, .d = c.normal.damping}
-                                                : impact_law(scene, c.normal, stiffness_of(scene, c, a, b));
+  if (c.impact)
+    pair.rigid = rigid_impact(scene, *c.impact, c.place);
+  else
+    pair.normal = c.normal.law == "spring-damper" ? ImpactLaw{.k = *c.normal.stiffness, .n = 1, .chi = 0, .d = c.normal.damping}
+                                                  : impact_law(scene, c.normal, stiffness_of(scene, c, a, b));
   if (c.friction && rubs(*c.friction)) pair.friction = friction_law(scene, *c.friction);
+  if (c.impact && c.friction) check_rigid_friction(scene, *c.friction);
   return pair;
 }
 
@@ -141,10 +145,13 @@ bool has_sharp_corners(const Profile& profile) {
 
 std::string contact_text(const ContactPair& pair, std::size_t pairs) {
   std::ostringstream s;
-  s << "stiffness " << stiffness_text(pair.normal);
-  if (begins_with_jump(pair.normal))
-    s << ", damping " << viscous_damping(pair.normal) << " N s/m";
+  if (is_rigid(pair))
+    s << impact_text(*pair.rigid);
   else
+    s << "stiffness " << stiffness_text(pair.normal);
+  if (!is_rigid(pair) && begins_with_jump(pair.normal))
+    s << ", damping " << viscous_damping(pair.normal) << " N s/m";
+  else if (!is_rigid(pair))
     s << ", restitution delivered " << restitution_of(pair.normal, 1);
   s << friction_text(pair) << "; " << pairs << (pairs == 1 ? " pair" : " pairs") << " of pieces";
   return s.str();

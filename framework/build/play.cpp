@@ -78,6 +78,8 @@ std::array<Profile, 2> profiles_of(const Scene& scene, const SceneJoint& j) {
   return {reach(play, j.length), end};
 }
 
-SceneContact contact_with_play(const SceneJoint& j) { return {j.name, j.a, j.b, j.play->normal, j.play->friction, j.play->place}; }
+SceneContact contact_with_play(const SceneJoint& j) {
+  return {j.name, j.a, j.b, j.play->normal, j.play->friction, j.play->place, j.play->impact};
+}
 
 }  // namespace pintle

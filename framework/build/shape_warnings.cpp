@@ -41,7 +41,7 @@ std::vector<std::string> contact_warnings(const Scene& scene, const System& syst
   const double motion = spectrum(scene, system).motion;
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     const SceneJoint& j = scene.joints[i];
-    if (!j.clearance || j.clearance->model == ClearanceModel::massless_link) continue;
+    if (!j.clearance || j.clearance->model == ClearanceModel::massless_link || j.clearance->model == ClearanceModel::impact) continue;
     const ContactPair& pair = system.contacts[static_cast<std::size_t>(order.joints[i])];
     for (const PointRef* ref : points_of(j))
       for (const auto& b : bodies) {

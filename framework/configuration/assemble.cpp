@@ -286,18 +286,20 @@ Assembly assembled(const Scene& scene, const System& system, const Bent& bent) {
   return out;
 }
 
-/// Profiles that start deep in each other are more likely a mistake than a contact.
+/// Profiles that start deep in each other are more likely a mistake than a contact; rigid ones cannot overlap at all.
 void require_apart(const Scene& scene, const System& system, const State& start) {
+  constexpr double rounding = 1e-9;  // of the mechanism's length
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     const ContactPair& pair = system.contacts[c];
-    if (!pair.profiles || !(onset_of(system, static_cast<int>(c), start).value > 0)) continue;
+    if (!(pair.profiles || is_rigid(pair)) || !(onset_of(system, static_cast<int>(c), start).value > 0)) continue;
     const double depth = gap_of(system, static_cast<int>(c), start).value;
-    if (!(depth > too_deep * contact_size(pair, system.length))) continue;
+    if (!(depth > (is_rigid(pair) ? rounding * system.length : too_deep * contact_size(pair, system.length)))) continue;
     std::ostringstream s;
     s.precision(4);
-    s << "the two profiles overlap by " << depth
-      << " m at the start, more than a tenth of their smallest radius; move a body by `start` or `pose`, "
-      << "or turn round the side of the material";
+    s << "the two surfaces overlap by " << depth << " m at the start, "
+      << (is_rigid(pair) ? "which rigid bodies cannot; move a body by `start` or `pose`"
+                         : "more than a tenth of their smallest radius; move a body by `start` or `pose`")
+      << (pair.profiles ? ", or turn round the side of the material" : "");
     throw AssemblyError(scene.file, named_place(scene, system.contact_names[c]), s.str());
   }
 }
@@ -316,6 +318,13 @@ void start_at_rest(const Scene& scene, const Model& model, Assembly& out) {
 }
 
 }  // namespace
+
+void refuse_rigid_contacts(const Scene& scene, const System& system, const std::string& what) {
+  for (std::size_t c = 0; c < system.contacts.size(); ++c)
+    if (is_rigid(system.contacts[c]))
+      throw AssemblyError(scene.file, named_place(scene, system.contact_names[c]),
+                          what + " needs contacts that give way; instead of model: impact give it a normal law with a stiffness");
+}
 
 Assembly assemble(const Scene& scene, const System& system) { return assembled(scene, system, {}); }
 

@@ -31,4 +31,7 @@ Assembly assemble(const Scene&, const System&);
 /// What of an assembly makes a run's numbers doubtful, in words: joint forces shared out by convention, a start in a singular pose.
 std::vector<std::string> warnings_of(const Model&, const Assembly&);
 
+/// @throws AssemblyError  where a contact is rigid: `what`, a linearisation, needs contacts that give way
+void refuse_rigid_contacts(const Scene&, const System&, const std::string& what);
+
 }  // namespace pintle

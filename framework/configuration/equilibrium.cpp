@@ -315,8 +315,9 @@ void search(Rest& rest, Search& way, Equilibrium& out) {
 
 }  // namespace
 
-Equilibrium find_equilibrium(const Scene&, const Model& model, const Assembly& assembly, double time) {
+Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assembly& assembly, double time) {
   const System& system = model.system;
+  refuse_rigid_contacts(scene, system, "an equilibrium");
   Equilibrium out;
   out.warnings = model.warnings;
   for (const std::string& warning : warnings_of(model, assembly)) out.warnings.push_back(warning);
@@ -364,9 +365,7 @@ Equilibrium find_equilibrium(const Scene&, const Model& model, const Assembly& a
   rest.eq.a.setZero();
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     const double depth = is_held(system.contacts[c]) ? 0 : rest.eq.contact[c].gap.depth;
-    out.state.impact_rate[c] = depth > 0 ? std::max(speed_to_reach(system.contacts[c].normal, lightness(system, system.contacts[c]), depth),
-                                                    system.contacts[c].slowest_impact)
-                                         : 0;
+    out.state.impact_rate[c] = depth > 0 ? latched_at(system, system.contacts[c], depth) : 0;
   }
   warn(model, rest.eq, out);
   record(model, out.state, rest.eq, out.table);

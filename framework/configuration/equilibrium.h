@@ -45,6 +45,7 @@ Stability stability_of(const System&, const State&, const Equations&, const Eige
 /// start itself rests. Where loads follow and there is no potential, σ falls as the forces out of balance do.
 /// A contact takes the elastic part k δⁿ of its law, its friction nothing, for nothing slides; neither do
 /// dampers. Never throws for numerical reasons: `found` and `reason` say what happened.
+/// @throws AssemblyError  rigid contacts
 /// @param at  whose drivers and loads count [s]; the mechanism is led there from t = 0 along its drivers
 Equilibrium find_equilibrium(const Scene&, const Model&, const Assembly&, double at = 0);
 

@@ -22,7 +22,7 @@ void interpolate_quintic(const System& system, const Step& step, double t, State
   const double h = step.h, x = (t - step.from.state.t) / h;
   const double x2 = x * x, x3 = x2 * x, x4 = x3 * x, x5 = x4 * x;
   const auto& y0 = step.from.state.y;
-  const auto& y1 = step.to.state.y;
+  const auto& y1 = step.y_end();
   const auto& dy1 = step.dy_end();
   out.t = t;
   out.impact_rate = step.from.state.impact_rate;
@@ -50,7 +50,7 @@ void interpolate_quintic(const System& system, const Step& step, double t, State
 void interpolate_cubic(const System& system, const Step& step, double t, State& out) {
   const double x = (t - step.from.state.t) / step.h;
   const double rise = x * x * (3 - 2 * x), from = x * (1 - x) * (1 - x) * step.h, to = x * x * (x - 1) * step.h;
-  const auto &y0 = step.from.state.y, &y1 = step.to.state.y, &dy1 = step.dy_end();
+  const auto &y0 = step.from.state.y, &y1 = step.y_end(), &dy1 = step.dy_end();
   out.t = t;
   out.impact_rate = step.from.state.impact_rate;
   interpolate_friction(step, x, out);

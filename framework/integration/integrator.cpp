@@ -48,6 +48,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
   step_.to.dy.setZero(system.n_y());
   step_.error.setZero(system.n_y());
   step_.dy_before.setZero(system.n_y());
+  step_.y_before.setZero(system.n_y());
   step_.from = step_.to;
   dense_ = step_.to.state;
   if (!stepper_->project(step_.to, eq_)) {
@@ -173,7 +174,9 @@ bool Integrator::end_at_first_event(std::optional<EventInStep>& event) {
 // At an event the motion starts from where it has come to, with steps as they were when it last was in the same mode.
 bool Integrator::act_on(const EventInStep& event, double wish) {
   ++counts_.events;
+  step_.y_before = step_.to.state.y;
   const EventOutcome outcome = events_.act(event, step_, wish);
+  if (!outcome.failure.empty()) return stop(outcome.failure);
   ended_ = outcome.end;
   if (outcome.change == EventOutcome::Change::nothing && step_.h > 0) {
     control_.wish_for(std::max(control_.wish(), wish));

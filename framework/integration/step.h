@@ -35,10 +35,12 @@ struct Instant {
 /// From one accepted node to a trial one, with what dense output and error control need.
 struct Step {
   Instant from, to;
-  double h = 0;                    ///< [s]
-  Eigen::VectorXd error;           ///< of the lower-order solution, as y
-  bool struck = false;             ///< a force that begins with a jump has changed to.dy …
-  Eigen::VectorXd dy_before = {};  ///< … from this, which ends the step's dense output
+  double h = 0;                   ///< [s]
+  Eigen::VectorXd error;          ///< of the lower-order solution, as y
+  bool struck = false;            ///< an event at its end has made forces or the state jump …
+  Eigen::VectorXd y_before = {};  ///< … from these, which end the step's dense output
+  Eigen::VectorXd dy_before = {};
+  const Eigen::VectorXd& y_end() const { return struck ? y_before : to.state.y; }
   const Eigen::VectorXd& dy_end() const { return struck ? dy_before : to.dy; }
 };
 

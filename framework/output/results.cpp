@@ -118,7 +118,9 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
     const ContactPair& p = system.contacts[c];
     if (p.pair > 0) continue;
     Json& out = contacts[system.contact_names[c]] = {{"model", p.profiles ? model.contacts[profiles++] : model.clearances[c]}};
-    if (!is_held(p)) {
+    if (is_rigid(p)) {
+      out["restitution"] = p.rigid->restitution;
+    } else if (!is_held(p)) {
       for (const auto& [name, value] : constants_of(p.normal)) out[name] = value;
       if (!begins_with_jump(p.normal)) out["restitution delivered"] = restitution_of(p.normal, 1);  // to any mass
     }

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <exception>
@@ -17,7 +18,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* event_columns =
     "joint,begin [s],end [s],approach speed [m/s],separation speed [m/s],deepest penetration [m],"
-    "peak force [N],energy lost [J]\n";
+    "peak force [N],energy lost [J]";
+
+bool with_impulses(const System& system) {
+  return std::ranges::any_of(system.contacts, [](const ContactPair& c) { return is_rigid(c); });
+}
 
 }  // namespace
 
@@ -28,7 +33,7 @@ RunFiles::RunFiles(const fs::path& directory, const Model& model)
       events_(directory / "events.csv") {
   trajectory_.append(csv_heading(trajectory_table(model)));
   ledger_.append(csv_heading(ledger_table(system_)));
-  events_.append(event_columns);
+  events_.append(std::string(event_columns) + (with_impulses(system_) ? ",impulse [N s]\n" : "\n"));
 }
 
 void RunFiles::add_rows(const Table& table, FileWriter& file) {
@@ -45,6 +50,7 @@ void RunFiles::add_impact(const Impact& i) {
     row_ += ',';
     append_number(row_, x);
   }
+  if (with_impulses(system_)) row_ += ',', append_number(row_, i.impulse);
   row_ += '\n';
   events_.append(row_);
   ++impacts_;

@@ -110,9 +110,16 @@ struct SceneFriction {
   double stribeck = 0;               ///< of coulomb: the speed over which the static coefficient falls to the other [m/s]
 };
 
+/// Rigid bodies that impacts stop at once: docs/theory/impact.md.
+struct SceneImpact {
+  double restitution = 0;  ///< 0 to 1
+  double tangential = 0;   ///< of slips that friction stops, 0 to 1
+  bool poisson = false;    ///< of impulses; false: of speeds (Newton)
+};
+
 /// How the journal is kept in its bearing: docs/theory/contact.md. A scene changes it by one word; what belongs to
 /// another model may stay and is left out, which `pintle check` says.
-enum class ClearanceModel { contact, massless_link, spring_damper };
+enum class ClearanceModel { contact, massless_link, spring_damper, impact };
 
 struct SceneClearance {
   ClearanceModel model = ClearanceModel::contact;
@@ -124,6 +131,7 @@ struct SceneClearance {
   std::optional<double> stiffness = {}, damping = {};
   std::optional<SceneFriction> friction;
   Place place;
+  SceneImpact impact = {};  ///< of the model of that name
 };
 /// As a scene file calls it.
 const char* model_name(ClearanceModel);
@@ -139,6 +147,7 @@ struct ScenePlay {
   SceneNormal normal = {};
   std::optional<SceneFriction> friction = {};
   Place place = {};
+  std::optional<SceneImpact> impact = {};  ///< instead of `normal`
 };
 
 /// Dry friction in an ideal joint.
@@ -172,6 +181,7 @@ struct SceneContact {
   SceneNormal normal;
   std::optional<SceneFriction> friction = {};
   Place place = {};
+  std::optional<SceneImpact> impact = {};  ///< instead of `normal`
 };
 
 enum class DriverKind { angle, distance };

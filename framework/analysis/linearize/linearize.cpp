@@ -10,6 +10,7 @@
 #include "framework/analysis/linearize/state_space.h"
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
+#include "framework/configuration/assemble.h"
 #include "framework/integration/integrator.h"
 #include "framework/scene/error.h"
 
@@ -246,8 +247,7 @@ State with_contacts_closed(const System& system, State state) {
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     const ContactPair& pair = system.contacts[c];
     if (is_held(pair) || state.impact_rate[c] > 0 || !(onset_of(system, static_cast<int>(c), state).value > 0)) continue;
-    const double depth = gap_of(system, static_cast<int>(c), state).value;
-    state.impact_rate[c] = std::max(speed_to_reach(pair.normal, lightness(system, pair), depth), pair.slowest_impact);
+    state.impact_rate[c] = latched_at(system, pair, gap_of(system, static_cast<int>(c), state).value);
   }
   return state;
 }
@@ -338,6 +338,7 @@ const char* kind_text(LinearMode::Kind kind) {
 
 Linearization linearize(const Scene& scene, const Model& model, const State& given, Laws laws) {
   const System system = prepared(model, given.t, laws);
+  refuse_rigid_contacts(scene, system, "a linearisation");
   const State state = with_contacts_closed(system, given);
   if (system.n() > most_linearized)
     throw SceneError(scene.file, {},

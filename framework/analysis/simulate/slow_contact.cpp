@@ -13,7 +13,7 @@ void SlowContacts::see(const System& system, const Step& step, const Equations& 
     Seen& s = seen_[c];
     const ContactPair& pair = system.contacts[c];
     const double onset = step.to.state.impact_rate[c];
-    if (!(onset > 0) || is_held(pair) || pair.follows || damping_share(pair.normal, 1, 1) == 0) {
+    if (!(onset > 0) || is_held(pair) || is_rigid(pair) || pair.follows || damping_share(pair.normal, 1, 1) == 0) {
       s.beyond = false;
       continue;
     }

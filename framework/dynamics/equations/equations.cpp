@@ -268,7 +268,7 @@ void apply_forces(const System& system, const State& state, Equations& eq) {
     const ContactPair& pair = system.contacts[i];
     eq.contact[i] = evaluate(pair, eq.motion[at(pair.a)], eq.motion[at(pair.b)], state.impact_rate[i],
                              state.friction.empty() ? DryFriction{} : state.friction[i]);
-    if (eq.contact[i].normal.force == 0) continue;
+    if (eq.contact[i].normal.force == 0 && eq.contact[i].friction == 0) continue;
     add_wrench(system, eq, pair.a, eq.contact[i].on_a, eq.f);
     add_wrench(system, eq, pair.b, eq.contact[i].on_b, eq.f);
   }

@@ -13,14 +13,18 @@
 
 namespace pintle {
 
-/// Dry friction that the accelerations decide: of contacts that stick and, behind these, of joints, whether they stick or slide. Each by
-/// its index in State::friction; and what its force does to the motion: sticking.h.
+/// Forces that the accelerations decide, and what each does to the motion: normal forces of closed rigid contacts, friction of these and
+/// of contacts that stick, each right behind its normal force, and behind all friction in joints, whether it sticks or slides. sticking.h.
 struct Sticking {
-  std::vector<std::size_t> of;
-  std::vector<bool> holds;  ///< it sticks
-  Eigen::MatrixXd J;        ///< n × of: ∂slip/∂s, a column each
-  Eigen::MatrixXd a;        ///< n × of: accelerations by 1 N
-  Eigen::MatrixXd lambda;   ///< n_rows × of: multipliers by 1 N
+  struct Column {
+    std::size_t at;  ///< its index in State::friction
+    bool normal;     ///< a normal force; else friction
+    bool holds;      ///< it keeps its gap closed, or its slip 0
+  };
+  std::vector<Column> of;
+  Eigen::MatrixXd J;       ///< n × of: ∂(opening speed or slip)/∂s, a column each
+  Eigen::MatrixXd a;       ///< n × of: accelerations by 1 N
+  Eigen::MatrixXd lambda;  ///< n_rows × of: multipliers by 1 N
 };
 
 /// Scratch of one evaluation of the equations of motion, sized by the system; one per thread.

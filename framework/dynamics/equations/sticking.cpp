@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
@@ -22,11 +23,11 @@ std::size_t joint_friction(const System& system, std::size_t k) { return k - sys
 Index count(const Sticking& s) { return static_cast<Index>(s.of.size()); }
 std::size_t place(Index i) { return static_cast<std::size_t>(i); }
 
-// The columns that stick, or those that slide.
+// The columns that hold, or those that slide.
 Places those(const Sticking& s, bool that_hold) {
   Places out;
   for (Index i = 0; i < count(s); ++i)
-    if (s.holds[place(i)] == that_hold) out.push_back(i);
+    if (s.of[place(i)].holds == that_hold) out.push_back(i);
   return out;
 }
 
@@ -66,7 +67,8 @@ bool sticks(const System& system, const State& state, std::size_t k) {
 }
 
 FrictionNow friction_now(const System& system, const Equations& eq, std::size_t k) {
-  const double static_part = dry_law(system, k)->mu_static;
+  const Coulomb* law = dry_law(system, k);
+  const double static_part = law ? law->mu_static : 0;
   if (of_contact(system, k)) {
     const ContactEffect& now = eq.contact[k];
     return {now.friction, now.gap.material_slip, static_part * now.normal.force};
@@ -81,49 +83,75 @@ void add_joint_friction(const System& system, const State& state, Equations& eq)
     const JointEnds ends = ends_of(system.joints[at(rub.joint)]);
     const MarkerMotion &a = eq.motion[at(ends.marker[0])], &b = eq.motion[at(ends.marker[1])];
     JointFrictionEffect& effect = eq.friction[k];
-    effect.unit = unit_friction(system.joints[at(rub.joint)], rub, a, b);
+    const std::array<Wrench, 2> unit = unit_friction(system.joints[at(rub.joint)], rub, a, b);
     effect.slip = slip(system.joints[at(rub.joint)], rub, a, b);
     if (state.friction.empty()) continue;
     const DryFriction& now = state.friction[system.contacts.size() + k];
     effect.force = now.force, effect.load = now.load, effect.sticks = now.direction == 0;
-    for (std::size_t i = 0; i < 2; ++i) add_wrench(system, eq, ends.marker[i], effect.force * effect.unit[i], eq.f);
-  }
-}
-
-void list_sticking(const System& system, const State& state, Equations& eq) {
-  Sticking& s = eq.sticking;
-  s.of.clear(), s.holds.clear();
-  for (std::size_t k = 0; k < state.friction.size(); ++k) {
-    const bool holds = sticks(system, state, k);
-    if (!holds && of_contact(system, k)) continue;
-    s.of.push_back(k);
-    s.holds.push_back(holds);
-  }
-  s.J.resize(system.n(), count(s));
-  VectorXd column(system.n());
-  for (Index i = 0; i < count(s); ++i) {
-    const std::size_t k = s.of[place(i)];
-    std::array<int, 2> markers;
-    std::array<Wrench, 2> unit;
-    if (of_contact(system, k)) {
-      markers = {system.contacts[k].a, system.contacts[k].b};
-      unit = unit_friction(system.contacts[k], eq.contact[k].gap);
-    } else {
-      const JointFriction& rub = system.frictions[joint_friction(system, k)];
-      const Joint& joint = system.joints[at(rub.joint)];
-      markers = {ends_of(joint).marker[0], ends_of(joint).marker[1]};
-      unit = unit_friction(joint, rub, eq.motion[at(markers[0])], eq.motion[at(markers[1])]);
-    }
-    column.setZero();
-    for (std::size_t end = 0; end < 2; ++end) add_wrench(system, eq, markers[end], unit[end], column);
-    s.J.col(i) = column;
+    for (std::size_t i = 0; i < 2; ++i) add_wrench(system, eq, ends.marker[i], effect.force * unit[i], eq.f);
   }
 }
 
 namespace {
 
-// @returns W = Jᵀ a
-MatrixXd respond_to_friction(const System& system, Equations& eq) {
+// The two markers that one of these forces acts on, and what 1 N of it does there.
+struct Acting {
+  std::array<int, 2> marker;
+  std::array<Wrench, 2> unit;
+};
+Acting acting(const System& system, const Equations& eq, const Sticking::Column& c) {
+  if (of_contact(system, c.at)) {
+    const ContactPair& pair = system.contacts[c.at];
+    const Gap& gap = eq.contact[c.at].gap;
+    return {{pair.a, pair.b}, c.normal ? unit_normal(pair, gap) : unit_friction(pair, gap)};
+  }
+  const JointFriction& rub = system.frictions[joint_friction(system, c.at)];
+  const Joint& joint = system.joints[at(rub.joint)];
+  const JointEnds ends = ends_of(joint);
+  return {{ends.marker[0], ends.marker[1]}, unit_friction(joint, rub, eq.motion[at(ends.marker[0])], eq.motion[at(ends.marker[1])])};
+}
+
+// The rate of its opening speed or slip where no coordinate is accelerated.
+double own_acceleration(const System& system, const Equations& eq, const Sticking::Column& c) {
+  if (of_contact(system, c.at)) {
+    const ContactPair& pair = system.contacts[c.at];
+    const MarkerMotion &a = eq.motion[at(pair.a)], &b = eq.motion[at(pair.b)];
+    const Gap& gap = eq.contact[c.at].gap;
+    return c.normal ? opening_acceleration(pair, gap, a, b) : slip_acceleration(pair, gap, a, b);
+  }
+  const JointFriction& rub = system.frictions[joint_friction(system, c.at)];
+  const Joint& joint = system.joints[at(rub.joint)];
+  const JointEnds ends = ends_of(joint);
+  return slip_acceleration(joint, rub, eq.motion[at(ends.marker[0])], eq.motion[at(ends.marker[1])]);
+}
+
+double force_of(const System& system, const Equations& eq, const Sticking::Column& c) {
+  return c.normal ? eq.contact[c.at].normal.force : friction_now(system, eq, c.at).force;
+}
+
+}  // namespace
+
+void list_sticking(const System& system, const State& state, Equations& eq) {
+  Sticking& s = eq.sticking;
+  s.of.clear();
+  for (std::size_t k = 0; k < state.friction.size(); ++k) {
+    const bool holds = sticks(system, state, k), in_contact = of_contact(system, k),
+               rigid = in_contact && is_rigid(system.contacts[k]) && state.impact_rate[k] > 0;
+    if (rigid) s.of.push_back({k, true, true});
+    if (holds || !in_contact || (rigid && std::abs(state.friction[k].direction) == 1 && dry_law(system, k)))
+      s.of.push_back({k, false, holds});
+  }
+  s.J.resize(system.n(), count(s));
+  VectorXd column(system.n());
+  for (Index i = 0; i < count(s); ++i) {
+    const Acting on = acting(system, eq, s.of[place(i)]);
+    column.setZero();
+    for (std::size_t end = 0; end < 2; ++end) add_wrench(system, eq, on.marker[end], on.unit[end], column);
+    s.J.col(i) = column;
+  }
+}
+
+MatrixXd respond_to_sticking(const System& system, Equations& eq) {
   Sticking& s = eq.sticking;
   s.a.resize(s.J.rows(), s.J.cols());
   s.lambda.resize(system.n_rows(), s.J.cols());
@@ -136,6 +164,14 @@ MatrixXd respond_to_friction(const System& system, Equations& eq) {
   }
   return s.J.transpose() * s.a;
 }
+
+VectorXd sticking_accelerations(const System& system, const Equations& eq) {
+  VectorXd out = eq.sticking.J.transpose() * eq.a;
+  for (Index i = 0; i < out.size(); ++i) out[i] += own_acceleration(system, eq, eq.sticking.of[place(i)]);
+  return out;
+}
+
+namespace {
 
 // x of W x = rhs, of which Σ x²/capacity is least.
 VectorXd share_out(const MatrixXd& W, const VectorXd& rhs, const VectorXd& capacity) {
@@ -157,9 +193,14 @@ VectorXd share_out(const MatrixXd& W, const VectorXd& rhs, const VectorXd& capac
   return weight.cwiseProduct(least_norm.solve(svd.matrixU().leftCols(rank).transpose() * unit.cwiseProduct(rhs)));
 }
 
+// What each holds at most, of a normal force as much as any friction.
 VectorXd capacity(const System& system, const Equations& eq, const Places& of) {
   VectorXd out(static_cast<Index>(of.size()));
-  for (Index i = 0; i < out.size(); ++i) out[i] = friction_now(system, eq, eq.sticking.of[place(of[place(i)])]).holds;
+  const auto column = [&](Index i) -> const Sticking::Column& { return eq.sticking.of[place(of[place(i)])]; };
+  for (Index i = 0; i < out.size(); ++i) out[i] = column(i).normal ? 0 : friction_now(system, eq, column(i).at).holds;
+  const double most = out.size() > 0 ? out.maxCoeff() : 0;
+  for (Index i = 0; i < out.size(); ++i)
+    if (column(i).normal) out[i] = most;
   return out;
 }
 
@@ -172,7 +213,7 @@ VectorXd holding_forces(const System& system, const Equations& eq, const MatrixX
   return out;
 }
 
-// What slides in joints makes this nonlinear, for N is a norm of λ: Newton's method on T_i + d_i μ_i N_i = 0, what sticks solved for in each.
+// What slides in joints makes this nonlinear, for N is a norm of λ: Newton's method on T_i + d_i μ_i N_i = 0, what holds solved for in each.
 VectorXd friction_change(const System& system, const State& state, const Equations& eq, const FrictionResponse& by, Shares shares,
                          const VectorXd& slips, const VectorXd& lambda, const VectorXd& before) {
   constexpr int most = 30;
@@ -189,17 +230,21 @@ VectorXd friction_change(const System& system, const State& state, const Equatio
     const VectorXd now = lambda + by.lambda * change;
     VectorXd out = part(before, slide) + sliding;
     for (Index i = 0; i < out.size(); ++i) {
-      const std::size_t k = s.of[place(slide[place(i)])], own = joint_friction(system, k);
-      loads[i] = load_of(system, eq, own, now);
+      const Index column = slide[place(i)];
+      const std::size_t k = s.of[place(column)].at;
+      loads[i] = of_contact(system, k) ? before[column - 1] + change[column - 1] : load_of(system, eq, joint_friction(system, k), now);
       if (const double d = state.friction[k].direction; d != DryFriction::undecided)
-        out[i] -= evaluate(system.frictions[own].law, eq.friction[own].slip, loads[i], d).force;
+        out[i] -= evaluate(*dry_law(system, k), friction_now(system, eq, k).slip, loads[i], d).force;
     }
     return out;
   };
   VectorXd sliding = VectorXd::Zero(loads.size()), left = missed(sliding);
+  const double others = largest(before) + largest(lambda) + largest(eq.f);  // beside which a load that vanishes is rounding
+  double left_before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most && slide.size() > 0; ++i) {
-    const double scale = largest(loads) + largest(left);
-    if (largest(left) <= enough * scale) break;
+    const double scale = largest(loads) + largest(left), error = largest(left);
+    const bool stagnates = error <= enough * (scale + others) && error > std::exchange(left_before, error) / 2;
+    if (error <= enough * scale || stagnates) break;
     if (i + 1 == most) return VectorXd::Constant(before.size(), std::numeric_limits<double>::quiet_NaN());
     MatrixXd slope(sliding.size(), sliding.size());
     const double h = little * scale;
@@ -218,30 +263,21 @@ bool hold_sticking(const System& system, const State& state, Equations& eq) {
   list_sticking(system, state, eq);
   const Sticking& s = eq.sticking;
   if (s.of.empty()) return true;
-  const MatrixXd W = respond_to_friction(system, eq);
-  VectorXd rhs = -s.J.transpose() * eq.a, before(count(s));
-  for (Index i = 0; i < count(s); ++i) {
-    const std::size_t k = s.of[place(i)];
-    before[i] = friction_now(system, eq, k).force;
-    if (of_contact(system, k)) {
-      const ContactPair& pair = system.contacts[k];
-      rhs[i] -= slip_acceleration(pair, eq.contact[k], eq.motion[at(pair.a)], eq.motion[at(pair.b)]);
-    } else {
-      const JointFriction& rub = system.frictions[joint_friction(system, k)];
-      const Joint& joint = system.joints[at(rub.joint)];
-      const JointEnds ends = ends_of(joint);
-      rhs[i] -= slip_acceleration(joint, rub, eq.motion[at(ends.marker[0])], eq.motion[at(ends.marker[1])]);
-    }
-  }
-  const VectorXd change = friction_change(system, state, eq, {W, s.lambda}, Shares::all, rhs, eq.lambda, before);
+  const MatrixXd W = respond_to_sticking(system, eq);
+  VectorXd before(count(s));
+  for (Index i = 0; i < count(s); ++i) before[i] = force_of(system, eq, s.of[place(i)]);
+  const VectorXd change =
+      friction_change(system, state, eq, {W, s.lambda}, Shares::all, -sticking_accelerations(system, eq), eq.lambda, before);
   if (!change.allFinite()) return false;
   eq.a += s.a * change;
   eq.lambda += s.lambda * change;
   eq.f += s.J * change;
   for (Index i = 0; i < count(s); ++i) {
-    const std::size_t k = s.of[place(i)];
+    const auto& [k, normal, holds] = s.of[place(i)];
     if (of_contact(system, k)) {
-      add_friction(system.contacts[k], change[i], eq.contact[k]);
+      ContactEffect& now = eq.contact[k];
+      (normal ? add_normal : add_friction)(system.contacts[k], change[i], now);
+      if (!normal && !holds) now.friction_loss = -now.friction * now.gap.material_slip;
     } else {
       JointFrictionEffect& now = eq.friction[joint_friction(system, k)];
       now.force += change[i];
@@ -253,43 +289,73 @@ bool hold_sticking(const System& system, const State& state, Equations& eq) {
 
 void keep_friction(const System& system, const Equations& eq, State& state) {
   if (state.friction.empty()) return;
-  for (const std::size_t k : eq.sticking.of) {
-    state.friction[k].force = friction_now(system, eq, k).force;
+  for (const auto& [k, normal, holds] : eq.sticking.of) {
+    if (normal)
+      state.friction[k].load = eq.contact[k].normal.force;
+    else
+      state.friction[k].force = friction_now(system, eq, k).force;
     if (!of_contact(system, k)) state.friction[k].load = eq.friction[joint_friction(system, k)].load;
   }
 }
 
-void remove_slip(const System& system, State& state, Equations& eq) {
-  if (state.friction.empty()) return;
+void evaluate_held(const System& system, const State& state, Equations& eq) {
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     const ContactPair& pair = system.contacts[c];
-    if (sticks(system, state, c))
+    if (sticks(system, state, c) || (is_rigid(pair) && state.impact_rate[c] > 0))
       eq.contact[c] = evaluate(pair, eq.motion[at(pair.a)], eq.motion[at(pair.b)], state.impact_rate[c], state.friction[c]);
   }
   list_sticking(system, state, eq);
+}
+
+namespace {
+
+// By how far closed rigid contacts overlap.
+VectorXd overlaps(const Equations& eq) {
+  VectorXd out = VectorXd::Zero(count(eq.sticking));
+  for (Index i = 0; i < out.size(); ++i)
+    if (const Sticking::Column& c = eq.sticking.of[place(i)]; c.normal) out[i] = eq.contact[c.at].gap.depth;
+  return out;
+}
+
+}  // namespace
+
+bool remove_slip(const System& system, State& state, Equations& eq) {
+  constexpr double closed = 1e-14;
+  constexpr int most = 4;
+  if (state.friction.empty()) return true;
+  evaluate_held(system, state, eq);
   const Sticking& s = eq.sticking;
-  if (std::ranges::find(s.holds, true) == s.holds.end()) return;
-  const MatrixXd W = respond_to_friction(system, eq);
+  if (std::ranges::find(s.of, true, &Sticking::Column::holds) == s.of.end()) return true;
+  VectorXd gaps = overlaps(eq);
+  for (int i = 0; i < most && largest(gaps) > closed * system.length; ++i) {
+    const MatrixXd W = respond_to_sticking(system, eq);
+    state.y.head(system.n()) += s.a * holding_forces(system, eq, W, gaps);
+    if (!project(system, state.t, state.y, eq)) return false;
+    evaluate_held(system, state, eq);
+    gaps = overlaps(eq);
+  }
+  const MatrixXd W = respond_to_sticking(system, eq);
   auto speeds = state.y.segment(system.n(), system.n());
   speeds -= s.a * holding_forces(system, eq, W, s.J.transpose() * speeds);
   speed(system, state.t, state.y, eq);
+  return true;
 }
 
 VectorXd forces(const State& state, const Equations& eq) {
   VectorXd out(count(eq.sticking));
-  for (Index i = 0; i < out.size(); ++i) out[i] = state.friction[eq.sticking.of[place(i)]].force;
+  for (Index i = 0; i < out.size(); ++i) out[i] = state.friction[eq.sticking.of[place(i)].at].force;
   return out;
 }
 
 VectorXd slips(const System& system, const Equations& eq) {
   VectorXd out(count(eq.sticking));
-  for (Index i = 0; i < out.size(); ++i) out[i] = friction_now(system, eq, eq.sticking.of[place(i)]).slip;
+  for (Index i = 0; i < out.size(); ++i) out[i] = friction_now(system, eq, eq.sticking.of[place(i)].at).slip;
   return out;
 }
 
 void put_forces(const System& system, const Equations& eq, const VectorXd& force, const VectorXd& lambda, State& state) {
   for (Index i = 0; i < force.size(); ++i) {
-    const std::size_t k = eq.sticking.of[place(i)];
+    const std::size_t k = eq.sticking.of[place(i)].at;
     state.friction[k].force = force[i];
     if (!of_contact(system, k)) state.friction[k].load = load_of(system, eq, joint_friction(system, k), lambda);
   }

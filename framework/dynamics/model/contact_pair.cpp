@@ -63,16 +63,21 @@ ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& a, const Mar
   ContactEffect out;
   if (pair.profiles && impact_rate <= 0) return out;
   out.gap = evaluate(pair.gap, moving_point(a), moving_point(b));
-  if (impact_rate <= 0 || is_held(pair) || (out.gap.depth <= 0 && !begins_with_jump(pair.normal))) return out;
-
-  out.normal = evaluate(pair.normal, approach_of(pair, out.gap.depth, out.gap.rate, impact_rate));
-  if (pair.follows && out.gap.rate > impact_rate) out.normal.d_rate = viscous_damping(pair.normal);
+  if (impact_rate <= 0 || is_held(pair)) return out;
+  if (is_rigid(pair)) {
+    out.normal.force = dry.load;
+  } else {
+    if (out.gap.depth <= 0 && !begins_with_jump(pair.normal)) return out;
+    out.normal = evaluate(pair.normal, approach_of(pair, out.gap.depth, out.gap.rate, impact_rate));
+    if (pair.follows && out.gap.rate > impact_rate) out.normal.d_rate = viscous_damping(pair.normal);
+  }
   Vector2d force = -out.normal.force * out.gap.n;
   if (pair.friction) {
     const double slip = pair.sliding == Sliding::material ? out.gap.material_slip : out.gap.geometric_slip;
     const FrictionForce law = friction_of(pair, slip, out.normal.force, dry);
     out.friction = law.force, out.d_slip = law.d_speed, out.d_normal = law.d_normal;
-    if (law.d_normal != 0) out.friction_loss = -out.friction * slip;  // else nothing slides
+    const bool slides = !dry_friction(pair) || std::abs(dry.direction) == 1;
+    if (slides) out.friction_loss = -out.friction * slip;
     force += out.friction * perp(out.gap.n);
   }
   const double couple = cross(out.gap.n, force);
@@ -90,6 +95,12 @@ std::array<Wrench, 2> unit_friction(const ContactPair& pair, const Gap& gap) {
   return {Wrench(t.x(), t.y(), pair.gap.a.radius + cross(gap.arm_a, t)), Wrench(-t.x(), -t.y(), pair.gap.b.radius - cross(gap.arm_b, t))};
 }
 
+std::array<Wrench, 2> unit_normal(const ContactPair& pair, const Gap& gap) {
+  const Vector2d& n = gap.n;
+  return {Wrench(-n.x(), -n.y(), -cross(gap.arm_a, n) - (pair.gap.a.straight ? gap.across : 0)),
+          Wrench(n.x(), n.y(), cross(gap.arm_b, n) - (pair.gap.b.straight ? gap.across : 0))};
+}
+
 void add_friction(const ContactPair& pair, double force, ContactEffect& effect) {
   const std::array<Wrench, 2> unit = unit_friction(pair, effect.gap);
   effect.friction += force;
@@ -97,13 +108,37 @@ void add_friction(const ContactPair& pair, double force, ContactEffect& effect) 
   effect.on_b += force * unit[1];
 }
 
-double slip_acceleration(const ContactPair& pair, const ContactEffect& now, const MarkerMotion& a, const MarkerMotion& b) {
-  const Gap& gap = now.gap;
-  const std::array<Wrench, 2> unit = unit_friction(pair, gap);
-  const Vector2d along = a.v + a.w * perp(gap.arm_a) - b.v - b.w * perp(gap.arm_b);
-  const Vector2d inwards = b.w * b.w * gap.arm_b - a.w * a.w * gap.arm_a;
-  return unit[0].head<2>().dot(a.a0) + unit[0][2] * a.alpha0 + unit[1].head<2>().dot(b.a0) + unit[1][2] * b.alpha0 +
-         inwards.dot(perp(gap.n)) - gap.turning * along.dot(gap.n);
+void add_normal(const ContactPair& pair, double force, ContactEffect& effect) {
+  const std::array<Wrench, 2> unit = unit_normal(pair, effect.gap);
+  effect.normal.force += force;
+  effect.on_a += force * unit[0];
+  effect.on_b += force * unit[1];
+}
+
+namespace {
+
+// Of the two middles, a's over b's, and what of its rate turning bodies alone make.
+Vector2d speed_of_middles(const Gap& gap, const MarkerMotion& a, const MarkerMotion& b) {
+  return a.v + a.w * perp(gap.arm_a) - b.v - b.w * perp(gap.arm_b);
+}
+Vector2d inwards(const Gap& gap, const MarkerMotion& a, const MarkerMotion& b) { return b.w * b.w * gap.arm_b - a.w * a.w * gap.arm_a; }
+double of_markers(const std::array<Wrench, 2>& unit, const MarkerMotion& a, const MarkerMotion& b) {
+  return unit[0].head<2>().dot(a.a0) + unit[0][2] * a.alpha0 + unit[1].head<2>().dot(b.a0) + unit[1][2] * b.alpha0;
+}
+
+}  // namespace
+
+double slip_acceleration(const ContactPair& pair, const Gap& gap, const MarkerMotion& a, const MarkerMotion& b) {
+  return of_markers(unit_friction(pair, gap), a, b) + inwards(gap, a, b).dot(perp(gap.n)) -
+         gap.turning * speed_of_middles(gap, a, b).dot(gap.n);
+}
+
+// d/dt of −n·v − s w, w the spin of the straight piece, s = e·Zn.
+double opening_acceleration(const ContactPair& pair, const Gap& gap, const MarkerMotion& a, const MarkerMotion& b) {
+  const double sideways = speed_of_middles(gap, a, b).dot(perp(gap.n));
+  const double spin = pair.gap.a.straight ? a.w : pair.gap.b.straight ? b.w : 0;
+  return of_markers(unit_normal(pair, gap), a, b) - inwards(gap, a, b).dot(gap.n) - gap.turning * sideways -
+         spin * (sideways - gap.turning * gap.e.dot(gap.n));
 }
 
 namespace {

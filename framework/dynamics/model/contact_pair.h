@@ -15,6 +15,13 @@ namespace pintle {
 /// Which relative speed friction opposes; see docs/theory/contact.md.
 enum class Sliding { material, geometric };
 
+/// Of rigid bodies, which impacts stop at once: Newton's restitution is of speeds, Poisson's of impulses. docs/theory/impact.md
+struct RigidImpact {
+  double restitution = 0;  ///< of the normal direction, 0 to 1
+  double tangential = 0;   ///< of slips that friction stops, 0 to 1
+  bool poisson = false;
+};
+
 /// Two pieces of surface that may touch at one point: a journal a in a bearing b, which is a clearance joint, or pieces of two
 /// profiles. By its model a contact without constraint rows, or, of a clearance joint with `link`, a massless link between the two
 /// centres, one row that some joint of the system holds.
@@ -22,9 +29,11 @@ struct ContactPair {
   int a, b;  ///< markers that carry the pieces: of a clearance joint at the two centres
   PiecePair gap;
   ImpactLaw normal;
+  std::optional<RigidImpact> rigid = {};  ///< then `normal` is none
   std::optional<FrictionLaw> friction;
   Sliding sliding = Sliding::material;
-  double slowest_impact = 1e-6;  ///< floor of the latched approach speed [m/s]
+  double slack = 0;              ///< overlap up to which rigid bodies are taken to touch [m]
+  double slowest_impact = 1e-6;  ///< floor of the latched approach speed; a rigid contact does not bounce more slowly [m/s]
   bool follows = false;          ///< the latched speed grows with the approach of the same contact; false: that of its onset
   int link = -1;                 ///< the joint that holds the centres apart; then no law acts. −1: a contact
   // Of profiles, the contact of which is made of several pairs, one after another:
@@ -37,12 +46,12 @@ struct ContactPair {
   std::array<int, 4> beyond{-1, -1, -1, -1};
 };
 
-/// What a contact or a joint of dry friction is doing, and what the accelerations have decided of its force.
+/// What a rigid contact, or one or a joint of dry friction, is doing, and what the accelerations have decided of its force.
 struct DryFriction {
   static constexpr double undecided = 2;  ///< the surfaces have met, and neither slide nor stick yet: without friction
   double direction = undecided;           ///< −1, 1: they slide, a over b along Zn; 0: they stick
   double force = 0;                       ///< of a contact on a along Zn, where it sticks; of a joint on b along the slip [N]
-  double load = 0;                        ///< of a joint: what presses it [N]
+  double load = 0;                        ///< of a joint, a rigid contact: what presses it [N]
   template <class A>
   void archive(A& x) {
     x(PINTLE_MEMBERS(direction, force, load));
@@ -63,6 +72,10 @@ struct ContactEffect {
 /// Its two centres are kept apart by a massless link: no law acts, nothing is touched or left.
 inline bool is_held(const ContactPair& pair) { return pair.link >= 0; }
 
+/// Its slack, of the mechanism's length: what rounding may leave of a gap that is closed.
+inline constexpr double touching_part = 1e-13;
+inline bool is_rigid(const ContactPair& pair) { return pair.rigid.has_value(); }
+
 /// The smallest radius of its pieces, the mechanism's length between a corner and a line [m].
 double contact_size(const ContactPair&, double mechanism);
 /// The length that its depth is judged against: the clearance round a piece in a hollow one, else a hundredth of their size [m].
@@ -71,17 +84,20 @@ double fine_length(const ContactPair&, double mechanism);
 MovingPoint moving_point(const MarkerMotion&);
 
 /// @param impact_rate  latched approach speed [m/s]; 0 while open: then only the gap is found, of profiles not even that
-/// @param dry  read where friction is Coulomb's
+/// @param dry  read where friction is Coulomb's, and of a rigid contact for its normal force
 ContactEffect evaluate(const ContactPair&, const MarkerMotion& a, const MarkerMotion& b, double impact_rate, const DryFriction& dry = {});
 
 /// Its friction, if that is Coulomb's and acts; else nullptr.
 const Coulomb* dry_friction(const ContactPair&);
-/// What friction of 1 N does to a and to b: by power, the material slip of unit rates.
+/// What friction, a normal force, of 1 N does to a and to b: by power, the material slip, the opening speed −rate, of unit rates.
 std::array<Wrench, 2> unit_friction(const ContactPair&, const Gap&);
-/// Adds friction to what the contact does.
+std::array<Wrench, 2> unit_normal(const ContactPair&, const Gap&);
+/// Adds friction, a normal force of a rigid contact, to what the contact does.
 void add_friction(const ContactPair&, double force, ContactEffect&);
-/// The rate of the material slip where no coordinate is accelerated [m/s²].
-double slip_acceleration(const ContactPair&, const ContactEffect& now, const MarkerMotion& a, const MarkerMotion& b);
+void add_normal(const ContactPair&, double force, ContactEffect&);
+/// The rate of the material slip, of the opening speed, where no coordinate is accelerated [m/s²].
+double slip_acceleration(const ContactPair&, const Gap&, const MarkerMotion& a, const MarkerMotion& b);
+double opening_acceleration(const ContactPair&, const Gap&, const MarkerMotion& a, const MarkerMotion& b);
 
 /// What the normal law is told. @param latched  approach speed at onset or, if it follows, the largest since [m/s]
 Approach approach_of(const ContactPair&, double depth, double rate, double latched);

@@ -28,7 +28,6 @@ double load(const Joint&, const JointFriction&, const MarkerMotion& a, const Wre
 
 /// What it does at an instant.
 struct JointFrictionEffect {
-  std::array<Wrench, 2> unit{Wrench::Zero(), Wrench::Zero()};
   double force = 0;  ///< on b along the slip [N]
   double load = 0;   ///< N [N]
   double slip = 0;   ///< [m/s]

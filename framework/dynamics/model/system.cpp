@@ -80,8 +80,8 @@ int n_clearances(const System& system) {
 }
 
 std::size_t dry_states(const System& system) {
-  const bool any =
-      !system.frictions.empty() || std::ranges::any_of(system.contacts, [](const ContactPair& c) { return dry_friction(c) != nullptr; });
+  const bool any = !system.frictions.empty() ||
+                   std::ranges::any_of(system.contacts, [](const ContactPair& c) { return is_rigid(c) || dry_friction(c); });
   return any ? system.contacts.size() + system.frictions.size() : 0;
 }
 
@@ -91,6 +91,10 @@ double lightness(const System& system, const ContactPair& pair) {
     if (const int body = system.markers[static_cast<std::size_t>(marker)].body; body != ground)
       out += 1 / system.bodies[static_cast<std::size_t>(body)].m;
   return out;
+}
+
+double latched_at(const System& system, const ContactPair& pair, double depth) {
+  return std::max(speed_to_reach(pair.normal, lightness(system, pair), depth), pair.slowest_impact);
 }
 
 bool feels_shapes(const System& system, const Joint& joint, int marker) {

@@ -89,6 +89,8 @@ bool is_link(const System&, int joint);
 
 /// Sum of 1/m of the bodies that meet in a contact [1/kg].
 double lightness(const System&, const ContactPair&);
+/// The approach speed latched where surfaces overlap of which no impact is known: of that which would have come so deep [m/s].
+double latched_at(const System&, const ContactPair&, double depth);
 
 /// Does bending of its body change a joint's rows at this marker, or what they weigh? Not where shapes stand still, as at a
 /// pin in which the body's frame is fixed.
@@ -97,7 +99,7 @@ bool feels_shapes(const System&, const Joint&, int marker);
 /// Clearance joints, the contacts of which stand before those of profiles.
 int n_clearances(const System&);
 
-/// As many as contacts and frictions in joints, if some are Coulomb's, so that stick and slip are events; else 0.
+/// As many as contacts and frictions in joints, if the accelerations decide some of their forces; else 0.
 std::size_t dry_states(const System&);
 
 inline bool has_gravity(const System& s) { return s.gravity.x() != 0 || s.gravity.y() != 0; }
@@ -107,7 +109,7 @@ struct State {
   double t = 0;                            ///< [s]
   Eigen::VectorXd y;                       ///< coordinates q, speeds s, internal states x, ledger integrals z: n + n + n_x + n_z
   std::vector<double> impact_rate;         ///< per contact, latched approach speed; 0 while open [m/s]
-  std::vector<DryFriction> friction = {};  ///< per contact, then per friction in a joint; empty where none is dry
+  std::vector<DryFriction> friction = {};  ///< per contact, then per friction in a joint; empty without dry_states
 };
 
 }  // namespace pintle

@@ -13,6 +13,8 @@ namespace pintle {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double part_pressed = 1e-9;  // of the greatest force of rigid contacts: less is none
+
 }  // namespace
 
 ContactEvents::ContactEvents(const System& system, const Scheme& scheme)
@@ -39,8 +41,9 @@ WatchedGuard ContactEvents::watch(int event) const {
   const int leaves = leaving(event), contact = leaves < 0 ? event : leaves;
   const ContactPair& pair = system_.contacts[at(contact)];
   if (is_held(pair)) return {};
-  const double zero = 1e-9 * fine_length(pair, system_.length);
+  const double zero = is_rigid(pair) ? pair.slack : 1e-9 * fine_length(pair, system_.length);
   if (leaves >= 0) return {.direction = log_.touching(contact) ? Direction::falling : Direction::none, .zero = zero, .at_once = true};
+  if (log_.touching(contact) && is_rigid(pair)) return {.direction = Direction::falling, .zero = part_pressed, .at_once = true};
   if (log_.touching(contact))
     return {.direction = Direction::falling, .zero = zero, .overshoot = onset_cut_ > 0 ? infinite : 0, .kink = true};
   if (continues_another(contact)) return {};
@@ -52,11 +55,19 @@ Guard ContactEvents::guard(int event, const State& state) const {
     const Margin inside = margin_of(system_, contact, state);
     return {inside.value, inside.rate};
   }
-  return log_.touching(event) ? gap_of(system_, event, state) : onset_of(system_, event, state);
+  if (!log_.touching(event)) return onset_of(system_, event, state);
+  return is_rigid(system_.contacts[at(event)]) ? pressed(event, state) : gap_of(system_, event, state);
+}
+
+// How much a closed rigid contact is pressed, of the most that any was, and a little more; below 0 once its forces have let it open.
+Guard ContactEvents::pressed(int contact, const State& state) const {
+  if (!(state.impact_rate[at(contact)] > 0)) return {-1};
+  const double load = state.friction[at(contact)].load;
+  return {(most_pressed_ > 0 ? load / most_pressed_ : 0) + 2 * part_pressed};
 }
 
 Guard ContactEvents::guard(int event, const State& state, const Equations& eq) const {
-  if (leaving(event) >= 0 || system_.contacts[at(event)].profiles) return guard(event, state);
+  if (leaving(event) >= 0 || system_.contacts[at(event)].profiles || is_rigid(system_.contacts[at(event)])) return guard(event, state);
   const Gap& gap = eq.contact[at(event)].gap;
   return {gap.depth, gap.rate};
 }
@@ -112,20 +123,32 @@ std::optional<double> ContactEvents::positive_inside(int event, const Step& step
 bool ContactEvents::met(int event, const Guard& gap) const {
   const double enough = 1e-15 * system_.length, part = std::sqrt(1e-4 * tolerance_), depth = std::abs(gap.value);
   if (leaving(event) >= 0) return depth <= watch(event).zero;
+  if (is_rigid(system_.contacts[at(event)])) return depth <= (log_.touching(event) ? part_pressed : enough);
   return depth <= enough || gap.rate == 0 || speed_to_reach(event, depth) <= part * std::abs(gap.rate);
 }
 
 // A start inside the wall has no approach speed. It gets that of the impact which would have come this deep.
 void ContactEvents::start(Step& step) {
+  std::vector<int> rigid;
   for (int c = 0; c < contacts(); ++c) {
+    if (is_rigid(system_.contacts[at(c)])) {
+      if (touches(c, step.to.state)) rigid.push_back(c);
+      continue;
+    }
     if (is_held(system_.contacts[at(c)]) || !(onset_of(system_, c, step.to.state).value > 0)) continue;
     const Guard now = gap_of(system_, c, step.to.state);
-    begin(c, step, std::max(now.rate, speed_to_reach(c, now.value)));
+    begin(c, step, std::max(now.rate, latched_at(system_, system_.contacts[at(c)], now.value)));
   }
+  if (!rigid.empty()) strike(rigid, step);
 }
 
 void ContactEvents::follow(Step& step, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput& motion) {
   log_.follow(step, from, to, motion);
+  for (int c = 0; c < contacts(); ++c) {
+    if (!is_rigid(system_.contacts[at(c)]) || !log_.touching(c)) continue;
+    if (step.from.state.impact_rate[at(c)] == 0) log_.end(c, step.from.state.t, 0);  // its forces have let it open
+    most_pressed_ = std::max(most_pressed_, std::abs(step.to.state.friction[at(c)].load));
+  }
   for (int c = 0; c < contacts(); ++c)
     if (double& latched = step.to.state.impact_rate[at(c)]; system_.contacts[at(c)].follows && latched > 0 && to[at(c)].value > 0)
       latched = std::max(latched, to[at(c)].rate);
@@ -135,15 +158,54 @@ EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {
   if (const int contact = leaving(event); contact >= 0) return leave(contact, step);
   const bool onset = !log_.touching(event);
   const ContactPair& pair = system_.contacts[at(event)];
+  if (is_rigid(pair)) return onset ? strike({event}, step) : part(event, step);
   const Guard now = gap_of(system_, event, step.to.state);
   const bool inside = onset && pair.profiles && now.value > watch(event).zero;  // it comes in from the side
   if (onset)
-    begin(event, step, inside ? std::max(now.rate, speed_to_reach(event, now.value)) : now.rate);
+    begin(event, step, inside ? std::max(now.rate, latched_at(system_, pair, now.value)) : now.rate);
   else
     end(event, step);
   return {.change = inside || begins_with_jump(pair.normal) ? EventOutcome::Change::jump : EventOutcome::Change::forces,
           .first_step = onset ? onset_step(event, gap.rate, step.to.state.t) : infinite,
           .of_every_method = pair.profiles};  // which a long implicit step would pass
+}
+
+// Gaps so nearly closed that they close at this instant.
+bool ContactEvents::touches(int contact, const State& state) const {
+  const ContactPair& pair = system_.contacts[at(contact)];
+  if (log_.touching(contact) || continues_another(contact)) return false;
+  const Guard now = onset_of(system_, contact, state);
+  return now.value > -1e-9 * fine_length(pair, system_.length) - pair.slack;
+}
+
+// What touches at the same instant is struck together.
+EventOutcome ContactEvents::strike(std::vector<int> touching, Step& step) {
+  if (!eq_) eq_ = std::make_unique<Equations>(system_);
+  State& state = step.to.state;
+  for (int c = 0; c < contacts(); ++c)
+    if (is_rigid(system_.contacts[at(c)]) && std::ranges::find(touching, c) == touching.end() && touches(c, state)) touching.push_back(c);
+  State after = state;
+  const std::optional<std::vector<Blow>> blows = pintle::strike(system_, touching, after, *eq_);
+  if (!blows)
+    return {.failure = name(touching.front()) + ": no impulses stop the bodies that meet here; give the contact a law with a stiffness"};
+  for (const Blow& blow : *blows)
+    if (!log_.touching(blow.contact) && (blow.impulse > 0 || blow.separation == 0))
+      log_.begin(blow.contact, step, gap_of(system_, blow.contact, state), state.t, std::max(blow.approach, 0.0));
+  state = std::move(after);
+  for (const Blow& blow : *blows)
+    if (log_.touching(blow.contact)) log_.strike(blow, state);
+  return {.change = EventOutcome::Change::jump};
+}
+
+// Its forces are decided anew, and it is over once they have let it open.
+EventOutcome ContactEvents::part(int contact, Step& step) {
+  State& state = step.to.state;
+  if (state.impact_rate[at(contact)] > 0) {
+    state.friction[at(contact)].direction = DryFriction::undecided;
+    return {.change = EventOutcome::Change::jump};
+  }
+  log_.end(contact, state.t, 0);
+  return {};
 }
 
 namespace {
@@ -220,7 +282,13 @@ double ContactEvents::onset_step(int contact, double v, double t) const {
   return std::max(part * depth_reached(pair.normal, lightness(system_, pair), v) / v, clock * std::abs(t));
 }
 
-void ContactEvents::save(Writer& out) const { out.whole(log_); }
-void ContactEvents::load(Reader& in) { in.whole(log_); }
+void ContactEvents::save(Writer& out) const {
+  out.whole(log_);
+  out.whole(most_pressed_);
+}
+void ContactEvents::load(Reader& in) {
+  in.whole(log_);
+  in.whole(most_pressed_);
+}
 
 }  // namespace pintle

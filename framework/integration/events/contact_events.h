@@ -8,7 +8,7 @@ namespace pintle {
 
 /// Onset and loss of contact: the guard is the overlap. Onset latches the approach speed in State::impact_rate, loss clears it.
 /// Between profiles a contact that comes to the end of its pieces goes on, with the speed latched, at the pair that lies beyond, or
-/// ends: one more event for each pair.
+/// ends: one more event for each pair. Of a rigid contact onset is an impact, and its loss is where its normal force comes to 0.
 class ContactEvents final : public EventGroup {
  public:
   ContactEvents(const System&, const Scheme&);
@@ -36,6 +36,10 @@ class ContactEvents final : public EventGroup {
   int leaving(int event) const { return event < contacts() ? -1 : leaving_[static_cast<std::size_t>(event - contacts())]; }
   bool continues_another(int contact) const;
   EventOutcome leave(int contact, Step&);
+  EventOutcome strike(std::vector<int> touching, Step&);
+  EventOutcome part(int contact, Step&);
+  Guard pressed(int contact, const State&) const;
+  bool touches(int contact, const State&) const;
   void begin(int contact, Step&, double rate);
   void end(int contact, Step&);
   double moment(const Step&, const Guard& gap) const;
@@ -46,6 +50,8 @@ class ContactEvents final : public EventGroup {
   double tolerance_, onset_cut_;
   std::vector<int> leaving_;  ///< pairs whose pieces end somewhere
   ImpactLog log_;
+  double most_pressed_ = 0;        ///< of the rigid contacts so far [N]
+  std::unique_ptr<Equations> eq_;  ///< from the first impact of rigid bodies on
 };
 
 }  // namespace pintle

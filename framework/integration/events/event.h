@@ -45,6 +45,7 @@ struct EventOutcome {
   double first_step = std::numeric_limits<double>::infinity();  ///< the next step's bound by accuracy, of methods that follow impacts [s]
   bool of_every_method = false;                                 ///< that bound
   std::string end = {};                                         ///< the integration ends here, and why; empty: it goes on
+  std::string failure = {};                                     ///< it cannot go on, and why
 };
 
 /// Events of one kind: guards with directions, and what happens where they pass zero. A group owns the modes between its

@@ -38,7 +38,7 @@ MarkerMotion motion_of(const System& system, int marker, const Eigen::VectorXd& 
 
 FrictionEvents::FrictionEvents(const System& system, const Scheme& scheme) : system_(system), tolerance_(scheme.tolerance) {
   for (std::size_t k = 0; k < dry_states(system); ++k)
-    if (dry_law(system, k)) dry_.push_back(k);
+    if (dry_law(system, k) || (k < system.contacts.size() && is_rigid(system.contacts[k]))) dry_.push_back(k);
   fastest_.resize(dry_.size());
 }
 
@@ -66,7 +66,8 @@ bool FrictionEvents::touches(std::size_t k, const State& state) const { return k
 
 FrictionNow FrictionEvents::now(std::size_t k, const State& state) const {
   const DryFriction& dry = state.friction[k];
-  const double part = dry_law(system_, k)->mu_static;
+  const Coulomb* law = dry_law(system_, k);
+  const double part = law ? law->mu_static : 0;
   if (k < system_.contacts.size()) {
     const ContactEffect effect = pressing(system_, static_cast<int>(k), state);
     return {dry.force, effect.gap.material_slip, part * effect.normal.force};
@@ -134,8 +135,11 @@ void FrictionEvents::start(Step& step) { decide(step.to.state, {}); }
 EventOutcome FrictionEvents::act(int event, Step& step, const Guard&) {
   const std::size_t k = place(event);
   const bool breaks_away = !of_sliding(event) && step.to.state.friction[k].direction == 0;
-  decide(step.to.state, breaks_away ? std::optional(k) : std::nullopt);
-  return {.change = EventOutcome::Change::jump};
+  if (decide(step.to.state, breaks_away ? std::optional(k) : std::nullopt)) return {.change = EventOutcome::Change::jump};
+  return {.failure =
+              name(event) +
+              ": no forces of the rigid contacts let the bodies move on, as where a rod that slides on its tip jams (Painlevé); give "
+              "the contact a law with a stiffness, or less friction"};
 }
 
 // What slid until now and cannot be held goes on the other way.
@@ -147,23 +151,48 @@ void FrictionEvents::pass_dead_centres(const std::vector<std::size_t>& resting, 
   speed(system_, state.t, state.y, *eq_);
   apply_forces(system_, state, *eq_);
   list_sticking(system_, state, *eq_);
-  const std::vector<std::size_t>& of = eq_->sticking.of;
+  const std::vector<Sticking::Column>& of = eq_->sticking.of;
   for (std::size_t i = 0; i < resting.size(); ++i) {
-    const auto column = std::ranges::find(of, resting[i]) - of.begin();
+    const auto column = std::ranges::find_if(of, [&](const auto& c) { return c.at == resting[i] && !c.normal; }) - of.begin();
     if (std::abs(came[i]) == 1 && leverage(system_, *eq_, column) < dead) state.friction[resting[i]].direction = -came[i];
   }
 }
 
+namespace {
+
+// A closed rigid contact pulls, or sticks beyond what it can hold.
+bool overcharged(const System& system, const State& state, const Equations& eq) {
+  constexpr double little = 1e-9;
+  double most = 0;
+  for (std::size_t c = 0; c < system.contacts.size(); ++c)
+    if (is_rigid(system.contacts[c])) most = std::max(most, std::abs(eq.contact[c].normal.force));
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    if (!is_rigid(system.contacts[c]) || !(state.impact_rate[c] > 0)) continue;
+    const FrictionNow held = friction_now(system, eq, c);
+    if (eq.contact[c].normal.force < -little * most) return true;
+    if (state.friction[c].direction == 0 && std::abs(held.force) > (1 + little) * held.holds + little * most) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 // All that is at rest sticks, to begin with. Then, of what cannot hold, that which is asked for most slides, against the
-// force that would have held it, until the rest can.
-void FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
+// force that would have held it, until the rest can. Rigid contacts, whose normal forces depend on their friction, are decided together.
+bool FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
   constexpr double little = 1e-9, nearly = 1e-6;
   std::vector<std::size_t> resting;
   std::vector<double> came;  // the directions in which these slid before
+  bool rigid = false;
   for (int event = 0; event < size(); event += 2) {
     const std::size_t k = place(event);
     DryFriction& dry = state.friction[k];
     if (!touches(k, state)) continue;
+    rigid = rigid || (k < system_.contacts.size() && is_rigid(system_.contacts[k]));
+    if (!dry_law(system_, k)) {
+      dry.direction = 0;
+      continue;
+    }
     const double slip = now(k, state).slip;
     const bool slow = std::abs(slip) <= 4 * still(event);
     if (k == slips && slow) {
@@ -177,16 +206,23 @@ void FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
     }
     if (k < system_.contacts.size()) dry.force = 0;
   }
-  if (resting.empty()) return;
+  if (resting.empty() && !rigid) return true;
   if (!eq_) eq_ = std::make_unique<Equations>(system_);
   pass_dead_centres(resting, came, state);
   Eigen::VectorXd dy(system_.n_y());
   for (std::size_t tries = 0; tries < 4 * resting.size() + 4; ++tries) {
-    if (!evaluate(system_, state, *eq_, dy)) return;
+    if (!evaluate(system_, state, *eq_, dy)) return !rigid;
+    if (rigid && overcharged(system_, state, *eq_)) {
+      if (!decide_rigid(system_, state, *eq_) || !evaluate(system_, state, *eq_, dy)) {
+        for (std::size_t c = 0; c < system_.contacts.size(); ++c)
+          if (is_rigid(system_.contacts[c])) state.friction[c].direction = DryFriction::undecided;
+        return false;
+      }
+    }
     std::optional<std::size_t> worst;
     double most = slips ? 1 - nearly : 1 + little;  // what shares the load gives way together
     for (const std::size_t k : resting) {
-      if (state.friction[k].direction != 0) continue;
+      if (!sticks(system_, state, k) || (k < system_.contacts.size() && is_rigid(system_.contacts[k]))) continue;
       const FrictionNow held = friction_now(system_, *eq_, k);
       const double share = held.force == 0 ? 0 : std::abs(held.force) / std::max(held.holds, 1e-300);
       if (share > most) worst = k, most = share;
@@ -195,6 +231,7 @@ void FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
     state.friction[*worst].direction = -std::copysign(1.0, friction_now(system_, *eq_, *worst).force);
   }
   keep_friction(system_, *eq_, state);
+  return true;
 }
 
 }  // namespace pintle

@@ -9,7 +9,7 @@
 
 namespace pintle {
 
-/// Stick and slip of dry friction, of contacts and in joints. Two events each: sliding ends where the slip comes to 0; sticking ends where the force that
+/// Stick and slip of dry friction, of contacts and in joints, and which closed rigid contacts stay closed. Two events each: sliding ends where the slip comes to 0; sticking ends where the force that
 /// holds comes to μ_s N. At either, all that does not slide is looked at together: which of it can hold, and which way the
 /// rest goes. What each is doing stands in State::friction.
 class FrictionEvents final : public EventGroup {
@@ -39,7 +39,7 @@ class FrictionEvents final : public EventGroup {
   FrictionNow now(std::size_t at, const State&) const;
   Guard guard(int event, const State&, const FrictionNow&) const;
   void pass_dead_centres(const std::vector<std::size_t>& resting, const std::vector<double>& came, State&);
-  void decide(State&, std::optional<std::size_t> slips);
+  bool decide(State&, std::optional<std::size_t> slips);  ///< false: rigid contacts find no forces
 
   const System& system_;
   double tolerance_;

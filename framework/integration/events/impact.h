@@ -14,11 +14,12 @@ struct Impact {
   double approach;                                               ///< speed at begin, as latched [m/s]
   double separation = std::numeric_limits<double>::quiet_NaN();  ///< speed at end [m/s]
   double deepest = 0;                                            ///< [m]
-  double peak_force = 0;                                         ///< normal [N]
+  double peak_force = 0;                                         ///< normal; of a rigid contact while it is closed [N]
+  double impulse = 0;                                            ///< of a rigid contact's impacts [N s]
   double lost = 0;                                               ///< to hysteresis and friction [J]
   template <class A>
   void archive(A& x) {
-    x(PINTLE_MEMBERS(contact, begin, end, approach, separation, deepest, peak_force, lost));
+    x(PINTLE_MEMBERS(contact, begin, end, approach, separation, deepest, peak_force, impulse, lost));
   }
 };
 

@@ -57,7 +57,7 @@ void ImpactLog::begin(int contact, const Step& step, const Guard& gap, double be
   const ContactPair& pair = system_.contacts[at(contact)];
   open_[at(contact)] = static_cast<int>(impacts_.size());
   Impact impact{.contact = contact, .begin = begin, .approach = latched};
-  if (gap.value > 0 || begins_with_jump(pair.normal)) {
+  if (!is_rigid(pair) && (gap.value > 0 || begins_with_jump(pair.normal))) {
     impact.deepest = std::max(gap.value, 0.0);  // a start inside the wall, or a force that begins with a jump
     impact.peak_force = evaluate(pair.normal, approach_of(pair, gap.value, gap.rate, latched)).force;
   }
@@ -70,6 +70,14 @@ void ImpactLog::end(int contact, double end, double separation) {
   impact.end = end;
   impact.separation = separation;
   open_[at(contact)] = -1;
+}
+
+void ImpactLog::strike(const Blow& blow, const State& state) {
+  Impact& impact = impacts_[at(open_[at(blow.contact)])];
+  impact.impulse += blow.impulse;
+  impact.lost = loss(blow.contact, state) - loss_at_begin_[at(blow.contact)];
+  if (blow.at_rest) impact.begin = *blow.at_rest;
+  if (blow.separation > 0) end(blow.contact, state.t, blow.separation);
 }
 
 void ImpactLog::pass(int contact, int to) {
@@ -86,6 +94,11 @@ void ImpactLog::follow(const Step& step, std::span<const Guard> from, std::span<
 void ImpactLog::follow(int c, const Step& step, const Guard& from, const Guard& to, const DenseOutput& motion) {
   Impact& impact = impacts_[at(open_[at(c)])];
   const ContactPair& pair = system_.contacts[at(c)];
+  if (is_rigid(pair)) {
+    impact.peak_force = std::max(impact.peak_force, step.to.state.friction[at(c)].load);
+    impact.lost = loss(c, step.to.state) - loss_at_begin_[at(c)];
+    return;
+  }
   const double t0 = step.from.state.t, latched = step.from.state.impact_rate[at(c)];
   const auto inside = [&](double x) { return gap_of(system_, c, motion.at(t0 + x * step.h)); };
   const auto force = [&](const Guard& now) {
@@ -123,7 +136,9 @@ struct Facing {
 };
 Facing facing(const System& system, const ContactPair& pair, const State& state) {
   const MovingPoint a = moving_point(system, pair.a, state.y), b = moving_point(system, pair.b, state.y);
-  return {a, b, evaluate(pair.gap, a, b)};
+  Facing out{a, b, evaluate(pair.gap, a, b)};
+  out.gap.depth -= pair.slack;
+  return out;
 }
 
 }  // namespace
@@ -137,7 +152,9 @@ ContactEffect pressing(const System& system, int contact, const State& state) {
   const ContactPair& pair = system.contacts[at(contact)];
   ContactEffect out;
   out.gap = facing(system, pair, state).gap;
-  if (const double latched = state.impact_rate[at(contact)]; latched > 0)
+  if (is_rigid(pair))
+    out.normal.force = state.friction[at(contact)].load;
+  else if (const double latched = state.impact_rate[at(contact)]; latched > 0)
     out.normal = evaluate(pair.normal, approach_of(pair, out.gap.depth, out.gap.rate, latched));
   return out;
 }

@@ -3,12 +3,13 @@
 #include <span>
 #include <vector>
 
+#include "framework/dynamics/equations/rigid_contacts.h"
 #include "framework/integration/events/event.h"
 #include "framework/integration/events/impact.h"
 
 namespace pintle {
 
-/// Overlap of a contact and its rate, from the coordinates and speeds alone.
+/// Overlap of a contact, beyond the slack of a rigid one, and its rate, from the coordinates and speeds alone.
 Guard gap_of(const System&, int contact, const State&);
 /// The gap of a contact and its normal force, likewise; nothing else of what it does.
 ContactEffect pressing(const System&, int contact, const State&);
@@ -29,6 +30,8 @@ class ImpactLog {
   /// @param gap  where it begins   @param begin  moment, perhaps between the clock's   @param latched  its approach speed
   void begin(int contact, const Step&, const Guard& gap, double begin, double latched);
   void end(int contact, double end, double separation);
+  /// An impact of a rigid contact in its stay; it may end it. After it is booked.
+  void strike(const Blow&, const State&);
   /// The stay goes on at another pair of the same two profiles.
   void pass(int contact, int to);
   /// Deepest penetration, peak force and loss of the contacts that are closed during an accepted step.

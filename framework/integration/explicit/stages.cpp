@@ -83,7 +83,7 @@ bool Stages::settle(const System& system, Instant& node, Equations& eq) {
   } else if (!project(system, node.state.t, node.state.y, eq)) {
     return false;
   }
-  remove_slip(system, node.state, eq);
+  if (!remove_slip(system, node.state, eq)) return false;
   accelerate(system, node.state, eq);
   keep_friction(system, eq, node.state);
   fill_derivative(system, node.state.y, eq, node.dy);

@@ -50,7 +50,7 @@ void Alpha::keep_slip(const System& system, const Equations& eq, const VectorXd&
 
 // As share_out, of what could hold in one another's stead.
 void Alpha::share_out_friction(const System& system, Instant& to, Equations& eq) {
-  if (std::ranges::count(eq.sticking.holds, true) < 2) return;
+  if (std::ranges::count(eq.sticking.of, true, &Sticking::Column::holds) < 2) return;
   const VectorXd before = forces(to.state, eq), change = friction_change(system, to.state, eq, {W_, border_lambda_}, Shares::all,
                                                                          VectorXd::Zero(before.size()), to.memory.lambda, before);
   if (!change.allFinite()) return;

@@ -124,8 +124,24 @@ Json json(const SceneFriction& f, bool in_joint) {
   return {{f.law, law}};
 }
 
+void put_impact(const SceneImpact& impact, Json& out) {
+  out["model"] = "impact";
+  out["restitution"] = impact.restitution;
+  out["restitution law"] = impact.poisson ? "poisson" : "newton";
+  if (!impact.poisson) out["tangential restitution"] = impact.tangential;
+}
+
+// What presses the surfaces of a contact apart.
+void put_law(const SceneNormal& normal, const std::optional<SceneImpact>& impact, Json& out) {
+  if (impact)
+    put_impact(*impact, out);
+  else
+    out["normal"] = json(normal, false);
+}
+
 Json json(const SceneContact& c) {
-  Json out = {{"between", ends(c.a, c.b)}, {"normal", json(c.normal, false)}};
+  Json out = {{"between", ends(c.a, c.b)}};
+  put_law(c.normal, c.impact, out);
   if (c.friction) out["friction"] = json(*c.friction, false);
   return out;
 }
@@ -135,7 +151,10 @@ Json json(const SceneClearance& clearance) {
               {"bearing radius", clearance.bearing_radius},
               {"bearing", clearance.bearing},
               {"model", model_name(clearance.model)}};
-  if (clearance.normal.stiffness || clearance.normal.bearing.young > 0) out["normal"] = json(clearance.normal, true);
+  if (clearance.model == ClearanceModel::impact)
+    put_impact(clearance.impact, out);
+  else if (clearance.normal.stiffness || clearance.normal.bearing.young > 0)
+    out["normal"] = json(clearance.normal, true);
   if (clearance.stiffness) out["stiffness"] = *clearance.stiffness;
   if (clearance.damping) out["damping"] = *clearance.damping;
   if (clearance.friction) out["friction"] = json(*clearance.friction, true);
@@ -143,7 +162,8 @@ Json json(const SceneClearance& clearance) {
 }
 
 Json json(const ScenePlay& play) {
-  Json out = {{"normal", json(play.normal, false)}};
+  Json out = Json::object();
+  put_law(play.normal, play.impact, out);
   const auto put = [&](const char* key, double value) {
     if (value > 0) out[key] = value;
   };

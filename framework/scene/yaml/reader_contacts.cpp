@@ -130,12 +130,53 @@ SceneContact read_contact(const Node& node, const Scene& scene) {
           "\"" + ref->body + "\" " + (ref->point.empty() ? "names no profile" : "has no profile \"" + ref->point + "\"") +
               (known.empty() ? "; give it one: profiles: {rim: {disc: A, radius: 20 mm}}" : "." + did_you_mean(ref->point, known)));
   }
-  out.normal = read_normal(node.at("normal"), "contacts.*.normal.*");
-  if (node.has("friction")) out.friction = read_friction(node.at("friction"), "contacts.*.friction");
+  read_laws(node, "contacts.*", out.normal, out.impact, out.friction);
   return out;
 }
 
 }  // namespace
+
+void reject_impact_keys(const Node& node) {
+  for (const char* key : {"restitution", "tangential restitution", "restitution law"})
+    if (node.has(key)) node.at(key).fail("belongs to model: impact; add that, or write the restitution into the normal law");
+}
+
+SceneImpact read_impact(const Node& node, std::string_view keys) {
+  SceneImpact out;
+  if (node.has("restitution"))
+    out.restitution = node.at("restitution").quantity(dimension::number, rule::zero_to_one);
+  else if (node.has("normal") && node.at("normal").entries("").front().has("restitution"))
+    out.restitution = node.at("normal").entries("").front().at("restitution").quantity(dimension::number, rule::zero_to_one);
+  else
+    node.fail("lacks a required key; add for example restitution: 0.8");
+  read_optional(node, "tangential restitution", dimension::number, rule::zero_to_one, out.tangential);
+  if (node.has("restitution law")) out.poisson = node.at("restitution law").one_of(choices(keys, "restitution law")) == "poisson";
+  if (out.poisson && out.tangential > 0)
+    node.at("tangential restitution").fail("belongs to Newton's law of restitution; leave one of the two out");
+  return out;
+}
+
+void check_rigid_friction(const Node& node) {
+  if (!node.has("friction") || node.at("friction").has("coulomb")) return;
+  node.at("friction").fail("of rigid bodies is dry; write {coulomb: {coefficient: 0.1}}");
+}
+
+void read_laws(const Node& node, std::string_view keys, SceneNormal& normal, std::optional<SceneImpact>& impact,
+               std::optional<SceneFriction>& friction) {
+  const std::string word = node.has("model") ? node.at("model").one_of(std::vector<std::string>{"contact", "impact"}) : "contact";
+  if (node.has("normal")) normal = read_normal(node.at("normal"), "contacts.*.normal.*");
+  if (node.has("friction")) friction = read_friction(node.at("friction"), "contacts.*.friction");
+  if (word == "impact") {
+    impact = read_impact(node, keys);
+    check_rigid_friction(node);
+    return;
+  }
+  reject_impact_keys(node);
+  if (!node.has("normal"))
+    node.fail(
+        "lacks a required key; add for example normal: {lankarani-nikravesh: {restitution: 0.8, stiffness: 1e9 N/m^1.5}}, or model: "
+        "impact with a restitution");
+}
 
 SceneNormal read_normal(const Node& node, std::string_view keys) {
   const char* remedy = "one law: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}";

@@ -25,12 +25,12 @@ const std::vector<KindKeys>& joint_keys() {
 void read_model(const Node& node, SceneClearance& clearance) {
   if (node.has("model")) {
     const std::string word = node.at("model").one_of(choices("joints.*.clearance", "model"));
-    for (const ClearanceModel m : {ClearanceModel::massless_link, ClearanceModel::spring_damper})
+    for (const ClearanceModel m : {ClearanceModel::massless_link, ClearanceModel::spring_damper, ClearanceModel::impact})
       if (word == model_name(m)) clearance.model = m;
   }
   if (node.has("stiffness")) clearance.stiffness = node.at("stiffness").quantity({0, 1, -2, 0}, rule::positive);
   if (node.has("damping")) clearance.damping = node.at("damping").quantity({0, 1, -1, 0}, rule::not_negative);
-  const bool whole = clearance.model == ClearanceModel::massless_link ||
+  const bool whole = clearance.model == ClearanceModel::massless_link || clearance.model == ClearanceModel::impact ||
                      (clearance.model == ClearanceModel::spring_damper && clearance.stiffness && clearance.damping);
   if (!whole && !node.has("normal"))
     node.fail(std::string(
@@ -38,7 +38,7 @@ void read_model(const Node& node, SceneClearance& clearance) {
               (clearance.model == ClearanceModel::spring_damper ? ", or both stiffness and damping" : ""));
 }
 
-// The keys of a clearance in one kind of joint, with an example of those that it needs.
+// The keys of a clearance in one kind of joint beside those of its laws, with an example of those that it needs.
 struct ClearanceKeys {
   JointKind kind;
   std::vector<std::pair<std::string, std::string>> needs;
@@ -49,27 +49,24 @@ struct ClearanceKeys {
 };
 const std::vector<ClearanceKeys>& clearance_keys() {
   static const std::vector<ClearanceKeys> all{
-      {JointKind::revolute,
-       {{"radial", "0.1 mm"}, {"bearing radius", "10 mm"}, {"bearing", "slider"}},
-       {"model", "normal", "stiffness", "damping", "friction"}},
-      {JointKind::prismatic, {{"gap", "0.1 mm"}, {"length", "60 mm"}, {"height", "20 mm"}, {"normal", ""}}, {"round", "friction"}},
-      {JointKind::slot, {{"gap", "0.1 mm"}, {"pin radius", "5 mm"}, {"normal", ""}}, {"travel", "friction"}},
-      {JointKind::distance, {{"normal", ""}}, {"gap", "only"}},
+      {JointKind::revolute, {{"radial", "0.1 mm"}, {"bearing radius", "10 mm"}, {"bearing", "slider"}}, {"stiffness", "damping"}},
+      {JointKind::prismatic, {{"gap", "0.1 mm"}, {"length", "60 mm"}, {"height", "20 mm"}}, {"round"}},
+      {JointKind::slot, {{"gap", "0.1 mm"}, {"pin radius", "5 mm"}}, {"travel"}},
+      {JointKind::distance, {}, {"gap", "only"}},
   };
   return all;
 }
 
 void check_clearance(const Node& node, const SceneJoint& joint) {
   check_keys(node, "joints.*.clearance");
+  static const std::vector<std::string> of_laws{"model", "restitution", "tangential restitution", "restitution law", "normal", "friction"};
   const ClearanceKeys& keys = *std::ranges::find(clearance_keys(), joint.kind, &ClearanceKeys::kind);
   for (const Node& entry : node.entries("keys and values")) {
-    if (keys.knows(entry.name())) continue;
+    if (keys.knows(entry.name()) || std::ranges::find(of_laws, entry.name()) != of_laws.end()) continue;
     entry.fail(std::string("does not belong to the clearance of a ") + word_of(joint).word + " joint; leave it out");
   }
   for (const auto& [key, example] : keys.needs)
-    if (!node.has(key))
-      node.fail("lacks a required key; add for example " + key + ": " +
-                (example.empty() ? "{lankarani-nikravesh: {restitution: 0.8, stiffness: 1e9 N/m^1.5}}" : example));
+    if (!node.has(key)) node.fail("lacks a required key; add for example " + key + ": " + example);
 }
 
 ScenePlay read_play(const Node& node, const SceneJoint& joint) {
@@ -88,8 +85,9 @@ ScenePlay read_play(const Node& node, const SceneJoint& joint) {
     node.fail("lacks a required key; add for example gap: 1 mm, or only: pull for a rope");
   if (play.gap >= joint.length && joint.kind == JointKind::distance)
     node.at("gap").fail(node.at("gap").shown() + " must be less than the length of the joint");
-  play.normal = read_normal(node.at("normal"), "contacts.*.normal.*");
-  if (node.has("friction")) play.friction = read_friction(node.at("friction"), "contacts.*.friction");
+  if (node.has("friction") && joint.kind == JointKind::distance)
+    node.at("friction").fail("does not belong to the clearance of a distance joint; leave it out");
+  read_laws(node, "joints.*.clearance", play.normal, play.impact, play.friction);
   return play;
 }
 
@@ -99,6 +97,10 @@ SceneClearance read_clearance(const Node& node, const SceneJoint& joint) {
   clearance.place = node.place();
   read_model(node, clearance);
   if (node.has("normal")) clearance.normal = read_normal(node.at("normal"), "joints.*.clearance.normal.*");
+  if (clearance.model == ClearanceModel::impact)
+    clearance.impact = read_impact(node, "joints.*.clearance");
+  else
+    reject_impact_keys(node);
   const Node radius = node.at("bearing radius"), radial = node.at("radial");
   clearance.bearing_radius = radius.quantity(dimension::length, rule::positive);
   clearance.radial = radial.quantity(dimension::length, rule::positive);
@@ -109,6 +111,7 @@ SceneClearance read_clearance(const Node& node, const SceneJoint& joint) {
   if (clearance.bearing != joint.a.body && clearance.bearing != joint.b.body)
     bearing.fail(bearing.shown() + " is not joined here; write " + joint.a.body + " or " + joint.b.body);
   if (node.has("friction")) clearance.friction = read_friction(node.at("friction"), "joints.*.clearance.friction");
+  if (clearance.model == ClearanceModel::impact) check_rigid_friction(node);
   return clearance;
 }
 
@@ -174,6 +177,7 @@ const char* model_name(ClearanceModel model) {
     case ClearanceModel::contact: return "contact";
     case ClearanceModel::massless_link: return "massless link";
     case ClearanceModel::spring_damper: return "spring-damper";
+    case ClearanceModel::impact: return "impact";
   }
   return "";
 }

@@ -38,6 +38,13 @@ std::vector<SceneProfile> read_profiles(const Node& owner, std::string_view keys
 /// A law of a clearance joint or, other keys, of a contact. @param keys  path of the law's keys
 SceneNormal read_normal(const Node&, std::string_view keys);
 /// @param keys  path of friction's keys
+/// What presses the surfaces of a contact of profiles apart, and what rubs.
+void read_laws(const Node&, std::string_view keys, SceneNormal&, std::optional<SceneImpact>&, std::optional<SceneFriction>&);
+/// Of `model: impact`; a restitution not given there is that of `normal`.
+SceneImpact read_impact(const Node&, std::string_view keys);
+void reject_impact_keys(const Node&);
+void check_rigid_friction(const Node&);
+
 SceneFriction read_friction(const Node&, const std::string& keys);
 /// @param keys  path of the law's own keys
 SceneFriction read_friction_law(const Node&, const std::string& keys);

@@ -1,0 +1,219 @@
+#include "framework/dynamics/equations/rigid_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/complementarity.h"
+#include "framework/common/dense.h"
+#include "framework/common/index.h"
+#include "framework/common/worse.h"
+#include "framework/dynamics/equations/sticking.h"
+
+namespace pintle {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+bool is_closed(const System& system, const State& state, std::size_t k) {
+  return k < system.contacts.size() && is_rigid(system.contacts[k]) && state.impact_rate[k] > 0;
+}
+
+// What only the rest of the mechanism does: the closed rigid contacts open, and no friction that a change of theirs could change.
+State without_rigid(const System& system, const State& state, bool keep_sliding) {
+  State out = state;
+  for (std::size_t k = 0; k < out.friction.size(); ++k) {
+    const bool joint = k >= system.contacts.size();
+    if (is_closed(system, state, k)) out.impact_rate[k] = 0;
+    if (joint || !keep_sliding || out.friction[k].direction == 0) out.friction[k] = {};
+  }
+  return out;
+}
+
+// Accelerations without the rigid contacts, and the columns of these and of all that holds: eq.sticking.
+bool free_accelerations(const System& system, const State& state, bool keep_sliding, Equations& eq) {
+  VectorXd dy(system.n_y());
+  if (!evaluate(system, without_rigid(system, state, keep_sliding), eq, dy)) return false;
+  evaluate_held(system, state, eq);
+  return true;
+}
+
+// The closed rigid contacts, by the columns of eq.sticking.
+struct Closed {
+  std::vector<UnilateralContact> unknowns;
+  std::vector<int> contact;
+};
+Closed closed_contacts(const System& system, const State& state, const Equations& eq) {
+  Closed out;
+  const auto& of = eq.sticking.of;
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (!of[i].normal) continue;
+    UnilateralContact k{.normal = static_cast<int>(i)};
+    if (i + 1 < of.size() && of[i + 1].at == of[i].at) {
+      const Coulomb& law = *dry_law(system, of[i].at);
+      const bool holds = of[i + 1].holds;
+      (holds ? k.tangent : k.sliding) = static_cast<int>(i + 1);
+      k.mu = holds ? law.mu_static
+                   : std::abs(evaluate(law, eq.contact[of[i].at].gap.material_slip, 1, state.friction[of[i].at].direction).force);
+      k.direction = state.friction[of[i].at].direction;
+    }
+    out.unknowns.push_back(k);
+    out.contact.push_back(static_cast<int>(of[i].at));
+  }
+  return out;
+}
+
+// An impact begins: all rigid contacts concerned closed, and their friction free to stick.
+void close_for_impact(const System& system, std::span<const int> touching, State& state) {
+  for (const int c : touching) state.impact_rate[at(c)] = system.contacts[at(c)].slowest_impact;
+  for (std::size_t k = 0; k < state.friction.size(); ++k) {
+    state.friction[k] = {};
+    if (is_closed(system, state, k)) state.friction[k].direction = 0;
+  }
+}
+
+// Newton's law: v⁺ = −e v⁻ of gaps that close; friction leaves −e_T times the slip that it stops.
+std::optional<VectorXd> newton(const System& system, const Closed& closed, std::span<const double> e, const MatrixXd& W,
+                               const VectorXd& v) {
+  VectorXd c = v;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    const UnilateralContact& k = closed.unknowns[i];
+    c[k.normal] += e[i] * std::min(v[k.normal], 0.0);
+    if (k.tangent >= 0) c[k.tangent] += system.contacts[at(closed.contact[i])].rigid->tangential * v[k.tangent];
+  }
+  return unilateral_forces(closed.unknowns, W, c);
+}
+
+// Poisson's: the impulse of expansion is e times that of compression, or more where a gap would close.
+std::optional<VectorXd> poisson(const Closed& closed, std::span<const double> e, const MatrixXd& W, const VectorXd& v) {
+  const auto compression = unilateral_forces(closed.unknowns, W, v);
+  if (!compression) return std::nullopt;
+  std::vector<UnilateralContact> expanding = closed.unknowns;
+  VectorXd given = VectorXd::Zero(v.size());
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    UnilateralContact& k = expanding[i];
+    given[k.normal] = k.preload = e[i] * (*compression)[k.normal];
+  }
+  const auto more = unilateral_forces(expanding, W, v + W * (*compression + given));
+  if (!more) return std::nullopt;
+  return VectorXd(*compression + given + *more);
+}
+
+// Restitution of each contact now: 0 where it would part too slowly, or rise too little, for speeds and places to show it.
+struct Bounce {
+  double e;
+  std::optional<double> at_rest = {};  ///< if it is 0 for that, when a sequence of ever lower bounces ends
+};
+Bounce bounce_of(const ContactPair& pair, double t, double opening, double acceleration) {
+  constexpr double times = 20;  // what is taken for closed
+  const double e = pair.rigid->restitution, parts = -e * opening;
+  if (!(opening < 0) || e == 0) return {0};
+  const bool shown = parts > pair.slowest_impact && (!(acceleration < 0) || parts * parts > -2 * acceleration * times * pair.slack);
+  if (shown) return {e};
+  return {0, acceleration < 0 && e < 1 ? std::optional(t - 2 * parts / (acceleration * (1 - e))) : std::nullopt};
+}
+
+// What impulses x take out of the motion, at the mean of the speeds before and after.
+void book(const System& system, const Closed& closed, const VectorXd& x, const VectorXd& mean, const Equations& eq, State& state) {
+  auto z = state.y.segment(system.z_begin(), system.n_z());
+  for (std::size_t i = 0; i < closed.unknowns.size(); ++i) {
+    const UnilateralContact& k = closed.unknowns[i];
+    const int begin = system.contact_z[at(closed.contact[i])];
+    z[begin] -= x[k.normal] * mean[k.normal];
+    if (k.tangent >= 0) z[begin + 1] -= x[k.tangent] * mean[k.tangent];
+  }
+  const VectorXd impulse = eq.sticking.lambda * x;
+  for (std::size_t j = 0; j < system.joints.size(); ++j)
+    if (system.joint_z[j] >= 0) z[system.joint_z[j]] += impulse[system.row_begin[j]] * eq.rows[j].Ct[0];
+}
+
+}  // namespace
+
+std::optional<std::vector<Blow>> strike(const System& system, std::span<const int> touching, State& state, Equations& eq) {
+  constexpr double rounding = 1e-10;  // of the speeds that meet
+  close_for_impact(system, touching, state);
+  if (!free_accelerations(system, state, false, eq)) return std::nullopt;
+  const Closed closed = closed_contacts(system, state, eq);
+  const VectorXd acceleration = sticking_accelerations(system, eq);
+  MatrixXd W = respond_to_sticking(system, eq);
+  auto speeds = state.y.segment(system.n(), system.n());
+  const VectorXd before = eq.sticking.J.transpose() * speeds;
+
+  std::vector<Bounce> bounce;
+  std::vector<double> e;
+  bool by_poisson = false;
+  for (std::size_t i = 0; i < closed.unknowns.size(); ++i) {
+    const ContactPair& pair = system.contacts[at(closed.contact[i])];
+    const int k = closed.unknowns[i].normal;
+    bounce.push_back(bounce_of(pair, state.t, before[k], acceleration[k]));
+    e.push_back(bounce.back().e);
+    by_poisson = by_poisson || pair.rigid->poisson;
+  }
+  const auto x = by_poisson ? poisson(closed, e, W, before) : newton(system, closed, e, W, before);
+  if (!x) return std::nullopt;
+  speeds += eq.sticking.a * *x;
+  const VectorXd after = before + W * *x;
+  book(system, closed, *x, (before + after) / 2, eq, state);
+
+  const double slow = rounding * largest(before);
+  std::vector<Blow> out;
+  for (std::size_t i = 0; i < closed.unknowns.size(); ++i) {
+    const int k = closed.unknowns[i].normal, c = closed.contact[i];
+    const bool parts = after[k] > slow;
+    out.push_back({c, -before[k], parts ? after[k] : 0, (*x)[k], parts ? std::nullopt : bounce[i].at_rest});
+    state.friction[at(c)] = {};
+    state.impact_rate[at(c)] = parts ? 0 : std::max(-before[k], system.contacts[at(c)].slowest_impact);
+  }
+  return out;
+}
+
+bool decide_rigid(const System& system, State& state, Equations& eq) {
+  constexpr double nearly = 1e-9;
+  if (!free_accelerations(system, state, true, eq)) return false;
+  const Closed closed = closed_contacts(system, state, eq);
+  MatrixXd W = respond_to_sticking(system, eq);
+  VectorXd c = sticking_accelerations(system, eq);
+
+  // What else holds takes its share at once.
+  std::vector<Index> others;
+  const auto& of = eq.sticking.of;
+  for (std::size_t i = 0; i < of.size(); ++i)
+    if (of[i].holds && !of[i].normal && !is_closed(system, state, of[i].at)) others.push_back(static_cast<Index>(i));
+  if (!others.empty()) {
+    const auto m = static_cast<Index>(others.size());
+    MatrixXd own(m, m), by(m, W.cols() + 1);
+    for (Index i = 0; i < m; ++i) {
+      for (Index j = 0; j < m; ++j) own(i, j) = W(others[at(static_cast<int>(i))], others[at(static_cast<int>(j))]);
+      by.row(i) << W.row(others[at(static_cast<int>(i))]), c[others[at(static_cast<int>(i))]];
+    }
+    Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_norm(m, m);
+    least_norm.compute(own);
+    const MatrixXd share = least_norm.solve(by);
+    const MatrixXd to = by.leftCols(W.cols()).transpose();
+    W -= to * share.leftCols(W.cols());
+    c -= to * share.col(W.cols());
+  }
+
+  const auto x = unilateral_forces(closed.unknowns, W, c);
+  if (!x) return false;
+  double most = 0;
+  for (const UnilateralContact& k : closed.unknowns) most = std::max(most, (*x)[k.normal]);
+  for (std::size_t i = 0; i < closed.unknowns.size(); ++i) {
+    const UnilateralContact& k = closed.unknowns[i];
+    const auto contact = at(closed.contact[i]);
+    const double N = (*x)[k.normal];
+    DryFriction& dry = state.friction[contact];
+    if (N <= nearly * most) {
+      state.impact_rate[contact] = 0;
+      dry = {};
+    } else if (k.tangent >= 0) {
+      const double T = (*x)[k.tangent];
+      dry.direction = std::abs(T) < (1 - nearly) * k.mu * N ? 0 : -std::copysign(1.0, T);
+    }
+  }
+  return true;
+}
+
+}  // namespace pintle
