@@ -2,77 +2,26 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
-#include "framework/build/build.h"
-#include "framework/scene/error.h"
 #include "framework/scene/yaml/reader.h"
-#include "tests/scenes/mechanisms.h"
+#include "tests/scenes/friction_scenes.h"
 
 namespace pintle::dry_friction_test {
 namespace {
 
-using pintle_scenes::Whole;
+using pintle_scenes::block_on_ramp, pintle_scenes::dopri5, pintle_scenes::expect_sound, pintle_scenes::Method, pintle_scenes::number,
+    pintle_scenes::Oscillator, pintle_scenes::run, pintle_scenes::Whole;
 
 constexpr double g = 9.81, pi = std::numbers::pi;
 
-struct Method {
-  const char* name;
-  std::string words;
-  double tolerance, near;  ///< of the run; of what it shows, relative
-};
-void PrintTo(const Method& m, std::ostream* out) { *out << m.name; }
-const std::array methods{Method{"Dopri5", "dopri5", 1e-9, 1e-6}, Method{"Rkf45", "rkf45", 1e-9, 1e-6},
-                         Method{"Verner87", "verner87", 1e-7, 2e-5}, Method{"GeneralizedAlpha", "generalized-alpha", 1e-8, 2e-4}};
-
-Whole run(const std::string& text, const Method& method = methods[0]) {
-  Scene s = read_scene_text(text, "scene.yaml");
-  s.run.method = method.words;
-  s.run.tolerance = method.tolerance;
-  return pintle_scenes::run(s);
-}
-void expect_sound(const Whole& w) {
-  ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
-  EXPECT_LT(std::abs(w.run.unexplained), 1e-5 * w.run.energy_in_play);
-}
-std::string number(double x) {
-  std::ostringstream s;
-  s.precision(17);
-  s << x;
-  return s.str();
-}
+const std::array methods{dopri5, Method{"Rkf45", "rkf45", 1e-9, 1e-6}, Method{"Verner87", "verner87", 1e-7, 2e-5},
+                         Method{"GeneralizedAlpha", "generalized-alpha", 1e-8, 2e-4}};
 
 class DryFriction : public testing::TestWithParam<Method> {};
-INSTANTIATE_TEST_SUITE_P(By, DryFriction, testing::ValuesIn(methods), [](const auto& i) { return std::string(i.param.name); });
-
-/// A slider of 1 kg in a straight guide, pressed by N on a belt that moves at V, held by a spring of k from rest at x = 0. The guide holds
-/// it at the depth at which a contact of Hertz's law gives N.
-struct Oscillator {
-  double N = 10, k = 400, V = 0.1, slides = 0.2, holds = 0.3, start = 0, until = 4;
-  std::string stribeck = "";
-  std::string text() const {
-    constexpr double stiffness = 1e9, radius = 0.02;
-    const double y = radius - std::pow(N / stiffness, 2.0 / 3);
-    return "bodies:\n  slider: {rigid: {mass: 1, inertia: 1e-3}, profiles: {shoe: {disc: [0, 0], radius: 20 mm}}}\n"
-           "  belt: {rigid: {mass: 1, inertia: 1}, profiles: {face: {path: [[50, 0], [-50, 0]]}}}\n"
-           "ground: {points: {G: [0, " +
-           number(y) + "], S: [-1, " + number(y) +
-           "], Z: [-100, 0]}}\n"
-           "joints: {guide: {prismatic: [ground.G, slider]}, bed: {prismatic: [ground, belt]}}\n"
-           "drivers: {motor: {distance: [ground.Z, belt], law: 100 m + " +
-           number(V) +
-           " m/s*t}}\n"
-           "forces: {spring: {spring: [ground.S, slider], stiffness: " +
-           number(k) +
-           ", free length: 1}}\n"
-           "contacts: {rub: {between: [slider.shoe, belt.face], normal: {hertz: {stiffness: 1e9}}, friction: {coulomb: {coefficient: " +
-           number(slides) + ", static: " + number(holds) + stribeck +
-           "}}}}\n"
-           "start: {slider: {x: " +
-           number(start) + ", vx: " + number(start == 0 ? V : 0) + "}}\nrun: {until: " + number(until) + "}\noutput: {every: 1 ms}\n";
-  }
-};
+INSTANTIATE_TEST_SUITE_P(By, DryFriction, testing::ValuesIn(methods), pintle_scenes::name_of);
 
 // It sticks from one static deflection, μ_s N/k, back to the other of the swing, and slides through π + 2φ of a harmonic motion.
 TEST_P(DryFriction, StickSlipHasItsClosedFormPeriod) {
@@ -106,21 +55,7 @@ TEST_P(DryFriction, StickSlipHasItsClosedFormPeriod) {
   EXPECT_NEAR(w.ledger("rub.lost to friction [J]"), o.slides * o.N * slip * whole_swings, o.slides * o.N * slip);
 }
 
-// Above μ_s the block goes at once at g (sin α − μ cos α); below it stays where it is. It starts as deep as it rests, and rocks a little
-// until both its corners bear what they will.
-std::string block_on_ramp(double angle, double until, const std::string& start = "") {
-  return "gravity: [" + number(-g * std::sin(angle)) + ", " + number(-g * std::cos(angle)) +
-         "]\n"
-         "bodies: {block: {rigid: {mass: 2, inertia: 5e-3}, profiles: {outline: {path: [[-8 cm, -2 cm], [8 cm, -2 cm], [8 cm, 2 cm], [-8 "
-         "cm, 2 cm]], "
-         "closed: true, round: 2 mm}}}}\nground: {profiles: {ramp: {path: [[50, 0], [-50, 0]]}}}\n"
-         "contacts: {rest: {between: [block.outline, ground.ramp], normal: {spring-damper: {stiffness: 1e6, damping: 1e3}}, "
-         "friction: {coulomb: {coefficient: 0.3, static: 0.4}}}}\n"
-         "start: {block: {y: " +
-         number(0.02 - g * std::cos(angle) / 1e6) + start + "}}\nrun: {until: " + number(until) +
-         "}\noutput: {every: " + number(until / 200) + "}\n";
-}
-
+// Above μ_s the block goes at once at g (sin α − μ cos α); below it stays where it is.
 TEST_P(DryFriction, ABlockStaysBelowTheFrictionAngle) {
   const Whole w = run(block_on_ramp(std::atan(0.35), 2), GetParam());
   expect_sound(w);
@@ -206,14 +141,14 @@ TEST(DryFriction, ADiscRollsDownASlopeWithoutLoss) {
            "friction: {coulomb: {coefficient: " +
            number(coefficient) + "}}}}\nstart: {disc: {y: 50 mm}}\nrun: {until: 1}\noutput: {every: 5 ms}\n";
   };
-  const Whole rolls = run(text(mu));
+  const Whole rolls = run(text(mu), dopri5);
   expect_sound(rolls);
   const auto slope = [](const Whole& w, const std::string& of) {
     const std::vector<double> v = w.column(of), t = w.column("t [s]");
     return (v.back() - v[v.size() / 2]) / (t.back() - t[t.size() / 2]);
   };
   EXPECT_NEAR(slope(rolls, "disc.vx [m/s]"), 2 * g * std::sin(angle) / 3, 1e-4 * g);
-  const Whole slides = run(text(0.15));
+  const Whole slides = run(text(0.15), dopri5);
   expect_sound(slides);
   EXPECT_NEAR(slope(slides, "disc.vx [m/s]"), g * (std::sin(angle) - 0.15 * std::cos(angle)), 1e-4 * g);
   EXPECT_NEAR(slope(slides, "disc.speed [rad/s]"), -2 * 0.15 * g * std::cos(angle) / r, 1e-4 * g / r);
@@ -228,12 +163,13 @@ TEST(DryFriction, AJournalClimbsToTheFrictionAngle) {
           "joints:\n  axle: {revolute: [ground, shaft]}\n"
           "  eye: {revolute: [shaft, rider.C], clearance: {radial: 1 mm, bearing radius: 20 mm, bearing: rider, "
           "normal: {hunt-crossley: {restitution: 0.3, stiffness: 1e9, approach speed: largest}}, friction: {coulomb: {coefficient: " +
-          number(mu) +
-          "}}}}\n"
-          "drivers: {motor: {angle: [ground, shaft], law: 2 rad/s*t}}\n"
-          "forces: {settle: {spring: [ground.S, rider.T], stiffness: 1e-3, damping: 3, free length: 1}}\n"
-          "ground: {points: {S: [5, -2]}}\n"
-          "start: {eye: {eccentricity: [0, 1 mm]}}\nrun: {until: 6}\noutput: {every: 10 ms}\n");
+              number(mu) +
+              "}}}}\n"
+              "drivers: {motor: {angle: [ground, shaft], law: 2 rad/s*t}}\n"
+              "forces: {settle: {spring: [ground.S, rider.T], stiffness: 1e-3, damping: 3, free length: 1}}\n"
+              "ground: {points: {S: [5, -2]}}\n"
+              "start: {eye: {eccentricity: [0, 1 mm]}}\nrun: {until: 6}\noutput: {every: 10 ms}\n",
+          dopri5);
   ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
   const double ex = w.last("eye.ex [m]"), ey = w.last("eye.ey [m]");
   EXPECT_NEAR(w.last("eye.friction [N]") / w.last("eye.normal [N]"), mu * (w.last("eye.friction [N]") > 0 ? 1 : -1), 1e-9);
@@ -252,8 +188,8 @@ TEST(DryFriction, ABlockStaysForAMillionSeconds) {
 // 400 N press the shoe: sliding it takes 0.35 · 400 N · 0.15 m of the drum, 15 N m the load.
 TEST_P(DryFriction, ADrumBrakeStopsItsLoadAndHoldsIt) {
   Scene s = read_scene(std::string(PINTLE_SOURCE_DIR) + "/examples/drum_brake.yaml");
-  s.run.method = GetParam().words, s.run.tolerance = GetParam().tolerance, s.output.frames = 0;
-  const Whole w = pintle_scenes::run(s);
+  s.output.frames = 0;
+  const Whole w = run(s, GetParam());
   expect_sound(w);
   EXPECT_NEAR(w.last("drum.angle [rad]"), 15, 0.01);  // the shoe bounces a little at first
   const std::vector<double> speed = w.column("drum.speed [rad/s]"), t = w.column("t [s]");
@@ -273,14 +209,16 @@ TEST_P(DryFriction, ADrumBrakeStopsItsLoadAndHoldsIt) {
 // I θ″ = −m g R sin(α − θ).
 TEST(DryFriction, ABlockRocksAboutItsCorner) {
   const double b = 0.05, h = 0.2, m = 4, I = m * (b * b + h * h) / 3, R = std::hypot(b, h), alpha = std::atan2(b, h), start = 0.1;
-  const Whole w = run("gravity: [0, -9.81]\nbodies: {block: {rigid: {mass: 4, inertia: " + number(I) +
-                      "}, profiles: {outline: {path: [[-5 cm, -20 cm], [5 cm, -20 cm], [5 cm, 20 cm], [-5 cm, 20 cm]], closed: true}}}}\n"
-                      "ground: {profiles: {floor: {path: [[5, 0], [-5, 0]]}}}\n"
-                      "contacts: {rest: {between: [block.outline, ground.floor], normal: {spring-damper: {stiffness: 1e8, damping: 2e4}}, "
-                      "friction: {coulomb: {coefficient: 0.7}}}}\n"
-                      "start: {block: {angle: " +
-                      number(-start) + ", x: " + number(R * std::sin(start - alpha)) +
-                      ", y: " + number(R * std::cos(alpha - start) - 4 * g / 1e8) + "}}\nrun: {until: 0.4}\noutput: {every: 1 ms}\n");
+  const Whole w =
+      run("gravity: [0, -9.81]\nbodies: {block: {rigid: {mass: 4, inertia: " + number(I) +
+              "}, profiles: {outline: {path: [[-5 cm, -20 cm], [5 cm, -20 cm], [5 cm, 20 cm], [-5 cm, 20 cm]], closed: true}}}}\n"
+              "ground: {profiles: {floor: {path: [[5, 0], [-5, 0]]}}}\n"
+              "contacts: {rest: {between: [block.outline, ground.floor], normal: {spring-damper: {stiffness: 1e8, damping: 2e4}}, "
+              "friction: {coulomb: {coefficient: 0.7}}}}\n"
+              "start: {block: {angle: " +
+              number(-start) + ", x: " + number(R * std::sin(start - alpha)) + ", y: " + number(R * std::cos(alpha - start) - 4 * g / 1e8) +
+              "}}\nrun: {until: 0.4}\noutput: {every: 1 ms}\n",
+          dopri5);
   expect_sound(w);
   double theta = start, rate = 0, time = 0;
   const double step = 1e-6, inertia = I + m * R * R;
@@ -298,8 +236,7 @@ TEST(DryFriction, ABlockRocksAboutItsCorner) {
 // With one coefficient all that share the load give way together: the box's corners, at any height of the pull, and several pads.
 TEST_P(DryFriction, WhatSharesALoadGivesWayTogether) {
   for (const double height : {0.0, -0.02, 0.01}) {
-    std::string text = block_on_ramp(0, 1.2);
-    text.replace(text.find("coefficient: 0.3, static: 0.4"), 29, "coefficient: 0.3");
+    std::string text = block_on_ramp(0, 1.2, "", "coulomb: {coefficient: 0.3}");
     text.replace(text.find("profiles: {outline"), 18, "points: {p: [0, " + number(height) + "]}, profiles: {outline");
     const Whole w = run(text + "forces: {pull: {force: [10 N/s*t, 0], at: block.p}}\n", GetParam());
     expect_sound(w);
@@ -346,7 +283,8 @@ TEST(DryFriction, ASharpBoxSlidesOverAPedestalFromEndToEnd) {
                 "ground: {profiles: {top: {path: [[-60 cm, -40 cm], [60 cm, -40 cm], [60 cm, 0], [-60 cm, 0]], closed: true}}}\n"
                 "contacts: {rest: {between: [box.outline, ground.top], normal: {spring-damper: {stiffness: 1e6, damping: 1e3}}, "
                 "friction: {coulomb: {coefficient: 0.1}}}}\nstart: {box: {x: " +
-                number(x) + ", y: " + number(y) + ", vx: " + number(speed) + "}}\nrun: {until: 1}\noutput: {every: 10 ms}\n");
+                    number(x) + ", y: " + number(y) + ", vx: " + number(speed) + "}}\nrun: {until: 1}\noutput: {every: 10 ms}\n",
+                dopri5);
         expect_sound(w);
         for (const Impact& i : w.run.impacts) EXPECT_LT(i.deepest, 1e-3) << x << ", " << speed << ", " << height;
         EXPECT_NEAR(w.last("box.x [m]"), x + speed * speed / 2 / 0.1 / g, 3e-3) << speed << ", " << height;
@@ -360,7 +298,7 @@ TEST(DryFriction, ASlowBeltIsAsRightAsAFastOne) {
     const Oscillator o{.N = 10 / slower / slower, .k = 400 / slower / slower, .V = 0.1 / slower, .until = 4 * slower};
     std::string text = o.text();
     text.replace(text.find("every: 1 ms"), 11, "every: " + number(0.01 * slower));
-    const Whole w = run(text);
+    const Whole w = run(text, dopri5);
     expect_sound(w);
     return w.ledger("rub.lost to friction [J]") * slower * slower;
   };
@@ -387,64 +325,6 @@ TEST(DryFriction, GeneralizedAlphaBeginsToStickWithTheRightForce) {
   for (std::size_t i = 0; i < T.size(); ++i) far += std::abs(T[i] - expected[i]) > 2e-4 * most;
   EXPECT_GT(most, 1);
   EXPECT_LT(far, 12);  // rows beside a jump
-}
-
-TEST(BadFriction, IsRefusedInOneLineWithKeyAndRemedy) {
-  struct Bad {
-    const char *law, *key, *says;
-  };
-  for (const Bad& bad :
-       std::vector<Bad>{{"coulomb: {coefficient: 0.3, static: 0.2}", "friction.coulomb.static", "must be coefficient, 0.3, or above"},
-                        {"coulomb: {static: 0.2}", "friction.coulomb", "add for example coefficient"},
-                        {"coulomb: {coefficient: -1}", "friction.coulomb.coefficient", "must not be negative"},
-                        {"coulomb: {coefficient: 0.3, stribeck speed: 0}", "friction.coulomb.stribeck speed", "greater than 0"},
-                        {"coulomb: {coefficient: 0.3, stribeck speed: 1 mm/s}", "friction.coulomb.stribeck speed", "needs `static`"},
-                        {"coulomb: {coefficient: 0.3, v0: 1}", "friction.coulomb.v0", "unknown key"},
-                        {"coulomb: {coefficient: 0.3}, tanh: {coefficient: 0.3}", "contacts.rest.friction", "one"},
-                        {"columb: {coefficient: 0.3}", "friction.columb", "Did you mean \"coulomb\""},
-                        {"tanh: {coefficient: 0.3, v1: 0}", "friction.tanh.v1", "greater than 0"},
-                        {"threlfall: {coefficient: 0.3, static: 0.4}", "friction.threlfall.static", "unknown key"},
-                        {"bengisu-akay: {coefficient: 0.3, static: 0.1}", "friction.bengisu-akay.static", "or above"},
-                        {"bengisu-akay: {coefficient: 0.3, v0: 0}", "friction.bengisu-akay.v0", "greater than 0"}}) {
-    std::string text = block_on_ramp(0, 1);
-    const std::string usual = "coulomb: {coefficient: 0.3, static: 0.4}";
-    const std::size_t at = text.find(usual);
-    ASSERT_NE(at, std::string::npos);
-    text.replace(at, usual.size(), bad.law);
-    try {
-      read_scene_text(text, "scene.yaml");
-      FAIL() << bad.law << " was taken";
-    } catch (const SceneError& error) {
-      const std::string said = error.what();
-      EXPECT_NE(said.find(bad.key), std::string::npos) << said;
-      EXPECT_NE(said.find(bad.says), std::string::npos) << said;
-      EXPECT_EQ(said.find('\n'), std::string::npos) << said;
-    }
-  }
-}
-
-// Each law by its name gives the force that its formula says, and creeps where it does.
-TEST(FrictionLaws, ActAsTheirFormulasSay) {
-  struct Law {
-    const char* words;
-    double at_2cm_per_s;  ///< of N
-  };
-  for (const Law& law :
-       std::vector<Law>{{"ambrosio: {coefficient: 0.3, v0: 10 mm/s, v1: 30 mm/s}", 0.15},
-                        {"threlfall: {coefficient: 0.3, v1: 30 mm/s}", 0.3 * (1 - std::exp(-2.0))},
-                        {"tanh: {coefficient: 0.3, v1: 20 mm/s}", 0.3 * std::tanh(1.0)},
-                        {"bengisu-akay: {coefficient: 0.3, static: 0.5, v0: 10 mm/s, v1: 10 mm/s}", 0.3 + 0.2 * std::exp(-1.0)},
-                        {"coulomb: {coefficient: 0.3, static: 0.5, stribeck speed: 20 mm/s}", 0.3 + 0.2 * std::exp(-1.0)}}) {
-    Oscillator o;
-    o.V = 0.02, o.until = 1e-3, o.k = 1e-3;
-    std::string text = o.text();
-    const std::size_t at = text.find("coulomb"), end = text.find("}}}}", at);
-    text.replace(at, end + 1 - at, law.words);
-    text.replace(text.find("vx: 0.02"), 8, "vx: 0.0");
-    const Whole w = run(text);
-    expect_sound(w);
-    EXPECT_NEAR(std::abs(w.column("rub.friction [N]").front()), law.at_2cm_per_s * o.N, 1e-6) << law.words;
-  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "framework/analysis/linearize/linearize.h"
 #include "framework/configuration/equilibrium.h"
 #include "tests/scenes/unit_beam.h"
+#include "tests/refusal.h"
 
 namespace pintle::flexible_start_test {
 namespace {
@@ -92,12 +93,7 @@ TEST(RestingStart, MovesAsDriversHaveIt) {
 
 TEST(RestingStart, SaysWhereThereIsNone) {
   const Scene scene = scene_of("gravity: [0, -9.81]\nbodies: {b: {rigid: {mass: 1, inertia: 1}}}\nstart: equilibrium\nrun: {until: 1}\n");
-  try {
-    assemble(scene, build(scene));
-    FAIL();
-  } catch (const AssemblyError& e) {
-    EXPECT_NE(std::string(e.what()).find("there is no equilibrium to start from"), std::string::npos) << e.what();
-  }
+  pintle_test::expect_refused<AssemblyError>([&] { assemble(scene, build(scene)); }, {"there is no equilibrium to start from"});
 }
 
 // ---- linearization of what turns steadily ----

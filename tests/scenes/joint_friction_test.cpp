@@ -3,48 +3,29 @@
 
 #include <array>
 #include <cmath>
-#include <sstream>
+#include <string>
+#include <vector>
 
 #include "framework/build/build.h"
-#include "framework/scene/error.h"
 #include "framework/scene/yaml/reader.h"
-#include "tests/scenes/mechanisms.h"
+#include "tests/refusal.h"
+#include "tests/scenes/text_runs.h"
 
 namespace pintle::joint_friction_test {
 namespace {
 
-using pintle_scenes::Whole;
+using pintle_scenes::expect_sound, pintle_scenes::Method, pintle_scenes::number, pintle_scenes::run, pintle_scenes::Whole;
+using pintle_test::expect_refused;
 
 constexpr double g = 9.81;
 
-struct Method {
-  const char* name;
-  std::string words;
-  double tolerance, near;  ///< of the run; of what it shows, relative
-};
-void PrintTo(const Method& m, std::ostream* out) { *out << m.name; }
 const std::array methods{Method{"Dopri5", "dopri5", 1e-9, 1e-7}, Method{"Rkf45", "rkf45", 1e-9, 1e-7},
                          Method{"Verner87", "verner87", 1e-9, 1e-7}, Method{"GeneralizedAlpha", "generalized-alpha", 1e-8, 2e-4}};
 
-Whole run(const std::string& text, const Method& method = methods[0]) {
-  Scene s = read_scene_text(text, "scene.yaml");
-  s.run.method = method.words;
-  s.run.tolerance = method.tolerance;
-  return pintle_scenes::run(s);
-}
-void expect_sound(const Whole& w) {
-  ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
-  EXPECT_LE(std::abs(w.run.unexplained), 1e-5 * w.run.energy_in_play + 1e-15);
-}
-std::string number(double x) {
-  std::ostringstream s;
-  s.precision(17);
-  s << x;
-  return s.str();
-}
+constexpr double rounding = 1e-15;  ///< what is held has no energy in play [J]
 
 class JointFriction : public testing::TestWithParam<Method> {};
-INSTANTIATE_TEST_SUITE_P(By, JointFriction, testing::ValuesIn(methods), [](const auto& i) { return std::string(i.param.name); });
+INSTANTIATE_TEST_SUITE_P(By, JointFriction, testing::ValuesIn(methods), pintle_scenes::name_of);
 
 // A wheel in its bearing is stopped by μ r m g, and stays.
 TEST_P(JointFriction, AWheelRunsOut) {
@@ -53,7 +34,7 @@ TEST_P(JointFriction, AWheelRunsOut) {
           "joints: {axle: {revolute: [ground, wheel], friction: {coulomb: {coefficient: 0.1, static: 0.15}, radius: 20 mm}}}\n"
           "start: {wheel: {speed: 5}}\nrun: {until: 3}\noutput: {every: 10 ms}\n",
           GetParam());
-  expect_sound(w);
+  expect_sound(w, rounding);
   const double slows = 0.1 * 0.02 * 3 * g / 0.02, stops = 5 / slows;
   const std::vector<double> t = w.column("t [s]"), speed = w.column("wheel.speed [rad/s]");
   for (std::size_t i = 0; i < t.size(); ++i)
@@ -72,7 +53,7 @@ TEST_P(JointFriction, APendulumIsSlowedByWhatItsPinBears) {
           "joints: {pin: {revolute: [ground, bob.P], friction: {coulomb: {coefficient: 0.3}, radius: 30 mm}}}\n"
           "start: {bob: {angle: 1.2}}\nrun: {until: 1.4}\noutput: {every: 0.1}\n",
           GetParam());
-  expect_sound(w);
+  expect_sound(w, rounding);
   double theta = start, rate = 0;
   const auto accel = [&](double th, double om, double direction) {
     double a = -m * g * l * std::sin(th) / (J + m * l * l);
@@ -110,7 +91,7 @@ TEST_P(JointFriction, APendulumStaysInItsFriction) {
             "start: {bob: {angle: " +
                 number(angle) + "}}\nrun: {until: 0.5}\noutput: {every: 10 ms}\n",
             GetParam());
-    expect_sound(w);
+    expect_sound(w, rounding);
     return w.last("bob.angle [rad]") - angle;
   };
   const double limit = std::asin(0.4 * 0.03 / 0.5);
@@ -127,7 +108,7 @@ TEST_P(JointFriction, ADrawerJamsWherePushedTooFarFromItsMiddle) {
                             "forces: {push: {force: [" +
                             number(push) + ", 0], at: drawer.H}}\nrun: {until: 0.2}\noutput: {every: 10 ms}\n",
                         GetParam());
-    expect_sound(w);
+    expect_sound(w, rounding);
     return w.last("drawer.x [m]");
   };
   for (const double push : {1.0, 100.0}) {
@@ -144,7 +125,7 @@ TEST_P(JointFriction, APreloadedPinInASlotStops) {
           "joints: {slot: {slot: [ground, pin], friction: {coulomb: {coefficient: 0.2}, preload: 10 N}}}\n"
           "start: {pin: {vx: 1}}\nrun: {until: 0.5}\noutput: {every: 10 ms}\n",
           GetParam());
-  expect_sound(w);
+  expect_sound(w, rounding);
   EXPECT_NEAR(w.last("pin.x [m]"), 0.5 * 1 / (2 * 0.2 * 10), 10 * GetParam().near);
   EXPECT_NEAR(w.last("pin.vx [m/s]"), 0, 1e-13);
 }
@@ -167,10 +148,10 @@ std::string slider_crank(const std::string& torque) {
 }
 TEST_P(JointFriction, ASliderCrankIsHeldByAllItsJointsThenGoes) {
   const Whole held = run(slider_crank("0.12"), GetParam());
-  expect_sound(held);
+  expect_sound(held, rounding);
   EXPECT_NEAR(held.last("crank.angle [rad]"), 0.6, 1e-12);
   const Whole w = run(slider_crank("0.8 N m/s*t"), GetParam());
-  expect_sound(w);
+  expect_sound(w, rounding);
   const Whole reference = run(slider_crank("0.8 N m/s*t"), {"", "dopri5", 1e-11, 0});
   EXPECT_GT(std::abs(w.last("crank.angle [rad]") - 0.6), 0.1);
   EXPECT_NEAR(w.last("crank.angle [rad]"), reference.last("crank.angle [rad]"), 500 * GetParam().near);
@@ -194,16 +175,9 @@ TEST(BadJointFriction, IsRefusedInOneLineWithKeyAndRemedy) {
            {"revolute: [ground, a], friction: {" + law +
                 ", radius: 1 cm}, clearance: {radial: 1 mm, bearing radius: 1 cm, bearing: a, normal: {hertz: {stiffness: 1e9}}}",
             "joints.j.friction", "has a clearance"}}) {
-    try {
-      build(read_scene_text("bodies: {a: {rigid: {mass: 1, inertia: 1}}}\njoints: {j: {" + bad.joint + "}}\nrun: {until: 1}\n",
-                            "scene.yaml"));
-      ADD_FAILURE() << bad.joint << " was taken";
-    } catch (const SceneError& error) {
-      const std::string said = error.what();
-      EXPECT_NE(said.find(bad.key), std::string::npos) << said;
-      EXPECT_NE(said.find(bad.says), std::string::npos) << said;
-      EXPECT_EQ(said.find('\n'), std::string::npos) << said;
-    }
+    SCOPED_TRACE(bad.joint);
+    const std::string text = "bodies: {a: {rigid: {mass: 1, inertia: 1}}}\njoints: {j: {" + bad.joint + "}}\nrun: {until: 1}\n";
+    expect_refused([&] { build(read_scene_text(text, "scene.yaml")); }, {bad.key, bad.says});
   }
 }
 

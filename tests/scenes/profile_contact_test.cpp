@@ -7,24 +7,18 @@
 
 #include "framework/build/build.h"
 #include "framework/configuration/equilibrium.h"
-#include "framework/scene/error.h"
 #include "framework/scene/yaml/reader.h"
-#include "tests/scenes/mechanisms.h"
+#include "tests/refusal.h"
+#include "tests/scenes/text_runs.h"
 
 namespace pintle::profile_contact_test {
 namespace {
 
-using pintle_scenes::Whole;
+using pintle_scenes::expect_sound, pintle_scenes::run, pintle_scenes::Whole;
 
 constexpr double g = 9.81;
 
 Scene scene(const std::string& text) { return read_scene_text(text, "scene.yaml"); }
-Whole run(const std::string& text) { return pintle_scenes::run(scene(text)); }
-
-void expect_sound(const Whole& w) {
-  ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
-  EXPECT_LT(std::abs(w.run.unexplained), 1e-5 * w.run.energy_in_play);
-}
 
 // A ball above a floor, dropped.
 std::string ball(const std::string& law, double height = 0.1, const std::string& more = "", double until = 0.4) {
@@ -64,7 +58,7 @@ TEST(ProfileContact, EveryMethodSeesTheSameImpacts) {
     const bool implicit = method.starts_with("{");
     s.run.method = implicit ? "generalized-alpha" : method;
     s.run.tolerance = implicit ? 1e-7 : 1e-9;
-    const Whole w = pintle_scenes::run(s);
+    const Whole w = run(s);
     ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
     ASSERT_EQ(w.run.impacts.size(), reference.run.impacts.size()) << method;
     for (std::size_t i = 0; i < w.run.impacts.size(); ++i) {
@@ -198,7 +192,7 @@ TEST(ProfileContact, NoSpeedTunnels) {
         "start: {ball: {x: 0, y: 1, vx: 0, vy: -1}}\nrun: {until: 1 s}\n");
     s.start_bodies[0].vy = -v;
     s.run.until = 3 / v;
-    const Whole w = pintle_scenes::run(s);
+    const Whole w = run(s);
     ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
     ASSERT_EQ(w.run.impacts.size(), 1u) << v;
     EXPECT_NEAR(w.run.impacts[0].begin, (1 - 2.5e-3) / v, 1e-9 / v);
@@ -217,7 +211,7 @@ TEST(ProfileContact, DiscsMeetHeadOnAtAnySpeed) {
     for (double v = 0.3; v < 4.3; v += 0.17) {
       s.run.method = method;
       s.start_bodies[1].vx = -v;
-      const Whole w = pintle_scenes::run(s);
+      const Whole w = run(s);
       ASSERT_EQ(w.run.status, Status::finished) << method << " at " << v << ": " << w.run.reason;
       ASSERT_EQ(w.run.impacts.size(), 1u) << method << " at " << v;
       EXPECT_NEAR(w.run.impacts[0].begin, 0.06 / (1 + v), 1e-8) << method << " at " << v;
@@ -279,12 +273,12 @@ TEST(ProfileContact, EveryMethodTumblesTheSameBox) {
   Scene s = read_scene(std::string(PINTLE_SOURCE_DIR) + "/examples/box_and_ramp.yaml");
   s.output.frames = 0;
   s.run.method = "verner87", s.run.tolerance = 1e-10;
-  const Whole reference = pintle_scenes::run(s);
+  const Whole reference = run(s);
   expect_sound(reference);
   ASSERT_GE(reference.run.impacts.size(), 15u);
   for (const char* method : {"rkf45", "dopri5", "generalized-alpha"}) {
     s.run.method = method, s.run.tolerance = 1e-8;
-    const Whole w = pintle_scenes::run(s);
+    const Whole w = run(s);
     expect_sound(w);
     ASSERT_EQ(w.run.impacts.size(), reference.run.impacts.size()) << method;
     const double near = method[0] == 'g' ? 1e-2 : 1e-4;  // 19 impacts make an error some 1e4 times as large
@@ -306,14 +300,10 @@ std::string said(std::string text, const std::string& from, const std::string& t
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   text.replace(at, from.size(), to);
-  try {
+  return pintle_test::refusal_by<std::exception>([&] {
     const Scene s = scene(text);
-    const Model model = build(s);
-    assemble(s, model);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "accepted";
+    assemble(s, build(s));
+  });
 }
 
 TEST(BadProfile, IsRefusedInOneLineWithKeyAndRemedy) {
@@ -346,10 +336,7 @@ TEST(BadProfile, IsRefusedInOneLineWithKeyAndRemedy) {
   ASSERT_EQ(said(sound, "mass: 1,", "mass: 1,"), "accepted");
   for (const Bad& bad : all) {
     SCOPED_TRACE(bad.to);
-    const std::string message = said(sound, bad.from, bad.to);
-    EXPECT_TRUE(message.starts_with(bad.key)) << message;
-    EXPECT_NE(message.find(bad.says), std::string::npos) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    pintle_test::expect_one_line(said(sound, bad.from, bad.to), bad.key, {bad.says});
   }
 }
 

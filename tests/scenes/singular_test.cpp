@@ -10,9 +10,12 @@
 #include "framework/build/build.h"
 #include "framework/configuration/equilibrium.h"
 #include "tests/scenes/parallel_links.h"
+#include "tests/refusal.h"
 
 namespace pintle_scenes::singular_test {
 namespace {
+
+using pintle_test::says;
 
 using namespace pintle;
 
@@ -45,14 +48,8 @@ Law late(double begin) {
 }
 
 std::string complaint(const Scene& s) {
-  try {
-    run(s);
-  } catch (const AssemblyError& error) {
-    return error.what();
-  }
-  return "";
+  return pintle_test::refusal_by<AssemblyError>([&] { run(s); });
 }
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // Tolerance 1e-9 a step, hundreds of steps, and errors that grow as speeds differ: 1e-5 rad of the tens travelled.
 constexpr double followed = 1e-5;

@@ -14,6 +14,7 @@
 
 #include "tests/scenes/sweep_folder.h"
 #include "tests/unit/scarce_threads.h"
+#include "tests/refusal.h"
 
 namespace pintle::sweep_test {
 namespace {
@@ -44,12 +45,7 @@ Sweep turned(const SweepFolder& folder, const std::string& sweep) {
 
 /// What is said of a study of the pendulum.
 std::string refusal_of(const SweepFolder& folder, const std::string& sweep) {
-  try {
-    turned(folder, sweep);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return pintle_test::refusal_by([&] { turned(folder, sweep); });
 }
 
 TEST(Sweep, TheTableIsTheSameToTheBitForOneAndFourThreads) {
@@ -123,14 +119,9 @@ TEST(Sweep, AFolderOfAnotherStudyIsRefused) {
   const SweepFolder folder;
   run_sweep(turned(folder, "{list: [{angle: 0 deg}]}"), folder / "out", {1, nullptr, {}});
   const auto refusal = [&] {
-    try {
-      run_sweep(read_sweep(folder / "study.yaml"), folder / "out", {1, nullptr, {}});
-    } catch (const SceneError& error) {
-      return std::string(error.what());
-    }
-    return std::string("none");
+    return pintle_test::refusal_by([&] { run_sweep(read_sweep(folder / "study.yaml"), folder / "out", {1, nullptr, {}}); });
   };
-  EXPECT_EQ(refusal(), "none");
+  EXPECT_EQ(refusal(), "accepted");
   folder.write("scene.yaml", std::string(pendulum) + "# changed\n");
   EXPECT_NE(refusal().find("belongs to another study. The scene is not the one that ran there"), std::string::npos) << refusal();
   EXPECT_NE(refusal().find("--out"), std::string::npos);
@@ -167,9 +158,7 @@ TEST(Sweep, AStudyThatIsWrongIsRefusedBeforeAnyCaseRuns) {
            {"{random: {count: 3, length: []}}", "sweep.random.length: ", "is an empty list"}}) {
     SCOPED_TRACE(w.sweep);
     const SweepFolder folder;
-    const std::string said = refusal_of(folder, w.sweep);
-    EXPECT_NE(said.find(std::string("study.yaml:3: ") + w.place), std::string::npos) << said;
-    EXPECT_NE(said.find(w.says), std::string::npos) << said;
+    pintle_test::expect_says(refusal_of(folder, w.sweep), {std::string("study.yaml:3: ") + w.place, w.says});
   }
 }
 

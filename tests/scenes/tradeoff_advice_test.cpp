@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "tests/scenes/known_trade.h"
+#include "tests/refusal.h"
 
 namespace pintle::tradeoff_advice_test {
 namespace {
@@ -15,12 +16,7 @@ std::string all_said(const TradeReport& r) {
 bool says(const TradeReport& r, const std::string& words) { return all_said(r).find(words) != std::string::npos; }
 
 std::string rejected(const fs::path& study) {
-  try {
-    read_tradeoff(read_study(study));
-  } catch (const SceneError& e) {
-    return e.what();
-  }
-  return "accepted";
+  return pintle_test::refusal_by([&] { read_tradeoff(read_study(study)); });
 }
 
 /// The value jumps by a tenth, up and down, however often the elements are doubled.

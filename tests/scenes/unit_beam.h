@@ -10,6 +10,7 @@
 #include "framework/bodies/segments.h"
 #include "framework/build/build.h"
 #include "framework/scene/yaml/reader.h"
+#include "tests/refusal.h"
 
 /// A uniform beam whose numbers are closed forms, and what a run of a scene with it says.
 namespace pintle::unit_beam_scenes {
@@ -48,12 +49,7 @@ inline double said(const std::vector<std::string>& warnings, const std::string& 
 inline constexpr double last_digit = 0.05;  ///< of a percentage, told to one decimal
 
 inline std::string complaint(const std::string& text) {
-  try {
-    build(scene_of(text));
-  } catch (const std::exception& e) {
-    return e.what();
-  }
-  return "";
+  return pintle_test::refusal_by<std::exception>([&] { build(scene_of(text)); });
 }
 
 /// A beam of EI = ρA = 1 from A to B, 1 m along x, of 20 elements.

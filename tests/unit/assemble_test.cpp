@@ -17,9 +17,12 @@
 #include "framework/dynamics/equations/jacobian.h"
 #include "tests/oracles/four_bar.h"
 #include "tests/unit/rods.h"
+#include "tests/refusal.h"
 
 namespace pintle::assemble_test {
 namespace {
+
+using pintle_test::says;
 
 using namespace rods;
 using Eigen::MatrixXd;
@@ -96,14 +99,8 @@ Put put(const Scene& scene) {
   return p;
 }
 std::string complaint(const Scene& scene) {
-  try {
-    put(scene);
-  } catch (const AssemblyError& error) {
-    return error.what();
-  }
-  return "";
+  return pintle_test::refusal_by<AssemblyError>([&] { put(scene); });
 }
-bool says(const std::string& message, const std::string& part) { return message.find(part) != std::string::npos; }
 
 // ---- poses ------------------------------------------------------------------------------------
 

@@ -145,14 +145,7 @@ TEST(BadElasticFile, IsJudgedByNameAndPlace) {
   folder.write("part.geo", "// a drawing");
   folder.write("part.inp", "*NODE");
   folder.write("part.step", "ISO-10303-21;");
-  const auto said = [&](const std::string& keys) -> std::string {
-    try {
-      read_scene(folder.write("s.yaml", with_plate(keys)));
-    } catch (const SceneError& error) {
-      return error.what();
-    }
-    return "accepted";
-  };
+  const auto said = [&](const std::string& keys) { return refusal_by([&] { read_scene(folder.write("s.yaml", with_plate(keys))); }); };
   const std::string place = (folder.path / "s.yaml").string() + ":3: bodies.part.plate";
   expect_one_line(said("file: none.step"), place + ".file: ", {"there is no file", "none.step"});
   expect_one_line(said("file: part.stl"), place + ".file: ", {".step", ".inp"});

@@ -14,21 +14,7 @@ std::vector<std::string> joint_keys() {
   return out;
 }
 
-// A change that spoils the scene, where the message must point, and its remedy.
-struct Spoiled {
-  std::string from, to, place;
-  std::vector<std::string> says;
-};
-
-void expect_refused(const std::vector<Spoiled>& all) {
-  for (const Spoiled& s : all) {
-    SCOPED_TRACE(s.to);
-    const std::string said = refusal_of(with(s.from, s.to));
-    EXPECT_TRUE(said.starts_with(s.place)) << said;
-    EXPECT_EQ(said.find('\n'), std::string::npos) << "more than one line: " << said;
-    expect_says(said, s.says);
-  }
-}
+void expect_refused(const std::vector<Spoiled>& all) { expect_each_refused(all, with); }
 
 TEST(BadScene, OverrideOfAnUnknownParameterSuggestsTheNearest) {
   expect_says(refusal_of(slider_crank, {{"clearence", "1 mm"}}), {"scene.yaml: --set clearence", "Did you mean \"clearance\"?"});
@@ -207,12 +193,7 @@ TEST(BadScene, PointsOfTheOutputMustBeThere) {
 }
 
 std::string refusal_of_file(const fs::path& file) {
-  try {
-    read_scene(file);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_by([&] { read_scene(file); });
 }
 
 TEST(BadFile, ThatIsNoSceneIsRefusedAtOnce) {

@@ -19,6 +19,7 @@
 #include "framework/component/eigen/starting_loads.h"
 #include "framework/component/eigen/subspace.h"
 #include "tests/unit/eigen_bodies.h"
+#include "tests/refusal.h"
 
 namespace pintle::eigen_test {
 namespace {
@@ -184,12 +185,7 @@ TEST(EigenLowest, ScalesWithTheUnits) {
 
 /// The refusal's text.
 std::string refusal(const Pencil& a, const EigenOptions& options) {
-  try {
-    eigen_lowest(a.K, a.M, options);
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-  return "";
+  return pintle_test::refusal_by<std::invalid_argument>([&] { eigen_lowest(a.K, a.M, options); });
 }
 
 TEST(EigenLowest, RefusesMoreModesThanThereAre) {

@@ -77,23 +77,6 @@ inline std::string with_plate(const std::string& keys) {
   return "bodies:\n  part:\n    plate: {thickness: 1 mm, " + steel_keys + ", " + keys + "}\n";
 }
 
-/// A change that spoils the scene, where the message must point, and its remedy.
-struct Spoiled {
-  std::string from, to, place;
-  std::vector<std::string> says;
-};
-
-inline void expect_one_line(const std::string& said, const std::string& place, const std::vector<std::string>& parts) {
-  EXPECT_TRUE(said.starts_with(place)) << said;
-  EXPECT_EQ(said.find('\n'), std::string::npos) << "more than one line: " << said;
-  expect_says(said, parts);
-}
-
-inline void expect_refused(const std::vector<Spoiled>& all) {
-  for (const Spoiled& s : all) {
-    SCOPED_TRACE(s.to);
-    expect_one_line(refusal_of(spoiled(s.from, s.to)), s.place, s.says);
-  }
-}
+inline void expect_refused(const std::vector<Spoiled>& all) { expect_each_refused(all, spoiled); }
 
 }  // namespace pintle

@@ -1,4 +1,5 @@
 #include "framework/scene/units/expression.h"
+#include "tests/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +12,8 @@
 namespace pintle::expression_test {
 namespace {
 
+using pintle_test::expect_says;
+
 constexpr double pi = std::numbers::pi;
 constexpr double rounding = 1e-12;  // relative to the size of the terms summed
 
@@ -20,25 +23,11 @@ const Parameters parameters{
 double value(const char* text, const Dimension& d) { return read_quantity(text, d, parameters); }
 
 std::string refusal(const char* text, const Dimension& d = dimension::length) {
-  try {
-    read_quantity(text, d, parameters);
-  } catch (const ExpressionError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return pintle_test::refusal_by<ExpressionError>([&] { read_quantity(text, d, parameters); });
 }
 
 std::string law_refusal(const char* text, const Dimension& d) {
-  try {
-    read_law(text, d, parameters);
-  } catch (const ExpressionError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
-void expect_says(const std::string& said, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << "\"" << said << "\" lacks \"" << part << "\"";
+  return pintle_test::refusal_by<ExpressionError>([&] { read_law(text, d, parameters); });
 }
 
 TEST(Quantity, UnitsConvertToSIToTheLastBit) {

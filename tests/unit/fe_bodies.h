@@ -5,6 +5,7 @@
 #include "framework/component/fe/from_mesh.h"
 #include "framework/component/fe/statics.h"
 #include "meshes/mesh.h"
+#include "tests/refusal.h"
 
 #include <Eigen/Core>
 
@@ -136,14 +137,9 @@ inline FeModel model_of(const Plate& p, const PlaneProperties& properties, std::
 /// What an error of this type says, thrown by `act`.
 template <class Error = std::invalid_argument>
 std::string refusal(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "nothing was refused";
+  return pintle_test::refusal_by<Error>(act);
 }
-inline bool says(const std::string& words, const std::string& part) { return words.find(part) != std::string::npos; }
+using pintle_test::says;
 
 /// Elements of one kind in a row from `from` to `to`.
 template <class E>

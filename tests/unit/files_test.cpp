@@ -14,6 +14,7 @@
 #include "files/trust.h"
 #include "framework/scene/yaml/reader.h"
 #include "meshes/inp.h"
+#include "tests/refusal.h"
 
 namespace pintle::files_test {
 namespace {
@@ -51,12 +52,7 @@ struct Contained : testing::Test {
   template <class Read>
   std::string said(const std::string& name, const std::string& text, Read read) const {
     write(scene() / name, text);
-    try {
-      read(scene() / name);
-    } catch (const std::exception& e) {
-      return e.what();
-    }
-    return "accepted";
+    return pintle_test::refusal_by<std::exception>([&] { read(scene() / name); });
   }
   std::string said(const std::string& text) const {
     return said("scene.yaml", text, [](const fs::path& path) { read_scene(path); });

@@ -10,6 +10,7 @@
 #include "framework/bodies/modal_basis.h"
 #include "framework/scene/error.h"
 #include "framework/scene/yaml/reader.h"
+#include "tests/refusal.h"
 
 namespace pintle::flexible_drawing_test {
 namespace {
@@ -235,12 +236,7 @@ TEST(StressProbe, OfATaperedBeamHasTheSectionBetweenItsNeighbours) {
 
 std::string complaint(const std::string& text, const std::string& point) {
   const Body body(text);
-  try {
-    probe(body, {stretch}, point);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "none";
+  return pintle_test::refusal_by([&] { probe(body, {stretch}, point); });
 }
 
 TEST(StressProbe, IsRefusedWhereThereIsNoMaterial) {

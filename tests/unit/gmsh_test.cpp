@@ -17,6 +17,7 @@
 
 #include "meshes/quality.h"
 #include "tests/unit/mesh_sides.h"
+#include "tests/refusal.h"
 
 namespace pintle::gmsh_test {
 namespace {
@@ -62,12 +63,7 @@ double longest(const Mesh& mesh, const std::vector<Cells>& blocks) {
   return most;
 }
 std::string complaint(const fs::path& path, const MeshOptions& options = {}, double scale = 1) {
-  try {
-    read_geometry(path, options, scale);
-    return "";
-  } catch (const std::exception& e) {
-    return e.what();
-  }
+  return pintle_test::refusal_by<std::exception>([&] { read_geometry(path, options, scale); });
 }
 /// A drawing of its own, removed at the end.
 class Drawing {
@@ -198,13 +194,8 @@ TEST(LinkMeshPoints, AreRefusedWhereThereIsNoMaterial) {
                                       {4u, Vector2d{0.01, 0}, "hole"},
                                       {0u, Vector2d{0.2, 0.0251}, "outside"},
                                       {2u, Vector2d{0.5, 0.02}, "outside"}}) {
-      std::string said;
-      try {
-        mesh_link(samples[k].link, {shape, 0, 0, {p}});
-      } catch (const std::invalid_argument& e) {
-        said = e.what();
-      }
-      EXPECT_NE(said.find(words), std::string::npos) << samples[k].name << " " << name_of(shape) << ": " << said;
+      SCOPED_TRACE(samples[k].name + std::string(" ") + std::string(name_of(shape)));
+      pintle_test::expect_refused<std::invalid_argument>([&, &k = k, &p = p] { mesh_link(samples[k].link, {shape, 0, 0, {p}}); }, {words});
     }
 }
 

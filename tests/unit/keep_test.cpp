@@ -11,6 +11,7 @@
 
 #include "framework/component/reduction/modal_model.h"
 #include "tests/contracts/reduction_bodies.h"
+#include "tests/refusal.h"
 
 namespace pintle::keep_test {
 namespace {
@@ -131,12 +132,7 @@ TEST(Keep, ReductionsOfMasslessFreedomsHaveFiniteFrequencies) {
 // ---- refusals -----------------------------------------------------------------------------------
 
 void expect_refused(const std::function<void()>& act, const std::vector<std::string>& words) {
-  try {
-    act();
-    ADD_FAILURE() << "accepted; expected: " << words.front();
-  } catch (const std::invalid_argument& e) {
-    for (const auto& w : words) EXPECT_NE(std::string(e.what()).find(w), std::string::npos) << e.what();
-  }
+  pintle_test::expect_refused<std::invalid_argument>(act, words);
 }
 
 TEST(Refused, MoreModesThanThereAre) {

@@ -7,6 +7,7 @@
 #include "framework/bodies/segments.h"
 #include "framework/component/reduction/modal_model.h"
 #include "tests/unit/scene_text.h"
+#include "tests/refusal.h"
 
 namespace pintle::pieces_test {
 namespace {
@@ -56,12 +57,7 @@ std::string cut_with(const std::string& from, const std::string& to) {
 }
 Scene pieces_of(const std::string& text) { return with_pieces(read_scene_text(text, "scene.yaml")); }
 std::string rejected(const std::string& text) {
-  try {
-    pieces_of(text);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return pintle_test::refusal_by([&] { pieces_of(text); });
 }
 const Scene& cut() {
   static const Scene scene = pieces_of(cut_scene);
@@ -347,12 +343,7 @@ TEST(BadPieces, OfASceneMadeByHandAreJudgedToo) {
   const auto said = [](auto&& spoil) {
     Scene scene = read_scene_text(cut_scene, "scene.yaml");
     spoil(*scene.bodies[1].elastic);
-    try {
-      with_pieces(scene);
-    } catch (const SceneError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return pintle_test::refusal_by([&] { with_pieces(scene); });
   };
   expect_says(said([](SceneElastic& e) { e.modes.reset(); }), {"bodies.coupler", "add modes"});
   expect_says(said([](SceneElastic& e) { std::get<SceneBeam>(e.shape).bar = true; }), {"bodies.coupler", "euler or timoshenko"});

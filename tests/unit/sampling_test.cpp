@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "framework/scene/units/expression.h"
+#include "tests/refusal.h"
 
 namespace pintle::sampling_test {
 namespace {
@@ -20,12 +21,7 @@ Cases cases(const std::string& text) {
 }
 
 std::string complaint(const std::string& text) {
-  try {
-    cases(text);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "nothing";
+  return pintle_test::refusal_by([&] { cases(text); });
 }
 
 /// Of one name, as SI numbers.

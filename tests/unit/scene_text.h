@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "framework/scene/yaml/reader.h"
+#include "tests/refusal.h"
 
 namespace pintle {
 
@@ -61,16 +62,24 @@ inline std::string with(const std::string& from, const std::string& to) {
 }
 
 inline std::string refusal_of(const std::string& text, const Overrides& overrides = {}) {
-  try {
-    read_scene_text(text, "scene.yaml", overrides);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return pintle_test::refusal_by([&] { read_scene_text(text, "scene.yaml", overrides); });
 }
 
-inline void expect_says(const std::string& said, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << "\"" << said << "\" lacks \"" << part << "\"";
+using pintle_test::expect_one_line, pintle_test::expect_says, pintle_test::refusal_by;
+
+/// A change that spoils the scene, where the message must point, and its remedy.
+struct Spoiled {
+  std::string from, to, place;
+  std::vector<std::string> says;
+};
+
+/// @param spoiled  the scene with the one text in place of the other
+template <class Change>
+void expect_each_refused(const std::vector<Spoiled>& all, const Change& spoiled) {
+  for (const Spoiled& s : all) {
+    SCOPED_TRACE(s.to);
+    expect_one_line(refusal_of(spoiled(s.from, s.to)), s.place, s.says);
+  }
 }
 
 // A directory that lives as long as the test.

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "elements/material.h"
+#include "tests/refusal.h"
 
 namespace pintle::section_test {
 namespace {
@@ -131,12 +132,7 @@ TEST(Section, BetweenTwoSectionsSizesRunStraight) {
 }
 
 void expect_refusal(const std::function<void()>& act, const std::string& words) {
-  try {
-    act();
-    ADD_FAILURE() << "accepted, expected: " << words;
-  } catch (const std::invalid_argument& e) {
-    EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
-  }
+  pintle_test::expect_refused<std::invalid_argument>(act, {words});
 }
 
 TEST(Section, ImpossibleSizesAreRefusedByName) {

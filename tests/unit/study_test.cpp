@@ -12,6 +12,7 @@
 #include "framework/study/study.h"
 #include "tests/unit/scene_text.h"
 #include "tests/unit/worn_slider_crank.h"
+#include "tests/refusal.h"
 
 namespace pintle::study_test {
 namespace {
@@ -39,12 +40,7 @@ std::vector<Measure> some_measures() {
 }
 
 std::string refusal(const fs::path& study) {
-  try {
-    read_study(study);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return pintle_test::refusal_by([&] { read_study(study); });
 }
 
 TEST(Study, IsReadWithItsSceneItsOverridesAndItsMeasures) {
@@ -135,12 +131,7 @@ TEST(Study, MeasureThatOnlyAFlexibleBodyHasIsRefusedWhereNoCaseHasOne) {
     measures[0].name = measures[0].words = words;
     measures[0].place = {7, "measure.it"}, measures[0].file = "study.yaml";
     const auto rejected = [&](const std::vector<std::string>& varied) {
-      try {
-        validate_flexible(measures, scene, varied);
-      } catch (const SceneError& error) {
-        return std::string(error.what());
-      }
-      return std::string("accepted");
+      return pintle_test::refusal_by([&] { validate_flexible(measures, scene, varied); });
     };
     expect_says(rejected({"clearance", "bodies.slider.rigid.mass"}),
                 {"study.yaml:7: measure.it: ", "\"coupler\" is rigid in every case", "every body of the scene is rigid"});

@@ -8,9 +8,12 @@
 #include <fstream>
 
 #include "framework/scene/error.h"
+#include "tests/refusal.h"
 
 namespace pintle::table_test {
 namespace {
+
+using pintle_test::expect_says;
 
 namespace fs = std::filesystem;
 
@@ -29,16 +32,7 @@ struct TableFile {
 
 std::string refusal(const std::string& text) {
   const TableFile file(text);
-  try {
-    read_samples(file.path, 1, 1, "drivers.motor.law");
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
-void expect_says(const std::string& said, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << "\"" << said << "\" lacks \"" << part << "\"";
+  return pintle_test::refusal_by([&] { read_samples(file.path, 1, 1, "drivers.motor.law"); });
 }
 
 Samples sampled(double (*f)(double), int n, double end) {
@@ -79,12 +73,8 @@ TEST(Table, NamesFileLineKeyAndRemedy) {
 }
 
 TEST(Table, MissingFileIsNamed) {
-  try {
-    read_samples("no/such/table.csv", 1, 1, "drivers.motor.law");
-    FAIL() << "accepted";
-  } catch (const SceneError& error) {
-    expect_says(error.what(), {"no/such/table.csv", "drivers.motor.law", "no such file"});
-  }
+  pintle_test::expect_refused([] { read_samples("no/such/table.csv", 1, 1, "drivers.motor.law"); },
+                              {"no/such/table.csv", "drivers.motor.law", "no such file"});
 }
 
 TEST(Spline, MeetsACubicExactlyWithBothDerivatives) {
