@@ -21,23 +21,15 @@ bool is_closed(const System& system, const State& state, std::size_t k) {
   return k < system.contacts.size() && is_rigid(system.contacts[k]) && state.impact_rate[k] > 0;
 }
 
-// What only the rest of the mechanism does: the closed rigid contacts open, and no friction that a change of theirs could change.
-State without_rigid(const System& system, const State& state, bool keep_sliding) {
+// What the rest of the mechanism does: the closed rigid contacts open, and no friction that a change of theirs could change.
+State without_rigid(const System& system, const State& state) {
   State out = state;
   for (std::size_t k = 0; k < out.friction.size(); ++k) {
     const bool joint = k >= system.contacts.size();
     if (is_closed(system, state, k)) out.impact_rate[k] = 0;
-    if (joint || !keep_sliding || out.friction[k].direction == 0) out.friction[k] = {};
+    if (joint || out.friction[k].direction == 0) out.friction[k] = {};
   }
   return out;
-}
-
-// Accelerations without the rigid contacts, and the columns of these and of all that holds: eq.sticking.
-bool free_accelerations(const System& system, const State& state, bool keep_sliding, Equations& eq) {
-  VectorXd dy(system.n_y());
-  if (!evaluate(system, without_rigid(system, state, keep_sliding), eq, dy)) return false;
-  evaluate_held(system, state, eq);
-  return true;
 }
 
 // The closed rigid contacts, by the columns of eq.sticking.
@@ -133,8 +125,10 @@ void book(const System& system, const Closed& closed, const VectorXd& x, const V
 
 std::optional<std::vector<Blow>> strike(const System& system, std::span<const int> touching, State& state, Equations& eq) {
   constexpr double rounding = 1e-10;  // of the speeds that meet
+  VectorXd dy(system.n_y());
+  if (!evaluate(system, state, eq, dy)) return std::nullopt;
   close_for_impact(system, touching, state);
-  if (!free_accelerations(system, state, false, eq)) return std::nullopt;
+  evaluate_held(system, state, eq);
   const Closed closed = closed_contacts(system, state, eq);
   const VectorXd acceleration = sticking_accelerations(system, eq);
   MatrixXd W = respond_to_sticking(system, eq);
@@ -171,7 +165,9 @@ std::optional<std::vector<Blow>> strike(const System& system, std::span<const in
 
 bool decide_rigid(const System& system, State& state, Equations& eq) {
   constexpr double nearly = 1e-9;
-  if (!free_accelerations(system, state, true, eq)) return false;
+  VectorXd dy(system.n_y());
+  if (!evaluate(system, without_rigid(system, state), eq, dy)) return false;
+  evaluate_held(system, state, eq);
   const Closed closed = closed_contacts(system, state, eq);
   MatrixXd W = respond_to_sticking(system, eq);
   VectorXd c = sticking_accelerations(system, eq);

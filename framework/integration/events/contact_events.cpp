@@ -190,7 +190,7 @@ EventOutcome ContactEvents::strike(std::vector<int> touching, Step& step) {
     return {.failure = name(touching.front()) + ": no impulses stop the bodies that meet here; give the contact a law with a stiffness"};
   for (const Blow& blow : *blows)
     if (!log_.touching(blow.contact) && (blow.impulse > 0 || blow.separation == 0))
-      log_.begin(blow.contact, step, gap_of(system_, blow.contact, state), state.t, std::max(blow.approach, 0.0));
+      log_.begin(blow.contact, step, gap_of(system_, blow.contact, state), state.t, std::max(0.0, blow.approach));
   state = std::move(after);
   for (const Blow& blow : *blows)
     if (log_.touching(blow.contact)) log_.strike(blow, state);
