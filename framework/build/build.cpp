@@ -297,6 +297,7 @@ class Builder {
                            "; use constraints: projection");
     s.onset_cut = run.onset_cut.value_or(0);
     follow_laws(scene_, s);
+    if (s.fixed_step > 0) s.max_step = std::min(s.max_step, s.fixed_step);
     s.max_steps = run.max_steps;
   }
 

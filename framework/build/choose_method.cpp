@@ -111,7 +111,7 @@ Constraints constraints_of(const Scene& scene, bool is_explicit) {
   const std::string& c = scene.run.constraints;
   if (c == "partitioning" && !is_explicit)
     throw SceneError(scene.file, scene.run.place,
-                     "generalized-alpha does not take constraints: partitioning; leave it out, or take dopri5");
+                     scene.run.method + " does not take constraints: partitioning; leave it out, or take dopri5");
   if (c != "partitioning" && c != "projection")
     throw SceneError(scene.file, scene.run.place, "there are no constraints: " + c + "; take projection, the default, or partitioning");
   return c == "partitioning" ? Constraints::partitioning : Constraints::projection;
@@ -185,6 +185,23 @@ Demand demand(const RateSpectrum& s, double tolerance) {
           implicit_constant * most(implicit_order), high_constant * most(high_order)};
 }
 
+namespace {
+
+// Moreau's scheme knows impulses of rigid contacts, and forces that change little in a step.
+void require_rigid(const Scene& scene, const System& system) {
+  const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, scene.run.place, "moreau takes " + message); };
+  if (!(scene.run.step > 0)) wrong("steps of one length above 0");
+  if (system.n() != system.n_rigid()) wrong("rigid bodies only, for its steps do not follow what swings fast; take auto");
+  if (!system.frictions.empty()) wrong("no friction in ideal joints; take auto, or leave that friction out");
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    if (!is_rigid(system.contacts[c])) wrong("rigid contacts only; give \"" + system.contact_names[c] + "\" model: impact, or take auto");
+    if (system.contacts[c].rigid->poisson)
+      wrong("Newton's law of restitution only; give \"" + system.contact_names[c] + "\" that, or take auto");
+  }
+}
+
+}  // namespace
+
 void choose_method(const Scene& scene, const System& system, Scheme& scheme) {
   const RunOptions& run = scene.run;
   scheme.rho = run.rho;
@@ -192,16 +209,20 @@ void choose_method(const Scene& scene, const System& system, Scheme& scheme) {
     choose(scene, system, scheme);
   } else {
     scheme.tableau = find_tableau(run.method);
-    if (!scheme.tableau && run.method != "generalized-alpha") {
-      std::vector<std::string> known{"auto", "generalized-alpha"};
+    if (!scheme.tableau && run.method != "generalized-alpha" && run.method != "moreau") {
+      std::vector<std::string> known{"auto", "generalized-alpha", "moreau"};
       for (const Tableau& t : tableaus()) known.emplace_back(t.name);
       throw SceneError(scene.file, run.place, "there is no method \"" + run.method + "\"." + did_you_mean(run.method, known));
     }
-    if (!scheme.tableau && has_rigid_contacts(system))
-      throw SceneError(
-          scene.file, run.place,
-          "generalized-alpha does not take impacts of rigid bodies (model: impact); take auto or dopri5, or give the contacts a law "
-          "with a stiffness");
+    if (run.method == "moreau") {
+      require_rigid(scene, system);
+      scheme.fixed_step = run.step;
+    } else if (!scheme.tableau && has_rigid_contacts(system)) {
+      throw SceneError(scene.file, run.place,
+                       "generalized-alpha does not take impacts of rigid bodies (model: impact); take auto, dopri5 or moreau, or give the "
+                       "contacts a law "
+                       "with a stiffness");
+    }
     scheme.reason = run.method + ", as the scene says";
   }
   scheme.constraints = constraints_of(scene, scheme.tableau != nullptr);

@@ -24,7 +24,7 @@ Events events_of(const System& system, const Scheme& scheme, ContactEvents*& con
   auto of_contacts = std::make_unique<ContactEvents>(system, scheme);
   contacts = of_contacts.get();
   groups.push_back(std::move(of_contacts));
-  if (dry_states(system) > 0) groups.push_back(std::make_unique<FrictionEvents>(system, scheme));
+  if (dry_states(system) > 0 && scheme.fixed_step == 0) groups.push_back(std::make_unique<FrictionEvents>(system, scheme));
   for (const auto& make : scheme.events) groups.push_back(make(system));
   return Events(std::move(groups));
 }
@@ -109,6 +109,7 @@ bool Integrator::pass_law_change() {
 
 // A hundredth of the time in which the motion changes by itself.
 double Integrator::first_wish(double left) const {
+  if (const double fixed = stepper_->traits().fixed_step; fixed > 0) return control_.bounded(fixed);
   const Index n = system_.n();
   const double speed = step_.from.state.y.segment(n, n).norm(), accel = step_.from.dy.segment(n, n).norm();
   const double h = std::min(left, accel > 0 ? 0.01 * std::max(speed / accel, 1e-3 * std::sqrt(norm_.length() / accel)) : left);

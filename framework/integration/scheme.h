@@ -22,7 +22,8 @@ struct LawChange {
 
 /// The method of time integration and its settings.
 struct Scheme {
-  const Tableau* tableau = nullptr;  ///< explicit; nullptr: generalised-α
+  const Tableau* tableau = nullptr;  ///< explicit; nullptr: generalised-α, or Moreau's where the step is fixed
+  double fixed_step = 0;             ///< of Moreau's [s]
   double tolerance = 1e-8;           ///< local error of each component relative to its scale, see ErrorNorm
   Constraints constraints = Constraints::projection;
   double onset_cut = 0;               ///< 0: locate contact onset and loss as events. Positive: the strategy of
@@ -42,6 +43,8 @@ struct Scheme {
 };
 
 /// As scene files call it.
-inline std::string name(const Scheme& s) { return s.tableau ? std::string(s.tableau->name) : "generalized-alpha"; }
+inline std::string name(const Scheme& s) {
+  return s.tableau ? std::string(s.tableau->name) : s.fixed_step > 0 ? "moreau" : "generalized-alpha";
+}
 
 }  // namespace pintle

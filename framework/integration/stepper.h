@@ -20,6 +20,7 @@ struct StepperTraits {
   bool implicit;
   bool follows_impacts;                       ///< its steps follow the force of a contact closely: they end where that has a kink
   bool ends_evaluated;                        ///< `attempt` leaves contacts evaluated at the step's end
+  double fixed_step = 0;                      ///< the length of its steps; 0: the error chooses it [s]
   double least_change = 1, least_growth = 1;  ///< a next step between these parts of the last is not worth another factorization
 };
 

@@ -250,7 +250,8 @@ struct StartJournal {
 
 struct RunOptions {
   double until = 1;                        ///< [s]
-  std::string method = "auto";             ///< auto | rkf45 | dopri5 | generalized-alpha
+  std::string method = "auto";             ///< auto | rkf45 | dopri5 | verner87 | generalized-alpha | moreau
+  double step = 0;                         ///< of moreau [s]
   double rho = 0.8;                        ///< of generalized-alpha: spectral radius at infinite frequency, 0 to 1
   double tolerance = 1e-8;                 ///< local error, relative
   std::string constraints = "projection";  ///< projection | partitioning

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/complementarity.h"
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
 #include "framework/common/worse.h"
@@ -32,31 +31,6 @@ State without_rigid(const System& system, const State& state) {
   return out;
 }
 
-// The closed rigid contacts, by the columns of eq.sticking.
-struct Closed {
-  std::vector<UnilateralContact> unknowns;
-  std::vector<int> contact;
-};
-Closed closed_contacts(const System& system, const State& state, const Equations& eq) {
-  Closed out;
-  const auto& of = eq.sticking.of;
-  for (std::size_t i = 0; i < of.size(); ++i) {
-    if (!of[i].normal) continue;
-    UnilateralContact k{.normal = static_cast<int>(i)};
-    if (i + 1 < of.size() && of[i + 1].at == of[i].at) {
-      const Coulomb& law = *dry_law(system, of[i].at);
-      const bool holds = of[i + 1].holds;
-      (holds ? k.tangent : k.sliding) = static_cast<int>(i + 1);
-      k.mu = holds ? law.mu_static
-                   : std::abs(evaluate(law, eq.contact[of[i].at].gap.material_slip, 1, state.friction[of[i].at].direction).force);
-      k.direction = state.friction[of[i].at].direction;
-    }
-    out.unknowns.push_back(k);
-    out.contact.push_back(static_cast<int>(of[i].at));
-  }
-  return out;
-}
-
 // An impact begins: all rigid contacts concerned closed, and their friction free to stick.
 void close_for_impact(const System& system, std::span<const int> touching, State& state) {
   for (const int c : touching) state.impact_rate[at(c)] = system.contacts[at(c)].slowest_impact;
@@ -64,18 +38,6 @@ void close_for_impact(const System& system, std::span<const int> touching, State
     state.friction[k] = {};
     if (is_closed(system, state, k)) state.friction[k].direction = 0;
   }
-}
-
-// Newton's law: v⁺ = −e v⁻ of gaps that close; friction leaves −e_T times the slip that it stops.
-std::optional<VectorXd> newton(const System& system, const Closed& closed, std::span<const double> e, const MatrixXd& W,
-                               const VectorXd& v) {
-  VectorXd c = v;
-  for (std::size_t i = 0; i < e.size(); ++i) {
-    const UnilateralContact& k = closed.unknowns[i];
-    c[k.normal] += e[i] * std::min(v[k.normal], 0.0);
-    if (k.tangent >= 0) c[k.tangent] += system.contacts[at(closed.contact[i])].rigid->tangential * v[k.tangent];
-  }
-  return unilateral_forces(closed.unknowns, W, c);
 }
 
 // Poisson's: the impulse of expansion is e times that of compression, or more where a gap would close.
@@ -107,8 +69,40 @@ Bounce bounce_of(const ContactPair& pair, double t, double opening, double accel
   return {0, acceleration < 0 && e < 1 ? std::optional(t - 2 * parts / (acceleration * (1 - e))) : std::nullopt};
 }
 
-// What impulses x take out of the motion, at the mean of the speeds before and after.
-void book(const System& system, const Closed& closed, const VectorXd& x, const VectorXd& mean, const Equations& eq, State& state) {
+}  // namespace
+
+Closed closed_contacts(const System& system, const State& state, const Equations& eq) {
+  Closed out;
+  const auto& of = eq.sticking.of;
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (!of[i].normal) continue;
+    UnilateralContact k{.normal = static_cast<int>(i)};
+    if (i + 1 < of.size() && of[i + 1].at == of[i].at) {
+      const Coulomb& law = *dry_law(system, of[i].at);
+      const bool holds = of[i + 1].holds;
+      (holds ? k.tangent : k.sliding) = static_cast<int>(i + 1);
+      k.mu = holds ? law.mu_static
+                   : std::abs(evaluate(law, eq.contact[of[i].at].gap.material_slip, 1, state.friction[of[i].at].direction).force);
+      k.direction = state.friction[of[i].at].direction;
+    }
+    out.unknowns.push_back(k);
+    out.contact.push_back(static_cast<int>(of[i].at));
+  }
+  return out;
+}
+
+std::optional<VectorXd> newton_impulses(const System& system, const Closed& closed, std::span<const double> e, const MatrixXd& W,
+                                        const VectorXd& before, const VectorXd& free) {
+  VectorXd c = free;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    const UnilateralContact& k = closed.unknowns[i];
+    c[k.normal] += e[i] * std::min(before[k.normal], 0.0);
+    if (k.tangent >= 0) c[k.tangent] += system.contacts[at(closed.contact[i])].rigid->tangential * before[k.tangent];
+  }
+  return unilateral_forces(closed.unknowns, W, c);
+}
+
+void book_impulses(const System& system, const Closed& closed, const VectorXd& x, const VectorXd& mean, State& state) {
   auto z = state.y.segment(system.z_begin(), system.n_z());
   for (std::size_t i = 0; i < closed.unknowns.size(); ++i) {
     const UnilateralContact& k = closed.unknowns[i];
@@ -116,12 +110,12 @@ void book(const System& system, const Closed& closed, const VectorXd& x, const V
     z[begin] -= x[k.normal] * mean[k.normal];
     if (k.tangent >= 0) z[begin + 1] -= x[k.tangent] * mean[k.tangent];
   }
-  const VectorXd impulse = eq.sticking.lambda * x;
-  for (std::size_t j = 0; j < system.joints.size(); ++j)
-    if (system.joint_z[j] >= 0) z[system.joint_z[j]] += impulse[system.row_begin[j]] * eq.rows[j].Ct[0];
 }
 
-}  // namespace
+void book_driver_impulses(const System& system, const Equations& eq, const VectorXd& impulses, State& state) {
+  for (std::size_t j = 0; j < system.joints.size(); ++j)
+    if (system.joint_z[j] >= 0) state.y[system.z_begin() + system.joint_z[j]] += impulses[system.row_begin[j]] * eq.rows[j].Ct[0];
+}
 
 std::optional<std::vector<Blow>> strike(const System& system, std::span<const int> touching, State& state, Equations& eq) {
   constexpr double rounding = 1e-10;  // of the speeds that meet
@@ -145,11 +139,12 @@ std::optional<std::vector<Blow>> strike(const System& system, std::span<const in
     e.push_back(bounce.back().e);
     by_poisson = by_poisson || pair.rigid->poisson;
   }
-  const auto x = by_poisson ? poisson(closed, e, W, before) : newton(system, closed, e, W, before);
+  const auto x = by_poisson ? poisson(closed, e, W, before) : newton_impulses(system, closed, e, W, before, before);
   if (!x) return std::nullopt;
   speeds += eq.sticking.a * *x;
   const VectorXd after = before + W * *x;
-  book(system, closed, *x, (before + after) / 2, eq, state);
+  book_impulses(system, closed, *x, (before + after) / 2, state);
+  book_driver_impulses(system, eq, eq.sticking.lambda * *x, state);
 
   const double slow = rounding * largest(before);
   std::vector<Blow> out;

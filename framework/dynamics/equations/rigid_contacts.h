@@ -4,10 +4,28 @@
 #include <span>
 #include <vector>
 
+#include "contact/complementarity.h"
 #include "framework/dynamics/equations/equations.h"
 
 /// Rigid contacts: what an impact does to the speeds, and which contacts stay closed, stick and slide after it. Theory: docs/theory/impact.md.
 namespace pintle {
+
+/// The closed rigid contacts, their forces or impulses by the columns of eq.sticking. After list_sticking.
+struct Closed {
+  std::vector<UnilateralContact> unknowns;
+  std::vector<int> contact;
+};
+Closed closed_contacts(const System&, const State&, const Equations&);
+/// Impulses by Newton's law of restitution: a gap that closed at −v⁻ opens at −e v⁻ or more, and of a slip that friction stops −e_T times
+/// it is left. Unknowns as the columns of W.
+/// @param e  restitution of each contact now   @param before, free  v⁻, and what the speeds would be without impulses
+/// @returns nothing where none are found
+std::optional<Eigen::VectorXd> newton_impulses(const System&, const Closed&, std::span<const double> e, const Eigen::MatrixXd& W,
+                                               const Eigen::VectorXd& before, const Eigen::VectorXd& free);
+/// Books what impulses x take out of the motion, at the mean of the speeds before and after.
+void book_impulses(const System&, const Closed&, const Eigen::VectorXd& x, const Eigen::VectorXd& mean, State&);
+/// Books what drivers put in by impulses of the joints.
+void book_driver_impulses(const System&, const Equations&, const Eigen::VectorXd& impulses, State&);
 
 /// What an impact does at one contact.
 struct Blow {

@@ -66,6 +66,10 @@ bool sticks(const System& system, const State& state, std::size_t k) {
   return !of_contact(system, k) || state.impact_rate[k] > 0;
 }
 
+bool holds_gap(const System& system, const State& state, std::size_t contact) {
+  return is_rigid(system.contacts[contact]) && state.impact_rate[contact] > 0 && state.friction[contact].direction != DryFriction::given;
+}
+
 FrictionNow friction_now(const System& system, const Equations& eq, std::size_t k) {
   const Coulomb* law = dry_law(system, k);
   const double static_part = law ? law->mu_static : 0;
@@ -135,8 +139,7 @@ void list_sticking(const System& system, const State& state, Equations& eq) {
   Sticking& s = eq.sticking;
   s.of.clear();
   for (std::size_t k = 0; k < state.friction.size(); ++k) {
-    const bool holds = sticks(system, state, k), in_contact = of_contact(system, k),
-               rigid = in_contact && is_rigid(system.contacts[k]) && state.impact_rate[k] > 0;
+    const bool holds = sticks(system, state, k), in_contact = of_contact(system, k), rigid = in_contact && holds_gap(system, state, k);
     if (rigid) s.of.push_back({k, true, true});
     if (holds || !in_contact || (rigid && std::abs(state.friction[k].direction) == 1 && dry_law(system, k)))
       s.of.push_back({k, false, holds});
@@ -301,7 +304,7 @@ void keep_friction(const System& system, const Equations& eq, State& state) {
 void evaluate_held(const System& system, const State& state, Equations& eq) {
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     const ContactPair& pair = system.contacts[c];
-    if (sticks(system, state, c) || (is_rigid(pair) && state.impact_rate[c] > 0))
+    if (sticks(system, state, c) || holds_gap(system, state, c))
       eq.contact[c] = evaluate(pair, eq.motion[at(pair.a)], eq.motion[at(pair.b)], state.impact_rate[c], state.friction[c]);
   }
   list_sticking(system, state, eq);

@@ -52,7 +52,7 @@ namespace {
 FrictionForce friction_of(const ContactPair& pair, double slip, double normal, const DryFriction& dry) {
   const auto* coulomb = std::get_if<Coulomb>(&*pair.friction);
   if (!coulomb) return evaluate(*pair.friction, slip, normal);
-  if (dry.direction == 0) return {.force = dry.force};
+  if (dry.direction == 0 || dry.direction == DryFriction::given) return {.force = dry.force};
   if (dry.direction == DryFriction::undecided) return {};
   return evaluate(*coulomb, slip, normal, dry.direction);
 }
@@ -76,7 +76,7 @@ ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& a, const Mar
     const double slip = pair.sliding == Sliding::material ? out.gap.material_slip : out.gap.geometric_slip;
     const FrictionForce law = friction_of(pair, slip, out.normal.force, dry);
     out.friction = law.force, out.d_slip = law.d_speed, out.d_normal = law.d_normal;
-    const bool slides = !dry_friction(pair) || std::abs(dry.direction) == 1;
+    const bool slides = !dry_friction(pair) || std::abs(dry.direction) == 1 || dry.direction == DryFriction::given;
     if (slides) out.friction_loss = -out.friction * slip;
     force += out.friction * perp(out.gap.n);
   }

@@ -49,6 +49,7 @@ struct ContactPair {
 /// What a rigid contact, or one or a joint of dry friction, is doing, and what the accelerations have decided of its force.
 struct DryFriction {
   static constexpr double undecided = 2;  ///< the surfaces have met, and neither slide nor stick yet: without friction
+  static constexpr double given = 3;      ///< of a rigid contact: both forces are those that a time-stepping scheme has found
   double direction = undecided;           ///< −1, 1: they slide, a over b along Zn; 0: they stick
   double force = 0;                       ///< of a contact on a along Zn, where it sticks; of a joint on b along the slip [N]
   double load = 0;                        ///< of a joint, a rigid contact: what presses it [N]

@@ -18,7 +18,7 @@ constexpr double part_pressed = 1e-9;  // of the greatest force of rigid contact
 }  // namespace
 
 ContactEvents::ContactEvents(const System& system, const Scheme& scheme)
-    : system_(system), tolerance_(scheme.tolerance), onset_cut_(scheme.onset_cut), log_(system) {
+    : system_(system), tolerance_(scheme.tolerance), onset_cut_(scheme.onset_cut), time_stepping_(scheme.fixed_step > 0), log_(system) {
   for (int c = 0; c < contacts(); ++c) {
     const ContactPair& pair = system.contacts[at(c)];
     if (pair.profiles && (std::isfinite(pair.gap.a.half) || std::isfinite(pair.gap.b.half))) leaving_.push_back(c);
@@ -40,7 +40,7 @@ bool ContactEvents::continues_another(int contact) const {
 WatchedGuard ContactEvents::watch(int event) const {
   const int leaves = leaving(event), contact = leaves < 0 ? event : leaves;
   const ContactPair& pair = system_.contacts[at(contact)];
-  if (is_held(pair)) return {};
+  if (is_held(pair) || time_stepping_) return {};
   const double zero = is_rigid(pair) ? pair.slack : 1e-9 * fine_length(pair, system_.length);
   if (leaves >= 0) return {.direction = log_.touching(contact) ? Direction::falling : Direction::none, .zero = zero, .at_once = true};
   if (log_.touching(contact) && is_rigid(pair)) return {.direction = Direction::falling, .zero = part_pressed, .at_once = true};
@@ -129,6 +129,7 @@ bool ContactEvents::met(int event, const Guard& gap) const {
 
 // A start inside the wall has no approach speed. It gets that of the impact which would have come this deep.
 void ContactEvents::start(Step& step) {
+  if (time_stepping_) return;
   std::vector<int> rigid;
   for (int c = 0; c < contacts(); ++c) {
     if (is_rigid(system_.contacts[at(c)])) {
@@ -142,10 +143,22 @@ void ContactEvents::start(Step& step) {
   if (!rigid.empty()) strike(rigid, step);
 }
 
+// A stay lasts as long as each step brings an impulse.
+void ContactEvents::write_down(Step& step) {
+  const State& state = step.to.state;
+  for (int c = 0; c < contacts(); ++c) {
+    const bool closed = state.impact_rate[at(c)] > 0, before = log_.touching(c);
+    if (closed && !before) log_.begin(c, step, gap_of(system_, c, state), step.from.state.t + step.h / 2, state.impact_rate[at(c)]);
+    if (closed) log_.strike({.contact = c, .approach = 0, .separation = 0, .impulse = state.friction[at(c)].load * step.h}, state);
+    if (!closed && before) log_.end(c, step.from.state.t, -gap_of(system_, c, step.from.state).rate);
+  }
+}
+
 void ContactEvents::follow(Step& step, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput& motion) {
+  if (time_stepping_) write_down(step);
   log_.follow(step, from, to, motion);
   for (int c = 0; c < contacts(); ++c) {
-    if (!is_rigid(system_.contacts[at(c)]) || !log_.touching(c)) continue;
+    if (!is_rigid(system_.contacts[at(c)]) || !log_.touching(c) || time_stepping_) continue;
     if (step.from.state.impact_rate[at(c)] == 0) log_.end(c, step.from.state.t, 0);  // its forces have let it open
     most_pressed_ = std::max(most_pressed_, std::abs(step.to.state.friction[at(c)].load));
   }

@@ -39,6 +39,7 @@ class ContactEvents final : public EventGroup {
   EventOutcome strike(std::vector<int> touching, Step&);
   EventOutcome part(int contact, Step&);
   Guard pressed(int contact, const State&) const;
+  void write_down(Step&);
   bool touches(int contact, const State&) const;
   void begin(int contact, Step&, double rate);
   void end(int contact, Step&);
@@ -48,6 +49,7 @@ class ContactEvents final : public EventGroup {
 
   const System& system_;
   double tolerance_, onset_cut_;
+  bool time_stepping_;        ///< impacts are the scheme's: they are written down, but no events
   std::vector<int> leaving_;  ///< pairs whose pieces end somewhere
   ImpactLog log_;
   double most_pressed_ = 0;        ///< of the rigid contacts so far [N]

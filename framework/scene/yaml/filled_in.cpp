@@ -240,6 +240,7 @@ Json json(const RunOptions& run) {
   Json out = {{"until", run.until}, {"method", run.method},       {"tolerance", run.tolerance},      {"constraints", run.constraints},
               {"onset", "locate"},  {"max steps", run.max_steps}, {"ledger bound", run.ledger_bound}};
   if (run.method == "generalized-alpha") out["method"] = {{run.method, {{"rho", run.rho}}}};
+  if (run.method == "moreau") out["method"] = {{run.method, {{"step", run.step}}}};
   if (run.onset_cut) out["onset"] = {{"cut", *run.onset_cut}};
   if (run.max_step > 0) out["max step"] = run.max_step;
   return out;

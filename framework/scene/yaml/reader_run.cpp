@@ -109,13 +109,17 @@ void read_onset(const Node& node, RunOptions& run) {
 void read_method(const Node& node, RunOptions& run) {
   if (!node.is_map()) {
     run.method = node.one_of(choices("run", "method"));
+    if (run.method == "moreau") node.fail("needs the length of its steps; write {moreau: {step: 0.1 ms}}");
     return;
   }
   check_keys(node, "run.method");
-  run.method = "generalized-alpha";
-  const Node alpha = node.at("generalized-alpha");
-  check_keys(alpha, "run.method.generalized-alpha");
-  run.rho = alpha.at("rho").quantity(dimension::number, rule::zero_to_one);
+  run.method = which_key(node, std::vector<std::string>{"generalized-alpha", "moreau"}, "its method");
+  const Node method = node.at(run.method);
+  check_keys(method, "run.method." + run.method);
+  if (run.method == "moreau")
+    run.step = method.at("step").quantity(dimension::time, rule::positive);
+  else
+    run.rho = method.at("rho").quantity(dimension::number, rule::zero_to_one);
 }
 
 const std::vector<ScenePoint>* points_of(const std::string& body, const Scene& scene) {

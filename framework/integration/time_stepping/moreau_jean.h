@@ -1,0 +1,46 @@
+#pragma once
+
+#include "framework/integration/stepper.h"
+
+namespace pintle {
+
+/// Moreau's and Jean's scheme for rigid contacts: steps of one length, each from the middle of the step before to that of its own, over
+/// which forces and impacts act together, as impulses by Newton's law of restitution. It does not look for the instants of impacts and so
+/// passes any number of them in a step; its error is of first order in the step. Theory and sources: docs/theory/impact.md.
+class MoreauJean final : public Stepper {
+ public:
+  static constexpr std::string_view method = "moreau";
+  MoreauJean(const System&, double step);
+
+  std::string_view name() const override { return method; }
+  const StepperTraits& traits() const override { return traits_; }
+  bool project(Instant&, Equations&) override;
+  bool attempt(double h, const ErrorNorm&, Step&, Equations&) override;
+  void accept(Equations&) override {}
+  double first_step(const Instant&, const ErrorNorm&, double) const override { return traits_.fixed_step; }
+  void interpolate(const Step&, double t, State& out) const override;
+  bool sample(const Step&, double t, Equations&, State& out) override;
+  bool passed_near_singular() const override { return false; }
+  bool near_singular(const Equations&) const override { return false; }
+  bool strayed_near_singular(const Step&, const Equations&) const override { return false; }
+  bool at_stability_limit(const Step&) const override { return false; }
+  std::string trouble() const override { return {}; }
+  int partitions() const override { return 0; }
+  void save(Writer&) const override;
+  void load(Reader&) override;
+  bool fits(const Instant&) const override { return true; }
+  void evaluate_end(const Step&, Equations&) override;
+
+ private:
+  bool evaluate_node(Instant&, Equations&);
+  bool put_impulses(double h, const State& from, Eigen::VectorXd& speeds, State& to, Equations&);
+  void book_rates(Step&) const;
+  void book_loss(State&, const Equations&) const;
+
+  const System& system_;
+  StepperTraits traits_;
+  State middle_;
+  double balance_ = 0;  ///< of the books, which the integral of what the scheme loses keeps [J]
+};
+
+}  // namespace pintle
