@@ -125,7 +125,7 @@ std::optional<std::vector<Blow>> strike(const System& system, std::span<const in
   evaluate_held(system, state, eq);
   const Closed closed = closed_contacts(system, state, eq);
   const VectorXd acceleration = sticking_accelerations(system, eq);
-  MatrixXd W = respond_to_sticking(system, eq);
+  const MatrixXd W = respond_to_sticking(system, eq);
   auto speeds = state.y.segment(system.n(), system.n());
   const VectorXd before = eq.sticking.J.transpose() * speeds;
 
@@ -158,6 +158,31 @@ std::optional<std::vector<Blow>> strike(const System& system, std::span<const in
   return out;
 }
 
+namespace {
+
+// What else holds takes its share at once: W and c with it.
+void let_others_hold(const System& system, const State& state, const Equations& eq, MatrixXd& W, VectorXd& c) {
+  std::vector<Index> others;
+  const auto& of = eq.sticking.of;
+  for (std::size_t i = 0; i < of.size(); ++i)
+    if (of[i].holds && !is_closed(system, state, of[i].at)) others.push_back(static_cast<Index>(i));
+  if (others.empty()) return;
+  const auto m = static_cast<Index>(others.size());
+  MatrixXd own(m, m), by(m, W.cols() + 1);
+  for (Index i = 0; i < m; ++i) {
+    const Index row = others[at(i)];
+    for (Index j = 0; j < m; ++j) own(i, j) = W(row, others[at(j)]);
+    by.row(i) << W.row(row), c[row];
+  }
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_norm(m, m);
+  least_norm.compute(own);
+  const MatrixXd share = least_norm.solve(by), to = by.leftCols(W.cols()).transpose();
+  W -= to * share.leftCols(W.cols());
+  c -= to * share.col(W.cols());
+}
+
+}  // namespace
+
 bool decide_rigid(const System& system, State& state, Equations& eq) {
   constexpr double nearly = 1e-9;
   VectorXd dy(system.n_y());
@@ -166,27 +191,7 @@ bool decide_rigid(const System& system, State& state, Equations& eq) {
   const Closed closed = closed_contacts(system, state, eq);
   MatrixXd W = respond_to_sticking(system, eq);
   VectorXd c = sticking_accelerations(system, eq);
-
-  // What else holds takes its share at once.
-  std::vector<Index> others;
-  const auto& of = eq.sticking.of;
-  for (std::size_t i = 0; i < of.size(); ++i)
-    if (of[i].holds && !of[i].normal && !is_closed(system, state, of[i].at)) others.push_back(static_cast<Index>(i));
-  if (!others.empty()) {
-    const auto m = static_cast<Index>(others.size());
-    MatrixXd own(m, m), by(m, W.cols() + 1);
-    for (Index i = 0; i < m; ++i) {
-      for (Index j = 0; j < m; ++j) own(i, j) = W(others[at(static_cast<int>(i))], others[at(static_cast<int>(j))]);
-      by.row(i) << W.row(others[at(static_cast<int>(i))]), c[others[at(static_cast<int>(i))]];
-    }
-    Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_norm(m, m);
-    least_norm.compute(own);
-    const MatrixXd share = least_norm.solve(by);
-    const MatrixXd to = by.leftCols(W.cols()).transpose();
-    W -= to * share.leftCols(W.cols());
-    c -= to * share.col(W.cols());
-  }
-
+  let_others_hold(system, state, eq, W, c);
   const auto x = unilateral_forces(closed.unknowns, W, c);
   if (!x) return false;
   double most = 0;

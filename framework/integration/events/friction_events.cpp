@@ -38,7 +38,7 @@ MarkerMotion motion_of(const System& system, int marker, const Eigen::VectorXd& 
 
 FrictionEvents::FrictionEvents(const System& system, const Scheme& scheme) : system_(system), tolerance_(scheme.tolerance) {
   for (std::size_t k = 0; k < dry_states(system); ++k)
-    if (dry_law(system, k) || (k < system.contacts.size() && is_rigid(system.contacts[k]))) dry_.push_back(k);
+    if (dry_law(system, k) || of_rigid(k)) dry_.push_back(k);
   fastest_.resize(dry_.size());
 }
 
@@ -62,6 +62,7 @@ WatchedGuard FrictionEvents::watch(int event) const {
   return {.direction = Direction::rising, .zero = known, .at_once = true};
 }
 
+bool FrictionEvents::of_rigid(std::size_t k) const { return k < system_.contacts.size() && is_rigid(system_.contacts[k]); }
 bool FrictionEvents::touches(std::size_t k, const State& state) const { return k >= system_.contacts.size() || state.impact_rate[k] > 0; }
 
 FrictionNow FrictionEvents::now(std::size_t k, const State& state) const {
@@ -143,7 +144,7 @@ EventOutcome FrictionEvents::act(int event, Step& step, const Guard&) {
 }
 
 // What slid until now and cannot be held goes on the other way.
-void FrictionEvents::pass_dead_centres(const std::vector<std::size_t>& resting, const std::vector<double>& came, State& state) {
+void FrictionEvents::pass_dead_centres(const Resting& resting, State& state) {
   constexpr double dead = 1e-4;
   pose(system_, state.t, state.y, *eq_);
   factor(system_, state.y, *eq_);
@@ -152,9 +153,10 @@ void FrictionEvents::pass_dead_centres(const std::vector<std::size_t>& resting, 
   apply_forces(system_, state, *eq_);
   list_sticking(system_, state, *eq_);
   const std::vector<Sticking::Column>& of = eq_->sticking.of;
-  for (std::size_t i = 0; i < resting.size(); ++i) {
-    const auto column = std::ranges::find_if(of, [&](const auto& c) { return c.at == resting[i] && !c.normal; }) - of.begin();
-    if (std::abs(came[i]) == 1 && leverage(system_, *eq_, column) < dead) state.friction[resting[i]].direction = -came[i];
+  for (std::size_t i = 0; i < resting.at.size(); ++i) {
+    const auto column = std::ranges::find_if(of, [&](const auto& c) { return c.at == resting.at[i] && !c.normal; }) - of.begin();
+    if (std::abs(resting.came[i]) == 1 && leverage(system_, *eq_, column) < dead)
+      state.friction[resting.at[i]].direction = -resting.came[i];
   }
 }
 
@@ -177,18 +179,14 @@ bool overcharged(const System& system, const State& state, const Equations& eq) 
 
 }  // namespace
 
-// All that is at rest sticks, to begin with. Then, of what cannot hold, that which is asked for most slides, against the
-// force that would have held it, until the rest can. Rigid contacts, whose normal forces depend on their friction, are decided together.
-bool FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
-  constexpr double little = 1e-9, nearly = 1e-6;
-  std::vector<std::size_t> resting;
-  std::vector<double> came;  // the directions in which these slid before
-  bool rigid = false;
+// What slides goes on, or begins to against the force that held it; all that is at rest sticks, to begin with.
+FrictionEvents::Resting FrictionEvents::classify(State& state, std::optional<std::size_t> slips) const {
+  Resting out;
   for (int event = 0; event < size(); event += 2) {
     const std::size_t k = place(event);
     DryFriction& dry = state.friction[k];
     if (!touches(k, state)) continue;
-    rigid = rigid || (k < system_.contacts.size() && is_rigid(system_.contacts[k]));
+    out.rigid = out.rigid || of_rigid(k);
     if (!dry_law(system_, k)) {
       dry.direction = 0;
       continue;
@@ -200,29 +198,40 @@ bool FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
     } else if (k == slips || !(slow || dry.direction == 0)) {
       dry.direction = std::copysign(1.0, slip);
     } else {
-      resting.push_back(k);
-      came.push_back(dry.direction);
+      out.at.push_back(k);
+      out.came.push_back(dry.direction);
       dry.direction = 0;
     }
     if (k < system_.contacts.size()) dry.force = 0;
   }
-  if (resting.empty() && !rigid) return true;
-  if (!eq_) eq_ = std::make_unique<Equations>(system_);
-  pass_dead_centres(resting, came, state);
+  return out;
+}
+
+// Rigid contacts, whose normal forces depend on their friction, are decided together.
+bool FrictionEvents::decide_rigid_ones(State& state) {
+  if (!overcharged(system_, state, *eq_)) return true;
   Eigen::VectorXd dy(system_.n_y());
-  for (std::size_t tries = 0; tries < 4 * resting.size() + 4; ++tries) {
-    if (!evaluate(system_, state, *eq_, dy)) return !rigid;
-    if (rigid && overcharged(system_, state, *eq_)) {
-      if (!decide_rigid(system_, state, *eq_) || !evaluate(system_, state, *eq_, dy)) {
-        for (std::size_t c = 0; c < system_.contacts.size(); ++c)
-          if (is_rigid(system_.contacts[c])) state.friction[c].direction = DryFriction::undecided;
-        return false;
-      }
-    }
+  if (decide_rigid(system_, state, *eq_) && evaluate(system_, state, *eq_, dy)) return true;
+  for (std::size_t c = 0; c < system_.contacts.size(); ++c)
+    if (is_rigid(system_.contacts[c])) state.friction[c].direction = DryFriction::undecided;
+  return false;
+}
+
+// Of what cannot hold, that which is asked for most slides, against the force that would have held it, until the rest can.
+bool FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
+  constexpr double little = 1e-9, nearly = 1e-6;
+  const Resting resting = classify(state, slips);
+  if (resting.at.empty() && !resting.rigid) return true;
+  if (!eq_) eq_ = std::make_unique<Equations>(system_);
+  pass_dead_centres(resting, state);
+  Eigen::VectorXd dy(system_.n_y());
+  for (std::size_t tries = 0; tries < 4 * resting.at.size() + 4; ++tries) {
+    if (!evaluate(system_, state, *eq_, dy)) return !resting.rigid;
+    if (resting.rigid && !decide_rigid_ones(state)) return false;
     std::optional<std::size_t> worst;
     double most = slips ? 1 - nearly : 1 + little;  // what shares the load gives way together
-    for (const std::size_t k : resting) {
-      if (!sticks(system_, state, k) || (k < system_.contacts.size() && is_rigid(system_.contacts[k]))) continue;
+    for (const std::size_t k : resting.at) {
+      if (!sticks(system_, state, k) || of_rigid(k)) continue;
       const FrictionNow held = friction_now(system_, *eq_, k);
       const double share = held.force == 0 ? 0 : std::abs(held.force) / std::max(held.holds, 1e-300);
       if (share > most) worst = k, most = share;

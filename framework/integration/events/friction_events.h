@@ -38,7 +38,16 @@ class FrictionEvents final : public EventGroup {
   bool touches(std::size_t at, const State&) const;
   FrictionNow now(std::size_t at, const State&) const;
   Guard guard(int event, const State&, const FrictionNow&) const;
-  void pass_dead_centres(const std::vector<std::size_t>& resting, const std::vector<double>& came, State&);
+  bool of_rigid(std::size_t at) const;
+  /// What sticks, and the directions in which these slid before.
+  struct Resting {
+    std::vector<std::size_t> at;
+    std::vector<double> came;
+    bool rigid = false;  ///< some rigid contact is closed
+  };
+  Resting classify(State&, std::optional<std::size_t> slips) const;
+  void pass_dead_centres(const Resting&, State&);
+  bool decide_rigid_ones(State&);
   bool decide(State&, std::optional<std::size_t> slips);  ///< false: rigid contacts find no forces
 
   const System& system_;
