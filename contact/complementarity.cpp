@@ -1,5 +1,6 @@
 #include "contact/complementarity.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -15,7 +16,8 @@ namespace {
 // w = q + M z + d z₀ as a tableau [basic | w z z₀ | rhs] that is pivoted; the variables are numbered w: 0 … n − 1, z: n … 2n − 1, z₀: 2n.
 class Lemke {
  public:
-  Lemke(const MatrixXd& M, const VectorXd& q) : n_(q.size()), table_(n_, 2 * n_ + 2), basic_(static_cast<std::size_t>(n_)) {
+  Lemke(const MatrixXd& M, const VectorXd& q)
+      : n_(q.size()), table_(n_, 2 * n_ + 2), most_(q.cwiseAbs().maxCoeff()), basic_(static_cast<std::size_t>(n_)) {
     table_ << MatrixXd::Identity(n_, n_), -M, VectorXd::Constant(n_, -1), q;
     for (Index i = 0; i < n_; ++i) basic(i) = i;
   }
@@ -30,7 +32,7 @@ class Lemke {
       if (leaves == z0()) return solution();
       enters = leaves < n_ ? leaves + n_ : leaves - n_;
       const std::optional<Index> blocks = blocking(enters);
-      if (!blocks) return std::nullopt;
+      if (!blocks) return is_solved() ? std::optional(solution()) : std::nullopt;
       row = *blocks;
     }
     return std::nullopt;
@@ -69,6 +71,14 @@ class Lemke {
     return best;
   }
 
+  // But for rounding z₀ is 0, as where forces have to balance and cannot in all digits.
+  bool is_solved() {
+    constexpr double rounding = 1e-12;
+    for (Index i = 0; i < n_; ++i)
+      if (basic(i) == z0()) return table_(i, rhs()) <= rounding * most_;
+    return true;
+  }
+
   VectorXd solution() {
     VectorXd z = VectorXd::Zero(n_);
     for (Index i = 0; i < n_; ++i)
@@ -78,6 +88,7 @@ class Lemke {
 
   Index n_;
   MatrixXd table_;
+  double most_;               ///< of q
   std::vector<Index> basic_;  ///< variable of each row
 };
 
@@ -88,49 +99,45 @@ std::optional<VectorXd> solve_complementarity(const MatrixXd& M, const VectorXd&
   return Lemke(M, q).solve();
 }
 
-// T = R − μ(N + N₀) with R ≥ 0 and L = 2μ(N + N₀) − R ≥ 0; the slip is t = w − u, w ⊥ R, u ⊥ L. Unknown z = (N, R, u) against
-// (g, w, L), each unknown over the root of its own W.
+// T = T⁺ − T⁻. Unknown z = (N, T⁺, T⁻, u) against (g, u + slip, u − slip, μ(N + N₀) − T⁺ − T⁻), u the speed of a slip, each over the
+// root of its own W. Without what slides zᵀM z = xᵀW x + uᵀμN ≥ 0, so that Lemke's method finds the impulses of an impact
+// [AnitescuPotra1997, theorem 1].
 std::optional<VectorXd> unilateral_forces(std::span<const UnilateralContact> contacts, const MatrixXd& W, const VectorXd& c) {
   const auto n = static_cast<Index>(contacts.size());
-  std::vector<const UnilateralContact*> rub;
-  for (const UnilateralContact& k : contacts)
-    if (k.tangent >= 0) rub.push_back(&k);
-  const auto m = static_cast<Index>(rub.size()), size = n + 2 * m;
+  const auto m = static_cast<Index>(std::ranges::count_if(contacts, [](const UnilateralContact& k) { return k.tangent >= 0; }));
+  const Index size = n + 3 * m;
 
   // x = X z + x₀
   MatrixXd X = MatrixXd::Zero(c.size(), size);
   VectorXd x0 = VectorXd::Zero(c.size());
-  std::vector<Index> at_tangent(contacts.size(), -1);
-  for (Index i = 0, j = 0; i < n; ++i) {
+  for (Index i = 0, forth = n; i < n; ++i) {
     const UnilateralContact& k = contacts[static_cast<std::size_t>(i)];
     X(k.normal, i) = 1;
     if (k.sliding >= 0) X(k.sliding, i) = -k.direction * k.mu;
     if (k.sliding >= 0) x0[k.sliding] = -k.direction * k.mu * k.preload;
     if (k.tangent < 0) continue;
-    X(k.tangent, i) = -k.mu;
-    X(k.tangent, n + j) = 1;
-    x0[k.tangent] = -k.mu * k.preload;
-    at_tangent[static_cast<std::size_t>(i)] = j++;
+    X(k.tangent, forth) = 1;
+    X(k.tangent, forth++ + m) = -1;
   }
   const MatrixXd respond = W * X;
   const VectorXd at_rest = W * x0 + c;
+  const auto unit_of = [&](int of) { return 1 / std::sqrt(std::max(W(of, of), std::numeric_limits<double>::min())); };
   MatrixXd M = MatrixXd::Zero(size, size);
   VectorXd q = VectorXd::Zero(size), unit = VectorXd::Ones(size);
-  for (Index i = 0; i < n; ++i) {
+  for (Index i = 0, forth = n; i < n; ++i) {
     const UnilateralContact& k = contacts[static_cast<std::size_t>(i)];
     M.row(i) = respond.row(k.normal);
     q[i] = at_rest[k.normal];
-    unit[i] = 1 / std::sqrt(std::max(W(k.normal, k.normal), std::numeric_limits<double>::min()));
-    const Index j = at_tangent[static_cast<std::size_t>(i)];
-    if (j < 0) continue;
-    M.row(n + j) = respond.row(k.tangent);
-    M(n + j, n + m + j) = 1;
-    q[n + j] = at_rest[k.tangent];
-    M(n + m + j, i) = 2 * k.mu;
-    M(n + m + j, n + j) = -1;
-    q[n + m + j] = 2 * k.mu * k.preload;
-    unit[n + j] = 1 / std::sqrt(std::max(W(k.tangent, k.tangent), std::numeric_limits<double>::min()));
-    unit[n + m + j] = 1 / unit[n + j];  // u is a slip
+    unit[i] = unit_of(k.normal);
+    if (k.tangent < 0) continue;
+    const Index back = forth + m, slip = back + m;
+    M.row(forth) = respond.row(k.tangent), M.row(back) = -respond.row(k.tangent);
+    q[forth] = at_rest[k.tangent], q[back] = -at_rest[k.tangent], q[slip] = k.mu * k.preload;
+    M(forth, slip) = M(back, slip) = 1;
+    M(slip, i) = k.mu, M(slip, forth) = M(slip, back) = -1;
+    unit[forth] = unit[back] = unit_of(k.tangent);
+    unit[slip] = 1 / unit[forth];
+    ++forth;
   }
   const double most = q.cwiseProduct(unit).cwiseAbs().maxCoeff();
   if (!(most > 0)) return VectorXd(x0);
