@@ -1,7 +1,9 @@
 // The exam every normal law sits. A new factor χ(e) joins by being in impact_factors(), and owes
-// one line in `published` below: its curve in tests/data/contact_restitution.json.
+// one line in `published` below: its curve in tests/data/contact_restitution.json. A law of cylinders owes one line in
+// elastic_samples.h, and is damped by every factor.
 
 #include "contact/normal_law.h"
+#include "tests/contracts/elastic_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -50,24 +52,45 @@ const std::array impact_rates{1e-6, 1e-2, 10.0};        // [m/s]
 const std::array rate_ratios{-30.0, -1.3, -0.9, -0.3, -0.01, 0.0, 0.02, 0.5, 1.0, 1.7};
 const std::array restitutions{0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 1.0};
 
+/// A law and what the exam knows of it.
+struct Candidate {
+  NormalLaw law;
+  std::string name;
+  double chi, n;                                  ///< exponent at touch
+  std::function<double(double)> published_force;  ///< of a depth, without damping [N]
+  operator const NormalLaw&() const { return law; }
+};
+
 template <class F>
-void for_approaches_over_decades(const ImpactFactor& factor, F exam) {
+void for_laws(double chi, F exam) {
   for (double k : stiffnesses)
     for (double n : exponents)
-      for (double e : restitutions)
-        for (double depth : depths)
-          for (double impact_rate : impact_rates)
-            for (double ratio : rate_ratios)
-              exam(ImpactLaw{.k = k, .n = n, .chi = factor.chi(e)}, Approach{depth, ratio * impact_rate, impact_rate});
+      exam(Candidate{ImpactLaw{.k = k, .n = n, .chi = chi}, "k " + std::to_string(k) + ", n " + std::to_string(n), chi, n,
+                     [k, n](double depth) { return k * std::pow(depth, n); }});
+  for (const elastic_samples::Sample& sample : elastic_samples::all()) {
+    DampedLaw law = sample.law;
+    law.chi = chi;
+    exam(Candidate{law, sample.name, chi, sample.exponent, sample.force});
+  }
 }
 
-std::string describe(const ImpactLaw& law, const Approach& at) {
-  return "k " + std::to_string(law.k) + ", n " + std::to_string(law.n) + ", chi " + std::to_string(law.chi) + ", depth " +
-         std::to_string(at.depth * 1e9) + " nm, rate " + std::to_string(at.rate / at.impact_rate) + " of " + std::to_string(at.impact_rate);
+template <class F>
+void for_approaches_over_decades(const ImpactFactor& factor, F exam) {
+  for (double e : restitutions)
+    for_laws(factor.chi(e), [&](const Candidate& law) {
+      for (double depth : depths)
+        for (double impact_rate : impact_rates)
+          for (double ratio : rate_ratios) exam(law, Approach{depth, ratio * impact_rate, impact_rate});
+    });
 }
 
-double elastic_force(const ImpactLaw& law, double depth) { return law.k * std::pow(depth, law.n); }
-double damping_factor(const ImpactLaw& law, const Approach& at) { return 1 + law.chi * at.rate / at.impact_rate; }
+std::string describe(const Candidate& law, const Approach& at) {
+  return law.name + ", chi " + std::to_string(law.chi) + ", depth " + std::to_string(at.depth * 1e9) + " nm, rate " +
+         std::to_string(at.rate / at.impact_rate) + " of " + std::to_string(at.impact_rate);
+}
+
+double elastic_force(const Candidate& law, double depth) { return law.published_force(depth); }
+double damping_factor(const Candidate& law, const Approach& at) { return 1 + law.chi * at.rate / at.impact_rate; }
 
 // ---- an impact of a free mass, integrated here -----------------------------------------------
 
@@ -83,15 +106,15 @@ struct Rebound {
 
 // m δ̈ = −f from touch to the next crossing of δ = 0, classical Runge–Kutta on (δ, δ̇, ∫
 // dissipation).
-Rebound integrate(const ImpactLaw& law, const Impact& impact) {
+Rebound integrate(const NormalLaw& law, const Impact& impact) {
   using Y = std::array<double, 3>;
   const auto rates = [&](const Y& y) {
     const NormalForce f = evaluate(law, {y[0], y[1], impact.speed});
     return Y{y[1], -f.force / impact.mass, f.dissipation};
   };
   const auto plus = [](const Y& y, double h, const Y& d) { return Y{y[0] + h * d[0], y[1] + h * d[1], y[2] + h * d[2]}; };
-  const double length = std::pow(impact.mass * impact.speed * impact.speed / law.k, 1 / (law.n + 1));
-  constexpr double step = 2e-3;  // in units of length / speed
+  const double length = depth_reached(law, 1 / impact.mass, impact.speed);
+  constexpr double step = 1.8e-3;  // in units of length / speed
   Rebound out{0, 0, 0, 0};
   for (Y y{0, impact.speed, 0};;) {
     const double h = step * length / impact.speed;
@@ -116,7 +139,7 @@ Rebound integrate(const ImpactLaw& law, const Impact& impact) {
 struct NormalLawContract : testing::TestWithParam<ImpactFactor> {};
 
 TEST_P(NormalLawContract, IsZeroAtAndBeforeTouch) {
-  for_approaches_over_decades(GetParam(), [](const ImpactLaw& law, Approach at) {
+  for_approaches_over_decades(GetParam(), [](const Candidate& law, Approach at) {
     for (double depth : {-at.depth, -0.0, 0.0}) {
       at.depth = depth;
       const NormalForce f = evaluate(law, at);
@@ -131,7 +154,7 @@ TEST_P(NormalLawContract, IsZeroAtAndBeforeTouch) {
 
 TEST_P(NormalLawContract, NeverPulls) {
   int clamped = 0;
-  for_approaches_over_decades(GetParam(), [&](const ImpactLaw& law, const Approach& at) {
+  for_approaches_over_decades(GetParam(), [&](const Candidate& law, const Approach& at) {
     const NormalForce f = evaluate(law, at);
     ASSERT_GE(f.force, 0) << describe(law, at);
     if (damping_factor(law, at) < 0) {
@@ -146,7 +169,7 @@ TEST_P(NormalLawContract, NeverPulls) {
 }
 
 TEST_P(NormalLawContract, PushesAsItsFormulaSays) {
-  for_approaches_over_decades(GetParam(), [](const ImpactLaw& law, const Approach& at) {
+  for_approaches_over_decades(GetParam(), [](const Candidate& law, const Approach& at) {
     const double size = elastic_force(law, at.depth);
     const double factor = std::max(damping_factor(law, at), 0.0);
     // The damping factor is a sum of two terms: rounding counts against the larger.
@@ -157,7 +180,7 @@ TEST_P(NormalLawContract, PushesAsItsFormulaSays) {
 
 TEST_P(NormalLawContract, DerivativesAreDifferencesOfTheForce) {
   int judged = 0;
-  for_approaches_over_decades(GetParam(), [&](const ImpactLaw& law, const Approach& at) {
+  for_approaches_over_decades(GetParam(), [&](const Candidate& law, const Approach& at) {
     const double h = step_of_difference;
     const double margin = law.chi * std::abs(at.rate) / at.impact_rate + law.chi;
     if (std::abs(damping_factor(law, at)) < 2 * h * (margin + 1)) return;  // at the clamp's kink
@@ -181,7 +204,7 @@ TEST_P(NormalLawContract, DerivativesAreDifferencesOfTheForce) {
 }
 
 TEST_P(NormalLawContract, StoredPlusLostIsWorkDone) {
-  for_approaches_over_decades(GetParam(), [](const ImpactLaw& law, const Approach& at) {
+  for_approaches_over_decades(GetParam(), [](const Candidate& law, const Approach& at) {
     const NormalForce f = evaluate(law, at);
     const double dd = step_of_difference * at.depth;
     const double stored_rate =
@@ -194,31 +217,31 @@ TEST_P(NormalLawContract, StoredPlusLostIsWorkDone) {
 
 // What callers ask instead of constants, against the force itself.
 TEST_P(NormalLawContract, AnswersAgreeWithItsForce) {
-  for (const double k : stiffnesses)
-    for (const double n : exponents)
-      for (const double depth : depths) {
-        const ImpactLaw law{.k = k, .n = n, .chi = GetParam().chi(0.7)};
-        const NormalForce still = evaluate(law, {depth, 0, 1});
-        const auto near = [](double a, double b) { EXPECT_NEAR(a, b, rounding * std::abs(b)); };
-        near(depth_storing(law, still.stored), depth);
-        near(stiffness_of_equal_energy(law, depth) * depth * depth / 2, still.stored);
-        near(stiffness_at(law, depth), still.d_depth);
-        for (const double lightness : {1e-3, 40.0}) {
-          const double speed = speed_to_reach(law, lightness, depth);
-          near(speed * speed / 2, lightness * still.stored);
-          near(depth_reached(law, lightness, speed), depth);
-        }
-        const NormalForce moving = evaluate(law, {depth, 0.3, 0.2});
-        near(moving.force, still.force * (1 + damping_share(law, 0.3, 0.2)));
-        EXPECT_FALSE(begins_with_jump(law));
-        near(restitution_of(law, 3), effective_restitution(law.chi));
-        const double part = part_of_depth(law, 1e-9, 1e-3);
-        near(1e-3 * (1 + law.chi) * std::pow(part, n + 1), 1e-9);
+  for_laws(GetParam().chi(0.7), [](const Candidate& law) {
+    for (const double depth : depths) {
+      SCOPED_TRACE(law.name + " at " + std::to_string(depth * 1e9) + " nm");
+      const NormalForce still = evaluate(law, {depth, 0, 1});
+      const auto near = [](double a, double b) { EXPECT_NEAR(a, b, rounding * std::abs(b)); };
+      near(depth_storing(law, still.stored), depth);
+      near(stiffness_of_equal_energy(law, depth) * depth * depth / 2, still.stored);
+      near(stiffness_at(law, depth), still.d_depth);
+      for (const double lightness : {1e-3, 40.0}) {
+        const double speed = speed_to_reach(law, lightness, depth);
+        near(speed * speed / 2, lightness * still.stored);
+        near(depth_reached(law, lightness, speed), depth);
       }
+      const NormalForce moving = evaluate(law, {depth, 0.3, 0.2});
+      near(moving.force, still.force * (1 + damping_share(law, 0.3, 0.2)));
+      EXPECT_FALSE(begins_with_jump(law));
+      near(restitution_of(law, 3), effective_restitution(law.chi));
+      const double part = part_of_depth(law, 1e-9, 1e-3);
+      near(1e-3 * (1 + law.chi) * std::pow(part, law.n + 1), 1e-9);
+    }
+  });
 }
 
 TEST_P(NormalLawContract, NeverReturnsMoreThanItTook) {
-  for_approaches_over_decades(GetParam(), [](const ImpactLaw& law, const Approach& at) {
+  for_approaches_over_decades(GetParam(), [](const Candidate& law, const Approach& at) {
     const NormalForce f = evaluate(law, at);
     ASSERT_GE(f.dissipation, 0) << describe(law, at);
     ASSERT_GT(f.stored, 0) << describe(law, at);
@@ -252,19 +275,18 @@ TEST_P(NormalLawContract, ImpactReboundsWithTheEffectiveRestitution) {
 }
 
 TEST_P(NormalLawContract, RestitutionDependsOnNothingButChi) {
-  const double chi = GetParam().chi(0.6);
-  for (double n : exponents)
-    for (double k : stiffnesses)
-      for (const Impact& impact : {Impact{1e-4, 5.0}, Impact{20.0, 1e-3}})
-        EXPECT_NEAR(integrate({.k = k, .n = n, .chi = chi}, impact).restitution, effective_restitution(chi), integration)
-            << "k " << k << ", n " << n << ", mass " << impact.mass << ", speed " << impact.speed;
+  for_laws(GetParam().chi(0.6), [](const Candidate& law) {
+    for (const Impact& impact : {Impact{1e-4, 5.0}, Impact{20.0, 1e-3}})
+      EXPECT_NEAR(integrate(law, impact).restitution, effective_restitution(law.chi), integration)
+          << law.name << ", mass " << impact.mass << ", speed " << impact.speed;
+  });
 }
 
 TEST_P(NormalLawContract, EnergyBooksCloseThroughAnImpact) {
   const Impact impact{.mass = 0.14, .speed = 0.3};
   const double brought = impact.mass * impact.speed * impact.speed / 2;
   for (double e : {0.2, 0.8}) {
-    const Rebound r = integrate({.k = 6.6e10, .n = 1.5, .chi = GetParam().chi(e)}, impact);
+    const Rebound r = integrate(ImpactLaw{.k = 6.6e10, .n = 1.5, .chi = GetParam().chi(e)}, impact);
     EXPECT_NEAR(r.lost / brought, 1 - r.restitution * r.restitution, integration) << "e = " << e;
   }
 }
@@ -331,7 +353,7 @@ TEST(HertzImpact, DepthAndDurationAreTheClosedForms) {
   const double deepest = std::pow(5 * mass * speed * speed / (4 * k), 0.4);
   // 2 ∫₀¹ dx/√(1 − x^{5/2}) = (4/5) √π Γ(2/5)/Γ(9/10)
   const double quadrature = 0.8 * std::sqrt(std::acos(-1.0)) * std::tgamma(0.4) / std::tgamma(0.9);
-  const Rebound r = integrate({.k = k, .n = 1.5, .chi = 0}, {mass, speed});
+  const Rebound r = integrate(ImpactLaw{.k = k, .n = 1.5, .chi = 0}, {mass, speed});
   EXPECT_NEAR(r.deepest / deepest, 1, integration);
   EXPECT_NEAR(r.duration / (quadrature * deepest / speed), 1, integration);
 }

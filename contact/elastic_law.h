@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string_view>
+#include <variant>
+
+#include "contact/normal_law.h"
+
+/// Normal laws whose elastic force is no stiffness times a power: conforming cylinders and tables.
+/// Theory: docs/theory/contact.md.
+namespace pintle {
+
+/// What a law does without loss at a depth > 0.
+struct ElasticForce {
+  double force = 0;      ///< [N]
+  double stored = 0;     ///< its integral over the depth [J]
+  double stiffness = 0;  ///< its derivative [N/m]
+};
+
+/// k δⁿ
+struct PowerForce {
+  double k;  ///< [N/mⁿ]
+  double n;
+};
+/// δ = (F/S) ln(G/F), the force of a line contact, up to u = ln(G/F) = 2; from there on straight, with the slope S that it has there.
+struct LogarithmicForce {
+  double S;  ///< [N/m]
+  double G;  ///< [N]
+};
+/// k δ √(δ/(ΔR + δ)) of a pin in a hole.
+struct WideningForce {
+  double k;          ///< [N/m]
+  double clearance;  ///< ΔR [m]
+};
+/// Through given points, the first of them without depth and force, by cubics that rise wherever the points do (Fritsch and Butland
+/// 1984), slope continuous; beyond the last straight, with the slope there.
+struct ForceTable {
+  struct Knot {
+    double depth, force, slope, stored;  ///< [m], [N], [N/m], [J]
+  };
+  std::vector<Knot> knots;
+};
+/// @param points  depth and force [m, N]
+/// @throws std::invalid_argument  fewer than two; not from (0, 0); not both rising
+ForceTable force_table(const std::vector<std::array<double, 2>>& points);
+
+using ElasticLaw = std::variant<PowerForce, LogarithmicForce, WideningForce, ForceTable>;
+/// No allocation. @param depth  > 0 [m]
+ElasticForce evaluate(const ElasticLaw&, double depth);
+
+/// f = F(δ)(1 + χ δ̇/δ̇₀), never below zero.
+struct DampedLaw {
+  ElasticLaw elastic;
+  double chi = 0;                                            ///< hysteresis factor, –
+  double deepest = std::numeric_limits<double>::infinity();  ///< to which its author's assumptions hold, or a table goes [m]
+  std::string_view name = {};                                ///< as a scene file says it
+  std::string_view limit = {};                               ///< why it ends there, and what to do
+};
+NormalForce evaluate(const DampedLaw&, const Approach&);
+
+using NormalLaw = std::variant<ImpactLaw, DampedLaw>;
+inline NormalForce evaluate(const NormalLaw& law, const Approach& at) {
+  if (const auto* impact = std::get_if<ImpactLaw>(&law)) return evaluate(*impact, at);
+  return evaluate(*std::get_if<DampedLaw>(&law), at);
+}
+
+// The answers of normal_law.h.
+double depth_storing(const NormalLaw&, double energy);
+double stiffness_of_equal_energy(const NormalLaw&, double depth);
+double stiffness_at(const NormalLaw&, double depth);
+inline bool begins_with_jump(const NormalLaw& law) {
+  const auto* impact = std::get_if<ImpactLaw>(&law);
+  return impact && begins_with_jump(*impact);
+}
+double damping_share(const NormalLaw&, double rate, double impact_rate);
+double viscous_damping(const NormalLaw&);
+double depth_reached(const NormalLaw&, double lightness, double speed);
+double speed_to_reach(const NormalLaw&, double lightness, double depth);
+double part_of_depth(const NormalLaw&, double tolerance, double missed);
+double restitution_of(const NormalLaw&, double mass);
+/// "2.1e+09 N/m (johnson, at 1e-05 m)": the secant, where the law ends.
+std::string stiffness_text(const NormalLaw&, int digits = 6);
+std::vector<std::pair<std::string, double>> constants_of(const NormalLaw&);
+
+/// What makes it doubtful at a depth [m]; empty: nothing.
+std::string range_warning(const NormalLaw&, double depth);
+
+}  // namespace pintle
