@@ -44,10 +44,9 @@ class Sum : public ValueWriter<Sum> {
     std::apply([this](const auto&... member) { this->add(member...); }, joint_or_force.members());
   }
   void add(const ContactPair& p) {
-    const auto& [a, b, gap, normal, rigid, friction, sliding, slack, slowest, follows, link, pair, pairs, profiles, deepest, extent,
-                 beyond] = p;
-    add(a, b, gap.a, gap.b, normal, rigid, friction, sliding, slack, slowest, follows, link, pair, pairs, profiles, deepest, extent,
-        beyond);
+    const auto& [a, b, gap, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid, slack] =
+        p;
+    add(a, b, gap.a, gap.b, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid, slack);
   }
   void add(const Piece& piece) {
     const auto& [radius, centre, normal, half, straight] = piece;

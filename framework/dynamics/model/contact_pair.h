@@ -29,10 +29,8 @@ struct ContactPair {
   int a, b;  ///< markers that carry the pieces: of a clearance joint at the two centres
   PiecePair gap;
   ImpactLaw normal;
-  std::optional<RigidImpact> rigid = {};  ///< then `normal` is none
   std::optional<FrictionLaw> friction;
   Sliding sliding = Sliding::material;
-  double slack = 0;              ///< overlap up to which rigid bodies are taken to touch [m]
   double slowest_impact = 1e-6;  ///< floor of the latched approach speed; a rigid contact does not bounce more slowly [m/s]
   bool follows = false;          ///< the latched speed grows with the approach of the same contact; false: that of its onset
   int link = -1;                 ///< the joint that holds the centres apart; then no law acts. −1: a contact
@@ -44,6 +42,8 @@ struct ContactPair {
   /// there, −1 for none.
   std::array<double, 4> extent{1, 1, 1, 1};
   std::array<int, 4> beyond{-1, -1, -1, -1};
+  std::optional<RigidImpact> rigid = {};  ///< then `normal` is none …
+  double slack = 0;                       ///< … and an overlap up to this is a touch [m]
 };
 
 /// What a rigid contact, or one or a joint of dry friction, is doing, and what the accelerations have decided of its force.
