@@ -51,6 +51,26 @@ class Sum : public ValueWriter<Sum> {
     const auto& [radius, centre, normal, half, straight] = piece;
     add(radius, centre, normal, half, straight);
   }
+  void add(const NormalLaw& law) {
+    if (const auto* impact = std::get_if<ImpactLaw>(&law)) return add(*impact);
+    const auto& [elastic, chi, deepest, name, limit] = *std::get_if<DampedLaw>(&law);
+    add(elastic, chi);
+  }
+  void add(const PowerForce& law) {
+    const auto& [k, n] = law;
+    add(k, n);
+  }
+  void add(const LogarithmicForce& law) {
+    const auto& [S, G] = law;
+    add(S, G);
+  }
+  void add(const WideningForce& law) {
+    const auto& [k, clearance] = law;
+    add(k, clearance);
+  }
+  void add(const ForceTable& law) {
+    for (const auto& [depth, force, slope, stored] : law.knots) add(depth, force);
+  }
   void add(const ImpactLaw& law) {
     const auto& [k, n, chi, d] = law;
     add(k, n, chi, d);
