@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
 
+#include "contact/cylinder_law.h"
 #include "framework/common/nearest.h"
 #include "framework/common/text.h"
 #include "framework/configuration/ideal_pin.h"
@@ -21,10 +23,12 @@ std::string text(double x) {
   return out.str();
 }
 
-bool has_normal(const SceneClearance& c) { return c.normal.stiffness || c.normal.bearing.young > 0; }
+bool has_normal(const SceneClearance& c) { return c.normal.stiffness || c.normal.bearing.young > 0 || !c.normal.points.empty(); }
 
 /// The contact law of the scene's words.
-ImpactLaw law_of(const Scene& scene, const SceneClearance& c) { return impact_law(scene, c.normal, contact_stiffness(c)); }
+NormalLaw law_of(const Scene& scene, const SceneClearance& c) {
+  return normal_law(scene, c.normal, contact_stiffness(c), {c.bearing_radius - c.radial, -c.bearing_radius});
+}
 
 bool rubs(const SceneClearance& c) { return c.friction && rubs(*c.friction); }
 
@@ -46,40 +50,89 @@ std::string left_out(const SceneClearance& c) {
 /// Completes the spring and damper. E = F c is the energy that the ideal joint's force F has over the clearance c; the
 /// spring stores it at the depth at which the contact does, the damper takes as much of it. @returns this, in words
 std::string match(const Scene& scene, const SceneClearance& c, const IdealPin& pin, ContactPair& pair) {
-  const ImpactLaw law = law_of(scene, c);
+  const NormalLaw law = law_of(scene, c);
+  ImpactLaw& spring = *std::get_if<ImpactLaw>(&pair.normal);
   const double radial = pair.gap.clearance();
   std::string words;
   if (!c.stiffness) {
     const double energy = pin.force * radial;
     const double depth = energy > 0 ? depth_storing(law, energy) : 0.01 * radial;
-    pair.normal.k = stiffness_of_equal_energy(law, depth);
+    spring.k = stiffness_of_equal_energy(law, depth);
     words += "; the stiffness stores what the contact law does at a depth of " + text(depth) + " m" +
              (energy > 0 ? ", which " + text(pin.force) + " N, the ideal joint's force, brings it to over the clearance" : "");
   }
   if (!c.damping) {
     const double e = restitution_of(law, pin.mass);
-    pair.normal.d = 2 * damping_ratio(e) * std::sqrt(pair.normal.k * pin.mass);
+    spring.d = 2 * damping_ratio(e) * std::sqrt(spring.k * pin.mass);
     words += "; the damping gives the law's restitution of " + text(e) + " to the " + text(pin.mass) + " kg that meet there";
   }
   return words;
 }
 
-}  // namespace
+/// The factor of that name for the scene's restitution.
+double hysteresis_factor(const Scene& scene, const SceneNormal& n, const std::string& name, const std::vector<std::string>& others) {
+  const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, n.place, message); };
+  const ImpactFactor* factor = find_impact_factor(name);
+  if (!factor) {
+    std::vector<std::string> known = others;
+    for (const ImpactFactor& f : impact_factors()) known.emplace_back(f.name);
+    wrong("there is no impact law \"" + name + "\"." + did_you_mean(name, known));
+  }
+  if (n.restitution < 0 || n.restitution > 1 || (n.restitution == 0 && !factor->zero_allowed))
+    wrong("restitution must lie in " + std::string(factor->zero_allowed ? "[0, 1]" : "(0, 1]") + " for " + name);
+  return factor->chi(n.restitution);
+}
 
 ImpactLaw impact_law(const Scene& scene, const SceneNormal& n, double k) {
   const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, n.place, message); };
-  const ImpactFactor* factor = find_impact_factor(n.law);
-  if (!factor) {
-    std::vector<std::string> known;
-    for (const ImpactFactor& f : impact_factors()) known.emplace_back(f.name);
-    wrong("there is no impact law \"" + n.law + "\"." + did_you_mean(n.law, known));
-  }
-  if (n.restitution < 0 || n.restitution > 1 || (n.restitution == 0 && !factor->zero_allowed))
-    wrong("restitution must lie in " + std::string(factor->zero_allowed ? "[0, 1]" : "(0, 1]") + " for " + n.law);
+  std::vector<std::string> others{"table"};
+  for (const CylinderLaw& law : cylinder_laws()) others.emplace_back(law.name);
+  const double chi = hysteresis_factor(scene, n, n.law, others);
   if (!n.stiffness && n.exponent != 1.5)
     wrong("`young` and `poisson` give the stiffness of exponent 1.5; with another exponent give `stiffness`");
   if (!(k > 0) || !std::isfinite(k)) wrong("no stiffness: give `young` and `poisson`, or `stiffness`");
-  return {k, n.exponent, factor->chi(n.restitution)};
+  return {k, n.exponent, chi};
+}
+
+DampedLaw cylinder_law(const Scene& scene, const SceneNormal& n, const std::array<double, 2>& radii) {
+  const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, n.place, message); };
+  const CylinderLaw& law = *find_cylinder_law(n.law);
+  if (!(n.length > 0)) wrong(n.law + " needs a length above 0, of the contact along the cylinders' axes");
+  if (!(n.bearing.young > 0)) wrong(n.law + " needs `young` and `poisson`");
+  const Elasticity& j = n.journal.young > 0 ? n.journal : n.bearing;
+  const auto softness = [](const Elasticity& e) { return (1 - e.poisson * e.poisson) / e.young; };
+  const Cylinders c{radii[0], radii[1], n.length, 1 / (softness(n.bearing) + softness(j))};
+  const double clearance = std::abs(c.a + c.b);
+  if (!c.internal() && !law.external) wrong(n.law + " is a law of a pin in a hole; between two round bodies take johnson, or a table");
+  constexpr double rounding = 1e-9;
+  if (c.internal() && (clearance < (1 - rounding) * law.least_clearance || clearance > (1 + rounding) * law.most_clearance))
+    wrong(n.law + " has constants for radial clearances from " + text(law.least_clearance) + " to " + text(law.most_clearance) +
+          " m, not for " + text(clearance) + " m; take johnson");
+  DampedLaw out = law.law(c);
+  out.name = law.name;
+  return out;
+}
+
+DampedLaw table_law(const Scene& scene, const SceneNormal& n) {
+  try {
+    return {.elastic = force_table(n.points),
+            .deepest = n.points.back()[0],
+            .name = "table",
+            .limit = "its last slope goes on there; add points"};
+  } catch (const std::invalid_argument& error) {
+    throw SceneError(scene.file, n.place, std::string("its table ") + error.what());
+  }
+}
+
+}  // namespace
+
+bool is_of_cylinders(const SceneNormal& n) { return find_cylinder_law(n.law) != nullptr; }
+
+NormalLaw normal_law(const Scene& scene, const SceneNormal& n, double stiffness, const std::array<double, 2>& radii) {
+  if (!is_of_cylinders(n) && n.law != "table") return impact_law(scene, n, stiffness);
+  DampedLaw out = is_of_cylinders(n) ? cylinder_law(scene, n, radii) : table_law(scene, n);
+  out.chi = hysteresis_factor(scene, n, n.hysteresis, {});
+  return out;
 }
 
 RigidImpact rigid_impact(const Scene& scene, const SceneImpact& impact, const Place& place) {
@@ -145,7 +198,7 @@ ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
     if (!(c.stiffness && c.damping)) law_of(scene, c);  // judged now, asked for what is missing by complete_clearances
     if ((c.stiffness && !(*c.stiffness > 0)) || (c.damping && !(*c.damping >= 0)))
       wrong(c.place, "stiffness must be above 0 and damping not below");
-    pair.normal = {.k = c.stiffness.value_or(0), .n = 1, .chi = 0, .d = c.damping.value_or(0)};
+    pair.normal = ImpactLaw{.k = c.stiffness.value_or(0), .n = 1, .chi = 0, .d = c.damping.value_or(0)};
   }
   if (rubs(c)) {
     pair.friction = friction_law(scene, *c.friction);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,11 @@ namespace pintle {
 /// @throws SceneError  another kind of joint; radii, restitution, law or stiffness that cannot be
 ContactPair contact_of(const Scene&, const SceneJoint&);
 
-/// The law that a scene names, of a stiffness [N/mⁿ].
-/// @throws SceneError  restitution, law or stiffness that cannot be
-ImpactLaw impact_law(const Scene&, const SceneNormal&, double stiffness);
+/// The law that a scene names. @param stiffness  of a law of impact [N/mⁿ]   @param radii  of a law of cylinders, < 0 of a hole [m]
+/// @throws SceneError  restitution, law, stiffness, length or table that cannot be
+NormalLaw normal_law(const Scene&, const SceneNormal&, double stiffness, const std::array<double, 2>& radii);
+/// It is one of cylinders, which asks for radii.
+bool is_of_cylinders(const SceneNormal&);
 
 /// @throws SceneError  restitution that cannot be
 RigidImpact rigid_impact(const Scene&, const SceneImpact&, const Place&);

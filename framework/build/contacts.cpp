@@ -61,6 +61,18 @@ double stiffness_of(const Scene& scene, const SceneContact& c, const Profile& pr
   return hertz_stiffness(1 / (*a + *b), n.bearing.young, n.bearing.poisson, n.journal.young, n.journal.poisson);
 }
 
+/// Radii of the two as cylinders have them.
+std::array<double, 2> radii_of(const Scene& scene, const SceneContact& c, const Profile& profile_a, const Profile& profile_b) {
+  const std::optional<double> a = curvature(profile_a), b = curvature(profile_b);
+  if (!a || !b || !(*a + *b > 0) || *a == 0 || *b == 0)
+    throw SceneError(scene.file, c.normal.place,
+                     c.normal.law +
+                         " is a law of two cylinders: each profile must be an arc of one radius all along, and the two have no "
+                         "common centre; give a `table` for " +
+                         quoted(c.name));
+  return {1 / *a, 1 / *b};
+}
+
 bool is_corner(const Piece& p) { return !p.straight && p.radius == 0; }
 
 /// Can they touch at a point inside both? Where two lines lie on each other, or a line in a hollow, corners do.
@@ -79,9 +91,12 @@ ContactPair laws_of(const Scene& scene, const SceneContact& c, const Profile& a,
   pair.follows = c.normal.follows;
   if (c.impact)
     pair.rigid = rigid_impact(scene, *c.impact, c.place);
+  else if (c.normal.law == "spring-damper")
+    pair.normal = ImpactLaw{.k = *c.normal.stiffness, .n = 1, .chi = 0, .d = c.normal.damping};
+  else if (is_of_cylinders(c.normal))
+    pair.normal = normal_law(scene, c.normal, 0, radii_of(scene, c, a, b));
   else
-    pair.normal = c.normal.law == "spring-damper" ? ImpactLaw{.k = *c.normal.stiffness, .n = 1, .chi = 0, .d = c.normal.damping}
-                                                  : impact_law(scene, c.normal, stiffness_of(scene, c, a, b));
+    pair.normal = normal_law(scene, c.normal, c.normal.law == "table" ? 0 : stiffness_of(scene, c, a, b), {});
   if (c.friction && rubs(*c.friction)) pair.friction = friction_law(scene, *c.friction);
   if (c.impact && c.friction) check_rigid_friction(scene, *c.friction);
   return pair;

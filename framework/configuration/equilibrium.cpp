@@ -281,6 +281,8 @@ void warn(const Model& model, const Equations& eq, Equilibrium& out) {
                              "\": " + (system.contacts[c].profiles ? "the surfaces overlap by " : "the journal rests ") +
                              number_text(depth) + (system.contacts[c].profiles ? " m" : " m in the wall") +
                              ", more than a tenth of its radius; no contact law holds there");
+    else if (const std::string range = range_warning(system.contacts[c].normal, depth); !range.empty())
+      out.warnings.push_back("\"" + system.contact_names[c] + "\": " + range);
     if (system.contacts[c].friction && std::exchange(last, system.contact_names[c]) != system.contact_names[c])
       out.warnings.push_back("\"" + system.contact_names[c] +
                              "\": what friction would hold depends on how the mechanism came to rest, so it holds nothing here");

@@ -84,9 +84,9 @@ struct Elasticity {
 enum class RadiusConvention { internal, external };
 
 /// Which published factor χ(e) damps the impact; `none` is Hertz without loss.
-/// The list, the names in a scene file and the formulas live in contact/normal_law.h.
+/// The list, the names in a scene file and the formulas live in contact/normal_law.h; those of cylinders in contact/cylinder_law.h.
 struct SceneNormal {
-  std::string law = "lankarani-nikravesh";  ///< a name known to contact/normal_law.h
+  std::string law = "lankarani-nikravesh";  ///< a name known to contact/normal_law.h or contact/cylinder_law.h, "spring-damper", "table"
   double restitution = 1;
   double exponent = 1.5;
   std::optional<double> stiffness;  ///< given directly [N/mⁿ]; else from elasticity and radii
@@ -96,6 +96,10 @@ struct SceneNormal {
   Place place;
   bool follows = false;  ///< its damping is scaled by the largest approach speed since the onset; false: by that of the onset
   double damping = 0;    ///< of the law "spring-damper", which contacts of profiles may name [N s/m]
+  // Of laws of cylinders and tables:
+  std::string hysteresis = "lankarani-nikravesh";  ///< the factor that damps them, for `restitution`
+  double length = 0;                               ///< of cylinders, along their axes [m]
+  std::vector<Pair> points = {};                   ///< of a table: depth and force, from (0, 0) [m, N]
 };
 
 enum class SlidingSpeed { material, geometric };

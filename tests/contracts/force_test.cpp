@@ -265,7 +265,7 @@ class ContactBetween : public testing::TestWithParam<Carriers> {};
 TEST_P(ContactBetween, PowerOnTheBodiesGoesToStorageHysteresisAndFriction) {
   constexpr double clearance = 0.01, depth = 1e-3, h = 3e-8;
   System system = two_bodies(GetParam());
-  system.contacts = {{0, 1, JournalBearing{0.1 - clearance, 0.1}, {1e6, 1.5, 0.6}, Ambrosio{0.3, 1e-3, 1e-2}}};
+  system.contacts = {{0, 1, JournalBearing{0.1 - clearance, 0.1}, ImpactLaw{1e6, 1.5, 0.6}, Ambrosio{0.3, 1e-3, 1e-2}}};
   system.contact_names = {"pair"};
   number(system);
   Equations eq(system);

@@ -22,7 +22,7 @@ inline Case loose_crank() {
   ContactPair pair;
   pair.a = 5, pair.b = 4;
   pair.gap = JournalBearing{0.0099, 0.01};
-  pair.normal = {6.61e10, 1.5, 0.3};
+  pair.normal = ImpactLaw{6.61e10, 1.5, 0.3};
   s.contacts = {pair};
   s.contact_names = {"pin"};
   number(s, true);

@@ -222,9 +222,9 @@ TEST(SpringDamper, LeftToTheContactLawStoresAndLosesInATypicalImpactWhatThatDoes
   const pintle::ContactPair& pair = spring.model.system.contacts[0];
   ASSERT_FALSE(contact.run.impacts.empty());
   ASSERT_FALSE(spring.run.impacts.empty());
-  const pintle::ImpactLaw law = contact.model.system.contacts[0].normal;
+  const auto law = std::get<pintle::ImpactLaw>(contact.model.system.contacts[0].normal);
   const double deepest = std::pow(2.5 * 50 * 1e-3 / law.k, 0.4);  // ⅖ k δ^2.5 = F c
-  EXPECT_NEAR(pair.normal.k * deepest * deepest / 2, 50 * 1e-3, 1e-9);
+  EXPECT_NEAR(std::get<pintle::ImpactLaw>(pair.normal).k * deepest * deepest / 2, 50 * 1e-3, 1e-9);
   // A free impact loses 1 − e²; the 50 N go on while it lasts, which changes the ratio by little.
   const pintle::Impact &by_contact = contact.run.impacts[0], &by_spring = spring.run.impacts[0];
   EXPECT_NEAR(by_spring.approach, by_contact.approach, 1e-9);

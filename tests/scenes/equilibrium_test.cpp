@@ -168,7 +168,7 @@ TEST(Equilibrium, AJournalSinksIntoItsBearingAsTheHertzLawSays) {
   s.start_journals = {{"bearing", {0.3e-4, 0.2e-4}, {0, 0}, {}}};
   const Found f = rest_of(s);
   ASSERT_TRUE(f.rest.found) << f.rest.reason;
-  const double depth = std::pow(mass * 9.81 / f.model.system.contacts[0].normal.k, 2.0 / 3);
+  const double depth = std::pow(mass * 9.81 / std::get<ImpactLaw>(f.model.system.contacts[0].normal).k, 2.0 / 3);
   EXPECT_NEAR(f.value("bearing.depth [m]"), depth, contact * depth + 1e-16);
   EXPECT_NEAR(f.value("bearing.ey [m]"), -(c + depth), 1e-9 * c);
   EXPECT_NEAR(f.value("bearing.ex [m]"), 0, 1e-6 * c);

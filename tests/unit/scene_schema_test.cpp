@@ -13,7 +13,7 @@
 #include <map>
 #include <set>
 
-#include "contact/normal_law.h"
+#include "contact/cylinder_law.h"
 #include "framework/scene/yaml/keys.h"
 #include "framework/scene/yaml/reader.h"
 
@@ -118,7 +118,9 @@ TEST(SceneSchema, OffersExactlyTheChoicesOfTheReader) {
 TEST(SceneSchema, OffersExactlyTheNormalLawsOfContact) {
   std::set<std::string> known;
   for (const ImpactFactor& factor : impact_factors()) known.emplace(factor.name);
+  for (const CylinderLaw& law : cylinder_laws()) known.emplace(law.name);
   known.insert("spring-damper");
+  known.insert("table");
   EXPECT_EQ(keys_in(schemas_at("joints.*.clearance.normal")), known);
   EXPECT_EQ(keys_in(schemas_at("contacts.*.normal")), known);
 }
@@ -251,6 +253,8 @@ contacts:
          friction: {ambrosio: {coefficient: 0.1, v0: 0.001, v1: 0.01}}}
   turn: {between: [crank.pin, ground.socket], normal: {hertz: {young: 2e11, poisson: 0.3, second: {young: 1 GPa, poisson: 0.2}}}}
   stop: {between: [crank.cam, ground.floor], normal: {spring-damper: {stiffness: 1e5 N/m, damping: 15}}}
+  seat: {between: [crank.pin, ground.socket], normal: {johnson: {length: 20 mm, young: 2e11, poisson: 0.3, hysteresis: flores, restitution: 0.7}}}
+  pad: {between: [crank.pin, ground.floor], normal: {table: {points: [[0, 0], [1 um, 50 N], [5 um, 400 N]], restitution: 0.5}}}
 drivers: {motor: {angle: [ground, crank], law: 3*t}, jack: {distance: [ground, crank], law: 1 + t}}
 forces:
   load: {force: [0, 1 N], at: crank.A, follows: true}
@@ -370,6 +374,14 @@ TEST(SceneSchema, RefusesWithTheReader) {
       {"closed: true", "closed: maybe"},
       {"damping: 15", "damping: -1"},
       {"second: {young: 1 GPa, ", "second: {"},
+      {"length: 20 mm, ", ""},
+      {"length: 20 mm", "length: 0"},
+      {"hysteresis: flores", "hysteresis: hertz"},
+      {", restitution: 0.7", ""},
+      {"johnson: {length: 20 mm", "johnson: {length: 20 mm, exponent: 1.1"},
+      {"[1 um, 50 N], ", "[1 um], "},
+      {"points: [[0, 0], [1 um, 50 N], [5 um, 400 N]], ", ""},
+      {"restitution: 0.5}}}\ndrivers", "restitution: 0.5, force unit: N}}}\ndrivers"},
       {"{arc: 2 m}", "{ark: 2 m}"},
       {"round: 1 mm", "round: 0"},
       {"  body: bracket\n  loads:", "  body: bracket\n  load:"}};

@@ -45,7 +45,7 @@ class Sticking : public testing::TestWithParam<Case> {
     s.gravity = {0.6, -9.8};
     s.joints = c.kind.joints;
     s.joint_names.assign(s.joints.size(), "slot");
-    ContactPair pair{0, 1, c.kind.gap, {1e5, 1.5, 0.5}, Coulomb{0.2, 0.3, 0}};
+    ContactPair pair{0, 1, c.kind.gap, ImpactLaw{1e5, 1.5, 0.5}, Coulomb{0.2, 0.3, 0}};
     pair.profiles = pair.follows = true;
     s.contacts = {pair};
     s.contact_names = {"contact"};

@@ -20,7 +20,7 @@ TEST(TangentBudget, EvaluationDoesNotAllocate) {
     s.gravity = {0.6, -9.8};
     s.joints = {Revolute{0, 1}, Slot{0, 1}, Weld{0, 1}, Distance{0, 1, 0.8}, AngleDriver{0, 1, steady}};
     s.forces = {PointForce{0, 1, steady, steady, true}, Torque{0, 1, steady}, Spring{0, 1, 40, 3, 0.5}, TorsionSpring{0, 1, 25, 2, -0.8}};
-    s.contacts = {{0, 1, JournalBearing{0.01, 0.1}, {1e6, 1.5, 0}, Ambrosio{0.3, 0, 50}}};
+    s.contacts = {{0, 1, JournalBearing{0.01, 0.1}, ImpactLaw{1e6, 1.5, 0}, Ambrosio{0.3, 0, 50}}};
     s.joint_names.assign(s.joints.size(), "joint");
     s.force_names.assign(s.forces.size(), "force");
     s.contact_names = {"contact"};

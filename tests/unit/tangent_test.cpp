@@ -45,11 +45,11 @@ struct Kind {
 void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 // Friction that grows with the sliding speeds drawn here.
 ContactPair contact(double chi, std::optional<FrictionLaw> friction = {}, Sliding sliding = Sliding::material) {
-  return {0, 1, JournalBearing{0.1 - clearance, 0.1}, {1e6, 1.5, chi}, friction, sliding};
+  return {0, 1, JournalBearing{0.1 - clearance, 0.1}, ImpactLaw{1e6, 1.5, chi}, friction, sliding};
 }
 ContactPair spring_damper(std::optional<Ambrosio> friction = {}) {
   ContactPair pair = contact(0, friction);
-  pair.normal = {1e5, 1, 0, 20};
+  pair.normal = ImpactLaw{1e5, 1, 0, 20};
   return pair;
 }
 // Pieces of profiles, away from the points that carry them.

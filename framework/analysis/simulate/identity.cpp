@@ -44,9 +44,10 @@ class Sum : public ValueWriter<Sum> {
     std::apply([this](const auto&... member) { this->add(member...); }, joint_or_force.members());
   }
   void add(const ContactPair& p) {
-    const auto& [a, b, gap, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid, slack] =
-        p;
-    add(a, b, gap.a, gap.b, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid, slack);
+    const auto& [a, b, gap, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid,
+                 slack] = p;
+    add(a, b, gap.a, gap.b, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid,
+        slack);
   }
   void add(const Piece& piece) {
     const auto& [radius, centre, normal, half, straight] = piece;
@@ -55,6 +56,26 @@ class Sum : public ValueWriter<Sum> {
   void add(const RigidImpact& impact) {
     const auto& [restitution, tangential, poisson] = impact;
     add(restitution, tangential, poisson);
+  }
+  void add(const NormalLaw& law) {
+    if (const auto* impact = std::get_if<ImpactLaw>(&law)) return add(*impact);
+    const auto& [elastic, chi, deepest, name, limit] = *std::get_if<DampedLaw>(&law);
+    add(elastic, chi);
+  }
+  void add(const PowerForce& law) {
+    const auto& [k, n] = law;
+    add(k, n);
+  }
+  void add(const LogarithmicForce& law) {
+    const auto& [S, G] = law;
+    add(S, G);
+  }
+  void add(const WideningForce& law) {
+    const auto& [k, clearance] = law;
+    add(k, clearance);
+  }
+  void add(const ForceTable& law) {
+    for (const auto& [depth, force, slope, stored] : law.knots) add(depth, force);
   }
   void add(const ImpactLaw& law) {
     const auto& [k, n, chi, d] = law;

@@ -21,6 +21,8 @@ void warn_of_depth(const System& system, Run& run) {
         << (pair.profiles ? " m, more than a tenth of their smallest radius" : " m into the wall, more than a tenth of its radius")
         << "; no contact law holds there (is the stiffness " << stiffness_text(pair.normal, 3) << " meant?)";
       run.warnings.push_back(s.str());
+    } else if (const std::string range = range_warning(pair.normal, deepest[c]); !range.empty()) {
+      run.warnings.push_back("\"" + system.contact_names[c] + "\": " + range);
     }
 }
 

@@ -3,9 +3,9 @@
 #include <array>
 #include <optional>
 
+#include "contact/elastic_law.h"
 #include "contact/friction_law.h"
 #include "contact/gap.h"
-#include "contact/normal_law.h"
 #include "framework/common/members.h"
 #include "framework/dynamics/model/marker.h"
 #include "framework/dynamics/model/wrench_tangent.h"
@@ -28,7 +28,7 @@ struct RigidImpact {
 struct ContactPair {
   int a, b;  ///< markers that carry the pieces: of a clearance joint at the two centres
   PiecePair gap;
-  ImpactLaw normal;
+  NormalLaw normal;
   std::optional<FrictionLaw> friction;
   Sliding sliding = Sliding::material;
   double slowest_impact = 1e-6;  ///< floor of the latched approach speed; a rigid contact does not bounce more slowly [m/s]

@@ -50,7 +50,8 @@ std::optional<Jet> held_end(const Samples& s, double t) {
 
 class SampleReader {
  public:
-  SampleReader(std::string file, std::string key) : file_(std::move(file)), key_(std::move(key)) {}
+  SampleReader(std::string file, std::string key, std::string first)
+      : file_(std::move(file)), key_(std::move(key)), first_(std::move(first)) {}
 
   void line(std::string_view text, double time_unit, double value_unit) {
     ++line_;
@@ -60,10 +61,10 @@ class SampleReader {
     const bool header = !seen_a_line_ && !number(words[0]);
     seen_a_line_ = true;
     if (header) return;
-    if (words.size() != 2) fail("holds " + std::to_string(words.size()) + " columns; write two: time and value");
+    if (words.size() != 2) fail("holds " + std::to_string(words.size()) + " columns; write two: " + first_ + " and value");
     const double t = finite(words[0], 1) * time_unit, value = finite(words[1], 2) * value_unit;
     if (!samples_.t.empty() && !(t > samples_.t.back()))
-      fail("time " + std::string(words[0]) + " does not come after the one before; times must increase");
+      fail(first_ + " " + std::string(words[0]) + " does not come after the one before; " + first_ + "s must increase");
     samples_.t.push_back(t);
     samples_.value.push_back(value);
   }
@@ -87,7 +88,7 @@ class SampleReader {
     return *value;
   }
 
-  std::string file_, key_;
+  std::string file_, key_, first_;
   int line_ = 0;
   bool seen_a_line_ = false;
   Samples samples_;
@@ -138,9 +139,10 @@ std::vector<double> curvatures(const std::vector<double>& t, const std::vector<d
 
 }  // namespace
 
-Samples read_samples(const std::filesystem::path& file, double time_unit, double value_unit, const std::string& key) {
+Samples read_samples(const std::filesystem::path& file, double time_unit, double value_unit, const std::string& key,
+                     const std::string& first) {
   const std::string text = read_text_file(file, most_bytes, key);
-  SampleReader reader(file.string(), key);
+  SampleReader reader(file.string(), key, first);
   std::size_t begin = 0;
   while (begin < text.size()) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());

@@ -16,9 +16,10 @@ struct Samples {
 /// Reads lines `t value`, separated by comma, semicolon or white space. Lines after # are comments;
 /// the first line may be a header.
 /// @param time_unit, value_unit  factors to SI
-/// @param key  where the scene names the file, for messages
+/// @param key  where the scene names the file, for messages   @param first  what its first column is, likewise
 /// @throws SceneError  naming file, line and remedy
-Samples read_samples(const std::filesystem::path&, double time_unit = 1, double value_unit = 1, const std::string& key = {});
+Samples read_samples(const std::filesystem::path&, double time_unit = 1, double value_unit = 1, const std::string& key = {},
+                     const std::string& first = "time");
 
 /// Cubic spline through samples, two continuous derivatives; a cubic is met exactly (not-a-knot
 /// ends; two samples give a line, three a parabola). Outside the samples it holds the end value.

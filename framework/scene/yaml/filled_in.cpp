@@ -90,10 +90,26 @@ Json json(const SceneBody& body) {
   return out;
 }
 
+void put_elasticity(const SceneNormal& normal, bool in_joint, Json& law) {
+  law["young"] = normal.bearing.young;
+  law["poisson"] = normal.bearing.poisson;
+  law[in_joint ? "journal" : "second"] = {{"young", normal.journal.young}, {"poisson", normal.journal.poisson}};
+}
+
 Json json(const SceneNormal& normal, bool in_joint) {
   Json law = Json::object();
   if (normal.law == "spring-damper") {
     law = {{"stiffness", *normal.stiffness}, {"damping", normal.damping}};
+  } else if (normal.length > 0 || !normal.points.empty()) {
+    law = {{"hysteresis", normal.hysteresis},
+           {"restitution", normal.restitution},
+           {"slowest impact", normal.slowest_impact},
+           {"approach speed", normal.follows ? "largest" : "onset"}};
+    for (const Pair& point : normal.points) law["points"].push_back(json(point));
+    if (normal.points.empty()) {
+      law["length"] = normal.length;
+      put_elasticity(normal, in_joint, law);
+    }
   } else {
     if (normal.law != "hertz") law["restitution"] = normal.restitution;
     law["exponent"] = normal.exponent;
@@ -103,9 +119,7 @@ Json json(const SceneNormal& normal, bool in_joint) {
     if (normal.stiffness) {
       law["stiffness"] = *normal.stiffness;
     } else {
-      law["young"] = normal.bearing.young;
-      law["poisson"] = normal.bearing.poisson;
-      law[in_joint ? "journal" : "second"] = {{"young", normal.journal.young}, {"poisson", normal.journal.poisson}};
+      put_elasticity(normal, in_joint, law);
     }
   }
   Json out = Json::object();
@@ -153,7 +167,7 @@ Json json(const SceneClearance& clearance) {
               {"model", model_name(clearance.model)}};
   if (clearance.model == ClearanceModel::impact)
     put_impact(clearance.impact, out);
-  else if (clearance.normal.stiffness || clearance.normal.bearing.young > 0)
+  else if (clearance.normal.stiffness || clearance.normal.bearing.young > 0 || !clearance.normal.points.empty())
     out["normal"] = json(clearance.normal, true);
   if (clearance.stiffness) out["stiffness"] = *clearance.stiffness;
   if (clearance.damping) out["damping"] = *clearance.damping;

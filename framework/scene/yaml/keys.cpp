@@ -32,6 +32,8 @@ const std::vector<Key> friction_laws{{"coulomb"}, {"ambrosio"}, {"threlfall"}, {
 const std::vector<Key> coulomb_keys{{"coefficient", required, "0.3"}, {"static"}, {"stribeck speed"}};
 const std::vector<Key> curve_keys{{"coefficient", required, "0.1"}, {"v1"}};
 const std::vector<Key> peak_keys{{"coefficient", required, "0.1"}, {"static"}, {"v0"}, {"v1"}};
+const std::vector<std::string> hysteresis_factors{
+    "hunt-crossley", "herbert-mcwhannell", "lee-wang", "lankarani-nikravesh", "gonthier", "zhiying-qishao", "flores", "hu-guo", "exact"};
 const std::vector<Key> arc_keys{{"arc", required, "20 mm"}};
 constexpr const char* two_eyes = "[{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]";
 
@@ -189,7 +191,13 @@ const std::vector<KeyTable>& tables() {
         {"slowest impact"},
         {"approach speed", optional, "", {"onset", "largest"}},
         {"journal"},
-        {"second"}}},
+        {"second"},
+        {"length"},
+        {"hysteresis", optional, "", hysteresis_factors},
+        {"points"},
+        {"file"},
+        {"depth unit"},
+        {"force unit"}}},
       {"joints.*.clearance.normal.*.second", {{"young", required, "207 GPa"}, {"poisson", required, "0.3"}}},
       {"joints.*.clearance.normal.*.journal", {{"young", required, "207 GPa"}, {"poisson", required, "0.3"}}},
       {"joints.*.clearance.friction", friction_laws},
@@ -216,7 +224,13 @@ const std::vector<KeyTable>& tables() {
         {"exponent"},
         {"slowest impact"},
         {"approach speed", optional, "", {"onset", "largest"}},
-        {"second"}}},
+        {"second"},
+        {"length"},
+        {"hysteresis", optional, "", hysteresis_factors},
+        {"points"},
+        {"file"},
+        {"depth unit"},
+        {"force unit"}}},
       {"contacts.*.normal.*.second", {{"young", required, "207 GPa"}, {"poisson", required, "0.3"}}},
       {"contacts.*.friction", friction_laws},
       {"contacts.*.friction.ambrosio", {{"coefficient", required, "0.1"}, {"v0"}, {"v1"}}},

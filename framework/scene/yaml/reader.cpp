@@ -81,7 +81,7 @@ void require_text(const std::string& file, const Overrides& overrides) {
 Scene read(const std::string& text, const std::string& file, const Overrides& overrides, const std::filesystem::path& folder) {
   require_text(file, overrides);
   Yaml tree = parse_yaml(text, file);
-  Source source{file, {}};
+  Source source{file, {}, folder};
   const Node root(tree, source, {tree.line, {}});
   if (tree.kind == Yaml::Kind::nothing) root.fail("is empty; docs/scene.md shows what to write");
   const Overrides parameters = tree.kind == Yaml::Kind::map ? apply_paths(tree, file, overrides) : overrides;

@@ -2,8 +2,10 @@
 #include <array>
 #include <tuple>
 
+#include "files/files.h"
 #include "framework/common/nearest.h"
 #include "framework/common/text.h"
+#include "framework/scene/units/table.h"
 #include "framework/scene/yaml/reader_parts.h"
 
 namespace pintle {
@@ -42,6 +44,67 @@ void read_spring_damper(const Node& law, SceneNormal& normal) {
   normal.exponent = 1;
   normal.stiffness = law.at("stiffness").quantity({0, 1, -2, 0}, rule::positive);
   normal.damping = law.at("damping").quantity({0, 1, -1, 0}, rule::not_negative);
+}
+
+// Restitution, and what speed scales the damping.
+void read_damping(const Node& law, std::string_view keys, SceneNormal& normal) {
+  read_optional(law, "restitution", dimension::number, rule::zero_to_one, normal.restitution);
+  read_optional(law, "slowest impact", dimension::speed, rule::positive, normal.slowest_impact);
+  normal.follows = law.has("approach speed") ? law.at("approach speed").one_of(choices(keys, "approach speed")) == "largest"
+                                             : keys.starts_with("contacts");
+}
+
+const std::vector<std::string> cylinder_laws{"johnson", "radzimovsky", "goldsmith", "esdu", "liu", "pereira"};
+constexpr const char* table_law = "table";
+
+std::vector<Pair> read_points(const Node& law) {
+  const char* remedy = "points of depth and force, the first [0, 0]: [[0, 0], [1 um, 50 N], [5 um, 400 N]]";
+  std::vector<Pair> out;
+  if (which_key(law, std::vector<std::string>{"points", "file"}, "its table") == "points") {
+    for (const char* unit : {"depth unit", "force unit"})
+      if (law.has(unit)) law.at(unit).fail("belongs to `file`; write the units beside the numbers of points");
+    for (const Node& point : law.at("points").list(2, remedy)) {
+      const std::vector<Node> numbers = point.items(2, remedy);
+      out.push_back({numbers[0].quantity(dimension::length), numbers[1].quantity(dimension::force)});
+    }
+    return out;
+  }
+  const Node file = law.at("file");
+  const double depth_unit = unit_factor(law, "depth unit", dimension::length),
+               force_unit = unit_factor(law, "force unit", dimension::force);
+  std::filesystem::path path;
+  try {
+    path = contained_file(file.text("the name of a file beside the scene"), law.source().folder);
+  } catch (const FileRefused& rejected) {
+    file.fail(rejected.what());
+  }
+  const Samples samples = read_samples(path, depth_unit, force_unit, file.place().key, "depth");
+  for (std::size_t i = 0; i < samples.t.size(); ++i) out.push_back({samples.t[i], samples.value[i]});
+  return out;
+}
+
+// A law of cylinders, or a table.
+void read_elastic_law(const Node& law, std::string_view keys, SceneNormal& normal) {
+  const bool table = normal.law == table_law;
+  const std::string other = keys.starts_with("joints") ? "journal" : "second";
+  std::vector<std::string> known{"hysteresis", "restitution", "slowest impact", "approach speed"};
+  for (const std::string& key : table ? std::vector<std::string>{"points", "file", "depth unit", "force unit"}
+                                      : std::vector<std::string>{"length", "young", "poisson", other})
+    known.push_back(key);
+  for (const std::string& key : law.keys())
+    if (std::ranges::find(known, key) == known.end()) law.at(key).fail("does not belong to " + normal.law + "; leave it out");
+  read_damping(law, keys, normal);
+  if (law.has("hysteresis")) {
+    normal.hysteresis = law.at("hysteresis").one_of(choices(keys, "hysteresis"));
+    if (!law.has("restitution")) law.at("hysteresis").fail("needs the restitution that it damps for; add for example restitution: 0.8");
+  }
+  if (table) {
+    normal.points = read_points(law);
+    return;
+  }
+  if (!law.has("length")) law.fail("lacks a required key; add for example length: 20 mm, of the contact along the axes");
+  normal.length = read_size(law.at("length"));
+  read_stiffness(law, keys, normal);
 }
 
 ScenePathPoint read_place(const Node& node, const std::vector<ScenePoint>& points, const std::string& body) {
@@ -194,14 +257,17 @@ SceneNormal read_normal(const Node& node, std::string_view keys) {
     }
     if (law.has("damping")) law.at("damping").fail("belongs to spring-damper; leave it out");
   }
+  if (normal.law == table_law || std::ranges::find(cylinder_laws, normal.law) != cylinder_laws.end()) {
+    read_elastic_law(law, keys, normal);
+    return normal;
+  }
+  for (const char* key : {"length", "hysteresis", "points", "file", "depth unit", "force unit"})
+    if (law.has(key)) law.at(key).fail("does not belong to " + normal.law + "; leave it out");
   const bool lossless = normal.law == "hertz";
   if (lossless && law.has("restitution")) law.at("restitution").fail("hertz loses nothing; leave restitution out");
   if (!lossless && !law.has("restitution")) law.fail("lacks a required key; add for example restitution: 0.8");
-  read_optional(law, "restitution", dimension::number, rule::zero_to_one, normal.restitution);
+  read_damping(law, keys, normal);
   read_optional(law, "exponent", dimension::number, rule::at_least_one, normal.exponent);
-  read_optional(law, "slowest impact", dimension::speed, rule::positive, normal.slowest_impact);
-  normal.follows = law.has("approach speed") ? law.at("approach speed").one_of(choices(keys, "approach speed")) == "largest"
-                                             : keys.starts_with("contacts");
   if (law.has("radii") && law.at("radii").one_of(choices(keys, "radii")) == "external") normal.radii = RadiusConvention::external;
   read_stiffness(law, keys, normal);
   return normal;

@@ -77,6 +77,9 @@ std::vector<double> read_quantities(const Node&, std::size_t n, const Dimension&
 /// A length above zero.
 inline double read_size(const Node& node) { return node.quantity(dimension::length, rule::positive); }
 
+/// What one of the unit that `key` names is in SI; 1 without the key.
+double unit_factor(const Node& group, std::string_view key, const Dimension& expected);
+
 /// Reads `key` into `value` if it is there.
 void read_optional(const Node& group, std::string_view key, const Dimension&, Rule, double& value);
 

@@ -19,6 +19,8 @@ std::string decimal(double value) {
   return out.str();
 }
 
+}  // namespace
+
 double unit_factor(const Node& group, std::string_view key, const Dimension& expected) {
   if (!group.has(key)) return 1;
   const Node node = group.at(key);
@@ -32,6 +34,8 @@ double unit_factor(const Node& group, std::string_view key, const Dimension& exp
     node.fail(node.shown() + " is not a unit; write one such as ms or N*m");
   }
 }
+
+namespace {
 
 // The law as text that filled_in can turn back into keys: flow YAML, which is JSON.
 std::string table_text(const std::string& file, bool linear, double time_unit, double value_unit, const Dimension& expected) {

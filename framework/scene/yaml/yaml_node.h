@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -52,6 +53,7 @@ inline constexpr const char* hint_about_commas = "Inside { } or [ ] a comma sepa
 struct Source {
   std::string file;
   Parameters parameters;
+  std::filesystem::path folder = {};  ///< where the files are that the scene names
 };
 
 /// A value in its place: knows the file, the path of keys to it and the line, so that whatever is

@@ -231,7 +231,7 @@ TEST(Events, AreLocatedBesideAnOnsetThatIsCut) {
   ContactPair pair;
   pair.a = 1, pair.b = 0;
   pair.gap = JournalBearing{0.5, 0.5 + height + 1e-3};
-  pair.normal = {1e6, 1.5, 0.3};
+  pair.normal = ImpactLaw{1e6, 1.5, 0.3};
   system.contacts = {pair};
   system.contact_names = {"rim"};
   number(system);
