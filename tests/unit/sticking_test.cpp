@@ -136,7 +136,7 @@ TEST(StickingTogether, IsSharedByWhatEachCanHold) {
   const Piece left{.radius = 0.02, .centre = {-0.2, -0.1}}, right{.radius = 0.02, .centre = {0.3, -0.1}},
       floor{.normal = M_PI / 2, .half = 5, .straight = true};
   for (const Piece& foot : {left, right}) {
-    ContactPair pair{0, 1, {foot, floor}, {s.contacts.empty() ? 2e5 : 1e5, 1, 0, 0}, Coulomb{0.4, 0.5, 0}};
+    ContactPair pair{0, 1, {foot, floor}, ImpactLaw{s.contacts.empty() ? 2e5 : 1e5, 1, 0, 0}, Coulomb{0.4, 0.5, 0}};
     pair.profiles = true;
     s.contacts.push_back(pair);
   }
