@@ -190,7 +190,7 @@ namespace {
 // Moreau's scheme knows impulses of rigid contacts, and forces that change little in a step.
 void require_rigid(const Scene& scene, const System& system) {
   const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, scene.run.place, "moreau takes " + message); };
-  if (!(scene.run.step > 0)) wrong("steps of one length above 0");
+  if (!(scene.run.step > 0 && scene.run.step <= scene.run.until)) wrong("steps of one length, above 0 and no longer than the run");
   if (system.n() != system.n_rigid()) wrong("rigid bodies only, for its steps do not follow what swings fast; take auto");
   if (!system.frictions.empty()) wrong("no friction in ideal joints; take auto, or leave that friction out");
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {

@@ -129,6 +129,9 @@ bool Integrator::step_to(double left) {
     const bool done = stepper_->attempt(h, norm_, step_, eq_);
     if (switching_.falls_back(*stepper_, scheme_, step_.from.state.t)) {
       stepper_ = make_stepper(scheme_.fallback->name, system_, scheme_, eq_);
+    } else if (!done && traits.fixed_step > 0) {
+      stop(stepper_->trouble());
+      break;
     } else if (!done) {
       control_.failed(h, least_part());
     } else if (!now.last && !near_singular_ && tries < 3 && (stepper_->near_singular(eq_) || stepper_->strayed_near_singular(step_, eq_))) {

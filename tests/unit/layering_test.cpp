@@ -41,7 +41,7 @@ const std::vector<Layer> layers{
 
     {"framework/dynamics/model/", {"contact/", "framework/common/", "framework/component/reduction/inertia.h"}},
     {"framework/dynamics/solvers/", {"framework/common/", "framework/dynamics/model/"}},
-    {"framework/dynamics/equations/", {"framework/common/", "framework/dynamics/model/", "framework/dynamics/solvers/"}},
+    {"framework/dynamics/equations/", {"contact/", "framework/common/", "framework/dynamics/model/", "framework/dynamics/solvers/"}},
     {"framework/dynamics/newton/", {"framework/common/", "framework/dynamics/solvers/", "framework/dynamics/equations/"}},
     {"framework/integration/explicit/",
      {"framework/common/", "framework/dynamics/", "framework/integration/constraint_treatment.h", "framework/integration/dense_output.h",
@@ -52,6 +52,8 @@ const std::vector<Layer> layers{
     {"framework/integration/events/",
      {"framework/common/", "framework/dynamics/", "framework/integration/scheme.h", "framework/integration/step.h",
       "framework/integration/stepper.h"}},
+    {"framework/integration/time_stepping/",
+     {"framework/common/", "framework/dynamics/", "framework/integration/events/", "framework/integration/stepper.h"}},
     {"framework/integration/", {"framework/common/", "framework/dynamics/", "framework/integration/"}},
 
     {"framework/bodies/", {"files/", "meshes/", "framework/common/", "framework/scene/", "framework/component/", "framework/dynamics/"}},

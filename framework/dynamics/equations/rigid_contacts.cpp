@@ -60,13 +60,57 @@ struct Bounce {
   double e;
   std::optional<double> at_rest = {};  ///< if it is 0 for that, when a sequence of ever lower bounces ends
 };
-Bounce bounce_of(const ContactPair& pair, double t, double opening, double acceleration) {
+// Does a contact that parts at this speed rise enough for places to show it?
+bool shows(const ContactPair& pair, double parts, double acceleration) {
   constexpr double times = 20;  // what is taken for closed
+  return parts > pair.slowest_impact && (!(acceleration < 0) || parts * parts > -2 * acceleration * times * pair.slack);
+}
+Bounce bounce_of(const ContactPair& pair, double t, double opening, double acceleration) {
   const double e = pair.rigid->restitution, parts = -e * opening;
   if (!(opening < 0) || e == 0) return {0};
-  const bool shown = parts > pair.slowest_impact && (!(acceleration < 0) || parts * parts > -2 * acceleration * times * pair.slack);
-  if (shown) return {e};
+  if (shows(pair, parts, acceleration)) return {e};
   return {0, acceleration < 0 && e < 1 ? std::optional(t - 2 * parts / (acceleration * (1 - e))) : std::nullopt};
+}
+
+// What an impact of closed contacts meets.
+struct Meeting {
+  const System& system;
+  const Closed& closed;
+  const MatrixXd& W;
+  VectorXd before, acceleration;
+};
+
+// Which contacts part under the impulses x. What would part too slowly to show stays, as the corners of a block that has rocked:
+// impulses that stop that, and slips that are stopped with it, are added to x.
+std::vector<bool> parting(const Meeting& m, std::span<const double> e, double slow, VectorXd& x) {
+  const VectorXd after = m.before + m.W * x;
+  double fall = 0;
+  for (const UnilateralContact& k : m.closed.unknowns) fall = std::min(fall, m.acceleration[k.normal]);
+  std::vector<bool> out;
+  std::vector<Index> stays;
+  bool creeps = false;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    const UnilateralContact& k = m.closed.unknowns[i];
+    const bool opens = after[k.normal] > slow;
+    out.push_back(opens && (e[i] > 0 || shows(m.system.contacts[at(m.closed.contact[i])], after[k.normal], fall)));
+    if (out.back()) continue;
+    creeps = creeps || opens;
+    stays.push_back(k.normal);
+    if (k.tangent >= 0 && std::abs(after[k.tangent]) <= slow) stays.push_back(k.tangent);
+  }
+  if (!creeps) return out;
+  const auto n = static_cast<Index>(stays.size());
+  MatrixXd own(n, n);
+  VectorXd left(n);
+  for (Index i = 0; i < n; ++i) {
+    left[i] = after[stays[at(i)]];
+    for (Index j = 0; j < n; ++j) own(i, j) = m.W(stays[at(i)], stays[at(j)]);
+  }
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_norm(n, n);
+  least_norm.compute(own);
+  const VectorXd stop = least_norm.solve(left);
+  for (Index i = 0; i < n; ++i) x[stays[at(i)]] -= stop[i];
+  return out;
 }
 
 }  // namespace
@@ -139,21 +183,20 @@ std::optional<std::vector<Blow>> strike(const System& system, std::span<const in
     e.push_back(bounce.back().e);
     by_poisson = by_poisson || pair.rigid->poisson;
   }
-  const auto x = by_poisson ? poisson(closed, e, W, before) : newton_impulses(system, closed, e, W, before, before);
+  auto x = by_poisson ? poisson(closed, e, W, before) : newton_impulses(system, closed, e, W, before, before);
   if (!x) return std::nullopt;
+  const std::vector<bool> parts = parting({system, closed, W, before, acceleration}, e, rounding * largest(before), *x);
   speeds += eq.sticking.a * *x;
   const VectorXd after = before + W * *x;
   book_impulses(system, closed, *x, (before + after) / 2, state);
   book_driver_impulses(system, eq, eq.sticking.lambda * *x, state);
 
-  const double slow = rounding * largest(before);
   std::vector<Blow> out;
   for (std::size_t i = 0; i < closed.unknowns.size(); ++i) {
     const int k = closed.unknowns[i].normal, c = closed.contact[i];
-    const bool parts = after[k] > slow;
-    out.push_back({c, -before[k], parts ? after[k] : 0, (*x)[k], parts ? std::nullopt : bounce[i].at_rest});
+    out.push_back({c, -before[k], parts[i] ? after[k] : 0, (*x)[k], parts[i] ? std::nullopt : bounce[i].at_rest});
     state.friction[at(c)] = {};
-    state.impact_rate[at(c)] = parts ? 0 : std::max(-before[k], system.contacts[at(c)].slowest_impact);
+    state.impact_rate[at(c)] = parts[i] ? 0 : std::max(-before[k], system.contacts[at(c)].slowest_impact);
   }
   return out;
 }

@@ -72,7 +72,7 @@ ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& a, const Mar
     if (pair.follows && out.gap.rate > impact_rate) out.normal.d_rate = viscous_damping(pair.normal);
   }
   Vector2d force = -out.normal.force * out.gap.n;
-  if (pair.friction) {
+  if (pair.friction && (out.normal.force > 0 || is_rigid(pair))) {
     const double slip = pair.sliding == Sliding::material ? out.gap.material_slip : out.gap.geometric_slip;
     const FrictionForce law = friction_of(pair, slip, out.normal.force, dry);
     out.friction = law.force, out.d_slip = law.d_speed, out.d_normal = law.d_normal;

@@ -95,8 +95,8 @@ std::optional<double> rise(const F& guard, double begin, const Guard& from, doub
 // overlap or the margin becomes positive, the other may be.
 std::optional<double> ContactEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
   if (leaving(event) >= 0 || !system_.contacts[at(event)].profiles || log_.touching(event)) return std::nullopt;
-  if (out_of_reach(system_, event, step)) return std::nullopt;
-  constexpr int parts = 16;
+  const int parts = parts_to_look_at(system_, event, step);
+  if (parts == 0) return std::nullopt;
   const auto depth = [&](double t) { return gap_of(system_, event, motion.at(t)); };
   const auto inside = [&](double t) {
     const Margin m = margin_of(system_, event, motion.at(t));
@@ -188,7 +188,7 @@ bool ContactEvents::touches(int contact, const State& state) const {
   const ContactPair& pair = system_.contacts[at(contact)];
   if (log_.touching(contact) || continues_another(contact)) return false;
   const Guard now = onset_of(system_, contact, state);
-  return now.value > -1e-9 * fine_length(pair, system_.length) - pair.slack;
+  return now.value > -std::max(1e-9 * fine_length(pair, system_.length), pair.slack) - pair.slack;
 }
 
 // What touches at the same instant is struck together.

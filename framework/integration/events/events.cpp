@@ -94,12 +94,12 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
   if (!(to.value > 0)) {
     std::optional<double> between;
     if (from.rate > 0 && to.rate < 0) between = positive_between(along, t0, t1, from.rate, to.rate);
-    const bool parted = std::abs(from.value) <= w.zero && from.rate < 0;
+    const bool parted = (spent || std::abs(from.value) <= w.zero) && from.rate < 0;
     if (!between && (parted || may_be_positive_between(from, to, t1 - t0))) between = positive_in_parts(along, t0, from, t1);
-    if (!between && !(from.value > w.zero)) between = group(at).positive_inside(places_[at].event, step, motion);
+    if (!between && (spent || !(from.value > w.zero))) between = group(at).positive_inside(places_[at].event, step, motion);
     if (!between) return std::nullopt;
     end = *between;
-  } else if (from.value < 0) {  // it may have been above zero before, and below again
+  } else if (spent || from.value < 0) {  // it may have been above zero before, and below again
     end = group(at).positive_inside(places_[at].event, step, motion).value_or(t1);
   }
   if (spent || (from.value > -w.zero && from.rate < 0)) {  // at zero and going away: search from where it has gone away

@@ -191,8 +191,8 @@ Guard onset_of(const System& system, int contact, const State& state) {
   return out;
 }
 
-bool out_of_reach(const System& system, int contact, const Step& step) {
-  constexpr double faster = 2;
+int parts_to_look_at(const System& system, int contact, const Step& step) {
+  constexpr double faster = 2, least = 16, most = 4096;
   const ContactPair& pair = system.contacts[at(contact)];
   double speed = 0, near = -std::numeric_limits<double>::infinity();
   for (const State* state : {&step.from.state, &step.to.state}) {
@@ -200,7 +200,13 @@ bool out_of_reach(const System& system, int contact, const Step& step) {
     speed = std::max(speed, std::hypot(gap.rate, gap.sideways));
     near = std::max(near, gap.depth);
   }
-  return near < -faster * speed * step.h;
+  if (near < -faster * speed * step.h) return 0;
+  double size = std::min(system.length, pair.deepest);
+  for (const Piece* piece : {&pair.gap.a, &pair.gap.b}) {
+    const double length = piece->straight ? piece->half : std::abs(piece->radius) * std::min(piece->half, 1.0);
+    if (length > 0) size = std::min(size, 2 * length);
+  }
+  return static_cast<int>(std::clamp(4 * speed * step.h / size, least, most));
 }
 
 Margin margin_of(const System& system, int contact, const State& state) {

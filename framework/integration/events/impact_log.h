@@ -18,8 +18,9 @@ Guard onset_of(const System&, int contact, const State&);
 /// Of profiles, how far inside its pieces a contact is, and the side where it is nearest to leaving them.
 Margin margin_of(const System&, int contact, const State&);
 
-/// Too far apart at both ends of a step to meet within it, at twice the speeds of its ends.
-bool out_of_reach(const System&, int contact, const Step&);
+/// In how many parts a step is to be looked at for a touch: one goes past no more than a quarter of the smaller piece, at the speeds of the
+/// step's ends. 0: at twice these they are too far apart to meet.
+int parts_to_look_at(const System&, int contact, const Step&);
 
 /// What each stay of a journal at its bearing's wall does: written as it begins, lasts and ends.
 class ImpactLog {

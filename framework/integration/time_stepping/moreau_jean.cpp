@@ -36,6 +36,7 @@ bool MoreauJean::attempt(double h, const ErrorNorm&, Step& step, Equations& eq) 
   const Index n = system_.n();
   const State& from = step.from.state;
   step.h = h;
+  trouble_ = "singular pose";
   step.error.setZero(system_.n_y());
   middle_ = from;
   middle_.t = from.t + h / 2;
@@ -83,7 +84,11 @@ bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, Sta
   const Eigen::MatrixXd W = respond_to_sticking(system_, eq);
   const VectorXd before = eq.sticking.J.transpose() * from.y.segment(system_.n(), system_.n()), free = eq.sticking.J.transpose() * speeds;
   const auto x = newton_impulses(system_, closed, e, W, before, free);
-  if (!x) return false;
+  if (!x) {
+    trouble_ = "no impulses stop the bodies that meet at \"" + system_.contact_names[at(closed.contact.front())] +
+               "\": a driver or too many contacts may press them together; give contacts a law with a stiffness";
+    return false;
+  }
   speeds += eq.sticking.a * *x;
   book_impulses(system_, closed, *x, (before + free + W * *x) / 2, to);
   book_driver_impulses(system_, eq, eq.sticking.lambda * *x, to);

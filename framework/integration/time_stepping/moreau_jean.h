@@ -24,7 +24,7 @@ class MoreauJean final : public Stepper {
   bool near_singular(const Equations&) const override { return false; }
   bool strayed_near_singular(const Step&, const Equations&) const override { return false; }
   bool at_stability_limit(const Step&) const override { return false; }
-  std::string trouble() const override { return {}; }
+  std::string trouble() const override { return trouble_; }
   int partitions() const override { return 0; }
   void save(Writer&) const override;
   void load(Reader&) override;
@@ -40,6 +40,7 @@ class MoreauJean final : public Stepper {
   const System& system_;
   StepperTraits traits_;
   State middle_;
+  std::string trouble_;
   double balance_ = 0;  ///< of the books, which the integral of what the scheme loses keeps [J]
 };
 
