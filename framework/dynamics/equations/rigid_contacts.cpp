@@ -98,13 +98,40 @@ struct Bounce {
   double e;
   std::optional<double> at_rest = {};  ///< if it is 0 for that, when a sequence of ever lower bounces ends
 };
-Bounce bounce_of(const ContactPair& pair, double t, double opening, double acceleration) {
+bool shows(const ContactPair& pair, double parts, double acceleration) {
   constexpr double times = 20;  // what is taken for closed
+  return parts > pair.slowest_impact && (!(acceleration < 0) || parts * parts > -2 * acceleration * times * pair.slack);
+}
+Bounce bounce_of(const ContactPair& pair, double t, double opening, double acceleration) {
   const double e = pair.rigid->restitution, parts = -e * opening;
   if (!(opening < 0) || e == 0) return {0};
-  const bool shown = parts > pair.slowest_impact && (!(acceleration < 0) || parts * parts > -2 * acceleration * times * pair.slack);
-  if (shown) return {e};
+  if (shows(pair, parts, acceleration)) return {e};
   return {0, acceleration < 0 && e < 1 ? std::optional(t - 2 * parts / (acceleration * (1 - e))) : std::nullopt};
+}
+
+// Which contacts part. What would part too slowly to show stays, as the corners of a block that has rocked: impulses that stop that, and
+// its slips that are stopped, are added to x.
+std::vector<bool> settle(const System& system, const Closed& closed, std::span<const double> e, const VectorXd& acceleration,
+                         const MatrixXd& W, const VectorXd& before, double slow, VectorXd& x) {
+  const VectorXd after = before + W * x;
+  double fall = 0;
+  for (const UnilateralContact& k : closed.unknowns) fall = std::min(fall, acceleration[k.normal]);
+  std::vector<bool> parts;
+  std::vector<int> stays;
+  bool creeps = false;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    const UnilateralContact& k = closed.unknowns[i];
+    const bool opens = after[k.normal] > slow;
+    parts.push_back(opens && (e[i] > 0 || shows(system.contacts[at(closed.contact[i])], after[k.normal], fall)));
+    if (parts.back()) continue;
+    creeps = creeps || opens;
+    stays.push_back(k.normal);
+    if (k.tangent >= 0 && std::abs(after[k.tangent]) <= slow) stays.push_back(k.tangent);
+  }
+  if (!creeps) return parts;
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_norm(W(stays, stays));
+  x(stays) -= least_norm.solve(after(stays));
+  return parts;
 }
 
 // What impulses x take out of the motion, at the mean of the speeds before and after.
@@ -145,17 +172,18 @@ std::optional<std::vector<Blow>> strike(const System& system, std::span<const in
     e.push_back(bounce.back().e);
     by_poisson = by_poisson || pair.rigid->poisson;
   }
-  const auto x = by_poisson ? poisson(closed, e, W, before) : newton(system, closed, e, W, before);
+  auto x = by_poisson ? poisson(closed, e, W, before) : newton(system, closed, e, W, before);
   if (!x) return std::nullopt;
+  const double slow = rounding * largest(before);
+  const std::vector<bool> parting = settle(system, closed, e, acceleration, W, before, slow, *x);
   speeds += eq.sticking.a * *x;
   const VectorXd after = before + W * *x;
   book(system, closed, *x, (before + after) / 2, eq, state);
 
-  const double slow = rounding * largest(before);
   std::vector<Blow> out;
   for (std::size_t i = 0; i < closed.unknowns.size(); ++i) {
     const int k = closed.unknowns[i].normal, c = closed.contact[i];
-    const bool parts = after[k] > slow;
+    const bool parts = parting[i];
     out.push_back({c, -before[k], parts ? after[k] : 0, (*x)[k], parts ? std::nullopt : bounce[i].at_rest});
     state.friction[at(c)] = {};
     state.impact_rate[at(c)] = parts ? 0 : std::max(-before[k], system.contacts[at(c)].slowest_impact);
