@@ -90,7 +90,9 @@ class Writing {
 
   void write_run() {
     const double until = std::sqrt(drawn_.size / 9.81) * chance_.between(0.5, 5);
-    const auto methods = pintle::choices("run", "method"), constraints = pintle::choices("run", "constraints");
+    const auto known = pintle::choices("run", "method"), constraints = pintle::choices("run", "constraints");
+    std::vector<std::string> methods(known.begin(), known.end());
+    std::erase(methods, "moreau");  // which takes rigid contacts only
     const std::string method = methods[static_cast<std::size_t>(chance_.below(static_cast<int>(methods.size())))];
     std::vector<std::string> fitting;  // what the method takes
     for (const std::string& c : constraints)
