@@ -112,8 +112,9 @@ std::optional<double> FrictionEvents::positive_inside(int event, const Step& ste
 }
 
 bool FrictionEvents::met(int event, const Guard& at_end) const {
-  constexpr double part = 1e-2, rounding = 1e-13;
-  return std::abs(at_end.value) <= (of_sliding(event) ? still(event) / 2 : std::max(part * tolerance_, rounding));
+  constexpr double part = 1e-2, rounding = 1e-13, rigid = 1e-10;  // finer than what decide_rigid tells apart
+  const double known = of_rigid(place(event)) ? rigid : std::max(part * tolerance_, rounding);
+  return std::abs(at_end.value) <= (of_sliding(event) ? still(event) / 2 : known);
 }
 
 void FrictionEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard> to, const DenseOutput&) {
@@ -193,7 +194,7 @@ FrictionEvents::Resting FrictionEvents::classify(State& state, std::optional<std
     }
     const double slip = now(k, state).slip;
     const bool slow = std::abs(slip) <= 4 * still(event);
-    if (k == slips && slow) {
+    if (k == slips && slow && !of_rigid(k)) {  // of rigid contacts all are decided at once
       dry.direction = -std::copysign(1.0, dry.force);
     } else if (k == slips || !(slow || dry.direction == 0)) {
       dry.direction = std::copysign(1.0, slip);
@@ -208,8 +209,8 @@ FrictionEvents::Resting FrictionEvents::classify(State& state, std::optional<std
 }
 
 // Rigid contacts, whose normal forces depend on their friction, are decided together.
-bool FrictionEvents::decide_rigid_ones(State& state) {
-  if (!overcharged(system_, state, *eq_)) return true;
+bool FrictionEvents::decide_rigid_ones(State& state, bool at_limit) {
+  if (!at_limit && !overcharged(system_, state, *eq_)) return true;
   Eigen::VectorXd dy(system_.n_y());
   if (decide_rigid(system_, state, *eq_) && evaluate(system_, state, *eq_, dy)) return true;
   for (std::size_t c = 0; c < system_.contacts.size(); ++c)
@@ -227,7 +228,7 @@ bool FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
   Eigen::VectorXd dy(system_.n_y());
   for (std::size_t tries = 0; tries < 4 * resting.at.size() + 4; ++tries) {
     if (!evaluate(system_, state, *eq_, dy)) return !resting.rigid;
-    if (resting.rigid && !decide_rigid_ones(state)) return false;
+    if (resting.rigid && !decide_rigid_ones(state, slips && tries == 0)) return false;
     std::optional<std::size_t> worst;
     double most = slips ? 1 - nearly : 1 + little;  // what shares the load gives way together
     for (const std::size_t k : resting.at) {

@@ -47,7 +47,7 @@ class FrictionEvents final : public EventGroup {
   };
   Resting classify(State&, std::optional<std::size_t> slips) const;
   void pass_dead_centres(const Resting&, State&);
-  bool decide_rigid_ones(State&);
+  bool decide_rigid_ones(State&, bool at_limit);
   bool decide(State&, std::optional<std::size_t> slips);  ///< false: rigid contacts find no forces
 
   const System& system_;
