@@ -32,7 +32,8 @@ void Events::start(Step& step) {
   for (auto& g : groups_) g->start(step);
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const WatchedGuard w = ask(k);
-    spent_[k] = w.direction != Direction::none && turned(guard(k, step.to.state), w).value > 0;
+    const bool left_undecided = w.at_once && group(k).order() > 0;  // by a start that found no forces: it acts at once, and says so
+    spent_[k] = !left_undecided && w.direction != Direction::none && turned(guard(k, step.to.state), w).value > 0;
   }
 }
 
