@@ -9,7 +9,6 @@
 namespace pintle {
 
 using Eigen::VectorXd;
-using Index = Eigen::Index;
 using Sparse = Eigen::SparseMatrix<double>;
 
 void close_in(Closure& closure, const System& system, const VectorXd& W, VectorXd& y, VectorXd& C, Sparse& J) {
@@ -35,7 +34,7 @@ void close_in(Closure& closure, const System& system, const VectorXd& W, VectorX
 
 bool choose_branch(Closure& closure, const System& system, const Sparse& J, const std::vector<Dependence>& singular, const VectorXd& W,
                    VectorXd& y) {
-  const Index n = system.n(), count = static_cast<Index>(singular.size());
+  const Eigen::Index n = system.n(), count = static_cast<Eigen::Index>(singular.size());
   const auto bend = [&](Sparse& G, VectorXd& g) {
     const VectorXd s = y.segment(n, n);
     const double rate = s.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>();
@@ -44,8 +43,8 @@ bool choose_branch(Closure& closure, const System& system, const Sparse& J, cons
     Equations eq(system);
     std::vector<Eigen::Triplet<double>> entries;
     VectorXd change = VectorXd::Zero(system.n_rows());
-    std::vector<std::vector<std::pair<Index, double>>> of_row(at(system.n_rows()));
-    for (Index d = 0; d < count; ++d)
+    std::vector<std::vector<std::pair<Eigen::Index, double>>> of_row(at(system.n_rows()));
+    for (Eigen::Index d = 0; d < count; ++d)
       for (const auto& [row, weight] : singular[static_cast<std::size_t>(d)].N)
         of_row[at(row)].emplace_back(d, weight * system.row_scale[row]);
     for (double sign : {-1.0, 1.0}) {
@@ -59,7 +58,7 @@ bool choose_branch(Closure& closure, const System& system, const Sparse& J, cons
           entries.emplace_back(static_cast<int>(J.rows() + d), column, sign * weight * value / (step * rate));
       });
     }
-    for (Index c = 0; c < J.outerSize(); ++c)
+    for (Eigen::Index c = 0; c < J.outerSize(); ++c)
       for (Sparse::InnerIterator it(J, c); it; ++it)
         entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(it.col()), it.value());
     G.resize(J.rows() + count, n);
@@ -67,7 +66,7 @@ bool choose_branch(Closure& closure, const System& system, const Sparse& J, cons
     g.setZero(J.rows() + count);
     g.head(J.rows()) = closure.drift(y);
     for (std::size_t row = 0; row < of_row.size(); ++row)
-      for (const auto& [d, weight] : of_row[row]) g[J.rows() + d] += weight * change[static_cast<Index>(row)] / rate;
+      for (const auto& [d, weight] : of_row[row]) g[J.rows() + d] += weight * change[static_cast<Eigen::Index>(row)] / rate;
     return rate;
   };
   Sparse G;
