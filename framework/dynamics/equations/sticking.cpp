@@ -262,6 +262,23 @@ VectorXd friction_change(const System& system, const State& state, const Equatio
   return change;
 }
 
+namespace {
+
+// What balanced forces of rigid contacts leave in the last digits is none: a body at rest would else be followed as if it moved.
+void add_accelerations(const VectorXd& change, const VectorXd& before, Equations& eq) {
+  constexpr double rounding = 1e-14;
+  const Sticking& s = eq.sticking;
+  if (std::ranges::find(s.of, true, &Sticking::Column::normal) == s.of.end()) {
+    eq.a += s.a * change;
+    return;
+  }
+  const VectorXd terms = s.a.cwiseAbs() * (before.cwiseAbs() + change.cwiseAbs());
+  eq.a += s.a * change;
+  eq.a = (eq.a.array().abs() > rounding * terms.array()).select(eq.a, 0);
+}
+
+}  // namespace
+
 bool hold_sticking(const System& system, const State& state, Equations& eq) {
   list_sticking(system, state, eq);
   const Sticking& s = eq.sticking;
@@ -272,7 +289,7 @@ bool hold_sticking(const System& system, const State& state, Equations& eq) {
   const VectorXd change =
       friction_change(system, state, eq, {W, s.lambda}, Shares::all, -sticking_accelerations(system, eq), eq.lambda, before);
   if (!change.allFinite()) return false;
-  eq.a += s.a * change;
+  add_accelerations(change, before, eq);
   eq.lambda += s.lambda * change;
   eq.f += s.J * change;
   for (Index i = 0; i < count(s); ++i) {
