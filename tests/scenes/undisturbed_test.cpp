@@ -39,6 +39,16 @@ Scene linked(const std::string& method) {
   return s;
 }
 
+/// A crank whose pin meets its bearing as a rigid body, and slides and sticks there.
+Scene struck(const std::string& method, const std::string& constraints = "projection") {
+  Scene s = loose(method, constraints);
+  SceneClearance& pin = *s.joints[2].clearance;
+  pin.model = ClearanceModel::impact;
+  pin.impact.restitution = 0.5;
+  pin.friction->law = "coulomb";
+  return s;
+}
+
 /// A bar on n equal cranks, of which all but two are redundant.
 Scene cranks(int n, const std::string& method) {
   const double angle = 0.5;
@@ -86,6 +96,7 @@ std::vector<Case> cases() {
     const std::string m = method;
     const std::string word = m == "generalized-alpha" ? "alpha" : m;
     all.push_back({word + "_contact_with_friction", [m] { return loose(m); }, 200, {}, strike});
+    if (word != "alpha") all.push_back({word + "_impacts", [m] { return struck(m); }, 200, {}, strike});
     all.push_back({word + "_massless_link", [m] { return linked(m); }});
     all.push_back({word + "_redundant", [m] { return cranks(4, m); }});
     all.push_back({word + "_flexible", [m] { return flexible(m, "", 0); }});
@@ -95,6 +106,7 @@ std::vector<Case> cases() {
   }
   for (const char* method : {"dopri5", "verner87"}) {
     const std::string m = method;
+    all.push_back({m + "_partitioned_impacts", [m] { return struck(m, "partitioning"); }, 200, {}, strike});
     all.push_back({m + "_partitioned_contact", [m] { return loose(m, "partitioning"); }, 200, {}, strike});
     all.push_back({m + "_partitioned_redundant", [m] {
                      Scene s = cranks(4, m);
