@@ -58,8 +58,43 @@ FrictionForce evaluate(const Coulomb& law, double v, double normal) {
   return v == 0 ? FrictionForce{} : evaluate(law, v, normal, std::copysign(1.0, v));
 }
 
+namespace {
+
+template <class Law>
+FrictionForce slides_steadily(const Law& law, double v, double normal) {
+  if (v == 0) return {};
+  const SteadyFriction now = steady_friction(law, std::abs(v));
+  return against(v, normal, now.coefficient, now.slope);
+}
+
+}  // namespace
+
+FrictionForce evaluate(const LuGre& law, double v, double normal) { return slides_steadily(law, v, normal); }
+FrictionForce evaluate(const Gonthier& law, double v, double normal) { return slides_steadily(law, v, normal); }
+
 FrictionForce evaluate(const FrictionLaw& law, double v, double normal) {
   return std::visit([&](const auto& l) { return evaluate(l, v, normal); }, law);
+}
+
+int bristle_states(const FrictionLaw& law) {
+  return std::holds_alternative<LuGre>(law) ? 1 : std::holds_alternative<Gonthier>(law) ? 2 : 0;
+}
+
+BristleForce bend(const FrictionLaw& law, double v, const double* x) {
+  if (const auto* lugre = std::get_if<LuGre>(&law)) return bend(*lugre, v, x);
+  return bend(*std::get_if<Gonthier>(&law), v, x);
+}
+
+double breakaway_deflection(const FrictionLaw& law) {
+  if (const auto* lugre = std::get_if<LuGre>(&law)) return lugre->mu_static / lugre->stiffness;
+  const auto* gonthier = std::get_if<Gonthier>(&law);
+  return gonthier ? gonthier->mu_static / gonthier->stiffness : 0;
+}
+
+BristleConstants bristle_constants(const FrictionLaw& law) {
+  if (const auto* lugre = std::get_if<LuGre>(&law)) return {lugre->stiffness, lugre->damping};
+  const auto* gonthier = std::get_if<Gonthier>(&law);
+  return gonthier ? BristleConstants{gonthier->stiffness, gonthier->damping} : BristleConstants{};
 }
 
 double coefficient_of(const FrictionLaw& law) {

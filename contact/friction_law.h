@@ -2,10 +2,12 @@
 
 #include <variant>
 
+#include "contact/bristle_law.h"
+
 namespace pintle {
 
-/// Friction against the sliding speed v under a normal force N. All but Coulomb's are curves of v through 0, of which none sticks:
-/// under a load they creep. Theory and sources: docs/theory/friction.md.
+/// Friction against the sliding speed v under a normal force N. Coulomb's sticks; laws of bristles (bristle_law.h) hold like springs; all others
+/// are curves of v through 0, of which none holds: under a load they creep. Theory and sources: docs/theory/friction.md.
 
 /// |f| = μ c N with c = 0 below v0, (|v| − v0)/(v1 − v0) between, 1 above v1. It creeps freely below v0.
 /// Source: Flores and Ambrósio (2004), as in Eqs. (16)–(17) of Ebrahimi, Salahshoor, Moradi (2017),
@@ -45,7 +47,7 @@ struct Coulomb {
   double stribeck = 0;   ///< v_s [m/s], ≥ 0
 };
 
-using FrictionLaw = std::variant<Ambrosio, Threlfall, HyperbolicTangent, BengisuAkay, Coulomb>;
+using FrictionLaw = std::variant<Ambrosio, Threlfall, HyperbolicTangent, BengisuAkay, Coulomb, LuGre, Gonthier>;
 
 struct FrictionForce {
   double force = 0;     ///< along the sliding direction; opposes v [N]
@@ -60,10 +62,25 @@ FrictionForce evaluate(const Threlfall&, double v, double normal);
 FrictionForce evaluate(const HyperbolicTangent&, double v, double normal);
 FrictionForce evaluate(const BengisuAkay&, double v, double normal);
 FrictionForce evaluate(const FrictionLaw&, double v, double normal);
+/// Of surfaces that slide steadily, their bristles bent as they stay: no force at v = 0. μ_s and μN are without the viscous part.
+FrictionForce evaluate(const LuGre&, double v, double normal);
+FrictionForce evaluate(const Gonthier&, double v, double normal);
 /// Of surfaces that slide: no force at v = 0.
 FrictionForce evaluate(const Coulomb&, double v, double normal);
 /// Of surfaces that slide towards `direction`, −1 or 1: smooth where v passes 0.
 FrictionForce evaluate(const Coulomb&, double v, double normal, double direction);
+
+/// How many internal states a law has; 0: it is none of bristles.
+int bristle_states(const FrictionLaw&);
+/// Per normal force. @pre it is one of bristles
+BristleForce bend(const FrictionLaw&, double v, const double* x);
+/// The greatest deflection of steady bristles, μ_s/σ0 [m]; 0 without.
+double breakaway_deflection(const FrictionLaw&);
+/// σ0, σ1 [1/m], [s/m]; 0 without.
+struct BristleConstants {
+  double stiffness = 0, damping = 0;
+};
+BristleConstants bristle_constants(const FrictionLaw&);
 
 /// The coefficient while sliding.
 double coefficient_of(const FrictionLaw&);

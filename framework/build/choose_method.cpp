@@ -76,6 +76,16 @@ class Parts {
     if (depth > 0 && found.parts.back().decay > found.most_damped.decay) found.most_damped = found.parts.back();
     if (depth > 0) found.strike = std::max(found.strike, speed / depth);
   }
+  // Bristles under the preload and the weight of what moves.
+  void see(const JointFriction& rub, const std::string& name) {
+    const BristleConstants bristles = bristle_constants(rub.law);
+    if (bristles.stiffness == 0) return;
+    const JointEnds ends = ends_of(system_.joints[at(rub.joint)]);
+    const Mobility a = mobility(system_, ends.marker[0]), b = mobility(system_, ends.marker[1]);
+    const double w = rub.radius > 0 ? rub.radius * rub.radius * (a.couple + b.couple) : a.force + b.force;
+    const double load = rub.preload + system_.gravity.norm() / (a.force + b.force);
+    see({std::sqrt(load * bristles.stiffness * w), load * bristles.damping * w, "the bristles in \"" + name + "\""});
+  }
   RateSpectrum found;
 
  private:
@@ -154,6 +164,7 @@ RateSpectrum spectrum(const Scene& scene, const System& system) {
   for (std::size_t i = 0; i < system.forces.size(); ++i)
     parts.see(system.forces[i], i < system.force_names.size() ? system.force_names[i] : "");
   for (const Body& b : system.bodies) parts.see(b);
+  for (const JointFriction& f : system.frictions) parts.see(f, system.joint_names[at(f.joint)]);
   for (std::size_t i = 0; i < system.contacts.size(); ++i)
     parts.see(system.contacts[i], motion, i < system.contact_names.size() ? system.contact_names[i] : "");
   RateSpectrum s = std::move(parts.found);

@@ -152,6 +152,28 @@ void check_rigid_friction(const Scene& scene, const SceneFriction& f) {
 
 bool rubs(const SceneFriction& f) { return f.coefficient != 0 || f.holds.value_or(0) != 0; }
 
+namespace {
+
+FrictionLaw bristles(const Scene& scene, const SceneFriction& f, double holds) {
+  constexpr double slow = 1e-3;  // [m/s]
+  const double stribeck = f.stribeck > 0 ? f.stribeck : slow, damping = f.bristle_damping.value_or(critical_damping(f.bristle_stiffness));
+  const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, f.place, message); };
+  if (!(f.coefficient > 0)) wrong(f.law + " needs a coefficient above 0, at which its bristles give way");
+  if (!(f.bristle_stiffness > 0)) wrong(f.law + " needs a bristle stiffness above 0");
+  if (!(f.viscous >= 0)) wrong("viscous friction must not be negative");
+  if (f.law == "lugre") {
+    if (!(damping >= 0)) wrong("bristle damping must not be negative");
+    const double fades = f.damping_speed.value_or(gentle_damping_speed(f.coefficient, damping));
+    if (!(fades > 0)) wrong("the damping speed must be above 0");
+    return LuGre{f.coefficient, holds, stribeck, f.bristle_stiffness, damping, f.viscous, fades};
+  }
+  if (!(damping > 0)) wrong("gonthier needs a bristle damping above 0");
+  if (!(f.dwell > 0)) wrong("gonthier needs a dwell time above 0");
+  return Gonthier{f.coefficient, holds, stribeck, f.bristle_stiffness, damping, f.viscous, f.dwell};
+}
+
+}  // namespace
+
 FrictionLaw friction_law(const Scene& scene, const SceneFriction& f) {
   const double holds = f.holds.value_or(f.coefficient);
   if (holds < f.coefficient) throw SceneError(scene.file, f.place, "the static coefficient of friction must be the other or above");
@@ -160,14 +182,25 @@ FrictionLaw friction_law(const Scene& scene, const SceneFriction& f) {
   if (f.law == "tanh") return HyperbolicTangent{f.coefficient, f.v1};
   if (f.law == "bengisu-akay") return BengisuAkay{f.coefficient, holds, f.v0, f.v1};
   if (f.law == "coulomb") return Coulomb{f.coefficient, holds, f.stribeck};
-  throw SceneError(scene.file, f.place,
-                   "there is no law of friction " + quoted(f.law) + "; write coulomb, ambrosio, threlfall, tanh or bengisu-akay");
+  if (f.law == "lugre" || f.law == "gonthier") return bristles(scene, f, holds);
+  throw SceneError(
+      scene.file, f.place,
+      "there is no law of friction " + quoted(f.law) + "; write coulomb, lugre, gonthier, ambrosio, threlfall, tanh or bengisu-akay");
+}
+
+std::string bristles_text(const FrictionLaw& law, double load) {
+  const BristleConstants of = bristle_constants(law);
+  return " are pressed by " + text(load) + " N: stiffness " + text(load * of.stiffness) + " N/m along the surfaces, damping " +
+         text(load * of.damping) + " N s/m where they are at rest";
 }
 
 std::string friction_text(const ContactPair& pair) {
   if (!pair.friction) return ", no friction";
   const auto* coulomb = std::get_if<Coulomb>(&*pair.friction);
   const std::string slides = text(coefficient_of(*pair.friction));
+  if (bristle_states(*pair.friction) > 0)
+    return ", friction " + slides + " by bristles of " + text(bristle_constants(*pair.friction).stiffness) + " 1/m, damping " +
+           text(bristle_constants(*pair.friction).damping) + " s/m";
   return coulomb ? ", dry friction " + slides + (coulomb->mu_static > coulomb->mu ? ", static " + text(coulomb->mu_static) : "")
                  : ", friction " + slides;
 }

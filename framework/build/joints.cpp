@@ -59,11 +59,11 @@ Joint joint_of(const Scene& scene, const SceneJoint& j, Markers& markers) {
 JointFriction friction_of(const Scene& scene, const SceneJoint& j, int joint) {
   const SceneJointFriction& f = *j.friction;
   const FrictionLaw law = friction_law(scene, f.law);
-  if (!word_of(j).friction || !std::holds_alternative<Coulomb>(law))
-    throw SceneError(scene.file, j.place, "friction in a joint is Coulomb's, and in a revolute, prismatic or slot joint");
+  if (!word_of(j).friction || (!std::holds_alternative<Coulomb>(law) && bristle_states(law) == 0))
+    throw SceneError(scene.file, j.place, "friction in a joint is coulomb, lugre or gonthier, and in a revolute, prismatic or slot joint");
   if ((j.kind == JointKind::revolute && !(f.radius > 0)) || !(f.preload >= 0))
     throw SceneError(scene.file, j.place, "friction needs the pin's radius, above 0");
-  return {joint, std::get<Coulomb>(law), f.radius, f.length, f.preload};
+  return {joint, law, f.radius, f.length, f.preload};
 }
 
 }  // namespace pintle

@@ -15,7 +15,7 @@ Joint joint_of(const Scene&, const SceneJoint&, Markers&);
 PointRef cage_of(const SceneJoint&);
 
 /// @param joint  its index in System::joints
-/// @throws SceneError  another law than Coulomb's; a joint that takes no friction; a radius or preload that cannot be
+/// @throws SceneError  a law that is a curve of the speed; a joint that takes no friction; a radius or preload that cannot be
 JointFriction friction_of(const Scene&, const SceneJoint&, int joint);
 
 }  // namespace pintle

@@ -61,7 +61,7 @@ class Rest {
       state.impact_rate[c] = !pair.profiles || onset_of(held, static_cast<int>(c), state).value > 0 ? pair.slowest_impact : 0;
     }
     speed(held, t_, state.y, eq);
-    follow_internal_states(held, eq, t_, internal_at_rest, nullptr, state.y.data() + held.x_begin());
+    follow_internal_states(held, eq, state, internal_at_rest, nullptr, state.y.data() + held.x_begin());
     accelerate(held, state, eq);
     out_of_balance = eq.f;
     add_reaction(eq, -eq.lambda, out_of_balance);

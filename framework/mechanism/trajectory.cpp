@@ -163,12 +163,24 @@ void profile_columns(const System& system, std::size_t first, Out& out) {
       system, system.contact_names[first], true, false, system.contacts[first].b, [&](const Now& now) { return contact(now).on_b; }, out);
 }
 
+// Of a contact, the states of the owner's pairs that is pressed most; they are as many, one after another.
+const InternalStates& shown(const System& system, const InternalStates& owner, const Equations& eq) {
+  if (owner.owner != InternalStates::contact) return owner;
+  const InternalStates* out = &owner;
+  for (int i = 1; i < system.contacts[at(owner.index)].pairs; ++i) {
+    const InternalStates* other = &owner + i;
+    if (eq.contact[at(other->index)].normal.force > eq.contact[at(out->index)].normal.force) out = other;
+  }
+  return *out;
+}
+
 template <class Out>
 void internal_columns(const System& system, const InternalStates& owner, Out& out) {
-  const auto states = internal_states(system.forces[at(owner.force)]);
+  if (owner.owner == InternalStates::contact && system.contacts[at(owner.index)].pair > 0) return;
+  const auto states = states_of(system, owner);
   for (int i = 0; i < owner.n; ++i)
-    out(system.force_names[at(owner.force)], {{states[at(i)].name, states[at(i)].unit}},
-        [&, i](const Now& now) { return std::array{now.state.y[system.x_begin() + owner.begin + i]}; });
+    out(owner_name(system, owner), {{states[at(i)].name, states[at(i)].unit}},
+        [&, i](const Now& now) { return std::array{now.state.y[system.x_begin() + shown(system, owner, now.eq).begin + i]}; });
 }
 
 template <class Out>

@@ -109,9 +109,14 @@ struct SceneFriction {
   double v0 = 1e-3, v1 = 1e-2;  ///< speeds of a curve [m/s]; Ambrósio's v0 < v1
   SlidingSpeed sliding = SlidingSpeed::material;
   Place place = {};
-  std::string law = "ambrosio";      ///< or threlfall, tanh, bengisu-akay, coulomb
+  std::string law = "ambrosio";      ///< or threlfall, tanh, bengisu-akay, coulomb, lugre, gonthier
   std::optional<double> holds = {};  ///< static coefficient, ≥ coefficient; unset: the same, –
-  double stribeck = 0;               ///< of coulomb: the speed over which the static coefficient falls to the other [m/s]
+  double stribeck = 0;  ///< the speed over which the static coefficient falls to the other [m/s]; 0: at once, of bristles 1 mm/s
+  // Of lugre and gonthier, per normal force:
+  double bristle_stiffness = 0;                                    ///< [1/m]
+  std::optional<double> bristle_damping = {}, damping_speed = {};  ///< unset: critical_damping, gentle_damping_speed [s/m], [m/s]
+  double viscous = 0;                                              ///< [s/m]
+  double dwell = 0;                                                ///< of gonthier [s]
 };
 
 /// Rigid bodies that impacts stop at once: docs/theory/impact.md.
@@ -154,7 +159,7 @@ struct ScenePlay {
   std::optional<SceneImpact> impact = {};  ///< instead of `normal`
 };
 
-/// Dry friction in an ideal joint.
+/// Friction in an ideal joint: coulomb, lugre or gonthier.
 struct SceneJointFriction {
   SceneFriction law;
   double radius = 0;   ///< of a revolute's pin [m]

@@ -8,6 +8,7 @@
 
 #include "framework/analysis/linearize/quadratic_roots.h"
 #include "framework/analysis/linearize/state_space.h"
+#include "framework/build/clearance.h"
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
 #include "framework/configuration/assemble.h"
@@ -301,10 +302,15 @@ void add_notes(const Scene& scene, const System& system, const MotionAt& here, L
   }
   std::string last;
   for (const LinearContact& c : out.contacts)
-    if (c.closed && system.contacts[c.pair].friction && std::exchange(last, c.name) != c.name)
+    if (c.closed && has_bristles(system.contacts[c.pair]))
+      out.notes.push_back("bristles at \"" + c.name + "\"" + bristles_text(*system.contacts[c.pair].friction, c.force));
+    else if (c.closed && system.contacts[c.pair].friction && std::exchange(last, c.name) != c.name)
       out.notes.push_back("friction at \"" + c.name + "\" is left out: what it holds is free to slide here");
-  for (const JointFriction& f : system.frictions)
-    out.notes.push_back("friction in \"" + system.joint_names[at(f.joint)] + "\" is left out: what it holds is free to slide here");
+  for (std::size_t k = 0; k < system.frictions.size(); ++k)
+    if (const JointFriction& f = system.frictions[k]; bristle_states(f.law) > 0)
+      out.notes.push_back("bristles in \"" + system.joint_names[at(f.joint)] + "\"" + bristles_text(f.law, here.eq.friction[k].load));
+    else
+      out.notes.push_back("friction in \"" + system.joint_names[at(f.joint)] + "\" is left out: what it holds is free to slide here");
   if (laws_vary(scene))
     out.notes.push_back(laws == Laws::hold ? "loads are held at what they are at t = " + text(out.about.t, 6) + " s"
                                            : "loads that vary in time count as they are at t = " + text(out.about.t, 6) + " s");

@@ -74,6 +74,8 @@ std::vector<int> others(Index n, const std::vector<int>& some) {
 
 MotionAt::MotionAt(const System& system, const State& at) : state(at), eq(system) {
   VectorXd dy(system.n_y());
+  if (std::ranges::any_of(system.frictions, [](const JointFriction& f) { return bristle_states(f.law) > 0; }))
+    state.friction.resize(dry_states(system));
   regular = evaluate(system, state, eq, dy);
   if (!regular) return;
   Tangent tangent(system);
@@ -86,6 +88,25 @@ MotionAt::MotionAt(const System& system, const State& at) : state(at), eq(system
   D = matrix({.s = 1});
   K = matrix({.q = 1});
   x = tangent.internal(system, state, eq);
+  leave_out_open(system);
+}
+
+// Bristles of what is open do nothing, and would be as many roots at 0.
+void MotionAt::leave_out_open(const System& system) {
+  std::vector<int> kept;
+  for (const InternalStates& owner : system.internal) {
+    if (owner.owner == InternalStates::contact && !(eq.contact[static_cast<std::size_t>(owner.index)].normal.force > 0)) continue;
+    for (const InternalState& s : states_of(system, owner)) {
+      const auto named = [&](const std::string& which) { return owner_name(system, owner) + which + s.name + " [" + s.unit + "]"; };
+      const bool known = std::ranges::find(x_names, named("")) != x_names.end();  // where several pairs of one contact are closed
+      x_names.push_back(
+          named(known ? " (pair " + std::to_string(system.contacts[static_cast<std::size_t>(owner.index)].pair + 1) + ")" : ""));
+    }
+    for (int i = 0; i < owner.n; ++i) kept.push_back(owner.begin + i);
+  }
+  if (static_cast<int>(kept.size()) == system.n_x()) return;
+  x = {MatrixXd(x.f_x(Eigen::all, kept)), MatrixXd(x.g_q(kept, Eigen::all)), MatrixXd(x.g_s(kept, Eigen::all)),
+       MatrixXd(x.g_x(kept, kept))};
 }
 
 double MotionAt::rate(const System& system) const {
@@ -95,8 +116,7 @@ double MotionAt::rate(const System& system) const {
   for (const InternalStates& owner : system.internal)
     for (int i = 0; i < owner.n; ++i) {
       const double scale = system.x_scale[owner.begin + i];
-      speed = std::max(speed, std::abs(eq.force[static_cast<std::size_t>(owner.force)].x_rate[static_cast<std::size_t>(i)]) /
-                                  (scale > 0 ? scale : system.length));
+      speed = std::max(speed, std::abs(internal_rates(eq, owner)[static_cast<std::size_t>(i)]) / (scale > 0 ? scale : system.length));
     }
   return std::max(speed, std::sqrt(eq.a.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>()));
 }

@@ -22,12 +22,16 @@ struct MotionAt {
   State state;
   Equations eq;             ///< evaluated there
   Eigen::MatrixXd M, D, K;  ///< ∂r/∂a, ∂r/∂s, ∂r/∂q, internal states held
-  Tangent::Internal x;      ///< how these answer
-  bool regular = false;     ///< false: a singular pose, and nothing but `state` is there
+  Tangent::Internal x;      ///< how these answer, but for bristles of open contacts
+  std::vector<std::string> x_names;
+  bool regular = false;  ///< false: a singular pose, and nothing but `state` is there
 
   /// How fast the pose changes: the greatest of speeds and rates of internal states over scale and the roots of
   /// accelerations over scale [1/s]; 0 at rest.
   double rate(const System&) const;
+
+ private:
+  void leave_out_open(const System&);
 };
 
 /// The axes in which independent coordinates are told: turned by `phase`, turning at `rate` about the world's

@@ -166,13 +166,11 @@ StateSpace state_space(const Model& model, const System& system, const MotionAt&
                        const std::vector<std::string>& coordinates) {
   StateSpace out;
   const MatrixXd loads = load_inputs(system, here.eq, out.inputs);
-  const Index m = free.m(), offsets = free.X.cols() - m, forces = loads.cols(), inputs = forces + 3 * offsets, x = system.n_x(),
+  const Index m = free.m(), offsets = free.X.cols() - m, forces = loads.cols(), inputs = forces + 3 * offsets, x = here.x.g_x.rows(),
               states = 2 * m + x, all = states + inputs;
   for (const int i : free.independent) out.states.push_back(coordinates[at(i)]);
   for (const int i : free.independent) out.states.push_back(per_second(coordinates[at(i)], " rate"));
-  for (const InternalStates& owner : system.internal)
-    for (const InternalState& s : internal_states(system.forces[at(owner.force)]))
-      out.states.push_back(system.force_names[at(owner.force)] + s.name + " [" + s.unit + "]");
+  out.states.insert(out.states.end(), here.x_names.begin(), here.x_names.end());
   for (std::size_t k = 0; k < system.joints.size(); ++k)
     if (is_driver(system.joints[k])) {
       const std::string name = system.joint_names[k], unit = is_angle_row(system.joints[k], 0) ? "rad" : "m";

@@ -72,7 +72,7 @@ Assembly steady_start(const Model& model, const Assembly& assembly) {
     pose(system, 0, state.y, eq);
     if (!frames.fill(state.y, eq, a)) return assembly;
     update_mass(system, state.y, eq);
-    follow_internal_states(system, eq, 0, internal_at_rest, nullptr, state.y.data() + system.x_begin());
+    follow_internal_states(system, eq, state, internal_at_rest, nullptr, state.y.data() + system.x_begin());
     apply_forces(system, state, eq);
     r = eq.f;
     add_mass_times(system, eq, -a, r);

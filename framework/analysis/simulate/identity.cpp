@@ -101,6 +101,14 @@ class Sum : public ValueWriter<Sum> {
     const auto& [mu, mu_static, stribeck] = law;
     add(mu, mu_static, stribeck);
   }
+  void add(const LuGre& law) {
+    const auto& [mu, mu_static, stribeck, stiffness, damping, viscous, damping_speed] = law;
+    add(mu, mu_static, stribeck, stiffness, damping, viscous, damping_speed);
+  }
+  void add(const Gonthier& law) {
+    const auto& [mu, mu_static, stribeck, stiffness, damping, viscous, dwell] = law;
+    add(mu, mu_static, stribeck, stiffness, damping, viscous, dwell);
+  }
   void add(const JointFriction& f) {
     const auto& [joint, law, radius, length, preload] = f;
     add(joint, law, radius, length, preload);
@@ -127,7 +135,7 @@ class Sum : public ValueWriter<Sum> {
   void add(const System& s) {
     const auto& [gravity, bodies, markers, joints, frictions, forces, contacts, joint_names, force_names, contact_names, loose, loose_names,
                  length, eta_begin, scale, row_begin, end_begin, end_marker, row_scale, integrals, contact_z, force_z, joint_z, internal,
-                 force_x, x_scale] = s;
+                 force_x, x_scale, contact_x, friction_x] = s;
     add(gravity, bodies, markers, joints, frictions, forces, contacts, joint_names, force_names, contact_names, loose, loose_names, length,
         eta_begin, scale, row_begin, end_begin, end_marker, row_scale);
     for (const Integral& z : integrals) add(z);

@@ -267,7 +267,7 @@ void apply_forces(const System& system, const State& state, Equations& eq) {
   for (std::size_t i = 0; i < system.contacts.size(); ++i) {
     const ContactPair& pair = system.contacts[i];
     eq.contact[i] = evaluate(pair, eq.motion[at(pair.a)], eq.motion[at(pair.b)], state.impact_rate[i],
-                             state.friction.empty() ? DryFriction{} : state.friction[i]);
+                             state.friction.empty() ? DryFriction{} : state.friction[i], x + system.contact_x[i]);
     if (eq.contact[i].normal.force == 0 && eq.contact[i].friction == 0) continue;
     add_wrench(system, eq, pair.a, eq.contact[i].on_a, eq.f);
     add_wrench(system, eq, pair.b, eq.contact[i].on_b, eq.f);
@@ -299,12 +299,19 @@ void accelerate(const System& system, const State& state, Equations& eq) {
   if (!state.friction.empty() && eq.regular) eq.regular = hold_sticking(system, state, eq);
 }
 
+const std::array<double, most_internal>& internal_rates(const Equations& eq, const InternalStates& of) {
+  const std::size_t k = at(of.index);
+  return of.owner == InternalStates::contact    ? eq.contact[k].x_rate
+         : of.owner == InternalStates::friction ? eq.friction[k].x_rate
+                                                : eq.force[k].x_rate;
+}
+
 void fill_derivative(const System& system, const VectorXd& y, const Equations& eq, VectorXd& dy) {
   const Index n = system.n();
   dy.head(n) = y.segment(n, n);
   dy.segment(n, n) = eq.a;
   for (const InternalStates& owner : system.internal)
-    std::copy_n(eq.force[at(owner.force)].x_rate.begin(), owner.n, dy.data() + system.x_begin() + owner.begin);
+    std::copy_n(internal_rates(eq, owner).begin(), owner.n, dy.data() + system.x_begin() + owner.begin);
   for (Index i = 0; i < system.n_z(); ++i) {
     const Integral& z = system.integrals[static_cast<std::size_t>(i)];
     const std::size_t k = at(z.index);

@@ -107,6 +107,8 @@ void respond(const System&, Equations&, Eigen::VectorXd& a, Eigen::VectorXd& lam
 void add_mass_times(const System&, const Equations&, const Eigen::VectorXd& v, Eigen::VectorXd& out);
 /// out += Cqᵀ x, x of n_rows. After pose.
 void add_reaction(const Equations&, const Eigen::VectorXd& x, Eigen::VectorXd& out);
+/// ẋ of an owner. After apply_forces.
+const std::array<double, most_internal>& internal_rates(const Equations&, const InternalStates&);
 /// ẏ = [s, a, ẋ, ż] after accelerate.
 void fill_derivative(const System&, const Eigen::VectorXd& y, const Equations&, Eigen::VectorXd& dy);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <variant>
 
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
@@ -58,7 +59,7 @@ double load_of(const System& system, const Equations& eq, std::size_t k, const V
 }  // namespace
 
 const Coulomb* dry_law(const System& system, std::size_t k) {
-  return of_contact(system, k) ? dry_friction(system.contacts[k]) : &system.frictions[joint_friction(system, k)].law;
+  return of_contact(system, k) ? dry_friction(system.contacts[k]) : std::get_if<Coulomb>(&system.frictions[joint_friction(system, k)].law);
 }
 
 bool sticks(const System& system, const State& state, std::size_t k) {
@@ -81,22 +82,14 @@ FrictionNow friction_now(const System& system, const Equations& eq, std::size_t 
   return {now.force, now.slip, static_part * now.load};
 }
 
-void add_joint_friction(const System& system, const State& state, Equations& eq) {
-  for (std::size_t k = 0; k < system.frictions.size(); ++k) {
-    const JointFriction& rub = system.frictions[k];
-    const JointEnds ends = ends_of(system.joints[at(rub.joint)]);
-    const MarkerMotion &a = eq.motion[at(ends.marker[0])], &b = eq.motion[at(ends.marker[1])];
-    JointFrictionEffect& effect = eq.friction[k];
-    const std::array<Wrench, 2> unit = unit_friction(system.joints[at(rub.joint)], rub, a, b);
-    effect.slip = slip(system.joints[at(rub.joint)], rub, a, b);
-    if (state.friction.empty()) continue;
-    const DryFriction& now = state.friction[system.contacts.size() + k];
-    effect.force = now.force, effect.load = now.load, effect.sticks = now.direction == 0;
-    for (std::size_t i = 0; i < 2; ++i) add_wrench(system, eq, ends.marker[i], effect.force * unit[i], eq.f);
-  }
-}
-
 namespace {
+
+// Of what slides, under this load.
+double sliding_force(const System& system, const State& state, const Equations& eq, std::size_t k, double load) {
+  const Coulomb* dry = dry_law(system, k);
+  if (!dry) return eq.friction[joint_friction(system, k)].per_load * load;
+  return evaluate(*dry, friction_now(system, eq, k).slip, load, state.friction[k].direction).force;
+}
 
 // The two markers that one of these forces acts on, and what 1 N of it does there.
 struct Acting {
@@ -236,8 +229,8 @@ VectorXd friction_change(const System& system, const State& state, const Equatio
       const Index column = slide[place(i)];
       const std::size_t k = s.of[place(column)].at;
       loads[i] = of_contact(system, k) ? before[column - 1] + change[column - 1] : load_of(system, eq, joint_friction(system, k), now);
-      if (const double d = state.friction[k].direction; d != DryFriction::undecided)
-        out[i] -= evaluate(*dry_law(system, k), friction_now(system, eq, k).slip, loads[i], d).force;
+      if (state.friction[k].direction != DryFriction::undecided || !dry_law(system, k))
+        out[i] -= sliding_force(system, state, eq, k, loads[i]);
     }
     return out;
   };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "framework/common/index.h"
+#include "framework/dynamics/equations/internal.h"
 
 namespace pintle {
 
@@ -19,6 +20,12 @@ namespace {
 
 int size_of(const System& system, int body) { return 3 + system.bodies[at(body)].modes(); }
 
+// Of friction in a joint, whose load is held.
+bool answers_to_speed(const FrictionLaw& law) {
+  const auto* dry = std::get_if<Coulomb>(&law);
+  return !dry || dry->stribeck > 0;
+}
+
 // Coordinate i of a body, of [x y θ η], in q.
 int coordinate(const System& system, int body, int i) { return i < 3 ? 3 * body + i : system.eta_begin[at(body)] + i - 3; }
 
@@ -31,6 +38,9 @@ Tangent::Tangent(const System& system) {
     add(system, Interaction::force, i, {{marker_a(system.forces[i]), marker_b(system.forces[i])}, 2}, wrench_pattern(system.forces[i]));
   for (std::size_t i = 0; i < system.contacts.size(); ++i)
     add(system, Interaction::contact, i, {{system.contacts[i].a, system.contacts[i].b}, 2}, contact_pattern);
+  for (std::size_t i = 0; i < system.frictions.size(); ++i)
+    if (answers_to_speed(system.frictions[i].law))
+      add(system, Interaction::friction, i, ends_of(system.joints[at(system.frictions[i].joint)]), contact_pattern);
   lay_out(system);
 
   Index most = 0;
@@ -47,8 +57,13 @@ Tangent::Tangent(const System& system) {
 // Notes the interaction with 0 for each block that it has; lay_out turns these into places.
 void Tangent::add(const System& system, Interaction::Kind kind, std::size_t index, const JointEnds& ends, const WrenchPattern& pattern) {
   const auto moves = [&](std::size_t end) { return system.markers[at(ends.marker[end])].body != ground; };
-  const bool internal = kind == Interaction::force && !internal_states(system.forces[index]).empty();
-  Interaction x{kind, index, at(ends.n), ends.marker, {}, pattern.rate, internal};
+  const auto owner = kind == Interaction::force     ? InternalStates::force
+                     : kind == Interaction::contact ? InternalStates::contact
+                                                    : InternalStates::friction;
+  const auto states = std::ranges::find_if(
+      system.internal, [&](const InternalStates& s) { return kind != Interaction::joint && s.owner == owner && at(s.index) == index; });
+  const int place = states == system.internal.end() ? -1 : static_cast<int>(states - system.internal.begin());
+  Interaction x{kind, index, at(ends.n), ends.marker, {}, pattern.rate, place};
   bool any = false;
   for (std::size_t i = 0; i < x.n; ++i)
     for (std::size_t j = 0; j < x.n; ++j) {
@@ -197,20 +212,30 @@ void Tangent::move(const System& system, const State& state, const Equations& eq
   }
 }
 
+WrenchTangent Tangent::wrenches(const System& system, const Equations& eq, const VectorXd& lambda, const Interaction& x) {
+  const MarkerMotion &a = eq.motion[at(x.marker[0])], &b = eq.motion[at(x.marker[1])];
+  switch (x.kind) {
+    case Interaction::joint: break;
+    case Interaction::force: return wrench_tangent(system.forces[x.index], eq.force[x.index], a, b);
+    case Interaction::contact: return wrench_tangent(system.contacts[x.index], eq.contact[x.index], a, b);
+    case Interaction::friction: {
+      const JointFriction& rub = system.frictions[x.index];
+      return wrench_tangent(unit_friction(system.joints[at(rub.joint)], rub, a, b), eq.friction[x.index]);
+    }
+  }
+  return wrench_tangent(system.joints[x.index], eq.motion.data(), lambda.data() + system.row_begin[x.index]);
+}
+
 // −Jᵀ(P J + D V) in q and −JᵀD J in s, P and D the derivatives of the wrenches in poses and their rates.
 void Tangent::add_interactions(const System& system, const State& state, const Equations& eq, const VectorXd& lambda, const Weights& w,
                                double* values) {
   for (const Interaction& x : interactions_) {
-    const bool follows = w.x != 0 && x.internal;
+    const bool follows = w.x != 0 && x.owner >= 0;
     const bool rate = x.rate || follows;
     if (w.q == 0 && !rate) continue;
     if (x.kind == Interaction::contact && eq.contact[x.index].normal.force == 0) continue;
-    const MarkerMotion &a = eq.motion[at(x.marker[0])], &b = eq.motion[at(x.marker[1])];
-    WrenchTangent tangent = x.kind == Interaction::joint
-                                ? wrench_tangent(system.joints[x.index], eq.motion.data(), lambda.data() + system.row_begin[x.index])
-                            : x.kind == Interaction::force ? wrench_tangent(system.forces[x.index], eq.force[x.index], a, b)
-                                                           : wrench_tangent(system.contacts[x.index], eq.contact[x.index], a, b);
-    if (follows) condense(internal_tangent(system.forces[x.index], eq.force[x.index], a, b), w.x, tangent);
+    WrenchTangent tangent = wrenches(system, eq, lambda, x);
+    if (follows) condense(internal_tangent(system, state, eq, system.internal[at(x.owner)]), w.x, tangent);
     for (std::size_t i = 0; i < x.n; ++i) move(system, state, eq, x.marker[i], ends_[i]);
 
     for (std::size_t i = 0; i < x.n; ++i)
@@ -249,9 +274,8 @@ Tangent::Internal Tangent::internal(const System& system, const State& state, co
   const Index n = system.n(), n_x = system.n_x();
   Internal out{MatrixXd::Zero(n, n_x), MatrixXd::Zero(n_x, n), MatrixXd::Zero(n_x, n), MatrixXd::Zero(n_x, n_x)};
   for (const InternalStates& owner : system.internal) {
-    const Force& force = system.forces[at(owner.force)];
-    const std::array<int, 2> markers{marker_a(force), marker_b(force)};
-    const InternalTangent of = internal_tangent(force, eq.force[at(owner.force)], eq.motion[at(markers[0])], eq.motion[at(markers[1])]);
+    const std::array<int, 2> markers = markers_of(system, owner);
+    const InternalTangent of = internal_tangent(system, state, eq, owner);
     out.g_x.block(owner.begin, owner.begin, owner.n, owner.n) = of.g_x;
     for (std::size_t i = 0; i < markers.size(); ++i) {
       const int body = system.markers[at(markers[i])].body;

@@ -45,11 +45,12 @@ class Tangent {
   /// What answers to poses or rates of its n markers. block[i][j]: first summand of ∂(force on body i)/
   /// ∂(coordinates of body j), by columns; −1 where there is none.
   struct Interaction {
-    enum Kind { joint, force, contact } kind;
+    enum Kind { joint, force, contact, friction } kind;
     std::size_t index, n;
     std::array<int, most_ends> marker;
     std::array<std::array<int, most_ends>, most_ends> block;
-    bool rate, internal;
+    bool rate;
+    int owner;  ///< of internal states, index into System::internal; −1: it has none
   };
   /// A marker's motion in its body's coordinates: ṗ = [1 J_θ J_ηᵀ]s and its derivatives V by θ and, transposed, by η.
   struct End {
@@ -65,6 +66,7 @@ class Tangent {
                                          double* values) const;
   void add_geometric_stiffness(const System&, const Equations&, int marker, double fx, double fy, double* values) const;
   void add_interactions(const System&, const State&, const Equations&, const Eigen::VectorXd& lambda, const Weights&, double* values);
+  static WrenchTangent wrenches(const System&, const Equations&, const Eigen::VectorXd& lambda, const Interaction&);
   void move(const System&, const State&, const Equations&, int marker, End&) const;
 
   std::vector<Place> places_;

@@ -49,7 +49,11 @@ const Coulomb* dry_friction(const ContactPair& pair) {
 
 namespace {
 
-FrictionForce friction_of(const ContactPair& pair, double slip, double normal, const DryFriction& dry) {
+FrictionForce friction_of(const ContactPair& pair, double slip, double normal, const DryFriction& dry, const double* x) {
+  if (has_bristles(pair)) {
+    const BristleForce bristles = bend(*pair.friction, slip, x);
+    return {bristles.force * normal, bristles.d_speed * normal, bristles.force};
+  }
   const auto* coulomb = std::get_if<Coulomb>(&*pair.friction);
   if (!coulomb) return evaluate(*pair.friction, slip, normal);
   if (dry.direction == 0 || dry.direction == DryFriction::given) return {.force = dry.force};
@@ -59,22 +63,39 @@ FrictionForce friction_of(const ContactPair& pair, double slip, double normal, c
 
 }  // namespace
 
-ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& a, const MarkerMotion& b, double impact_rate, const DryFriction& dry) {
+double sliding_speed(const ContactPair& pair, const Gap& gap) {
+  return pair.sliding == Sliding::material ? gap.material_slip : gap.geometric_slip;
+}
+
+bool has_bristles(const ContactPair& pair) {
+  return pair.friction && !is_held(pair) && !is_rigid(pair) && bristle_states(*pair.friction) > 0;
+}
+
+std::vector<InternalState> internal_states(const FrictionLaw& law) {
+  std::vector<InternalState> all{{".bristle", "m", breakaway_deflection(law)}, {".dwell", "-", 1}};
+  all.resize(static_cast<std::size_t>(bristle_states(law)));
+  return all;
+}
+
+// Bristles are bent by the slip whatever presses them.
+ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& a, const MarkerMotion& b, double impact_rate, const DryFriction& dry,
+                       const double* x) {
   ContactEffect out;
   if (pair.profiles && impact_rate <= 0) return out;
   out.gap = evaluate(pair.gap, moving_point(a), moving_point(b));
   if (impact_rate <= 0 || is_held(pair)) return out;
+  const double slip = sliding_speed(pair, out.gap);
   if (is_rigid(pair)) {
     out.normal.force = dry.load;
   } else {
+    if (has_bristles(pair)) out.x_rate = bend(*pair.friction, slip, x).rate;
     if (out.gap.depth <= 0 && !begins_with_jump(pair.normal)) return out;
     out.normal = evaluate(pair.normal, approach_of(pair, out.gap.depth, out.gap.rate, impact_rate));
     if (pair.follows && out.gap.rate > impact_rate) out.normal.d_rate = viscous_damping(pair.normal);
   }
   Vector2d force = -out.normal.force * out.gap.n;
   if (pair.friction && (out.normal.force > 0 || is_rigid(pair))) {
-    const double slip = pair.sliding == Sliding::material ? out.gap.material_slip : out.gap.geometric_slip;
-    const FrictionForce law = friction_of(pair, slip, out.normal.force, dry);
+    const FrictionForce law = friction_of(pair, slip, out.normal.force, dry, x);
     out.friction = law.force, out.d_slip = law.d_speed, out.d_normal = law.d_normal;
     const bool slides = !dry_friction(pair) || std::abs(dry.direction) == 1 || dry.direction == DryFriction::given;
     if (slides) out.friction_loss = -out.friction * slip;
@@ -145,67 +166,78 @@ namespace {
 
 using Row = Eigen::Matrix<double, 1, 6>;  // derivatives in the poses of the two middles, or in their rates
 
-// The tangent at the middles of the pieces, each with its own v: docs/theory/contact.md.
-WrenchTangent at_middles(const ContactPair& pair, const ContactEffect& now, const Vector2d& v, double w_a, double w_b) {
-  const Gap& gap = now.gap;
+// How the gap answers to the middles of the pieces, each with its own v: docs/theory/contact.md.
+struct GapRows {
+  Row n_p, s_p;  // dn = Zn · n_p dp; of `across`
+  Row depth_p, rate_p, rate_v, slip_p, slip_v;
+};
+
+GapRows rows_of(const ContactPair& pair, const Gap& gap, const Vector2d& v, double w_a, double w_b) {
   const Piece &a = pair.gap.a, &b = pair.gap.b;
   const Vector2d &n = gap.n, t = perp(n);
-  const double N = now.normal.force, s = gap.across;
+  const double s = gap.across;
   const double spin = a.straight ? w_a : b.straight ? w_b : 0;                          // that turns n
   const double curving = a.straight || b.straight ? 0 : 1 / n.dot(gap.e);               // of n by e across
   const double across = v.dot(t), along = v.dot(n), turning = curving * across + spin;  // of n
 
   const auto between = [](const Vector2d& d) { return (Row() << d.transpose(), 0, -d.transpose(), 0).finished(); };
-  Row n_p = between(curving * t);  // dn = Zn · n_p dp
-  n_p[2] += a.straight, n_p[5] += b.straight;
-  const Row depth_p = between(n) + s * n_p, s_p = between(t) - n.dot(gap.e) * n_p;
-  const Row rate_v = [&] {
-    Row out = between(n);
-    out[2] += s * a.straight, out[5] += s * b.straight;
-    return out;
-  }();
-  const Row rate_p = across * n_p + spin * (a.straight || b.straight ? s_p : Row::Zero());
-  const Row N_p = now.normal.d_depth * depth_p + now.normal.d_rate * rate_p, N_v = now.normal.d_rate * rate_v;
+  GapRows out;
+  out.n_p = between(curving * t);
+  out.n_p[2] += a.straight, out.n_p[5] += b.straight;
+  out.depth_p = between(n) + s * out.n_p, out.s_p = between(t) - n.dot(gap.e) * out.n_p;
+  out.rate_v = between(n);
+  out.rate_v[2] += s * a.straight, out.rate_v[5] += s * b.straight;
+  out.rate_p = across * out.n_p + spin * (a.straight || b.straight ? out.s_p : Row::Zero());
+  out.slip_v = between(t), out.slip_p = -along * out.n_p;
+  if (pair.sliding == Sliding::material) {
+    out.slip_v[2] += a.radius, out.slip_v[5] += b.radius;
+  } else {  // depth · turning, of arcs
+    out.slip_v *= gap.depth * curving;
+    out.slip_p = turning * out.depth_p + gap.depth * curving * out.slip_p - gap.depth * curving * turning * between(n);
+  }
+  return out;
+}
 
+WrenchTangent at_middles(const ContactPair& pair, const ContactEffect& now, const GapRows& of) {
+  const Piece &a = pair.gap.a, &b = pair.gap.b;
+  const Vector2d &n = now.gap.n, t = perp(n);
+  const double N = now.normal.force, T = now.friction, s = now.gap.across;
+  const Row N_p = now.normal.d_depth * of.depth_p + now.normal.d_rate * of.rate_p, N_v = now.normal.d_rate * of.rate_v;
   Row T_p = Row::Zero(), T_v = Row::Zero();
-  double T = 0;
   if (pair.friction) {
-    const bool material = pair.sliding == Sliding::material;
-    T = now.friction;
-    Row slip_v = between(t), slip_p = -along * n_p;
-    if (material) {
-      slip_v[2] += a.radius, slip_v[5] += b.radius;
-    } else {  // depth · turning, of arcs
-      slip_v *= gap.depth * curving;
-      slip_p = turning * depth_p + gap.depth * curving * slip_p - gap.depth * curving * turning * between(n);
-    }
-    T_p = now.d_slip * slip_p + now.d_normal * N_p;
-    T_v = now.d_slip * slip_v + now.d_normal * N_v;
+    T_p = now.d_slip * of.slip_p + now.d_normal * N_p;
+    T_v = now.d_slip * of.slip_v + now.d_normal * N_v;
   }
 
   WrenchTangent out(2);
-  const auto place = [&](auto& of, const Row& dN, const Row& dT, const Row& dn, const Row& ds) {
+  const auto place = [&](auto& to, const Row& dN, const Row& dT, const Row& dn, const Row& ds) {
     const Eigen::Matrix<double, 2, 6> force = t * dT - n * dN - (N * t + T * n) * dn;
-    of.template topRows<2>() = force;
-    of.template middleRows<2>(3) = -force;
-    of.row(2) = a.radius * dT - a.straight * (s * dN + N * ds);
-    of.row(5) = b.radius * dT - b.straight * (s * dN + N * ds);
+    to.template topRows<2>() = force;
+    to.template middleRows<2>(3) = -force;
+    to.row(2) = a.radius * dT - a.straight * (s * dN + N * ds);
+    to.row(5) = b.radius * dT - b.straight * (s * dN + N * ds);
   };
-  place(out.pose, N_p, T_p, n_p, s_p);
+  place(out.pose, N_p, T_p, of.n_p, of.s_p);
   place(out.rate, N_v, T_v, Row::Zero(), Row::Zero());
   return out;
 }
 
-// From the middles, on arms that the carrying points turn, to these points.
-void move_to_carriers(const std::array<Vector2d, 2>& arm, const std::array<double, 2>& w, const Vector2d& force, WrenchTangent& tangent) {
-  for (int j = 0; j < 2; ++j) {  // dp = dr + Zd dθ, dṗ = dv + Zd dw − d w dθ
+// Derivatives at the middles, on arms that the carrying points turn, as derivatives at these points: dp = dr + Zd dθ, dṗ = dv + Zd dw − d w dθ.
+template <class Matrix>
+void by_carriers(const std::array<Vector2d, 2>& arm, const std::array<double, 2>& w, Matrix& pose, Matrix& rate) {
+  for (int j = 0; j < 2; ++j) {
     const Vector2d &d = arm[static_cast<std::size_t>(j)], side = perp(d);
     const auto r = Eigen::seqN(3 * j, 2);
     const int angle = 3 * j + 2;
-    tangent.pose.col(angle) += tangent.pose(Eigen::all, r) * side - w[static_cast<std::size_t>(j)] * tangent.rate(Eigen::all, r) * d;
-    tangent.rate.col(angle) += tangent.rate(Eigen::all, r) * side;
+    pose.col(angle) += pose(Eigen::all, r) * side - w[static_cast<std::size_t>(j)] * rate(Eigen::all, r) * d;
+    rate.col(angle) += rate(Eigen::all, r) * side;
   }
-  for (int i = 0; i < 2; ++i) {  // d × F
+}
+
+// The same of wrenches, which come to the carrying points with d × F.
+void move_to_carriers(const std::array<Vector2d, 2>& arm, const std::array<double, 2>& w, const Vector2d& force, WrenchTangent& tangent) {
+  by_carriers(arm, w, tangent.pose, tangent.rate);
+  for (int i = 0; i < 2; ++i) {
     const Vector2d& d = arm[static_cast<std::size_t>(i)];
     for (auto* of : {&tangent.pose, &tangent.rate}) of->row(3 * i + 2) += d.x() * of->row(3 * i + 1) - d.y() * of->row(3 * i);
     tangent.pose(3 * i + 2, 3 * i + 2) -= (i == 0 ? 1 : -1) * d.dot(force);
@@ -217,9 +249,26 @@ void move_to_carriers(const std::array<Vector2d, 2>& arm, const std::array<doubl
 WrenchTangent wrench_tangent(const ContactPair& pair, const ContactEffect& now, const MarkerMotion& a, const MarkerMotion& b) {
   if (now.normal.force == 0) return WrenchTangent(2);
   const Gap& gap = now.gap;
-  const Vector2d v = a.v + a.w * perp(gap.arm_a) - b.v - b.w * perp(gap.arm_b);
-  WrenchTangent out = at_middles(pair, now, v, a.w, b.w);
+  WrenchTangent out = at_middles(pair, now, rows_of(pair, gap, speed_of_middles(gap, a, b), a.w, b.w));
   if (pair.profiles) move_to_carriers({gap.arm_a, gap.arm_b}, {a.w, b.w}, now.on_a.head<2>(), out);
+  return out;
+}
+
+InternalTangent internal_tangent(const ContactPair& pair, const ContactEffect& now, const MarkerMotion& a, const MarkerMotion& b,
+                                 const double* x) {
+  const Gap& gap = now.gap;
+  const BristleForce law = bend(*pair.friction, sliding_speed(pair, gap), x);
+  GapRows of = rows_of(pair, gap, speed_of_middles(gap, a, b), a.w, b.w);
+  if (pair.profiles) by_carriers<Row>({gap.arm_a, gap.arm_b}, {a.w, b.w}, of.slip_p, of.slip_v);
+  const std::array<Wrench, 2> unit = unit_friction(pair, gap);
+  InternalTangent out(2, bristle_states(*pair.friction));
+  for (Eigen::Index i = 0; i < out.n(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    out.wrench.col(i) << now.normal.force * law.d_state[k] * unit[0], now.normal.force * law.d_state[k] * unit[1];
+    out.g_pose.row(i) = law.rate_d_speed[k] * of.slip_p;
+    out.g_rate.row(i) = law.rate_d_speed[k] * of.slip_v;
+    for (Eigen::Index j = 0; j < out.n(); ++j) out.g_x(i, j) = law.rate_d_state[k][static_cast<std::size_t>(j)];
+  }
   return out;
 }
 

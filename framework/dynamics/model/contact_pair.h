@@ -2,11 +2,13 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "contact/elastic_law.h"
 #include "contact/friction_law.h"
 #include "contact/gap.h"
 #include "framework/common/members.h"
+#include "framework/dynamics/model/internal_states.h"
 #include "framework/dynamics/model/marker.h"
 #include "framework/dynamics/model/wrench_tangent.h"
 
@@ -67,7 +69,8 @@ struct ContactEffect {
   double friction = 0;       ///< on a along Zn [N]
   double d_slip = 0;         ///< of that, in the sliding speed [N s/m] …
   double d_normal = 0;       ///< … and in the normal force, –
-  double friction_loss = 0;  ///< as the law sees it: −force · its own sliding speed [W]
+  double friction_loss = 0;  ///< as the law sees it: −force · its own sliding speed; of bristles also what bends them [W]
+  std::array<double, most_internal> x_rate{};  ///< of its bristles
 };
 
 /// Its two centres are kept apart by a massless link: no law acts, nothing is touched or left.
@@ -86,7 +89,16 @@ MovingPoint moving_point(const MarkerMotion&);
 
 /// @param impact_rate  latched approach speed [m/s]; 0 while open: then only the gap is found, of profiles not even that
 /// @param dry  read where friction is Coulomb's, and of a rigid contact for its normal force
-ContactEffect evaluate(const ContactPair&, const MarkerMotion& a, const MarkerMotion& b, double impact_rate, const DryFriction& dry = {});
+/// @param x  the states of its bristles; read where it has any
+ContactEffect evaluate(const ContactPair&, const MarkerMotion& a, const MarkerMotion& b, double impact_rate, const DryFriction& dry = {},
+                       const double* x = nullptr);
+
+/// The sliding speed that its friction opposes [m/s].
+double sliding_speed(const ContactPair&, const Gap&);
+/// Its friction is one of bristles, and acts.
+bool has_bristles(const ContactPair&);
+/// What bristles remember, as results name it; empty for another law.
+std::vector<InternalState> internal_states(const FrictionLaw&);
 
 /// Its friction, if that is Coulomb's and acts; else nullptr.
 const Coulomb* dry_friction(const ContactPair&);
@@ -111,8 +123,11 @@ struct Margin {
 Margin margin(const ContactPair&, const Gap&, const MovingPoint& a, const MovingPoint& b);
 
 inline constexpr WrenchPattern contact_pattern{{{{true, true}, {true, true}}}, true};
-/// How the wrenches [a; b] answer to the motion, the latched approach speed held. Zero while open.
+/// How the wrenches [a; b] answer to the motion, the latched approach speed and bristles held. Zero while open.
 /// @param now  what the contact does in this state
 WrenchTangent wrench_tangent(const ContactPair&, const ContactEffect& now, const MarkerMotion& a, const MarkerMotion& b);
+/// How wrenches and bristles answer to each other and to the motion. @pre closed, with bristles
+InternalTangent internal_tangent(const ContactPair&, const ContactEffect& now, const MarkerMotion& a, const MarkerMotion& b,
+                                 const double* x);
 
 }  // namespace pintle

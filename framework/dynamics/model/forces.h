@@ -58,11 +58,6 @@ struct Maxwell {
 
 using Force = std::variant<PointForce, Torque, Spring, TorsionSpring, Maxwell>;
 
-/// An internal state as results name it.
-struct InternalState {
-  const char *name, *unit;
-  double scale;  ///< what its errors are measured by; 0: as lengths are
-};
 /// Those of a force element, in order.
 std::span<const InternalState> internal_states(const Force&);
 

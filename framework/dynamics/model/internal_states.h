@@ -15,6 +15,12 @@ namespace pintle {
 
 inline constexpr int most_internal = 2;  ///< internal states of one owner
 
+/// An internal state as results name it.
+struct InternalState {
+  const char *name, *unit;
+  double scale;  ///< what its errors are measured by; 0: as lengths are
+};
+
 using InternalVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_internal, 1>;
 using InternalMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_internal, most_internal>;
 

@@ -40,4 +40,29 @@ double load(const Joint& joint, const JointFriction& rub, const MarkerMotion& a,
   return rub.preload + (rub.length > 0 ? std::max(across, 2 * std::abs(on_b[2]) / rub.length) : across);
 }
 
+namespace {
+
+Eigen::Vector<double, 6> stacked(const std::array<Wrench, 2>& unit) { return (Eigen::Vector<double, 6>() << unit[0], unit[1]).finished(); }
+
+}  // namespace
+
+WrenchTangent wrench_tangent(const std::array<Wrench, 2>& unit, const JointFrictionEffect& now) {
+  WrenchTangent out(2);
+  out.rate = now.load * now.d_slip * stacked(unit) * stacked(unit).transpose();
+  return out;
+}
+
+InternalTangent internal_tangent(const std::array<Wrench, 2>& unit, const JointFriction& rub, const JointFrictionEffect& now,
+                                 const double* x) {
+  const BristleForce law = bend(rub.law, now.slip, x);
+  InternalTangent out(2, bristle_states(rub.law));
+  for (Eigen::Index i = 0; i < out.n(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    out.wrench.col(i) = now.load * law.d_state[k] * stacked(unit);
+    out.g_rate.row(i) = law.rate_d_speed[k] * stacked(unit).transpose();
+    for (Eigen::Index j = 0; j < out.n(); ++j) out.g_x(i, j) = law.rate_d_state[k][static_cast<std::size_t>(j)];
+  }
+  return out;
+}
+
 }  // namespace pintle

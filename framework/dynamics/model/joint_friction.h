@@ -3,15 +3,16 @@
 #include <array>
 
 #include "contact/friction_law.h"
+#include "framework/dynamics/model/internal_states.h"
 #include "framework/dynamics/model/joints.h"
 
 namespace pintle {
 
-/// Dry friction in an ideal joint, pressed by what the joint itself bears: of a pin on its radius, of a block in its guide, of a pin
+/// Friction in an ideal joint, dry or of bristles, pressed by what the joint itself bears: of a pin on its radius, of a block in its guide, of a pin
 /// along its slot. Theory: docs/theory/friction.md.
 struct JointFriction {
-  int joint;  ///< revolute, prismatic or slot
-  Coulomb law;
+  int joint;           ///< revolute, prismatic or slot
+  FrictionLaw law;     ///< Coulomb's, or one of bristles
   double radius = 0;   ///< of a revolute's pin [m]
   double length = 0;   ///< over which a prismatic's block bears couples at its two ends [m]
   double preload = 0;  ///< what presses it without load [N]
@@ -32,6 +33,14 @@ struct JointFrictionEffect {
   double load = 0;   ///< N [N]
   double slip = 0;   ///< [m/s]
   bool sticks = false;
+  double per_load = 0;  ///< of bristles: force over N, –
+  double d_slip = 0;    ///< of force over N, in the slip [s/m]
+  std::array<double, most_internal> x_rate{};
 };
+
+/// How the force answers to the rates of the two markers, N, bristles and place held.
+WrenchTangent wrench_tangent(const std::array<Wrench, 2>& unit, const JointFrictionEffect& now);
+/// How the force and bristles answer to each other and to the rates. @pre the law is one of bristles
+InternalTangent internal_tangent(const std::array<Wrench, 2>& unit, const JointFriction&, const JointFrictionEffect& now, const double* x);
 
 }  // namespace pintle

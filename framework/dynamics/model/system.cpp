@@ -6,6 +6,31 @@
 
 namespace pintle {
 
+namespace {
+
+void number_internal(System& system) {
+  std::vector<double> x_scale;
+  system.internal.clear();
+  const auto all = [&](InternalStates::Owner owner, const auto& of, auto has, std::vector<int>& first) {
+    first.clear();
+    for (const auto& one : of) {
+      const int begin = static_cast<int>(x_scale.size());
+      first.push_back(begin);
+      if (!has(one)) continue;
+      InternalStates& added = system.internal.emplace_back(owner, static_cast<int>(first.size()) - 1, begin, 0);
+      for (const InternalState& s : states_of(system, added)) x_scale.push_back(s.scale), ++added.n;
+    }
+  };
+  all(
+      InternalStates::force, system.forces, [](const Force& f) { return !internal_states(f).empty(); }, system.force_x);
+  all(InternalStates::contact, system.contacts, has_bristles, system.contact_x);
+  all(
+      InternalStates::friction, system.frictions, [](const JointFriction& f) { return bristle_states(f.law) > 0; }, system.friction_x);
+  system.x_scale = Eigen::Map<const Eigen::VectorXd>(x_scale.data(), static_cast<Eigen::Index>(x_scale.size()));
+}
+
+}  // namespace
+
 void number(System& system, bool scheme_loses) {
   system.eta_begin.assign(1, system.n_rigid());
   for (const Body& b : system.bodies) system.eta_begin.push_back(system.eta_begin.back() + b.modes());
@@ -62,17 +87,22 @@ void number(System& system, bool scheme_loses) {
     if (system.bodies[i].modes() > 0 && !system.bodies[i].flex->zeta.isZero()) account(Account::damping, i);
   if (scheme_loses) account(Account::scheme, 0);
 
-  std::vector<double> x_scale;
-  system.internal.clear();
-  system.force_x.clear();
-  for (const Force& f : system.forces) {
-    const auto states = internal_states(f);
-    const int begin = static_cast<int>(x_scale.size()), n = static_cast<int>(states.size());
-    if (n > 0) system.internal.push_back({static_cast<int>(system.force_x.size()), begin, n});
-    system.force_x.push_back(begin);
-    for (const InternalState& s : states) x_scale.push_back(s.scale);
-  }
-  system.x_scale = Eigen::Map<const Eigen::VectorXd>(x_scale.data(), static_cast<Eigen::Index>(x_scale.size()));
+  number_internal(system);
+}
+
+std::vector<InternalState> states_of(const System& system, const InternalStates& of) {
+  const auto k = static_cast<std::size_t>(of.index);
+  if (of.owner == InternalStates::contact) return internal_states(*system.contacts[k].friction);
+  if (of.owner == InternalStates::friction) return internal_states(system.frictions[k].law);
+  const auto states = internal_states(system.forces[k]);
+  return {states.begin(), states.end()};
+}
+
+std::string owner_name(const System& system, const InternalStates& of) {
+  const auto k = static_cast<std::size_t>(of.index);
+  if (of.owner == InternalStates::force) return system.force_names[k];
+  if (of.owner == InternalStates::friction) return system.joint_names[static_cast<std::size_t>(system.frictions[k].joint)];
+  return system.contact_names[k];
 }
 
 int n_clearances(const System& system) {

@@ -30,7 +30,8 @@ struct Body {
 
 /// Internal states that one owner has: n numbers of x from `begin` on.
 struct InternalStates {
-  int force, begin, n;  ///< force: index of the owner
+  enum Owner { force, contact, friction } owner;  ///< a force element, bristles of a contact, of friction in a joint
+  int index, begin, n;
 };
 
 /// What an integral of the ledger accounts for.
@@ -67,8 +68,9 @@ struct System {
   std::vector<Integral> integrals;               ///< what z accounts for, in order
   std::vector<int> contact_z, force_z, joint_z;  ///< first integral of each, −1 for none
   std::vector<InternalStates> internal;          ///< of each owner that has any
-  std::vector<int> force_x;                      ///< first internal state of each force, 0 if it has none
+  std::vector<int> force_x;                      ///< first internal state of each force, 0 if it has none …
   Eigen::VectorXd x_scale;                       ///< what their errors are measured by; 0: as lengths are
+  std::vector<int> contact_x, friction_x;        ///< … of each contact, of each friction in a joint
 
   int n_rigid() const { return 3 * static_cast<int>(bodies.size()); }
   int n() const { return eta_begin.empty() ? n_rigid() : eta_begin.back(); }
@@ -84,6 +86,9 @@ struct System {
 /// Fills what follows from the lists: coordinates, rows, integrals. Call once, after the lists are complete.
 /// @param scheme_loses  one more integral, for what an implicit scheme takes away
 void number(System&, bool scheme_loses = false);
+/// What an owner remembers, and what results call it; of two profiles all pairs the same.
+std::vector<InternalState> states_of(const System&, const InternalStates&);
+std::string owner_name(const System&, const InternalStates&);
 /// Joint k is the massless link of a clearance joint.
 bool is_link(const System&, int joint);
 

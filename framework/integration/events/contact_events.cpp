@@ -5,6 +5,7 @@
 
 #include "framework/common/index.h"
 #include "framework/common/archive.h"
+#include "framework/dynamics/equations/internal.h"
 #include "framework/integration/events/roots.h"
 #include "framework/integration/stepper.h"
 
@@ -178,7 +179,8 @@ EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {
     begin(event, step, inside ? std::max(now.rate, latched_at(system_, pair, now.value)) : now.rate);
   else
     end(event, step);
-  return {.change = inside || begins_with_jump(pair.normal) ? EventOutcome::Change::jump : EventOutcome::Change::forces,
+  const bool straightens = !onset && has_bristles(pair);
+  return {.change = inside || straightens || begins_with_jump(pair.normal) ? EventOutcome::Change::jump : EventOutcome::Change::forces,
           .first_step = onset ? onset_step(event, gap.rate, step.to.state.t) : infinite,
           .of_every_method = pair.profiles};  // which a long implicit step would pass
 }
@@ -253,8 +255,9 @@ EventOutcome ContactEvents::leave(int contact, Step& step) {
   }
   std::swap(step.to.state.impact_rate[at(contact)], step.to.state.impact_rate[at(to)]);
   if (auto& friction = step.to.state.friction; !friction.empty()) std::swap(friction[at(contact)], friction[at(to)]);
+  exchange_bristles(system_, contact, to, step.to.state);
   log_.pass(contact, to);
-  return {};
+  return {.change = has_bristles(system_.contacts[at(contact)]) ? EventOutcome::Change::jump : EventOutcome::Change::forces};
 }
 
 void ContactEvents::begin(int contact, Step& step, double rate) {
@@ -271,6 +274,7 @@ void ContactEvents::end(int contact, Step& step) {
   const Guard now = gap_of(system_, contact, state);
   log_.end(contact, moment(step, now), -now.rate);
   state.impact_rate[at(contact)] = 0;
+  straighten_bristles(system_, contact, state);
 }
 
 // When the depth was zero, to first order, if that was in the step, or would be as soon after its end.

@@ -139,7 +139,7 @@ bool Alpha::soften_start(const System& system, double h, const Instant& from, Eq
   start_ = from.dy.segment(n, system.n_s());
   if (weights_.shift == 0) return true;
   evaluate_at(system, from.state, from.dy, from.memory.lambda, eq);
-  if (system.n_x() > 0) soften_internal(system, start_weights(h).s, eq);
+  if (system.n_x() > 0) soften_internal(system, start_weights(h).s, from.state, eq);
   if (!refactor(system, start_weights(h), from, eq)) return blame(system, eq, "the iteration matrix is singular");
   border(system, eq);
   for (int i = 0; i < 2; ++i) {
@@ -155,12 +155,12 @@ bool Alpha::soften_start(const System& system, double h, const Instant& from, Eq
   return true;
 }
 
-void Alpha::soften_internal(const System& system, double weight, const Equations& eq) {
+void Alpha::soften_internal(const System& system, double weight, const State& at_start, const Equations& eq) {
   own_ = start_;
   double *x = start_.data() + system.n(), *once = own_.data() + system.n();
-  filter_internal_states(system, eq, weight, once);
+  filter_internal_states(system, at_start, eq, weight, once);
   for (int i = 0; i < system.n_x(); ++i) x[i] = 2 * x[i] - once[i];
-  filter_internal_states(system, eq, weight, x);
+  filter_internal_states(system, at_start, eq, weight, x);
 }
 
 bool Alpha::refactor(const System& system, const Weights& w, const Instant& node, Equations& eq) {
@@ -201,7 +201,7 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     y.head(n) = q_base_ + w.q * v + p_;
     y.segment(n, n) = s_base_.head(n) + w.s * v;
     move_to(system, to.state, eq);
-    if (system.n_x() > 0) follow_internal_states(system, eq, to.state.t, w.s, s_base_.data() + n, y.data() + system.x_begin());
+    if (system.n_x() > 0) follow_internal_states(system, eq, to.state, w.s, s_base_.data() + n, y.data() + system.x_begin());
     balance(system, to.state, to.dy, to.memory.lambda, eq);
     if (enough) {
       const double left = position_violation(system, eq) - std::min(8 * angle_rounding(system, y), still_near);
@@ -344,7 +344,7 @@ void Alpha::estimate(const System& system, Step& step, Equations& eq) {
   filter(system, step.error.segment(n, n), 2, eq);
   if (system.n_x() == 0) return;
   double* x = step.error.data() + system.x_begin();
-  for (int i = 0; i < 2; ++i) filter_internal_states(system, eq, kept_.s, x);
+  for (int i = 0; i < 2; ++i) filter_internal_states(system, step.to.state, eq, kept_.s, x);
 }
 
 // With F the forces and P = M v̇ at both ends and w = Δs − ½h(v̇₀ + v̇₁), the energy of a linear system

@@ -55,7 +55,7 @@ void Alpha::interpolate_internal(const System& system, const Step& step, double 
   pose(system, out.t, out.y, eq);
   speed(system, out.t, out.y, eq);
   own_.tail(n_x) = out.y.segment(begin, n_x) - step.h * ((1 - x) * step.from.dy + x * step.dy_end()).segment(begin, n_x);
-  follow_internal_states(system, eq, out.t, step.h, own_.data() + system.n(), out.y.data() + begin);
+  follow_internal_states(system, eq, out, step.h, own_.data() + system.n(), out.y.data() + begin);
 }
 
 }  // namespace pintle

@@ -127,13 +127,22 @@ Json json(const SceneNormal& normal, bool in_joint) {
   return out;
 }
 
+void put_bristles(const SceneFriction& f, Json& law) {
+  law["bristle stiffness"] = f.bristle_stiffness;
+  law["viscous"] = f.viscous;
+  if (f.bristle_damping) law["bristle damping"] = *f.bristle_damping;
+  if (f.damping_speed) law["damping speed"] = *f.damping_speed;
+  if (f.dwell > 0) law["dwell time"] = f.dwell;
+}
+
 Json json(const SceneFriction& f, bool in_joint) {
   Json law = {{"coefficient", f.coefficient}};
-  const bool coulomb = f.law == "coulomb", ambrosio = f.law == "ambrosio";
-  if (coulomb || f.law == "bengisu-akay") law["static"] = f.holds.value_or(f.coefficient);
+  const bool coulomb = f.law == "coulomb", ambrosio = f.law == "ambrosio", bristles = f.bristle_stiffness > 0;
+  if (bristles) put_bristles(f, law);
+  if (coulomb || bristles || f.law == "bengisu-akay") law["static"] = f.holds.value_or(f.coefficient);
   if (ambrosio || f.law == "bengisu-akay") law["v0"] = f.v0;
-  if (!coulomb) law["v1"] = f.v1;
-  if (coulomb && f.stribeck > 0) law["stribeck speed"] = f.stribeck;
+  if (!coulomb && !bristles) law["v1"] = f.v1;
+  if (f.stribeck > 0) law["stribeck speed"] = f.stribeck;
   if (in_joint && ambrosio) law["sliding"] = f.sliding == SlidingSpeed::material ? "material" : "geometric";
   return {{f.law, law}};
 }

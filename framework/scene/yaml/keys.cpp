@@ -28,8 +28,18 @@ const std::vector<Key> profile_keys{{"disc"},
                                     {"closed", optional, "", {"true", "false"}},
                                     {"material", optional, "", {"left", "right", "inside", "outside"}},
                                     {"round"}};
-const std::vector<Key> friction_laws{{"coulomb"}, {"ambrosio"}, {"threlfall"}, {"tanh"}, {"bengisu-akay"}};
+const std::vector<Key> friction_laws{{"coulomb"}, {"lugre"}, {"gonthier"}, {"ambrosio"}, {"threlfall"}, {"tanh"}, {"bengisu-akay"}};
 const std::vector<Key> coulomb_keys{{"coefficient", required, "0.3"}, {"static"}, {"stribeck speed"}};
+const std::vector<Key> lugre_keys{{"coefficient", required, "0.3"},
+                                  {"static"},
+                                  {"stribeck speed"},
+                                  {"bristle stiffness", required, "1e5 1/m"},
+                                  {"bristle damping"},
+                                  {"damping speed"},
+                                  {"viscous"}};
+const std::vector<Key> gonthier_keys{
+    {"coefficient", required, "0.3"}, {"static"}, {"stribeck speed"}, {"bristle stiffness", required, "1e5 1/m"}, {"bristle damping"},
+    {"dwell time", required, "2 s"},  {"viscous"}};
 const std::vector<Key> curve_keys{{"coefficient", required, "0.1"}, {"v1"}};
 const std::vector<Key> peak_keys{{"coefficient", required, "0.1"}, {"static"}, {"v0"}, {"v1"}};
 const std::vector<std::string> hysteresis_factors{
@@ -159,8 +169,10 @@ const std::vector<KeyTable>& tables() {
       {"static.loads.*",
        {{"force"}, {"torque"}, {"at"}, {"pressure"}, {"traction"}, {"on"}, {"acceleration"}, {"spin"}, {"about"}, {"line load"}}},
       {"joints.*", joint_keys()},
-      {"joints.*.friction", {{"coulomb", required, "{coefficient: 0.1}"}, {"radius"}, {"length"}, {"preload"}}},
+      {"joints.*.friction", {{"coulomb"}, {"lugre"}, {"gonthier"}, {"radius"}, {"length"}, {"preload"}}},
       {"joints.*.friction.coulomb", coulomb_keys},
+      {"joints.*.friction.lugre", lugre_keys},
+      {"joints.*.friction.gonthier", gonthier_keys},
       {"joints.*.clearance",
        {{"radial"},
         {"bearing radius"},
@@ -207,6 +219,8 @@ const std::vector<KeyTable>& tables() {
       {"joints.*.clearance.friction.tanh", curve_keys},
       {"joints.*.clearance.friction.bengisu-akay", peak_keys},
       {"joints.*.clearance.friction.coulomb", coulomb_keys},
+      {"joints.*.clearance.friction.lugre", lugre_keys},
+      {"joints.*.clearance.friction.gonthier", gonthier_keys},
       {"contacts.*",
        {{"between", required, "[cam.rim, follower.roller]"},
         {"model", optional, "", {"contact", "impact"}},
@@ -238,6 +252,8 @@ const std::vector<KeyTable>& tables() {
       {"contacts.*.friction.tanh", curve_keys},
       {"contacts.*.friction.bengisu-akay", peak_keys},
       {"contacts.*.friction.coulomb", coulomb_keys},
+      {"contacts.*.friction.lugre", lugre_keys},
+      {"contacts.*.friction.gonthier", gonthier_keys},
       {"drivers.*", {{"angle"}, {"distance"}, {"law", required, "150 rad/s*t"}}},
       {"drivers.*.law",
        {{"table", required, "motion.csv"}, {"interpolation", optional, "", {"spline", "linear"}}, {"time unit"}, {"value unit"}}},

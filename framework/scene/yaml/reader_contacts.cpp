@@ -276,9 +276,27 @@ SceneNormal read_normal(const Node& node, std::string_view keys) {
 SceneFriction read_friction(const Node& node, const std::string& path) {
   check_keys(node, path);
   const std::string law =
-      which_key(node, std::vector<std::string>{"coulomb", "ambrosio", "threlfall", "tanh", "bengisu-akay"}, "its law of friction");
+      which_key(node, std::vector<std::string>{"coulomb", "lugre", "gonthier", "ambrosio", "threlfall", "tanh", "bengisu-akay"},
+                "its law of friction");
   return read_friction_law(node.at(law), path + "." + law);
 }
+
+namespace {
+
+void read_bristles(const Node& law, SceneFriction& friction) {
+  constexpr Dimension per_length{-1, 0, 0, 0}, per_speed{-1, 0, 1, 0};
+  if (!(friction.coefficient > 0)) law.at("coefficient").fail("must be above 0: where bristles hold nothing they do not give way");
+  friction.bristle_stiffness = law.at("bristle stiffness").quantity(per_length, rule::positive);
+  const auto optional_of = [&](const char* key, const Dimension& of, const Rule& must, std::optional<double>& to) {
+    if (law.has(key)) to = law.at(key).quantity(of, must);
+  };
+  optional_of("bristle damping", per_speed, friction.law == "gonthier" ? rule::positive : rule::not_negative, friction.bristle_damping);
+  optional_of("damping speed", dimension::speed, rule::positive, friction.damping_speed);
+  read_optional(law, "viscous", per_speed, rule::not_negative, friction.viscous);
+  read_optional(law, "dwell time", dimension::time, rule::positive, friction.dwell);
+}
+
+}  // namespace
 
 SceneFriction read_friction_law(const Node& law, const std::string& keys) {
   check_keys(law, keys);
@@ -293,7 +311,9 @@ SceneFriction read_friction_law(const Node& law, const std::string& keys) {
                             ", or above: what sticks holds no less than what slides");
   }
   read_optional(law, "stribeck speed", dimension::speed, rule::positive, friction.stribeck);
-  if (law.has("stribeck speed") && !(friction.holds.value_or(0) > friction.coefficient))
+  const bool bristles = friction.law == "lugre" || friction.law == "gonthier";
+  if (bristles) read_bristles(law, friction);
+  if (!bristles && law.has("stribeck speed") && !(friction.holds.value_or(0) > friction.coefficient))
     law.at("stribeck speed").fail("needs `static` above coefficient, to fall from; add it, or leave this out");
   if (friction.law == "bengisu-akay" && law.has("v0")) law.at("v0").quantity(dimension::speed, rule::positive);
   read_optional(law, "v0", dimension::speed, rule::not_negative, friction.v0);

@@ -132,7 +132,11 @@ SceneJointFriction read_joint_friction(const Node& node, const SceneJoint& joint
   check_keys(node, "joints.*.friction");
   if (has_clearance) node.fail("belongs to an ideal joint, and this one has a clearance; write friction inside it, beside its normal law");
   SceneJointFriction out;
-  out.law = read_friction_law(node.at("coulomb"), "joints.*.friction.coulomb");
+  const std::vector<std::string> laws{"coulomb", "lugre", "gonthier"};
+  if (std::ranges::none_of(laws, [&](const std::string& law) { return node.has(law); }))
+    node.fail("lacks a required key; add for example coulomb: {coefficient: 0.1}");
+  const std::string law = which_key(node, laws, "its law of friction");
+  out.law = read_friction_law(node.at(law), "joints.*.friction." + law);
   const auto own = [&](const char* key, JointKind kind, double& value) {
     if (node.has(key) && joint.kind != kind)
       node.at(key).fail(std::string("does not belong to a ") + word_of(joint).word + " joint; leave it out");
