@@ -124,6 +124,33 @@ inline Case make() {
 }
 }  // namespace series
 
+// A block that runs out in its guide, pressed by N, on bristles without damping. With g = μ the deflection follows the way gone,
+// z = (μ/σ0)(1 − exp(−σ0 x/μ)), and with it the speed: m v²/2 = m v0²/2 − μ N (x − z). The time is integrated here.
+namespace bristles {
+constexpr double m = 1.5, N = 8, mu = 0.4, stiffness = 3, v0 = 4;
+inline double deflection(double x) { return -mu / stiffness * std::expm1(-stiffness * x / mu); }
+inline double speed(double x) { return std::sqrt(v0 * v0 - 2 * mu * N / m * (x - deflection(x))); }
+inline VectorXd seen(const VectorXd& y, const Equations&) { return (VectorXd(4) << y[0], y[3], y[6], y[7]).finished(); }
+inline VectorXd truth(double t) {
+  const auto f = [](const pintle_oracle::Vec<1>& y, pintle_oracle::Vec<1>& dy) { dy = {speed(y[0])}; };
+  const double x = pintle_oracle::integrate_tightly<1>(f, {0}, t, 1e-14, {1})[0], v = speed(x);
+  return (VectorXd(4) << x, v, deflection(x), m * (v0 * v0 - v * v) / 2).finished();
+}
+inline Case make() {
+  Case k{{}, {}, seen, truth};
+  k.system.bodies = {{"block", m, 0.02}};
+  k.system.markers = {{ground, {0, 0}, 0}, {0, {0, 0}, 0}};
+  k.system.joints = {Prismatic{0, 1, 0}};
+  k.system.frictions = {
+      {.joint = 0, .law = LuGre{.mu = mu, .mu_static = mu, .stiffness = stiffness, .damping = 0}, .length = 0.1, .preload = N}};
+  number(k.system);
+  k.start.y.setZero(k.system.n_y());
+  k.start.y[3] = v0;
+  k.start.friction.resize(dry_states(k.system));
+  return k;
+}
+}  // namespace bristles
+
 // Slope of log y over log x, by least squares.
 inline double slope(const std::vector<double>& x, const std::vector<double>& y) {
   const auto n = static_cast<Eigen::Index>(x.size());

@@ -1,5 +1,5 @@
 // The tangent of the equations of motion against differences of their residual, for every joint, force and
-// contact on bodies of every kind. A new joint or force joins by one line in `kinds`.
+// contact on bodies of every kind. A new joint or force joins by one line in `kinds` (tangent_kinds.h).
 
 #include "framework/dynamics/equations/internal.h"
 #include "framework/dynamics/equations/tangent.h"
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "tests/contracts/moving_bodies.h"
+#include "tests/unit/tangent_kinds.h"
 
 namespace pintle::tangent_test {
 namespace {
@@ -33,78 +34,6 @@ constexpr double step = 1e-4, contact_step = 2e-6;
 constexpr double difference = 1e-8;
 constexpr double rounding = 1e-13;
 constexpr int draws = 12;
-
-constexpr double clearance = 0.01, depth = 1e-3;
-
-struct Kind {
-  const char* name;
-  std::vector<Joint> joints = {};
-  std::vector<Force> forces = {};
-  std::vector<ContactPair> contacts = {};
-};
-void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
-// Friction that grows with the sliding speeds drawn here.
-ContactPair contact(double chi, std::optional<FrictionLaw> friction = {}, Sliding sliding = Sliding::material) {
-  return {0, 1, JournalBearing{0.1 - clearance, 0.1}, ImpactLaw{1e6, 1.5, chi}, friction, sliding};
-}
-ContactPair spring_damper(std::optional<Ambrosio> friction = {}) {
-  ContactPair pair = contact(0, friction);
-  pair.normal = ImpactLaw{1e5, 1, 0, 20};
-  return pair;
-}
-// Pieces of profiles, away from the points that carry them.
-const Piece disc{.radius = 0.07, .centre = {0.02, -0.03}}, hollow{.radius = -0.3, .centre = {-0.04, 0.05}},
-    corner{.radius = 0, .centre = {0.03, 0.02}, .normal = 0.3, .half = 0.8},
-    flat{.centre = {-0.02, 0.06}, .normal = -0.7, .half = 0.5, .straight = true};
-ContactPair profiles(const Piece& a, const Piece& b) {
-  ContactPair pair = contact(2, Ambrosio{0.3, 0, 50});
-  pair.gap = {a, b};
-  pair.profiles = pair.follows = true;
-  return pair;
-}
-ContactPair dry(ContactPair pair) {
-  pair.friction = Coulomb{0.2, 0.3, 5};
-  return pair;
-}
-const std::vector<Kind> kinds{
-    {"Nothing"},
-    {"Revolute", {Revolute{0, 1}}},
-    {"Slot", {Slot{0, 1}}},
-    {"Prismatic", {Prismatic{0, 1, -0.4}}},
-    {"Weld", {Weld{0, 1, -0.4}}},
-    {"Distance", {Distance{0, 1, 0.8}}},
-    {"Differential", {Differential{0, 1, 2, -0.6, 0.3}}},
-    {"AngleDriver", {AngleDriver{0, 1, sine}}},
-    {"DistanceDriver", {DistanceDriver{0, 1, sine}}},
-    {"PointForce", {}, {PointForce{0, 1, sine, steady, false}}},
-    {"FollowerForce", {}, {PointForce{0, 1, sine, steady, true}}},
-    {"Torque", {}, {Torque{0, 1, sine}}},
-    {"Spring", {}, {Spring{0, 1, 40, 0, 0.5}}},
-    {"DampedSpring", {}, {Spring{0, 1, 40, 3, 0.5}}},
-    {"TorsionSpring", {}, {TorsionSpring{0, 1, 25, 0, -0.8}}},
-    {"DampedTorsionSpring", {}, {TorsionSpring{0, 1, 25, 2, -0.8}}},
-    {"Maxwell", {}, {Maxwell{0, 1, 40, 3}}},
-    {"Contact", {}, {}, {contact(0)}},
-    {"LossyContact", {}, {}, {contact(2)}},
-    {"SpringDamperContact", {}, {}, {spring_damper()}},
-    {"SpringDamperContactWithFriction", {}, {}, {spring_damper(Ambrosio{0.3, 0, 50})}},
-    {"ContactWithFriction", {}, {}, {contact(2, Ambrosio{0.3, 0, 50})}},
-    {"ContactInFullSliding", {}, {}, {contact(0.6, Ambrosio{0.3, 1e-6, 2e-6})}},
-    {"ContactOfGeometricSliding", {}, {}, {contact(0.6, Ambrosio{0.3, 0, 50}, Sliding::geometric)}},
-    {"ContactOfDryFriction", {}, {}, {contact(2, Coulomb{0.2, 0.3, 5})}},
-    {"DiscOnLineOfDryFriction", {}, {}, {dry(profiles(disc, flat))}},
-    {"DiscOnDisc", {}, {}, {profiles(disc, disc)}},
-    {"DiscInHollow", {}, {}, {profiles(disc, hollow)}},
-    {"HollowRoundDisc", {}, {}, {profiles(hollow, disc)}},
-    {"DiscOnLine", {}, {}, {profiles(disc, flat)}},
-    {"LineOnDisc", {}, {}, {profiles(flat, disc)}},
-    {"CornerOnLine", {}, {}, {profiles(corner, flat)}},
-    {"LineOnCorner", {}, {}, {profiles(flat, corner)}},
-    {"CornerOnDisc", {}, {}, {profiles(corner, disc)}},
-    {"Several",
-     {Slot{0, 1}, Revolute{1, 0}},
-     {Spring{1, 0, 40, 3, 0.5}, Maxwell{1, 0, 60, 5}, TorsionSpring{0, 1, 25, 2, -0.8}, PointForce{1, 0, sine, steady, true}}},
-};
 
 System make_system(const Kind& kind, const Carriers& carriers) {
   System s = kind.joints.empty() ? two_bodies(carriers) : bodies_for(kind.joints.front(), carriers);
@@ -156,11 +85,13 @@ struct Sample {
   const VectorXd* base = nullptr;  // internal states follow the motion from these …
   double weight = 0;               // … at this weight
 
-  void move_to(State s, Equations& eq) const {
+  // @returns the state with internal states that have followed
+  State move_to(State s, Equations& eq) const {
     prepare(system, s, eq);
-    if (!base) return;
-    follow_internal_states(system, eq, s.t, weight, base->data(), s.y.data() + system.x_begin());
+    if (!base) return s;
+    follow_internal_states(system, eq, s, weight, base->data(), s.y.data() + system.x_begin());
     apply_forces(system, s, eq);
+    return s;
   }
   VectorXd residual(const State& s, Equations& eq) const {
     move_to(s, eq);
@@ -181,10 +112,10 @@ struct Sample {
     return (8 * change(h) - change(2 * h)) / (12 * h);
   }
   MatrixXd ours(const Tangent::Weights& w, Equations& eq) const {
-    move_to(state, eq);
+    const State here = move_to(state, eq);
     Tangent tangent(system);
     std::vector<double> values(tangent.places().size(), 7.0);
-    tangent.evaluate(system, state, eq, a, lambda, w, values);
+    tangent.evaluate(system, here, eq, a, lambda, w, values);
     return dense(system, tangent, values);
   }
 };
@@ -243,10 +174,11 @@ struct Held {
       fill_derivative(system_, s.y, eq_, dy);
       return VectorXd(dy.segment(system_.x_begin(), system_.n_x()));
     };
+    const double h = system_.contacts.empty() ? step : contact_step;
     const auto slope = [&](int k) {
       State forth = sample.state, back = sample.state;
-      forth.y[k] += step, back.y[k] -= step;
-      return VectorXd((rates(forth) - rates(back)) / (2 * step));
+      forth.y[k] += h, back.y[k] -= h;
+      return VectorXd((rates(forth) - rates(back)) / (2 * h));
     };
     constexpr double central = 1e-6;  // step² of third derivatives up to 1e2
     for (int j = 0; j < system_.n_x(); ++j) {
