@@ -123,7 +123,6 @@ class Builder {
 
   /// The contact that it is, and the joint that it would be.
   void add_play(const SceneJoint& j, int& order) {
-    for (const PointRef* p : points_of(j)) markers_.reject_elements(*p);
     const Joint ideal = joint_of(scene_, j, markers_);
     const std::array<Profile, 2> profiles = profiles_of(scene_, j);
     order = static_cast<int>(model_.system.contacts.size());
@@ -152,7 +151,8 @@ class Builder {
     unique(c.name, "contact", c.place);
     markers_.two_bodies(c.a, c.b, c.place);
     const Profile &a = profile(c.a), &b = profile(c.b);
-    add(c, a, b, {profile_marker(c.a), profile_marker(c.b)});
+    model_.order.contacts.push_back(static_cast<int>(model_.system.contacts.size()));
+    add(c, a, b, {markers_.carrier(carrier_of(scene_, c.a)), markers_.carrier(carrier_of(scene_, c.b))});
   }
   void add(const SceneContact& c, const Profile& a, const Profile& b, const std::array<int, 2>& markers) {
     auto& contacts = model_.system.contacts;
@@ -163,19 +163,11 @@ class Builder {
     if (!made.warning.empty()) model_.warnings.push_back(std::move(made.warning));
   }
 
-  /// Of the axes that a body's profiles are given in.
-  int profile_marker(const PointRef& ref) {
-    markers_.reject_elements(ref);
-    return markers_.marker({ref.body, "", ref.place});
-  }
   const Profile& profile(const PointRef& ref) {
     const auto [known, is_new] = profiles_.try_emplace({ref.body, ref.point});
     if (!is_new) return known->second;
-    const int b = markers_.body(ref);
-    known->second = profile_of(scene_, ref);
-    const Vector2d origin = b == ground ? Vector2d(0, 0) : model_.system.bodies[static_cast<std::size_t>(b)].x_BO;
-    DrawnProfile& made = model_.profiles.emplace_back(DrawnProfile{b, solid(known->second), drawn(known->second)});
-    for (Vector2d& x : made.points) x += origin;
+    known->second = profile_of(scene_, markers_, ref);
+    model_.profiles.push_back({markers_.carrier(carrier_of(scene_, ref)), markers_.body(ref), solid(known->second), drawn(known->second)});
     return known->second;
   }
 

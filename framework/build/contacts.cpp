@@ -11,6 +11,7 @@
 #include "framework/common/index.h"
 #include "framework/common/text.h"
 #include "framework/scene/error.h"
+#include "framework/scene/joint_words.h"
 
 namespace pintle {
 
@@ -18,22 +19,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-Vector2d place(const ScenePathPoint& p, const std::vector<ScenePoint>& points) {
-  const auto named = std::ranges::find(points, p.point, &ScenePoint::name);
-  const Pair& at = p.point.empty() || named == points.end() ? p.at : named->at;
-  return {at[0], at[1]};
-}
-
-struct Owner {
-  const std::vector<SceneProfile>& profiles;
-  const std::vector<ScenePoint>& points;
-};
-Owner owner_of(const Scene& scene, const PointRef& ref) {
-  if (ref.body == "ground") return {scene.ground_profiles, scene.ground};
+const std::vector<SceneProfile>& profiles_of(const Scene& scene, const PointRef& ref) {
+  if (ref.body == "ground") return scene.ground_profiles;
   const auto body = std::ranges::find(scene.bodies, ref.body, &SceneBody::name);
   if (body == scene.bodies.end())
     throw SceneError(scene.file, ref.place, "there is no body " + quoted(ref.body) + "; name one of the scene, or the ground");
-  return {body->profiles, body->points};
+  return body->profiles;
 }
 
 /// The one curvature of all its lines and arcs [1/m]; nothing if they differ.
@@ -174,21 +165,25 @@ std::string contact_text(const ContactPair& pair, std::size_t pairs) {
 
 }  // namespace
 
-Profile profile_of(const Scene& scene, const PointRef& ref) {
-  const Owner owner = owner_of(scene, ref);
-  const auto found = std::ranges::find(owner.profiles, ref.point, &SceneProfile::name);
-  if (found == owner.profiles.end())
+Profile profile_of(const Scene& scene, const Markers& markers, const PointRef& ref) {
+  const std::vector<SceneProfile>& profiles = profiles_of(scene, ref);
+  const auto found = std::ranges::find(profiles, ref.point, &SceneProfile::name);
+  if (found == profiles.end())
     throw SceneError(scene.file, ref.place, quoted(ref.body) + " has no profile " + quoted(ref.point) + "; give it one, or name another");
   const SceneProfile& p = *found;
   const auto wrong = [&](const std::string& message) {
     throw SceneError(scene.file, p.place, "the profile " + quoted(p.name) + ": " + message);
   };
+  const Vector2d origin = markers.place(carrier_of(scene, ref));
+  const auto place = [&](const ScenePathPoint& at) -> Vector2d {
+    return (at.point.empty() ? Vector2d(at.at[0], at.at[1]) : markers.place({ref.body, at.point, at.place})) - origin;
+  };
   if (p.kind != SceneProfile::path) {
     if (!(p.radius > 0)) wrong("radius must be above 0");
-    return circle(place(p.centre, owner.points), p.kind == SceneProfile::disc ? p.radius : -p.radius);
+    return circle(place(p.centre), p.kind == SceneProfile::disc ? p.radius : -p.radius);
   }
   std::vector<PathPoint> path;
-  for (const ScenePathPoint& point : p.points) path.push_back({place(point, owner.points), point.arc});
+  for (const ScenePathPoint& point : p.points) path.push_back({place(point), point.arc});
   try {
     const bool clockwise = p.closed && area(path) < 0;
     const bool turn = p.closed ? clockwise != (p.material == SceneProfile::outside) : p.material == SceneProfile::right;

@@ -58,6 +58,7 @@ struct SceneProfile {
   bool closed = false;
   Side material = left;
   double round = 0;  ///< radius of the arc at corners between straight lines [m]
+  std::string on;    ///< of a body of elements: its point that carries the profile
   Place place = {};
 };
 

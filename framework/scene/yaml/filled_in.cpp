@@ -51,6 +51,7 @@ Json json(const SceneProfile& p) {
     Json out = Json::object();
     out[p.kind == SceneProfile::disc ? "disc" : "hole"] = place(p.centre);
     out["radius"] = p.radius;
+    if (!p.on.empty()) out["on"] = p.on;
     return out;
   }
   Json path = Json::array();
@@ -61,6 +62,7 @@ Json json(const SceneProfile& p) {
   constexpr std::array sides{"left", "right", "inside", "outside"};
   Json out = {{"path", path}, {"closed", p.closed}, {"material", sides[p.material]}};
   if (p.round > 0) out["round"] = p.round;
+  if (!p.on.empty()) out["on"] = p.on;
   return out;
 }
 

@@ -27,7 +27,8 @@ const std::vector<Key> profile_keys{{"disc"},
                                     {"radius"},
                                     {"closed", optional, "", {"true", "false"}},
                                     {"material", optional, "", {"left", "right", "inside", "outside"}},
-                                    {"round"}};
+                                    {"round"},
+                                    {"on"}};
 const std::vector<Key> friction_laws{{"coulomb"}, {"ambrosio"}, {"threlfall"}, {"tanh"}, {"bengisu-akay"}};
 const std::vector<Key> coulomb_keys{{"coefficient", required, "0.3"}, {"static"}, {"stribeck speed"}};
 const std::vector<Key> curve_keys{{"coefficient", required, "0.1"}, {"v1"}};

@@ -143,7 +143,8 @@ std::vector<ScenePathPoint> read_path(const Node& node, std::string_view keys, c
   return out;
 }
 
-const std::array<KindKeys, 3> profile_kinds{{{"disc", {"radius"}}, {"hole", {"radius"}}, {"path", {"closed", "material", "round"}}}};
+const std::array<KindKeys, 3> profile_kinds{
+    {{"disc", {"radius", "on"}}, {"hole", {"radius", "on"}}, {"path", {"closed", "material", "round", "on"}}}};
 
 SceneProfile read_profile(const Node& node, std::string_view keys, const std::vector<ScenePoint>& points, const std::string& body) {
   SceneProfile out;
@@ -151,6 +152,11 @@ SceneProfile read_profile(const Node& node, std::string_view keys, const std::ve
   out.place = node.place();
   check_keys(node, keys);
   out.kind = std::array{SceneProfile::disc, SceneProfile::hole, SceneProfile::path}[which_kind(node, profile_kinds)];
+  if (node.has("on")) {
+    const ScenePathPoint on = read_place(node.at("on"), points, body);
+    if (on.point.empty()) node.at("on").fail("is a place; name the point of the body that carries the profile");
+    out.on = on.point;
+  }
   if (out.kind != SceneProfile::path) {
     out.centre = read_place(node.at(out.kind == SceneProfile::disc ? "disc" : "hole"), points, body);
     if (!node.has("radius")) node.fail("lacks a required key; add for example radius: 20 mm");
@@ -308,8 +314,14 @@ std::vector<SceneProfile> read_profiles(const Node& owner, std::string_view keys
                                         const std::string& body) {
   std::vector<SceneProfile> out;
   if (!owner.has("profiles")) return out;
-  for (const Node& node : owner.at("profiles").entries("names and profiles: {rim: {disc: A, radius: 20 mm}}"))
-    out.push_back(read_profile(node, keys, points, body));
+  for (const Node& node : owner.at("profiles").entries("names and profiles: {rim: {disc: A, radius: 20 mm}}")) {
+    SceneProfile& made = out.emplace_back(read_profile(node, keys, points, body));
+    if (owner.has("beam") || owner.has("plate")) {
+      if (made.on.empty() && made.kind != SceneProfile::path) made.on = made.centre.point;
+    } else if (node.has("on")) {
+      node.at("on").fail("is of bodies of elements, which bend; \"" + body + "\" carries its profiles as a whole: leave it out");
+    }
+  }
   return out;
 }
 
