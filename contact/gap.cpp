@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "contact/curve_gap.h"
+
 namespace pintle {
 
 namespace {
@@ -18,13 +20,17 @@ bool off_its_point(const Piece& piece) { return piece.centre.x() != 0 || piece.c
 
 PlaceOn place(const Piece& piece, const Gap& gap, const Vector2d& normal, const MovingPoint& by) {
   if (piece.straight) return {-gap.across / piece.half, (gap.n.dot(gap.e) * gap.turning - gap.sideways) / piece.half};
+  return place_on_arc(piece, gap, normal, by);
+}
+
+}  // namespace
+
+PlaceOn place_on_arc(const Piece& piece, const Gap& gap, const Vector2d& normal, const MovingPoint& by) {
   if (std::isinf(piece.half)) return {};
   constexpr double turn = 6.283185307179586;
   const double per = (piece.radius < 0 ? -1 : 1) / piece.half;
   return {per * std::remainder(std::atan2(normal.y(), normal.x()) - by.angle - piece.normal, turn), per * (gap.turning - by.w)};
 }
-
-}  // namespace
 
 namespace {
 
@@ -60,7 +66,10 @@ void along_a_line(const PiecePair& pair, const Vector2d& e_rate, const MovingPoi
 
 }  // namespace
 
+double least_radius(const Piece& piece) { return piece.curve ? piece.curve->least_radius() : std::abs(piece.radius); }
+
 Gap evaluate(const PiecePair& pair, const MovingPoint& a, const MovingPoint& b) {
+  if (pair.curved()) return evaluate_curves(pair, a, b);
   Gap out;
   out.e = a.r - b.r;
   Vector2d e_rate = a.v - b.v;
@@ -84,6 +93,7 @@ Vector2d touched(const Piece& piece, const Vector2d& middle, const Vector2d& nor
 }
 
 std::array<PlaceOn, 2> places(const PiecePair& pair, const Gap& gap, const MovingPoint& a, const MovingPoint& b) {
+  if (pair.curved()) return places_on_curves(pair, gap, a, b);
   return {place(pair.a, gap, gap.n, a), place(pair.b, gap, -gap.n, b)};
 }
 

@@ -31,7 +31,8 @@ const std::vector<SceneProfile>& profiles_of(const Scene& scene, const PointRef&
 std::optional<double> curvature(const Profile& profile) {
   std::optional<double> out;
   for (const Piece& p : profile.pieces) {
-    if (!p.straight && p.radius == 0) continue;
+    if (is_corner(p)) continue;
+    if (p.curve) return std::nullopt;
     const double now = p.straight ? 0 : 1 / p.radius;
     if (out && *out != now) return std::nullopt;
     out = now;
@@ -64,14 +65,20 @@ std::array<double, 2> radii_of(const Scene& scene, const SceneContact& c, const 
   return {1 / *a, 1 / *b};
 }
 
-bool is_corner(const Piece& p) { return !p.straight && p.radius == 0; }
+/// A straight stretch of a curve is to a line, or to what is as straight, a line.
+bool turns_too_little(const Piece& curve, const Piece& other) {
+  constexpr double straight = 1e-6;  // [rad]
+  return curve.curve && curve.curve->turn() < straight && (other.straight || other.curve);
+}
 
 /// Can they touch at a point inside both? Where two lines lie on each other, or a line in a hollow, corners do.
 bool may_touch(const Piece& a, const Piece& b) {
   if ((a.straight || is_corner(a)) && (b.straight || is_corner(b))) return a.straight != b.straight;
-  const bool hollow_a = a.radius < 0, hollow_b = b.radius < 0;
-  if (!hollow_a && !hollow_b) return true;
-  return !(hollow_a && hollow_b) && !a.straight && !b.straight && a.radius + b.radius < 0;
+  const bool hollow_a = is_hollow(a), hollow_b = is_hollow(b);
+  if (!hollow_a && !hollow_b) return !turns_too_little(a, b) && !turns_too_little(b, a);
+  if (hollow_a && hollow_b) return false;
+  if (a.curve || b.curve) return !a.straight && !b.straight;
+  return !a.straight && !b.straight && a.radius + b.radius < 0;
 }
 
 // Its laws; pieces are left to fill in.
@@ -107,7 +114,8 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
       pair.gap = {a.pieces[at(i)], b.pieces[at(j)]};
       pair.pair = static_cast<int>(out.size()) - 1;
       const auto until = [&](const Piece& piece, double half_material, const Piece& other) {  // round ones end by their normals
-        if (piece.straight || piece.radius < 0) pair.deepest = std::min(pair.deepest, half_material + std::max(other.radius, 0.0));
+        if (piece.straight || piece.radius < 0 || piece.curve)
+          pair.deepest = std::min(pair.deepest, half_material + std::max(other.radius, 0.0));
       };
       until(pair.gap.a, a.deepest[at(i)], pair.gap.b);
       until(pair.gap.b, b.deepest[at(j)], pair.gap.a);
@@ -135,7 +143,7 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
         if (joined) now.beyond[side] = pair_of[at(of_a ? next * n_b + j : i * n_b + next)];
         const Piece &piece = profile.pieces[at(here)], &other = of_a ? b.pieces[at(j)] : a.pieces[at(i)];
         const bool off_a_corner = joined && is_corner(profile.pieces[at(next)]) && is_corner(other);
-        const bool into_the_air = piece.radius < 0;  // a hollow arc, gone on with, leaves the surface
+        const bool into_the_air = is_hollow(piece) || piece.curve;  // a hollow arc or a curve, gone on with, leaves the surface
         if (now.beyond[side] < 0 && !off_a_corner && !into_the_air)
           now.extent[side] += piece.straight ? while_sliding : while_turning / piece.half;
       }
@@ -147,6 +155,20 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
 bool has_sharp_corners(const Profile& profile) {
   const auto ends = profile.closed ? 0 : 2;
   return std::ranges::count_if(profile.pieces, is_corner) > ends;
+}
+
+// The radius of the narrowest hollow of a curve, if nothing of the other profile fits in; else 0 [m].
+double too_hollow(const Profile& a, const Profile& b) {
+  double out = 0;
+  for (const auto& [hollow, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    double least = std::numeric_limits<double>::infinity(), fits = 0;
+    for (const Piece& p : hollow->pieces)
+      if (p.curve && is_hollow(p)) least = std::min(least, least_radius(p));
+    for (const Piece& p : other->pieces)
+      if (!is_hollow(p)) fits = std::max(fits, least_radius(p));
+    if (fits > least) out = least;
+  }
+  return out;
 }
 
 std::string contact_text(const ContactPair& pair, std::size_t pairs) {
@@ -178,15 +200,27 @@ Profile profile_of(const Scene& scene, const Markers& markers, const PointRef& r
   const auto place = [&](const ScenePathPoint& at) -> Vector2d {
     return (at.point.empty() ? Vector2d(at.at[0], at.at[1]) : markers.place({ref.body, at.point, at.place})) - origin;
   };
-  if (p.kind != SceneProfile::path) {
+  if (p.kind == SceneProfile::disc || p.kind == SceneProfile::hole) {
     if (!(p.radius > 0)) wrong("radius must be above 0");
     return circle(place(p.centre), p.kind == SceneProfile::disc ? p.radius : -p.radius);
   }
   std::vector<PathPoint> path;
-  for (const ScenePathPoint& point : p.points) path.push_back({place(point), point.arc});
+  const bool polar = p.kind == SceneProfile::polar;
+  for (const ScenePathPoint& point : p.points)
+    path.push_back({polar ? Vector2d(place(p.centre) + point.at[1] * Vector2d(std::cos(point.at[0]), std::sin(point.at[0]))) : place(point),
+                    point.arc});
+  const auto turned_round = [&](double inside) {
+    const bool clockwise = p.closed && inside < 0;
+    return p.closed ? clockwise != (p.material == SceneProfile::outside) : p.material == SceneProfile::right;
+  };
   try {
-    const bool clockwise = p.closed && area(path) < 0;
-    const bool turn = p.closed ? clockwise != (p.material == SceneProfile::outside) : p.material == SceneProfile::right;
+    if (p.kind != SceneProfile::path) {
+      std::vector<Vector2d> points;
+      for (const PathPoint& point : path) points.push_back(point.at);
+      if (turned_round(area(points))) std::ranges::reverse(points);
+      return profile_through(points, p.closed);
+    }
+    const bool turn = turned_round(p.closed ? area(path) : 0);
     return profile_along(turn ? reversed(path, p.closed) : path, p.closed, p.round);
   } catch (const std::invalid_argument& error) {
     wrong(error.what());
@@ -208,6 +242,13 @@ BuiltContact build_contact(const Scene& scene, const SceneContact& c, const Prof
     for (int& other : pair.beyond)
       if (other >= 0) other += first;
   out.words = contact_text(like, out.pairs.size());
+  if (const double hollow = too_hollow(a, b); hollow > 0) {
+    std::ostringstream s;
+    s << quoted(c.name) << ": a profile has a hollow of radius " << hollow
+      << " m, too narrow for what is to touch its ground: that would touch at two sides of it, and only one of these is seen; give the "
+         "other profile a smaller radius";
+    out.warning = s.str();
+  }
   if (has_sharp_corners(a) && has_sharp_corners(b))
     out.warning =
         quoted(c.name) +

@@ -38,22 +38,23 @@ struct PointRef {
   Place place;
 };
 
-/// A point of a path: a named one of the body, or a place in body axes; and the arc that leads on from there.
+/// A point of a surface: a named one of the body, or a place in body axes; and the arc of a path that leads on from there.
 struct ScenePathPoint {
   std::string point;  ///< empty: `at`
-  Pair at{0, 0};      ///< [m]
+  Pair at{0, 0};      ///< [m]; of a polar profile angle and radius [rad, m]
   double arc = 0;     ///< radius, > 0 turning left; 0: a straight line [m]
   Place place = {};
 };
 
-/// The surface of a body, that contacts are made of: a disc or a hole about a point, or a path of lines and arcs.
+/// The surface of a body, that contacts are made of: a disc or a hole about a point, a path of lines and arcs, or a spline through
+/// points, given by x and y or, `polar`, by angle and radius.
 struct SceneProfile {
-  enum Kind { disc, hole, path };
+  enum Kind { disc, hole, path, spline, polar };
   enum Side { left, right, inside, outside };  ///< where the material is: of an open path, of a closed one
   std::string name;
   Kind kind = disc;
-  ScenePathPoint centre = {};  ///< of a disc or hole
-  double radius = 0;           ///< likewise [m]
+  ScenePathPoint centre = {};  ///< of a disc or hole; of a polar profile what its points are about
+  double radius = 0;           ///< of a disc or hole [m]
   std::vector<ScenePathPoint> points = {};
   bool closed = false;
   Side material = left;

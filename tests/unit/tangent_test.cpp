@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "contact/profile.h"
 #include "tests/contracts/moving_bodies.h"
 
 namespace pintle::tangent_test {
@@ -56,6 +57,16 @@ ContactPair spring_damper(std::optional<Ambrosio> friction = {}) {
 const Piece disc{.radius = 0.07, .centre = {0.02, -0.03}}, hollow{.radius = -0.3, .centre = {-0.04, 0.05}},
     corner{.radius = 0, .centre = {0.03, 0.02}, .normal = 0.3, .half = 0.8},
     flat{.centre = {-0.02, 0.06}, .normal = -0.7, .half = 0.5, .straight = true};
+// Of an egg, or the hole of its shape: a span that bends far more than one pressing it moves along.
+Piece span(bool inside, std::size_t which) {
+  std::vector<Vector2d> rim;
+  for (int i = 0; i < 12; ++i) {
+    const double angle = (inside ? 2 : -2) * M_PI * i / 12, r = 0.3 + 0.02 * std::cos(angle);
+    rim.emplace_back(0.03 + r * std::cos(angle), -0.02 + r * std::sin(angle));
+  }
+  return profile_through(rim, true).pieces[which];
+}
+const Piece egg = span(true, 1), other_egg = span(true, 4), egg_hole = span(false, 2);
 ContactPair profiles(const Piece& a, const Piece& b) {
   ContactPair pair = contact(2, Ambrosio{0.3, 0, 50});
   pair.gap = {a, b};
@@ -101,6 +112,12 @@ const std::vector<Kind> kinds{
     {"CornerOnLine", {}, {}, {profiles(corner, flat)}},
     {"LineOnCorner", {}, {}, {profiles(flat, corner)}},
     {"CornerOnDisc", {}, {}, {profiles(corner, disc)}},
+    {"CurveOnDisc", {}, {}, {profiles(egg, disc)}},
+    {"DiscOnCurve", {}, {}, {profiles(disc, egg)}},
+    {"DiscInHollowCurve", {}, {}, {profiles(disc, egg_hole)}},
+    {"CurveOnCurve", {}, {}, {profiles(egg, other_egg)}},
+    {"CurveOnLine", {}, {}, {profiles(egg, flat)}},
+    {"LineOnCurve", {}, {}, {profiles(flat, egg)}},
     {"Several",
      {Slot{0, 1}, Revolute{1, 0}},
      {Spring{1, 0, 40, 3, 0.5}, Maxwell{1, 0, 60, 5}, TorsionSpring{0, 1, 25, 2, -0.8}, PointForce{1, 0, sine, steady, true}}},

@@ -50,8 +50,9 @@ class Sum : public ValueWriter<Sum> {
         slack);
   }
   void add(const Piece& piece) {
-    const auto& [radius, centre, normal, half, straight] = piece;
+    const auto& [radius, centre, normal, half, straight, curve] = piece;
     add(radius, centre, normal, half, straight);
+    if (curve) add(curve->numbers());
   }
   void add(const RigidImpact& impact) {
     const auto& [restitution, tangential, poisson] = impact;

@@ -12,7 +12,7 @@ MovingPoint moving_point(const MarkerMotion& m) { return {m.r, m.v, m.w, m.angle
 double contact_size(const ContactPair& pair, double mechanism) {
   double out = mechanism;
   for (const Piece* piece : {&pair.gap.a, &pair.gap.b})
-    if (piece->radius != 0) out = std::min(out, std::abs(piece->radius));
+    if (const double radius = least_radius(*piece); radius > 0) out = std::min(out, radius);
   return out;
 }
 
@@ -29,7 +29,7 @@ Margin margin(const ContactPair& pair, const Gap& gap, const MovingPoint& a, con
   for (std::size_t i = 0; i < 2; ++i) {
     const Piece& piece = *pieces[i];
     if (std::isinf(piece.half)) continue;
-    const double length = piece.half * (piece.straight ? 1 : std::max(size(piece), size(*pieces[1 - i])));
+    const double length = piece.half * (piece.straight || piece.curve ? 1 : std::max(size(piece), size(*pieces[1 - i])));
     for (const int side : {-1, 1}) {
       const std::size_t k = 2 * i + (side > 0);
       const double left = (pair.extent[k] - side * place[i].at) * length;
@@ -133,17 +133,24 @@ double slip_acceleration(const ContactPair& pair, const Gap& gap, const MarkerMo
          gap.turning * speed_of_middles(gap, a, b).dot(gap.n);
 }
 
-// d/dt of −n·v − s w, w the spin of the straight piece, s = e·Zn.
+// d/dt of −n·v − s w, w the spin of the straight piece, s = e·Zn; the touched points of curves move along them besides.
 double opening_acceleration(const ContactPair& pair, const Gap& gap, const MarkerMotion& a, const MarkerMotion& b) {
   const double sideways = speed_of_middles(gap, a, b).dot(perp(gap.n));
   const double spin = pair.gap.a.straight ? a.w : pair.gap.b.straight ? b.w : 0;
-  return of_markers(unit_normal(pair, gap), a, b) - inwards(gap, a, b).dot(gap.n) - gap.turning * sideways -
-         spin * (sideways - gap.turning * gap.e.dot(gap.n));
+  const double out = of_markers(unit_normal(pair, gap), a, b) - inwards(gap, a, b).dot(gap.n) - gap.turning * sideways -
+                     spin * (sideways - gap.turning * gap.e.dot(gap.n));
+  if (!pair.gap.curved()) return out;
+  const Rolling r = rolling(pair.gap, gap);
+  return out + (a.w - spin) * r.on_a.of(sideways, a.w, b.w) - (b.w - spin) * r.on_b.of(sideways, a.w, b.w);
 }
 
 namespace {
 
 using Row = Eigen::Matrix<double, 1, 6>;  // derivatives in the poses of the two middles, or in their rates
+
+Row in_poses(const Rolling::Part& part, const Vector2d& t) {
+  return (Row() << part.across * t.transpose(), part.a, -part.across * t.transpose(), part.b).finished();
+}
 
 // The tangent at the middles of the pieces, each with its own v: docs/theory/contact.md.
 WrenchTangent at_middles(const ContactPair& pair, const ContactEffect& now, const Vector2d& v, double w_a, double w_b) {
@@ -151,20 +158,29 @@ WrenchTangent at_middles(const ContactPair& pair, const ContactEffect& now, cons
   const Piece &a = pair.gap.a, &b = pair.gap.b;
   const Vector2d &n = gap.n, t = perp(n);
   const double N = now.normal.force, s = gap.across;
-  const double spin = a.straight ? w_a : b.straight ? w_b : 0;                          // that turns n
-  const double curving = a.straight || b.straight ? 0 : 1 / n.dot(gap.e);               // of n by e across
+  const double spin = a.straight ? w_a : b.straight ? w_b : 0;  // that turns n
+  const bool curved = pair.gap.curved();
+  const double curving = a.straight || b.straight || curved ? 0 : 1 / n.dot(gap.e);     // of n by e across
   const double across = v.dot(t), along = v.dot(n), turning = curving * across + spin;  // of n
 
   const auto between = [](const Vector2d& d) { return (Row() << d.transpose(), 0, -d.transpose(), 0).finished(); };
   Row n_p = between(curving * t);  // dn = Zn · n_p dp
   n_p[2] += a.straight, n_p[5] += b.straight;
-  const Row depth_p = between(n) + s * n_p, s_p = between(t) - n.dot(gap.e) * n_p;
+  Row on_a = Row::Zero(), on_b = Row::Zero();  // how far the touched points move along their curves
+  if (curved) {
+    const Rolling r = rolling(pair.gap, gap);
+    n_p = in_poses(r.turning, t), on_a = in_poses(r.on_a, t), on_b = in_poses(r.on_b, t);
+  }
+  const Row depth_p = between(n) + s * n_p;
+  Row s_p = between(t) - n.dot(gap.e) * n_p;
+  if (curved) s_p += on_a - on_b;
   const Row rate_v = [&] {
     Row out = between(n);
     out[2] += s * a.straight, out[5] += s * b.straight;
     return out;
   }();
-  const Row rate_p = across * n_p + spin * (a.straight || b.straight ? s_p : Row::Zero());
+  Row rate_p = across * n_p + spin * (a.straight || b.straight ? s_p : Row::Zero());
+  if (curved) rate_p += w_b * on_b - w_a * on_a;
   const Row N_p = now.normal.d_depth * depth_p + now.normal.d_rate * rate_p, N_v = now.normal.d_rate * rate_v;
 
   Row T_p = Row::Zero(), T_v = Row::Zero();
@@ -192,6 +208,7 @@ WrenchTangent at_middles(const ContactPair& pair, const ContactEffect& now, cons
     of.row(5) = b.radius * dT - b.straight * (s * dN + N * ds);
   };
   place(out.pose, N_p, T_p, n_p, s_p);
+  if (curved) out.pose.row(2) += N * on_a, out.pose.row(5) -= N * on_b;
   place(out.rate, N_v, T_v, Row::Zero(), Row::Zero());
   return out;
 }

@@ -24,6 +24,9 @@ const std::vector<std::string> element_names{
 const std::vector<Key> profile_keys{{"disc"},
                                     {"hole"},
                                     {"path"},
+                                    {"spline"},
+                                    {"polar"},
+                                    {"about"},
                                     {"radius"},
                                     {"closed", optional, "", {"true", "false"}},
                                     {"material", optional, "", {"left", "right", "inside", "outside"}},
@@ -36,6 +39,8 @@ const std::vector<Key> peak_keys{{"coefficient", required, "0.1"}, {"static"}, {
 const std::vector<std::string> hysteresis_factors{
     "hunt-crossley", "herbert-mcwhannell", "lee-wang", "lankarani-nikravesh", "gonthier", "zhiying-qishao", "flores", "hu-guo", "exact"};
 const std::vector<Key> arc_keys{{"arc", required, "20 mm"}};
+const std::vector<Key> spline_keys{{"file", required, "cam.csv"}, {"length unit"}};
+const std::vector<Key> polar_keys{{"file", required, "cam.csv"}, {"angle unit"}, {"radius unit"}};
 constexpr const char* two_eyes = "[{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]";
 
 std::vector<Key> joint_keys() {
@@ -73,6 +78,8 @@ const std::vector<KeyTable>& tables() {
       {"ground.points.*", {{"at", required, "[10 mm, 0]"}, {"angle"}}},
       {"ground.profiles.*", profile_keys},
       {"ground.profiles.*.path.*", arc_keys},
+      {"ground.profiles.*.spline", spline_keys},
+      {"ground.profiles.*.polar", polar_keys},
       {"bodies.*",
        {{"rigid"},
         {"beam"},
@@ -90,6 +97,8 @@ const std::vector<KeyTable>& tables() {
       {"bodies.*.points.*", {{"at"}, {"angle"}, {"hole"}, {"coupling", optional, "", {"rigid", "average"}}}},
       {"bodies.*.profiles.*", profile_keys},
       {"bodies.*.profiles.*.path.*", arc_keys},
+      {"bodies.*.profiles.*.spline", spline_keys},
+      {"bodies.*.profiles.*.polar", polar_keys},
       {"bodies.*.pose", {{"at"}, {"angle"}}},
       {"bodies.*.beam",
        {{"from"},

@@ -107,80 +107,6 @@ void read_elastic_law(const Node& law, std::string_view keys, SceneNormal& norma
   read_stiffness(law, keys, normal);
 }
 
-ScenePathPoint read_place(const Node& node, const std::vector<ScenePoint>& points, const std::string& body) {
-  ScenePathPoint out;
-  out.place = node.place();
-  if (node.is_list()) {
-    out.at = node.pair(dimension::length);
-    return out;
-  }
-  out.point = node.text("a point of the body, or [x, y]");
-  std::vector<std::string> known;
-  for (const ScenePoint& p : points) known.push_back(p.name);
-  if (std::ranges::find(known, out.point) == known.end())
-    node.fail("\"" + body + "\" has no point \"" + out.point + "\"" +
-              (known.empty() ? "; write a place, [10 mm, 0], or name it under points" : "." + did_you_mean(out.point, known)));
-  return out;
-}
-
-// Points and, between two of them, arcs.
-std::vector<ScenePathPoint> read_path(const Node& node, std::string_view keys, const std::vector<ScenePoint>& points,
-                                      const std::string& body) {
-  std::vector<ScenePathPoint> out;
-  bool arc = false;
-  for (const Node& item : node.list(2, "points and arcs: [A, B, {arc: 20 mm}, C]")) {
-    if (!item.is_map()) {
-      out.push_back(read_place(item, points, body));
-      arc = false;
-      continue;
-    }
-    check_keys(item, std::string(keys) + ".path.*");
-    if (out.empty() || arc) item.fail("stands where a point should; an arc leads from the point before it to the next");
-    out.back().arc = item.at("arc").quantity(dimension::length);
-    if (out.back().arc == 0) item.fail("must not be 0: it turns left with a radius above 0, right with one below");
-    arc = true;
-  }
-  return out;
-}
-
-const std::array<KindKeys, 3> profile_kinds{
-    {{"disc", {"radius", "on"}}, {"hole", {"radius", "on"}}, {"path", {"closed", "material", "round", "on"}}}};
-
-SceneProfile read_profile(const Node& node, std::string_view keys, const std::vector<ScenePoint>& points, const std::string& body) {
-  SceneProfile out;
-  out.name = checked_name(node);
-  out.place = node.place();
-  check_keys(node, keys);
-  out.kind = std::array{SceneProfile::disc, SceneProfile::hole, SceneProfile::path}[which_kind(node, profile_kinds)];
-  if (node.has("on")) {
-    const ScenePathPoint on = read_place(node.at("on"), points, body);
-    if (on.point.empty()) node.at("on").fail("is a place; name the point of the body that carries the profile");
-    out.on = on.point;
-  }
-  if (out.kind != SceneProfile::path) {
-    out.centre = read_place(node.at(out.kind == SceneProfile::disc ? "disc" : "hole"), points, body);
-    if (!node.has("radius")) node.fail("lacks a required key; add for example radius: 20 mm");
-    out.radius = read_size(node.at("radius"));
-    return out;
-  }
-  out.points = read_path(node.at("path"), keys, points, body);
-  if (node.has("closed")) out.closed = node.at("closed").yes();
-  if (!out.closed && out.points.back().arc != 0)
-    node.at("path").fail("ends with an arc; add the point that it leads to, or closed: true to lead it to the first");
-  if (node.has("round")) out.round = read_size(node.at("round"));
-  out.material = out.closed ? SceneProfile::inside : SceneProfile::left;
-  if (!node.has("material")) return out;
-  const std::string side = node.at("material").one_of(choices(keys, "material"));
-  if (out.closed != (side == "inside" || side == "outside"))
-    node.at("material")
-        .fail(out.closed ? "of a closed path is inside or outside" : "of an open path is left or right, as one goes along it");
-  out.material = side == "left"     ? SceneProfile::left
-                 : side == "right"  ? SceneProfile::right
-                 : side == "inside" ? SceneProfile::inside
-                                    : SceneProfile::outside;
-  return out;
-}
-
 SceneContact read_contact(const Node& node, const Scene& scene) {
   SceneContact out;
   out.name = checked_name(node);
@@ -308,21 +234,6 @@ SceneFriction read_friction_law(const Node& law, const std::string& keys) {
     (law.has("v1") ? law.at("v1") : law.at("v0")).fail("v0 must be less than v1: friction grows from none at v0 to its whole at v1");
   if (law.has("sliding") && law.at("sliding").one_of(choices(keys, "sliding")) == "geometric") friction.sliding = SlidingSpeed::geometric;
   return friction;
-}
-
-std::vector<SceneProfile> read_profiles(const Node& owner, std::string_view keys, const std::vector<ScenePoint>& points,
-                                        const std::string& body) {
-  std::vector<SceneProfile> out;
-  if (!owner.has("profiles")) return out;
-  for (const Node& node : owner.at("profiles").entries("names and profiles: {rim: {disc: A, radius: 20 mm}}")) {
-    SceneProfile& made = out.emplace_back(read_profile(node, keys, points, body));
-    if (owner.has("beam") || owner.has("plate")) {
-      if (made.on.empty() && made.kind != SceneProfile::path) made.on = made.centre.point;
-    } else if (node.has("on")) {
-      node.at("on").fail("is of bodies of elements, which bend; \"" + body + "\" carries its profiles as a whole: leave it out");
-    }
-  }
-  return out;
 }
 
 void read_contacts(const Node& root, Scene& scene) {
