@@ -32,6 +32,8 @@ Profile circle(const Eigen::Vector2d& centre, double radius);
 /// @throws std::invalid_argument  what cannot be: too few points, pieces without length, arcs too small for their chord, a path
 /// that turns back on itself or crosses itself, corners without room for `round`; with the numbers of the points, from 1
 Profile profile_along(std::vector<PathPoint> path, bool closed, double round = 0);
+/// Finds `deepest` of all its pieces.
+void measure_material(Profile&);
 /// The same surface of the material on the other side.
 std::vector<PathPoint> reversed(std::vector<PathPoint> path, bool closed);
 /// Area inside a closed path; < 0 where it goes round clockwise [m²].
