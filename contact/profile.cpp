@@ -289,9 +289,14 @@ Profile profile_along(std::vector<PathPoint> path, bool closed, double round) {
       add(corner(s.to, s.arrives + turn[i] / 2 - pi / 2, turn[i] / 2), true);
   }
   require_simple(out.pieces, closed);
-  const std::vector<Segment> all = segments_of(out.pieces);
-  for (const Piece& p : out.pieces) out.deepest.push_back(half_material(p, all));
+  measure_material(out);
   return out;
+}
+
+void measure_material(Profile& profile) {
+  const std::vector<Segment> all = segments_of(profile.pieces);
+  profile.deepest.clear();
+  for (const Piece& p : profile.pieces) profile.deepest.push_back(half_material(p, all));
 }
 
 }  // namespace pintle

@@ -35,6 +35,8 @@ Profile profile_along(std::vector<PathPoint> path, bool closed, double round = 0
 /// The spline through points, in spans of a curve.
 /// @throws std::invalid_argument  fewer than three points, four of an open one; two at one place; a curve with a cusp or that crosses itself
 Profile profile_through(const std::vector<Eigen::Vector2d>& points, bool closed);
+/// Finds `deepest` of all its pieces.
+void measure_material(Profile&);
 /// The same surface of the material on the other side.
 std::vector<PathPoint> reversed(std::vector<PathPoint> path, bool closed);
 /// Area inside a closed path; < 0 where it goes round clockwise [m²].

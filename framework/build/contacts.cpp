@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 
+#include "contact/cylinder_law.h"
 #include "framework/build/clearance.h"
 #include "framework/common/index.h"
 #include "framework/common/text.h"
@@ -56,13 +58,14 @@ double stiffness_of(const Scene& scene, const SceneContact& c, const Profile& pr
 /// Radii of the two as cylinders have them.
 std::array<double, 2> radii_of(const Scene& scene, const SceneContact& c, const Profile& profile_a, const Profile& profile_b) {
   const std::optional<double> a = curvature(profile_a), b = curvature(profile_b);
-  if (!a || !b || !(*a + *b > 0) || *a == 0 || *b == 0)
+  const bool flat_too = find_cylinder_law(c.normal.law)->of_a_layer;
+  if (!a || !b || !(*a + *b > 0) || (!flat_too && (*a == 0 || *b == 0)))
     throw SceneError(scene.file, c.normal.place,
-                     c.normal.law +
-                         " is a law of two cylinders: each profile must be an arc of one radius all along, and the two have no "
-                         "common centre; give a `table` for " +
+                     c.normal.law + " is a law of two cylinders: each profile must be an arc of one radius all along" +
+                         (flat_too ? ", or one of them straight," : ",") + " and the two have no common centre; give a `table` for " +
                          quoted(c.name));
-  return {1 / *a, 1 / *b};
+  const auto radius = [](double curved) { return curved == 0 ? std::numeric_limits<double>::infinity() : 1 / curved; };
+  return {radius(*a), radius(*b)};
 }
 
 /// A straight stretch of a curve is to a line, or to what is as straight, a line.
@@ -92,7 +95,8 @@ ContactPair laws_of(const Scene& scene, const SceneContact& c, const Profile& a,
   else if (c.normal.law == "spring-damper")
     pair.normal = ImpactLaw{.k = *c.normal.stiffness, .n = 1, .chi = 0, .d = c.normal.damping};
   else if (is_of_cylinders(c.normal))
-    pair.normal = normal_law(scene, c.normal, 0, radii_of(scene, c, a, b));
+    pair.normal = normal_law(scene, c.normal, 0, radii_of(scene, c, a, b)),
+    pair.pressure = pressure_of(scene, c.normal, radii_of(scene, c, a, b));
   else
     pair.normal = normal_law(scene, c.normal, c.normal.law == "table" ? 0 : stiffness_of(scene, c, a, b), {});
   if (c.friction && rubs(*c.friction)) pair.friction = friction_law(scene, *c.friction);
@@ -114,7 +118,8 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
       pair.gap = {a.pieces[at(i)], b.pieces[at(j)]};
       pair.pair = static_cast<int>(out.size()) - 1;
       const auto until = [&](const Piece& piece, double half_material, const Piece& other) {  // round ones end by their normals
-        if (piece.straight || piece.radius < 0 || piece.curve)
+        const bool of_a_ring = like.journal && std::isfinite(piece.half);                     // whose outer arc has its middle in the air
+        if (piece.straight || piece.radius < 0 || piece.curve || of_a_ring)
           pair.deepest = std::min(pair.deepest, half_material + std::max(other.radius, 0.0));
       };
       until(pair.gap.a, a.deepest[at(i)], pair.gap.b);
@@ -236,12 +241,7 @@ BuiltContact build_contact(const Scene& scene, const SceneContact& c, const Prof
                        "the weld " + quoted(j.name) + " holds its two bodies together: they cannot touch anew; leave the contact out");
   ContactPair like = laws_of(scene, c, a, b);
   like.a = markers[0], like.b = markers[1];
-  BuiltContact out;
-  out.pairs = pairs_between(scene, c, a, b, like);
-  for (ContactPair& pair : out.pairs)
-    for (int& other : pair.beyond)
-      if (other >= 0) other += first;
-  out.words = contact_text(like, out.pairs.size());
+  BuiltContact out = build_pairs(scene, c, a, b, like, first);
   if (const double hollow = too_hollow(a, b); hollow > 0) {
     std::ostringstream s;
     s << quoted(c.name) << ": a profile has a hollow of radius " << hollow
@@ -254,6 +254,17 @@ BuiltContact build_contact(const Scene& scene, const SceneContact& c, const Prof
         quoted(c.name) +
         ": both profiles have sharp corners; nothing holds two of these that meet point to point, and energy comes from nothing there; "
         "give one of the profiles `round`";
+  return out;
+}
+
+BuiltContact build_pairs(const Scene& scene, const SceneContact& c, const Profile& a, const Profile& b, const ContactPair& like,
+                         int first) {
+  BuiltContact out;
+  out.pairs = pairs_between(scene, c, a, b, like);
+  for (ContactPair& pair : out.pairs)
+    for (int& other : pair.beyond)
+      if (other >= 0) other += first;
+  out.words = contact_text(like, out.pairs.size());
   return out;
 }
 

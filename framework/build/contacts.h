@@ -28,4 +28,8 @@ struct BuiltContact {
 BuiltContact build_contact(const Scene&, const SceneContact&, const Profile& a, const Profile& b, const std::array<int, 2>& markers,
                            int first);
 
+/// The same of pieces that all have the laws and markers of one pair. @param c  gives names and place alone
+/// @throws SceneError  no two pieces that could touch
+BuiltContact build_pairs(const Scene&, const SceneContact& c, const Profile& a, const Profile& b, const ContactPair& like, int first);
+
 }  // namespace pintle

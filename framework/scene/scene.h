@@ -102,6 +102,7 @@ struct SceneNormal {
   std::string hysteresis = "lankarani-nikravesh";  ///< the factor that damps them, for `restitution`
   double length = 0;                               ///< of cylinders, along their axes [m]
   std::vector<Pair> points = {};                   ///< of a table: depth and force, from (0, 0) [m, N]
+  double layer = 0;  ///< of winkler: thickness of the layer of `bearing`'s elasticity [m]; 0: `stiffness` is its own [N/m³]
 };
 
 enum class SlidingSpeed { material, geometric };
@@ -127,6 +128,16 @@ struct SceneImpact {
 /// another model may stay and is left out, which `pintle check` says.
 enum class ClearanceModel { contact, massless_link, spring_damper, impact };
 
+/// What is left of the hole of an open bearing, in the axes of the bearing's point.
+struct SceneArc {
+  double middle = 0;  ///< direction of its middle [rad]
+  double extent = 0;  ///< angle that it spans, a full turn at the most [rad]
+  double wall = 0;    ///< its thickness; of a full turn without meaning [m]
+  double edge = 0;    ///< radius of the edges at its ends; 0: sharp [m]
+  static constexpr double turn = 6.283185307179586, rounding = 1e-9;
+  bool whole() const { return extent > turn - rounding; }
+};
+
 struct SceneClearance {
   ClearanceModel model = ClearanceModel::contact;
   double radial = 0;          ///< bearing radius − journal radius [m]
@@ -137,7 +148,8 @@ struct SceneClearance {
   std::optional<double> stiffness = {}, damping = {};
   std::optional<SceneFriction> friction;
   Place place;
-  SceneImpact impact = {};  ///< of the model of that name
+  SceneImpact impact = {};           ///< of the model of that name
+  std::optional<SceneArc> arc = {};  ///< of an open bearing; unset: the hole is whole
 };
 /// As a scene file calls it.
 const char* model_name(ClearanceModel);
@@ -179,6 +191,9 @@ struct SceneJoint {
   std::optional<ScenePlay> play = {};               ///< prismatic, slot and distance only
   std::optional<SceneJointFriction> friction = {};  ///< revolute, prismatic and slot, without clearance
 };
+
+/// A revolute with clearance whose bearing is an arc.
+inline bool is_open(const SceneJoint& j) { return j.clearance && j.clearance->arc; }
 
 /// Two profiles of two bodies that may touch. In `normal`, `bearing` is the first body's elasticity, `journal` the second's.
 struct SceneContact {

@@ -44,8 +44,8 @@ class Sum : public ValueWriter<Sum> {
     std::apply([this](const auto&... member) { this->add(member...); }, joint_or_force.members());
   }
   void add(const ContactPair& p) {
-    const auto& [a, b, gap, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid,
-                 slack] = p;
+    const auto& [a, b, gap, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid, slack,
+                 pressure, journal] = p;
     add(a, b, gap.a, gap.b, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid,
         slack);
   }
@@ -72,6 +72,10 @@ class Sum : public ValueWriter<Sum> {
     add(S, G);
   }
   void add(const WideningForce& law) {
+    const auto& [k, clearance] = law;
+    add(k, clearance);
+  }
+  void add(const FoundationForce& law) {
     const auto& [k, clearance] = law;
     add(k, clearance);
   }

@@ -111,7 +111,12 @@ Json json(const SceneNormal& normal, bool in_joint) {
     for (const Pair& point : normal.points) law["points"].push_back(json(point));
     if (normal.points.empty()) {
       law["length"] = normal.length;
-      put_elasticity(normal, in_joint, law);
+      if (normal.stiffness)
+        law["stiffness"] = *normal.stiffness;
+      else if (normal.layer > 0)
+        law["layer"] = normal.layer, law["young"] = normal.bearing.young, law["poisson"] = normal.bearing.poisson;
+      else
+        put_elasticity(normal, in_joint, law);
     }
   } else {
     if (normal.law != "hertz") law["restitution"] = normal.restitution;
@@ -163,11 +168,19 @@ Json json(const SceneContact& c) {
   return out;
 }
 
+Json json(const SceneArc& arc) {
+  Json out = {{"middle", arc.middle}, {"extent", arc.extent}};
+  if (arc.wall > 0) out["wall"] = arc.wall;
+  if (arc.edge > 0) out["edge"] = arc.edge;
+  return out;
+}
+
 Json json(const SceneClearance& clearance) {
   Json out = {{"radial", clearance.radial},
               {"bearing radius", clearance.bearing_radius},
               {"bearing", clearance.bearing},
               {"model", model_name(clearance.model)}};
+  if (clearance.arc) out["arc"] = json(*clearance.arc);
   if (clearance.model == ClearanceModel::impact)
     put_impact(clearance.impact, out);
   else if (clearance.normal.stiffness || clearance.normal.bearing.young > 0 || !clearance.normal.points.empty())

@@ -54,7 +54,8 @@ void read_damping(const Node& law, std::string_view keys, SceneNormal& normal) {
                                              : keys.starts_with("contacts");
 }
 
-const std::vector<std::string> cylinder_laws{"johnson", "radzimovsky", "goldsmith", "esdu", "liu", "pereira"};
+const std::vector<std::string> names_of_cylinders{"johnson", "radzimovsky", "goldsmith", "esdu", "liu", "pereira", "winkler"};
+constexpr const char* layer_law = "winkler";
 constexpr const char* table_law = "table";
 
 std::vector<Pair> read_points(const Node& law) {
@@ -83,13 +84,30 @@ std::vector<Pair> read_points(const Node& law) {
   return out;
 }
 
+// What the layer of winkler is made of, or its stiffness.
+void read_layer(const Node& law, SceneNormal& normal) {
+  if (law.has("stiffness")) {
+    for (const char* key : {"layer", "young", "poisson"})
+      if (law.has(key)) law.at("stiffness").fail("stands beside layer, young and poisson; give either the stiffness or those");
+    normal.stiffness = law.at("stiffness").quantity({-2, 1, -2, 0}, rule::positive);  // N/m³
+    return;
+  }
+  if (!law.has("layer")) law.fail("lacks a required key; add for example layer: 1 mm, how thick what yields is, or stiffness: 4e12 N/m^3");
+  if (!(law.has("young") && law.has("poisson"))) law.fail("does not say how stiff the layer is; add young and poisson, or stiffness");
+  normal.layer = read_size(law.at("layer"));
+  normal.bearing = {law.at("young").quantity(dimension::stress, rule::positive),
+                    law.at("poisson").quantity(dimension::number, rule::solid_poisson)};
+}
+
 // A law of cylinders, or a table.
 void read_elastic_law(const Node& law, std::string_view keys, SceneNormal& normal) {
   const bool table = normal.law == table_law;
   const std::string other = keys.starts_with("joints") ? "journal" : "second";
   std::vector<std::string> known{"hysteresis", "restitution", "slowest impact", "approach speed"};
-  for (const std::string& key : table ? std::vector<std::string>{"points", "file", "depth unit", "force unit"}
-                                      : std::vector<std::string>{"length", "young", "poisson", other})
+  const bool layer = normal.law == layer_law;
+  for (const std::string& key : table   ? std::vector<std::string>{"points", "file", "depth unit", "force unit"}
+                                : layer ? std::vector<std::string>{"length", "layer", "young", "poisson", "stiffness"}
+                                        : std::vector<std::string>{"length", "young", "poisson", other})
     known.push_back(key);
   for (const std::string& key : law.keys())
     if (std::ranges::find(known, key) == known.end()) law.at(key).fail("does not belong to " + normal.law + "; leave it out");
@@ -104,6 +122,7 @@ void read_elastic_law(const Node& law, std::string_view keys, SceneNormal& norma
   }
   if (!law.has("length")) law.fail("lacks a required key; add for example length: 20 mm, of the contact along the axes");
   normal.length = read_size(law.at("length"));
+  if (layer) return read_layer(law, normal);
   read_stiffness(law, keys, normal);
 }
 
@@ -189,11 +208,11 @@ SceneNormal read_normal(const Node& node, std::string_view keys) {
     }
     if (law.has("damping")) law.at("damping").fail("belongs to spring-damper; leave it out");
   }
-  if (normal.law == table_law || std::ranges::find(cylinder_laws, normal.law) != cylinder_laws.end()) {
+  if (normal.law == table_law || std::ranges::find(names_of_cylinders, normal.law) != names_of_cylinders.end()) {
     read_elastic_law(law, keys, normal);
     return normal;
   }
-  for (const char* key : {"length", "hysteresis", "points", "file", "depth unit", "force unit"})
+  for (const char* key : {"length", "layer", "hysteresis", "points", "file", "depth unit", "force unit"})
     if (law.has(key)) law.at(key).fail("does not belong to " + normal.law + "; leave it out");
   const bool lossless = normal.law == "hertz";
   if (lossless && law.has("restitution")) law.at("restitution").fail("hertz loses nothing; leave restitution out");
