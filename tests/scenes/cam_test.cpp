@@ -101,7 +101,8 @@ struct Error {
 };
 Error error(const Whole& w, double first, double speed, bool flat) {
   const auto t = w.column("t [s]"), y = w.column("follower.y [m]"), vy = w.column("follower.vy [m/s]"),
-             ay = w.column("follower.ay [m/s^2]"), fx = w.column("lift.fx [N]"), fy = w.column("lift.fy [N]"), x = w.column("lift.x [m]");
+             ay = w.column("follower.ay [m/s^2]"), fx = w.column("lift.fx on follower [N]"), fy = w.column("lift.fy on follower [N]"),
+             x = w.column("lift.x [m]");
   Error out;
   for (std::size_t i = 0; i < t.size(); ++i) {
     const Lift l = lift(speed * t[i]);
@@ -126,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(All, Cam, testing::ValuesIn(struck_by), name_of);
 TEST_P(Cam, LiftsARollerAsItsPitchCurveSays) {
   constexpr double speed = 30;
   Error before;
-  for (const int points : {180, 360}) {
+  for (const int points : {240, 360}) {
     SCOPED_TRACE(points);
     const Whole w = run(with_roller(points, rigid, speed), GetParam());
     expect_sound(w);
@@ -137,7 +138,7 @@ TEST_P(Cam, LiftsARollerAsItsPitchCurveSays) {
     EXPECT_LT(e.where, most.v / base + 1e-8);  // the direction of the normal
     EXPECT_EQ(w.run.impacts.size(), 1u);       // over all spans it is the same contact
     if (points == 360) {
-      EXPECT_NEAR(std::log2(before.a / e.a), 2, 0.5);
+      EXPECT_GT(std::log(before.a / e.a) / std::log(1.5), 1.5);  // of order 2, at the places of the outputs
     }
     before = e;
   }
