@@ -171,7 +171,7 @@ void ContactEvents::follow(Step& step, std::span<const Guard> from, std::span<co
   log_.follow(step, from, to, motion);
   for (int c = 0; c < contacts(); ++c) {
     if (!is_rigid(system_.contacts[at(c)]) || !log_.touching(c) || time_stepping_) continue;
-    if (step.from.state.impact_rate[at(c)] == 0) log_.end(c, step.from.state.t, 0);  // its forces have let it open
+    if (step.h > 0 && step.from.state.impact_rate[at(c)] == 0) log_.end(c, step.from.state.t, 0);  // its forces have let it open
     most_pressed_ = std::max(most_pressed_, std::abs(step.to.state.friction[at(c)].load));
   }
   for (int c = 0; c < contacts(); ++c)

@@ -59,7 +59,7 @@ std::string FrictionEvents::name(int event) const {
 
 // Whether something slides or sticks is its state's, so guards of what it is not doing stay off zero.
 WatchedGuard FrictionEvents::watch(int event) const {
-  constexpr double known = 1e-6;  // of the force that holds, at worst
+  const double known = of_rigid(place(event)) ? 1e-9 : 1e-6;  // of the force that holds, at worst
   if (of_sliding(event)) return {.direction = Direction::falling, .zero = still(event), .at_once = true};
   return {.direction = Direction::rising, .zero = known, .at_once = true};
 }
