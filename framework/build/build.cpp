@@ -144,7 +144,8 @@ class Builder {
     like.profiles = like.journal = true;
     like.a = markers_.marker(journal, Holds::direction), like.b = markers_.marker(bearing, Holds::direction);
     order = static_cast<int>(model_.system.contacts.size());
-    SceneContact named{.name = j.name, .a = journal, .b = bearing, .normal = {}, .place = j.clearance->place};
+    SceneContact named;
+    named.a = journal, named.b = bearing, named.place = j.clearance->place;
     add(build_pairs(scene_, named, profiles[0], profiles[1], like, order), j.name);
     model_.system.loose.push_back(joint_of(scene_, j, markers_));
     model_.system.loose_names.push_back(j.name);
