@@ -15,6 +15,13 @@ namespace pintle_test {
 using namespace pintle;
 using std::numbers::pi;
 
+struct PressedHalf {
+  Mesh mesh;
+  FeModel model;
+  Sparse K;
+  Supports supports;
+};
+
 namespace {
 
 constexpr double longest = 0.1;
@@ -27,16 +34,9 @@ std::vector<double> graded(const DiscInEye& d, double end) {
   return out;
 }
 
-struct Half {
-  Mesh mesh;
-  FeModel model;
-  Sparse K;
-  Supports supports;
-};
-
-/// Half a ring; the place of contact on its x = 0 edge below. `inwards`: finest at the outer rim.
-std::unique_ptr<Half> half_ring(const DiscInEye& d, double inner, double outer, bool inwards, bool rigid_core) {
-  auto half = std::make_unique<Half>();
+/// PressedHalf a ring; the place of contact on its x = 0 edge below. `inwards`: finest at the outer rim.
+std::unique_ptr<PressedHalf> half_ring(const DiscInEye& d, double inner, double outer, bool inwards, bool rigid_core) {
+  auto half = std::make_unique<PressedHalf>();
   std::vector<double> depth = graded(d, outer - inner), turn = graded(d, pi);
   for (double& r : depth) r = inwards ? outer - r : inner + r;
   std::sort(depth.begin(), depth.end());
@@ -62,7 +62,7 @@ std::unique_ptr<Half> half_ring(const DiscInEye& d, double inner, double outer, 
 }  // namespace
 
 struct PressedDisc::Parts {
-  std::unique_ptr<Half> disc, eye;
+  std::unique_ptr<PressedHalf> disc, eye;
   ContactRows rows;
   std::unique_ptr<TouchingBodies> bodies;
   Eigen::VectorXd load;  ///< of force 1 downwards
@@ -80,7 +80,9 @@ PressedDisc::PressedDisc(const DiscInEye& d) : parts_(std::make_unique<Parts>())
   std::vector<int>& held = p.eye->supports.freedoms;
   std::sort(held.begin(), held.end());
   held.erase(std::unique(held.begin(), held.end()), held.end());
-  const auto surface = [](const Half& half, const char* edge) { return contact_surface(half.mesh, half.mesh.group(edge)->sides, 1); };
+  const auto surface = [](const PressedHalf& half, const char* edge) {
+    return contact_surface(half.mesh, half.mesh.group(edge)->sides, 1);
+  };
   p.rows = contact_rows(p.disc->model, surface(*p.disc, "rim"), p.eye->model, surface(*p.eye, "bore"), {0, -d.clearance});
   p.bodies = std::make_unique<TouchingBodies>(
       std::vector<TouchingBody>{{&p.disc->model, &p.disc->K, p.disc->supports}, {&p.eye->model, &p.eye->K, p.eye->supports}},
