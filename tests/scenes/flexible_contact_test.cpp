@@ -7,10 +7,10 @@
 #include "tests/refusal.h"
 #include "tests/scenes/text_runs.h"
 
-using namespace pintle_scenes;
-using pintle_test::expect_refused;
-
+namespace pintle_scenes::flexible_contact_test {
 namespace {
+
+using pintle_test::expect_refused;
 
 std::string with(const std::string& text, const std::string& what, const std::string& by) {
   return std::regex_replace(text, std::regex(what), by);
@@ -70,8 +70,6 @@ const std::string weight = "  weight: {rigid: {mass: 0.5 kg, inertia: 1e-4 kg m^
 const std::string falls =
     "contacts: {blow: {between: [weight.rim, TIP.nose], LAW}}\nstart: {weight: {at: [203 mm, 30 mm]}}\n"
     "run: {until: 60 ms}\noutput: {every: 1 ms}\n";
-
-}  // namespace
 
 TEST_P(FlexibleContact, AWeightFallsOnARoller) {
   expect_as_welded({.nose = "disc: [SHIFT mm, 0], radius: 5 mm", .bodies = weight, .rest = falls}, {"weight.x [m]", "weight.y [m]"});
@@ -144,3 +142,6 @@ TEST(FlexibleContactRefusals, NameTheCarrier) {
       },
       {"rim.on", "weight"});
 }
+
+}  // namespace
+}  // namespace pintle_scenes::flexible_contact_test
