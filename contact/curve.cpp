@@ -104,6 +104,7 @@ CurvePoint SmoothCurve::at(double s) const {
 
 // First by second derivative is d × m + (d × j) t + ½ (m × j) t².
 std::vector<double> SmoothCurve::inflections() const {
+  constexpr double at_knot = 1e-6;  // of a segment
   std::vector<double> out;
   for (std::size_t i = 0; i < cubics_.size(); ++i) {
     const Cubic& c = cubics_[i];
@@ -112,8 +113,8 @@ std::vector<double> SmoothCurve::inflections() const {
     if (!(root > 0)) continue;
     const double w = -(q + std::copysign(std::sqrt(root), q)) / 2;
     std::vector<double> here;
-    for (const double t : {p / w, w / r})
-      if (t >= 0 && t < h) here.push_back(knots_[i] + t);
+    for (const double t : {p / w, w / r})  // at a knot it may be found on either side
+      if (t > -at_knot * h && t < (1 + at_knot) * h) here.push_back(knots_[i] + std::clamp(t, 0.0, h));
     std::ranges::sort(here);
     out.insert(out.end(), here.begin(), here.end());
   }

@@ -102,13 +102,14 @@ std::vector<Vector2d> drawn(const CurveSpan& span) {
 
 struct Segment {
   Vector2d from, to;
+  double bulge;  ///< less than this part of its length may lie between it and the piece
 };
 std::vector<Segment> segments_of(const std::vector<Piece>& pieces) {
   std::vector<Segment> out;
   for (const Piece& p : pieces) {
     if (is_corner(p)) continue;
     const std::vector<Vector2d> points = drawn(p);
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) out.push_back({points[i], points[i + 1]});
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) out.push_back({points[i], points[i + 1], p.straight ? 1e-6 : 2e-2});
   }
   return out;
 }
@@ -152,7 +153,7 @@ double half_material(const Piece& piece, const std::vector<Segment>& all) {
       const double det = cross(along, out);
       if (det == 0) continue;
       const double way = cross(d, along) / det, on = -cross(d, out) / det;  // from − way·out = s.from + on·along
-      if (on >= -1e-9 && on <= 1 + 1e-9 && way > 1e-6 * along.norm()) shortest = std::min(shortest, way);
+      if (on >= -1e-9 && on <= 1 + 1e-9 && way > s.bulge * along.norm()) shortest = std::min(shortest, way);
     }
   }
   return shortest / 2;

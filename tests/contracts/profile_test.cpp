@@ -18,9 +18,7 @@ using std::numbers::pi;
 
 const std::vector<PathPoint> square{{{0, 0}}, {{2, 0}}, {{2, 1}}, {{0, 1}}};
 
-int corners(const Profile& p) {
-  return static_cast<int>(std::count_if(p.pieces.begin(), p.pieces.end(), [](const Piece& x) { return !x.straight && x.radius == 0; }));
-}
+int corners(const Profile& p) { return static_cast<int>(std::count_if(p.pieces.begin(), p.pieces.end(), is_corner)); }
 
 TEST(Profile, OfARectangleHasItsSidesAndCorners) {
   const Profile p = profile_along(square, true);
