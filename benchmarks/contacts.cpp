@@ -136,11 +136,11 @@ class Steps {
 };
 
 template <class What>
-[[gnu::noipa]] void work_of_pins(What& what, int count) {
+[[gnu::noinline]] void work_of_pins(What& what, int count) {
   what.take(count);
 }
 template <class What>
-[[gnu::noipa]] void work_of_contacts(What& what, int count) {
+[[gnu::noinline]] void work_of_contacts(What& what, int count) {
   what.take(count);
 }
 
