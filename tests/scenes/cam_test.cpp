@@ -204,10 +204,13 @@ TEST(CamRun, IsLeftByAFlatFaceAtTheSpeedOfTheory) {
 // A stiff contact gives way by its depth, k δ^1.5 of the normal force; what it loses on the way is booked.
 TEST_P(Cam, OfAStiffContactClosesItsBooks) {
   constexpr double speed = 30;
-  const Whole w = run(with_roller(360, compliant, speed), GetParam());
-  expect_sound(w);
-  EXPECT_LT(error(w, base + roller, speed, false).s, std::pow(2 * preload / 1e10, 2.0 / 3));
-  EXPECT_EQ(w.run.impacts.size(), 1u);
+  for (const bool flat : {false, true}) {
+    SCOPED_TRACE(flat);
+    const Whole w = run(flat ? with_plate(360, compliant, speed) : with_roller(360, compliant, speed), GetParam());
+    expect_sound(w);
+    EXPECT_LT(error(w, flat ? base : base + roller, speed, flat).s, std::pow(2 * preload / 1e10, 2.0 / 3));
+    EXPECT_EQ(w.run.impacts.size(), 1u);
+  }
 }
 
 TEST(CamRun, RunsBySteppersOfOtherKinds) {
