@@ -1,5 +1,5 @@
 // The tangent of the equations of motion against differences of their residual, for every joint, force and
-// contact on bodies of every kind. A new joint or force joins by one line in `kinds`.
+// contact of tangent_kinds.h on bodies of every kind.
 
 #include "framework/dynamics/equations/internal.h"
 #include "framework/dynamics/equations/tangent.h"
@@ -16,14 +16,13 @@
 #include <variant>
 #include <vector>
 
-#include "contact/profile.h"
 #include "tests/contracts/moving_bodies.h"
+#include "tests/unit/tangent_kinds.h"
 
 namespace pintle::tangent_test {
 namespace {
 
 using Eigen::MatrixXd;
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -34,94 +33,6 @@ constexpr double step = 1e-4, contact_step = 2e-6;
 constexpr double difference = 1e-8;
 constexpr double rounding = 1e-13;
 constexpr int draws = 12;
-
-constexpr double clearance = 0.01, depth = 1e-3;
-
-struct Kind {
-  const char* name;
-  std::vector<Joint> joints = {};
-  std::vector<Force> forces = {};
-  std::vector<ContactPair> contacts = {};
-};
-void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
-// Friction that grows with the sliding speeds drawn here.
-ContactPair contact(double chi, std::optional<FrictionLaw> friction = {}, Sliding sliding = Sliding::material) {
-  return {0, 1, JournalBearing{0.1 - clearance, 0.1}, ImpactLaw{1e6, 1.5, chi}, friction, sliding};
-}
-ContactPair spring_damper(std::optional<Ambrosio> friction = {}) {
-  ContactPair pair = contact(0, friction);
-  pair.normal = ImpactLaw{1e5, 1, 0, 20};
-  return pair;
-}
-// Pieces of profiles, away from the points that carry them.
-const Piece disc{.radius = 0.07, .centre = {0.02, -0.03}}, hollow{.radius = -0.3, .centre = {-0.04, 0.05}},
-    corner{.radius = 0, .centre = {0.03, 0.02}, .normal = 0.3, .half = 0.8},
-    flat{.centre = {-0.02, 0.06}, .normal = -0.7, .half = 0.5, .straight = true};
-// Of an egg, or the hole of its shape: a span that bends far more than one pressing it moves along.
-Piece span(bool inside, std::size_t which) {
-  std::vector<Vector2d> rim;
-  for (int i = 0; i < 12; ++i) {
-    const double angle = (inside ? 2 : -2) * M_PI * i / 12, r = 0.3 + 0.02 * std::cos(angle);
-    rim.emplace_back(0.03 + r * std::cos(angle), -0.02 + r * std::sin(angle));
-  }
-  return profile_through(rim, true).pieces[which];
-}
-const Piece egg = span(true, 1), other_egg = span(true, 4), egg_hole = span(false, 2);
-ContactPair profiles(const Piece& a, const Piece& b) {
-  ContactPair pair = contact(2, Ambrosio{0.3, 0, 50});
-  pair.gap = {a, b};
-  pair.profiles = pair.follows = true;
-  return pair;
-}
-ContactPair dry(ContactPair pair) {
-  pair.friction = Coulomb{0.2, 0.3, 5};
-  return pair;
-}
-const std::vector<Kind> kinds{
-    {"Nothing"},
-    {"Revolute", {Revolute{0, 1}}},
-    {"Slot", {Slot{0, 1}}},
-    {"Prismatic", {Prismatic{0, 1, -0.4}}},
-    {"Weld", {Weld{0, 1, -0.4}}},
-    {"Distance", {Distance{0, 1, 0.8}}},
-    {"Differential", {Differential{0, 1, 2, -0.6, 0.3}}},
-    {"AngleDriver", {AngleDriver{0, 1, sine}}},
-    {"DistanceDriver", {DistanceDriver{0, 1, sine}}},
-    {"PointForce", {}, {PointForce{0, 1, sine, steady, false}}},
-    {"FollowerForce", {}, {PointForce{0, 1, sine, steady, true}}},
-    {"Torque", {}, {Torque{0, 1, sine}}},
-    {"Spring", {}, {Spring{0, 1, 40, 0, 0.5}}},
-    {"DampedSpring", {}, {Spring{0, 1, 40, 3, 0.5}}},
-    {"TorsionSpring", {}, {TorsionSpring{0, 1, 25, 0, -0.8}}},
-    {"DampedTorsionSpring", {}, {TorsionSpring{0, 1, 25, 2, -0.8}}},
-    {"Maxwell", {}, {Maxwell{0, 1, 40, 3}}},
-    {"Contact", {}, {}, {contact(0)}},
-    {"LossyContact", {}, {}, {contact(2)}},
-    {"SpringDamperContact", {}, {}, {spring_damper()}},
-    {"SpringDamperContactWithFriction", {}, {}, {spring_damper(Ambrosio{0.3, 0, 50})}},
-    {"ContactWithFriction", {}, {}, {contact(2, Ambrosio{0.3, 0, 50})}},
-    {"ContactInFullSliding", {}, {}, {contact(0.6, Ambrosio{0.3, 1e-6, 2e-6})}},
-    {"ContactOfGeometricSliding", {}, {}, {contact(0.6, Ambrosio{0.3, 0, 50}, Sliding::geometric)}},
-    {"ContactOfDryFriction", {}, {}, {contact(2, Coulomb{0.2, 0.3, 5})}},
-    {"DiscOnLineOfDryFriction", {}, {}, {dry(profiles(disc, flat))}},
-    {"DiscOnDisc", {}, {}, {profiles(disc, disc)}},
-    {"DiscInHollow", {}, {}, {profiles(disc, hollow)}},
-    {"HollowRoundDisc", {}, {}, {profiles(hollow, disc)}},
-    {"DiscOnLine", {}, {}, {profiles(disc, flat)}},
-    {"LineOnDisc", {}, {}, {profiles(flat, disc)}},
-    {"CornerOnLine", {}, {}, {profiles(corner, flat)}},
-    {"LineOnCorner", {}, {}, {profiles(flat, corner)}},
-    {"CornerOnDisc", {}, {}, {profiles(corner, disc)}},
-    {"CurveOnDisc", {}, {}, {profiles(egg, disc)}},
-    {"DiscOnCurve", {}, {}, {profiles(disc, egg)}},
-    {"DiscInHollowCurve", {}, {}, {profiles(disc, egg_hole)}},
-    {"CurveOnCurve", {}, {}, {profiles(egg, other_egg)}},
-    {"CurveOnLine", {}, {}, {profiles(egg, flat)}},
-    {"LineOnCurve", {}, {}, {profiles(flat, egg)}},
-    {"Several",
-     {Slot{0, 1}, Revolute{1, 0}},
-     {Spring{1, 0, 40, 3, 0.5}, Maxwell{1, 0, 60, 5}, TorsionSpring{0, 1, 25, 2, -0.8}, PointForce{1, 0, sine, steady, true}}},
-};
 
 System make_system(const Kind& kind, const Carriers& carriers) {
   System s = kind.joints.empty() ? two_bodies(carriers) : bodies_for(kind.joints.front(), carriers);
