@@ -2,17 +2,13 @@
 
 #include <cmath>
 
+#include "contact/plane.h"
+
 namespace pintle {
 
 namespace {
 
 using Eigen::Vector2d;
-
-Vector2d rotated(double angle, const Vector2d& v) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
-}
-Vector2d beside(const Vector2d& v) { return {-v.y(), v.x()}; }
 
 struct Sloping {
   double value, slope;
@@ -79,10 +75,10 @@ Facing foot_facing(const CurveSpan& span, const Vector2d& m) {
 double foot_against(const CurveSpan& a, const CurveSpan& b, const Vector2d& from, double turn) {
   return foot(a, [&](double s) {
     const CurvePoint p = a.at(s);
-    const Vector2d m = -rotated(turn, p.normal());
+    const Vector2d m = -turned(turn, p.normal());
     const Facing facing = foot_facing(b, m);
     const CurvePoint q = b.at(facing.s);
-    const Vector2d up = rotated(-turn, q.at - from) - p.at;
+    const Vector2d up = turned(-turn, q.at - from) - p.at;
     const double round = facing.corner ? 0 : 1 / q.curvature;
     return Sloping{p.along.dot(up), -p.speed * (1 + p.curvature * (up.dot(p.normal()) + round))};
   });
@@ -104,7 +100,7 @@ Vector2d towards_the_line(const Piece& line, const MovingPoint& of, const Moving
 // The touched parameter of one curve, in its own axes, the other piece no curve.
 Facing foot_on(const CurveSpan& span, const MovingPoint& by, const Piece& other, const MovingPoint& of) {
   if (other.straight) return foot_facing(span, towards_the_line(other, of, by));
-  return {foot_under(span, rotated(-by.angle, of.r + rotated(of.angle, other.centre) - by.r)), false};
+  return {foot_under(span, turned(-by.angle, of.r + turned(of.angle, other.centre) - by.r)), false};
 }
 Feet feet_of(const PiecePair& pair, const MovingPoint& a, const MovingPoint& b) {
   Feet out;
@@ -113,8 +109,8 @@ Feet feet_of(const PiecePair& pair, const MovingPoint& a, const MovingPoint& b) 
     const CurveSpan &first = swapped ? *pair.b.curve : *pair.a.curve, &second = swapped ? *pair.a.curve : *pair.b.curve;
     const MovingPoint &p = swapped ? b : a, &q = swapped ? a : b;
     const double turn = p.angle - q.angle;
-    const double s = foot_against(first, second, rotated(-q.angle, p.r - q.r), turn);
-    const Facing facing = foot_facing(second, -rotated(turn, first.at(s).normal()));
+    const double s = foot_against(first, second, turned(-q.angle, p.r - q.r), turn);
+    const Facing facing = foot_facing(second, -turned(turn, first.at(s).normal()));
     out = swapped ? Feet{facing.s, s, facing.corner, false} : Feet{s, facing.s, false, facing.corner};
   } else {
     const bool of_a = pair.a.curve != nullptr;
@@ -133,19 +129,19 @@ Gap evaluate_curves(const PiecePair& pair, const MovingPoint& a, const MovingPoi
   Vector2d normal_a = out.n, normal_b = out.n;
   const auto stand = [](const Piece& piece, const MovingPoint& by, double s, bool corner, Vector2d& arm, OnCurve& where, Vector2d& normal) {
     if (!piece.curve) {
-      arm = rotated(by.angle, piece.centre);
+      arm = turned(by.angle, piece.centre);
       normal = Vector2d(std::cos(by.angle + piece.normal), std::sin(by.angle + piece.normal));
       return;
     }
     const CurvePoint p = piece.curve->at(s);
-    arm = rotated(by.angle, p.at), normal = rotated(by.angle, p.normal());
+    arm = turned(by.angle, p.at), normal = turned(by.angle, p.normal());
     where = on(*piece.curve, s, p, corner);
   };
   stand(pair.a, a, feet.a, feet.corner_a, out.arm_a, out.on_a, normal_a);
   stand(pair.b, b, feet.b, feet.corner_b, out.arm_b, out.on_b, normal_b);
   const bool by_a = pair.a.straight || (!pair.b.straight && pair.a.curve && !feet.corner_a);
   out.n = by_a ? normal_a : Vector2d(-normal_b);
-  const Vector2d t = beside(out.n), e_rate = a.v + a.w * beside(out.arm_a) - b.v - b.w * beside(out.arm_b);
+  const Vector2d t = perp(out.n), e_rate = a.v + a.w * perp(out.arm_a) - b.v - b.w * perp(out.arm_b);
   out.e = a.r + out.arm_a - b.r - out.arm_b;
   out.depth = pair.a.radius + pair.b.radius + out.n.dot(out.e);
   out.sideways = e_rate.dot(t);

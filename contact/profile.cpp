@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "contact/plane.h"
+
 namespace pintle {
 
 namespace {
@@ -14,8 +16,6 @@ namespace {
 using Eigen::Vector2d;
 using std::numbers::pi;
 
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-Vector2d left_of(const Vector2d& v) { return {-v.y(), v.x()}; }
 Vector2d towards(double angle) { return {std::cos(angle), std::sin(angle)}; }
 double angle_of(const Vector2d& v) { return std::atan2(v.y(), v.x()); }
 
@@ -59,11 +59,11 @@ double turn_between(const Stretch& a, const Stretch& b) { return std::remainder(
 
 Piece piece_of(const Stretch& s) {
   const Vector2d middle = (s.from + s.to) / 2, along = (s.to - s.from).normalized();
-  const double normal = angle_of(-left_of(along)), half_chord = (s.to - s.from).norm() / 2;
+  const double normal = angle_of(-perp(along)), half_chord = (s.to - s.from).norm() / 2;
   if (s.arc == 0) return {.centre = middle, .normal = normal, .half = half_chord, .straight = true};
   const double inward = std::copysign(std::sqrt(std::max(0.0, (std::abs(s.arc) - half_chord) * (std::abs(s.arc) + half_chord))), s.arc);
   return {.radius = s.arc,
-          .centre = middle + inward * left_of(along),
+          .centre = middle + inward * perp(along),
           .normal = normal,
           .half = std::abs(std::remainder(s.arrives - s.leaves, 2 * pi)) / 2};
 }
@@ -140,7 +140,8 @@ Raised surface_at(const Piece& piece, double part) {
   }
   const double angle = piece.normal + (piece.straight ? 0 : (piece.radius < 0 ? -part : part) * piece.half);
   const Vector2d out = towards(angle);
-  return {piece.straight ? Vector2d(piece.centre + part * piece.half * left_of(out)) : Vector2d(piece.centre + piece.radius * out), out};
+  return {piece.straight ? Vector2d(piece.centre + part * piece.half * perp(out)) : Vector2d(piece.centre + piece.radius * out),
+          out};
 }
 
 // Half the way through the material behind a piece, where that is shortest.
@@ -164,7 +165,7 @@ double half_material(const Piece& piece, const std::vector<Segment>& all) {
 std::vector<Vector2d> drawn(const Piece& p) {
   if (p.curve) return drawn(*p.curve);
   if (p.straight) {
-    const Vector2d along = left_of(towards(p.normal));
+    const Vector2d along = perp(towards(p.normal));
     return {p.centre - p.half * along, p.centre + p.half * along};
   }
   constexpr double part = 2 * pi / 180;
