@@ -7,11 +7,10 @@
 /// Vectors of the plane.
 namespace pintle {
 
-/// Turned by an angle [rad] counter-clockwise.
-inline Eigen::Vector2d turned(double angle, const Eigen::Vector2d& v) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
-}
+/// Turned counter-clockwise by the angle whose cosine and sine are c and s.
+inline Eigen::Vector2d turned(double c, double s, const Eigen::Vector2d& v) { return {c * v.x() - s * v.y(), s * v.x() + c * v.y()}; }
+/// … by an angle [rad].
+inline Eigen::Vector2d turned(double angle, const Eigen::Vector2d& v) { return turned(std::cos(angle), std::sin(angle), v); }
 /// Turned by a right angle counter-clockwise, Zv.
 inline Eigen::Vector2d perp(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
 /// v × w = (Zv)·w

@@ -140,8 +140,7 @@ Raised surface_at(const Piece& piece, double part) {
   }
   const double angle = piece.normal + (piece.straight ? 0 : (piece.radius < 0 ? -part : part) * piece.half);
   const Vector2d out = towards(angle);
-  return {piece.straight ? Vector2d(piece.centre + part * piece.half * perp(out)) : Vector2d(piece.centre + piece.radius * out),
-          out};
+  return {piece.straight ? Vector2d(piece.centre + part * piece.half * perp(out)) : Vector2d(piece.centre + piece.radius * out), out};
 }
 
 // Half the way through the material behind a piece, where that is shortest.

@@ -21,7 +21,6 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 
 constexpr double round_enough = 1e-5;  // corners off their circle, over its radius
 
-
 /// Of two places along a curve: how far the second is from the first, the short way round a circle.
 double apart(const ContactCurve& c, double from, double to) { return c.straight ? to - from : std::remainder(to - from, 2 * pi); }
 
