@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "app/run_end.h"
 #include "framework/analysis/natural_modes/natural_modes.h"
+#include "framework/analysis/static_case/contact_case.h"
 #include "framework/analysis/static_case/static_case.h"
 #include "framework/bodies/mesh_file_warnings.h"
 #include "framework/common/file.h"
@@ -175,10 +176,67 @@ int mesh(const Options& options) {
   return ok;
 }
 
+namespace {
+
+void add_case(Rows& rows, const ElasticBody& e, const StaticReport& r) {
+  const double size = size_of(e.mesh), force = r.load.norm(), motion = r.greatest_displacement;
+  const auto resultant = [&](const Eigen::Vector3d& f) {
+    return number(tidy(f[0], force)) + " N, " + number(tidy(f[1], force)) + " N, " + number(tidy(f[2], force * size)) +
+           " N m about the origin";
+  };
+  rows.emplace_back("loads together", resultant(r.load));
+  for (const SupportReaction& s : r.reactions) rows.emplace_back("reaction at " + s.at, resultant(s.resultant));
+  for (const PortDisplacement& p : r.ports)
+    rows.emplace_back("moved: " + p.name, number(tidy(p.u[0], motion)) + " m, " + number(tidy(p.u[1], motion)) + " m" +
+                                              (std::isnan(p.u[2]) ? "" : ", " + number(tidy(p.u[2], motion / size)) + " rad"));
+  rows.emplace_back("greatest displacement", number(r.greatest_displacement) + " m at " + place(r.displaced_at, size));
+  rows.emplace_back("greatest von Mises stress", number(r.greatest_stress * 1e-6) + " MPa at " + place(r.stressed_at, size));
+  if (e.plate()) rows.emplace_back("stress jump", percent(r.stress.jump, 1) + " % between neighbouring elements (a sign of mesh error)");
+  rows.emplace_back("strain energy", number(r.solution.strain_energy) + " J");
+}
+
+void add_contact(Rows& rows, const ContactReport& c) {
+  const double force = c.force.norm(), turn = c.straight ? 1 : 180 / std::numbers::pi;
+  rows.emplace_back(
+      "contact " + c.scene->name,
+      force == 0 ? "open" : number(tidy(c.force.x(), force)) + " N, " + number(tidy(c.force.y(), force)) + " N on " + c.scene->first.body);
+  if (force == 0) return;
+  rows.emplace_back("it touches", "from " + number(turn * c.from, 4) + " to " + number(turn * c.to, 4) +
+                                      (c.straight ? " m along " : " deg round ") + c.scene->first.body + "." + c.scene->first.group);
+  rows.emplace_back("greatest pressure", number(c.greatest_pressure * 1e-6) + " MPa");
+}
+
+int contact_statics(const Options& options, const Scene& scene, const fs::path& out) {
+  std::vector<ElasticBody> bodies;
+  for (const std::string& name : bodies_of(*scene.statics)) bodies.push_back(made(options, scene, name));
+  std::vector<const ElasticBody*> all;
+  for (const ElasticBody& e : bodies) all.push_back(&e);
+  const ContactCase c = solve_contact_case(scene, all);
+  write_whole(options, out, [&](const fs::path& folder) { write_contact_case(folder, scene, all, c); });
+  if (options.json) {
+    std::cout << contact_json(scene, all, c);
+  } else if (!options.quiet) {
+    print_head(scene);
+    Rows rows;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      add_body(rows, bodies[b]);
+      add_case(rows, bodies[b], c.bodies[b]);
+    }
+    for (const ContactReport& r : c.contacts) add_contact(rows, r);
+    rows.emplace_back("results", (out / "contacts.csv").string());
+    print_rows(std::cout, rows);
+    for (const ElasticBody& e : bodies) print_warnings(e);
+  }
+  return ok;
+}
+
+}  // namespace
+
 int statics(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
   const fs::path out = results_directory(options, "-static");
   require_place(out);
+  if (scene.statics && !scene.statics->contacts.empty()) return contact_statics(options, scene, out);
   const std::string name = !options.body.empty() || !scene.statics ? options.body : scene.statics->body;
   const ElasticBody e = made(options, scene, name);
   const StaticReport r = solve_case(scene, e);
@@ -189,20 +247,7 @@ int statics(const Options& options) {
     print_head(scene);
     Rows rows;
     add_body(rows, e);
-    const double size = size_of(e.mesh), force = r.load.norm(), motion = r.greatest_displacement;
-    const auto resultant = [&](const Eigen::Vector3d& f) {
-      return number(tidy(f[0], force)) + " N, " + number(tidy(f[1], force)) + " N, " + number(tidy(f[2], force * size)) +
-             " N m about the origin";
-    };
-    rows.emplace_back("loads together", resultant(r.load));
-    for (const SupportReaction& s : r.reactions) rows.emplace_back("reaction at " + s.at, resultant(s.resultant));
-    for (const PortDisplacement& p : r.ports)
-      rows.emplace_back("moved: " + p.name, number(tidy(p.u[0], motion)) + " m, " + number(tidy(p.u[1], motion)) + " m" +
-                                                (std::isnan(p.u[2]) ? "" : ", " + number(tidy(p.u[2], motion / size)) + " rad"));
-    rows.emplace_back("greatest displacement", number(r.greatest_displacement) + " m at " + place(r.displaced_at, size));
-    rows.emplace_back("greatest von Mises stress", number(r.greatest_stress * 1e-6) + " MPa at " + place(r.stressed_at, size));
-    if (e.plate()) rows.emplace_back("stress jump", percent(r.stress.jump, 1) + " % between neighbouring elements (a sign of mesh error)");
-    rows.emplace_back("strain energy", number(r.solution.strain_energy) + " J");
+    add_case(rows, e, r);
     rows.emplace_back("results", (out / "static.vtu").string());
     print_rows(std::cout, rows);
     print_warnings(e);

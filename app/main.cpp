@@ -247,7 +247,8 @@ void add_options(CLI::App& command, Options& options) {
   command.add_option("-b,--body", options.body, "which body; may be left out when only one is made of elements")->type_name("NAME");
   if (name == "static")
     command.footer(
-        "It writes static.vtu (displacement, stress), points.csv, section_forces.csv (beams) and static.json.\nExit codes: see pintle "
+        "It writes static.vtu (displacement, stress), points.csv, section_forces.csv (beams) and static.json; of bodies that touch a\n"
+        "folder each, and contacts.csv (pressure and gap).\nExit codes: see pintle "
         "--help\n");
   if (name == "mesh") command.footer("It writes mesh.vtu (quality of each cell, groups) and mesh.json.\nExit codes: see pintle --help\n");
   if (name != "modes") return;
@@ -277,7 +278,9 @@ int carry_out(int argc, char** argv) {
       {app.add_subcommand("sweep", "Run many cases of a scene into one table, by threads or MPI"), sweep},
       {app.add_subcommand("tradeoff", "Measure error against time over settings of fidelity, and recommend one"), tradeoff},
       {app.add_subcommand("modes", "Find the natural frequencies and mode shapes of one body of elements"), modes},
-      {app.add_subcommand("static", "Solve the static load case of one body of elements (of a whole mechanism: statics)"), statics},
+      {app.add_subcommand("static",
+                          "Solve the static load case of one body of elements, or of some that touch (of a whole mechanism: statics)"),
+       statics},
       {app.add_subcommand("mesh", "Mesh one body of elements and judge the mesh"), mesh}};
   for (const auto& [command, unused] : commands) add_options(*command, options);
   try {

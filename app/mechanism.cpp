@@ -137,6 +137,22 @@ void print_check(const Scene& scene, const Model& model, const Assembly& a) {
   for (const std::string& w : warnings_of(model, a)) std::cout << "  warning: " << w << "\n";
 }
 
+/// "3 (the last goes on), peak force 20 N, deepest 1e-06 m"; of rigid surfaces an impulse in place of a depth.
+std::string contacts_text(const ContactPair& pair, int first, const std::vector<Impact>& impacts) {
+  long begun = 0, ended = 0;
+  double deepest = 0, force = 0, impulse = 0;
+  for (const Impact& i : impacts) {
+    if (i.contact < first || i.contact >= first + pair.pairs) continue;
+    ++begun;
+    ended += std::isnan(i.end) ? 0 : 1;
+    deepest = std::max(deepest, i.deepest);
+    force = std::max(force, i.peak_force);
+    impulse = std::max(impulse, i.impulse);
+  }
+  return std::to_string(begun) + (begun > ended ? " (the last goes on)" : "") + ", peak force " + number(force, 4) + " N, " +
+         (is_rigid(pair) ? "greatest impulse " + number(impulse, 4) + " N s" : "deepest " + number(deepest, 4) + " m");
+}
+
 void print_run(const Scene& scene, const Model& model, const Run& run, const fs::path& out) {
   std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
   Rows rows{{"time reached", number(run.t_end) + " s"},
@@ -158,18 +174,7 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
       continue;
     }
     if (s.contacts[c].pair > 0) continue;
-    long begun = 0, ended = 0;
-    double deepest = 0, force = 0;
-    for (const Impact& i : run.impacts)
-      if (i.contact >= static_cast<int>(c) && i.contact < static_cast<int>(c) + s.contacts[c].pairs) {
-        ++begun;
-        ended += std::isnan(i.end) ? 0 : 1;
-        deepest = std::max(deepest, i.deepest);
-        force = std::max(force, i.peak_force);
-      }
-    rows.emplace_back("contacts at " + s.contact_names[c], std::to_string(begun) + (begun > ended ? " (the last goes on)" : "") +
-                                                               ", peak force " + number(force, 4) + " N, deepest " + number(deepest, 4) +
-                                                               " m");
+    rows.emplace_back("contacts at " + s.contact_names[c], contacts_text(s.contacts[c], static_cast<int>(c), run.impacts));
   }
   if (!run.switched.empty()) rows.emplace_back("method", name(model.scheme) + ", then " + run.switched);
   rows.emplace_back("steps", std::to_string(run.counts.steps) + " (" + std::to_string(run.counts.rejected) + " rejected), " +

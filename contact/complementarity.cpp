@@ -13,18 +13,19 @@ using Eigen::VectorXd;
 
 namespace {
 
-// w = q + M z + d z₀ as a tableau [basic | w z z₀ | rhs] that is pivoted; the variables are numbered w: 0 … n − 1, z: n … 2n − 1, z₀: 2n.
+// w = q + M z + d z₀, d > 0, as a tableau [basic | w z z₀ | rhs] that is pivoted; the variables are numbered w: 0 … n − 1, z: n … 2n − 1, z₀: 2n.
 class Lemke {
  public:
-  Lemke(const MatrixXd& M, const VectorXd& q)
+  Lemke(const MatrixXd& M, const VectorXd& q, const VectorXd& d)
       : n_(q.size()), table_(n_, 2 * n_ + 2), most_(q.cwiseAbs().maxCoeff()), basic_(static_cast<std::size_t>(n_)) {
-    table_ << MatrixXd::Identity(n_, n_), -M, VectorXd::Constant(n_, -1), q;
+    table_ << MatrixXd::Identity(n_, n_), -M, -d, q;
     for (Index i = 0; i < n_; ++i) basic(i) = i;
   }
 
   std::optional<VectorXd> solve() {
     Index row;
-    if (table_.col(rhs()).minCoeff(&row) >= 0) return VectorXd(VectorXd::Zero(n_));
+    if (table_.col(rhs()).minCoeff() >= 0) return VectorXd(VectorXd::Zero(n_));
+    table_.col(rhs()).cwiseQuotient(-table_.col(z0())).minCoeff(&row);
     Index enters = z0();
     for (Index pivots = 0; pivots < 50 * (n_ + 1); ++pivots) {
       const Index leaves = basic(row);
@@ -94,9 +95,21 @@ class Lemke {
 
 }  // namespace
 
+// Where several variables come to 0 at once, as redundant contacts of bodies at rest have it, pivots may go round in circles. Those of
+// another d do so elsewhere.
 std::optional<VectorXd> solve_complementarity(const MatrixXd& M, const VectorXd& q) {
+  constexpr double golden = 0.6180339887498949;
+  constexpr int ways = 8;
   if (q.size() == 0) return q;
-  return Lemke(M, q).solve();
+  VectorXd d = VectorXd::Ones(q.size());
+  for (int way = 0; way < ways; ++way) {
+    if (const auto z = Lemke(M, q, d).solve()) return z;
+    for (Index i = 0; i < d.size(); ++i) {
+      const double x = golden * (static_cast<double>(i) + 1) * (way + 1);
+      d[i] = 0.5 + x - std::floor(x);
+    }
+  }
+  return std::nullopt;
 }
 
 // T = T⁺ − T⁻. Unknown z = (N, T⁺, T⁻, u) against (g, u + slip, u − slip, μ(N + N₀) − T⁺ − T⁻), u the speed of a slip, each over the
@@ -144,6 +157,35 @@ std::optional<VectorXd> unilateral_forces(std::span<const UnilateralContact> con
   const auto z = solve_complementarity(unit.asDiagonal() * M * unit.asDiagonal(), q.cwiseProduct(unit) / most);
   if (!z) return std::nullopt;
   return VectorXd(X * (most * unit.cwiseProduct(*z)) + x0);
+}
+
+// The conditions G x ≥ 0 of normal forces, and of friction a little within its limit, which is then not met.
+// min ½|y|² + κ s of G(x + Z y) + s ≥ 0, s ≥ 0: s is 0 where some y makes it so, for κ is more than what presses there.
+VectorXd admissible_forces(std::span<const UnilateralContact> contacts, const VectorXd& x, const MatrixXd& Z) {
+  constexpr double within = 2e-9, kappa = 1e4;
+  const double most = x.cwiseAbs().maxCoeff(), reach = Z.size() > 0 ? Z.cwiseAbs().maxCoeff() : 0;
+  if (!(most > 0) || !(reach > 0)) return x;
+  Index m = 0;
+  for (const UnilateralContact& k : contacts) m += k.tangent < 0 ? 1 : 3;
+  MatrixXd G = MatrixXd::Zero(m, x.size());
+  VectorXd allowed = VectorXd::Ones(m);  // of s
+  bool meets = true;
+  Index row = 0;
+  for (const UnilateralContact& k : contacts) {
+    meets = meets && x[k.normal] >= 0 && (k.tangent < 0 || std::abs(x[k.tangent]) <= k.mu * x[k.normal]);
+    G(row++, k.normal) = 1;
+    for (int sign = -1; k.tangent >= 0 && sign <= 1; sign += 2, ++row)
+      G(row, k.normal) = (1 - within) * k.mu, G(row, k.tangent) = sign, allowed[row] = k.mu;
+  }
+  if (meets) return x;
+  const MatrixXd by = G * Z / reach;
+  MatrixXd M = MatrixXd::Zero(m + 1, m + 1);
+  M.topLeftCorner(m, m) = by * by.transpose();
+  M.col(m).head(m) = allowed, M.row(m).head(m) = -allowed.transpose();
+  VectorXd q(m + 1);
+  q << G * x / most, kappa;
+  const auto z = solve_complementarity(M, q);
+  return z ? VectorXd(x + most / reach * (Z * (by.transpose() * z->head(m)))) : x;
 }
 
 }  // namespace pintle

@@ -29,4 +29,8 @@ struct UnilateralContact {
 /// @returns nothing where none is found, as in Painlevé's situations
 std::optional<Eigen::VectorXd> unilateral_forces(std::span<const UnilateralContact>, const Eigen::MatrixXd& W, const Eigen::VectorXd& c);
 
+/// Of forces x + Z y of contacts that hold, all of which do the same to the motion: N ≥ 0, |T| ≤ μN, and |y| least; where none are so, those
+/// that are least beyond it. Continuous in x and Z. @param Z  independent columns
+Eigen::VectorXd admissible_forces(std::span<const UnilateralContact>, const Eigen::VectorXd& x, const Eigen::MatrixXd& Z);
+
 }  // namespace pintle

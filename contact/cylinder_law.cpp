@@ -69,6 +69,24 @@ DampedLaw pereira(const Cylinders& c) {
   return {.elastic = power, .deepest = std::pow(force_of_half_angle(c) / power.k, 1 / n), .limit = wide};
 }
 
+/// p = K · local depth: of a pin in a hole with the arcs as they are, else of parabolas, F = (4√2/3) K L √R δ^1.5.
+DampedLaw winkler(const Cylinders& c) {
+  constexpr double most_strain = 0.1, small = 0.1;
+  const double stiffness = c.foundation * c.length, smaller = std::min(std::abs(c.a), std::abs(c.b)), strained = most_strain * c.layer;
+  const double R = 1 / std::abs(1 / c.a + 1 / c.b), as_parabola = smaller * smaller / (8 * R);  // half-width R_i/2
+  const double by_shape = c.internal() ? small * smaller : as_parabola;
+  DampedLaw out{};
+  out.deepest = std::min(strained, by_shape);
+  if (c.internal())
+    out.elastic = FoundationForce{stiffness * std::sqrt(std::abs(c.a * c.b)), difference(c)};
+  else
+    out.elastic = PowerForce{4 * std::numbers::sqrt2 / 3 * stiffness * std::sqrt(R), 1.5};
+  out.limit = strained < by_shape ? "the layer is compressed by more than a tenth of its thickness; take a thicker one, or a table"
+              : c.internal()      ? "the depth is no longer small against the radius; take a table"
+                                  : "the contact is wider than the smaller radius, where parabolas no longer stand for arcs; take a table";
+  return out;
+}
+
 constexpr double any = std::numeric_limits<double>::infinity();
 constexpr std::array laws{
     CylinderLaw{"johnson", true, 0, any, johnson, "Johnson 1985"},
@@ -77,9 +95,14 @@ constexpr std::array laws{
     CylinderLaw{"esdu", false, 0, any, esdu, "ESDU 78035, 1978"},
     CylinderLaw{"liu", false, 0, any, liu, "Liu, Zhang and Yang 2007"},
     CylinderLaw{"pereira", true, 5e-6, 1e-2, pereira, "Pereira, Ramalho and Ambrósio 2011"},
+    CylinderLaw{"winkler", true, 0, any, winkler, "Johnson 1985, §4.3", true},
 };
 
 }  // namespace
+
+double foundation_modulus(double young, double poisson, double thickness) {
+  return (1 - poisson) * young / ((1 + poisson) * (1 - 2 * poisson) * thickness);
+}
 
 std::span<const CylinderLaw> cylinder_laws() { return laws; }
 

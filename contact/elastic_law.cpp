@@ -54,6 +54,23 @@ ElasticForce elastic(const WideningForce& law, double depth) {
   return {force, 0.4 * force * depth * sum, stiffness};
 }
 
+// With w = 2φ₀: F = ½ k e (w − sin w), ∫F dδ = ¼ k e² (w (2 + cos w) − 3 sin w), dF/dδ = ½ k (w + sin w); of small w by the series
+// of both brackets, Σ (−1)ⁿ⁺¹ w²ⁿ⁺¹/(2n + 1)! and Σ (−1)ⁿ (2n − 2) w²ⁿ⁺¹/(2n + 1)!.
+ElasticForce elastic(const FoundationForce& law, double depth) {
+  constexpr double series_below = 2;
+  const double e = law.clearance + depth, w = 2 * half_angle(law, depth);
+  double segment = w - std::sin(w), moment = w * (2 + std::cos(w)) - 3 * std::sin(w);
+  if (w < series_below) {
+    segment = moment = 0;
+    double term = w;
+    for (int n = 1; n < 3 || 2 * n * std::abs(term) > std::numeric_limits<double>::epsilon() / 8 * moment; ++n) {
+      term *= -w * w / (2 * n * (2 * n + 1));
+      segment -= term, moment += (2 * n - 2) * term;
+    }
+  }
+  return {law.k / 2 * e * segment, law.k / 4 * e * e * moment, law.k / 2 * (w + std::sin(w))};
+}
+
 // Of the cubic between two knots in t, 0 to 1: force f + h t (d + t (c + t b)).
 ElasticForce elastic(const ForceTable& law, double depth) {
   const auto above = std::upper_bound(law.knots.begin() + 1, law.knots.end(), depth,
@@ -69,7 +86,7 @@ ElasticForce elastic(const ForceTable& law, double depth) {
 
 double exponent_at_touch(const ElasticLaw& law) {
   if (const auto* power = std::get_if<PowerForce>(&law)) return power->n;
-  return std::holds_alternative<WideningForce>(law) ? 1.5 : 1;
+  return std::holds_alternative<WideningForce>(law) || std::holds_alternative<FoundationForce>(law) ? 1.5 : 1;
 }
 
 /// Slope at an end whose next two intervals are h0, h1 long with the secants s0, s1: of the parabola, as far as the cubic then rises.
@@ -106,6 +123,8 @@ ForceTable force_table(const std::vector<std::array<double, 2>>& points) {
   }
   return out;
 }
+
+double half_angle(const FoundationForce& law, double depth) { return 2 * std::atan(std::sqrt(depth / (2 * law.clearance + depth))); }
 
 ElasticForce evaluate(const ElasticLaw& law, double depth) {
   return std::visit([depth](const auto& one) { return elastic(one, depth); }, law);
@@ -172,6 +191,7 @@ std::vector<std::pair<std::string, double>> constants_of(const DampedLaw& law) {
   if (const auto* power = std::get_if<PowerForce>(&law.elastic)) add("stiffness [N/m^n]", power->k), add("exponent", power->n);
   if (const auto* line = std::get_if<LogarithmicForce>(&law.elastic)) add("S of depth = F/S ln(G/F) [N/m]", line->S), add("G [N]", line->G);
   if (const auto* pin = std::get_if<WideningForce>(&law.elastic)) add("k of k depth sqrt(depth/(clearance + depth)) [N/m]", pin->k);
+  if (const auto* lined = std::get_if<FoundationForce>(&law.elastic)) add("stiffness of layer, length and radius [N/m]", lined->k);
   if (const auto* table = std::get_if<ForceTable>(&law.elastic)) add("points", static_cast<double>(table->knots.size()));
   return out;
 }

@@ -33,6 +33,11 @@ struct WideningForce {
   double k;          ///< [N/m]
   double clearance;  ///< ΔR [m]
 };
+/// ½ k e (w − sin w), e = ΔR + δ, cos ½w = ΔR/e: of a pin in a hole that an elastic layer lines.
+struct FoundationForce {
+  double k;          ///< stiffness of the layer [N/m³] times length and radius [N/m]
+  double clearance;  ///< ΔR [m]
+};
 /// Through given points, the first of them without depth and force, by cubics that rise wherever the points do (Fritsch and Butland
 /// 1984), slope continuous; beyond the last straight, with the slope there.
 struct ForceTable {
@@ -45,9 +50,11 @@ struct ForceTable {
 /// @throws std::invalid_argument  fewer than two; not from (0, 0); not both rising
 ForceTable force_table(const std::vector<std::array<double, 2>>& points);
 
-using ElasticLaw = std::variant<PowerForce, LogarithmicForce, WideningForce, ForceTable>;
+using ElasticLaw = std::variant<PowerForce, LogarithmicForce, WideningForce, ForceTable, FoundationForce>;
 /// No allocation. @param depth  > 0 [m]
 ElasticForce evaluate(const ElasticLaw&, double depth);
+/// Half the angle that a pin spans at a depth where cos of it = ΔR/(ΔR + δ) [rad].
+double half_angle(const FoundationForce&, double depth);
 
 /// f = F(δ)(1 + χ δ̇/δ̇₀), never below zero.
 struct DampedLaw {

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "contact/plane.h"
+
 namespace pintle {
 
 namespace {
@@ -14,8 +16,6 @@ namespace {
 using Eigen::Vector2d;
 using std::numbers::pi;
 
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-Vector2d left_of(const Vector2d& v) { return {-v.y(), v.x()}; }
 Vector2d towards(double angle) { return {std::cos(angle), std::sin(angle)}; }
 double angle_of(const Vector2d& v) { return std::atan2(v.y(), v.x()); }
 
@@ -59,11 +59,11 @@ double turn_between(const Stretch& a, const Stretch& b) { return std::remainder(
 
 Piece piece_of(const Stretch& s) {
   const Vector2d middle = (s.from + s.to) / 2, along = (s.to - s.from).normalized();
-  const double normal = angle_of(-left_of(along)), half_chord = (s.to - s.from).norm() / 2;
+  const double normal = angle_of(-perp(along)), half_chord = (s.to - s.from).norm() / 2;
   if (s.arc == 0) return {.centre = middle, .normal = normal, .half = half_chord, .straight = true};
   const double inward = std::copysign(std::sqrt(std::max(0.0, (std::abs(s.arc) - half_chord) * (std::abs(s.arc) + half_chord))), s.arc);
   return {.radius = s.arc,
-          .centre = middle + inward * left_of(along),
+          .centre = middle + inward * perp(along),
           .normal = normal,
           .half = std::abs(std::remainder(s.arrives - s.leaves, 2 * pi)) / 2};
 }
@@ -87,15 +87,29 @@ Stretch rounded(Stretch& before, Stretch& after, double turn, double radius, std
   return arc;
 }
 
+// Every point that it goes through, and points between these.
+std::vector<Vector2d> drawn(const CurveSpan& span) {
+  std::vector<double> stops{span.begin()};
+  for (const double s : span.knots())
+    if (s > span.begin() && s < span.end()) stops.push_back(s);
+  stops.push_back(span.end());
+  const int parts = std::max(2, static_cast<int>(24 / stops.size()));
+  std::vector<Vector2d> out{span.at(span.begin()).at};
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i)
+    for (int part = 1; part <= parts; ++part) out.push_back(span.at(stops[i] + (stops[i + 1] - stops[i]) * part / parts).at);
+  return out;
+}
+
 struct Segment {
   Vector2d from, to;
+  double bulge;  ///< less than this part of its length may lie between it and the piece
 };
 std::vector<Segment> segments_of(const std::vector<Piece>& pieces) {
   std::vector<Segment> out;
   for (const Piece& p : pieces) {
-    if (!p.straight && p.radius == 0) continue;
+    if (is_corner(p)) continue;
     const std::vector<Vector2d> points = drawn(p);
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) out.push_back({points[i], points[i + 1]});
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) out.push_back({points[i], points[i + 1], p.straight ? 1e-6 : 2e-2});
   }
   return out;
 }
@@ -115,19 +129,31 @@ void require_simple(const std::vector<Piece>& pieces, bool closed) {
     }
 }
 
+struct Raised {
+  Vector2d at, out;
+};
+// @param part  of the piece, −1 where it begins
+Raised surface_at(const Piece& piece, double part) {
+  if (piece.curve) {
+    const CurvePoint p = piece.curve->at(piece.curve->begin() + (1 + part) * piece.half);
+    return {p.at, p.normal()};
+  }
+  const double angle = piece.normal + (piece.straight ? 0 : (piece.radius < 0 ? -part : part) * piece.half);
+  const Vector2d out = towards(angle);
+  return {piece.straight ? Vector2d(piece.centre + part * piece.half * perp(out)) : Vector2d(piece.centre + piece.radius * out), out};
+}
+
 // Half the way through the material behind a piece, where that is shortest.
 double half_material(const Piece& piece, const std::vector<Segment>& all) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const double part : {-0.9, -0.5, 0.0, 0.5, 0.9}) {
-    const double angle = piece.normal + (piece.straight ? 0 : (piece.radius < 0 ? -part : part) * piece.half);
-    const Vector2d out = towards(angle), from = piece.straight ? Vector2d(piece.centre + part * piece.half * left_of(out))
-                                                               : Vector2d(piece.centre + piece.radius * out);
+    const auto [from, out] = surface_at(piece, part);
     for (const Segment& s : all) {
       const Vector2d along = s.to - s.from, d = s.from - from;
       const double det = cross(along, out);
       if (det == 0) continue;
       const double way = cross(d, along) / det, on = -cross(d, out) / det;  // from − way·out = s.from + on·along
-      if (on >= -1e-9 && on <= 1 + 1e-9 && way > 1e-6 * along.norm()) shortest = std::min(shortest, way);
+      if (on >= -1e-9 && on <= 1 + 1e-9 && way > s.bulge * along.norm()) shortest = std::min(shortest, way);
     }
   }
   return shortest / 2;
@@ -136,8 +162,9 @@ double half_material(const Piece& piece, const std::vector<Segment>& all) {
 }  // namespace
 
 std::vector<Vector2d> drawn(const Piece& p) {
+  if (p.curve) return drawn(*p.curve);
   if (p.straight) {
-    const Vector2d along = left_of(towards(p.normal));
+    const Vector2d along = perp(towards(p.normal));
     return {p.centre - p.half * along, p.centre + p.half * along};
   }
   constexpr double part = 2 * pi / 180;
@@ -154,7 +181,7 @@ std::vector<Vector2d> drawn(const Piece& p) {
 std::vector<Vector2d> drawn(const Profile& profile) {
   std::vector<Vector2d> out;
   for (const Piece& piece : profile.pieces) {
-    if (!piece.straight && piece.radius == 0) continue;
+    if (is_corner(piece)) continue;
     const std::vector<Vector2d> points = drawn(piece);
     out.insert(out.end(), points.begin() + (out.empty() ? 0 : 1), points.end());
   }
@@ -163,10 +190,7 @@ std::vector<Vector2d> drawn(const Profile& profile) {
 
 bool solid(const Profile& profile) {
   if (!profile.closed) return false;
-  const std::vector<Vector2d> points = drawn(profile);
-  double twice = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) twice += cross(points[i], points[(i + 1) % points.size()]);
-  return twice > 0;
+  return area(drawn(profile)) > 0;
 }
 
 Profile circle(const Vector2d& centre, double radius) {
@@ -192,6 +216,42 @@ double area(const std::vector<PathPoint>& path) {
     const double half = std::asin(std::min(1.0, (s.to - s.from).norm() / (2 * std::abs(s.arc))));
     out += std::copysign(s.arc * s.arc * (half - std::sin(half) * std::cos(half)), s.arc);
   }
+  return out;
+}
+
+double area(const std::vector<Vector2d>& polygon) {
+  double twice = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  return twice / 2;
+}
+
+Profile profile_through(const std::vector<Vector2d>& points, bool closed) {
+  const std::size_t n = points.size(), least = closed ? 3 : 4;
+  if (n < least) wrong("it has " + std::to_string(n) + " points; a spline takes " + std::to_string(least) + " or more");
+  std::vector<PathPoint> path;
+  for (const Vector2d& p : points) path.push_back({p});
+  stretches_of(path, closed);  // of no two points at one place
+  const auto curve = std::make_shared<const SmoothCurve>(points, closed);
+  Profile out;
+  out.closed = closed;
+  const auto add = [&](const Piece& p, bool goes_on) { out.pieces.push_back(p), out.goes_on.push_back(goes_on); };
+  const auto end = [&](double s, double turn) {
+    const CurvePoint p = curve->at(s);
+    add(corner(p.at, angle_of(p.along) + turn, pi / 4), s == 0);
+  };
+  if (!closed) end(0, -3 * pi / 4);
+  for (const CurveSpan& span : spans_of(curve)) {
+    if (span.least_radius() < 1e-6 * curve->length())
+      wrong("it has a cusp near (" + std::to_string(span.at(span.begin()).at.x()) + ", " + std::to_string(span.at(span.begin()).at.y()) +
+            ") m; list its points in their order along the surface, or add points there");
+    const CurvePoint middle = span.at((span.begin() + span.end()) / 2);
+    add({.normal = angle_of(middle.normal()), .half = (span.end() - span.begin()) / 2, .curve = std::make_shared<const CurveSpan>(span)},
+        true);
+  }
+  if (!closed) end(curve->length(), -pi / 4);
+  require_simple(out.pieces, closed);
+  const std::vector<Segment> all = segments_of(out.pieces);
+  for (const Piece& p : out.pieces) out.deepest.push_back(half_material(p, all));
   return out;
 }
 
@@ -230,9 +290,14 @@ Profile profile_along(std::vector<PathPoint> path, bool closed, double round) {
       add(corner(s.to, s.arrives + turn[i] / 2 - pi / 2, turn[i] / 2), true);
   }
   require_simple(out.pieces, closed);
-  const std::vector<Segment> all = segments_of(out.pieces);
-  for (const Piece& p : out.pieces) out.deepest.push_back(half_material(p, all));
+  measure_material(out);
   return out;
+}
+
+void measure_material(Profile& profile) {
+  const std::vector<Segment> all = segments_of(profile.pieces);
+  profile.deepest.clear();
+  for (const Piece& p : profile.pieces) profile.deepest.push_back(half_material(p, all));
 }
 
 }  // namespace pintle

@@ -32,10 +32,16 @@ Profile circle(const Eigen::Vector2d& centre, double radius);
 /// @throws std::invalid_argument  what cannot be: too few points, pieces without length, arcs too small for their chord, a path
 /// that turns back on itself or crosses itself, corners without room for `round`; with the numbers of the points, from 1
 Profile profile_along(std::vector<PathPoint> path, bool closed, double round = 0);
+/// The spline through points, in spans of a curve.
+/// @throws std::invalid_argument  fewer than three points, four of an open one; two at one place; a curve with a cusp or that crosses itself
+Profile profile_through(const std::vector<Eigen::Vector2d>& points, bool closed);
+/// Finds `deepest` of all its pieces.
+void measure_material(Profile&);
 /// The same surface of the material on the other side.
 std::vector<PathPoint> reversed(std::vector<PathPoint> path, bool closed);
 /// Area inside a closed path; < 0 where it goes round clockwise [m²].
 double area(const std::vector<PathPoint>& path);
+double area(const std::vector<Eigen::Vector2d>& polygon);
 
 /// Points along a piece or all of them, both ends among them, arcs in parts of a few degrees [m].
 std::vector<Eigen::Vector2d> drawn(const Piece&);

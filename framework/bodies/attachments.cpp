@@ -13,8 +13,12 @@ using Eigen::Index;
 
 Wrench wrench(const System& system, const Equations& eq, const Attachment& g) {
   if (g.of == Attachment::contact) {
-    const ContactEffect now = clearance_effect(system, eq, g.k);
-    return g.end == 0 ? now.on_a : now.on_b;
+    const auto on = [&](const ContactEffect& now) -> const Wrench& { return g.end == 0 ? now.on_a : now.on_b; };
+    const ContactPair& pair = system.contacts[g.k];
+    if (!pair.profiles) return on(clearance_effect(system, eq, g.k));
+    Wrench out = Wrench::Zero();
+    for (int i = 0; i < pair.pairs; ++i) out += on(eq.contact[g.k + static_cast<std::size_t>(i)]);
+    return out;
   }
   if (g.of == Attachment::force) return g.end == 0 ? eq.force[g.k].on_a : eq.force[g.k].on_b;
   return reaction(system, eq, g.k, g.end);
@@ -38,9 +42,14 @@ std::vector<Attachment> attachments_of(const Scene& scene, const BuiltOrder& ord
       add(Attachment::contact, order.joints[i], a_bears ? 1 : 0, j.a);
       add(Attachment::contact, order.joints[i], a_bears ? 0 : 1, j.b);
     } else {
+      const Attachment::Of of = j.play ? Attachment::contact : Attachment::joint;
       std::size_t end = 0;
-      for (const PointRef* point : points_of(j)) add(Attachment::joint, order.joints[i], end++, *point);
+      for (const PointRef* point : points_of(j)) add(of, order.joints[i], end++, *point);
     }
+  }
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    add(Attachment::contact, order.contacts[i], 0, carrier_of(scene, scene.contacts[i].a));
+    add(Attachment::contact, order.contacts[i], 1, carrier_of(scene, scene.contacts[i].b));
   }
   for (std::size_t i = 0; i < scene.drivers.size(); ++i) {
     add(Attachment::joint, order.drivers[i], 0, scene.drivers[i].a);

@@ -11,12 +11,13 @@ namespace pintle {
 
 /// Where the things of a scene have come to stand in its system.
 struct BuiltOrder {
-  std::vector<int> joints;   ///< of each joint of the scene: into System::joints, of one with clearance into System::contacts
-  std::vector<int> drivers;  ///< into System::joints
-  std::vector<int> loads;    ///< into System::forces
+  std::vector<int> joints;    ///< of each joint of the scene: into System::joints, of one with clearance into System::contacts
+  std::vector<int> drivers;   ///< into System::joints
+  std::vector<int> loads;     ///< into System::forces
+  std::vector<int> contacts;  ///< into System::contacts, the first pair of each
 };
 
-/// Where something acts on a body of elements: its wrench is the k-th of joints, contacts or forces.
+/// Where something acts on a body of elements: its wrench is the k-th of joints, contacts (of profiles the sum from there on) or forces.
 struct Attachment {
   enum Of { joint, contact, force } of;
   std::size_t k;

@@ -83,6 +83,7 @@ std::vector<int> interface_of(const Scene& scene, const ElasticBody& e) {
   };
   for (const SceneJoint& j : scene.joints)
     for (const PointRef* point : points_of(j)) note(*point);
+  for (const SceneContact& c : scene.contacts) note(carrier_of(scene, c.a)), note(carrier_of(scene, c.b));
   for (const SceneDriver& d : scene.drivers) note(d.a), note(d.b);
   for (const SceneLoad& l : scene.loads)
     std::visit(

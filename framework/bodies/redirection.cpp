@@ -4,6 +4,7 @@
 
 #include "framework/bodies/elastic_parts.h"
 #include "framework/common/nearest.h"
+#include "framework/scene/joint_words.h"
 
 namespace pintle {
 
@@ -29,6 +30,14 @@ void Redirection::redirect(SceneJoint& joint) const {
   if (!joint.clearance) return;
   std::string& bearing = joint.clearance->bearing;
   bearing = bearing == a ? joint.a.body : bearing == b ? joint.b.body : bearing;
+}
+
+void Redirection::redirect(SceneContact& contact) const {
+  for (PointRef* profile : {&contact.a, &contact.b}) {
+    PointRef carrier = carrier_of(before_, *profile);
+    redirect(carrier);
+    profile->body = carrier.body;
+  }
 }
 
 void Redirection::redirect(SceneLoad& load) const {

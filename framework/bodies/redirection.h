@@ -23,6 +23,7 @@ class Redirection {
   void redirect(PointRef&) const;
   void redirect(PointRef& a, PointRef& b, const Place&) const;
   void redirect(SceneJoint&) const;
+  void redirect(SceneContact&) const;
   void redirect(SceneLoad&) const;
   /// All pieces begin as parts of one rigid body and share its axes.
   std::vector<StartBody> starts() const;

@@ -207,6 +207,22 @@ void tie(SceneModes& modes, const SceneBody& piece) {
   modes.b = chord ? beam.through.back() : "";
 }
 
+/// Those that its points carry; their own points may lie on other pieces, all of which share the axes of the whole.
+std::vector<SceneProfile> profiles_on(const SceneBody& whole, const SceneBody& piece) {
+  std::vector<SceneProfile> out;
+  for (const SceneProfile& profile : whole.profiles) {
+    if (!has_point(piece, profile.on)) continue;
+    SceneProfile& made = out.emplace_back(profile);
+    const auto place = [&](ScenePathPoint& p) {
+      if (const auto named = std::ranges::find(whole.points, p.point, &ScenePoint::name); named != whole.points.end()) p.at = named->at;
+      p.point.clear();
+    };
+    place(made.centre);
+    for (ScenePathPoint& p : made.points) place(p);
+  }
+  return out;
+}
+
 SceneBody piece_of(const Whole& whole, std::size_t k) {
   SceneBody piece = whole.body;
   piece.name += " " + std::to_string(k + 1);
@@ -219,6 +235,7 @@ SceneBody piece_of(const Whole& whole, std::size_t k) {
   std::erase_if(elastic.lumps, [&](const SceneLump& l) { return !has_point(piece, l.at); });
   std::erase_if(elastic.supports, [&](const SceneSupport& s) { return !has_point(piece, s.at); });
   tie(*elastic.modes, piece);
+  piece.profiles = profiles_on(whole.body, piece);
   return piece;
 }
 
@@ -282,6 +299,7 @@ Scene with_pieces(Scene scene) {
   const Scene before = scene;
   const Redirection to(before, cuts);
   for (SceneJoint& j : scene.joints) to.redirect(j);
+  for (SceneContact& c : scene.contacts) to.redirect(c);
   for (SceneDriver& d : scene.drivers) to.redirect(d.a, d.b, d.place);
   for (SceneLoad& l : scene.loads) to.redirect(l);
   for (PointRef& ref : scene.output.points) to.redirect(ref);

@@ -44,7 +44,10 @@ class Builder {
     for (const SceneBody& b : scene_.bodies) add(b);
     for (const SceneJoint& j : scene_.joints) add(j);
     for (std::size_t i = 0; i < scene_.joints.size(); ++i)
-      if (scene_.joints[i].play) add_play(scene_.joints[i], model_.order.joints[i]);
+      if (scene_.joints[i].play)
+        add_play(scene_.joints[i], model_.order.joints[i]);
+      else if (is_open(scene_.joints[i]))
+        add_open_bearing(scene_.joints[i], model_.order.joints[i]);
     for (const SceneContact& c : scene_.contacts) add(c);
     for (const SceneDriver& d : scene_.drivers) add(d);
     for (const SceneLoad& l : scene_.loads) add(l);
@@ -112,8 +115,8 @@ class Builder {
     const JointWord& word = word_of(j);
     const PointRef c = cage_of(j);
     if (word.third) markers_.two_bodies(j.a, c, j.place), markers_.two_bodies(j.b, c, j.place);
+    if (j.play || is_open(j)) return model_.order.joints.push_back(-1);
     if (j.clearance) return add_contact(j);
-    if (j.play) return model_.order.joints.push_back(-1);
     const Joint made = joint_of(scene_, j, markers_);
     model_.order.joints.push_back(static_cast<int>(model_.system.joints.size()));
     if (j.friction && rubs(j.friction->law)) model_.system.frictions.push_back(friction_of(scene_, j, model_.order.joints.back()));
@@ -123,13 +126,28 @@ class Builder {
 
   /// The contact that it is, and the joint that it would be.
   void add_play(const SceneJoint& j, int& order) {
-    for (const PointRef* p : points_of(j)) markers_.reject_elements(*p);
     const Joint ideal = joint_of(scene_, j, markers_);
     const std::array<Profile, 2> profiles = profiles_of(scene_, j);
     order = static_cast<int>(model_.system.contacts.size());
     add(contact_with_play(j), profiles[0], profiles[1], {markers_.marker(j.a, Holds::direction), markers_.marker(j.b, Holds::direction)});
     if (j.kind == JointKind::distance && j.play->only != ScenePlay::both) return;  // a rope may start slack
     model_.system.loose.push_back(ideal);
+    model_.system.loose_names.push_back(j.name);
+  }
+
+  /// Pairs of the journal and the pieces of an open bearing, and the closed one that it would be without clearance.
+  void add_open_bearing(const SceneJoint& j, int& order) {
+    const std::array<Profile, 2> profiles = open_bearing(scene_, j);
+    const bool b_bears = j.clearance->bearing == j.b.body;
+    const PointRef &journal = b_bears ? j.a : j.b, &bearing = b_bears ? j.b : j.a;
+    ContactPair like = contact_of(scene_, j);
+    like.profiles = like.journal = true;
+    like.a = markers_.marker(journal, Holds::direction), like.b = markers_.marker(bearing, Holds::direction);
+    order = static_cast<int>(model_.system.contacts.size());
+    SceneContact named;
+    named.a = journal, named.b = bearing, named.place = j.clearance->place;
+    add(build_pairs(scene_, named, profiles[0], profiles[1], like, order), j.name);
+    model_.system.loose.push_back(joint_of(scene_, j, markers_));
     model_.system.loose_names.push_back(j.name);
   }
 
@@ -152,30 +170,25 @@ class Builder {
     unique(c.name, "contact", c.place);
     markers_.two_bodies(c.a, c.b, c.place);
     const Profile &a = profile(c.a), &b = profile(c.b);
-    add(c, a, b, {profile_marker(c.a), profile_marker(c.b)});
+    model_.order.contacts.push_back(static_cast<int>(model_.system.contacts.size()));
+    add(c, a, b, {markers_.carrier(carrier_of(scene_, c.a)), markers_.carrier(carrier_of(scene_, c.b))});
   }
   void add(const SceneContact& c, const Profile& a, const Profile& b, const std::array<int, 2>& markers) {
+    add(build_contact(scene_, c, a, b, markers, static_cast<int>(model_.system.contacts.size())), c.name);
+  }
+  void add(BuiltContact made, const std::string& name) {
     auto& contacts = model_.system.contacts;
-    BuiltContact made = build_contact(scene_, c, a, b, markers, static_cast<int>(contacts.size()));
     contacts.insert(contacts.end(), made.pairs.begin(), made.pairs.end());
-    model_.system.contact_names.insert(model_.system.contact_names.end(), made.pairs.size(), c.name);
+    model_.system.contact_names.insert(model_.system.contact_names.end(), made.pairs.size(), name);
     model_.contacts.push_back(std::move(made.words));
     if (!made.warning.empty()) model_.warnings.push_back(std::move(made.warning));
   }
 
-  /// Of the axes that a body's profiles are given in.
-  int profile_marker(const PointRef& ref) {
-    markers_.reject_elements(ref);
-    return markers_.marker({ref.body, "", ref.place});
-  }
   const Profile& profile(const PointRef& ref) {
     const auto [known, is_new] = profiles_.try_emplace({ref.body, ref.point});
     if (!is_new) return known->second;
-    const int b = markers_.body(ref);
-    known->second = profile_of(scene_, ref);
-    const Vector2d origin = b == ground ? Vector2d(0, 0) : model_.system.bodies[static_cast<std::size_t>(b)].x_BO;
-    DrawnProfile& made = model_.profiles.emplace_back(DrawnProfile{b, solid(known->second), drawn(known->second)});
-    for (Vector2d& x : made.points) x += origin;
+    known->second = profile_of(scene_, markers_, ref);
+    model_.profiles.push_back({markers_.carrier(carrier_of(scene_, ref)), markers_.body(ref), solid(known->second), drawn(known->second)});
     return known->second;
   }
 
@@ -279,7 +292,7 @@ class Builder {
     for (const Joint& j : model_.system.joints)
       if (const auto* d = std::get_if<Distance>(&j)) length = std::max(length, d->length);
     for (const ContactPair& c : model_.system.contacts)
-      if (!c.profiles) length = std::max(length, bearing_radius(c.gap));
+      if (!c.profiles || c.journal) length = std::max(length, bearing_radius(c.gap));
     for (const DrawnProfile& p : model_.profiles)
       if (p.body != ground || length == 0)
         for (const Vector2d& x : p.points) length = std::max(length, x.norm());

@@ -25,10 +25,10 @@ std::string text(double x) {
 
 bool has_normal(const SceneClearance& c) { return c.normal.stiffness || c.normal.bearing.young > 0 || !c.normal.points.empty(); }
 
+std::array<double, 2> radii_in(const SceneClearance& c) { return {c.bearing_radius - c.radial, -c.bearing_radius}; }
+
 /// The contact law of the scene's words.
-NormalLaw law_of(const Scene& scene, const SceneClearance& c) {
-  return normal_law(scene, c.normal, contact_stiffness(c), {c.bearing_radius - c.radial, -c.bearing_radius});
-}
+NormalLaw law_of(const Scene& scene, const SceneClearance& c) { return normal_law(scene, c.normal, contact_stiffness(c), radii_in(c)); }
 
 bool rubs(const SceneClearance& c) { return c.friction && rubs(*c.friction); }
 
@@ -94,14 +94,34 @@ ImpactLaw impact_law(const Scene& scene, const SceneNormal& n, double k) {
   return {k, n.exponent, chi};
 }
 
+Cylinders cylinders_of(const Scene& scene, const SceneNormal& n, const std::array<double, 2>& radii) {
+  const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, n.place, message); };
+  const bool layered = find_cylinder_law(n.law)->of_a_layer;
+  if (!(n.length > 0)) wrong(n.law + " needs a length above 0, of the contact along the cylinders' axes");
+  Cylinders out{radii[0], radii[1], n.length, 0};
+  if (layered && n.stiffness) {
+    if (!(*n.stiffness > 0)) wrong(n.law + " needs a stiffness above 0");
+    out.foundation = *n.stiffness;
+    return out;
+  }
+  if (!(n.bearing.young > 0)) wrong(n.law + " needs `young` and `poisson`");
+  if (layered) {
+    if (!(n.layer > 0)) wrong(n.law + " needs a layer of a thickness above 0");
+    if (!(n.bearing.poisson < 0.5)) wrong("a layer with Poisson's ratio 0.5 cannot be compressed; give `stiffness` for what it does");
+    out.layer = n.layer;
+    out.foundation = foundation_modulus(n.bearing.young, n.bearing.poisson, n.layer);
+    return out;
+  }
+  const Elasticity& j = n.journal.young > 0 ? n.journal : n.bearing;
+  const auto softness = [](const Elasticity& e) { return (1 - e.poisson * e.poisson) / e.young; };
+  out.modulus = 1 / (softness(n.bearing) + softness(j));
+  return out;
+}
+
 DampedLaw cylinder_law(const Scene& scene, const SceneNormal& n, const std::array<double, 2>& radii) {
   const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, n.place, message); };
   const CylinderLaw& law = *find_cylinder_law(n.law);
-  if (!(n.length > 0)) wrong(n.law + " needs a length above 0, of the contact along the cylinders' axes");
-  if (!(n.bearing.young > 0)) wrong(n.law + " needs `young` and `poisson`");
-  const Elasticity& j = n.journal.young > 0 ? n.journal : n.bearing;
-  const auto softness = [](const Elasticity& e) { return (1 - e.poisson * e.poisson) / e.young; };
-  const Cylinders c{radii[0], radii[1], n.length, 1 / (softness(n.bearing) + softness(j))};
+  const Cylinders c = cylinders_of(scene, n, radii);
   const double clearance = std::abs(c.a + c.b);
   if (!c.internal() && !law.external) wrong(n.law + " is a law of a pin in a hole; between two round bodies take johnson, or a table");
   constexpr double rounding = 1e-9;
@@ -133,6 +153,11 @@ NormalLaw normal_law(const Scene& scene, const SceneNormal& n, double stiffness,
   DampedLaw out = is_of_cylinders(n) ? cylinder_law(scene, n, radii) : table_law(scene, n);
   out.chi = hysteresis_factor(scene, n, n.hysteresis, {});
   return out;
+}
+
+std::optional<PressureTheory> pressure_of(const Scene& scene, const SceneNormal& n, const std::array<double, 2>& radii) {
+  if (!is_of_cylinders(n)) return std::nullopt;
+  return pressure_theory(*find_cylinder_law(n.law), cylinders_of(scene, n, radii));
 }
 
 RigidImpact rigid_impact(const Scene& scene, const SceneImpact& impact, const Place& place) {
@@ -227,6 +252,7 @@ ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
     if (c.friction) check_rigid_friction(scene, *c.friction);
   } else if (c.model == ClearanceModel::contact) {
     pair.normal = law_of(scene, c);
+    pair.pressure = pressure_of(scene, c.normal, radii_in(c));
   } else {
     if (!(c.stiffness && c.damping)) law_of(scene, c);  // judged now, asked for what is missing by complete_clearances
     if ((c.stiffness && !(*c.stiffness > 0)) || (c.damping && !(*c.damping >= 0)))
@@ -244,7 +270,7 @@ std::vector<std::string> complete_clearances(const Scene& scene, System& system,
   std::vector<const SceneJoint*> joints;
   bool open = false;
   for (const SceneJoint& j : scene.joints)
-    if (j.clearance) {
+    if (j.clearance && !is_open(j)) {
       joints.push_back(&j);
       open = open || (j.clearance->model == ClearanceModel::spring_damper && !(j.clearance->stiffness && j.clearance->damping));
     }

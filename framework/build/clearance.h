@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,7 @@
 
 namespace pintle {
 
-/// A clearance joint's gap and laws; its markers and, of a massless link, its joint are left to fill in, of a spring and
+/// A clearance joint's gap, of a whole bearing, and laws; its markers and, of a massless link, its joint are left to fill in, of a spring and
 /// damper what the scene does not give (complete_clearances).
 /// @throws SceneError  another kind of joint; radii, restitution, law or stiffness that cannot be
 ContactPair contact_of(const Scene&, const SceneJoint&);
@@ -20,6 +21,8 @@ ContactPair contact_of(const Scene&, const SceneJoint&);
 NormalLaw normal_law(const Scene&, const SceneNormal&, double stiffness, const std::array<double, 2>& radii);
 /// It is one of cylinders, which asks for radii.
 bool is_of_cylinders(const SceneNormal&);
+/// The theory of the pressure under it; nothing where it is no law of cylinders. Parameters and errors as above.
+std::optional<PressureTheory> pressure_of(const Scene&, const SceneNormal&, const std::array<double, 2>& radii);
 
 /// @throws SceneError  restitution that cannot be
 RigidImpact rigid_impact(const Scene&, const SceneImpact&, const Place&);

@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 
+#include "contact/cylinder_law.h"
 #include "framework/build/clearance.h"
 #include "framework/common/index.h"
 #include "framework/common/text.h"
 #include "framework/scene/error.h"
+#include "framework/scene/joint_words.h"
 
 namespace pintle {
 
@@ -18,29 +21,20 @@ namespace {
 
 using Eigen::Vector2d;
 
-Vector2d place(const ScenePathPoint& p, const std::vector<ScenePoint>& points) {
-  const auto named = std::ranges::find(points, p.point, &ScenePoint::name);
-  const Pair& at = p.point.empty() || named == points.end() ? p.at : named->at;
-  return {at[0], at[1]};
-}
-
-struct Owner {
-  const std::vector<SceneProfile>& profiles;
-  const std::vector<ScenePoint>& points;
-};
-Owner owner_of(const Scene& scene, const PointRef& ref) {
-  if (ref.body == "ground") return {scene.ground_profiles, scene.ground};
+const std::vector<SceneProfile>& profiles_of(const Scene& scene, const PointRef& ref) {
+  if (ref.body == "ground") return scene.ground_profiles;
   const auto body = std::ranges::find(scene.bodies, ref.body, &SceneBody::name);
   if (body == scene.bodies.end())
     throw SceneError(scene.file, ref.place, "there is no body " + quoted(ref.body) + "; name one of the scene, or the ground");
-  return {body->profiles, body->points};
+  return body->profiles;
 }
 
 /// The one curvature of all its lines and arcs [1/m]; nothing if they differ.
 std::optional<double> curvature(const Profile& profile) {
   std::optional<double> out;
   for (const Piece& p : profile.pieces) {
-    if (!p.straight && p.radius == 0) continue;
+    if (is_corner(p)) continue;
+    if (p.curve) return std::nullopt;
     const double now = p.straight ? 0 : 1 / p.radius;
     if (out && *out != now) return std::nullopt;
     out = now;
@@ -64,23 +58,30 @@ double stiffness_of(const Scene& scene, const SceneContact& c, const Profile& pr
 /// Radii of the two as cylinders have them.
 std::array<double, 2> radii_of(const Scene& scene, const SceneContact& c, const Profile& profile_a, const Profile& profile_b) {
   const std::optional<double> a = curvature(profile_a), b = curvature(profile_b);
-  if (!a || !b || !(*a + *b > 0) || *a == 0 || *b == 0)
+  const bool flat_too = find_cylinder_law(c.normal.law)->of_a_layer;
+  if (!a || !b || !(*a + *b > 0) || (!flat_too && (*a == 0 || *b == 0)))
     throw SceneError(scene.file, c.normal.place,
-                     c.normal.law +
-                         " is a law of two cylinders: each profile must be an arc of one radius all along, and the two have no "
-                         "common centre; give a `table` for " +
+                     c.normal.law + " is a law of two cylinders: each profile must be an arc of one radius all along" +
+                         (flat_too ? ", or one of them straight," : ",") + " and the two have no common centre; give a `table` for " +
                          quoted(c.name));
-  return {1 / *a, 1 / *b};
+  const auto radius = [](double curved) { return curved == 0 ? std::numeric_limits<double>::infinity() : 1 / curved; };
+  return {radius(*a), radius(*b)};
 }
 
-bool is_corner(const Piece& p) { return !p.straight && p.radius == 0; }
+/// A straight stretch of a curve is to a line, or to what is as straight, a line.
+bool turns_too_little(const Piece& curve, const Piece& other) {
+  constexpr double straight = 1e-6;  // [rad]
+  return curve.curve && curve.curve->turn() < straight && (other.straight || other.curve);
+}
 
 /// Can they touch at a point inside both? Where two lines lie on each other, or a line in a hollow, corners do.
 bool may_touch(const Piece& a, const Piece& b) {
   if ((a.straight || is_corner(a)) && (b.straight || is_corner(b))) return a.straight != b.straight;
-  const bool hollow_a = a.radius < 0, hollow_b = b.radius < 0;
-  if (!hollow_a && !hollow_b) return true;
-  return !(hollow_a && hollow_b) && !a.straight && !b.straight && a.radius + b.radius < 0;
+  const bool hollow_a = is_hollow(a), hollow_b = is_hollow(b);
+  if (!hollow_a && !hollow_b) return !turns_too_little(a, b) && !turns_too_little(b, a);
+  if (hollow_a && hollow_b) return false;
+  if (a.curve || b.curve) return !a.straight && !b.straight;
+  return !a.straight && !b.straight && a.radius + b.radius < 0;
 }
 
 // Its laws; pieces are left to fill in.
@@ -94,7 +95,8 @@ ContactPair laws_of(const Scene& scene, const SceneContact& c, const Profile& a,
   else if (c.normal.law == "spring-damper")
     pair.normal = ImpactLaw{.k = *c.normal.stiffness, .n = 1, .chi = 0, .d = c.normal.damping};
   else if (is_of_cylinders(c.normal))
-    pair.normal = normal_law(scene, c.normal, 0, radii_of(scene, c, a, b));
+    pair.normal = normal_law(scene, c.normal, 0, radii_of(scene, c, a, b)),
+    pair.pressure = pressure_of(scene, c.normal, radii_of(scene, c, a, b));
   else
     pair.normal = normal_law(scene, c.normal, c.normal.law == "table" ? 0 : stiffness_of(scene, c, a, b), {});
   if (c.friction && rubs(*c.friction)) pair.friction = friction_law(scene, *c.friction);
@@ -116,7 +118,9 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
       pair.gap = {a.pieces[at(i)], b.pieces[at(j)]};
       pair.pair = static_cast<int>(out.size()) - 1;
       const auto until = [&](const Piece& piece, double half_material, const Piece& other) {  // round ones end by their normals
-        if (piece.straight || piece.radius < 0) pair.deepest = std::min(pair.deepest, half_material + std::max(other.radius, 0.0));
+        const bool of_a_ring = like.journal && std::isfinite(piece.half);                     // whose outer arc has its middle in the air
+        if (piece.straight || piece.radius < 0 || piece.curve || of_a_ring)
+          pair.deepest = std::min(pair.deepest, half_material + std::max(other.radius, 0.0));
       };
       until(pair.gap.a, a.deepest[at(i)], pair.gap.b);
       until(pair.gap.b, b.deepest[at(j)], pair.gap.a);
@@ -144,7 +148,7 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
         if (joined) now.beyond[side] = pair_of[at(of_a ? next * n_b + j : i * n_b + next)];
         const Piece &piece = profile.pieces[at(here)], &other = of_a ? b.pieces[at(j)] : a.pieces[at(i)];
         const bool off_a_corner = joined && is_corner(profile.pieces[at(next)]) && is_corner(other);
-        const bool into_the_air = piece.radius < 0;  // a hollow arc, gone on with, leaves the surface
+        const bool into_the_air = is_hollow(piece) || piece.curve;  // a hollow arc or a curve, gone on with, leaves the surface
         if (now.beyond[side] < 0 && !off_a_corner && !into_the_air)
           now.extent[side] += piece.straight ? while_sliding : while_turning / piece.half;
       }
@@ -156,6 +160,20 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
 bool has_sharp_corners(const Profile& profile) {
   const auto ends = profile.closed ? 0 : 2;
   return std::ranges::count_if(profile.pieces, is_corner) > ends;
+}
+
+// The radius of the narrowest hollow of a curve, if nothing of the other profile fits in; else 0 [m].
+double too_hollow(const Profile& a, const Profile& b) {
+  double out = 0;
+  for (const auto& [hollow, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    double least = std::numeric_limits<double>::infinity(), fits = 0;
+    for (const Piece& p : hollow->pieces)
+      if (p.curve && is_hollow(p)) least = std::min(least, least_radius(p));
+    for (const Piece& p : other->pieces)
+      if (!is_hollow(p)) fits = std::max(fits, least_radius(p));
+    if (fits > least) out = least;
+  }
+  return out;
 }
 
 std::string contact_text(const ContactPair& pair, std::size_t pairs) {
@@ -174,24 +192,40 @@ std::string contact_text(const ContactPair& pair, std::size_t pairs) {
 
 }  // namespace
 
-Profile profile_of(const Scene& scene, const PointRef& ref) {
-  const Owner owner = owner_of(scene, ref);
-  const auto found = std::ranges::find(owner.profiles, ref.point, &SceneProfile::name);
-  if (found == owner.profiles.end())
+Profile profile_of(const Scene& scene, const Markers& markers, const PointRef& ref) {
+  const std::vector<SceneProfile>& profiles = profiles_of(scene, ref);
+  const auto found = std::ranges::find(profiles, ref.point, &SceneProfile::name);
+  if (found == profiles.end())
     throw SceneError(scene.file, ref.place, quoted(ref.body) + " has no profile " + quoted(ref.point) + "; give it one, or name another");
   const SceneProfile& p = *found;
   const auto wrong = [&](const std::string& message) {
     throw SceneError(scene.file, p.place, "the profile " + quoted(p.name) + ": " + message);
   };
-  if (p.kind != SceneProfile::path) {
+  const Vector2d origin = markers.place(carrier_of(scene, ref));
+  const auto place = [&](const ScenePathPoint& at) -> Vector2d {
+    return (at.point.empty() ? Vector2d(at.at[0], at.at[1]) : markers.place({ref.body, at.point, at.place})) - origin;
+  };
+  if (p.kind == SceneProfile::disc || p.kind == SceneProfile::hole) {
     if (!(p.radius > 0)) wrong("radius must be above 0");
-    return circle(place(p.centre, owner.points), p.kind == SceneProfile::disc ? p.radius : -p.radius);
+    return circle(place(p.centre), p.kind == SceneProfile::disc ? p.radius : -p.radius);
   }
   std::vector<PathPoint> path;
-  for (const ScenePathPoint& point : p.points) path.push_back({place(point, owner.points), point.arc});
+  const bool polar = p.kind == SceneProfile::polar;
+  for (const ScenePathPoint& point : p.points)
+    path.push_back({polar ? Vector2d(place(p.centre) + point.at[1] * Vector2d(std::cos(point.at[0]), std::sin(point.at[0]))) : place(point),
+                    point.arc});
+  const auto turned_round = [&](double inside) {
+    const bool clockwise = p.closed && inside < 0;
+    return p.closed ? clockwise != (p.material == SceneProfile::outside) : p.material == SceneProfile::right;
+  };
   try {
-    const bool clockwise = p.closed && area(path) < 0;
-    const bool turn = p.closed ? clockwise != (p.material == SceneProfile::outside) : p.material == SceneProfile::right;
+    if (p.kind != SceneProfile::path) {
+      std::vector<Vector2d> points;
+      for (const PathPoint& point : path) points.push_back(point.at);
+      if (turned_round(area(points))) std::ranges::reverse(points);
+      return profile_through(points, p.closed);
+    }
+    const bool turn = turned_round(p.closed ? area(path) : 0);
     return profile_along(turn ? reversed(path, p.closed) : path, p.closed, p.round);
   } catch (const std::invalid_argument& error) {
     wrong(error.what());
@@ -207,17 +241,30 @@ BuiltContact build_contact(const Scene& scene, const SceneContact& c, const Prof
                        "the weld " + quoted(j.name) + " holds its two bodies together: they cannot touch anew; leave the contact out");
   ContactPair like = laws_of(scene, c, a, b);
   like.a = markers[0], like.b = markers[1];
+  BuiltContact out = build_pairs(scene, c, a, b, like, first);
+  if (const double hollow = too_hollow(a, b); hollow > 0) {
+    std::ostringstream s;
+    s << quoted(c.name) << ": a profile has a hollow of radius " << hollow
+      << " m, too narrow for what is to touch its ground: that would touch at two sides of it, and only one of these is seen; give the "
+         "other profile a smaller radius";
+    out.warning = s.str();
+  }
+  if (has_sharp_corners(a) && has_sharp_corners(b))
+    out.warning =
+        quoted(c.name) +
+        ": both profiles have sharp corners; nothing holds two of these that meet point to point, and energy comes from nothing there; "
+        "give one of the profiles `round`";
+  return out;
+}
+
+BuiltContact build_pairs(const Scene& scene, const SceneContact& c, const Profile& a, const Profile& b, const ContactPair& like,
+                         int first) {
   BuiltContact out;
   out.pairs = pairs_between(scene, c, a, b, like);
   for (ContactPair& pair : out.pairs)
     for (int& other : pair.beyond)
       if (other >= 0) other += first;
   out.words = contact_text(like, out.pairs.size());
-  if (has_sharp_corners(a) && has_sharp_corners(b))
-    out.warning =
-        quoted(c.name) +
-        ": both profiles have sharp corners; nothing holds two of these that meet point to point, and energy comes from nothing there; "
-        "give one of the profiles `round`";
   return out;
 }
 

@@ -5,15 +5,16 @@
 #include <vector>
 
 #include "contact/profile.h"
+#include "framework/build/markers.h"
 #include "framework/dynamics/model/contact_pair.h"
 #include "framework/scene/scene.h"
 
 /// Contacts between profiles of bodies: docs/theory/contact.md.
 namespace pintle {
 
-/// The surface that a scene gives a body, in the body's axes. @param ref  its point is the profile
-/// @throws SceneError  a path that cannot be
-Profile profile_of(const Scene&, const PointRef& ref);
+/// The surface that a scene gives a body, in the axes of its carrier: the body's at the point that carries it.
+/// @param ref  its point is the profile   @throws SceneError  a path that cannot be
+Profile profile_of(const Scene&, const Markers&, const PointRef& ref);
 
 /// A contact of two profiles.
 struct BuiltContact {
@@ -26,5 +27,9 @@ struct BuiltContact {
 /// pieces that could touch
 BuiltContact build_contact(const Scene&, const SceneContact&, const Profile& a, const Profile& b, const std::array<int, 2>& markers,
                            int first);
+
+/// The same of pieces that all have the laws and markers of one pair. @param c  gives names and place alone
+/// @throws SceneError  no two pieces that could touch
+BuiltContact build_pairs(const Scene&, const SceneContact& c, const Profile& a, const Profile& b, const ContactPair& like, int first);
 
 }  // namespace pintle

@@ -54,16 +54,28 @@ Marker Markers::marker_at(const PointRef& ref, Holds what) const {
   return {b, at, angle};
 }
 
-int Markers::marker(const PointRef& ref, Holds what) {
-  const Marker made = marker_at(ref, what);
+int Markers::index_of(const Marker& made, const std::string& point) {
   const bool flexible = made.shape.size() > 0;  // two points of one place may move differently
-  const auto [known, is_new] = known_.try_emplace({made.body, made.x_BP.x(), made.x_BP.y(), made.angle, flexible ? ref.point : ""},
+  const auto [known, is_new] = known_.try_emplace({made.body, made.x_BP.x(), made.x_BP.y(), made.angle, flexible ? point : ""},
                                                   static_cast<int>(model_.system.markers.size()));
   if (is_new) {
     model_.system.markers.push_back(made);
     if (made.body != ground) model_.outlines[static_cast<std::size_t>(made.body)].push_back(made.x_BP);
   }
   return known->second;
+}
+
+int Markers::marker(const PointRef& ref, Holds what) { return index_of(marker_at(ref, what), ref.point); }
+
+int Markers::carrier(const PointRef& ref) {
+  Marker made = marker_at(ref, Holds::direction);
+  made.angle = 0;
+  return index_of(made, ref.point);
+}
+
+Vector2d Markers::place(const PointRef& ref) const {
+  const Marker m = marker_at(ref, Holds::point);
+  return m.body == ground ? m.x_BP : m.x_BP - model_.system.bodies[static_cast<std::size_t>(m.body)].x_BO;
 }
 
 // Under `stiffening: rotation` joints hold points of first order, so that those are recorded where the joints are; others
@@ -83,13 +95,6 @@ Marker Markers::recorded_at(const PointRef& ref) const {
 
 void Markers::two_bodies(const PointRef& a, const PointRef& b, const Place& place) const {
   if (body(a) == body(b)) wrong(place, "both ends are on " + quoted(a.body) + "; join two different bodies");
-}
-
-void Markers::reject_elements(const PointRef& ref) const {
-  if (elements(body(ref)))
-    wrong(ref.place, quoted(ref.body) +
-                         " is made of elements, the surface of which no contact follows yet; put the profile on a rigid body "
-                         "and weld that to a point of it");
 }
 
 }  // namespace pintle

@@ -32,15 +32,18 @@ class Markers {
   Marker marker_at(const PointRef&, Holds) const;
   /// Its index in System::markers; made when first asked for.
   int marker(const PointRef&, Holds = Holds::point);
+  /// Of axes that are the body's own where it is drawn, at this point: what carries a surface.
+  int carrier(const PointRef&);
+  /// Where a point is as the body is drawn, body axes [m].
+  Eigen::Vector2d place(const PointRef&) const;
   /// As its motion is recorded: of second order unless it is held at first order.
   Marker recorded_at(const PointRef&) const;
 
   /// @throws SceneError  both are on one body
   void two_bodies(const PointRef& a, const PointRef& b, const Place&) const;
-  /// @throws SceneError  the body is made of elements, where no contact can be
-  void reject_elements(const PointRef&) const;
 
  private:
+  int index_of(const Marker&, const std::string& point);
   [[noreturn]] void wrong(const Place&, const std::string& message) const;
 
   const Scene& scene_;

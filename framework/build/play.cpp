@@ -44,6 +44,39 @@ Profile block(double length, double height, double angle, double round) {
   return profile_along({corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)}, true, round);
 }
 
+/// A sector of a ring: its wall from R to R + w, radial faces at its ends, edges of radius r. The surface goes on with the ring at its
+/// left: clockwise along the wall inside, out along the first end, back outside, in along the other.
+Profile ring(double R, const SceneArc& arc) {
+  const double w = arc.wall, r = arc.edge, quarter = std::numbers::pi / 4, pi = std::numbers::pi;
+  const double inside = std::asin(r / (R + r)), outside = std::asin(r / (R + w - r));  // by which the edges shorten the arcs
+  const double from = (R + r) * std::cos(inside), to = (R + w - r) * std::cos(outside);
+  const auto at = [](double radius, double angle) { return Vector2d(radius * std::cos(angle), radius * std::sin(angle)); };
+  Profile out;
+  out.closed = true;
+  const auto end = [&](double side) {  // −1: the first, 1: the other; its pieces from inside to outside
+    const double angle = arc.middle + side * arc.extent / 2;
+    std::vector<Piece> all{{.radius = r,
+                            .centre = at(R + r, angle - side * inside),
+                            .normal = angle + side * (3 * quarter - inside / 2),
+                            .half = quarter - inside / 2}};
+    if (to - from > 1e-9 * w)
+      all.push_back({.centre = at((from + to) / 2, angle), .normal = angle + side * pi / 2, .half = (to - from) / 2, .straight = true});
+    all.push_back({.radius = r,
+                   .centre = at(R + w - r, angle - side * outside),
+                   .normal = angle + side * (quarter - outside / 2),
+                   .half = quarter + outside / 2});
+    return all;
+  };
+  add(out, {.radius = -R, .normal = arc.middle + pi, .half = arc.extent / 2 - inside});
+  for (const Piece& piece : end(-1)) add(out, piece);
+  add(out, {.radius = R + w, .normal = arc.middle, .half = arc.extent / 2 - outside});
+  std::vector<Piece> last = end(1);
+  for (auto piece = last.rbegin(); piece != last.rend(); ++piece) add(out, *piece);
+  out.goes_on.assign(out.pieces.size(), true);
+  measure_material(out);
+  return out;
+}
+
 /// Circles between which the end of a rod stays.
 Profile reach(const ScenePlay& play, double length) {
   Profile out;
@@ -76,6 +109,23 @@ std::array<Profile, 2> profiles_of(const Scene& scene, const SceneJoint& j) {
   Profile end;
   add(end, {});
   return {reach(play, j.length), end};
+}
+
+std::array<Profile, 2> open_bearing(const Scene& scene, const SceneJoint& j) {
+  const SceneClearance& c = *j.clearance;
+  const SceneArc& arc = *c.arc;
+  const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, c.place, message); };
+  const Profile journal = circle({0, 0}, c.bearing_radius - c.radial);
+  if (!(arc.extent > 0 && arc.extent < SceneArc::turn + SceneArc::rounding)) wrong("the extent of the arc must lie between 0 and 360 deg");
+  if (c.model == ClearanceModel::massless_link) wrong("a massless link holds the journal at the wall, which an arc is not all round");
+  if (c.model == ClearanceModel::spring_damper && !(c.stiffness && c.damping))
+    wrong("the spring-damper of an open bearing needs both stiffness and damping");
+  if (arc.whole()) return {journal, circle({0, 0}, -c.bearing_radius)};
+  if (!(arc.wall > 0)) wrong("the arc needs a wall above 0");
+  if (!(arc.edge >= 0 && arc.edge <= arc.wall / 2)) wrong("the edge of the arc must lie between 0 and half of its wall");
+  if (!(2 * std::asin(arc.edge / (c.bearing_radius + arc.edge)) < arc.extent))
+    wrong("the edges leave nothing of the arc; make them smaller or the extent larger");
+  return {journal, ring(c.bearing_radius, arc)};
 }
 
 SceneContact contact_with_play(const SceneJoint& j) {

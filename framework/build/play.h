@@ -16,4 +16,8 @@ std::array<Profile, 2> profiles_of(const Scene&, const SceneJoint&);
 /// The contact that these two make.
 SceneContact contact_with_play(const SceneJoint&);
 
+/// An open bearing in the axes of its point, its journal first. @pre is_open
+/// @throws SceneError  an arc, a wall or edges that cannot be
+std::array<Profile, 2> open_bearing(const Scene&, const SceneJoint&);
+
 }  // namespace pintle

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "framework/bodies/attachments.h"
 #include "framework/bodies/elastic_parts.h"
 #include "framework/bodies/modal_basis.h"
 #include "framework/build/choose_method.h"
@@ -18,7 +19,7 @@ namespace {
 
 std::string percent(double part) { return number_text(std::round(1000 * part) / 10) + " %"; }
 
-/// ∂f/∂δ at the depth that a hundredth of the motion's speed reaches, or at a hundredth of the clearance where nothing moves yet [N/m].
+/// ∂f/∂δ at the depth that a hundredth of the motion's speed reaches, or at a hundredth of its fine length where nothing moves yet [N/m].
 double stiffness_of_blow(const System& system, const ContactPair& pair, double motion) {
   double mobility = 0;  // 1/m of the two bodies there
   for (const int marker : {pair.a, pair.b}) {
@@ -28,7 +29,7 @@ double stiffness_of_blow(const System& system, const ContactPair& pair, double m
     mobility += 1 / b.m + m.x_BP.squaredNorm() / b.J;
   }
   const double speed = 1e-2 * motion * system.length;
-  return stiffness_at(pair.normal, speed > 0 ? depth_reached(pair.normal, mobility, speed) : 1e-2 * pair.gap.clearance());
+  return stiffness_at(pair.normal, speed > 0 ? depth_reached(pair.normal, mobility, speed) : 1e-2 * fine_length(pair, system.length));
 }
 
 }  // namespace
@@ -38,27 +39,23 @@ std::vector<std::string> contact_warnings(const Scene& scene, const System& syst
   constexpr double matters = 0.1;  // compliance left out beside the contact's own
   std::vector<std::string> out;
   if (system.contacts.empty()) return out;
+  std::vector<const ElasticBody*> flexible;
+  for (const auto& b : bodies) flexible.push_back(b && b->body.flex ? &b->elastic : nullptr);
   const double motion = spectrum(scene, system).motion;
-  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
-    const SceneJoint& j = scene.joints[i];
-    if (!j.clearance || j.clearance->model == ClearanceModel::massless_link || j.clearance->model == ClearanceModel::impact) continue;
-    const ContactPair& pair = system.contacts[static_cast<std::size_t>(order.joints[i])];
-    for (const PointRef* ref : points_of(j))
-      for (const auto& b : bodies) {
-        if (!b || !b->body.flex || b->body.name != ref->body) continue;
-        const int port = port_of(b->elastic, ref->point);
-        if (port < 0) continue;
-        const FreeCompliance& at = b->when_free[static_cast<std::size_t>(port)];
-        const double stiffness = stiffness_of_blow(system, pair, motion);
-        for (Eigen::Index k = 0; k < 2; ++k) {
-          const double share = std::max(0.0, at.kept[k]) / at.full[k];
-          if (!(share < least_covered) || !((at.full[k] - at.kept[k]) * stiffness > matters)) continue;
-          out.push_back("\"" + j.name + "\" strikes \"" + ref->body + "\" where its shapes hold " + percent(share) +
-                        " of what it yields to a blow along its " + (k == 0 ? "x" : "y") +
-                        " axis: peak forces and hysteresis come out wrong; take craig-bampton, or keep more");
-          break;
-        }
-      }
+  for (const Attachment& at : attachments_of(scene, order, flexible)) {
+    if (at.of != Attachment::contact) continue;
+    const ContactPair& pair = system.contacts[at.k];
+    if (is_held(pair) || is_rigid(pair)) continue;
+    const FreeCompliance& yields = bodies[at.body]->when_free[static_cast<std::size_t>((at.row - inertia_loads) / 3)];
+    const double stiffness = stiffness_of_blow(system, pair, motion);
+    for (Eigen::Index k = 0; k < 2; ++k) {
+      const double share = std::max(0.0, yields.kept[k]) / yields.full[k];
+      if (!(share < least_covered) || !((yields.full[k] - yields.kept[k]) * stiffness > matters)) continue;
+      out.push_back("\"" + system.contact_names[at.k] + "\" strikes \"" + scene.bodies[at.body].name + "\" where its shapes hold " +
+                    percent(share) + " of what it yields to a blow along its " + (k == 0 ? "x" : "y") +
+                    " axis: peak forces and hysteresis come out wrong; take craig-bampton, or keep more");
+      break;
+    }
   }
   return out;
 }

@@ -131,16 +131,14 @@ void draw_clearances(const System& system, const Drafting& drafting, const Equat
 }
 
 // Surfaces, and what each pair that touches does to b.
-void draw_profiles(const Model& model, const State& state, const Equations& eq, Drawing& out) {
+void draw_profiles(const Model& model, const Equations& eq, Drawing& out) {
   const System& system = model.system;
   const int first = static_cast<int>(system.bodies.size() + system.joints.size()), of_ground = static_cast<int>(out.owners.size()) - 1;
   for (const DrawnProfile& p : model.profiles) {
     DrawnLine line{p.body == ground ? Part::guide : Part::link, p.body == ground ? of_ground : p.body, p.solid, p.points};
-    if (p.body != ground) {
-      const double* q = state.y.data() + 3 * p.body;
-      const Eigen::Rotation2Dd A(q[2]);
-      for (Vector2d& x : line.points) x = Vector2d(q[0], q[1]) + A * x;
-    }
+    const MarkerMotion& carrier = eq.motion[at(p.marker)];
+    const Eigen::Rotation2Dd A(carrier.angle);
+    for (Vector2d& x : line.points) x = carrier.r + A * x;
     out.lines.push_back(std::move(line));
   }
   for (std::size_t c = at(n_clearances(system)); c < system.contacts.size(); ++c) {
@@ -198,7 +196,7 @@ Drawing draw(const Model& model, const Drafting& drafting, const State& state, c
     }
   }
   draw_clearances(system, drafting, eq, out);
-  draw_profiles(model, state, eq, out);
+  draw_profiles(model, eq, out);
   for (std::size_t f = 0; f < system.forces.size(); ++f)
     if (std::holds_alternative<Spring>(system.forces[f]) || std::holds_alternative<Maxwell>(system.forces[f])) {
       const Vector2d a = eq.motion[at(marker_a(system.forces[f]))].r, b = eq.motion[at(marker_b(system.forces[f]))].r;

@@ -30,9 +30,9 @@ struct RecordedStress {
 
 /// A profile as it is drawn.
 struct DrawnProfile {
-  int body;
+  int marker, body;                     ///< the marker that carries it
   bool solid;                           ///< the material is inside a closed line
-  std::vector<Eigen::Vector2d> points;  ///< from the mass centre, body axes; of the ground in the world [m]
+  std::vector<Eigen::Vector2d> points;  ///< in the marker's axes [m]
 };
 
 /// What stays of the rigid run that modes and doubts were judged by.

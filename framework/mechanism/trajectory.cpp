@@ -110,6 +110,16 @@ void wrench_columns(const System& system, const std::string& name, bool force, b
         name, {{".torque", "N m"}}, [&](const Now& now) { return std::array{wrench(now)[2]}; }, on);
 }
 
+// What presses cylinders, where a theory says how hard.
+template <class Out, class Force>
+void pressure_columns(const std::string& name, const std::optional<PressureTheory>& theory, const Force& force, Out& out) {
+  if (!theory) return;
+  out(name, {{".pressure", "Pa"}, {".half angle", "rad"}}, [&](const Now& now) {
+    const Pressure p = pressure_under(*theory, force(now));
+    return std::array{p.greatest, p.half_angle};
+  });
+}
+
 template <class Out>
 void contact_columns(const System& system, std::size_t k, Out& out) {
   const ContactPair& pair = system.contacts[k];
@@ -122,14 +132,16 @@ void contact_columns(const System& system, std::size_t k, Out& out) {
       });
   wrench_columns(
       system, system.contact_names[k], true, false, pair.a, [&](const Now& now) { return clearance_effect(system, now.eq, k).on_a; }, out);
+  pressure_columns(
+      system.contact_names[k], pair.pressure, [&](const Now& now) { return clearance_effect(system, now.eq, k).normal.force; }, out);
 }
 
-/// Of two profiles: where they touch or are nearest to that, the pair that is pressed most; forces of all pairs.
+/// Of two profiles: where they touch or are nearest to that, of an open bearing the eccentricity; forces of all pairs, and the largest.
 struct ProfileContact {
   Gap gap;
   Eigen::Vector2d at{0, 0};
-  double normal = 0, friction = 0;
-  Wrench on_b = Wrench::Zero();
+  double normal = 0, friction = 0, pressed = 0;
+  Wrench on_a = Wrench::Zero(), on_b = Wrench::Zero();
 };
 ProfileContact profile_contact(const System& system, std::size_t first, const Equations& eq) {
   ProfileContact out;
@@ -137,11 +149,14 @@ ProfileContact profile_contact(const System& system, std::size_t first, const Eq
   for (std::size_t k = first; k < first + at(system.contacts[first].pairs); ++k) {
     const ContactPair& pair = system.contacts[k];
     const ContactEffect& effect = eq.contact[k];
-    out.normal += effect.normal.force, out.friction += effect.friction, out.on_b += effect.on_b;
+    out.normal += effect.normal.force, out.friction += effect.friction, out.on_a += effect.on_a, out.on_b += effect.on_b;
+    out.pressed = std::max(out.pressed, effect.normal.force);
     const MovingPoint a = moving_point(eq.motion[at(pair.a)]), b = moving_point(eq.motion[at(pair.b)]);
     const Gap gap = evaluate(pair.gap, a, b);
     const double near = std::min({gap.depth, pair.deepest - gap.depth, margin(pair, gap, a, b).value});
-    if (near > nearest) nearest = near, out.gap = gap, out.at = touched(pair.gap.a, a.r + gap.arm_a, gap.n, gap.across);
+    if (near > nearest)
+      nearest = near, out.gap = gap,
+      out.at = pair.journal ? Eigen::Vector2d(a.r - b.r) : touched(pair.gap.a, a.r + gap.arm_a, gap.n, gap.across);
   }
   return out;
 }
@@ -153,14 +168,25 @@ void profile_columns(const System& system, std::size_t first, Out& out) {
     if (!found) found = profile_contact(system, first, now.eq);
     return *found;
   };
-  out(system.contact_names[first],
-      {{".x", "m"}, {".y", "m"}, {".depth", "m"}, {".rate", "m/s"}, {".sliding", "m/s"}, {".normal", "N"}, {".friction", "N"}},
-      [&](const Now& now) {
-        const ProfileContact& c = contact(now);
-        return std::array{c.at.x(), c.at.y(), c.gap.depth, c.gap.rate, c.gap.material_slip, c.normal, c.friction};
-      });
+  const ContactPair& pair = system.contacts[first];
+  const std::string& name = system.contact_names[first];
+  const Column columns[] = {{pair.journal ? ".ex" : ".x", "m"},
+                            {pair.journal ? ".ey" : ".y", "m"},
+                            {".depth", "m"},
+                            {".rate", "m/s"},
+                            {".sliding", "m/s"},
+                            {".normal", "N"},
+                            {".friction", "N"}};
+  out(name, columns, [&](const Now& now) {
+    const ProfileContact& c = contact(now);
+    const double slip = pair.sliding == Sliding::geometric ? c.gap.geometric_slip : c.gap.material_slip;
+    return std::array{c.at.x(), c.at.y(), c.gap.depth, c.gap.rate, slip, c.normal, c.friction};
+  });
   wrench_columns(
-      system, system.contact_names[first], true, false, system.contacts[first].b, [&](const Now& now) { return contact(now).on_b; }, out);
+      system, name, true, false, pair.journal ? pair.a : pair.b,
+      [&](const Now& now) { return pair.journal ? contact(now).on_a : contact(now).on_b; }, out);
+  pressure_columns(
+      name, pair.pressure, [&](const Now& now) { return contact(now).pressed; }, out);
 }
 
 // Of a contact, the states of the owner's pairs that is pressed most; they are as many, one after another.

@@ -24,6 +24,10 @@ bool with_impulses(const System& system) {
   return std::ranges::any_of(system.contacts, [](const ContactPair& c) { return is_rigid(c); });
 }
 
+bool with_pressures(const System& system) {
+  return std::ranges::any_of(system.contacts, [](const ContactPair& c) { return c.pressure.has_value(); });
+}
+
 }  // namespace
 
 RunFiles::RunFiles(const fs::path& directory, const Model& model)
@@ -33,7 +37,8 @@ RunFiles::RunFiles(const fs::path& directory, const Model& model)
       events_(directory / "events.csv") {
   trajectory_.append(csv_heading(trajectory_table(model)));
   ledger_.append(csv_heading(ledger_table(system_)));
-  events_.append(std::string(event_columns) + (with_impulses(system_) ? ",impulse [N s]\n" : "\n"));
+  events_.append(std::string(event_columns) + (with_impulses(system_) ? ",impulse [N s]" : "") +
+                 (with_pressures(system_) ? ",peak pressure [Pa],half angle [rad]\n" : "\n"));
 }
 
 void RunFiles::add_rows(const Table& table, FileWriter& file) {
@@ -51,6 +56,12 @@ void RunFiles::add_impact(const Impact& i) {
     append_number(row_, x);
   }
   if (with_impulses(system_)) row_ += ',', append_number(row_, i.impulse);
+  if (const auto& theory = system_.contacts[static_cast<std::size_t>(i.contact)].pressure) {
+    const Pressure p = pressure_under(*theory, i.peak_force);
+    row_ += ',', append_number(row_, p.greatest), row_ += ',', append_number(row_, p.half_angle);
+  } else if (with_pressures(system_)) {
+    row_ += ",,";
+  }
   row_ += '\n';
   events_.append(row_);
   ++impacts_;

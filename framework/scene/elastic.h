@@ -131,12 +131,32 @@ struct SceneStaticLoad {
   Pair vector{0, 0};  ///< force [N], traction [Pa], line load [N/m], acceleration [m/s²]; body axes
   double value = 0;   ///< torque [N m], pressure [Pa], spin [rad/s]
   Place place;
+  std::string body = {};  ///< that it acts on; empty: that of the case
 };
-/// A static load case on one body, held by its supports.
+/// Edges or holes of two bodies that may touch without friction.
+struct SceneStaticContact {
+  struct Side {
+    std::string body, group;
+  };
+  std::string name;
+  Side first, second;
+  Place place;
+};
+/// Where the origin of a body's axes lies in those of the case.
+struct SceneStaticPlace {
+  std::string body;
+  Pair at{0, 0};  ///< [m]
+  Place place;
+};
+/// A static load case on one body, or on several that touch, held by their supports.
 struct SceneStatic {
   std::string body;  ///< empty: the only elastic body
   std::vector<SceneStaticLoad> loads;
   Place place;
+  std::vector<SceneStaticContact> contacts = {};
+  std::vector<SceneStaticPlace> at = {};  ///< bodies that are not there lie as they are drawn
+  /// The body that a load acts on.
+  const std::string& loaded(const SceneStaticLoad& l) const { return l.body.empty() ? body : l.body; }
 };
 
 }  // namespace pintle

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "framework/scene/error.h"
+
 namespace pintle {
 
 std::span<const JointWord> joint_words() {
@@ -29,6 +31,18 @@ const JointWord& word_of(const SceneJoint& joint) { return *std::ranges::find(jo
 std::vector<const PointRef*> points_of(const SceneJoint& joint) {
   if (joint.c) return {&joint.a, &joint.b, &*joint.c};
   return {&joint.a, &joint.b};
+}
+
+PointRef carrier_of(const Scene& scene, const PointRef& ref) {
+  const auto body = std::ranges::find(scene.bodies, ref.body, &SceneBody::name);
+  if (body == scene.bodies.end()) return {ref.body, "", ref.place};
+  const auto profile = std::ranges::find(body->profiles, ref.point, &SceneProfile::name);
+  if (profile == body->profiles.end()) return {ref.body, "", ref.place};  // told where its surface is built
+  if (profile->on.empty() && body->elastic && body->elastic->modes)
+    throw SceneError(scene.file, profile->place,
+                     "\"" + body->name + "\" bends, and which of its points carries \"" + profile->name +
+                         "\" is not said; add `on` with a point that has a direction: of a beam, or the middle of a hole");
+  return {ref.body, profile->on, profile->place};
 }
 
 }  // namespace pintle

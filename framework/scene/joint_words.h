@@ -33,5 +33,8 @@ const JointWord& word_of(const SceneJoint&);
 
 /// The points that a joint joins, in order.
 std::vector<const PointRef*> points_of(const SceneJoint&);
+/// The point that carries a profile, BODY.PROFILE; of a rigid body and the ground the origin.
+/// @throws SceneError  a flexible body's profile that no point carries
+PointRef carrier_of(const Scene&, const PointRef& profile);
 
 }  // namespace pintle

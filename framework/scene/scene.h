@@ -38,26 +38,28 @@ struct PointRef {
   Place place;
 };
 
-/// A point of a path: a named one of the body, or a place in body axes; and the arc that leads on from there.
+/// A point of a surface: a named one of the body, or a place in body axes; and the arc of a path that leads on from there.
 struct ScenePathPoint {
   std::string point;  ///< empty: `at`
-  Pair at{0, 0};      ///< [m]
+  Pair at{0, 0};      ///< [m]; of a polar profile angle and radius [rad, m]
   double arc = 0;     ///< radius, > 0 turning left; 0: a straight line [m]
   Place place = {};
 };
 
-/// The surface of a body, that contacts are made of: a disc or a hole about a point, or a path of lines and arcs.
+/// The surface of a body, that contacts are made of: a disc or a hole about a point, a path of lines and arcs, or a spline through
+/// points, given by x and y or, `polar`, by angle and radius.
 struct SceneProfile {
-  enum Kind { disc, hole, path };
+  enum Kind { disc, hole, path, spline, polar };
   enum Side { left, right, inside, outside };  ///< where the material is: of an open path, of a closed one
   std::string name;
   Kind kind = disc;
-  ScenePathPoint centre = {};  ///< of a disc or hole
-  double radius = 0;           ///< likewise [m]
+  ScenePathPoint centre = {};  ///< of a disc or hole; of a polar profile what its points are about
+  double radius = 0;           ///< of a disc or hole [m]
   std::vector<ScenePathPoint> points = {};
   bool closed = false;
   Side material = left;
   double round = 0;  ///< radius of the arc at corners between straight lines [m]
+  std::string on;    ///< of a body of elements: its point that carries the profile
   Place place = {};
 };
 
@@ -100,6 +102,7 @@ struct SceneNormal {
   std::string hysteresis = "lankarani-nikravesh";  ///< the factor that damps them, for `restitution`
   double length = 0;                               ///< of cylinders, along their axes [m]
   std::vector<Pair> points = {};                   ///< of a table: depth and force, from (0, 0) [m, N]
+  double layer = 0;  ///< of winkler: thickness of the layer of `bearing`'s elasticity [m]; 0: `stiffness` is its own [N/m³]
 };
 
 enum class SlidingSpeed { material, geometric };
@@ -130,6 +133,16 @@ struct SceneImpact {
 /// another model may stay and is left out, which `pintle check` says.
 enum class ClearanceModel { contact, massless_link, spring_damper, impact };
 
+/// What is left of the hole of an open bearing, in the axes of the bearing's point.
+struct SceneArc {
+  double middle = 0;  ///< direction of its middle [rad]
+  double extent = 0;  ///< angle that it spans, a full turn at the most [rad]
+  double wall = 0;    ///< its thickness; of a full turn without meaning [m]
+  double edge = 0;    ///< radius of the edges at its ends; 0: sharp [m]
+  static constexpr double turn = 6.283185307179586, rounding = 1e-9;
+  bool whole() const { return extent > turn - rounding; }
+};
+
 struct SceneClearance {
   ClearanceModel model = ClearanceModel::contact;
   double radial = 0;          ///< bearing radius − journal radius [m]
@@ -140,7 +153,8 @@ struct SceneClearance {
   std::optional<double> stiffness = {}, damping = {};
   std::optional<SceneFriction> friction;
   Place place;
-  SceneImpact impact = {};  ///< of the model of that name
+  SceneImpact impact = {};           ///< of the model of that name
+  std::optional<SceneArc> arc = {};  ///< of an open bearing; unset: the hole is whole
 };
 /// As a scene file calls it.
 const char* model_name(ClearanceModel);
@@ -182,6 +196,9 @@ struct SceneJoint {
   std::optional<ScenePlay> play = {};               ///< prismatic, slot and distance only
   std::optional<SceneJointFriction> friction = {};  ///< revolute, prismatic and slot, without clearance
 };
+
+/// A revolute with clearance whose bearing is an arc.
+inline bool is_open(const SceneJoint& j) { return j.clearance && j.clearance->arc; }
 
 /// Two profiles of two bodies that may touch. In `normal`, `bearing` is the first body's elasticity, `journal` the second's.
 struct SceneContact {

@@ -107,6 +107,37 @@ TEST(CylinderLaws, GoOnStraightWhereTheirLogarithmWouldTurn) {
   }
 }
 
+// Johnson 1985, §4.3: under a line load P/L the foundation touches over a half-width a with P/L = ⅔ (K a/h) (a²/R); ν = ¼ makes
+// (1 − ν)E/((1 + ν)(1 − 2ν)) = 1.2 E.
+TEST(Winkler, IsTheFoundationOfJohnsonWhereTheContactIsNarrow) {
+  EXPECT_NEAR(foundation_modulus(2e9, 0.25, 1e-3), 2.4e12, 1e-3);
+  for (const Geometry& g : {pin_in_hole(1e-4), pin_in_hole(1e-3), discs()})
+    for (const double depth : {1e-12, 1e-10, 1e-9}) {
+      const double a = std::sqrt(2 * g.R * depth);
+      EXPECT_NEAR(force(law("winkler", g), depth) / (length * 2 / 3 * foundation * a * a * a / g.R), 1, 2 * depth / g.D + 1e-13) << depth;
+    }
+}
+
+TEST(Winkler, EndsWhereItsLayerOrItsShapeDoes) {
+  const DampedLaw thin = law("winkler", pin_in_hole(1e-4));
+  EXPECT_NEAR(thin.deepest, layer / 10, 1e-15);
+  EXPECT_NE(range_warning(thin, 1.1e-4).find("a tenth of its thickness"), std::string::npos);
+  Cylinders thick = cylinders(discs());
+  thick.layer = 1;
+  const DampedLaw wide = find_cylinder_law("winkler")->law(thick);
+  EXPECT_NEAR(std::sqrt(2 * discs().R * wide.deepest), 5e-3, 1e-12);
+  EXPECT_NE(range_warning(wide, 1e-2).find("wider than the smaller radius"), std::string::npos);
+  thick = cylinders(pin_in_hole(1e-4));
+  thick.layer = 1;
+  EXPECT_NEAR(find_cylinder_law("winkler")->law(thick).deepest, 9.9e-4, 1e-12);
+}
+
+TEST(Winkler, LiesOnAFlatToo) {
+  Cylinders c = cylinders(discs());
+  c.b = std::numeric_limits<double>::infinity();
+  EXPECT_NEAR(force(find_cylinder_law("winkler")->law(c), 1e-6), winkler({10e-3, c.b, 0, 10e-3}, 1e-6), 1e-9);
+}
+
 TEST(ForceTable, KeepsToItsPoints) {
   const ElasticLaw table = force_table(points());
   double last = 0;

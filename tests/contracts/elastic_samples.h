@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact/cylinder_law.h"
@@ -38,7 +39,10 @@ struct Geometry {
 };
 inline Geometry pin_in_hole(double clearance) { return {10e-3 - clearance, -10e-3, clearance, (10e-3 - clearance) * 10e-3 / clearance}; }
 inline Geometry discs() { return {10e-3, 20e-3, 30e-3, 10e-3 * 20e-3 / 30e-3}; }
-inline DampedLaw law(const char* name, const Geometry& g) { return find_cylinder_law(name)->law({g.a, g.b, length, modulus()}); }
+/// Of the layer of winkler: pressure over local depth, and thickness.
+constexpr double foundation = 4e12, layer = 1e-3;
+inline Cylinders cylinders(const Geometry& g) { return {g.a, g.b, length, modulus(), foundation, layer}; }
+inline DampedLaw law(const char* name, const Geometry& g) { return find_cylinder_law(name)->law(cylinders(g)); }
 
 /// Johnson 1985 (5.57) of both bodies, with Hertz's half-width a.
 inline double johnson(const Geometry& g, double depth) {
@@ -82,6 +86,40 @@ inline double pereira_exponent(const Geometry& g) {
 inline double pereira(const Geometry& g, double depth) {
   const double D = 1e3 * g.D, E = 1e-6 * modulus(), L = 1e3 * length, a = g.b < 0 ? 0.965 : 0.39, b = g.b < 0 ? 0.0965 : 0.85;
   return (a * D + b) * L * E / D * std::pow(1e3 * depth, pereira_exponent(g));
+}
+
+/// ∫ f over −1 … 1 by Gauss and Legendre with sixteen points, the roots of P₁₆ by Newton's method.
+template <class F>
+double gauss(F f) {
+  constexpr int n = 16;
+  static const auto rule = [] {
+    std::array<std::array<double, 2>, n> out;
+    for (int i = 0; i < n; ++i) {
+      double x = std::cos(M_PI * (i + 0.75) / (n + 0.5)), slope = 1;
+      for (int k = 0; k < 10; ++k) {
+        double before = 1, now = x;
+        for (int j = 2; j <= n; ++j) before = std::exchange(now, ((2 * j - 1) * x * now - (j - 1) * before) / j);
+        slope = n * (x * now - before) / (x * x - 1);
+        x -= now / slope;
+      }
+      out[static_cast<std::size_t>(i)] = {x, 2 / ((1 - x * x) * slope * slope)};
+    }
+    return out;
+  }();
+  double sum = 0;
+  for (const auto& [x, weight] : rule) sum += weight * f(x);
+  return sum;
+}
+/// Winkler's foundation: the pressure K · local depth summed over where that is above 0. In a hole the local depth is
+/// (ΔR + δ) cos φ − ΔR = 2 (ΔR + δ) sin((φ₀ − φ)/2) sin((φ₀ + φ)/2), between parabolas δ − y²/(2R).
+inline double winkler(const Geometry& g, double depth) {
+  if (g.b > 0) {
+    const double a = std::sqrt(2 * g.R * depth);
+    return foundation * length * a * gauss([&](double x) { return depth * (1 - x * x); });
+  }
+  const double e = g.D + depth, end = std::atan2(std::sqrt(depth * (2 * g.D + depth)), g.D);
+  return foundation * length * std::sqrt(std::abs(g.a * g.b)) * end *
+         gauss([&](double x) { return 2 * e * std::sin(end * (1 - x) / 2) * std::sin(end * (1 + x) / 2) * std::cos(end * x); });
 }
 
 inline const std::vector<std::array<double, 2>>& points() {
@@ -134,6 +172,9 @@ inline const std::vector<Sample>& all() {
       of("pereira", pin_in_hole(1e-4), pereira, pereira_exponent(pin_in_hole(1e-4))),
       of("pereira", pin_in_hole(5e-4), pereira, pereira_exponent(pin_in_hole(5e-4))),
       of("pereira", discs(), pereira, 1.094),
+      of("winkler", pin_in_hole(1e-4), winkler, 1.5),
+      of("winkler", pin_in_hole(2e-3), winkler, 1.5),
+      of("winkler", discs(), winkler, 1.5),
       {"table", {.elastic = force_table(points()), .deepest = points().back()[0], .name = "table"}, table},
   };
   return samples;

@@ -1,8 +1,10 @@
 // Laws of cylinders and tables from a scene's words to a run: what is said, refused, stored, lost and warned of.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -11,6 +13,7 @@
 #include "framework/build/build.h"
 #include "framework/build/inertia_defaults.h"
 #include "framework/configuration/equilibrium.h"
+#include "framework/output/run_files.h"
 #include "framework/scene/error.h"
 #include "framework/scene/yaml/reader.h"
 #include "tests/scenes/mechanisms.h"
@@ -50,7 +53,10 @@ run: {until: 4 ms, tolerance: 1e-11, method: verner87}
 )",
                          "scene");
 }
-std::string cylinders(std::string_view law, const std::string& more = "") { return "{" + std::string(law) + ": {" + steel + more + "}}"; }
+std::string cylinders(std::string_view law, const std::string& more = "") {
+  const std::string layer = find_cylinder_law(law)->of_a_layer ? ", layer: 1 mm" : "";
+  return "{" + std::string(law) + ": {" + steel + layer + more + "}}";
+}
 
 void expect_one_clean_impact(const Whole& w, double chi, const std::string& law) {
   SCOPED_TRACE(law);
@@ -97,6 +103,61 @@ TEST(CylinderContact, RestsWhereItsForceCarriesTheLoad) {
   EXPECT_NEAR(rest.table.column("bush.depth [m]").at(0) / depth, 1, 1e-6);
 }
 
+/// A pin that lies in its hole.
+Whole resting(const std::string& normal) {
+  Scene s = flying(normal);
+  s.gravity = {0, -9.81};
+  s.start_journals.clear();
+  s.start_at_rest = true;
+  return run(s);
+}
+
+// Hertz 1881 of a narrow contact, p = √(F E*/(π R L)); of a layer what K and the depth give. Without a theory there are no columns.
+TEST(CylinderContact, SaysHowHardItPresses) {
+  const double F = mass * 9.81, R = 10e-3 * 9.9e-3 / 1e-4, E = 207e9 / 1.82;
+  for (const char* law : {"johnson", "liu", "pereira"}) {
+    const Whole w = resting(cylinders(law));
+    EXPECT_NEAR(w.last("bush.pressure [Pa]") / std::sqrt(F * E / (M_PI * R * 15e-3)), 1, 1e-4) << law;
+    EXPECT_NEAR(w.last("bush.half angle [rad]") / (2 * std::sqrt(F * R / (M_PI * E * 15e-3)) / 9.95e-3), 1, 1e-4) << law;
+  }
+  const Whole lined = resting("{winkler: {length: 15 mm, layer: 1 mm, young: 2 GPa, poisson: 0.4}}");
+  const double K = 0.6 * 2e9 / (1.4 * 0.2) / 1e-3, depth = lined.last("bush.depth [m]");  // (1 − ν)E/((1 + ν)(1 − 2ν)h)
+  EXPECT_NEAR(lined.last("bush.pressure [Pa]") / (K * depth), 1, 1e-6);
+  EXPECT_NEAR(std::cos(lined.last("bush.half angle [rad]")), radial / (radial + depth), 1e-9);
+  const Whole table = resting("{table: {" + points + "}}");
+  EXPECT_TRUE(std::ranges::none_of(table.run.trajectory.header, [](const std::string& h) { return h.find("pressure") != h.npos; }));
+}
+
+TEST(CylinderContact, WritesThePressureOfEveryStay) {
+  const auto events = [](const std::string& normal) {
+    const Whole w = run(flying(normal));
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "pintle_pressure_test";
+    std::filesystem::create_directories(folder);
+    RunFiles files(folder, w.model);
+    files.finish(w.run.impacts);
+    std::ifstream in(folder / "events.csv");
+    std::string heading, row;
+    std::getline(in, heading), std::getline(in, row);
+    std::filesystem::remove_all(folder);
+    return std::tuple(heading, row, w.run.impacts[0].peak_force);
+  };
+  const auto [heading, row, force] = events(cylinders("johnson"));
+  EXPECT_TRUE(heading.ends_with(",energy lost [J],peak pressure [Pa],half angle [rad]")) << heading;
+  const double angle = std::stod(row.substr(row.rfind(',') + 1)), b2 = std::pow(std::tan(angle / 2), 2);
+  const double q = force / (207e9 / 1.82 * radial * 15e-3);  // Persson 1964
+  EXPECT_NEAR((2 - std::log(1 + b2) - 2 * b2 * b2) * q / (2 * M_PI * b2 * (1 + b2)), 1, 1e-9);
+  EXPECT_EQ(std::get<0>(events("{table: {" + points + "}}")).find("pressure"), std::string::npos);
+}
+
+// A roller on a flat that a layer covers: F = (4√2/3) K L √R δ^1.5.
+TEST(CylinderContact, ALayerMayLieOnAFlat) {
+  const Whole w = run(rolling("{winkler: {length: 15 mm, stiffness: 4e12 N/m^3}}", "path: [[20 mm, -1], [20 mm, 1]], material: left"));
+  ASSERT_GE(w.run.impacts.size(), 1u);
+  const double k = 4 * std::sqrt(2.0) / 3 * 4e12 * 15e-3 * std::sqrt(10e-3), energy = mass * speed * speed / 2;
+  EXPECT_NEAR(w.run.impacts[0].deepest, std::pow(2.5 * energy / k, 0.4), 1e-9);
+  EXPECT_TRUE(w.run.warnings.empty());
+}
+
 TEST(CylinderContact, WarnsWhereALawEnds) {
   const auto warned = [](Scene s, const std::string& words) {
     s.start_journals[0].speed = {20, 0};
@@ -112,10 +173,14 @@ TEST(CylinderContact, WarnsWhereALawEnds) {
 
 TEST(CylinderContact, FilledInReadsBackToItself) {
   for (const CylinderLaw& law : cylinder_laws()) {
-    const Scene s = flying(cylinders(law.name, ", restitution: 0.8, hysteresis: exact, journal: {young: 1 GPa, poisson: 0.2}"));
+    const std::string journal = law.of_a_layer ? "" : ", journal: {young: 1 GPa, poisson: 0.2}";
+    const Scene s = flying(cylinders(law.name, ", restitution: 0.8, hysteresis: exact" + journal));
     EXPECT_EQ(s.joints[0].clearance->normal.law, law.name);
     EXPECT_EQ(read_scene_text(s.filled_in, "again").filled_in, s.filled_in);
   }
+  const Scene given = flying("{winkler: {length: 15 mm, stiffness: 4e12 N/m^3}}");
+  EXPECT_EQ(*given.joints[0].clearance->normal.stiffness, 4e12);
+  EXPECT_EQ(read_scene_text(given.filled_in, "again").filled_in, given.filled_in);
   const Scene table = flying("{table: {" + points + "}}");
   EXPECT_EQ(read_scene_text(table.filled_in, "again").filled_in, table.filled_in);
 }
@@ -172,6 +237,15 @@ TEST(CylinderContact, RefusesWhatCannotBe) {
   pin("{table: {points: [[0, 0], [5 N, 1 um]]}}", "length");
   pin("{table: {points: [[0, 0], [1 um, 5 N]], force unit: N}}", "belongs to `file`");
   pin("{table: {file: ../bearing.csv}}", "bearing.csv");
+  pin("{winkler: {length: 15 mm, young: 2 GPa, poisson: 0.4}}", "layer: 1 mm");
+  pin("{winkler: {layer: 1 mm, young: 2 GPa, poisson: 0.4}}", "length: 20 mm");
+  pin("{winkler: {length: 15 mm, layer: 1 mm}}", "add young and poisson");
+  pin("{winkler: {length: 15 mm, layer: 1 mm, young: 2 GPa, poisson: 0.5}}", "less than 0.5");
+  pin("{winkler: {length: 15 mm, layer: 1 mm, stiffness: 4e12 N/m^3}}", "give either the stiffness or those");
+  pin("{winkler: {length: 15 mm, stiffness: 4e12 N/m}}", "stiffness");
+  pin(cylinders("winkler", ", journal: {young: 1 GPa, poisson: 0.2}"), "does not belong to winkler");
+  pin(cylinders("johnson", ", layer: 1 mm"), "does not belong to johnson");
+  pin("{flores: {restitution: 0.5, young: 1 GPa, poisson: 0.3, layer: 1 mm}}", "does not belong to flores");
   roll(cylinders("liu"), "liu is a law of a pin in a hole");
   roll(cylinders("esdu"), "esdu is a law of a pin in a hole");
   refused([&] { return rolling(cylinders("johnson"), "path: [[-1, 0], [1, 0]], material: right"); }, "a law of two cylinders");

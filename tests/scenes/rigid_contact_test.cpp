@@ -43,6 +43,21 @@ TEST_P(RigidContact, ABlockOnAGentleSlopeStaysForEver) {
   EXPECT_LT(w.run.counts.steps, 100);
 }
 
+// It leaves more slowly than shows, and comes back before its gap opens.
+TEST_P(RigidContact, ABallThatLeavesASlightOverlapSlowlyDoesNotFallThrough) {
+  for (const double speed : {1e-7, 1e-5, 1e-3}) {
+    SCOPED_TRACE(speed);
+    const Whole w = run_it(
+        "gravity: [0, -9.81]\nground: {profiles: {floor: {path: [[-1, 0], [1, 0]], material: right}}}\n"
+        "bodies: {ball: {rigid: {mass: 1, inertia: 1e-3}, profiles: {rim: {disc: [0, 0], radius: 0.1}}}}\ncontacts:\n" +
+        struck("foot", "ball.rim", "ground.floor", "restitution: 0.5") + "start: {ball: {y: " + number(0.1 - 1e-12) +
+        ", vy: " + number(speed) + "}}\n" + run_for(0.1, 0.01));
+    expect_sound(w, 1e-9);
+    EXPECT_NEAR(w.last("ball.y [m]"), 0.1, 1e-11);
+    EXPECT_NEAR(w.last("foot.normal [N]"), 9.81, 1e-9);
+  }
+}
+
 TEST_P(RigidContact, ABlockSlidesDownASteepSlope) {
   const double slope = 30 * degree, a = g * (std::sin(slope) - mu * std::cos(slope)), t = 1;
   const Whole w = run_it(block(slope, 0, t));

@@ -36,7 +36,8 @@ const std::vector<Layer> layers{
     {"framework/scene/", {"files/", "elements/material.h", "elements/section.h", "meshes/link.h", "framework/common/"}},
 
     {"framework/component/eigen/", {"framework/common/"}},
-    {"framework/component/fe/", {"elements/", "meshes/", "framework/common/", "framework/component/eigen/"}},
+    {"framework/component/fe/",
+     {"elements/", "contact/complementarity.h", "contact/plane.h", "meshes/", "framework/common/", "framework/component/eigen/"}},
     {"framework/component/reduction/", {"meshes/", "framework/common/", "framework/component/eigen/", "framework/component/fe/"}},
 
     {"framework/dynamics/model/", {"contact/", "framework/common/", "framework/component/reduction/inertia.h"}},

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "contact/profile.h"
 #include "tests/contracts/moving_bodies.h"
 
 namespace pintle::sticking_test {
@@ -23,12 +24,24 @@ struct Kind {
 };
 const Piece disc{.radius = 0.07, .centre = {0.02, -0.03}}, hollow{.radius = -0.3, .centre = {-0.04, 0.05}},
     flat{.centre = {-0.02, 0.06}, .normal = -0.7, .half = 0.5, .straight = true};
+// Of an egg.
+Piece span() {
+  std::vector<Eigen::Vector2d> rim;
+  for (int i = 0; i < 12; ++i) {
+    const double angle = 2 * M_PI * i / 12, r = 0.3 + 0.02 * std::cos(angle);
+    rim.emplace_back(0.03 + r * std::cos(angle), -0.02 + r * std::sin(angle));
+  }
+  return profile_through(rim, true).pieces[1];
+}
+const Piece egg = span();
 const std::vector<Kind> kinds{
     {"JournalInItsBearing", JournalBearing{0.09, 0.1}},
     {"DiscOnDisc", {disc, disc}},
     {"DiscInHollow", {disc, hollow}},
     {"LineOnDisc", {flat, disc}},
     {"DiscOnLine", {disc, flat}},
+    {"CurveOnDisc", {egg, disc}},
+    {"LineOnCurve", {flat, egg}},
     {"DiscOnLineBesideAJoint", {disc, flat}, {Slot{0, 1}}},
 };
 

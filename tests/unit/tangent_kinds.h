@@ -1,15 +1,20 @@
 #pragma once
 
+// What sits the exam of the tangent: every joint, force and contact. A new one joins by one line in `kinds`.
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <ostream>
 #include <vector>
 
+#include "contact/profile.h"
 #include "tests/contracts/moving_bodies.h"
 
-/// What sits the exam of tangents: a line each.
 namespace pintle::tangent_test {
 
-inline constexpr double clearance = 0.01, depth = 1e-3;
+using Eigen::Vector2d;
+
+inline constexpr double clearance = 0.01, depth = 1e-3;  // of a bearing, of a contact that is pressed [m]
 
 struct Kind {
   const char* name;
@@ -31,6 +36,16 @@ inline ContactPair spring_damper(std::optional<Ambrosio> friction = {}) {
 inline const Piece disc{.radius = 0.07, .centre = {0.02, -0.03}}, hollow{.radius = -0.3, .centre = {-0.04, 0.05}},
     corner{.radius = 0, .centre = {0.03, 0.02}, .normal = 0.3, .half = 0.8},
     flat{.centre = {-0.02, 0.06}, .normal = -0.7, .half = 0.5, .straight = true};
+// Of an egg, or the hole of its shape: a span that bends far more than one pressing it moves along.
+inline Piece span(bool inside, std::size_t which) {
+  std::vector<Vector2d> rim;
+  for (int i = 0; i < 12; ++i) {
+    const double angle = (inside ? 2 : -2) * M_PI * i / 12, r = 0.3 + 0.02 * std::cos(angle);
+    rim.emplace_back(0.03 + r * std::cos(angle), -0.02 + r * std::sin(angle));
+  }
+  return profile_through(rim, true).pieces[which];
+}
+inline const Piece egg = span(true, 1), other_egg = span(true, 4), egg_hole = span(false, 2);
 inline ContactPair profiles(const Piece& a, const Piece& b) {
   ContactPair pair = contact(2, Ambrosio{0.3, 0, 50});
   pair.gap = {a, b};
@@ -81,6 +96,7 @@ inline const std::vector<Kind> kinds{
     {"DiscOnLineOfLuGre", {}, {}, {with(profiles(disc, flat), lugre)}},
     {"LineOnCornerOfGonthier", {}, {}, {with(profiles(flat, corner), gonthier)}},
     {"DiscInHollowOfLuGre", {}, {}, {with(profiles(disc, hollow), lugre)}},
+    {"CurveOnLineOfLuGre", {}, {}, {with(profiles(egg, flat), lugre)}},
     {"DiscOnDisc", {}, {}, {profiles(disc, disc)}},
     {"DiscInHollow", {}, {}, {profiles(disc, hollow)}},
     {"HollowRoundDisc", {}, {}, {profiles(hollow, disc)}},
@@ -89,6 +105,12 @@ inline const std::vector<Kind> kinds{
     {"CornerOnLine", {}, {}, {profiles(corner, flat)}},
     {"LineOnCorner", {}, {}, {profiles(flat, corner)}},
     {"CornerOnDisc", {}, {}, {profiles(corner, disc)}},
+    {"CurveOnDisc", {}, {}, {profiles(egg, disc)}},
+    {"DiscOnCurve", {}, {}, {profiles(disc, egg)}},
+    {"DiscInHollowCurve", {}, {}, {profiles(disc, egg_hole)}},
+    {"CurveOnCurve", {}, {}, {profiles(egg, other_egg)}},
+    {"CurveOnLine", {}, {}, {profiles(egg, flat)}},
+    {"LineOnCurve", {}, {}, {profiles(flat, egg)}},
     {"Several",
      {Slot{0, 1}, Revolute{1, 0}},
      {Spring{1, 0, 40, 3, 0.5}, Maxwell{1, 0, 60, 5}, TorsionSpring{0, 1, 25, 2, -0.8}, PointForce{1, 0, sine, steady, true}}},

@@ -17,6 +17,8 @@ bool books_agree_with_model(const System& system) {
                       [](const ContactPair& c) { return c.friction && c.sliding == Sliding::geometric; });
 }
 
+std::string for_finer_books(const Scheme& scheme) { return scheme.fixed_step > 0 ? "shorten moreau.step" : "tighten run.tolerance"; }
+
 // Errors of a run go where its energy goes: each row may be off by what is unexplained beyond rounding, by what the scheme itself took,
 // and by the tolerance of the energy in play.
 void warn_of_small_rows(const System& system, const Scheme& scheme, Run& run) {
@@ -38,8 +40,8 @@ void warn_of_small_rows(const System& system, const Scheme& scheme, Run& run) {
   const std::string known = warning < least ? " is known to about " + number_text(100 * warning / least, 1) + " %" : " is not known";
   run.warnings.push_back("\"" + integral_name(system, system.integrals[worst]) + "\"" +
                          (more > 1 ? " (and " + std::to_string(more - 1) + " more of the ledger)" : "") + known + ": at most " +
-                         number_text(least, 3) + " J, where the books of this run are good to " + number_text(warning, 2) +
-                         " J; tighten run.tolerance");
+                         number_text(least, 3) + " J, where the books of this run are good to " + number_text(warning, 2) + " J; " +
+                         for_finer_books(scheme));
 }
 
 }  // namespace
@@ -63,7 +65,8 @@ void check_energy_balance(const Scene& scene, const Model& model, bool implicit,
                             number_text(open / run.energy_in_play, 3) + " of the energy in play";
   if (!(open <= allowed + floor)) {
     run.status = Status::ledger_over_bound;
-    run.reason = found + "; bound " + number_text(run.ledger_bound, 3) + " (tighten run.tolerance, or raise run.ledger bound)";
+    run.reason =
+        found + "; bound " + number_text(run.ledger_bound, 3) + " (" + for_finer_books(model.scheme) + ", or raise run.ledger bound)";
     return;
   }
   constexpr double nothing = 1e-6;  // where all that is in play is what is unexplained, nothing has moved: rounding of heights

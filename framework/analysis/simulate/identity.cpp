@@ -44,14 +44,15 @@ class Sum : public ValueWriter<Sum> {
     std::apply([this](const auto&... member) { this->add(member...); }, joint_or_force.members());
   }
   void add(const ContactPair& p) {
-    const auto& [a, b, gap, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid,
-                 slack] = p;
+    const auto& [a, b, gap, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid, slack,
+                 pressure, journal] = p;
     add(a, b, gap.a, gap.b, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid,
         slack);
   }
   void add(const Piece& piece) {
-    const auto& [radius, centre, normal, half, straight] = piece;
+    const auto& [radius, centre, normal, half, straight, curve] = piece;
     add(radius, centre, normal, half, straight);
+    if (curve) add(curve->numbers());
   }
   void add(const RigidImpact& impact) {
     const auto& [restitution, tangential, poisson] = impact;
@@ -71,6 +72,10 @@ class Sum : public ValueWriter<Sum> {
     add(S, G);
   }
   void add(const WideningForce& law) {
+    const auto& [k, clearance] = law;
+    add(k, clearance);
+  }
+  void add(const FoundationForce& law) {
     const auto& [k, clearance] = law;
     add(k, clearance);
   }

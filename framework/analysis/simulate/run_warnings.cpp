@@ -1,6 +1,7 @@
 #include "framework/analysis/simulate/run_warnings.h"
 
 #include <algorithm>
+#include <numbers>
 #include <sstream>
 
 #include "framework/common/text.h"
@@ -8,10 +9,11 @@
 namespace pintle {
 
 void warn_of_depth(const System& system, Run& run) {
-  std::vector<double> deepest(system.contacts.size(), 0.0);
+  std::vector<double> deepest(system.contacts.size(), 0.0), force(system.contacts.size(), 0.0);
   for (const Impact& i : run.impacts) {
-    double& d = deepest[static_cast<std::size_t>(i.contact - system.contacts[static_cast<std::size_t>(i.contact)].pair)];
-    d = std::max(d, i.deepest);
+    const auto first = static_cast<std::size_t>(i.contact - system.contacts[static_cast<std::size_t>(i.contact)].pair);
+    deepest[first] = std::max(deepest[first], i.deepest);
+    force[first] = std::max(force[first], i.peak_force);
   }
   for (std::size_t c = 0; c < deepest.size(); ++c)
     if (const ContactPair& pair = system.contacts[c]; deepest[c] > too_deep * contact_size(pair, system.length)) {
@@ -23,6 +25,11 @@ void warn_of_depth(const System& system, Run& run) {
       run.warnings.push_back(s.str());
     } else if (const std::string range = range_warning(pair.normal, deepest[c]); !range.empty()) {
       run.warnings.push_back("\"" + system.contact_names[c] + "\": " + range);
+    } else if (pair.pressure && pressure_under(*pair.pressure, force[c]).half_angle > widest(*pair.pressure)) {
+      const auto degrees = [](double angle) { return number_text(angle * 180 / std::numbers::pi, 3); };
+      run.warnings.push_back("\"" + system.contact_names[c] + "\": under its greatest force it spans " +
+                             degrees(pressure_under(*pair.pressure, force[c]).half_angle) +
+                             " degrees to either side; its pressure holds up to " + degrees(widest(*pair.pressure)));
     }
 }
 

@@ -107,23 +107,14 @@ void take_off(const ElasticBody& e, const Eigen::MatrixXd& on_beams, Eigen::Matr
 
 }  // namespace
 
-StaticReport solve_case(const Scene& scene, const ElasticBody& e) {
-  if (!scene.statics)
-    throw SceneError(scene.file, {0, "static"},
-                     "the scene has no static case; add one: static: {loads: {pull: {at: A, force: [100 N, 0]}}}");
-  const std::vector<NamedSupport> supports = supports_of(scene, e);
-  if (supports.empty())
-    throw SceneError(scene.file, e.scene->place,
-                     "\"" + e.scene->name + "\" has no supports, so a load would carry it away; add supports: {A: fixed}");
-  const BodyLoad load = loads_of(scene, e);
+StaticReport report_of(const Scene& scene, const ElasticBody& e, const std::vector<NamedSupport>& supports, const BodyLoad& load,
+                       StaticSolution solution) {
   StaticReport r;
-  const auto start = std::chrono::steady_clock::now();
+  r.solution = std::move(solution);
   in_body(scene, *e.scene, [&] {
-    r.solution = solve_static(e.model, e.K, together(supports), load.independent);
     r.stress = stress_field(e.model, r.solution.u, e.fibres);
     take_off(e, load.on_beams, r.stress.section_forces);
   });
-  r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   r.load = rigid_motions(e.model).transpose() * load.independent;
   r.reactions = share(e, supports, r.solution.reactions);
   for (const Port& p : e.model.ports) {
@@ -141,6 +132,22 @@ StaticReport solve_case(const Scene& scene, const ElasticBody& e) {
       r.greatest_stress = v;
       r.stressed_at = drawing.points.col(i);
     }
+  return r;
+}
+
+StaticReport solve_case(const Scene& scene, const ElasticBody& e) {
+  if (!scene.statics)
+    throw SceneError(scene.file, {0, "static"},
+                     "the scene has no static case; add one: static: {loads: {pull: {at: A, force: [100 N, 0]}}}");
+  const std::vector<NamedSupport> supports = supports_of(scene, e);
+  if (supports.empty())
+    throw SceneError(scene.file, e.scene->place,
+                     "\"" + e.scene->name + "\" has no supports, so a load would carry it away; add supports: {A: fixed}");
+  const BodyLoad load = loads_of(scene, e);
+  const auto start = std::chrono::steady_clock::now();
+  StaticSolution solution = in_body(scene, *e.scene, [&] { return solve_static(e.model, e.K, together(supports), load.independent); });
+  StaticReport r = report_of(scene, e, supports, load, std::move(solution));
+  r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return r;
 }
 

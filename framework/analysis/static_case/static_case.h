@@ -34,6 +34,9 @@ struct StaticReport {
 /// @throws SceneError  no static case in the scene, no supports or too few, a load that does not fit
 StaticReport solve_case(const Scene&, const ElasticBody&);
 
+/// What an answer means, however it was found.
+StaticReport report_of(const Scene&, const ElasticBody&, const std::vector<NamedSupport>&, const BodyLoad&, StaticSolution);
+
 /// static.vtu (displacement, stress components, von Mises, principal stresses), points.csv and, of beams,
 /// section_forces.csv; static.json
 void write_case(const std::filesystem::path& directory, const Scene&, const ElasticBody&, const StaticReport&);

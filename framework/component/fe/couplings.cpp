@@ -30,15 +30,15 @@ template <class... Parts>
   throw std::invalid_argument(words.str());
 }
 
-struct RimShape {
+struct CoupledShape {
   Vector2d center = Vector2d::Zero();  // weighted
   double length = 0, radius = 0;       // Σw, √(Σ w r²/Σw)
 };
 
-RimShape rim_shape(const FeModel& model, const RimPort& rim) {
+CoupledShape coupled_shape(const FeModel& model, const RimPort& rim) {
   if (rim.weights.size() != rim.nodes.size())
     reject_rim(rim, rim.weights.size(), " weights for ", rim.nodes.size(), " nodes of its rim; give one each");
-  RimShape shape;
+  CoupledShape shape;
   for (std::size_t k = 0; k < rim.nodes.size(); ++k) {
     if (!(rim.weights[k] > 0))
       reject_rim(rim, "weight of rim node ", rim.nodes[k], " is ", rim.weights[k], ", must be > 0: the length of rim that belongs to it");
@@ -62,7 +62,7 @@ RimShape rim_shape(const FeModel& model, const RimPort& rim) {
 
 // p = C u over the rim's freedoms [u_x u_y] node by node: the rigid motion nearest to u, as
 // [u_x u_y φ] of the port. The rotation's row is in rad.
-Eigen::Matrix3Xd average_motion(const FeModel& model, const RimPort& rim, const RimShape& shape) {
+Eigen::Matrix3Xd average_motion(const FeModel& model, const RimPort& rim, const CoupledShape& shape) {
   const auto k = static_cast<Index>(rim.nodes.size());
   Eigen::Matrix3Xd C(3, 2 * k);
   const Vector2d lever = rim.x - shape.center;
@@ -85,7 +85,7 @@ struct Rim {
   Eigen::Matrix3Xd C;          // average
 };
 
-Rim average_rim(const FeModel& model, const RimPort& port, const RimShape& shape) {
+Rim average_rim(const FeModel& model, const RimPort& port, const CoupledShape& shape) {
   Rim rim;
   for (const int node : port.nodes)
     for (int d = 0; d < 2; ++d) rim.freedoms.push_back(model.begin[static_cast<std::size_t>(node)] + d);
@@ -159,8 +159,8 @@ void judge(const FeModel& model, const std::vector<NodePort>& nodes, const std::
 
 void add_ports(FeModel& model, const std::vector<NodePort>& nodes, const std::vector<RimPort>& rims) {
   judge(model, nodes, rims);
-  std::vector<RimShape> shapes;
-  for (const RimPort& port : rims) shapes.push_back(rim_shape(model, port));
+  std::vector<CoupledShape> shapes;
+  for (const RimPort& port : rims) shapes.push_back(coupled_shape(model, port));
   const int N = model.N();
   std::vector<Rim> average(rims.size());
   std::vector<int> independent(rims.empty() ? 0 : static_cast<std::size_t>(N), 0);

@@ -228,8 +228,54 @@ void let_others_hold(const System& system, const State& state, const Equations& 
 
 }  // namespace
 
+namespace {
+
+// Are these rates, that nothing holds, held by what holds others? Then they cost no force.
+bool is_held_by_others(const MatrixXd& W, const std::vector<Index>& holding, Index row) {
+  constexpr double dependent = 1e-10;
+  const auto n = static_cast<Index>(holding.size());
+  if (n == 0) return false;
+  MatrixXd own(n, n);
+  VectorXd by(n);
+  for (Index i = 0; i < n; ++i) {
+    by[i] = W(holding[at(i)], row);
+    for (Index j = 0; j < n; ++j) own(i, j) = W(holding[at(i)], holding[at(j)]);
+  }
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_norm(n, n);
+  least_norm.setThreshold(dependent);
+  least_norm.compute(own);
+  return W(row, row) - by.dot(least_norm.solve(by)) <= dependent * W(row, row);
+}
+
+// What closed contacts do under the forces x.
+enum class Doing { opens, sticks, slides };
+std::vector<Doing> doings(const Closed& closed, const MatrixXd& W, const VectorXd& c, const VectorXd& x) {
+  constexpr double nearly = 1e-9, limit = 1e-8;
+  const VectorXd rate = W * x + c, terms = W.cwiseAbs() * x.cwiseAbs() + c.cwiseAbs();
+  const auto none = [&](Index i) { return std::abs(rate[i]) <= nearly * terms[i]; };
+  double most = 0;
+  for (const UnilateralContact& k : closed.unknowns) most = std::max(most, x[k.normal]);
+  std::vector<Index> holding;
+  for (const UnilateralContact& k : closed.unknowns) {
+    if (x[k.normal] > nearly * most) holding.push_back(k.normal);
+    if (k.tangent >= 0 && std::abs(x[k.tangent]) < k.mu * (x[k.normal] - limit * most)) holding.push_back(k.tangent);
+  }
+  const auto holds = [&](Index i) {
+    return std::ranges::find(holding, i) != holding.end() || (none(i) && is_held_by_others(W, holding, i));
+  };
+  std::vector<Doing> out;
+  for (const UnilateralContact& k : closed.unknowns) {
+    const bool presses = x[k.normal] > nearly * most, sticks = k.tangent >= 0 && holds(k.tangent);
+    const bool stays = presses || (holds(k.normal) && (k.tangent < 0 || sticks));
+    out.push_back(!stays ? Doing::opens : sticks ? Doing::sticks : Doing::slides);
+  }
+  return out;
+}
+
+}  // namespace
+
+// Where forces are not unique those that are found are some of them; what is not pressed by these, and not let go either, stays.
 bool decide_rigid(const System& system, State& state, Equations& eq) {
-  constexpr double nearly = 1e-9;
   VectorXd dy(system.n_y());
   if (!evaluate(system, without_rigid(system, state), eq, dy)) return false;
   evaluate_held(system, state, eq);
@@ -239,19 +285,16 @@ bool decide_rigid(const System& system, State& state, Equations& eq) {
   let_others_hold(system, state, eq, W, c);
   const auto x = unilateral_forces(closed.unknowns, W, c);
   if (!x) return false;
-  double most = 0;
-  for (const UnilateralContact& k : closed.unknowns) most = std::max(most, (*x)[k.normal]);
-  for (std::size_t i = 0; i < closed.unknowns.size(); ++i) {
+  const std::vector<Doing> now = doings(closed, W, c, *x);
+  for (std::size_t i = 0; i < now.size(); ++i) {
     const UnilateralContact& k = closed.unknowns[i];
     const auto contact = at(closed.contact[i]);
-    const double N = (*x)[k.normal];
     DryFriction& dry = state.friction[contact];
-    if (N <= nearly * most) {
+    if (now[i] == Doing::opens) {
       state.impact_rate[contact] = 0;
       dry = {};
     } else if (k.tangent >= 0) {
-      const double T = (*x)[k.tangent];
-      dry.direction = std::abs(T) < (1 - nearly) * k.mu * N ? 0 : -std::copysign(1.0, T);
+      dry.direction = now[i] == Doing::sticks ? 0 : -std::copysign(1.0, (*x)[k.tangent]);
     }
   }
   return true;

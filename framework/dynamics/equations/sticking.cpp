@@ -9,6 +9,7 @@
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
 #include "framework/common/worse.h"
+#include "framework/dynamics/equations/sharing.h"
 
 namespace pintle {
 
@@ -169,26 +170,6 @@ VectorXd sticking_accelerations(const System& system, const Equations& eq) {
 
 namespace {
 
-// x of W x = rhs, of which Σ x²/capacity is least.
-VectorXd share_out(const MatrixXd& W, const VectorXd& rhs, const VectorXd& capacity) {
-  constexpr double least = 1e-9;
-  constexpr double dependent = 1e-4;  // of unit slips: where feet differ in height by a hundredth, their give decides, not their lever
-  const Index m = rhs.size();
-  if (m == 0) return rhs;
-  if (m == 1) return W(0, 0) > 0 ? VectorXd(rhs / W(0, 0)) : VectorXd(VectorXd::Zero(1));
-  const double most = capacity.maxCoeff();
-  const VectorXd weight = most > 0 ? VectorXd(capacity.cwiseMax(least * most).cwiseSqrt()) : VectorXd(VectorXd::Ones(m));
-  // The rows that count are those of W between unit slips; among their solutions the least.
-  const VectorXd unit = W.diagonal().cwiseAbs().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
-  const Eigen::JacobiSVD<MatrixXd> svd(unit.asDiagonal() * W * unit.asDiagonal(), Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Index rank = (svd.singularValues().array() > dependent * svd.singularValues()[0]).count();
-  const MatrixXd rows = svd.singularValues().head(rank).asDiagonal() * svd.matrixV().leftCols(rank).transpose() *
-                        unit.cwiseInverse().cwiseProduct(weight).asDiagonal();
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_norm(rank, m);
-  least_norm.compute(rows);
-  return weight.cwiseProduct(least_norm.solve(svd.matrixU().leftCols(rank).transpose() * unit.cwiseProduct(rhs)));
-}
-
 // What each holds at most, of a normal force as much as any friction.
 VectorXd capacity(const System& system, const Equations& eq, const Places& of) {
   VectorXd out(static_cast<Index>(of.size()));
@@ -202,10 +183,28 @@ VectorXd capacity(const System& system, const Equations& eq, const Places& of) {
 
 }  // namespace
 
+namespace {
+
+// The rigid contacts among what holds, by their places there.
+std::vector<UnilateralContact> rigid_among(const System& system, const Sticking& s, const Places& hold) {
+  std::vector<UnilateralContact> out;
+  for (std::size_t i = 0; i < hold.size(); ++i) {
+    const auto& [k, normal, holds] = s.of[place(hold[i])];
+    if (!normal) continue;
+    out.push_back({.normal = static_cast<int>(i)});
+    if (i + 1 < hold.size() && s.of[place(hold[i + 1])].at == k)
+      out.back().tangent = static_cast<int>(i + 1), out.back().mu = dry_law(system, k)->mu_static;
+  }
+  return out;
+}
+
+}  // namespace
+
 VectorXd holding_forces(const System& system, const Equations& eq, const MatrixXd& W, const VectorXd& slip) {
   const Places hold = those(eq.sticking, true);
   VectorXd out = VectorXd::Zero(slip.size());
-  put(share_out(part(W, hold, hold), part(slip, hold), capacity(system, eq, hold)), hold, out);
+  const bool gaps = std::ranges::find(eq.sticking.of, true, &Sticking::Column::normal) != eq.sticking.of.end();
+  put(share_out(part(W, hold, hold), part(slip, hold), capacity(system, eq, hold), gaps ? one_gap : one_give), hold, out);
   return out;
 }
 
@@ -219,10 +218,12 @@ VectorXd friction_change(const System& system, const State& state, const Equatio
   const MatrixXd W_hold = part(by.W, hold, hold), W_slide = part(by.W, hold, slide);
   const VectorXd holds = capacity(system, eq, hold), held = shares == Shares::all ? part(before, hold) : VectorXd::Zero(W_hold.rows()),
                  asked = W_hold * held + part(slips, hold);
+  const std::vector<UnilateralContact> rigid = rigid_among(system, s, hold);
+  const double one = rigid.empty() ? one_give : one_force;
   VectorXd change = VectorXd::Zero(before.size()), loads(static_cast<Index>(slide.size()));
   const auto missed = [&](const VectorXd& sliding) {  // a change of what slides
     put(sliding, slide, change);
-    put(share_out(W_hold, asked - W_slide * sliding, holds) - held, hold, change);
+    put(share_out(W_hold, asked - W_slide * sliding, holds, one, rigid) - held, hold, change);
     const VectorXd now = lambda + by.lambda * change;
     VectorXd out = part(before, slide) + sliding;
     for (Index i = 0; i < out.size(); ++i) {

@@ -47,7 +47,8 @@ struct FrictionResponse {
 enum class Shares { all, change };
 /// Change of the forces T of eq.sticking from `before`: W δT = slips for what holds, T = −d μ N for what slides, N of the multipliers
 /// λ + response δT or of its own contact. Where others could hold as well, as at two corners of a box on one ground, each bears a part after what it
-/// holds at most: Σ T²/(μ_s N) is least. Slips that hardly differ count as one. Not finite where nothing is found.
+/// holds at most: Σ T²/(μ_s N) is least, among forces that rigid contacts can give. Slips that hardly differ count as one. Not finite where
+/// nothing is found.
 Eigen::VectorXd friction_change(const System&, const State&, const Equations&, const FrictionResponse&, Shares,
                                 const Eigen::VectorXd& slips, const Eigen::VectorXd& lambda, const Eigen::VectorXd& before);
 /// Of what holds alone: forces that take away these slips, 0 for what slides.

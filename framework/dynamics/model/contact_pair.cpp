@@ -12,7 +12,7 @@ MovingPoint moving_point(const MarkerMotion& m) { return {m.r, m.v, m.w, m.angle
 double contact_size(const ContactPair& pair, double mechanism) {
   double out = mechanism;
   for (const Piece* piece : {&pair.gap.a, &pair.gap.b})
-    if (piece->radius != 0) out = std::min(out, std::abs(piece->radius));
+    if (const double radius = least_radius(*piece); radius > 0) out = std::min(out, radius);
   return out;
 }
 
@@ -29,7 +29,7 @@ Margin margin(const ContactPair& pair, const Gap& gap, const MovingPoint& a, con
   for (std::size_t i = 0; i < 2; ++i) {
     const Piece& piece = *pieces[i];
     if (std::isinf(piece.half)) continue;
-    const double length = piece.half * (piece.straight ? 1 : std::max(size(piece), size(*pieces[1 - i])));
+    const double length = piece.half * (piece.straight || piece.curve ? 1 : std::max(size(piece), size(*pieces[1 - i])));
     for (const int side : {-1, 1}) {
       const std::size_t k = 2 * i + (side > 0);
       const double left = (pair.extent[k] - side * place[i].at) * length;
@@ -154,21 +154,29 @@ double slip_acceleration(const ContactPair& pair, const Gap& gap, const MarkerMo
          gap.turning * speed_of_middles(gap, a, b).dot(gap.n);
 }
 
-// d/dt of −n·v − s w, w the spin of the straight piece, s = e·Zn.
+// d/dt of −n·v − s w, w the spin of the straight piece, s = e·Zn; the touched points of curves move along them besides.
 double opening_acceleration(const ContactPair& pair, const Gap& gap, const MarkerMotion& a, const MarkerMotion& b) {
   const double sideways = speed_of_middles(gap, a, b).dot(perp(gap.n));
   const double spin = pair.gap.a.straight ? a.w : pair.gap.b.straight ? b.w : 0;
-  return of_markers(unit_normal(pair, gap), a, b) - inwards(gap, a, b).dot(gap.n) - gap.turning * sideways -
-         spin * (sideways - gap.turning * gap.e.dot(gap.n));
+  const double out = of_markers(unit_normal(pair, gap), a, b) - inwards(gap, a, b).dot(gap.n) - gap.turning * sideways -
+                     spin * (sideways - gap.turning * gap.e.dot(gap.n));
+  if (!pair.gap.curved()) return out;
+  const Rolling r = rolling(pair.gap, gap);
+  return out + (a.w - spin) * r.on_a.of(sideways, a.w, b.w) - (b.w - spin) * r.on_b.of(sideways, a.w, b.w);
 }
 
 namespace {
 
 using Row = Eigen::Matrix<double, 1, 6>;  // derivatives in the poses of the two middles, or in their rates
 
+Row in_poses(const Rolling::Part& part, const Vector2d& t) {
+  return (Row() << part.across * t.transpose(), part.a, -part.across * t.transpose(), part.b).finished();
+}
+
 // How the gap answers to the middles of the pieces, each with its own v: docs/theory/contact.md.
 struct GapRows {
-  Row n_p, s_p;  // dn = Zn · n_p dp; of `across`
+  Row n_p, s_p;                                // dn = Zn · n_p dp; of `across`
+  Row on_a = Row::Zero(), on_b = Row::Zero();  // how far the touched points move along their curves
   Row depth_p, rate_p, rate_v, slip_p, slip_v;
 };
 
@@ -176,18 +184,25 @@ GapRows rows_of(const ContactPair& pair, const Gap& gap, const Vector2d& v, doub
   const Piece &a = pair.gap.a, &b = pair.gap.b;
   const Vector2d &n = gap.n, t = perp(n);
   const double s = gap.across;
-  const double spin = a.straight ? w_a : b.straight ? w_b : 0;                          // that turns n
-  const double curving = a.straight || b.straight ? 0 : 1 / n.dot(gap.e);               // of n by e across
+  const double spin = a.straight ? w_a : b.straight ? w_b : 0;  // that turns n
+  const bool curved = pair.gap.curved();
+  const double curving = a.straight || b.straight || curved ? 0 : 1 / n.dot(gap.e);     // of n by e across
   const double across = v.dot(t), along = v.dot(n), turning = curving * across + spin;  // of n
 
   const auto between = [](const Vector2d& d) { return (Row() << d.transpose(), 0, -d.transpose(), 0).finished(); };
   GapRows out;
   out.n_p = between(curving * t);
   out.n_p[2] += a.straight, out.n_p[5] += b.straight;
+  if (curved) {
+    const Rolling r = rolling(pair.gap, gap);
+    out.n_p = in_poses(r.turning, t), out.on_a = in_poses(r.on_a, t), out.on_b = in_poses(r.on_b, t);
+  }
   out.depth_p = between(n) + s * out.n_p, out.s_p = between(t) - n.dot(gap.e) * out.n_p;
+  if (curved) out.s_p += out.on_a - out.on_b;
   out.rate_v = between(n);
   out.rate_v[2] += s * a.straight, out.rate_v[5] += s * b.straight;
   out.rate_p = across * out.n_p + spin * (a.straight || b.straight ? out.s_p : Row::Zero());
+  if (curved) out.rate_p += w_b * out.on_b - w_a * out.on_a;
   out.slip_v = between(t), out.slip_p = -along * out.n_p;
   if (pair.sliding == Sliding::material) {
     out.slip_v[2] += a.radius, out.slip_v[5] += b.radius;
@@ -218,6 +233,7 @@ WrenchTangent at_middles(const ContactPair& pair, const ContactEffect& now, cons
     to.row(5) = b.radius * dT - b.straight * (s * dN + N * ds);
   };
   place(out.pose, N_p, T_p, of.n_p, of.s_p);
+  out.pose.row(2) += N * of.on_a, out.pose.row(5) -= N * of.on_b;
   place(out.rate, N_v, T_v, Row::Zero(), Row::Zero());
   return out;
 }

@@ -7,6 +7,7 @@
 #include "contact/elastic_law.h"
 #include "contact/friction_law.h"
 #include "contact/gap.h"
+#include "contact/pressure.h"
 #include "framework/common/members.h"
 #include "framework/dynamics/model/internal_states.h"
 #include "framework/dynamics/model/marker.h"
@@ -44,8 +45,10 @@ struct ContactPair {
   /// there, −1 for none.
   std::array<double, 4> extent{1, 1, 1, 1};
   std::array<int, 4> beyond{-1, -1, -1, -1};
-  std::optional<RigidImpact> rigid = {};  ///< then `normal` is none …
-  double slack = 0;                       ///< … and an overlap up to this is a touch [m]
+  std::optional<RigidImpact> rigid = {};        ///< then `normal` is none …
+  double slack = 0;                             ///< … and an overlap up to this is a touch [m]
+  std::optional<PressureTheory> pressure = {};  ///< of cylinders under a law of theirs
+  bool journal = false;                         ///< of profiles: a is the journal of an open bearing b
 };
 
 /// What a rigid contact, or one or a joint of dry friction, is doing, and what the accelerations have decided of its force.

@@ -20,8 +20,6 @@ double form(const Eigen::MatrixXd& F, const A& a, const B& b) {
   return sum;
 }
 
-Vector2d turned(double c, double s, const Vector2d& v) { return {c * v.x() - s * v.y(), s * v.x() + c * v.y()}; }
-
 // w = c + Sη + ½ηᵀS₂η, the origin being the mass centre: c = 0.
 Vector2d first_moment(const FlexInertia& f, const Part& eta) {
   Vector2d w(f.S.row(0).dot(eta), f.S.row(1).dot(eta));

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "contact/plane.h"
 #include "eigen_layout.h"
 
 namespace pintle {
@@ -39,10 +40,5 @@ struct MarkerMotion {
 
 /// A force and a couple at a marker, world axes: what does work on ṗ. [N, N, N m]
 using Wrench = Eigen::Vector3d;
-
-/// Quarter turn counter-clockwise, Zv.
-inline Eigen::Vector2d perp(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
-/// v × w = (Zv)·w
-inline double cross(const Eigen::Vector2d& v, const Eigen::Vector2d& w) { return v.x() * w.y() - v.y() * w.x(); }
 
 }  // namespace pintle

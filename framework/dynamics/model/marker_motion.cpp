@@ -26,8 +26,6 @@ Vector2d shape_at(const Marker& marker, Index i, const Modal& eta, Vector2d& x) 
   return f;
 }
 
-Vector2d turned(double c, double s, const Vector2d& v) { return {c * v.x() - s * v.y(), s * v.x() + c * v.y()}; }
-
 }  // namespace
 
 void pose_on_flexible(const System& system, const Marker& marker, const VectorXd& y, double c, double s, MarkerMotion& m) {

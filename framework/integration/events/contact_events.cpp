@@ -155,17 +155,29 @@ void ContactEvents::write_down(Step& step) {
   }
 }
 
+namespace {
+
+// The largest rate in a step: beside that of its end, the one where the cubic through depths and rates of both ends has its summit of rate.
+double fastest(const System& system, int contact, const Step& step, const Guard& from, const Guard& to, const DenseOutput& motion) {
+  const double a = step.h * from.rate, b = step.h * to.rate, d = to.value - from.value;
+  const double c3 = a + b - 2 * d, summit = (2 * a + b - 3 * d) / (3 * c3);  // d0 + a x + c2 x² + c3 x³
+  if (!(c3 < 0 && summit > 0 && summit < 1)) return to.rate;
+  return std::max(to.rate, gap_of(system, contact, motion.at(step.from.state.t + summit * step.h)).rate);
+}
+
+}  // namespace
+
 void ContactEvents::follow(Step& step, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput& motion) {
   if (time_stepping_) write_down(step);
   log_.follow(step, from, to, motion);
   for (int c = 0; c < contacts(); ++c) {
     if (!is_rigid(system_.contacts[at(c)]) || !log_.touching(c) || time_stepping_) continue;
-    if (step.from.state.impact_rate[at(c)] == 0) log_.end(c, step.from.state.t, 0);  // its forces have let it open
+    if (step.h > 0 && step.from.state.impact_rate[at(c)] == 0) log_.end(c, step.from.state.t, 0);  // its forces have let it open
     most_pressed_ = std::max(most_pressed_, std::abs(step.to.state.friction[at(c)].load));
   }
   for (int c = 0; c < contacts(); ++c)
     if (double& latched = step.to.state.impact_rate[at(c)]; system_.contacts[at(c)].follows && latched > 0 && to[at(c)].value > 0)
-      latched = std::max(latched, to[at(c)].rate);
+      latched = std::max(latched, fastest(system_, c, step, from[at(c)], to[at(c)], motion));
 }
 
 EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {

@@ -1,12 +1,14 @@
 #include "framework/integration/events/friction_events.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "framework/common/archive.h"
 #include "framework/common/index.h"
 #include "framework/integration/events/impact_log.h"
+#include "framework/integration/events/roots.h"
 #include "framework/integration/stepper.h"
 
 namespace pintle {
@@ -57,7 +59,7 @@ std::string FrictionEvents::name(int event) const {
 
 // Whether something slides or sticks is its state's, so guards of what it is not doing stay off zero.
 WatchedGuard FrictionEvents::watch(int event) const {
-  constexpr double known = 1e-6;  // of the force that holds, at worst
+  const double known = of_rigid(place(event)) ? 1e-9 : 1e-6;  // of the force that holds, at worst
   if (of_sliding(event)) return {.direction = Direction::falling, .zero = still(event), .at_once = true};
   return {.direction = Direction::rising, .zero = known, .at_once = true};
 }
@@ -106,8 +108,17 @@ std::optional<double> FrictionEvents::positive_inside(int event, const Step& ste
   const DryFriction& dry = step.from.state.friction[place(event)];
   if (!of_sliding(event) || dry.direction == 0 || dry.direction == DryFriction::undecided) return std::nullopt;
   if (!touches(place(event), step.from.state)) return std::nullopt;
-  for (int i = 1; i < parts; ++i)
-    if (const double t = step.from.state.t + step.h * i / parts; guard(event, motion.at(t)).value < 0) return t;
+  const auto slip = [&](double t) { return guard(event, motion.at(t)).value; };
+  std::array<double, 3> t{0, 0, step.from.state.t}, left{0, 0, guard(event, step.from.state).value};
+  for (int i = 1; i <= parts; ++i) {
+    std::rotate(t.begin(), t.begin() + 1, t.end());
+    std::rotate(left.begin(), left.begin() + 1, left.end());
+    t[2] = i < parts ? step.from.state.t + step.h * i / parts : step.to.state.t;
+    left[2] = slip(t[2]);
+    if (left[2] < 0 && i < parts) return t[2];
+    if (i == 1) continue;
+    if (const std::optional<double> between = below_zero_near(slip, t, left)) return between;
+  }
   return std::nullopt;
 }
 

@@ -169,7 +169,7 @@ Guard belonging(const ContactPair& pair, const Facing& now) {
   for (std::size_t i = 0; i < 2; ++i) {
     const Piece &line = i == 0 ? pair.gap.a : pair.gap.b, &other = i == 0 ? pair.gap.b : pair.gap.a;
     if (!line.straight || std::isinf(line.half)) continue;
-    const double inside = now.gap.depth - std::max(other.radius, 0.0);
+    const double inside = now.gap.depth - (other.curve ? least_radius(other) : std::max(other.radius, 0.0));
     for (const int side : {-1, 1}) {
       const double left = (pair.extent[2 * i + (side > 0)] - side * place[i].at) * line.half - inside;
       if (inside > 0 && left < out.value) out = {left, -side * place[i].rate * line.half - now.gap.rate};
@@ -203,7 +203,7 @@ int parts_to_look_at(const System& system, int contact, const Step& step) {
   if (near < -faster * speed * step.h) return 0;
   double size = std::min(system.length, pair.deepest);
   for (const Piece* piece : {&pair.gap.a, &pair.gap.b}) {
-    const double length = piece->straight ? piece->half : std::abs(piece->radius) * std::min(piece->half, 1.0);
+    const double length = piece->straight || piece->curve ? piece->half : std::abs(piece->radius) * std::min(piece->half, 1.0);
     if (length > 0) size = std::min(size, 2 * length);
   }
   return static_cast<int>(std::clamp(4 * speed * step.h / size, least, most));

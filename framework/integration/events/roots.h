@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -55,6 +56,27 @@ inline bool may_be_positive_between(const Guard& from, const Guard& to, double h
   for (const double x : {q / (3 * c3), a / q})
     if (x > 0 && x < 1 && from.value + x * (a + x * (c2 + x * c3)) > -part * change) return true;
   return false;
+}
+
+/// When a value, above zero at three times, is below between them: parabolas through the last three lead to its least.
+template <class F>
+std::optional<double> below_zero_near(F value, std::array<double, 3> t, std::array<double, 3> f) {
+  constexpr double near = 0.1;  // of what it changes by
+  const double begin = t[0], end = t[2];
+  for (int i = 0; i < 4; ++i) {
+    const double slope = (f[1] - f[0]) / (t[1] - t[0]), curve = ((f[2] - f[1]) / (t[2] - t[1]) - slope) / (t[2] - t[0]);
+    const double least = (t[0] + t[1]) / 2 - slope / (2 * curve);
+    if (!(curve > 0 && least > begin && least < end)) return std::nullopt;
+    const double expected = f[0] + (least - t[0]) * (slope + curve * (least - t[1]));
+    if (expected > near * (std::abs(f[1] - f[0]) + std::abs(f[2] - f[1]))) return std::nullopt;
+    const double now = value(least);
+    if (now < 0) return least;
+    std::size_t farthest = 0;
+    for (const std::size_t k : {1u, 2u})
+      if (std::abs(t[k] - least) > std::abs(t[farthest] - least)) farthest = k;
+    t[farthest] = least, f[farthest] = now;
+  }
+  return std::nullopt;
 }
 
 /// The first time at which a guard, looked at in parts of a step, is found above zero.

@@ -50,8 +50,8 @@ std::optional<Jet> held_end(const Samples& s, double t) {
 
 class SampleReader {
  public:
-  SampleReader(std::string file, std::string key, std::string first)
-      : file_(std::move(file)), key_(std::move(key)), first_(std::move(first)) {}
+  SampleReader(std::string file, std::string key, std::string first, bool rising = true)
+      : file_(std::move(file)), key_(std::move(key)), first_(std::move(first)), rising_(rising) {}
 
   void line(std::string_view text, double time_unit, double value_unit) {
     ++line_;
@@ -63,7 +63,7 @@ class SampleReader {
     if (header) return;
     if (words.size() != 2) fail("holds " + std::to_string(words.size()) + " columns; write two: " + first_ + " and value");
     const double t = finite(words[0], 1) * time_unit, value = finite(words[1], 2) * value_unit;
-    if (!samples_.t.empty() && !(t > samples_.t.back()))
+    if (rising_ && !samples_.t.empty() && !(t > samples_.t.back()))
       fail(first_ + " " + std::string(words[0]) + " does not come after the one before; " + first_ + "s must increase");
     samples_.t.push_back(t);
     samples_.value.push_back(value);
@@ -89,6 +89,7 @@ class SampleReader {
   }
 
   std::string file_, key_, first_;
+  bool rising_;
   int line_ = 0;
   bool seen_a_line_ = false;
   Samples samples_;
@@ -139,17 +140,31 @@ std::vector<double> curvatures(const std::vector<double>& t, const std::vector<d
 
 }  // namespace
 
-Samples read_samples(const std::filesystem::path& file, double time_unit, double value_unit, const std::string& key,
-                     const std::string& first) {
+namespace {
+
+Samples read_lines(const std::filesystem::path& file, SampleReader reader, double first_unit, double value_unit, const std::string& key) {
   const std::string text = read_text_file(file, most_bytes, key);
-  SampleReader reader(file.string(), key, first);
   std::size_t begin = 0;
   while (begin < text.size()) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    reader.line(std::string_view(text).substr(begin, end - begin), time_unit, value_unit);
+    reader.line(std::string_view(text).substr(begin, end - begin), first_unit, value_unit);
     begin = end + 1;
   }
   return reader.samples();
+}
+
+}  // namespace
+
+Samples read_samples(const std::filesystem::path& file, double time_unit, double value_unit, const std::string& key,
+                     const std::string& first) {
+  return read_lines(file, {file.string(), key, first}, time_unit, value_unit, key);
+}
+
+std::vector<std::array<double, 2>> read_pairs(const std::filesystem::path& file, double unit, const std::string& key) {
+  const Samples samples = read_lines(file, {file.string(), key, "x", false}, unit, unit, key);
+  std::vector<std::array<double, 2>> out;
+  for (std::size_t i = 0; i < samples.t.size(); ++i) out.push_back({samples.t[i], samples.value[i]});
+  return out;
 }
 
 Spline::Spline(Samples samples) : samples_(std::move(samples)), curvature_(curvatures(samples_.t, samples_.value)) {}

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,6 +21,10 @@ struct Samples {
 /// @throws SceneError  naming file, line and remedy
 Samples read_samples(const std::filesystem::path&, double time_unit = 1, double value_unit = 1, const std::string& key = {},
                      const std::string& first = "time");
+
+/// Pairs from lines `x y`, in a file written likewise, x in any order.
+/// @param unit  factor to SI   @param key  as above   @throws SceneError  likewise
+std::vector<std::array<double, 2>> read_pairs(const std::filesystem::path&, double unit, const std::string& key);
 
 /// Cubic spline through samples, two continuous derivatives; a cubic is met exactly (not-a-knot
 /// ends; two samples give a line, three a parabola). Outside the samples it holds the end value.

@@ -47,10 +47,11 @@ Json parameter(const std::string& name, double value, const Parameters& paramete
 Json place(const ScenePathPoint& p) { return p.point.empty() ? json(p.at) : Json(p.point); }
 
 Json json(const SceneProfile& p) {
-  if (p.kind != SceneProfile::path) {
+  if (p.kind == SceneProfile::disc || p.kind == SceneProfile::hole) {
     Json out = Json::object();
     out[p.kind == SceneProfile::disc ? "disc" : "hole"] = place(p.centre);
     out["radius"] = p.radius;
+    if (!p.on.empty()) out["on"] = p.on;
     return out;
   }
   Json path = Json::array();
@@ -59,8 +60,10 @@ Json json(const SceneProfile& p) {
     if (point.arc != 0) path.push_back({{"arc", point.arc}});
   }
   constexpr std::array sides{"left", "right", "inside", "outside"};
-  Json out = {{"path", path}, {"closed", p.closed}, {"material", sides[p.material]}};
+  if (p.kind == SceneProfile::polar) return {{"polar", path}, {"about", place(p.centre)}, {"material", sides[p.material]}};
+  Json out = {{p.kind == SceneProfile::spline ? "spline" : "path", path}, {"closed", p.closed}, {"material", sides[p.material]}};
   if (p.round > 0) out["round"] = p.round;
+  if (!p.on.empty()) out["on"] = p.on;
   return out;
 }
 
@@ -108,7 +111,12 @@ Json json(const SceneNormal& normal, bool in_joint) {
     for (const Pair& point : normal.points) law["points"].push_back(json(point));
     if (normal.points.empty()) {
       law["length"] = normal.length;
-      put_elasticity(normal, in_joint, law);
+      if (normal.stiffness)
+        law["stiffness"] = *normal.stiffness;
+      else if (normal.layer > 0)
+        law["layer"] = normal.layer, law["young"] = normal.bearing.young, law["poisson"] = normal.bearing.poisson;
+      else
+        put_elasticity(normal, in_joint, law);
     }
   } else {
     if (normal.law != "hertz") law["restitution"] = normal.restitution;
@@ -169,11 +177,19 @@ Json json(const SceneContact& c) {
   return out;
 }
 
+Json json(const SceneArc& arc) {
+  Json out = {{"middle", arc.middle}, {"extent", arc.extent}};
+  if (arc.wall > 0) out["wall"] = arc.wall;
+  if (arc.edge > 0) out["edge"] = arc.edge;
+  return out;
+}
+
 Json json(const SceneClearance& clearance) {
   Json out = {{"radial", clearance.radial},
               {"bearing radius", clearance.bearing_radius},
               {"bearing", clearance.bearing},
               {"model", model_name(clearance.model)}};
+  if (clearance.arc) out["arc"] = json(*clearance.arc);
   if (clearance.model == ClearanceModel::impact)
     put_impact(clearance.impact, out);
   else if (clearance.normal.stiffness || clearance.normal.bearing.young > 0 || !clearance.normal.points.empty())

@@ -180,9 +180,19 @@ Json json(const SceneElastic& elastic) {
 }
 
 Json json(const SceneStatic& statics) {
-  Json loads = Json::object();
-  for (const SceneStaticLoad& l : statics.loads) append(loads, l.name, json(l));
-  return {{"body", statics.body}, {"loads", loads}};
+  Json loads = Json::object(), contacts = Json::object(), at = Json::object();
+  for (const SceneStaticLoad& l : statics.loads) {
+    Json load = json(l);
+    if (!l.body.empty()) load["body"] = l.body;
+    append(loads, l.name, load);
+  }
+  Json out = {{"body", statics.body}, {"loads", loads}};
+  for (const SceneStaticContact& c : statics.contacts)
+    append(contacts, c.name, {{"between", {c.first.body + "." + c.first.group, c.second.body + "." + c.second.group}}});
+  for (const SceneStaticPlace& p : statics.at) append(at, p.body, json(p.at));
+  if (!contacts.empty()) out["contacts"] = contacts;
+  if (!at.empty()) out["at"] = at;
+  return out;
 }
 
 }  // namespace pintle

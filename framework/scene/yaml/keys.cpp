@@ -24,10 +24,14 @@ const std::vector<std::string> element_names{
 const std::vector<Key> profile_keys{{"disc"},
                                     {"hole"},
                                     {"path"},
+                                    {"spline"},
+                                    {"polar"},
+                                    {"about"},
                                     {"radius"},
                                     {"closed", optional, "", {"true", "false"}},
                                     {"material", optional, "", {"left", "right", "inside", "outside"}},
-                                    {"round"}};
+                                    {"round"},
+                                    {"on"}};
 const std::vector<Key> friction_laws{{"coulomb"}, {"lugre"}, {"gonthier"}, {"ambrosio"}, {"threlfall"}, {"tanh"}, {"bengisu-akay"}};
 const std::vector<Key> coulomb_keys{{"coefficient", required, "0.3"}, {"static"}, {"stribeck speed"}};
 const std::vector<Key> lugre_keys{{"coefficient", required, "0.3"},
@@ -45,6 +49,8 @@ const std::vector<Key> peak_keys{{"coefficient", required, "0.1"}, {"static"}, {
 const std::vector<std::string> hysteresis_factors{
     "hunt-crossley", "herbert-mcwhannell", "lee-wang", "lankarani-nikravesh", "gonthier", "zhiying-qishao", "flores", "hu-guo", "exact"};
 const std::vector<Key> arc_keys{{"arc", required, "20 mm"}};
+const std::vector<Key> spline_keys{{"file", required, "cam.csv"}, {"length unit"}};
+const std::vector<Key> polar_keys{{"file", required, "cam.csv"}, {"angle unit"}, {"radius unit"}};
 constexpr const char* two_eyes = "[{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]";
 
 std::vector<Key> joint_keys() {
@@ -82,6 +88,8 @@ const std::vector<KeyTable>& tables() {
       {"ground.points.*", {{"at", required, "[10 mm, 0]"}, {"angle"}}},
       {"ground.profiles.*", profile_keys},
       {"ground.profiles.*.path.*", arc_keys},
+      {"ground.profiles.*.spline", spline_keys},
+      {"ground.profiles.*.polar", polar_keys},
       {"bodies.*",
        {{"rigid"},
         {"beam"},
@@ -99,6 +107,8 @@ const std::vector<KeyTable>& tables() {
       {"bodies.*.points.*", {{"at"}, {"angle"}, {"hole"}, {"coupling", optional, "", {"rigid", "average"}}}},
       {"bodies.*.profiles.*", profile_keys},
       {"bodies.*.profiles.*.path.*", arc_keys},
+      {"bodies.*.profiles.*.spline", spline_keys},
+      {"bodies.*.profiles.*.polar", polar_keys},
       {"bodies.*.pose", {{"at"}, {"angle"}}},
       {"bodies.*.beam",
        {{"from"},
@@ -165,9 +175,10 @@ const std::vector<KeyTable>& tables() {
       {"bodies.*.damping", {{"rayleigh"}, {"ratios"}}},
       {"bodies.*.damping.rayleigh", {{"ratios"}, {"modes"}, {"alpha"}, {"beta"}}},
       {"bodies.*.lumps.*", {{"mass"}, {"inertia"}}},
-      {"static", {{"body"}, {"loads", required, "{pull: {at: B, force: [1 kN, 0]}}"}}},
+      {"static", {{"body"}, {"loads", required, "{pull: {at: B, force: [1 kN, 0]}}"}, {"contacts"}, {"at"}}},
       {"static.loads.*",
-       {{"force"}, {"torque"}, {"at"}, {"pressure"}, {"traction"}, {"on"}, {"acceleration"}, {"spin"}, {"about"}, {"line load"}}},
+       {{"force"}, {"torque"}, {"at"}, {"pressure"}, {"traction"}, {"on"}, {"acceleration"}, {"spin"}, {"about"}, {"line load"}, {"body"}}},
+      {"static.contacts.*", {{"between", required, "[pin.outline, rocker.bore]"}}},
       {"joints.*", joint_keys()},
       {"joints.*.friction", {{"coulomb"}, {"lugre"}, {"gonthier"}, {"radius"}, {"length"}, {"preload"}}},
       {"joints.*.friction.coulomb", coulomb_keys},
@@ -177,6 +188,7 @@ const std::vector<KeyTable>& tables() {
        {{"radial"},
         {"bearing radius"},
         {"bearing"},
+        {"arc"},
         {"gap"},
         {"length"},
         {"height"},
@@ -192,6 +204,7 @@ const std::vector<KeyTable>& tables() {
         {"stiffness"},
         {"damping"},
         {"friction"}}},
+      {"joints.*.clearance.arc", {{"middle", required, "-90 deg"}, {"extent", required, "200 deg"}, {"wall"}, {"edge"}}},
       {"joints.*.clearance.normal.*",
        {{"restitution"},
         {"young"},
@@ -205,6 +218,7 @@ const std::vector<KeyTable>& tables() {
         {"journal"},
         {"second"},
         {"length"},
+        {"layer"},
         {"hysteresis", optional, "", hysteresis_factors},
         {"points"},
         {"file"},
@@ -240,6 +254,7 @@ const std::vector<KeyTable>& tables() {
         {"approach speed", optional, "", {"onset", "largest"}},
         {"second"},
         {"length"},
+        {"layer"},
         {"hysteresis", optional, "", hysteresis_factors},
         {"points"},
         {"file"},

@@ -54,7 +54,8 @@ void read_damping(const Node& law, std::string_view keys, SceneNormal& normal) {
                                              : keys.starts_with("contacts");
 }
 
-const std::vector<std::string> cylinder_laws{"johnson", "radzimovsky", "goldsmith", "esdu", "liu", "pereira"};
+const std::vector<std::string> names_of_cylinders{"johnson", "radzimovsky", "goldsmith", "esdu", "liu", "pereira", "winkler"};
+constexpr const char* layer_law = "winkler";
 constexpr const char* table_law = "table";
 
 std::vector<Pair> read_points(const Node& law) {
@@ -83,13 +84,30 @@ std::vector<Pair> read_points(const Node& law) {
   return out;
 }
 
+// What the layer of winkler is made of, or its stiffness.
+void read_layer(const Node& law, SceneNormal& normal) {
+  if (law.has("stiffness")) {
+    for (const char* key : {"layer", "young", "poisson"})
+      if (law.has(key)) law.at("stiffness").fail("stands beside layer, young and poisson; give either the stiffness or those");
+    normal.stiffness = law.at("stiffness").quantity({-2, 1, -2, 0}, rule::positive);  // N/m³
+    return;
+  }
+  if (!law.has("layer")) law.fail("lacks a required key; add for example layer: 1 mm, how thick what yields is, or stiffness: 4e12 N/m^3");
+  if (!(law.has("young") && law.has("poisson"))) law.fail("does not say how stiff the layer is; add young and poisson, or stiffness");
+  normal.layer = read_size(law.at("layer"));
+  normal.bearing = {law.at("young").quantity(dimension::stress, rule::positive),
+                    law.at("poisson").quantity(dimension::number, rule::solid_poisson)};
+}
+
 // A law of cylinders, or a table.
 void read_elastic_law(const Node& law, std::string_view keys, SceneNormal& normal) {
   const bool table = normal.law == table_law;
   const std::string other = keys.starts_with("joints") ? "journal" : "second";
   std::vector<std::string> known{"hysteresis", "restitution", "slowest impact", "approach speed"};
-  for (const std::string& key : table ? std::vector<std::string>{"points", "file", "depth unit", "force unit"}
-                                      : std::vector<std::string>{"length", "young", "poisson", other})
+  const bool layer = normal.law == layer_law;
+  for (const std::string& key : table   ? std::vector<std::string>{"points", "file", "depth unit", "force unit"}
+                                : layer ? std::vector<std::string>{"length", "layer", "young", "poisson", "stiffness"}
+                                        : std::vector<std::string>{"length", "young", "poisson", other})
     known.push_back(key);
   for (const std::string& key : law.keys())
     if (std::ranges::find(known, key) == known.end()) law.at(key).fail("does not belong to " + normal.law + "; leave it out");
@@ -104,75 +122,8 @@ void read_elastic_law(const Node& law, std::string_view keys, SceneNormal& norma
   }
   if (!law.has("length")) law.fail("lacks a required key; add for example length: 20 mm, of the contact along the axes");
   normal.length = read_size(law.at("length"));
+  if (layer) return read_layer(law, normal);
   read_stiffness(law, keys, normal);
-}
-
-ScenePathPoint read_place(const Node& node, const std::vector<ScenePoint>& points, const std::string& body) {
-  ScenePathPoint out;
-  out.place = node.place();
-  if (node.is_list()) {
-    out.at = node.pair(dimension::length);
-    return out;
-  }
-  out.point = node.text("a point of the body, or [x, y]");
-  std::vector<std::string> known;
-  for (const ScenePoint& p : points) known.push_back(p.name);
-  if (std::ranges::find(known, out.point) == known.end())
-    node.fail("\"" + body + "\" has no point \"" + out.point + "\"" +
-              (known.empty() ? "; write a place, [10 mm, 0], or name it under points" : "." + did_you_mean(out.point, known)));
-  return out;
-}
-
-// Points and, between two of them, arcs.
-std::vector<ScenePathPoint> read_path(const Node& node, std::string_view keys, const std::vector<ScenePoint>& points,
-                                      const std::string& body) {
-  std::vector<ScenePathPoint> out;
-  bool arc = false;
-  for (const Node& item : node.list(2, "points and arcs: [A, B, {arc: 20 mm}, C]")) {
-    if (!item.is_map()) {
-      out.push_back(read_place(item, points, body));
-      arc = false;
-      continue;
-    }
-    check_keys(item, std::string(keys) + ".path.*");
-    if (out.empty() || arc) item.fail("stands where a point should; an arc leads from the point before it to the next");
-    out.back().arc = item.at("arc").quantity(dimension::length);
-    if (out.back().arc == 0) item.fail("must not be 0: it turns left with a radius above 0, right with one below");
-    arc = true;
-  }
-  return out;
-}
-
-const std::array<KindKeys, 3> profile_kinds{{{"disc", {"radius"}}, {"hole", {"radius"}}, {"path", {"closed", "material", "round"}}}};
-
-SceneProfile read_profile(const Node& node, std::string_view keys, const std::vector<ScenePoint>& points, const std::string& body) {
-  SceneProfile out;
-  out.name = checked_name(node);
-  out.place = node.place();
-  check_keys(node, keys);
-  out.kind = std::array{SceneProfile::disc, SceneProfile::hole, SceneProfile::path}[which_kind(node, profile_kinds)];
-  if (out.kind != SceneProfile::path) {
-    out.centre = read_place(node.at(out.kind == SceneProfile::disc ? "disc" : "hole"), points, body);
-    if (!node.has("radius")) node.fail("lacks a required key; add for example radius: 20 mm");
-    out.radius = read_size(node.at("radius"));
-    return out;
-  }
-  out.points = read_path(node.at("path"), keys, points, body);
-  if (node.has("closed")) out.closed = node.at("closed").yes();
-  if (!out.closed && out.points.back().arc != 0)
-    node.at("path").fail("ends with an arc; add the point that it leads to, or closed: true to lead it to the first");
-  if (node.has("round")) out.round = read_size(node.at("round"));
-  out.material = out.closed ? SceneProfile::inside : SceneProfile::left;
-  if (!node.has("material")) return out;
-  const std::string side = node.at("material").one_of(choices(keys, "material"));
-  if (out.closed != (side == "inside" || side == "outside"))
-    node.at("material")
-        .fail(out.closed ? "of a closed path is inside or outside" : "of an open path is left or right, as one goes along it");
-  out.material = side == "left"     ? SceneProfile::left
-                 : side == "right"  ? SceneProfile::right
-                 : side == "inside" ? SceneProfile::inside
-                                    : SceneProfile::outside;
-  return out;
 }
 
 SceneContact read_contact(const Node& node, const Scene& scene) {
@@ -257,11 +208,11 @@ SceneNormal read_normal(const Node& node, std::string_view keys) {
     }
     if (law.has("damping")) law.at("damping").fail("belongs to spring-damper; leave it out");
   }
-  if (normal.law == table_law || std::ranges::find(cylinder_laws, normal.law) != cylinder_laws.end()) {
+  if (normal.law == table_law || std::ranges::find(names_of_cylinders, normal.law) != names_of_cylinders.end()) {
     read_elastic_law(law, keys, normal);
     return normal;
   }
-  for (const char* key : {"length", "hysteresis", "points", "file", "depth unit", "force unit"})
+  for (const char* key : {"length", "layer", "hysteresis", "points", "file", "depth unit", "force unit"})
     if (law.has(key)) law.at(key).fail("does not belong to " + normal.law + "; leave it out");
   const bool lossless = normal.law == "hertz";
   if (lossless && law.has("restitution")) law.at("restitution").fail("hertz loses nothing; leave restitution out");
@@ -322,15 +273,6 @@ SceneFriction read_friction_law(const Node& law, const std::string& keys) {
     (law.has("v1") ? law.at("v1") : law.at("v0")).fail("v0 must be less than v1: friction grows from none at v0 to its whole at v1");
   if (law.has("sliding") && law.at("sliding").one_of(choices(keys, "sliding")) == "geometric") friction.sliding = SlidingSpeed::geometric;
   return friction;
-}
-
-std::vector<SceneProfile> read_profiles(const Node& owner, std::string_view keys, const std::vector<ScenePoint>& points,
-                                        const std::string& body) {
-  std::vector<SceneProfile> out;
-  if (!owner.has("profiles")) return out;
-  for (const Node& node : owner.at("profiles").entries("names and profiles: {rim: {disc: A, radius: 20 mm}}"))
-    out.push_back(read_profile(node, keys, points, body));
-  return out;
 }
 
 void read_contacts(const Node& root, Scene& scene) {

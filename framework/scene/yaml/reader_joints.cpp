@@ -49,7 +49,7 @@ struct ClearanceKeys {
 };
 const std::vector<ClearanceKeys>& clearance_keys() {
   static const std::vector<ClearanceKeys> all{
-      {JointKind::revolute, {{"radial", "0.1 mm"}, {"bearing radius", "10 mm"}, {"bearing", "slider"}}, {"stiffness", "damping"}},
+      {JointKind::revolute, {{"radial", "0.1 mm"}, {"bearing radius", "10 mm"}, {"bearing", "slider"}}, {"stiffness", "damping", "arc"}},
       {JointKind::prismatic, {{"gap", "0.1 mm"}, {"length", "60 mm"}, {"height", "20 mm"}}, {"round"}},
       {JointKind::slot, {{"gap", "0.1 mm"}, {"pin radius", "5 mm"}}, {"travel"}},
       {JointKind::distance, {}, {"gap", "only"}},
@@ -91,6 +91,24 @@ ScenePlay read_play(const Node& node, const SceneJoint& joint) {
   return play;
 }
 
+SceneArc read_arc(const Node& node, const Node& clearance, ClearanceModel model) {
+  check_keys(node, "joints.*.clearance.arc");
+  SceneArc arc;
+  arc.middle = node.at("middle").quantity(dimension::angle);
+  arc.extent = node.at("extent").quantity(dimension::angle, rule::positive);
+  read_optional(node, "wall", dimension::length, rule::positive, arc.wall);
+  read_optional(node, "edge", dimension::length, rule::positive, arc.edge);
+  if (arc.extent > SceneArc::turn + SceneArc::rounding) node.at("extent").fail("must not be above 360 deg, where the bearing is closed");
+  if (!arc.whole() && !(arc.wall > 0)) node.fail("lacks a required key; add for example wall: 4 mm, how thick the bearing is");
+  if (arc.edge > arc.wall / 2) node.at("edge").fail("must not be above half of wall: the ends are round then");
+  if (model == ClearanceModel::massless_link)
+    node.fail(
+        "belongs to a journal that may leave its bearing, and a massless link holds it at the wall; take another model, or leave it out");
+  if (model == ClearanceModel::spring_damper && !(clearance.has("stiffness") && clearance.has("damping")))
+    clearance.fail("lacks what an open bearing's spring-damper cannot take from `normal`; add both stiffness and damping");
+  return arc;
+}
+
 SceneClearance read_clearance(const Node& node, const SceneJoint& joint) {
   check_clearance(node, joint);
   SceneClearance clearance;
@@ -111,6 +129,7 @@ SceneClearance read_clearance(const Node& node, const SceneJoint& joint) {
   if (clearance.bearing != joint.a.body && clearance.bearing != joint.b.body)
     bearing.fail(bearing.shown() + " is not joined here; write " + joint.a.body + " or " + joint.b.body);
   if (node.has("friction")) clearance.friction = read_friction(node.at("friction"), "joints.*.clearance.friction");
+  if (node.has("arc")) clearance.arc = read_arc(node.at("arc"), node, clearance.model);
   if (clearance.model == ClearanceModel::impact) check_rigid_friction(node);
   return clearance;
 }

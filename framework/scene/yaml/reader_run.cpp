@@ -79,20 +79,21 @@ void read_start_entry(const Node& node, Scene& scene) {
   const auto found = std::ranges::find(scene.bodies, name, &SceneBody::name);
   const bool body = found != scene.bodies.end();
   const auto joint = std::ranges::find(scene.joints, name, &SceneJoint::name);
-  const bool journal = joint != scene.joints.end() && joint->clearance;
+  const bool journal = joint != scene.joints.end() && joint->clearance && !is_open(*joint);
   if (body && journal) node.fail("both a body and a joint are named \"" + name + "\"; rename one of them");
   if (body) {
     scene.start_bodies.push_back(read_start_body(node, *found));
   } else if (journal) {
     scene.start_journals.push_back(read_start_journal(node));
   } else if (joint != scene.joints.end()) {
-    node.fail(joint->play ? "the play of \"" + name + "\" starts as its bodies do; start one of these, off the middle"
-                          : "the joint \"" + name + "\" has no clearance for a journal to start in; give it one, or start a body");
+    node.fail(joint->play || is_open(*joint)
+                  ? "the play of \"" + name + "\" starts as its bodies do; start one of these, off the middle"
+                  : "the joint \"" + name + "\" has no clearance for a journal to start in; give it one, or start a body");
   } else {
     std::vector<std::string> known;
     for (const SceneBody& b : scene.bodies) known.push_back(b.name);
     for (const SceneJoint& j : scene.joints)
-      if (j.clearance) known.push_back(j.name);
+      if (j.clearance && !is_open(j)) known.push_back(j.name);
     node.fail("there is no body or clearance joint \"" + name + "\"." + did_you_mean(name, known));
   }
 }

@@ -98,7 +98,7 @@ TradePlan suggested_plan(const CaseSource& source) {
   plan.axes.push_back(listed_axis("scheme", "run.method", {"dopri5", "verner87", "generalized-alpha"}));
   const std::vector<std::string> models = clearance_models();
   for (const SceneJoint& joint : scene.joints)
-    if (joint.clearance && models.size() > 1)
+    if (joint.clearance && !is_open(joint) && models.size() > 1)
       plan.axes.push_back(listed_axis(joint.name, "joints." + joint.name + ".clearance.model", models));
   for (const FlexibleReport& r : model.flexible)
     if (entry(entry(entry(&tree, "bodies"), r.body), "modes")) plan.axes.push_back(modes_axis(tree, r.body, static_cast<int>(r.shapes)));

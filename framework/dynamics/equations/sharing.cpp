@@ -1,0 +1,37 @@
+#include "framework/dynamics/equations/sharing.h"
+
+#include <limits>
+
+#include "framework/common/dense.h"
+
+namespace pintle {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+VectorXd share_out(const MatrixXd& W, const VectorXd& rhs, const VectorXd& capacity, double one,
+                   std::span<const UnilateralContact> contacts) {
+  constexpr double least = 1e-9;
+  const Index m = rhs.size();
+  if (m == 0) return rhs;
+  if (m == 1) return W(0, 0) > 0 ? VectorXd(rhs / W(0, 0)) : VectorXd(VectorXd::Zero(1));
+  const double most = capacity.maxCoeff();
+  const VectorXd weight = most > 0 ? VectorXd(capacity.cwiseMax(least * most).cwiseSqrt()) : VectorXd(VectorXd::Ones(m));
+  // The rows that count are those of W between unit slips; among their solutions the least.
+  const VectorXd unit = W.diagonal().cwiseAbs().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+  const Eigen::JacobiSVD<MatrixXd> svd(unit.asDiagonal() * W * unit.asDiagonal(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Index rank = (svd.singularValues().array() > one * svd.singularValues()[0]).count();
+  const MatrixXd rows = svd.singularValues().head(rank).asDiagonal() * svd.matrixV().leftCols(rank).transpose() *
+                        unit.cwiseInverse().cwiseProduct(weight).asDiagonal();
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_norm(rank, m);
+  least_norm.compute(rows);
+  const VectorXd x = weight.cwiseProduct(least_norm.solve(svd.matrixU().leftCols(rank).transpose() * unit.cwiseProduct(rhs)));
+  if (contacts.empty() || rank == m) return x;
+  // What changes no rate: an orthonormal basis of it among x/weight.
+  Eigen::HouseholderQR<MatrixXd> basis(m, m - rank);
+  basis.compute(unit.cwiseQuotient(weight).asDiagonal() * svd.matrixV().rightCols(m - rank));
+  return admissible_forces(contacts, x, weight.asDiagonal() * (basis.householderQ() * MatrixXd::Identity(m, m - rank)));
+}
+
+}  // namespace pintle

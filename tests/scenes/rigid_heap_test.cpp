@@ -1,0 +1,111 @@
+// Many rigid contacts at once, of which there are more than the bodies can tell apart: heaps, dominoes, and a lock in its hollow.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "framework/build/build.h"
+#include "tests/refusal.h"
+#include "tests/scenes/rigid_scenes.h"
+
+namespace pintle::rigid_heap_test {
+namespace {
+
+using pintle_scenes::expect_sound, pintle_scenes::floor_under, pintle_scenes::number, pintle_scenes::run, pintle_scenes::Whole;
+
+constexpr double g = 9.81;
+
+// Pushed at the first, each falls onto the next; at rest the floor bears them all, whatever part of it each corner has.
+TEST(RigidHeap, DominoesFallAndRestOnEachOther) {
+  std::string bodies = "bodies:\n", contacts = "contacts:\n";
+  for (int i = 0; i < 5; ++i) {
+    const std::string n = std::to_string(i), friction = ", model: impact, restitution: 0, friction: {coulomb: {coefficient: ";
+    bodies += "  d" + n +
+              ": {rigid: {mass: 0.02, inertia: 4e-6}, profiles: {o: {path: [[-0.004, -0.024], [0.004, -0.024], [0.004, 0.024], " +
+              "[-0.004, 0.024]], closed: true}}, pose: {at: [" + number(0.022 * i) + ", 0.024]}}\n";
+    contacts += "  f" + n + ": {between: [d" + n + ".o, ground.floor]" + friction + "0.5}}}\n";
+    if (i > 0) contacts += "  c" + n + ": {between: [d" + n + ".o, d" + std::to_string(i - 1) + ".o]" + friction + "0.2}}}\n";
+  }
+  const Whole w = run(floor_under() + bodies + contacts +
+                      "forces: {push: {force: [\"if(t < 0.05, 0.3, 0)\", 0], at: d0}}\nrun: {until: 0.8}\noutput: {frames: 0}\n");
+  expect_sound(w);
+  double pressed = 0;
+  for (int i = 0; i < 5; ++i) {
+    const std::string n = std::to_string(i);
+    pressed += w.last("f" + n + ".normal [N]");
+    EXPECT_LT(w.last("d" + n + ".angle [rad]"), -1.1) << i;
+    EXPECT_NEAR(w.last("d" + n + ".speed [rad/s]"), 0, 1e-6) << i;
+  }
+  EXPECT_NEAR(pressed, 0.1 * g, 1e-9);
+  EXPECT_NEAR(w.last("d4.angle [rad]"), -std::acos(0.0), 1e-9);
+  EXPECT_NEAR(w.last("d4.y [m]"), 0.004, 1e-12);
+}
+
+// None goes into another, nor through a wall.
+TEST(RigidHeap, DiscsHeapUpInABin) {
+  const double r = 0.05;
+  std::string bodies = "bodies:\n", contacts = "contacts:\n";
+  const std::string laws = ", model: impact, restitution: 0.3, friction: {coulomb: {coefficient: 0.3}}}\n";
+  for (int i = 0; i < 6; ++i) {
+    const std::string n = std::to_string(i);
+    bodies += "  b" + n + ": {rigid: {mass: 1, inertia: 1e-3}, profiles: {o: {disc: [0, 0], radius: 0.05}}, pose: {at: [" +
+              number(-0.12 + 0.12 * (i % 3) + 0.01 * (i / 3)) + ", " + number(0.07 + 0.11 * (i / 3)) + "]}}\n";
+    contacts += "  w" + n + ": {between: [b" + n + ".o, ground.bin]" + laws;
+    for (int j = 0; j < i; ++j)
+      contacts += "  c" + n + std::to_string(j) + ": {between: [b" + n + ".o, b" + std::to_string(j) + ".o]" + laws;
+  }
+  const Whole w =
+      run("gravity: [0, -9.81]\nground: {profiles: {bin: {path: [[-0.2, 1], [-0.2, 0], [0.2, 0], [0.2, 1]], material: right}}}\n" + bodies +
+          contacts + "run: {until: 1.5}\noutput: {every: 5 ms, frames: 0}\n");
+  expect_sound(w);
+  for (int i = 0; i < 6; ++i) {
+    const auto x = w.column("b" + std::to_string(i) + ".x [m]"), y = w.column("b" + std::to_string(i) + ".y [m]");
+    for (std::size_t row = 0; row < x.size(); ++row) {
+      EXPECT_GT(y[row], r - 1e-9) << i;
+      EXPECT_LT(std::abs(x[row]), 0.2 - r + 1e-9) << i;
+    }
+    for (int j = 0; j < i; ++j) {
+      const auto x_j = w.column("b" + std::to_string(j) + ".x [m]"), y_j = w.column("b" + std::to_string(j) + ".y [m]");
+      for (std::size_t row = 0; row < x.size(); ++row)
+        EXPECT_GT(std::hypot(x[row] - x_j[row], y[row] - y_j[row]), 2 * r - 1e-9) << i << " " << j;
+    }
+  }
+}
+
+// A turn of the pin turns the wheel by a quarter; then the locking disc holds it, 0.05 mm of play at 55 mm from its own centre.
+TEST(RigidHeap, AGenevaWheelIsLockedByEvents) {
+  std::ifstream file(PINTLE_SOURCE_DIR "/examples/geneva.yaml");
+  std::ostringstream text;
+  text << file.rdbuf();
+  std::string scene = text.str();
+  const std::size_t line = scene.find("run: {until: 3 s");
+  ASSERT_NE(line, std::string::npos);
+  scene.replace(line, scene.find('\n', line) - line, "run: {until: 0.9 s, method: dopri5}");
+  const Whole w = run(scene);
+  expect_sound(w);
+  EXPECT_NEAR(std::abs(w.last("wheel.angle [rad]")), std::acos(0.0), 5e-3);
+  EXPECT_NEAR(w.last("wheel.speed [rad/s]"), 0, 1e-2);
+}
+
+TEST(RigidHeap, AStartDeepInsideATooth) {
+  const auto start = [](double x, double y) {
+    const Scene s = read_scene_text(
+        "parameters: {o: 50 mm, i: 40 mm, u: o*sqrt(0.5), v: i*sqrt(0.5)}\nbodies:\n  wheel: {rigid: {mass: 1, inertia: 1e-3}, profiles: "
+        "{teeth: {path: [[i, 0], [o, 0], [v, v], [u, u], [0, i], [0, o], [-v, v], [-u, u], [-i, 0], [-o, 0], [-v, -v], [-u, -u], [0, -i], "
+        "[0, -o], [v, -v], [u, -u]], closed: true}}}\n  nose: {rigid: {mass: 0.02, inertia: 4e-6}, profiles: {n: {disc: [0, 0], radius: "
+        "1.5 mm}}, pose: {at: [" +
+            number(x) + ", " + number(y) + "]}}\ncontacts:\n  c: {between: [nose.n, wheel.teeth], model: impact, restitution: 0}\n" +
+            "run: {until: 0.01}\n",
+        "scene.yaml");
+    assemble(s, build(s));
+  };
+  EXPECT_NO_THROW(start(0.0412, -0.0061));
+  for (const auto& at : {std::pair(0.038, -0.0061), std::pair(0.045, 0.003), std::pair(0.03, -0.006), std::pair(0.0, 0.0)})
+    pintle_test::expect_one_line(pintle_test::refusal_by<std::exception>([&] { start(at.first, at.second); }), "scene.yaml:6: contacts.c",
+                                 {"the two surfaces overlap by", "which rigid bodies cannot; move a body by `start` or `pose`"});
+}
+
+}  // namespace
+}  // namespace pintle::rigid_heap_test
