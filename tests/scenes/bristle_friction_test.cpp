@@ -92,7 +92,9 @@ TEST_P(Bristles, HoldMoreWhatHasRestedLonger) {
     for (std::size_t i = 0; i < t.size(); ++i) {
       const double rested = -std::expm1(-t[i] / 2), holds = 0.2 + 0.3 * rested, bends = 1e5 * 1e-5 * t[i];
       ASSERT_NEAR(d[i], rested, 2e-4 + GetParam().near);
-      if (std::abs(bends - holds) > 0.01) ASSERT_NEAR(std::abs(f[i]), 10 * std::min(bends, holds), 10 * (1e-2 + GetParam().near)) << t[i];
+      if (std::abs(bends - holds) > 0.01) {
+        ASSERT_NEAR(std::abs(f[i]), 10 * std::min(bends, holds), 10 * (1e-2 + GetParam().near)) << t[i];
+      }
     }
   }
 }
@@ -186,7 +188,9 @@ TEST_P(Bristles, BeginStraightAtEachTouch) {
     const auto N = w.column("rub.normal [N]"), z = w.column("rub.bristle [m]"), f = w.column("rub.friction [N]");
     bool bent = false;
     for (std::size_t i = 0; i < N.size(); ++i) {
-      if (N[i] == 0) ASSERT_EQ(z[i], 0) << i;
+      if (N[i] == 0) {
+        ASSERT_EQ(z[i], 0) << i;
+      }
       bent = bent || z[i] != 0;
       ASSERT_LE(std::abs(f[i]), 2 * 0.4 * N[i]);
     }
