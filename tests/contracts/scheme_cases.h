@@ -127,7 +127,7 @@ inline Case make() {
 // A block that runs out in its guide, pressed by N, on bristles without damping. With g = μ the deflection follows the way gone,
 // z = (μ/σ0)(1 − exp(−σ0 x/μ)), and with it the speed: m v²/2 = m v0²/2 − μ N (x − z). The time is integrated here.
 namespace bristles {
-constexpr double m = 1.5, N = 8, mu = 0.4, stiffness = 3, v0 = 4;
+constexpr double m = 1.5, N = 8, mu = 0.4, stiffness = 0.3, v0 = 6;  // slides on beyond 2 s
 inline double deflection(double x) { return -mu / stiffness * std::expm1(-stiffness * x / mu); }
 inline double speed(double x) { return std::sqrt(v0 * v0 - 2 * mu * N / m * (x - deflection(x))); }
 inline VectorXd seen(const VectorXd& y, const Equations&) { return (VectorXd(4) << y[0], y[3], y[6], y[7]).finished(); }

@@ -128,9 +128,8 @@ INSTANTIATE_TEST_SUITE_P(Each, Removing, testing::ValuesIn(features), [](const a
 /// Functions that one kind of term needs and nothing else does.
 using Term = std::pair<const char*, const void*>;
 const std::vector<Term> terms{
-    {"contact",
-     entry_of(static_cast<ContactEffect (*)(const ContactPair&, const MarkerMotion&, const MarkerMotion&, double, const DryFriction&)>(
-         evaluate))},
+    {"contact", entry_of(static_cast<ContactEffect (*)(const ContactPair&, const MarkerMotion&, const MarkerMotion&, double,
+                                                       const DryFriction&, const double*)>(evaluate))},
     {"impact law", entry_of(static_cast<NormalForce (*)(const ImpactLaw&, const Approach&)>(evaluate))},
     {"friction law", entry_of(static_cast<FrictionForce (*)(const FrictionLaw&, double, double)>(evaluate))},
     {"force or spring",
