@@ -213,12 +213,6 @@ FrictionLaw friction_law(const Scene& scene, const SceneFriction& f) {
       "there is no law of friction " + quoted(f.law) + "; write coulomb, lugre, gonthier, ambrosio, threlfall, tanh or bengisu-akay");
 }
 
-std::string bristles_text(const FrictionLaw& law, double load) {
-  const BristleConstants of = bristle_constants(law);
-  return " are pressed by " + text(load) + " N: stiffness " + text(load * of.stiffness) + " N/m along the surfaces, damping " +
-         text(load * of.damping) + " N s/m where they are at rest";
-}
-
 std::string friction_text(const ContactPair& pair) {
   if (!pair.friction) return ", no friction";
   const auto* coulomb = std::get_if<Coulomb>(&*pair.friction);

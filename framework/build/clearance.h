@@ -36,8 +36,6 @@ void check_rigid_friction(const Scene&, const SceneFriction&);
 FrictionLaw friction_law(const Scene&, const SceneFriction&);
 /// It is more than none.
 bool rubs(const SceneFriction&);
-/// " are pressed by 10 N: stiffness 1e+06 N/m along the surfaces, damping 2019 N s/m where they are at rest"
-std::string bristles_text(const FrictionLaw&, double load);
 /// ", dry friction 0.2, static 0.3"
 std::string friction_text(const ContactPair&);
 

@@ -70,7 +70,7 @@ TEST(Alpha, SliderCrankConvergesWithSecondOrderInPositionSpeedAndMultipliers) {
 TEST(Alpha, InternalStatesConvergeWithSecondOrder) {
   for (const double rho : {0.5, 0.8, 0.95}) {
     expect_second_order(series::make(), rho, 1, 80, 4);
-    expect_second_order(bristles::make(), rho, 1, 80, 4);
+    expect_second_order(bristles::make(0.3), rho, 1, 80, 4);
   }
 }
 

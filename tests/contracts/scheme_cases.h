@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -21,7 +22,7 @@ struct Case {
   System system;
   State start;
   VectorXd (*seen)(const VectorXd& y, const Equations&);
-  VectorXd (*truth)(double t);
+  std::function<VectorXd(double t)> truth;
 };
 
 // A link on a hinge with a damper, under gravity and a torque; angle from +x. By an ODE of our own.
@@ -127,17 +128,17 @@ inline Case make() {
 // A block that runs out in its guide, pressed by N, on bristles without damping. With g = μ the deflection follows the way gone,
 // z = (μ/σ0)(1 − exp(−σ0 x/μ)), and with it the speed: m v²/2 = m v0²/2 − μ N (x − z). The time is integrated here.
 namespace bristles {
-constexpr double m = 1.5, N = 8, mu = 0.4, stiffness = 0.3, v0 = 6;  // slides on beyond 2 s
-inline double deflection(double x) { return -mu / stiffness * std::expm1(-stiffness * x / mu); }
-inline double speed(double x) { return std::sqrt(v0 * v0 - 2 * mu * N / m * (x - deflection(x))); }
+constexpr double m = 1.5, N = 8, mu = 0.4, v0 = 6;  // slides on beyond 2 s
 inline VectorXd seen(const VectorXd& y, const Equations&) { return (VectorXd(4) << y[0], y[3], y[6], y[7]).finished(); }
-inline VectorXd truth(double t) {
-  const auto f = [](const pintle_oracle::Vec<1>& y, pintle_oracle::Vec<1>& dy) { dy = {speed(y[0])}; };
+inline VectorXd truth(double stiffness, double t) {
+  const auto deflection = [&](double x) { return -mu / stiffness * std::expm1(-stiffness * x / mu); };
+  const auto speed = [&](double x) { return std::sqrt(v0 * v0 - 2 * mu * N / m * (x - deflection(x))); };
+  const auto f = [&](const pintle_oracle::Vec<1>& y, pintle_oracle::Vec<1>& dy) { dy = {speed(y[0])}; };
   const double x = pintle_oracle::integrate_tightly<1>(f, {0}, t, 1e-14, {1})[0], v = speed(x);
   return (VectorXd(4) << x, v, deflection(x), m * (v0 * v0 - v * v) / 2).finished();
 }
-inline Case make() {
-  Case k{{}, {}, seen, truth};
+inline Case make(double stiffness) {
+  Case k{{}, {}, seen, [stiffness](double t) { return truth(stiffness, t); }};
   k.system.bodies = {{"block", m, 0.02}};
   k.system.markers = {{ground, {0, 0}, 0}, {0, {0, 0}, 0}};
   k.system.joints = {Prismatic{0, 1, 0}};

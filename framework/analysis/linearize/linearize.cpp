@@ -8,7 +8,6 @@
 
 #include "framework/analysis/linearize/quadratic_roots.h"
 #include "framework/analysis/linearize/state_space.h"
-#include "framework/build/clearance.h"
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
 #include "framework/configuration/assemble.h"
@@ -30,6 +29,13 @@ std::string text(double x, int digits = 4) {
   s.precision(digits);
   s << x;
   return s.str();
+}
+
+// " are pressed by 10 N: stiffness 1e+06 N/m along the surfaces, damping 2019 N s/m where they are at rest"
+std::string bristles_text(const FrictionLaw& law, double load) {
+  const BristleConstants of = bristle_constants(law);
+  return " are pressed by " + text(load) + " N: stiffness " + text(load * of.stiffness) + " N/m along the surfaces, damping " +
+         text(load * of.damping) + " N s/m where they are at rest";
 }
 
 /// The system with the points that are recorded among its markers, its laws held still where they are to be.

@@ -94,12 +94,23 @@ std::string base_units(const Dimension& q) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
   const std::array<std::pair<const char*, double>, 3> parts{{{"kg", q.mass}, {"m", q.length}, {"s", q.time}}};
-  for (const auto& [name, exponent] : parts) {
-    if (near(exponent, 0)) continue;
-    if (out.tellp() > 0) out << '*';
+  const auto put = [&](const char* name, double exponent) {
     out << name;
-    if (!near(exponent, 1)) out << "^(" << exponent << ')';
-  }
+    if (near(exponent, 1)) return;
+    const bool whole = near(exponent, std::round(exponent));
+    out << (whole ? "^" : "^(") << exponent << (whole ? "" : ")");
+  };
+  for (const auto& [name, exponent] : parts)
+    if (exponent > 0 && !near(exponent, 0)) {
+      if (out.tellp() > 0) out << '*';
+      put(name, exponent);
+    }
+  if (out.tellp() == 0) out << '1';
+  for (const auto& [name, exponent] : parts)
+    if (exponent < 0 && !near(exponent, 0)) {
+      out << '/';
+      put(name, -exponent);
+    }
   return out.str();
 }
 
