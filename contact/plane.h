@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
+
 /// Vectors of the plane.
 namespace pintle {
 
