@@ -17,7 +17,7 @@ void number_internal(System& system) {
       const int begin = static_cast<int>(x_scale.size());
       first.push_back(begin);
       if (!has(one)) continue;
-      InternalStates& added = system.internal.emplace_back(owner, static_cast<int>(first.size()) - 1, begin, 0);
+      InternalStates& added = system.internal.emplace_back(InternalStates{owner, static_cast<int>(first.size()) - 1, begin, 0});
       for (const InternalState& s : states_of(system, added)) x_scale.push_back(s.scale), ++added.n;
     }
   };
