@@ -52,10 +52,10 @@ class Rest {
   bool settle(State& state, double farthest) {
     const VectorXd before = state.y.head(held.n());
     state.t = t_;
-    state.y.tail(state.y.size() - held.n()).setZero();
+    stop(state);
     state.impact_rate.resize(held.contacts.size());
     if (!project(held, t_, state.y, eq) || !(size(state.y.head(held.n()) - before) <= farthest)) return false;
-    state.y.tail(state.y.size() - held.n()).setZero();
+    stop(state);
     for (std::size_t c = 0; c < held.contacts.size(); ++c) {
       const ContactPair& pair = held.contacts[c];
       state.impact_rate[c] = !pair.profiles || onset_of(held, static_cast<int>(c), state).value > 0 ? pair.slowest_impact : 0;
@@ -96,6 +96,7 @@ class Rest {
   double potential = 0;
 
  private:
+  void stop(State& state) const { state.y.segment(held.n(), held.switch_begin() - held.n()).setZero(); }
   double potential_of(const State& state, double& magnitude) const {
     const Energies e = energies(held, state, eq);
     double sum = e.gravity + e.springs + e.contacts + e.strain;

@@ -313,6 +313,10 @@ std::string integral_name(const System& system, const Integral& i) {
     case Account::load: return system.force_names[at(i.index)] + ".work in";
     case Account::driver: return system.joint_names[at(i.index)] + ".work in";
     case Account::damping: return system.bodies[at(i.index)].name + ".lost to damping";
+    case Account::switching: {
+      const Switch& s = system.switches[at(i.index)];
+      return switch_name(system, s) + (s.of == Switch::joint ? ".lost to engaging" : ".lost to switching");
+    }
     case Account::scheme: return "scheme.lost to numerical dissipation";
   }
   return "";

@@ -64,6 +64,7 @@ struct Equations {
   std::vector<bool> directed;            ///< per marker: a joint or a following force asks for its direction u
   std::vector<ConstraintRows> rows;      ///< of each joint, in poses of its markers
   std::vector<ConstraintRows::Block> L;  ///< … and their derivatives, one an end of a joint
+  std::vector<int> released;             ///< rows of joints that events have taken out: all zero, λ = 0
   std::vector<Schur::Block> B;           ///< rows of Cq, likewise: L J on [x y θ] …
   std::vector<RowBlock> B_eta;           ///< … and on η; empty for a rigid body
   std::vector<Schur::Block> B_hat;       ///< both in the metric of M⁻¹: see to_metric

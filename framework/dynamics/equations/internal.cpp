@@ -8,6 +8,15 @@ namespace pintle {
 
 namespace {
 
+bool has_released_owner(const System& system, const InternalStates& of, const Eigen::VectorXd& y) {
+  switch (of.owner) {
+    case InternalStates::force: return is_released(system, Switch::force, of.index, y);
+    case InternalStates::contact: return is_released(system, Switch::contact, of.index, y);
+    case InternalStates::friction: return is_released(system, Switch::joint, system.frictions[at(of.index)].joint, y);
+  }
+  return false;
+}
+
 // Of one owner, g and its derivatives in x.
 struct OwnRates {
   std::array<double, most_internal> rate{};
@@ -33,6 +42,7 @@ class OwnMotion {
       law_ = &*pair.friction, open_ = !(state.impact_rate[k] > 0);
       if (!open_) slip_ = sliding_speed(pair, evaluate(pair.gap, moving_point(a_), moving_point(b_)));
     }
+    open_ = open_ || has_released_owner(system, of, state.y);
   }
   OwnRates at_states(const double* x) const {
     OwnRates out{{}, InternalMatrix::Zero(of_.n, of_.n)};
@@ -55,7 +65,7 @@ class OwnMotion {
   const System& system_;
   const InternalStates& of_;
   double t_, slip_ = 0;
-  bool open_ = false;
+  bool open_ = false;                 ///< its owner does nothing
   const FrictionLaw* law_ = nullptr;  ///< of bristles
   std::array<int, 2> markers_;
   const MarkerMotion &a_, &b_;
@@ -76,6 +86,7 @@ InternalTangent internal_tangent(const System& system, const State& state, const
   const std::array<int, 2> markers = markers_of(system, of);
   const MarkerMotion &a = eq.motion[at(markers[0])], &b = eq.motion[at(markers[1])];
   const double* x = state.y.data() + system.x_begin() + of.begin;
+  if (has_released_owner(system, of, state.y)) return InternalTangent(2, of.n);
   switch (of.owner) {
     case InternalStates::force: return internal_tangent(system.forces[k], eq.force[k], a, b);
     case InternalStates::contact:

@@ -234,6 +234,7 @@ void Tangent::add_interactions(const System& system, const State& state, const E
     const bool rate = x.rate || follows;
     if (w.q == 0 && !rate) continue;
     if (x.kind == Interaction::contact && eq.contact[x.index].normal.force == 0) continue;
+    if (x.kind == Interaction::force && is_released(system, Switch::force, static_cast<int>(x.index), state.y)) continue;
     WrenchTangent tangent = wrenches(system, eq, lambda, x);
     if (follows) condense(internal_tangent(system, state, eq, system.internal[at(x.owner)]), w.x, tangent);
     for (std::size_t i = 0; i < x.n; ++i) move(system, state, eq, x.marker[i], ends_[i]);
