@@ -14,6 +14,7 @@
 #include "framework/build/contacts.h"
 #include "framework/build/choose_method.h"
 #include "framework/build/elastic_bodies.h"
+#include "framework/build/events.h"
 #include "framework/build/joints.h"
 #include "framework/build/laws.h"
 #include "framework/build/markers.h"
@@ -51,6 +52,8 @@ class Builder {
     for (const SceneContact& c : scene_.contacts) add(c);
     for (const SceneDriver& d : scene_.drivers) add(d);
     for (const SceneLoad& l : scene_.loads) add(l);
+    for (const SceneEvent& e : scene_.events) unique(e.name, "event", e.place);
+    add_switches(scene_, model_);
     validate_starts();
     validate_output();
     record();
@@ -310,6 +313,7 @@ class Builder {
                            "; use constraints: projection");
     s.onset_cut = run.onset_cut.value_or(0);
     follow_laws(scene_, s);
+    add_events(scene_, model_);
     if (s.fixed_step > 0) s.max_step = std::min(s.max_step, s.fixed_step);
     s.max_steps = run.max_steps;
   }

@@ -55,6 +55,8 @@ void each_law(const Scene& scene, F f) {
     if (const auto* force = std::get_if<SceneForce>(&l.what)) see(force->x), see(force->y);
     if (const auto* torque = std::get_if<SceneTorque>(&l.what)) see(torque->law);
   }
+  for (const SceneEvent& e : scene.events)  // so that no step passes one that comes and goes
+    for (const Law& law : e.when) f(law, e.name, e.place, static_cast<const SceneDriver*>(nullptr));
 }
 
 bool accelerates_anew(const LawBreak& b) {

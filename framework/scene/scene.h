@@ -195,6 +195,7 @@ struct SceneJoint {
   Place place;
   std::optional<ScenePlay> play = {};               ///< prismatic, slot and distance only
   std::optional<SceneJointFriction> friction = {};  ///< revolute, prismatic and slot, without clearance
+  bool engaged = true;                              ///< at the start
 };
 
 /// A revolute with clearance whose bearing is an arc.
@@ -208,6 +209,7 @@ struct SceneContact {
   std::optional<SceneFriction> friction = {};
   Place place = {};
   std::optional<SceneImpact> impact = {};  ///< instead of `normal`
+  bool engaged = true;                     ///< at the start
 };
 
 enum class DriverKind { angle, distance };
@@ -219,6 +221,7 @@ struct SceneDriver {
   PointRef a, b;
   Law law;  ///< [rad] or [m]
   Place place;
+  bool engaged = true;  ///< at the start
 };
 
 /// A point force in world axes, or in the axes of the body it acts on if `follows`.
@@ -249,6 +252,25 @@ struct SceneLoad {
   std::string name;
   std::variant<SceneForce, SceneTorque, SceneSpring, SceneTorsionSpring, SceneMaxwell> what;
   Place place;
+  bool engaged = true;  ///< at the start
+};
+
+/// What an event does, in this order.
+struct SceneDoing {
+  std::vector<std::string> release, engage;  ///< joints, drivers, forces and contacts by their names
+  bool save = false, row = false;            ///< the state as a file; a row of results
+  std::string stop = {};                     ///< the run, and why; empty: it goes on
+  bool does() const { return !release.empty() || !engage.empty() || save || row || !stop.empty(); }
+};
+/// Comes where all its guards have become positive.
+struct SceneEvent {
+  std::string name;
+  Law guard;                        ///< the condition as it is written, 1 or 0
+  std::vector<Law> when;            ///< its comparisons, the guards
+  bool once = false;                ///< else each time
+  bool from_start = true;           ///< where they are positive at the start, it comes there
+  SceneDoing then, otherwise = {};  ///< `otherwise`: where they no longer are
+  Place place = {};
 };
 
 /// Displacement of a point of a flexible body within its frame, body axes [m].
@@ -314,6 +336,7 @@ struct Scene {
   std::vector<SceneContact> contacts;
   std::vector<SceneDriver> drivers;
   std::vector<SceneLoad> loads;
+  std::vector<SceneEvent> events = {};
   std::vector<StartBody> start_bodies;
   bool start_at_rest = false;  ///< `start: equilibrium`
   std::vector<StartJournal> start_journals;

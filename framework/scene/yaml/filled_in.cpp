@@ -250,6 +250,12 @@ Json load(const SceneTorsionSpring& f) {
 }
 Json load(const SceneMaxwell& f) { return {{"maxwell", ends(f.a, f.b)}, {"stiffness", f.stiffness}, {"damping", f.damping}}; }
 
+// Said where it is not so from the start.
+Json with_engaged(Json element, bool engaged) {
+  if (!engaged) element["engaged"] = false;
+  return element;
+}
+
 Json json(const StartBody& start) {
   Json out = Json::object();
   const auto put = [&](const char* key, const std::optional<double>& value) {
@@ -317,13 +323,18 @@ std::string filled_in(const Scene& scene, const Parameters& parameters) {
   Json& bodies = out["bodies"] = Json::object();
   for (const SceneBody& b : scene.bodies) append(bodies, b.name, json(b));
   Json& joints = out["joints"] = Json::object();
-  for (const SceneJoint& j : scene.joints) append(joints, j.name, json(j));
+  for (const SceneJoint& j : scene.joints) append(joints, j.name, with_engaged(json(j), j.engaged));
   Json& contacts = out["contacts"] = Json::object();
-  for (const SceneContact& c : scene.contacts) append(contacts, c.name, json(c));
+  for (const SceneContact& c : scene.contacts) append(contacts, c.name, with_engaged(json(c), c.engaged));
   Json& drivers = out["drivers"] = Json::object();
-  for (const SceneDriver& d : scene.drivers) append(drivers, d.name, json(d));
+  for (const SceneDriver& d : scene.drivers) append(drivers, d.name, with_engaged(json(d), d.engaged));
   Json& forces = out["forces"] = Json::object();
-  for (const SceneLoad& l : scene.loads) append(forces, l.name, std::visit([](const auto& what) { return load(what); }, l.what));
+  for (const SceneLoad& l : scene.loads)
+    append(forces, l.name, with_engaged(std::visit([](const auto& what) { return load(what); }, l.what), l.engaged));
+  if (!scene.events.empty()) {
+    Json& events = out["events"] = Json::object();
+    for (const SceneEvent& e : scene.events) append(events, e.name, json(e));
+  }
   out["start"] = starts(scene);
   if (scene.statics) out["static"] = json(*scene.statics);
   if (scene.has_run) out["run"] = json(scene.run);

@@ -99,6 +99,7 @@ Scene read(const std::string& text, const std::string& file, const Overrides& ov
   read_contacts(root, scene);
   read_drivers(root, folder, scene);
   read_forces(root, folder, scene);
+  read_events(root, scene);
   read_start(root, scene);
   read_static(root, scene);
   read_output(root, scene);

@@ -7,13 +7,13 @@ namespace pintle {
 
 namespace {
 
-const std::array<KindKeys, 2> driver_kinds{{{"angle", {"law"}}, {"distance", {"law"}}}};
+const std::array<KindKeys, 2> driver_kinds{{{"angle", {"law", "engaged"}}, {"distance", {"law", "engaged"}}}};
 
-const std::array<KindKeys, 5> force_kinds{{{"force", {"at", "follows"}},
-                                           {"torque", {"on", "from"}},
-                                           {"spring", {"stiffness", "damping", "free length"}},
-                                           {"torsion spring", {"stiffness", "damping", "free angle"}},
-                                           {"maxwell", {"stiffness", "damping"}}}};
+const std::array<KindKeys, 5> force_kinds{{{"force", {"at", "follows", "engaged"}},
+                                           {"torque", {"on", "from", "engaged"}},
+                                           {"spring", {"stiffness", "damping", "free length", "engaged"}},
+                                           {"torsion spring", {"stiffness", "damping", "free angle", "engaged"}},
+                                           {"maxwell", {"stiffness", "damping", "engaged"}}}};
 
 void must_have(const Node& node, std::string_view key, const std::string& example) {
   if (!node.has(key)) node.fail("lacks a required key; add for example " + std::string(key) + ": " + example);
@@ -86,6 +86,7 @@ void read_drivers(const Node& root, const std::filesystem::path& folder, Scene& 
     std::tie(driver.a, driver.b) = read_ends(node.at(driver_kinds[kind].kind));
     driver.law =
         read_time_law(node.at("law"), kind == 0 ? dimension::angle : dimension::length, Smoothness::driver, folder, end_of_run(scene));
+    driver.engaged = read_engaged(node);
     scene.drivers.push_back(std::move(driver));
   }
 }
@@ -102,6 +103,7 @@ void read_forces(const Node& root, const std::filesystem::path& folder, Scene& s
       case 3: load.what = read_torsion_spring(node); break;
       default: load.what = read_maxwell(node);
     }
+    load.engaged = read_engaged(node);
     scene.loads.push_back(std::move(load));
   }
 }

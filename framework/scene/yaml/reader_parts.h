@@ -19,6 +19,7 @@ void read_joints(const Node& root, Scene&);
 void read_contacts(const Node& root, Scene&);  ///< after bodies
 void read_drivers(const Node& root, const std::filesystem::path& folder, Scene&);
 void read_forces(const Node& root, const std::filesystem::path& folder, Scene&);
+void read_events(const Node& root, Scene&);  ///< after all that they act on
 void read_start(const Node& root, Scene&);   ///< after bodies and joints
 void read_static(const Node& root, Scene&);  ///< after bodies
 void read_run(const Node& root, Scene&);
@@ -73,6 +74,9 @@ void check_own_point(const Node&, const std::string& name, const SceneBody&);
 std::string read_own_point(const Node&, const SceneBody&);
 /// n quantities in a list, each after the rule. `remedy`: what to write.
 std::vector<double> read_quantities(const Node&, std::size_t n, const Dimension&, Rule, const std::string& remedy);
+
+/// What events may release is in the mechanism at the start, if it does not say otherwise.
+bool read_engaged(const Node&);
 
 /// A length above zero.
 inline double read_size(const Node& node) { return node.quantity(dimension::length, rule::positive); }
