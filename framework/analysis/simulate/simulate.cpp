@@ -127,6 +127,7 @@ class Simulation {
     run_.t_end = ended_short(run_) ? last_row_ : integrator_.state().t;  // a step may have been cut short
     if (run_.reason.empty()) run_.reason = integrator_.ended();
     run_.impacts = integrator_.impacts();
+    run_.happenings = integrator_.happenings();
     if (from) warn_of_gap(system_, model_, *from, run_);
     warn_of_depth(system_, run_);
     warn_of_pushing(system_, run_);
@@ -172,6 +173,8 @@ class Simulation {
     if (!integrator_.advance(scene_.run.until)) return false;
     if (!system_.contacts.empty()) slow_.see(system_, integrator_.last(), integrator_.equations());
     if (!report()) return false;
+    if (integrator_.asks_for_row()) add_row_here();
+    if (integrator_.asks_for_save() && listeners_.state) save();
     if (const std::string beyond = monitor_.beyond_limits(); !beyond.empty()) {
       end(Status::failed, beyond);
     } else if (states_.due(integrator_.state().t)) {
@@ -196,6 +199,14 @@ class Simulation {
       frames_.tick();
     }
     return true;
+  }
+
+  /// What an event asks for: the state that it has left.
+  void add_row_here() {
+    if (integrator_.state().t <= last_row_ && last_row_ > 0) return;
+    if (!integrator_.sample(integrator_.state().t, sampled_)) return;
+    book(sampled_);
+    add_row(sampled_);
   }
 
   /// Energies of a sampled state, and how well they balance.
