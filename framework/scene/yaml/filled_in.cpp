@@ -241,14 +241,22 @@ Json load(const SceneTorque& f) { return {{"torque", json(f.law)}, {"on", json(f
 Json load(const SceneSpring& f) {
   Json out = {{"spring", ends(f.a, f.b)}, {"damping", f.damping}, {"free length", f.free_length}};
   if (f.stiffness > 0) out["stiffness"] = f.stiffness;
+  if (f.law) out = {{"spring", ends(f.a, f.b)}, {"law", json(*f.law)}};
   return out;
 }
 Json load(const SceneTorsionSpring& f) {
   Json out = {{"torsion spring", ends(f.a, f.b)}, {"damping", f.damping}, {"free angle", f.free_angle}};
   if (f.stiffness > 0) out["stiffness"] = f.stiffness;
+  if (f.law) out = {{"torsion spring", ends(f.a, f.b)}, {"law", json(*f.law)}};
   return out;
 }
 Json load(const SceneMaxwell& f) { return {{"maxwell", ends(f.a, f.b)}, {"stiffness", f.stiffness}, {"damping", f.damping}}; }
+
+Json json(const SceneState& s) {
+  Json out = {{"rate", json(s.rate)}, {"start", s.start}, {"scale", s.scale}};
+  if (!s.unit.empty()) out["unit"] = s.unit;
+  return out;
+}
 
 Json json(const StartBody& start) {
   Json out = Json::object();
@@ -324,6 +332,8 @@ std::string filled_in(const Scene& scene, const Parameters& parameters) {
   for (const SceneDriver& d : scene.drivers) append(drivers, d.name, json(d));
   Json& forces = out["forces"] = Json::object();
   for (const SceneLoad& l : scene.loads) append(forces, l.name, std::visit([](const auto& what) { return load(what); }, l.what));
+  for (const SceneState& s : scene.states) append(out["states"], s.name, json(s));
+  for (const SceneOutput& o : scene.outputs) append(out["outputs"], o.name, json(o.law));
   out["start"] = starts(scene);
   if (scene.statics) out["static"] = json(*scene.statics);
   if (scene.has_run) out["run"] = json(scene.run);

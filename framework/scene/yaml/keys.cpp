@@ -51,6 +51,13 @@ const std::vector<std::string> hysteresis_factors{
 const std::vector<Key> arc_keys{{"arc", required, "20 mm"}};
 const std::vector<Key> spline_keys{{"file", required, "cam.csv"}, {"length unit"}};
 const std::vector<Key> polar_keys{{"file", required, "cam.csv"}, {"angle unit"}, {"radius unit"}};
+const std::vector<Key> load_table_keys{{"table", required, "torque.csv"},
+                                       {"interpolation", optional, "", {"spline", "linear"}},
+                                       {"over"},
+                                       {"over unit"},
+                                       {"periodic", optional, "", {"true", "false"}},
+                                       {"time unit"},
+                                       {"value unit"}};
 constexpr const char* two_eyes = "[{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]";
 
 std::vector<Key> joint_keys() {
@@ -78,6 +85,8 @@ const std::vector<KeyTable>& tables() {
         {"contacts"},
         {"drivers"},
         {"forces"},
+        {"states"},
+        {"outputs"},
         {"static"},
         {"start", optional, "", {"equilibrium"}},
         {"run"},
@@ -285,9 +294,12 @@ const std::vector<KeyTable>& tables() {
         {"stiffness"},
         {"damping"},
         {"free length"},
-        {"free angle"}}},
-      {"forces.*.torque",
-       {{"table", required, "torque.csv"}, {"interpolation", optional, "", {"spline", "linear"}}, {"time unit"}, {"value unit"}}},
+        {"free angle"},
+        {"law"}}},
+      {"forces.*.torque", load_table_keys},
+      {"forces.*.force.*", load_table_keys},
+      {"forces.*.law", load_table_keys},
+      {"states.*", {{"rate", required, "setpoint - arm.angle"}, {"start"}, {"unit"}, {"scale"}}},
       {"start.*", {{"at"}, {"x"}, {"y"}, {"angle"}, {"velocity"}, {"vx"}, {"vy"}, {"speed"}, {"deflection"}, {"modes"}, {"eccentricity"}}},
       {"run",
        {{"until", required, "0.1 s"},
