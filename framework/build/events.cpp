@@ -1,11 +1,15 @@
 #include "framework/build/events.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
 
 #include "framework/common/index.h"
+#include "framework/dynamics/model/signal_values.h"
+#include "framework/dynamics/model/marker_motion.h"
 #include "framework/common/nearest.h"
 #include "framework/common/text.h"
 #include "framework/integration/events/scene_events.h"
@@ -68,13 +72,24 @@ void each_doing(const SceneEvent& event, F f) {
   f(event.otherwise);
 }
 
-std::vector<EventAction> actions_of(const Scene& scene, const SceneEvent& event, const SceneDoing& doing, const Model& model) {
+SetState setting(const Scene& scene, const SceneEvent& event, const std::string& name, const Law& value, SignalMaker& signals) {
+  const auto state = std::ranges::find(scene.states, name, &SceneState::name);
+  if (state == scene.states.end()) throw SceneError(scene.file, event.place, "there is no state " + quoted(name) + " to set");
+  const int index = static_cast<int>(state - scene.states.begin());
+  return {name, [index, law = signals.law(value, event.place)](const System& system, State& now) {
+            now.y[own_state(system, index)] = law_at(system, law, now.t, now.y);
+          }};
+}
+
+std::vector<EventAction> actions_of(const Scene& scene, const SceneEvent& event, const SceneDoing& doing, const Model& model,
+                                    SignalMaker& signals) {
   const auto elements = elements_of(scene, model);
   std::vector<EventAction> out;
   for (const std::string& name : doing.release)
     out.push_back(SwitchOver{switch_at(model.system, find_element(scene, event, elements, name).is), false});
   for (const std::string& name : doing.engage)
     out.push_back(SwitchOver{switch_at(model.system, find_element(scene, event, elements, name).is), true});
+  for (const auto& [name, value] : doing.set) out.push_back(setting(scene, event, name, value, signals));
   if (doing.row) out.push_back(Record::row);
   if (doing.save) out.push_back(Record::state);
   if (!doing.stop.empty()) out.push_back(StopRun{doing.stop});
@@ -103,10 +118,33 @@ void warn_of_events(const Scene& scene, Model& model) {
                                ": its condition " + event.guard.text + " does not change");
 }
 
-std::function<Guard(const State&)> guard_of(const Law& law) {
-  return [at = law.at](const State& state) {
-    const Jet now = at(state.t);
-    return Guard{now.value, now.rate};
+using GuardFunction = std::function<Guard(const System&, const State&)>;
+
+// The rate of a signal that is one of places alone; NaN of others.
+double rate_of(const System& system, const MotionSignal& signal, const State& state) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (signal.kind == MotionSignal::state) return unknown;
+  const MovingPoint a = moving_point(system, signal.a, state.y), b = of_two(signal.kind) ? moving_point(system, signal.b, state.y) : a;
+  const SignalSlope slope = signal_slope(signal, a, b);
+  if (!slope.rate_a.isZero(0) || !slope.rate_b.isZero(0)) return unknown;
+  return slope.pose_a.head<2>().dot(a.v) + slope.pose_a[2] * a.w + slope.pose_b.head<2>().dot(b.v) + slope.pose_b[2] * b.w;
+}
+
+GuardFunction guard_of(const Law& law, const Place& place, SignalMaker& signals) {
+  if (law.signals.empty())
+    return [at = law.at](const System&, const State& state) {
+      const Jet now = at(state.t);
+      return Guard{now.value, now.rate};
+    };
+  return [of = signals.law(law, place), changes_by_itself = law.uses_time](const System& system, const State& state) {
+    std::array<double, most_law_inputs> in, slope;
+    for (std::size_t k = 0; k < of.in.size(); ++k) in[k] = signal_at(system, system.signals[at(of.in[k])], state.y);
+    Guard out{of.of(state.t, in.data(), slope.data())};
+    if (changes_by_itself) return out;
+    out.rate = 0;
+    for (std::size_t k = 0; k < of.in.size(); ++k)
+      if (slope[k] != 0) out.rate += slope[k] * rate_of(system, system.signals[at(of.in[k])], state);
+    return out;
   };
 }
 
@@ -128,17 +166,17 @@ void add_switches(const Scene& scene, Model& model) {
   warn_of_events(scene, model);
 }
 
-void add_events(const Scene& scene, Model& model) {
+void add_events(const Scene& scene, Model& model, SignalMaker& signals) {
   if (scene.events.empty()) return;
   std::vector<SceneEventRule> rules;
   for (const SceneEvent& event : scene.events) {
     SceneEventRule rule{.name = event.name,
                         .when = {},
-                        .actions = actions_of(scene, event, event.then, model),
-                        .otherwise = actions_of(scene, event, event.otherwise, model),
+                        .actions = actions_of(scene, event, event.then, model, signals),
+                        .otherwise = actions_of(scene, event, event.otherwise, model, signals),
                         .once = event.once,
                         .from_start = event.from_start};
-    for (const Law& law : event.when) rule.when.push_back(guard_of(law));
+    for (const Law& law : event.when) rule.when.push_back(guard_of(law, event.place, signals));
     rules.push_back(std::move(rule));
   }
   model.scheme.events.push_back([rules](const System& system) { return std::make_unique<SceneEvents>(system, rules); });

@@ -68,7 +68,8 @@ output: {every: 0.1 s}
   const auto column = [&](const char* name) { return w.run.trajectory.column(name); };
   const double left = 0.7 - t[at];
   EXPECT_NEAR(column("bob.x [m]").back(), column("bob.x [m]")[at] + left * column("bob.vx [m/s]")[at], GetParam().near);
-  EXPECT_NEAR(column("bob.y [m]").back(), column("bob.y [m]")[at] + left * column("bob.vy [m/s]")[at] - 9.81 / 2 * left * left, GetParam().near);
+  EXPECT_NEAR(column("bob.y [m]").back(), column("bob.y [m]")[at] + left * column("bob.vy [m/s]")[at] - 9.81 / 2 * left * left,
+              GetParam().near);
   EXPECT_NEAR(column("bob.speed [rad/s]").back(), column("bob.speed [rad/s]")[at], GetParam().near);
   EXPECT_EQ(column("pin.fx on bob [N]").back(), 0);
   EXPECT_GT(std::abs(column("pin.fx on bob [N]")[at - 1]), 1) << "until then it held";

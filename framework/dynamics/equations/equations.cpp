@@ -6,6 +6,7 @@
 #include "framework/common/index.h"
 #include "framework/common/worse.h"
 #include "framework/dynamics/equations/bifurcation.h"
+#include "framework/dynamics/equations/laws.h"
 #include "framework/dynamics/equations/sticking.h"
 
 namespace pintle {
@@ -280,13 +281,14 @@ void apply_forces(const System& system, const State& state, Equations& eq) {
   if (has_gravity(system)) add_weight(system, eq);
   for (FlexibleInertia& body : eq.flexible) add_forces(system, state.y, body, eq.f);
   const double* x = state.y.data() + system.x_begin();
+  if (!system.laws.empty()) evaluate_laws(system, state.t, x, eq);
   for (std::size_t i = 0; i < system.forces.size(); ++i) {
     if (is_released(system, Switch::force, static_cast<int>(i), state.y)) {
       eq.force[i] = {};
       continue;
     }
     const int ma = marker_a(system.forces[i]), mb = marker_b(system.forces[i]);
-    eq.force[i] = evaluate(system.forces[i], eq.motion[at(ma)], eq.motion[at(mb)], state.t, x + system.force_x[i]);
+    eq.force[i] = evaluate(system.forces[i], eq.motion[at(ma)], eq.motion[at(mb)], state.t, x + system.force_x[i], eq.laws.data());
     add_wrench(system, eq, ma, eq.force[i].on_a, eq.f);
     add_wrench(system, eq, mb, eq.force[i].on_b, eq.f);
   }
@@ -339,6 +341,8 @@ void fill_derivative(const System& system, const VectorXd& y, const Equations& e
   dy.segment(n, n) = eq.a;
   for (const InternalStates& owner : system.internal)
     std::copy_n(internal_rates(eq, owner).begin(), owner.n, dy.data() + system.x_begin() + owner.begin);
+  for (std::size_t i = 0; i < system.states.size(); ++i)
+    dy[system.x_begin() + system.own_x + static_cast<Index>(i)] = eq.laws[at(system.states[i].rate)];
   for (Index i = 0; i < system.n_z(); ++i) {
     const Integral& z = system.integrals[static_cast<std::size_t>(i)];
     const std::size_t k = at(z.index);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include "eigen_layout.h"
 #include "framework/dynamics/model/flexible.h"
@@ -25,6 +26,13 @@ struct Sticking {
   Eigen::MatrixXd J;       ///< n × of: ∂(opening speed or slip)/∂s, a column each
   Eigen::MatrixXd a;       ///< n × of: accelerations by 1 N
   Eigen::MatrixXd lambda;  ///< n_rows × of: multipliers by 1 N
+};
+
+/// Room for solving for the scene's own states.
+struct OwnScratch {
+  Eigen::MatrixXd slopes, A;
+  Eigen::VectorXd left, change;
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu;
 };
 
 /// Scratch of one evaluation of the equations of motion, sized by the system; one per thread.
@@ -75,6 +83,8 @@ struct Equations {
   Eigen::VectorXd f, a, lambda;  ///< forces, accelerations, multipliers
   std::vector<ContactEffect> contact;
   std::vector<ForceEffect> force;
+  std::vector<double> signals, laws;          ///< values of the system's
+  OwnScratch own;
   std::vector<JointFrictionEffect> friction;  ///< in joints
   Sticking sticking;
   bool regular = true;  ///< false: no accelerations can be had here

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "framework/common/index.h"
+#include "framework/dynamics/equations/laws.h"
+#include "framework/dynamics/model/signal_values.h"
 
 namespace pintle {
 
@@ -97,7 +99,7 @@ InternalTangent internal_tangent(const System& system, const State& state, const
   return internal_tangent(unit_friction(system.joints[at(rub.joint)], rub, a, b), rub, eq.friction[k], x);
 }
 
-void follow_internal_states(const System& system, const Equations& eq, const State& state, double weight, const double* base, double* x) {
+void follow_internal_states(const System& system, Equations& eq, const State& state, double weight, const double* base, double* x) {
   constexpr int most = 20;
   constexpr double rounding = 1e-15;
   for (const InternalStates& owner : system.internal) {
@@ -117,6 +119,7 @@ void follow_internal_states(const System& system, const Equations& eq, const Sta
       if (!(largest > 0)) break;
     }
   }
+  if (!system.states.empty()) follow_own_states(system, eq, state.t, weight, base, x);
 }
 
 void relax_internal_states(const System& system, double t, Eigen::VectorXd& y) {
@@ -127,13 +130,15 @@ void relax_internal_states(const System& system, double t, Eigen::VectorXd& y) {
   pose(system, t, still.y, eq);
   speed(system, t, still.y, eq);
   follow_internal_states(system, eq, still, internal_at_rest, nullptr, y.data() + system.x_begin());
+  start_own_states(system, y);
 }
 
-void filter_internal_states(const System& system, const State& state, const Equations& eq, double weight, double* v) {
+void filter_internal_states(const System& system, const State& state, Equations& eq, double weight, double* v) {
   for (const InternalStates& owner : system.internal) {
     Eigen::Map<InternalVector> own(v + owner.begin, owner.n);
     own = internal_change(internal_tangent(system, state, eq, owner).g_x, weight, own / weight);
   }
+  if (!system.states.empty()) filter_own_states(system, state, eq, weight, v);
 }
 
 void straighten_bristles(const System& system, int contact, State& state) {

@@ -26,6 +26,8 @@ void number_internal(System& system) {
   all(InternalStates::contact, system.contacts, has_bristles, system.contact_x);
   all(
       InternalStates::friction, system.frictions, [](const JointFriction& f) { return bristle_states(f.law) > 0; }, system.friction_x);
+  system.own_x = static_cast<int>(x_scale.size());
+  for (const OwnState& state : system.states) x_scale.push_back(state.scale);
   system.x_scale = Eigen::Map<const Eigen::VectorXd>(x_scale.data(), static_cast<Eigen::Index>(x_scale.size()));
 }
 

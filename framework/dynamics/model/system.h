@@ -13,6 +13,7 @@
 #include "framework/dynamics/model/joint_friction.h"
 #include "framework/dynamics/model/joints.h"
 #include "framework/dynamics/model/marker.h"
+#include "framework/dynamics/model/signals.h"
 #include "framework/dynamics/model/switches.h"
 
 namespace pintle {
@@ -51,6 +52,9 @@ struct System {
   std::vector<JointFriction> frictions;
   std::vector<Force> forces;
   std::vector<ContactPair> contacts;
+  std::vector<MotionSignal> signals;  ///< what laws see
+  std::vector<SignalLaw> laws;        ///< that size forces and change states
+  std::vector<OwnState> states;       ///< of the scene, the last of the internal states
   std::vector<std::string> joint_names, force_names, contact_names;
   /// Joints with play as they are without it: they hold where the mechanism is assembled.
   std::vector<Joint> loose;
@@ -72,6 +76,7 @@ struct System {
   std::vector<int> force_x;                      ///< first internal state of each force, 0 if it has none …
   Eigen::VectorXd x_scale;                       ///< what their errors are measured by; 0: as lengths are
   std::vector<int> contact_x, friction_x;        ///< … of each contact, of each friction in a joint
+  int own_x = 0;                                 ///< … of the scene's own states
   std::vector<Switch> switches;                  ///< what events may release and engage
   /// Switch of each, −1 for none; empty without switches.
   std::vector<int> joint_switch, force_switch, contact_switch;

@@ -24,7 +24,7 @@ SceneEvents::SceneEvents(const System& system, std::vector<SceneEventRule> rules
 Guard SceneEvents::all_of(int event, const State& state) const {
   Guard least{std::numeric_limits<double>::infinity()};
   for (const auto& one : rules_[at(event)].when)
-    if (const Guard now = one(state); !(now.value >= least.value)) least = now;
+    if (const Guard now = one(system_, state); !(now.value >= least.value)) least = now;
   return least;
 }
 
@@ -123,7 +123,7 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
   }
   for (const EventAction& action : actions) {
     if (const auto* set = std::get_if<SetState>(&action)) {
-      set->set(state);
+      set->set(system_, state);
       out.change = std::max(out.change, EventOutcome::Change::jump);
       add_words(out.did, "set " + set->name);
     } else if (const auto* stop = std::get_if<StopRun>(&action)) {

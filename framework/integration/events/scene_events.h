@@ -18,7 +18,7 @@ struct StopRun {
 /// A change of the state: a number of the scene's own gets a value.
 struct SetState {
   std::string name;
-  std::function<void(State&)> set;
+  std::function<void(const System&, State&)> set;
 };
 enum class Record { state, row };
 using EventAction = std::variant<SwitchOver, SetState, StopRun, Record>;
@@ -26,7 +26,7 @@ using EventAction = std::variant<SwitchOver, SetState, StopRun, Record>;
 /// An event as the scene describes it: it comes when all of its guards have become positive, and acts once, or each time that they do.
 struct SceneEventRule {
   std::string name;
-  std::vector<std::function<Guard(const State&)>> when;
+  std::vector<std::function<Guard(const System&, const State&)>> when;
   std::vector<EventAction> actions;
   std::vector<EventAction> otherwise = {};  ///< when they no longer are
   bool once = false;

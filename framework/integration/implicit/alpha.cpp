@@ -156,7 +156,7 @@ bool Alpha::soften_start(const System& system, double h, const Instant& from, Eq
   return true;
 }
 
-void Alpha::soften_internal(const System& system, double weight, const State& at_start, const Equations& eq) {
+void Alpha::soften_internal(const System& system, double weight, const State& at_start, Equations& eq) {
   own_ = start_;
   double *x = start_.data() + system.n(), *once = own_.data() + system.n();
   filter_internal_states(system, at_start, eq, weight, once);

@@ -241,11 +241,13 @@ Json load(const SceneTorque& f) { return {{"torque", json(f.law)}, {"on", json(f
 Json load(const SceneSpring& f) {
   Json out = {{"spring", ends(f.a, f.b)}, {"damping", f.damping}, {"free length", f.free_length}};
   if (f.stiffness > 0) out["stiffness"] = f.stiffness;
+  if (f.law) out = {{"spring", ends(f.a, f.b)}, {"law", json(*f.law)}};
   return out;
 }
 Json load(const SceneTorsionSpring& f) {
   Json out = {{"torsion spring", ends(f.a, f.b)}, {"damping", f.damping}, {"free angle", f.free_angle}};
   if (f.stiffness > 0) out["stiffness"] = f.stiffness;
+  if (f.law) out = {{"torsion spring", ends(f.a, f.b)}, {"law", json(*f.law)}};
   return out;
 }
 Json load(const SceneMaxwell& f) { return {{"maxwell", ends(f.a, f.b)}, {"stiffness", f.stiffness}, {"damping", f.damping}}; }
@@ -254,6 +256,12 @@ Json load(const SceneMaxwell& f) { return {{"maxwell", ends(f.a, f.b)}, {"stiffn
 Json with_engaged(Json element, bool engaged) {
   if (!engaged) element["engaged"] = false;
   return element;
+}
+
+Json json(const SceneState& s) {
+  Json out = {{"rate", json(s.rate)}, {"start", s.start}, {"scale", s.scale}};
+  if (!s.unit.empty()) out["unit"] = s.unit;
+  return out;
 }
 
 Json json(const StartBody& start) {
@@ -331,10 +339,9 @@ std::string filled_in(const Scene& scene, const Parameters& parameters) {
   Json& forces = out["forces"] = Json::object();
   for (const SceneLoad& l : scene.loads)
     append(forces, l.name, with_engaged(std::visit([](const auto& what) { return load(what); }, l.what), l.engaged));
-  if (!scene.events.empty()) {
-    Json& events = out["events"] = Json::object();
-    for (const SceneEvent& e : scene.events) append(events, e.name, json(e));
-  }
+  for (const SceneState& s : scene.states) append(out["states"], s.name, json(s));
+  for (const SceneOutput& o : scene.outputs) append(out["outputs"], o.name, json(o.law));
+  for (const SceneEvent& e : scene.events) append(out["events"], e.name, json(e));
   out["start"] = starts(scene);
   if (scene.statics) out["static"] = json(*scene.statics);
   if (scene.has_run) out["run"] = json(scene.run);

@@ -8,6 +8,7 @@ Json json(const SceneDoing& doing) {
   Json out = Json::object();
   if (!doing.release.empty()) out["release"] = doing.release;
   if (!doing.engage.empty()) out["engage"] = doing.engage;
+  for (const auto& [state, value] : doing.set) out["set"][state] = value.constant ? Json(value.at(0).value) : Json(value.text);
   if (!doing.stop.empty()) out["stop"] = doing.stop;
   if (doing.save) out["save"] = true;
   if (doing.row) out["row"] = true;

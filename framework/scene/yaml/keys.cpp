@@ -53,7 +53,14 @@ const std::vector<Key> spline_keys{{"file", required, "cam.csv"}, {"length unit"
 const std::vector<Key> polar_keys{{"file", required, "cam.csv"}, {"angle unit"}, {"radius unit"}};
 const Key engaged_key{"engaged", optional, "", {"true", "false"}};
 const std::vector<Key> doing_keys{
-    {"release"}, {"engage"}, {"stop"}, {"save", optional, "", {"true", "false"}}, {"row", optional, "", {"true", "false"}}};
+    {"release"}, {"engage"}, {"set"}, {"stop"}, {"save", optional, "", {"true", "false"}}, {"row", optional, "", {"true", "false"}}};
+const std::vector<Key> load_table_keys{{"table", required, "torque.csv"},
+                                       {"interpolation", optional, "", {"spline", "linear"}},
+                                       {"over"},
+                                       {"over unit"},
+                                       {"periodic", optional, "", {"true", "false"}},
+                                       {"time unit"},
+                                       {"value unit"}};
 constexpr const char* two_eyes = "[{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]";
 
 std::vector<Key> joint_keys() {
@@ -81,6 +88,8 @@ const std::vector<KeyTable>& tables() {
         {"contacts"},
         {"drivers"},
         {"forces"},
+        {"states"},
+        {"outputs"},
         {"events"},
         {"static"},
         {"start", optional, "", {"equilibrium"}},
@@ -291,9 +300,12 @@ const std::vector<KeyTable>& tables() {
         {"damping"},
         {"free length"},
         {"free angle"},
+        {"law"},
         engaged_key}},
-      {"forces.*.torque",
-       {{"table", required, "torque.csv"}, {"interpolation", optional, "", {"spline", "linear"}}, {"time unit"}, {"value unit"}}},
+      {"forces.*.torque", load_table_keys},
+      {"forces.*.force.*", load_table_keys},
+      {"forces.*.law", load_table_keys},
+      {"states.*", {{"rate", required, "setpoint - arm.angle"}, {"start"}, {"unit"}, {"scale"}}},
       {"events.*",
        {{"when", required, "crank.angle > 30 deg"},
         {"once", optional, "", {"true", "false"}},
