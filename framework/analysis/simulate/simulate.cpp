@@ -10,6 +10,7 @@
 #include "framework/analysis/simulate/end_short.h"
 #include "framework/analysis/simulate/deflection_monitor.h"
 #include "framework/analysis/simulate/explain_numbers.h"
+#include "framework/analysis/simulate/explain_signals.h"
 #include "framework/analysis/simulate/run_warnings.h"
 #include "framework/analysis/simulate/slow_contact.h"
 #include "framework/build/laws.h"
@@ -102,6 +103,7 @@ class Simulation {
         outputs_(scene.output.every > 0 ? scene.output.every : scene.run.until / 1000, scene.run.until),
         states_(listeners.state ? scene.output.states : 0, scene.run.until),
         frames_(scene.output.frames > 1 && listeners.frame ? scene.run.until / (scene.output.frames - 1) : 0, scene.run.until),
+        start_(assembly.start),
         integrator_(system_, model.scheme, assembly.start),
         monitor_(model),
         figures_(system_, run_),
@@ -256,6 +258,8 @@ class Simulation {
     std::string& reason = run_.reason;
     if (!reason.empty()) {
       std::string why = explain_laws(scene_, at.t);
+      for (const State& tried : {integrator_.last().to.state, at})
+        if (why.empty()) why = explain_signals(scene_, model_, start_, tried);
       if (why.empty() && at.y.allFinite()) why = explain_pose(system_, at.t, at.y);
       if (why.empty()) why = explain_numbers(system_, integrator_);
       if (why.empty()) why = monitor_.worst_warning();
@@ -289,6 +293,7 @@ class Simulation {
   Clock outputs_, states_, frames_;
   Wall::time_point begin_ = Wall::now();
   Wall::duration spent_listening_{};
+  const State& start_;
   Integrator integrator_;
   State sampled_;
   double last_row_ = 0, asked_ = 0;  ///< times of the last row and of the output last asked for [s]
