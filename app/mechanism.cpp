@@ -153,6 +153,19 @@ std::string contacts_text(const ContactPair& pair, int first, const std::vector<
          (is_rigid(pair) ? "greatest impulse " + number(impulse, 4) + " N s" : "deepest " + number(deepest, 4) + " m");
 }
 
+/// The first and the last of what events have done.
+void add_happenings(const Run& run, Rows& rows) {
+  constexpr std::size_t most = 8;
+  const auto& all = run.happenings;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all.size() > most && k == most / 2) {
+      rows.emplace_back("  …", std::to_string(all.size() - most) + " more events, all in actions.csv");
+      k = all.size() - most / 2;
+    }
+    rows.emplace_back("event " + all[k].event, number(all[k].t, 9) + " s: " + all[k].did);
+  }
+}
+
 void print_run(const Scene& scene, const Model& model, const Run& run, const fs::path& out) {
   std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
   Rows rows{{"time reached", number(run.t_end) + " s"},
@@ -176,6 +189,7 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
     if (s.contacts[c].pair > 0) continue;
     rows.emplace_back("contacts at " + s.contact_names[c], contacts_text(s.contacts[c], static_cast<int>(c), run.impacts));
   }
+  add_happenings(run, rows);
   if (!run.switched.empty()) rows.emplace_back("method", name(model.scheme) + ", then " + run.switched);
   rows.emplace_back("steps", std::to_string(run.counts.steps) + " (" + std::to_string(run.counts.rejected) + " rejected), " +
                                  std::to_string(run.counts.evaluations) + " evaluations in " + number(run.seconds, 3) + " s");
@@ -257,6 +271,7 @@ class Recording {
   void finish(const Run& run) {
     if (writer_) writer_->finish();
     files_.finish(run.impacts);
+    write_actions(directory_, scene_, run);
   }
   void report(const Run& run) {
     kept_for_report_.release();

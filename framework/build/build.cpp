@@ -14,11 +14,13 @@
 #include "framework/build/contacts.h"
 #include "framework/build/choose_method.h"
 #include "framework/build/elastic_bodies.h"
+#include "framework/build/events.h"
 #include "framework/build/joints.h"
 #include "framework/build/laws.h"
 #include "framework/build/markers.h"
 #include "framework/build/play.h"
 #include "framework/build/shape_warnings.h"
+#include "framework/build/signals.h"
 #include "framework/common/nearest.h"
 #include "framework/common/text.h"
 #include "framework/scene/joint_words.h"
@@ -33,7 +35,7 @@ using Eigen::Vector2d;
 class Builder {
  public:
   Builder(const Scene& scene, bool preliminary, BodyStore* store)
-      : scene_(scene), preliminary_(preliminary), store_(store), markers_(scene, elements_, model_) {}
+      : scene_(scene), preliminary_(preliminary), store_(store), markers_(scene, elements_, model_), signals_(scene, markers_, model_) {}
 
   Model build() {
     model_.system.gravity = vector(scene_.gravity);
@@ -51,12 +53,18 @@ class Builder {
     for (const SceneContact& c : scene_.contacts) add(c);
     for (const SceneDriver& d : scene_.drivers) add(d);
     for (const SceneLoad& l : scene_.loads) add(l);
+    for (const SceneState& s : scene_.states) add(s);
+    for (const SceneEvent& e : scene_.events) unique(e.name, "event", e.place);
+    add_switches(scene_, model_);
     validate_starts();
     validate_output();
     record();
     keep_drawings();
     report_flexible(scene_, elements_, elastic_, model_);
     model_.system.length = size();
+    signals_.finish();
+    for (const SceneOutput& o : scene_.outputs) add(o);
+    add_events(scene_, model_, signals_);
     for (ContactPair& pair : model_.system.contacts)
       if (is_rigid(pair)) pair.slack = touching_part * model_.system.length;
     for (const SceneJoint& j : scene_.joints)
@@ -213,20 +221,35 @@ class Builder {
     model_.order.loads.push_back(static_cast<int>(forces.size()));
     if (const auto* f = std::get_if<SceneForce>(&l.what)) {
       if (markers_.body(f->at) == ground) wrong(f->at.place, "a force on the ground moves nothing; name a body's point");
-      const int b = markers_.marker(f->at, f->follows ? Holds::direction : Holds::point);
-      forces.push_back(PointForce{markers_.marker({"ground", "", f->at.place}), b, f->x.at, f->y.at, f->follows});
+      const int b = markers_.marker(f->at, f->follows ? Holds::direction : Holds::point), a = markers_.marker({"ground", "", f->at.place});
+      if (f->x.signals.empty() && f->y.signals.empty())
+        forces.push_back(PointForce{a, b, f->x.at, f->y.at, f->follows});
+      else
+        size(f->follows ? SizedForce::follows : SizedForce::world, a, b, l, f->x, &f->y);
     } else if (const auto* q = std::get_if<SceneTorque>(&l.what)) {
       markers_.two_bodies(q->a, q->b, l.place);
       const int a = markers_.marker(q->a, Holds::direction);
-      forces.push_back(Torque{a, markers_.marker(q->b, Holds::direction), q->law.at});
+      const int b = markers_.marker(q->b, Holds::direction);
+      if (q->law.signals.empty())
+        forces.push_back(Torque{a, b, q->law.at});
+      else
+        size(SizedForce::couple, a, b, l, q->law);
     } else if (const auto* s = std::get_if<SceneSpring>(&l.what)) {
       markers_.two_bodies(s->a, s->b, l.place);
       const int a = markers_.marker(s->a);
-      forces.push_back(Spring{a, markers_.marker(s->b), s->stiffness, s->damping, s->free_length});
+      const int b = markers_.marker(s->b);
+      if (s->law)
+        size(SizedForce::pull, a, b, l, *s->law);
+      else
+        forces.push_back(Spring{a, b, s->stiffness, s->damping, s->free_length});
     } else if (const auto* r = std::get_if<SceneTorsionSpring>(&l.what)) {
       markers_.two_bodies(r->a, r->b, l.place);
       const int a = markers_.marker(r->a, Holds::direction);
-      forces.push_back(TorsionSpring{a, markers_.marker(r->b, Holds::direction), r->stiffness, r->damping, r->free_angle});
+      const int b = markers_.marker(r->b, Holds::direction);
+      if (r->law)
+        size(SizedForce::restoring, a, b, l, *r->law);
+      else
+        forces.push_back(TorsionSpring{a, b, r->stiffness, r->damping, r->free_angle});
     } else {
       const auto& m = std::get<SceneMaxwell>(l.what);
       markers_.two_bodies(m.a, m.b, l.place);
@@ -234,6 +257,22 @@ class Builder {
       forces.push_back(Maxwell{a, markers_.marker(m.b), m.stiffness, m.damping});
     }
     model_.system.force_names.push_back(l.name);
+  }
+
+  /// A force that signals size.
+  void size(SizedForce::Way way, int a, int b, const SceneLoad& load, const Law& law, const Law* other = nullptr) {
+    const int size = signals_.begin(law, load.place);
+    model_.system.forces.push_back(SizedForce{way, a, b, size, other ? signals_.begin(*other, load.place) : -1});
+  }
+
+  void add(const SceneState& s) {
+    unique(s.name, "state", s.place);
+    model_.system.states.push_back({s.name, s.unit, s.scale, s.start, signals_.begin(s.rate, s.place)});
+  }
+
+  void add(const SceneOutput& o) {
+    unique(o.name, "output", o.place);
+    model_.outputs.push_back(written_output(scene_, o, model_, signals_));
   }
 
   void validate_starts() {
@@ -302,6 +341,7 @@ class Builder {
   void scheme() {
     const RunOptions& run = scene_.run;
     Scheme& s = model_.scheme;
+    if (!model_.system.laws.empty()) number(model_.system);
     choose_method(scene_, model_.system, s);
     number(model_.system, !s.tableau || s.switch_below > 0);
     s.tolerance = run.tolerance;
@@ -321,6 +361,7 @@ class Builder {
   ElasticBodies elastic_;
   std::vector<std::optional<MechanismBody>> elements_;  ///< of bodies made of elements
   Markers markers_;
+  SignalMaker signals_;
   std::map<std::pair<std::string, std::string>, Profile> profiles_;
   std::set<std::string> names_;
 };

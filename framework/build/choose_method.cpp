@@ -1,11 +1,15 @@
 #include "framework/build/choose_method.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
+#include <Eigen/Geometry>
+
 #include "framework/common/index.h"
 #include "framework/common/nearest.h"
+#include "framework/dynamics/model/signal_values.h"
 #include "framework/scene/error.h"
 
 namespace pintle {
@@ -86,9 +90,67 @@ class Parts {
     const double load = rub.preload + system_.gravity.norm() / (a.force + b.force);
     see({std::sqrt(load * bristles.stiffness * w), load * bristles.damping * w, "the bristles in \"" + name + "\""});
   }
+  // As stiff and as damped as the laws are where the scene starts.
+  void see_laws(const Scene& scene) {
+    const Eigen::VectorXd y = drawn(scene);
+    std::array<double, most_law_inputs> in, slope{};
+    for (std::size_t k = 0; k < system_.forces.size(); ++k) {
+      const auto* force = std::get_if<SizedForce>(&system_.forces[k]);
+      for (const int l : {force ? force->size : -1, force ? force->other : -1}) {
+        if (l < 0) continue;
+        const SignalLaw& law = system_.laws[at(l)];
+        for (std::size_t i = 0; i < law.in.size(); ++i) in[i] = signal_at(system_, system_.signals[at(law.in[i])], y);
+        law.of(0, in.data(), slope.data());
+        for (std::size_t i = 0; i < law.in.size(); ++i) see(*force, system_.signals[at(law.in[i])], std::abs(slope[i]), system_.force_names[k]);
+      }
+    }
+    for (const OwnState& state : system_.states) {
+      const SignalLaw& law = system_.laws[at(state.rate)];
+      for (std::size_t i = 0; i < law.in.size(); ++i) in[i] = signal_at(system_, system_.signals[at(law.in[i])], y);
+      law.of(0, in.data(), slope.data());
+      for (std::size_t i = 0; i < law.in.size(); ++i)
+        if (const MotionSignal& signal = system_.signals[at(law.in[i])];
+            signal.kind == MotionSignal::state && system_.states[at(signal.a)].name == state.name && std::isfinite(slope[i]))
+          see({0, std::abs(slope[i]), "the state \"" + state.name + "\""});
+    }
+  }
   RateSpectrum found;
 
  private:
+  // The signal moves by what the force does to it, at the most.
+  void see(const SizedForce& force, const MotionSignal& signal, double slope, const std::string& name) {
+    using Kind = MotionSignal::Kind;
+    if (signal.kind == Kind::state || !std::isfinite(slope)) return;
+    const Mobility of_force{mobility(system_, force.a).force + mobility(system_, force.b).force,
+                            mobility(system_, force.a).couple + mobility(system_, force.b).couple};
+    const Mobility a = mobility(system_, signal.a), b = of_two(signal.kind) ? mobility(system_, signal.b) : Mobility{};
+    const bool turns = signal.kind == Kind::angle || signal.kind == Kind::speed || signal.kind == Kind::twist || signal.kind == Kind::twist_rate;
+    const bool couple = force.way == SizedForce::couple || force.way == SizedForce::restoring;
+    const double w = std::sqrt((couple ? of_force.couple : of_force.force) * (turns ? a.couple + b.couple : a.force + b.force));
+    const bool rate = signal.kind == Kind::vx || signal.kind == Kind::vy || signal.kind == Kind::speed || signal.kind == Kind::length_rate ||
+                      signal.kind == Kind::twist_rate;
+    see({rate ? 0 : std::sqrt(slope * w), rate ? slope * w : 0, "the law of \"" + name + "\""});
+  }
+  /// y where the scene draws its bodies, at the speeds that it gives.
+  Eigen::VectorXd drawn(const Scene& scene) const {
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(system_.n_y());
+    for (std::size_t b = 0; b < scene.bodies.size() && b < system_.bodies.size(); ++b) {
+      Eigen::Vector3d p(scene.bodies[b].at[0], scene.bodies[b].at[1], scene.bodies[b].angle), rate = Eigen::Vector3d::Zero();
+      for (const StartBody& s : scene.start_bodies) {
+        if (s.body != scene.bodies[b].name) continue;
+        p = {s.x.value_or(p[0]), s.y.value_or(p[1]), s.angle.value_or(p[2])};
+        rate = {s.vx.value_or(0), s.vy.value_or(0), s.speed.value_or(0)};
+      }
+      const Eigen::Vector2d arm = Eigen::Rotation2Dd(p[2]) * system_.bodies[b].x_BO;
+      p.head<2>() -= arm;
+      rate.head<2>() -= rate[2] * perp(arm);
+      y.segment<3>(3 * static_cast<Eigen::Index>(b)) = p;
+      y.segment<3>(system_.n() + 3 * static_cast<Eigen::Index>(b)) = rate;
+    }
+    start_own_states(system_, y);
+    return y;
+  }
+
   void see(const RateSpectrum::Part& part) {
     found.parts.push_back(part);
     if (part.rate > found.fastest.rate) found.fastest = part;
@@ -163,6 +225,7 @@ RateSpectrum spectrum(const Scene& scene, const System& system) {
   Parts parts(system);
   for (std::size_t i = 0; i < system.forces.size(); ++i)
     parts.see(system.forces[i], i < system.force_names.size() ? system.force_names[i] : "");
+  if (!system.laws.empty()) parts.see_laws(scene);
   for (const Body& b : system.bodies) parts.see(b);
   for (const JointFriction& f : system.frictions) parts.see(f, system.joint_names[at(f.joint)]);
   for (std::size_t i = 0; i < system.contacts.size(); ++i)

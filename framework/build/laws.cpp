@@ -51,10 +51,30 @@ template <class F>
 void each_law(const Scene& scene, F f) {
   for (const SceneDriver& d : scene.drivers) f(d.law, d.name, d.place, &d);
   for (const SceneLoad& l : scene.loads) {
-    const auto see = [&](const Law& law) { f(law, l.name, l.place, static_cast<const SceneDriver*>(nullptr)); };
+    const auto see = [&](const Law& law) {
+      if (law.at) f(law, l.name, l.place, static_cast<const SceneDriver*>(nullptr));
+    };
     if (const auto* force = std::get_if<SceneForce>(&l.what)) see(force->x), see(force->y);
     if (const auto* torque = std::get_if<SceneTorque>(&l.what)) see(torque->law);
+    if (const auto* spring = std::get_if<SceneSpring>(&l.what); spring && spring->law) see(*spring->law);
+    if (const auto* torsion = std::get_if<SceneTorsionSpring>(&l.what); torsion && torsion->law) see(*torsion->law);
   }
+  for (const SceneEvent& e : scene.events)  // so that no step passes one that comes and goes
+    for (const Law& law : e.when)
+      if (law.at) f(law, e.name, e.place, static_cast<const SceneDriver*>(nullptr));
+}
+
+/// Of a law of signals that names t too nothing is known of when it acts.
+bool uses_time_beside_signals(const Scene& scene) {
+  const auto uses = [](const Law& law) { return law.uses_time && !law.signals.empty(); };
+  const auto any = [&](const SceneLoad& l) {
+    if (const auto* force = std::get_if<SceneForce>(&l.what)) return uses(force->x) || uses(force->y);
+    if (const auto* torque = std::get_if<SceneTorque>(&l.what)) return uses(torque->law);
+    if (const auto* spring = std::get_if<SceneSpring>(&l.what)) return spring->law && uses(*spring->law);
+    if (const auto* torsion = std::get_if<SceneTorsionSpring>(&l.what)) return torsion->law && uses(*torsion->law);
+    return false;
+  };
+  return std::ranges::any_of(scene.loads, any) || std::ranges::any_of(scene.states, [&](const SceneState& s) { return uses(s.rate); });
 }
 
 bool accelerates_anew(const LawBreak& b) {
@@ -90,6 +110,7 @@ void follow_laws(const Scene& scene, Scheme& scheme) {
     if (scale.pieces.size() > 1) scheme.pieces.push_back(std::move(scale.pieces));
   });
   order(scheme.changes);
+  known = known && !uses_time_beside_signals(scene);
   if (!known && run.max_step <= 0) scheme.max_step = run.until / steps_through_laws;
 }
 

@@ -69,6 +69,8 @@ bool is_even(const Scene& scene, const std::vector<Imposed>& imposed) {
   for (const SceneLoad& l : scene.loads) {
     if (const auto* f = std::get_if<SceneForce>(&l.what)) even = even && f->x.constant && f->y.constant;
     if (const auto* q = std::get_if<SceneTorque>(&l.what)) even = even && q->law.constant;
+    if (const auto* s = std::get_if<SceneSpring>(&l.what)) even = even && !s->law;
+    if (const auto* r = std::get_if<SceneTorsionSpring>(&l.what)) even = even && !r->law;
   }
   return even;
 }

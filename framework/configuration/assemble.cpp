@@ -59,6 +59,7 @@ using Bent = std::vector<std::pair<int, VectorXd>>;  ///< bodies that start bent
 Rough rough_state(const Scene& scene, const System& system, const Bent& bent) {
   Rough r;
   r.y.setZero(system.n_y());
+  begin_switches(system, r.y);
   for (const auto& [body, eta] : bent) {
     r.y.segment(system.eta_begin[at(body)], eta.size()) = eta;
     r.bent.push_back(body);
@@ -163,7 +164,7 @@ int match_speeds(const Scene& scene, Closure& closure, const System& system, Rou
   auto s = r.y.segment(system.n(), system.n());
   s += least_step(J, r.W_speed, -D, 1e-13, 8);
   VectorXd left = closure.drift(r.y);
-  const double scale = std::max({D.lpNorm<Eigen::Infinity>(), r.y.tail(r.y.size() - system.n()).lpNorm<Eigen::Infinity>(), 1e-12});
+  const double scale = std::max({D.lpNorm<Eigen::Infinity>(), s.lpNorm<Eigen::Infinity>(), 1e-12});
   for (int i = 0; i < 3 && left.lpNorm<Eigen::Infinity>() > 1e-12 * scale; ++i) {  // masses so unlike that the metric hides some rows
     const VectorXd W = r.W_speed.cwiseMax(1e-6 * r.W_speed.maxCoeff()).cwiseProduct((r.W_speed.array() > 0).cast<double>().matrix());
     const VectorXd before = s;
@@ -272,6 +273,8 @@ Assembly assembled(const Scene& scene, const System& system, const Bent& bent) {
     return undeformed_first(these, r, &Rough::W_speed, [&](Rough& from) { return match_speeds(scene, closure, these, from); });
   });
   r.y.conservativeResizeLike(VectorXd::Zero(system.n_y()));
+  r.y.tail(system.n_y() - system.x_begin()).setZero();
+  begin_switches(system, r.y);
   out.start.t = 0;
   out.start.y = r.y;
   relax_internal_states(system, 0, out.start.y);

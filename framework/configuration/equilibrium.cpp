@@ -9,6 +9,7 @@
 #include "framework/common/index.h"
 #include "framework/common/text.h"
 #include "framework/dynamics/equations/internal.h"
+#include "framework/dynamics/equations/laws.h"
 #include "framework/dynamics/newton/kkt.h"
 #include "framework/integration/events/impact_log.h"
 
@@ -27,10 +28,8 @@ void hold_drivers(const System& from, double t, System& held) {
 }
 
 bool has_potential(const System& system) {
-  return std::none_of(system.forces.begin(), system.forces.end(), [](const Force& f) {
-    const auto* force = std::get_if<PointForce>(&f);
-    return force && force->follows;
-  });
+  return std::none_of(system.forces.begin(), system.forces.end(),
+                      [](const Force& f) { return turns_with_b(f) || std::holds_alternative<SizedForce>(f); });
 }
 
 /// What is asked of a mechanism at rest in a pose: the forces out of balance, the potential energy.
@@ -52,10 +51,10 @@ class Rest {
   bool settle(State& state, double farthest) {
     const VectorXd before = state.y.head(held.n());
     state.t = t_;
-    state.y.tail(state.y.size() - held.n()).setZero();
+    stop(state);
     state.impact_rate.resize(held.contacts.size());
     if (!project(held, t_, state.y, eq) || !(size(state.y.head(held.n()) - before) <= farthest)) return false;
-    state.y.tail(state.y.size() - held.n()).setZero();
+    stop(state);
     for (std::size_t c = 0; c < held.contacts.size(); ++c) {
       const ContactPair& pair = held.contacts[c];
       state.impact_rate[c] = !pair.profiles || onset_of(held, static_cast<int>(c), state).value > 0 ? pair.slowest_impact : 0;
@@ -96,6 +95,7 @@ class Rest {
   double potential = 0;
 
  private:
+  void stop(State& state) const { state.y.segment(held.n(), held.switch_begin() - held.n()).setZero(); }
   double potential_of(const State& state, double& magnitude) const {
     const Energies e = energies(held, state, eq);
     double sum = e.gravity + e.springs + e.contacts + e.strain;
@@ -339,13 +339,21 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
     out.reason = "the pose to start from is singular, or its forces are beyond what a double holds (check stiffnesses, lengths and loads)";
     return out;
   }
+  if (const std::vector<int> restless = restless_states(system, rest.eq, time); !restless.empty()) {
+    std::vector<std::string> states;
+    for (const int i : restless) states.push_back(system.states[at(i)].name);
+    out.reason = "the state " + names(states) +
+                 " has no rest of its own: its rate does not depend on it, as that of an integral, so that any value of it would do; leave "
+                 "it out of the forces here, or let its rate fall with it";
+    return out;
+  }
   Search way(rest, out.state);
   search(rest, way, out);
   State last = way.state();
   rest.settle(last, 1);
   out.iterations = way.iterations();
   out.residual = rest.residual();
-  out.method = !has_potential(rest.held) ? "overdamped flow into Newton's method, for loads that follow have no potential"
+  out.method = !has_potential(rest.held) ? "overdamped flow into Newton's method, for loads that follow, or that signals size, have no potential"
                : way.damped()            ? "Newton's method, damped towards the overdamped flow"
                                          : "Newton's method";
   constexpr double told = 1e-6;  // looked at again: next to a singular pose the smallest change of pose upsets the joints' forces

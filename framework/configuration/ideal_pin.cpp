@@ -20,6 +20,7 @@ System opened(const System& system) {
   System out = system;
   for (std::size_t k = out.joints.size(); k-- > 0;)
     if (is_link(system, static_cast<int>(k))) {
+      forget_switch(out, Switch::joint, static_cast<int>(k));
       out.joints.erase(out.joints.begin() + static_cast<std::ptrdiff_t>(k));
       out.joint_names.erase(out.joint_names.begin() + static_cast<std::ptrdiff_t>(k));
     }
@@ -37,6 +38,7 @@ System pinned(const System& open) {
   }
   out.contacts.clear();
   out.contact_names.clear();
+  std::erase_if(out.switches, [](const Switch& s) { return s.of == Switch::contact; });
   number(out);
   return out;
 }
@@ -45,6 +47,7 @@ State state_of(const System& system, const VectorXd& y) {
   State state;
   state.y.setZero(system.n_y());
   state.y.head(2 * system.n()) = y.head(2 * system.n());
+  begin_switches(system, state.y);
   relax_internal_states(system, 0, state.y);
   state.impact_rate.assign(system.contacts.size(), 0.0);
   return state;
@@ -112,6 +115,7 @@ double mass_against(const System& open, const VectorXd& y, const ContactPair& pa
   probe.contacts.clear();
   probe.contact_names.clear();
   probe.forces.clear();
+  std::erase_if(probe.switches, [](const Switch& s) { return s.of != Switch::joint; });
   const auto push = [&](int marker, const Vector2d& f) {
     const auto law = [](double value) { return [value](double) { return Jet{value, 0, 0}; }; };
     probe.forces.emplace_back(PointForce{marker, marker, law(f.x()), law(f.y())});
@@ -123,7 +127,7 @@ double mass_against(const System& open, const VectorXd& y, const ContactPair& pa
     push(pair.b, -size * n);
     number(probe);
     State state = state_of(probe, y);
-    state.y.tail(state.y.size() - probe.n()).setZero();
+    state.y.segment(probe.n(), probe.switch_begin() - probe.n()).setZero();
     Equations eq(probe);
     VectorXd dy = VectorXd::Zero(probe.n_y());
     if (!evaluate(probe, state, eq, dy)) return 0;

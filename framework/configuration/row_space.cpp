@@ -194,6 +194,8 @@ RowSpace row_space(const System& system, const Equations& eq, double tolerance) 
     for (auto& [row, weight] : w) weight /= length[row];
     clean(w);
   }
+  std::erase_if(idle,
+                [&](const Weights& w) { return w.size() == 1 && std::ranges::find(eq.released, w.front().first) != eq.released.end(); });
   for (const auto& group : groups(idle, system.n_rows())) to_echelon(group, idle);
   for (Weights& w : idle) {
     const double last = w.back().second;

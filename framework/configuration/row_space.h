@@ -19,7 +19,7 @@ struct RowSpace {
 };
 
 /// The rank of Cq and a basis of the combinations of its rows that vanish, by a sparse QR of Cqᵀ, rows brought to
-/// one length. After pose.
+/// one length. Rows of released joints are none. After pose.
 /// @param tolerance  what of a row of length 1 counts as nothing
 RowSpace row_space(const System&, const Equations&, double tolerance = 1e-7);
 

@@ -12,8 +12,8 @@ template <class A>
 void Integrator::archive(A& x) {
   std::string method(stepper_->name()), fallback(scheme_.fallback ? scheme_.fallback->name : "");
   x(PINTLE_MEMBERS(method, fallback, scheme_.switch_below, step_.from, step_.to, step_.h, norm_, control_, switching_, events_, counts_,
-                   failure_, ended_, worst_position_, worst_velocity_, last_tenth_, near_singular_, eq_.permanent, eq_.evaluations,
-                   eq_.factorizations));
+                   happenings_, failure_, ended_, worst_position_, worst_velocity_, last_tenth_, near_singular_, eq_.permanent,
+                   eq_.evaluations, eq_.factorizations));
   if constexpr (A::loading) {
     if (!x.good()) return;
     stepper_ = make_stepper(method, system_, scheme_, eq_);

@@ -61,6 +61,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
 }
 
 bool Integrator::advance(double until) {
+  row_ = save_ = false;
   if (!may_step(until) || !begin_step(until)) return false;
   const double t0 = step_.from.state.t, wish = control_.wish(), law = law_end(scheme_, t0);
   const double ahead = std::min(kink_ahead(wish), law - t0);
@@ -181,6 +182,8 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   step_.y_before = step_.to.state.y;
   const EventOutcome outcome = events_.act(event, step_, wish);
   if (!outcome.failure.empty()) return stop(outcome.failure);
+  if (!outcome.did.empty()) happenings_.push_back({step_.to.state.t, events_.name(event), outcome.did});
+  row_ = outcome.row, save_ = outcome.save;
   ended_ = outcome.end;
   if (outcome.change == EventOutcome::Change::nothing && step_.h > 0) {
     control_.wish_for(std::max(control_.wish(), wish));
@@ -190,7 +193,8 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   control_.wish_for(remembered > 0 ? control_.bounded(remembered) : wish);
   if (outcome.of_every_method || stepper_->traits().follows_impacts) control_.wish_for(std::min(control_.wish(), outcome.first_step));
   control_.forget_errors();
-  step_.struck = outcome.change == EventOutcome::Change::jump;
+  step_.struck = outcome.change >= EventOutcome::Change::jump;
+  if (outcome.change == EventOutcome::Change::rows) eq_.permanent = 0;
   if (step_.struck) step_.dy_before = step_.to.dy;
   return stepper_->project(step_.to, eq_) || stop("singular pose at an event of " + events_.name(event));
 }

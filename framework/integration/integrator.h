@@ -36,6 +36,9 @@ class Integrator {
   const Equations& equations() const { return eq_; }  ///< at the present state, while steps succeed
   const Step& last() const { return step_; }
   const std::vector<Impact>& impacts() const { return contacts_->impacts(); }  ///< in order of beginning
+  const std::vector<Happening>& happenings() const { return happenings_; }     ///< what events of the scene have done
+  bool asks_for_row() const { return row_; }                                   ///< an event at the last step's end does
+  bool asks_for_save() const { return save_; }                                 ///< likewise, of the state
   const std::string& failure() const { return failure_; }
   const std::string& ended() const { return ended_; }  ///< an event has ended the integration, and why; else empty
   Counts counts() const;
@@ -86,6 +89,8 @@ class Integrator {
   Step step_;
   State dense_;
   Counts counts_;
+  std::vector<Happening> happenings_;
+  bool row_ = false, save_ = false;
   std::string failure_, ended_;
   double worst_position_ = 0, worst_velocity_ = 0;
   double last_tenth_ = 0;       ///< when the last tenth of the steps allowed began [s]

@@ -28,6 +28,17 @@ struct RecordedStress {
   StressProbe probe;
 };
 
+/// A number that is worked out for each row of the trajectory.
+struct WrittenOutput {
+  struct Input {
+    enum From { signal, column, output } from;
+    int index;  ///< into System::signals, the trajectory's columns, Model::outputs
+  };
+  std::string name, unit;
+  SignalFunction of;
+  std::vector<Input> in;
+};
+
 /// A profile as it is drawn.
 struct DrawnProfile {
   int marker, body;                     ///< the marker that carries it
@@ -49,6 +60,7 @@ struct Model {
   Scheme scheme;
   std::vector<RecordedPoint> points;
   std::vector<RecordedStress> stresses;
+  std::vector<WrittenOutput> outputs;
   std::vector<FlexibleDrawing> drawings;               ///< of flexible bodies, in their order
   std::vector<std::string> clearances;                 ///< how each is modelled, in words
   std::vector<std::string> contacts;                   ///< of profiles, likewise

@@ -10,6 +10,7 @@
 
 #include "elements/plane.h"
 #include "framework/common/index.h"
+#include "framework/dynamics/model/signal_values.h"
 #include "framework/mechanism/columns.h"
 
 namespace pintle {
@@ -57,7 +58,10 @@ PointMotion motion_of(const System& system, const Marker& m, const State& state,
           Eigen::Vector2d(a[0], a[1]) + a[2] * perp(d) - s[2] * s[2] * d + 2 * s[2] * perp(drift) + A * ddu, u, turn};
 }
 
-bool is_turning(const Force& f) { return std::holds_alternative<Torque>(f) || std::holds_alternative<TorsionSpring>(f); }
+bool is_turning(const Force& f) {
+  const auto* sized = std::get_if<SizedForce>(&f);
+  return std::holds_alternative<Torque>(f) || std::holds_alternative<TorsionSpring>(f) || (sized && sized->way != SizedForce::pull && sized->way > SizedForce::follows);
+}
 
 struct Now {
   const State& state;
@@ -240,6 +244,28 @@ void stress_columns(const System& system, const RecordedStress& s, Out& out) {
     });
 }
 
+/// Of an own state or an output: as columns write units.
+std::string written_unit(const std::string& unit) {
+  std::string out = unit.empty() ? "1" : unit;
+  std::ranges::replace(out, '*', ' ');
+  return out;
+}
+
+/// A row's outputs, from its columns and the state.
+void append_outputs(const Model& model, const State& state, std::size_t row, std::vector<double>& data) {
+  const std::size_t first = data.size();
+  std::array<double, most_law_inputs> in;
+  for (const WrittenOutput& o : model.outputs) {
+    for (std::size_t k = 0; k < o.in.size(); ++k) {
+      const WrittenOutput::Input& input = o.in[k];
+      in[k] = input.from == WrittenOutput::Input::signal   ? signal_at(model.system, model.system.signals[at(input.index)], state.y)
+              : input.from == WrittenOutput::Input::column ? data[row + at(input.index)]
+                                                           : data[first + at(input.index)];
+    }
+    data.push_back(o.of(state.t, in.data(), nullptr));
+  }
+}
+
 template <class Out>
 void trajectory_columns(const Model& model, Out out) {
   const System& system = model.system;
@@ -271,6 +297,9 @@ void trajectory_columns(const Model& model, Out out) {
         out);
   }
   for (const InternalStates& owner : system.internal) internal_columns(system, owner, out);
+  for (std::size_t i = 0; i < system.states.size(); ++i)
+    out(system.states[i].name, {{"", written_unit(system.states[i].unit).c_str()}},
+        [&, i](const Now& now) { return std::array{now.state.y[own_state(system, static_cast<int>(i))]}; });
   for (const RecordedPoint& p : model.points) point_columns(system, p, out);
   for (const RecordedStress& s : model.stresses) stress_columns(system, s, out);
 }
@@ -313,6 +342,10 @@ std::string integral_name(const System& system, const Integral& i) {
     case Account::load: return system.force_names[at(i.index)] + ".work in";
     case Account::driver: return system.joint_names[at(i.index)] + ".work in";
     case Account::damping: return system.bodies[at(i.index)].name + ".lost to damping";
+    case Account::switching: {
+      const Switch& s = system.switches[at(i.index)];
+      return switch_name(system, s) + (s.of == Switch::joint ? ".lost to engaging" : ".lost to switching");
+    }
     case Account::scheme: return "scheme.lost to numerical dissipation";
   }
   return "";
@@ -321,10 +354,13 @@ std::string integral_name(const System& system, const Integral& i) {
 Table trajectory_table(const Model& model) {
   Table t;
   trajectory_columns(model, Heading{t.header});
+  for (const WrittenOutput& o : model.outputs) t.header.push_back(o.name + " [" + written_unit(o.unit) + "]");
   return t;
 }
 void record(const Model& model, const State& state, const Equations& eq, Table& t) {
+  const std::size_t row = t.data.size();
   trajectory_columns(model, ValueRow<Now>{{state, eq}, t.data});
+  append_outputs(model, state, row, t.data);
 }
 
 Table ledger_table(const System& system) {

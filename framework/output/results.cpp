@@ -132,6 +132,10 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
     out["bearing radius [m]"] = bearing_radius(p.gap);
   }
   Json out = run_head(scene, run);
+  if (!scene.events.empty()) {
+    Json& events = out["events"] = Json::array();
+    for (const Happening& h : run.happenings) events.push_back({{"event", h.event}, {"t [s]", h.t}, {"did", h.did}});
+  }
   out.update(Json{{"model", assembly_json(system, assembly)},
                   {"method", method_json(model.scheme, run.switched)},
                   {"flexible bodies", flexible_json(model)},
@@ -178,6 +182,7 @@ void write_results(const fs::path& directory, const Scene& scene, const Model& m
   RunFiles files(directory, model);
   files.add(run.trajectory, run.ledger, run.impacts);
   files.finish(run.impacts);
+  write_actions(directory, scene, run);
   write_text(directory / "run.json", run_json(scene, model, assembly, run));
 }
 

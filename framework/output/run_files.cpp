@@ -95,6 +95,17 @@ void RunFiles::finish(const std::vector<Impact>& impacts) {
   if (trouble) std::rethrow_exception(trouble);
 }
 
+void write_actions(const fs::path& directory, const Scene& scene, const Run& run) {
+  if (scene.events.empty()) return;
+  std::string rows = "event,t [s],did\n";
+  for (const Happening& h : run.happenings) {
+    rows += csv_field(h.event) + ',';
+    append_number(rows, h.t);
+    rows += ',' + csv_field(h.did) + '\n';
+  }
+  write_text(directory / "actions.csv", rows);
+}
+
 ReservedRoom::ReservedRoom(fs::path file, std::size_t bytes) : file_(std::move(file)) {
   const int made = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (made < 0) throw FileError(file_, errno);

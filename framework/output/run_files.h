@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "framework/analysis/simulate/simulate.h"
 #include "framework/common/file.h"
 #include "framework/integration/events/impact.h"
 #include "framework/mechanism/trajectory.h"
@@ -30,6 +31,9 @@ class RunFiles {
   std::size_t impacts_ = 0;  ///< written
   std::string row_;
 };
+
+/// actions.csv: what the events of a scene have done, a row each; none of a scene without events. @throws FileError
+void write_actions(const std::filesystem::path& directory, const Scene&, const Run&);
 
 /// Room on the disk that is kept for later, as a file that goes when it is wanted.
 class ReservedRoom {

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "framework/common/signal_function.h"
 #include "framework/common/time_law.h"
 #include "framework/scene/elastic.h"
 #include "framework/scene/place.h"
@@ -15,11 +16,14 @@
 /// Written by hand in C++ or by the reader (reader.h). Only `build` judges it.
 namespace pintle {
 
-/// A time law and the text it was written as (kept for run.json and messages).
+/// A law of time, or of signals, and the text it was written as (kept for run.json and messages).
 struct Law {
-  TimeLaw at;
+  TimeLaw at;  ///< of a law of signals empty
   std::string text;
   bool constant = true;
+  SignalFunction of_signals = {};         ///< in `signals`, in their order
+  std::vector<std::string> signals = {};  ///< "crank.angle", as signal_words.h knows them; empty: a law of time
+  bool uses_time = false;                 ///< beside signals
 };
 
 /// A named point of a body, with a direction drawn on it; body axes.
@@ -195,6 +199,7 @@ struct SceneJoint {
   Place place;
   std::optional<ScenePlay> play = {};               ///< prismatic, slot and distance only
   std::optional<SceneJointFriction> friction = {};  ///< revolute, prismatic and slot, without clearance
+  bool engaged = true;                              ///< at the start
 };
 
 /// A revolute with clearance whose bearing is an arc.
@@ -208,6 +213,7 @@ struct SceneContact {
   std::optional<SceneFriction> friction = {};
   Place place = {};
   std::optional<SceneImpact> impact = {};  ///< instead of `normal`
+  bool engaged = true;                     ///< at the start
 };
 
 enum class DriverKind { angle, distance };
@@ -219,6 +225,7 @@ struct SceneDriver {
   PointRef a, b;
   Law law;  ///< [rad] or [m]
   Place place;
+  bool engaged = true;  ///< at the start
 };
 
 /// A point force in world axes, or in the axes of the body it acts on if `follows`.
@@ -235,10 +242,12 @@ struct SceneTorque {
 struct SceneSpring {
   PointRef a, b;
   double stiffness = 0, damping = 0, free_length = 0;  ///< [N/m], [N s/m], [m]
+  std::optional<Law> law = {};                         ///< of its pull instead of these [N]
 };
 struct SceneTorsionSpring {
   PointRef a, b;
   double stiffness = 0, damping = 0, free_angle = 0;  ///< [N m/rad], [N m s/rad], [rad]
+  std::optional<Law> law = {};                        ///< of the torque that turns b back, instead of these [N m]
 };
 /// A spring and a damper in series.
 struct SceneMaxwell {
@@ -249,6 +258,26 @@ struct SceneLoad {
   std::string name;
   std::variant<SceneForce, SceneTorque, SceneSpring, SceneTorsionSpring, SceneMaxwell> what;
   Place place;
+  bool engaged = true;  ///< at the start
+};
+
+/// What an event does, in this order.
+struct SceneDoing {
+  std::vector<std::string> release, engage;           ///< joints, drivers, forces and contacts by their names
+  std::vector<std::pair<std::string, Law>> set = {};  ///< states of the scene, and what they become [SI]
+  bool save = false, row = false;                     ///< the state as a file; a row of results
+  std::string stop = {};                              ///< the run, and why; empty: it goes on
+  bool does() const { return !release.empty() || !engage.empty() || !set.empty() || save || row || !stop.empty(); }
+};
+/// Comes where all its guards have become positive.
+struct SceneEvent {
+  std::string name;
+  Law guard;                        ///< the condition as it is written, 1 or 0
+  std::vector<Law> when;            ///< its comparisons, the guards
+  bool once = false;                ///< else each time
+  bool from_start = true;           ///< where they are positive at the start, it comes there
+  SceneDoing then, otherwise = {};  ///< `otherwise`: where they no longer are
+  Place place = {};
 };
 
 /// Displacement of a point of a flexible body within its frame, body axes [m].
@@ -272,6 +301,23 @@ struct StartJournal {
   Pair eccentricity{0, 0};  ///< journal centre less bearing centre [m]
   Pair speed{0, 0};         ///< its rate [m/s]
   Place place;
+};
+
+/// A number of the scene's own that changes at a rate: of a controller, a motor, a tank. SI, of any dimension.
+struct SceneState {
+  std::string name;
+  Law rate;
+  double start = 0;
+  double scale = 1;  ///< what its errors are measured by
+  std::string unit;  ///< SI, as expressions write it; empty: a number
+  Place place = {};
+};
+/// A number that is worked out for the results.
+struct SceneOutput {
+  std::string name;
+  Law law;
+  std::string unit;  ///< likewise
+  Place place = {};
 };
 
 struct RunOptions {
@@ -314,6 +360,9 @@ struct Scene {
   std::vector<SceneContact> contacts;
   std::vector<SceneDriver> drivers;
   std::vector<SceneLoad> loads;
+  std::vector<SceneState> states = {};
+  std::vector<SceneOutput> outputs = {};
+  std::vector<SceneEvent> events = {};
   std::vector<StartBody> start_bodies;
   bool start_at_rest = false;  ///< `start: equilibrium`
   std::vector<StartJournal> start_journals;

@@ -51,8 +51,16 @@ const Kind kinds[] = {
     {"TorsionSpring", TorsionSpring{0, 1, 25, 0, -0.8}},
     {"DampedTorsionSpring", TorsionSpring{0, 1, 25, 2, -0.8}},
     {"Maxwell", Maxwell{0, 1, 40, 3}},
+    {"SizedForce", SizedForce{SizedForce::world, 0, 1, 0, 1}, false},
+    {"SizedFollower", SizedForce{SizedForce::follows, 0, 1, 0, 1}, false},
+    {"SizedCouple", SizedForce{SizedForce::couple, 0, 1, 1}},
+    {"SizedPull", SizedForce{SizedForce::pull, 0, 1, 1}},
+    {"Restoring", SizedForce{SizedForce::restoring, 0, 1, 0}},
 };
-bool is_load(const Force& f) { return std::holds_alternative<PointForce>(f) || std::holds_alternative<Torque>(f); }
+bool is_load(const Force& f) {
+  return std::holds_alternative<PointForce>(f) || std::holds_alternative<Torque>(f) || std::holds_alternative<SizedForce>(f);
+}
+constexpr double sizes[] = {7.3, -4.1};  // of laws
 
 // Two poses whose points are apart: a spring has no direction where they meet.
 std::pair<Vector3d, Vector3d> apart(Draw& draw) {
@@ -81,7 +89,7 @@ class ForceContract : public testing::TestWithParam<Kind> {
   const int n_x_ = static_cast<int>(internal_states(force_).size());
   const VectorXd x_ = VectorXd::Constant(n_x_, 0.6);
   ForceEffect effect(const Vector3d& a, const Vector3d& b, const Vector3d& da, const Vector3d& db, const VectorXd& x, double t) const {
-    return evaluate(force_, moving(a, da), moving(b, db), t, x.data());
+    return evaluate(force_, moving(a, da), moving(b, db), t, x.data(), sizes);
   }
   ForceEffect at_rest(const Vector3d& a, const Vector3d& b) const { return effect(a, b, {0, 0, 0}, {0, 0, 0}, x_, 0.3); }
   double stored(const Vector3d& a, const Vector3d& b) const { return at_rest(a, b).stored; }

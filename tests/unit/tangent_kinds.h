@@ -21,6 +21,9 @@ struct Kind {
   std::vector<Joint> joints = {};
   std::vector<Force> forces = {};
   std::vector<ContactPair> contacts = {};
+  std::vector<MotionSignal> signals = {};
+  std::vector<SignalLaw> laws = {};
+  std::vector<OwnState> states = {};
 };
 inline void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 // Friction that grows with the sliding speeds drawn here.
@@ -63,6 +66,39 @@ inline ContactPair dry(ContactPair pair) {
   pair.friction = Coulomb{0.2, 0.3, 5};
   return pair;
 }
+// Of n numbers: aᵀin + Σ sin(in + k) + a product, and its slopes by hand.
+inline SignalFunction blend(std::size_t n, double by) {
+  return [n, by](double t, const double* in, double* slope) {
+    double sum = std::cos(t) + 0.2 * in[0] * in[n - 1];
+    for (std::size_t k = 0; k < n; ++k) sum += std::sin(0.5 * in[k] + static_cast<double>(k));
+    for (std::size_t k = 0; slope && k < n; ++k) slope[k] = by * 0.5 * std::cos(0.5 * in[k] + static_cast<double>(k));
+    if (slope) slope[0] += by * 0.2 * in[n - 1], slope[n - 1] += by * 0.2 * in[0];
+    return by * sum;
+  };
+}
+// ẋ = −3 x + y/2 + blend, of the first two numbers and the others.
+inline SignalFunction decay(std::size_t n) {
+  return [n, rest = blend(n - 2, 2)](double t, const double* in, double* slope) {
+    if (slope) slope[0] = -3, slope[1] = 0.5;
+    return -3 * in[0] + 0.5 * in[1] + rest(t, in + 2, slope ? slope + 2 : nullptr);
+  };
+}
+// Sizes that see every kind of signal, between a point on either body, and two own states.
+inline Kind sized(const char* name, SizedForce::Way way, bool states) {
+  using K = MotionSignal::Kind;
+  Kind kind{name, {}, {SizedForce{way, 0, 1, 0, way <= SizedForce::follows ? 1 : -1}}};
+  for (int k = K::x; k < K::state; ++k) kind.signals.push_back({static_cast<K>(k), k % 2, 1 - k % 2, 0.1 * k});
+  std::vector<int> all(kind.signals.size());
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<int>(k);
+  if (states) {
+    kind.signals.push_back({K::state, 0}), kind.signals.push_back({K::state, 1});
+    kind.states = {{"one", "", 1, 0, 2}, {"other", "", 1, 0, 3}};
+    all.push_back(12), all.push_back(13);
+  }
+  kind.laws = {{blend(all.size(), 5), all}, {blend(3, -4), {0, 6, 11}}};
+  if (states) kind.laws.push_back({decay(6), {12, 13, 0, 7, 5, 8}}), kind.laws.push_back({decay(4), {13, 12, 3, 6}});
+  return kind;
+}
 inline const std::vector<Kind> kinds{
     {"Nothing"},
     {"Revolute", {Revolute{0, 1}}},
@@ -81,6 +117,12 @@ inline const std::vector<Kind> kinds{
     {"TorsionSpring", {}, {TorsionSpring{0, 1, 25, 0, -0.8}}},
     {"DampedTorsionSpring", {}, {TorsionSpring{0, 1, 25, 2, -0.8}}},
     {"Maxwell", {}, {Maxwell{0, 1, 40, 3}}},
+    sized("SizedForce", SizedForce::world, false),
+    sized("SizedFollower", SizedForce::follows, false),
+    sized("SizedCouple", SizedForce::couple, false),
+    sized("SizedPull", SizedForce::pull, false),
+    sized("SizedByStates", SizedForce::pull, true),
+    sized("RestoringByStates", SizedForce::restoring, true),
     {"Contact", {}, {}, {contact(0)}},
     {"LossyContact", {}, {}, {contact(2)}},
     {"SpringDamperContact", {}, {}, {spring_damper()}},

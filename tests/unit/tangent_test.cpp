@@ -40,6 +40,9 @@ System make_system(const Kind& kind, const Carriers& carriers) {
   s.joints = kind.joints;
   s.forces = kind.forces;
   s.contacts = kind.contacts;
+  s.signals = kind.signals;
+  s.laws = kind.laws;
+  s.states = kind.states;
   s.joint_names.assign(s.joints.size(), kind.name);
   s.force_names.assign(s.forces.size(), kind.name);
   s.contact_names.assign(s.contacts.size(), kind.name);
@@ -226,10 +229,10 @@ struct Held {
   }
 
   // At rest, without accelerations, r is the gradient of λ·C and of energies. Friction needs speed, or to have been decided; forces that
-  // follow a body have no potential and are left out.
+  // follow a body or are sized by signals have no potential and are left out.
   void coordinates_is_symmetric_at_rest() {
     Kind kind = kind_;
-    std::erase_if(kind.forces, [](const Force& f) { return std::holds_alternative<PointForce>(f) && std::get<PointForce>(f).follows; });
+    std::erase_if(kind.forces, [](const Force& f) { return turns_with_b(f) || std::holds_alternative<SizedForce>(f); });
     const System system = make_system(kind, carriers_);
     Equations eq(system);
     for (int k = 0; k < draws; ++k) {

@@ -48,6 +48,7 @@ void drop_stiffening(System& system, int body) {
 /// Takes away the joint that is a clearance's massless link.
 void drop_link(System& system, ContactPair& pair) {
   const int link = std::exchange(pair.link, -1);
+  forget_switch(system, Switch::joint, link);
   system.joints.erase(system.joints.begin() + link);
   system.joint_names.erase(system.joint_names.begin() + link);
   for (ContactPair& c : system.contacts)
@@ -62,6 +63,7 @@ void close_gap(System& system, int contact) {
   if (is_held(pair)) drop_link(system, pair);
   system.joints.emplace_back(Revolute{pair.a, pair.b});
   system.joint_names.push_back(system.contact_names[at(contact)]);
+  forget_switch(system, Switch::contact, contact);
   system.contacts.erase(system.contacts.begin() + contact);
   system.contact_names.erase(system.contact_names.begin() + contact);
 }
@@ -70,6 +72,7 @@ State start_of(const System& from, const State& start, const System& to) {
   State out;
   out.t = start.t;
   out.y.setZero(to.n_y());
+  begin_switches(to, out.y);
   for (const Index level : {0, 1}) {  // coordinates, speeds
     const Index a = level * from.n(), b = level * to.n();
     out.y.segment(b, to.n_rigid()) = start.y.segment(a, from.n_rigid());
@@ -132,7 +135,8 @@ class Maker {
   void add(const std::string& what, Change change, double tolerance = 0) {
     Simpler s{what, model_.system, model_.scheme, {}};
     change(s.system);
-    Scene scene;  // what the choice of a method looks at
+    s.scheme.events.clear();  // which know the model's own elements
+    Scene scene;              // what the choice of a method looks at
     scene.file = scene_.file;
     scene.run = scene_.run;
     scene.start_bodies = scene_.start_bodies;

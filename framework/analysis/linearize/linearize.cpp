@@ -53,6 +53,7 @@ System prepared(const Model& model, double t, Laws laws) {
     if (auto* p = std::get_if<PointForce>(&f)) hold(p->x), hold(p->y);
     if (auto* q = std::get_if<Torque>(&f)) hold(q->law);
   }
+  for (SignalLaw& law : out.laws) law.of = [of = law.of, t](double, const double* in, double* slope) { return of(t, in, slope); };
   return out;
 }
 

@@ -104,6 +104,10 @@ void MotionAt::leave_out_open(const System& system) {
     }
     for (int i = 0; i < owner.n; ++i) kept.push_back(owner.begin + i);
   }
+  for (std::size_t i = 0; i < system.states.size(); ++i) {
+    x_names.push_back(system.states[i].name + " [" + (system.states[i].unit.empty() ? "1" : system.states[i].unit) + "]");
+    kept.push_back(system.own_x + static_cast<int>(i));
+  }
   if (static_cast<int>(kept.size()) == system.n_x()) return;
   x = {MatrixXd(x.f_x(Eigen::all, kept)), MatrixXd(x.g_q(kept, Eigen::all)), MatrixXd(x.g_s(kept, Eigen::all)),
        MatrixXd(x.g_x(kept, kept))};
@@ -118,6 +122,8 @@ double MotionAt::rate(const System& system) const {
       const double scale = system.x_scale[owner.begin + i];
       speed = std::max(speed, std::abs(internal_rates(eq, owner)[static_cast<std::size_t>(i)]) / (scale > 0 ? scale : system.length));
     }
+  for (const OwnState& own : system.states)
+    speed = std::max(speed, std::abs(eq.laws[static_cast<std::size_t>(own.rate)]) / own.scale);
   return std::max(speed, std::sqrt(eq.a.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>()));
 }
 

@@ -4,6 +4,7 @@
 #include "framework/common/dense.h"
 #include "framework/configuration/row_solver.h"
 #include "framework/dynamics/equations/internal.h"
+#include "framework/dynamics/model/signal_values.h"
 #include "framework/dynamics/newton/kkt.h"
 
 namespace pintle {
@@ -73,6 +74,7 @@ Assembly steady_start(const Model& model, const Assembly& assembly) {
     if (!frames.fill(state.y, eq, a)) return assembly;
     update_mass(system, state.y, eq);
     follow_internal_states(system, eq, state, internal_at_rest, nullptr, state.y.data() + system.x_begin());
+    start_own_states(system, state.y);
     apply_forces(system, state, eq);
     r = eq.f;
     add_mass_times(system, eq, -a, r);

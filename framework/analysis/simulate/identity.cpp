@@ -1,6 +1,7 @@
 #include "framework/analysis/simulate/identity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -134,17 +135,39 @@ class Sum : public ValueWriter<Sum> {
     const auto& [body, x_BP, angle, shape, slope, second] = m;
     add(body, x_BP, angle, shape, slope, second);
   }
+  void add(const Switch& one) {
+    const auto& [of, index, released] = one;
+    add(of, index, released);
+  }
+  void add(const MotionSignal& signal) {
+    const auto& [kind, a, b, offset] = signal;
+    add(kind, a, b, offset);
+  }
+  /// By its values where all its signals are 0, 1, 2 …, at the times of a law of time.
+  void add(const SignalLaw& law) {
+    const auto& [of, in] = law;
+    add(in);
+    std::array<double, most_law_inputs> at;
+    for (int i = 0; i < 32; ++i) {
+      for (std::size_t k = 0; k < at.size(); ++k) at[k] = i * (1 + 0.1 * static_cast<double>(k)) / 4;
+      add(of(i, at.data(), nullptr));
+    }
+  }
+  void add(const OwnState& state) {
+    const auto& [name, unit, scale, start, rate] = state;
+    add(name, unit, scale, start, rate);
+  }
   void add(const Integral& z) {
     if (z.account != Account::scheme) add(z.account, z.index);  // which `method: auto` may add as the run becomes longer
   }
   void add(const System& s) {
-    const auto& [gravity, bodies, markers, joints, frictions, forces, contacts, joint_names, force_names, contact_names, loose, loose_names,
+    const auto& [gravity, bodies, markers, joints, frictions, forces, contacts, signals, laws, states, joint_names, force_names, contact_names, loose, loose_names,
                  length, eta_begin, scale, row_begin, end_begin, end_marker, row_scale, integrals, contact_z, force_z, joint_z, internal,
-                 force_x, x_scale, contact_x, friction_x] = s;
+                 force_x, x_scale, contact_x, friction_x, own_x, switches, joint_switch, force_switch, contact_switch] = s;
     add(gravity, bodies, markers, joints, frictions, forces, contacts, joint_names, force_names, contact_names, loose, loose_names, length,
         eta_begin, scale, row_begin, end_begin, end_marker, row_scale);
     for (const Integral& z : integrals) add(z);
-    add(contact_z, force_z, joint_z, force_x, x_scale);
+    add(contact_z, force_z, joint_z, force_x, x_scale, signals, laws, states, switches);
   }
 
  private:

@@ -10,6 +10,7 @@
 #include "framework/analysis/simulate/end_short.h"
 #include "framework/analysis/simulate/deflection_monitor.h"
 #include "framework/analysis/simulate/explain_numbers.h"
+#include "framework/analysis/simulate/explain_signals.h"
 #include "framework/analysis/simulate/run_warnings.h"
 #include "framework/analysis/simulate/slow_contact.h"
 #include "framework/build/laws.h"
@@ -102,6 +103,7 @@ class Simulation {
         outputs_(scene.output.every > 0 ? scene.output.every : scene.run.until / 1000, scene.run.until),
         states_(listeners.state ? scene.output.states : 0, scene.run.until),
         frames_(scene.output.frames > 1 && listeners.frame ? scene.run.until / (scene.output.frames - 1) : 0, scene.run.until),
+        start_(assembly.start),
         integrator_(system_, model.scheme, assembly.start),
         monitor_(model),
         figures_(system_, run_),
@@ -127,6 +129,7 @@ class Simulation {
     run_.t_end = ended_short(run_) ? last_row_ : integrator_.state().t;  // a step may have been cut short
     if (run_.reason.empty()) run_.reason = integrator_.ended();
     run_.impacts = integrator_.impacts();
+    run_.happenings = integrator_.happenings();
     if (from) warn_of_gap(system_, model_, *from, run_);
     warn_of_depth(system_, run_);
     warn_of_pushing(system_, run_);
@@ -172,6 +175,8 @@ class Simulation {
     if (!integrator_.advance(scene_.run.until)) return false;
     if (!system_.contacts.empty()) slow_.see(system_, integrator_.last(), integrator_.equations());
     if (!report()) return false;
+    if (integrator_.asks_for_row()) add_row_here();
+    if (integrator_.asks_for_save() && listeners_.state) save();
     if (const std::string beyond = monitor_.beyond_limits(); !beyond.empty()) {
       end(Status::failed, beyond);
     } else if (states_.due(integrator_.state().t)) {
@@ -196,6 +201,14 @@ class Simulation {
       frames_.tick();
     }
     return true;
+  }
+
+  /// What an event asks for: the state that it has left.
+  void add_row_here() {
+    if (integrator_.state().t <= last_row_ && last_row_ > 0) return;
+    if (!integrator_.sample(integrator_.state().t, sampled_)) return;
+    book(sampled_);
+    add_row(sampled_);
   }
 
   /// Energies of a sampled state, and how well they balance.
@@ -245,6 +258,8 @@ class Simulation {
     std::string& reason = run_.reason;
     if (!reason.empty()) {
       std::string why = explain_laws(scene_, at.t);
+      for (const State& tried : {integrator_.last().to.state, at})
+        if (why.empty()) why = explain_signals(scene_, model_, start_, tried);
       if (why.empty() && at.y.allFinite()) why = explain_pose(system_, at.t, at.y);
       if (why.empty()) why = explain_numbers(system_, integrator_);
       if (why.empty()) why = monitor_.worst_warning();
@@ -278,6 +293,7 @@ class Simulation {
   Clock outputs_, states_, frames_;
   Wall::time_point begin_ = Wall::now();
   Wall::duration spent_listening_{};
+  const State& start_;
   Integrator integrator_;
   State sampled_;
   double last_row_ = 0, asked_ = 0;  ///< times of the last row and of the output last asked for [s]

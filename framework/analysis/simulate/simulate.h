@@ -7,6 +7,7 @@
 #include "framework/dynamics/equations/energy.h"
 #include "framework/dynamics/equations/equations.h"
 #include "framework/integration/counts.h"
+#include "framework/integration/events/event.h"
 #include "framework/integration/events/impact.h"
 #include "framework/mechanism/drawing.h"
 #include "framework/mechanism/trajectory.h"
@@ -32,12 +33,13 @@ struct Run {
   std::vector<double> greatest_integrals;  ///< of the ledger, in magnitude, at any output [J]
   std::vector<LinkForce> links;            ///< of each contact that is a massless link; of others nothing
   std::vector<Impact> impacts;
-  Energies first, last;          ///< the books at the start and at the end
-  double unexplained = 0;        ///< at the end [J]
-  double worst_unexplained = 0;  ///< largest in magnitude at any output [J]
-  double energy_in_play = 0;     ///< what `unexplained` is held against [J]
-  double ledger_bound = 0;       ///< share of it that may stay unexplained, by the scene or the method
-  double ledger_floor = 0;       ///< and this besides, which rounding may leave [J]
+  std::vector<Happening> happenings = {};  ///< what events of the scene have done
+  Energies first, last;                    ///< the books at the start and at the end
+  double unexplained = 0;                  ///< at the end [J]
+  double worst_unexplained = 0;            ///< largest in magnitude at any output [J]
+  double energy_in_play = 0;               ///< what `unexplained` is held against [J]
+  double ledger_bound = 0;                 ///< share of it that may stay unexplained, by the scene or the method
+  double ledger_floor = 0;                 ///< and this besides, which rounding may leave [J]
   Counts counts;
   double worst_position = 0, worst_velocity = 0;  ///< scaled constraint violations
   double seconds = 0;                             ///< of computing, frames and files excluded

@@ -6,6 +6,7 @@
 #include "framework/common/index.h"
 #include "framework/common/worse.h"
 #include "framework/dynamics/equations/bifurcation.h"
+#include "framework/dynamics/equations/laws.h"
 #include "framework/dynamics/equations/sticking.h"
 
 namespace pintle {
@@ -87,6 +88,24 @@ bool agree(const System& system, Equations& eq) {
   return largest(eq.mu) <= little * std::max({size, largest(eq.a), free});
 }
 
+// Rows of joints that are out hold nothing; what others found when they were put in is no violation.
+void switch_rows(const System& system, const VectorXd& y, Equations& eq) {
+  eq.released.clear();
+  const double* held = y.data() + system.switch_begin();
+  for (const Switch& s : system.switches) {
+    const double released = *held++, offset = *held++;
+    if (s.of != Switch::joint) continue;
+    const std::size_t joint = at(s.index);
+    if (!(released > 0.5)) {
+      if (offset != 0) eq.rows[joint].C[latched_row(system.joints[joint])] -= offset;
+      continue;
+    }
+    eq.rows[joint].C.setZero();
+    for (int end = system.end_begin[joint]; end < system.end_begin[joint + 1]; ++end) eq.L[at(end)].setZero();
+    for (int row = system.row_begin[joint]; row < system.row_begin[joint + 1]; ++row) eq.released.push_back(row);
+  }
+}
+
 }  // namespace
 
 void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
@@ -116,6 +135,7 @@ void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
   }
   for (std::size_t k = 0; k < system.joints.size(); ++k)
     evaluate_pose(system.joints[k], eq.motion.data(), t, eq.rows[k], eq.L.data() + system.end_begin[k]);
+  if (!system.switches.empty()) switch_rows(system, y, eq);
   for (Index row = 0; row < eq.C.size(); ++row) {
     const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
     eq.C[row] = eq.rows[at(joint)].C[i];
@@ -151,6 +171,10 @@ void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
     if (m.flex.cols() > 0) move_on_flexible(system, system.markers[i], y, eq.cos_[body], eq.sin_[body], m);
   }
   for (std::size_t k = 0; k < system.joints.size(); ++k) evaluate_speed(system.joints[k], eq.motion.data(), t, eq.rows[k]);
+  for (const int row : eq.released) {
+    const auto [joint, i] = eq.joint_rows[at(row)];
+    eq.rows[at(joint)].Ct[i] = eq.rows[at(joint)].kappa[i] = 0;
+  }
   for (Index row = 0; row < eq.Cdot.size(); ++row) {
     const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
     eq.Cdot[row] = eq.rows[at(joint)].Ct[i];
@@ -202,7 +226,7 @@ void factor(const System& system, const VectorXd& y, Equations& eq) {
   const double off = eq.permanent > 0 ? std::min(position_violation(system, eq), 1e-4) : 0,
                least = std::max(dependent_rows::lost, times * off * off);
   if (eq.flexible.empty()) {
-    eq.regular = eq.schur.factor(eq.B, eq.B_eta_hat, least);
+    eq.regular = eq.schur.factor(eq.B, eq.B_eta_hat, least, eq.released);
     return;
   }
   for (const Equations::End& end : eq.ends) {  // Cq M⁻¹ Cqᵀ = B̂ B̂ᵀ + B̂_η B̂_ηᵀ
@@ -216,7 +240,7 @@ void factor(const System& system, const VectorXd& y, Equations& eq) {
       eq.B_hat[end.at] = B_hat;
     }
   }
-  eq.regular = eq.schur.factor(eq.B_hat, eq.B_eta_hat, least);
+  eq.regular = eq.schur.factor(eq.B_hat, eq.B_eta_hat, least, eq.released);
 }
 
 Wrench reaction(const System& system, const Equations& eq, std::size_t joint, std::size_t end) {
@@ -257,9 +281,14 @@ void apply_forces(const System& system, const State& state, Equations& eq) {
   if (has_gravity(system)) add_weight(system, eq);
   for (FlexibleInertia& body : eq.flexible) add_forces(system, state.y, body, eq.f);
   const double* x = state.y.data() + system.x_begin();
+  if (!system.laws.empty()) evaluate_laws(system, state.t, x, eq);
   for (std::size_t i = 0; i < system.forces.size(); ++i) {
+    if (is_released(system, Switch::force, static_cast<int>(i), state.y)) {
+      eq.force[i] = {};
+      continue;
+    }
     const int ma = marker_a(system.forces[i]), mb = marker_b(system.forces[i]);
-    eq.force[i] = evaluate(system.forces[i], eq.motion[at(ma)], eq.motion[at(mb)], state.t, x + system.force_x[i]);
+    eq.force[i] = evaluate(system.forces[i], eq.motion[at(ma)], eq.motion[at(mb)], state.t, x + system.force_x[i], eq.laws.data());
     add_wrench(system, eq, ma, eq.force[i].on_a, eq.f);
     add_wrench(system, eq, mb, eq.force[i].on_b, eq.f);
   }
@@ -312,6 +341,8 @@ void fill_derivative(const System& system, const VectorXd& y, const Equations& e
   dy.segment(n, n) = eq.a;
   for (const InternalStates& owner : system.internal)
     std::copy_n(internal_rates(eq, owner).begin(), owner.n, dy.data() + system.x_begin() + owner.begin);
+  for (std::size_t i = 0; i < system.states.size(); ++i)
+    dy[system.x_begin() + system.own_x + static_cast<Index>(i)] = eq.laws[at(system.states[i].rate)];
   for (Index i = 0; i < system.n_z(); ++i) {
     const Integral& z = system.integrals[static_cast<std::size_t>(i)];
     const std::size_t k = at(z.index);
@@ -330,10 +361,12 @@ void fill_derivative(const System& system, const VectorXd& y, const Equations& e
       case Account::load: rate = eq.force[k].input; break;
       case Account::driver: rate = eq.lambda[system.row_begin[k]] * eq.rows[k].Ct[0]; break;
       case Account::damping: rate = damping_loss(system, y, z.index); break;
-      case Account::scheme: break;  // no rate: booked step by step
+      case Account::switching:
+      case Account::scheme: break;  // no rate: booked event by event, step by step
     }
     dy[system.z_begin() + i] = rate;
   }
+  if (!system.switches.empty()) dy.tail(system.n_y() - system.switch_begin()).setZero();
 }
 
 ContactEffect clearance_effect(const System& system, const Equations& eq, std::size_t c) {

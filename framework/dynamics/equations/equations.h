@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include "eigen_layout.h"
 #include "framework/dynamics/model/flexible.h"
@@ -25,6 +26,13 @@ struct Sticking {
   Eigen::MatrixXd J;       ///< n × of: ∂(opening speed or slip)/∂s, a column each
   Eigen::MatrixXd a;       ///< n × of: accelerations by 1 N
   Eigen::MatrixXd lambda;  ///< n_rows × of: multipliers by 1 N
+};
+
+/// Room for solving for the scene's own states.
+struct OwnScratch {
+  Eigen::MatrixXd slopes, A;
+  Eigen::VectorXd left, change;
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu;
 };
 
 /// Scratch of one evaluation of the equations of motion, sized by the system; one per thread.
@@ -64,6 +72,7 @@ struct Equations {
   std::vector<bool> directed;            ///< per marker: a joint or a following force asks for its direction u
   std::vector<ConstraintRows> rows;      ///< of each joint, in poses of its markers
   std::vector<ConstraintRows::Block> L;  ///< … and their derivatives, one an end of a joint
+  std::vector<int> released;             ///< rows of joints that events have taken out: all zero, λ = 0
   std::vector<Schur::Block> B;           ///< rows of Cq, likewise: L J on [x y θ] …
   std::vector<RowBlock> B_eta;           ///< … and on η; empty for a rigid body
   std::vector<Schur::Block> B_hat;       ///< both in the metric of M⁻¹: see to_metric
@@ -74,6 +83,8 @@ struct Equations {
   Eigen::VectorXd f, a, lambda;  ///< forces, accelerations, multipliers
   std::vector<ContactEffect> contact;
   std::vector<ForceEffect> force;
+  std::vector<double> signals, laws;          ///< values of the system's
+  OwnScratch own;
   std::vector<JointFrictionEffect> friction;  ///< in joints
   Sticking sticking;
   bool regular = true;  ///< false: no accelerations can be had here

@@ -25,6 +25,8 @@ Equations::Equations(const System& system)
       lambda(C),
       contact(system.contacts.size()),
       force(system.forces.size()),
+      signals(system.signals.size()),
+      laws(system.laws.size()),
       friction(system.frictions.size()),
       gamma(C),
       mu(C),
@@ -39,11 +41,17 @@ Equations::Equations(const System& system)
     motion[i].angle = marker.angle;
     motion[i].u = {std::cos(marker.angle), std::sin(marker.angle)};
   }
+  if (!system.states.empty()) {
+    const auto n = static_cast<Index>(system.states.size());
+    own.slopes.setZero(static_cast<Index>(laws.size()), static_cast<Index>(signals.size()));
+    own.A.setZero(n, n);
+    own.left = own.change = VectorXd::Zero(n);
+  }
   directed.assign(motion.size(), false);
   for (const Joint& j : system.joints)
     if (properties_of(j).direction) directed[at(*ends_of(j).begin())] = true;
   for (const Force& acting : system.forces)
-    if (const auto* p = std::get_if<PointForce>(&acting); p && p->follows) directed[at(p->b)] = true;
+    if (turns_with_b(acting)) directed[at(marker_b(acting))] = true;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     const int n = system.bodies[b].modes();
     flexible_of.push_back(n > 0 ? static_cast<int>(flexible.size()) : -1);

@@ -3,10 +3,21 @@
 #include <algorithm>
 
 #include "framework/common/index.h"
+#include "framework/dynamics/equations/laws.h"
+#include "framework/dynamics/model/signal_values.h"
 
 namespace pintle {
 
 namespace {
+
+bool has_released_owner(const System& system, const InternalStates& of, const Eigen::VectorXd& y) {
+  switch (of.owner) {
+    case InternalStates::force: return is_released(system, Switch::force, of.index, y);
+    case InternalStates::contact: return is_released(system, Switch::contact, of.index, y);
+    case InternalStates::friction: return is_released(system, Switch::joint, system.frictions[at(of.index)].joint, y);
+  }
+  return false;
+}
 
 // Of one owner, g and its derivatives in x.
 struct OwnRates {
@@ -33,6 +44,7 @@ class OwnMotion {
       law_ = &*pair.friction, open_ = !(state.impact_rate[k] > 0);
       if (!open_) slip_ = sliding_speed(pair, evaluate(pair.gap, moving_point(a_), moving_point(b_)));
     }
+    open_ = open_ || has_released_owner(system, of, state.y);
   }
   OwnRates at_states(const double* x) const {
     OwnRates out{{}, InternalMatrix::Zero(of_.n, of_.n)};
@@ -55,7 +67,7 @@ class OwnMotion {
   const System& system_;
   const InternalStates& of_;
   double t_, slip_ = 0;
-  bool open_ = false;
+  bool open_ = false;                 ///< its owner does nothing
   const FrictionLaw* law_ = nullptr;  ///< of bristles
   std::array<int, 2> markers_;
   const MarkerMotion &a_, &b_;
@@ -76,6 +88,7 @@ InternalTangent internal_tangent(const System& system, const State& state, const
   const std::array<int, 2> markers = markers_of(system, of);
   const MarkerMotion &a = eq.motion[at(markers[0])], &b = eq.motion[at(markers[1])];
   const double* x = state.y.data() + system.x_begin() + of.begin;
+  if (has_released_owner(system, of, state.y)) return InternalTangent(2, of.n);
   switch (of.owner) {
     case InternalStates::force: return internal_tangent(system.forces[k], eq.force[k], a, b);
     case InternalStates::contact:
@@ -86,7 +99,7 @@ InternalTangent internal_tangent(const System& system, const State& state, const
   return internal_tangent(unit_friction(system.joints[at(rub.joint)], rub, a, b), rub, eq.friction[k], x);
 }
 
-void follow_internal_states(const System& system, const Equations& eq, const State& state, double weight, const double* base, double* x) {
+void follow_internal_states(const System& system, Equations& eq, const State& state, double weight, const double* base, double* x) {
   constexpr int most = 20;
   constexpr double rounding = 1e-15;
   for (const InternalStates& owner : system.internal) {
@@ -106,6 +119,7 @@ void follow_internal_states(const System& system, const Equations& eq, const Sta
       if (!(largest > 0)) break;
     }
   }
+  if (!system.states.empty()) follow_own_states(system, eq, state.t, weight, base, x);
 }
 
 void relax_internal_states(const System& system, double t, Eigen::VectorXd& y) {
@@ -116,13 +130,15 @@ void relax_internal_states(const System& system, double t, Eigen::VectorXd& y) {
   pose(system, t, still.y, eq);
   speed(system, t, still.y, eq);
   follow_internal_states(system, eq, still, internal_at_rest, nullptr, y.data() + system.x_begin());
+  start_own_states(system, y);
 }
 
-void filter_internal_states(const System& system, const State& state, const Equations& eq, double weight, double* v) {
+void filter_internal_states(const System& system, const State& state, Equations& eq, double weight, double* v) {
   for (const InternalStates& owner : system.internal) {
     Eigen::Map<InternalVector> own(v + owner.begin, owner.n);
     own = internal_change(internal_tangent(system, state, eq, owner).g_x, weight, own / weight);
   }
+  if (!system.states.empty()) filter_own_states(system, state, eq, weight, v);
 }
 
 void straighten_bristles(const System& system, int contact, State& state) {

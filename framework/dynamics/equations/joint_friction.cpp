@@ -30,6 +30,10 @@ void add_joint_friction(const System& system, const State& state, Equations& eq)
     const std::array<Wrench, 2> unit = unit_friction(system.joints[at(rub.joint)], rub, a, b);
     effect.slip = slip(system.joints[at(rub.joint)], rub, a, b);
     if (state.friction.empty()) continue;
+    if (is_released(system, Switch::joint, rub.joint, state.y)) {
+      effect = {.slip = effect.slip};
+      continue;
+    }
     const DryFriction& now = state.friction[system.contacts.size() + k];
     effect.force = now.force, effect.load = now.load, effect.sticks = now.direction == 0;
     find_slopes(rub, now, state.y.data() + system.x_begin() + system.friction_x[k], effect);

@@ -63,7 +63,12 @@ const Coulomb* dry_law(const System& system, std::size_t k) {
   return of_contact(system, k) ? dry_friction(system.contacts[k]) : std::get_if<Coulomb>(&system.frictions[joint_friction(system, k)].law);
 }
 
+bool rubs_in_released_joint(const System& system, const State& state, std::size_t k) {
+  return !of_contact(system, k) && is_released(system, Switch::joint, system.frictions[joint_friction(system, k)].joint, state.y);
+}
+
 bool sticks(const System& system, const State& state, std::size_t k) {
+  if (rubs_in_released_joint(system, state, k)) return false;
   if (state.friction.empty() || state.friction[k].direction != 0 || !dry_law(system, k)) return false;
   return !of_contact(system, k) || state.impact_rate[k] > 0;
 }
@@ -133,6 +138,7 @@ void list_sticking(const System& system, const State& state, Equations& eq) {
   Sticking& s = eq.sticking;
   s.of.clear();
   for (std::size_t k = 0; k < state.friction.size(); ++k) {
+    if (rubs_in_released_joint(system, state, k)) continue;
     const bool holds = sticks(system, state, k), in_contact = of_contact(system, k), rigid = in_contact && holds_gap(system, state, k);
     if (rigid) s.of.push_back({k, true, true});
     if (holds || !in_contact || (rigid && std::abs(state.friction[k].direction) == 1 && dry_law(system, k)))

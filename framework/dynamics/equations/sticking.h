@@ -10,6 +10,8 @@ namespace pintle {
 
 /// The friction at this place of State::friction sticks.
 bool sticks(const System&, const State&, std::size_t at);
+/// It is friction in a joint that is released: it does nothing.
+bool rubs_in_released_joint(const System&, const State&, std::size_t at);
 /// This contact is rigid and closed, and its normal force is for the accelerations to decide.
 bool holds_gap(const System&, const State&, std::size_t contact);
 /// The law of the friction at this place; nullptr where that is not dry.

@@ -18,20 +18,15 @@ using Block = Eigen::Map<Eigen::MatrixXd>;
 
 namespace {
 
-int size_of(const System& system, int body) { return 3 + system.bodies[at(body)].modes(); }
-
 // Of friction in a joint, whose load is held.
 bool answers_to_speed(const FrictionLaw& law) {
   const auto* dry = std::get_if<Coulomb>(&law);
   return !dry || dry->stribeck > 0;
 }
 
-// Coordinate i of a body, of [x y θ η], in q.
-int coordinate(const System& system, int body, int i) { return i < 3 ? 3 * body + i : system.eta_begin[at(body)] + i - 3; }
-
 }  // namespace
 
-Tangent::Tangent(const System& system) {
+Tangent::Tangent(const System& system) : ends_{MarkerJacobian(system), MarkerJacobian(system), MarkerJacobian(system)}, laws_(system) {
   for (std::size_t i = 0; i < system.joints.size(); ++i)
     add(system, Interaction::joint, i, ends_of(system.joints[i]), properties_of(system.joints[i]).curvature);
   for (std::size_t i = 0; i < system.forces.size(); ++i)
@@ -43,15 +38,8 @@ Tangent::Tangent(const System& system) {
       add(system, Interaction::friction, i, ends_of(system.joints[at(system.frictions[i].joint)]), contact_pattern);
   lay_out(system);
 
-  Index most = 0;
-  for (const Body& body : system.bodies) {
+  for (const Body& body : system.bodies)
     if (body.modes() > 0) flexible_.emplace_back(body.modes());
-    most = std::max<Index>(most, body.modes());
-  }
-  for (End& end : ends_) {
-    end.J_eta.setZero(most, 3);
-    end.V_eta.setZero(most, 3);
-  }
 }
 
 // Notes the interaction with 0 for each block that it has; lay_out turns these into places.
@@ -78,8 +66,8 @@ void Tangent::lay_out(const System& system) {
   const auto body_of = [&](const Interaction& x, std::size_t end) { return system.markers[at(x.marker[end])].body; };
   const auto put_block = [&](int row_body, int column_body) {
     const int begin = static_cast<int>(places_.size());
-    for (int j = 0; j < size_of(system, column_body); ++j)
-      for (int i = 0; i < size_of(system, row_body); ++i)
+    for (int j = 0; j < coordinates_of(system, column_body); ++j)
+      for (int i = 0; i < coordinates_of(system, row_body); ++i)
         places_.push_back({coordinate(system, row_body, i), coordinate(system, column_body, j)});
     return begin;
   };
@@ -88,6 +76,9 @@ void Tangent::lay_out(const System& system) {
       for (std::size_t i = 0; i < x.n; ++i)
         for (std::size_t j = 0; j < x.n; ++j)
           if (x.block[i][j] >= 0) does(x.block[i][j], body_of(x, i), body_of(x, j));
+    for (LawTangent::Sized& x : laws_.sized)
+      for (std::size_t i = 0; i < x.on.size(); ++i)
+        for (std::size_t j = 0; j < x.by.size(); ++j) does(x.block[i][j], x.on[i], x.by[j]);
   };
 
   std::vector<bool> full;
@@ -98,7 +89,7 @@ void Tangent::lay_out(const System& system) {
 
   for (int b = 0; b < static_cast<int>(system.bodies.size()); ++b) {
     const int begin = static_cast<int>(places_.size());
-    own_.push_back({begin, full[at(b)] ? size_of(system, b) : 0});
+    own_.push_back({begin, full[at(b)] ? coordinates_of(system, b) : 0});
     if (full[at(b)])
       put_block(b, b);
     else
@@ -121,7 +112,7 @@ void Tangent::evaluate(const System& system, const State& state, const Equations
   std::fill(values.begin(), values.end(), 0.0);
   add_inertia(system, state, eq, a, w, values.data());
   if (w.q != 0) add_geometric_stiffness_of_forces(system, eq, lambda, w.q, values.data());
-  if (w.q != 0 || w.s != 0) add_interactions(system, state, eq, lambda, w, values.data());
+  if (w.q != 0 || w.s != 0) add_interactions(system, state, eq, lambda, w, values.data()), laws_.add(system, state, eq, w, values.data());
 }
 
 void Tangent::add_inertia(const System& system, const State& state, const Equations& eq, const VectorXd& a, const Weights& w,
@@ -188,30 +179,6 @@ void Tangent::add_geometric_stiffness(const System& system, const Equations& eq,
   K.bottomRightCorner(n, n) -= (c * fx + s * fy) * m.second[0] + (c * fy - s * fx) * m.second[1];
 }
 
-void Tangent::move(const System& system, const State& state, const Equations& eq, int marker, End& end) const {
-  const Marker& m = system.markers[at(marker)];
-  end.n = 0;
-  if (m.body == ground) return;
-  const MarkerMotion& motion = eq.motion[at(marker)];
-  const double* s = state.y.data() + system.n() + 3 * m.body;
-  end.J_theta << -motion.d.y(), motion.d.x(), 1;
-  end.V_theta << s[1] - motion.v.y(), motion.v.x() - s[0], 0;  // Z(v − ṙ)
-  end.n = motion.flex.cols();
-  if (end.n == 0) return;
-  end.J_eta.topLeftCorner(end.n, 2) = motion.flex.transpose();
-  end.J_eta.col(2).head(end.n) = m.slope.transpose();
-  end.V_eta.col(0).head(end.n) = -s[2] * motion.flex.row(1).transpose();
-  end.V_eta.col(1).head(end.n) = s[2] * motion.flex.row(0).transpose();
-  if (m.second[0].size() == 0) return;
-  const Eigen::Map<const VectorXd> rate(state.y.data() + system.n() + system.eta_begin[at(m.body)], end.n);
-  const double c = eq.cos_[m.body], sine = eq.sin_[m.body];
-  for (Index i = 0; i < end.n; ++i) {
-    const double x = m.second[0].col(i).dot(rate), y = m.second[1].col(i).dot(rate);
-    end.V_eta(i, 0) += c * x - sine * y;
-    end.V_eta(i, 1) += sine * x + c * y;
-  }
-}
-
 WrenchTangent Tangent::wrenches(const System& system, const Equations& eq, const VectorXd& lambda, const Interaction& x) {
   const MarkerMotion &a = eq.motion[at(x.marker[0])], &b = eq.motion[at(x.marker[1])];
   switch (x.kind) {
@@ -234,6 +201,7 @@ void Tangent::add_interactions(const System& system, const State& state, const E
     const bool rate = x.rate || follows;
     if (w.q == 0 && !rate) continue;
     if (x.kind == Interaction::contact && eq.contact[x.index].normal.force == 0) continue;
+    if (x.kind == Interaction::force && is_released(system, Switch::force, static_cast<int>(x.index), state.y)) continue;
     WrenchTangent tangent = wrenches(system, eq, lambda, x);
     if (follows) condense(internal_tangent(system, state, eq, system.internal[at(x.owner)]), w.x, tangent);
     for (std::size_t i = 0; i < x.n; ++i) move(system, state, eq, x.marker[i], ends_[i]);
@@ -241,7 +209,7 @@ void Tangent::add_interactions(const System& system, const State& state, const E
     for (std::size_t i = 0; i < x.n; ++i)
       for (std::size_t j = 0; j < x.n; ++j) {
         if (x.block[i][j] < 0) continue;
-        const End &on = ends_[i], &by = ends_[j];
+        const MarkerJacobian &on = ends_[i], &by = ends_[j];
         const Index row = static_cast<Index>(3 * i), column = static_cast<Index>(3 * j);
         Matrix3d K = w.q * tangent.pose.block<3, 3>(row, column);
         Matrix3d D = Matrix3d::Zero();
@@ -280,7 +248,7 @@ Tangent::Internal Tangent::internal(const System& system, const State& state, co
     for (std::size_t i = 0; i < markers.size(); ++i) {
       const int body = system.markers[at(markers[i])].body;
       if (body == ground) continue;
-      End& end = ends_[i];
+      MarkerJacobian& end = ends_[i];
       move(system, state, eq, markers[i], end);
       Eigen::Matrix3Xd J(3, 3 + end.n), V = Eigen::Matrix3Xd::Zero(3, 3 + end.n);
       J << Eigen::Matrix<double, 3, 2>::Identity(), end.J_theta, end.J_eta.topRows(end.n).transpose();
@@ -296,6 +264,7 @@ Tangent::Internal Tangent::internal(const System& system, const State& state, co
       }
     }
   }
+  laws_.couple(system, state, eq, out.f_x, out.g_q, out.g_s, out.g_x);
   return out;
 }
 

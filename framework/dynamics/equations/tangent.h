@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "framework/dynamics/equations/equations.h"
+#include "framework/dynamics/equations/laws.h"
 #include "framework/dynamics/model/flexible_tangent.h"
 #include "framework/dynamics/model/wrench_tangent.h"
 
@@ -52,12 +52,6 @@ class Tangent {
     bool rate;
     int owner;  ///< of internal states, index into System::internal; −1: it has none
   };
-  /// A marker's motion in its body's coordinates: ṗ = [1 J_θ J_ηᵀ]s and its derivatives V by θ and, transposed, by η.
-  struct End {
-    Eigen::Vector3d J_theta, V_theta;
-    Eigen::MatrixX3d J_eta, V_eta;
-    Eigen::Index n = 0;
-  };
 
   void lay_out(const System&);
   void add(const System&, Interaction::Kind, std::size_t index, const JointEnds&, const WrenchPattern&);
@@ -67,13 +61,13 @@ class Tangent {
   void add_geometric_stiffness(const System&, const Equations&, int marker, double fx, double fy, double* values) const;
   void add_interactions(const System&, const State&, const Equations&, const Eigen::VectorXd& lambda, const Weights&, double* values);
   static WrenchTangent wrenches(const System&, const Equations&, const Eigen::VectorXd& lambda, const Interaction&);
-  void move(const System&, const State&, const Equations&, int marker, End&) const;
 
   std::vector<Place> places_;
   std::vector<Own> own_;  ///< per body
   std::vector<Interaction> interactions_;
   std::vector<FlexibleScratch> flexible_;  ///< per flexible body
-  std::array<End, most_ends> ends_;
+  std::array<MarkerJacobian, most_ends> ends_;
+  LawTangent laws_;
 };
 
 /// The same as a dense matrix; for those who have time.

@@ -1,6 +1,7 @@
 #include "framework/dynamics/model/forces.h"
 
 #include <cmath>
+#include <type_traits>
 
 namespace pintle {
 
@@ -112,6 +113,32 @@ void curve(const Maxwell& f, M a, M b, InternalTangent& out) {
   out.g_pose.block<1, 2>(0, place_of(1)) = f.k / f.c * along.transpose();
 }
 
+ForceEffect effect(const SizedForce& f, M a, M b, const double* laws) {
+  ForceEffect e;
+  for (const bool other : {false, true}) {
+    const int law = other ? f.other : f.size;
+    if (law < 0) continue;
+    const UnitWrenches unit = unit_wrenches(f, other, a, b);
+    e.on_a += laws[law] * unit.on_a;
+    e.on_b += laws[law] * unit.on_b;
+  }
+  e.input = e.on_a.head<2>().dot(a.v) + e.on_a[2] * a.w + e.on_b.head<2>().dot(b.v) + e.on_b[2] * b.w;
+  return e;
+}
+// With its sizes held: what they answer to is said by the laws.
+WrenchPattern pattern(const SizedForce& f) {
+  if (f.way == SizedForce::follows) return {{{{}, {false, true}}}, false};
+  return f.way == SizedForce::pull ? between(false) : constant;
+}
+void curve(const SizedForce& f, const ForceEffect& now, M a, M b, WrenchTangent& out) {
+  if (f.way == SizedForce::follows) out.pose.block<2, 1>(place_of(1), angle_of(1)) = perp(now.on_b.head<2>());
+  const Vector2d d = b.r - a.r;
+  const double length = d.norm();
+  if (f.way != SizedForce::pull || length == 0) return;
+  const Vector2d across = perp(d / length);
+  oppose(now.on_a.head<2>().dot(d) / (length * length) * across * across.transpose(), out.pose);
+}
+
 // Most remember nothing.
 template <class Kind>
 std::span<const InternalState> states(const Kind&) {
@@ -122,8 +149,30 @@ void curve(const Kind&, M, M, InternalTangent&) {}
 
 }  // namespace
 
-ForceEffect evaluate(const Force& f, const MarkerMotion& a, const MarkerMotion& b, double t, const double* x) {
-  return std::visit([&](const auto& k) { return effect(k, a, b, t, x); }, f);
+UnitWrenches unit_wrenches(const SizedForce& f, bool other, const MarkerMotion& a, const MarkerMotion& b) {
+  UnitWrenches out;
+  switch (f.way) {
+    case SizedForce::world: out.on_b[other ? 1 : 0] = 1; break;
+    case SizedForce::follows: out.on_b.head<2>() = other ? perp(b.u) : b.u; break;
+    case SizedForce::couple: out.on_a[2] = -1, out.on_b[2] = 1; break;
+    case SizedForce::restoring: out.on_a[2] = 1, out.on_b[2] = -1; break;
+    case SizedForce::pull: {
+      const Vector2d d = b.r - a.r;
+      if (const double length = d.norm(); length > 0) out.on_a << d / length, 0, out.on_b = -out.on_a;
+    }
+  }
+  return out;
+}
+
+ForceEffect evaluate(const Force& f, const MarkerMotion& a, const MarkerMotion& b, double t, const double* x, const double* laws) {
+  return std::visit(
+      [&](const auto& k) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(k)>, SizedForce>)
+          return effect(k, a, b, laws);
+        else
+          return effect(k, a, b, t, x);
+      },
+      f);
 }
 
 std::span<const InternalState> internal_states(const Force& f) {

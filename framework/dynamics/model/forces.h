@@ -56,21 +56,42 @@ struct Maxwell {
   auto members() const { return std::tie(a, b, k, c); }
 };
 
-using Force = std::variant<PointForce, Torque, Spring, TorsionSpring, Maxwell>;
+/// Forces whose sizes are laws of signals, System::laws[size …]: in world axes or turning with b's direction (x, y) on b, a couple on b
+/// and its opposite on a, a pull along the line from a to b, a couple that turns b back. [N] or [N m]
+struct SizedForce {
+  enum Way { world, follows, couple, pull, restoring } way;
+  int a, b;
+  int size, other = -1;  ///< of forces x and y; else the only one
+  auto members() const { return std::tie(way, a, b, size, other); }
+};
+
+using Force = std::variant<PointForce, Torque, Spring, TorsionSpring, Maxwell, SizedForce>;
 
 /// Those of a force element, in order.
 std::span<const InternalState> internal_states(const Force&);
 
 /// Cannot fail. A spring of no length has no direction and gives no force.
-/// @param x  the internal states, if it has any
-ForceEffect evaluate(const Force&, const MarkerMotion& a, const MarkerMotion& b, double t, const double* x);
+/// @param x  the internal states, if it has any   @param laws  values of the system's laws, if it is sized by any
+ForceEffect evaluate(const Force&, const MarkerMotion& a, const MarkerMotion& b, double t, const double* x, const double* laws = nullptr);
 
 WrenchPattern wrench_pattern(const Force&);
 /// How the wrenches answer to the motion, internal states held. @param now  what the force does in this state
 WrenchTangent wrench_tangent(const Force&, const ForceEffect& now, const MarkerMotion& a, const MarkerMotion& b);
+/// What a unit of its size, or of its other one, does.
+struct UnitWrenches {
+  Wrench on_a = Wrench::Zero(), on_b = Wrench::Zero();
+};
+UnitWrenches unit_wrenches(const SizedForce&, bool other, const MarkerMotion& a, const MarkerMotion& b);
+
 /// How wrenches and internal states answer to each other and to the motion.
 InternalTangent internal_tangent(const Force&, const ForceEffect& now, const MarkerMotion& a, const MarkerMotion& b);
 
+/// It asks for b's direction u.
+inline bool turns_with_b(const Force& f) {
+  const auto* point = std::get_if<PointForce>(&f);
+  const auto* sized = std::get_if<SizedForce>(&f);
+  return (point && point->follows) || (sized && sized->way == SizedForce::follows);
+}
 inline int marker_a(const Force& f) {
   return std::visit([](const auto& k) { return k.a; }, f);
 }

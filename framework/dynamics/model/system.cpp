@@ -26,7 +26,25 @@ void number_internal(System& system) {
   all(InternalStates::contact, system.contacts, has_bristles, system.contact_x);
   all(
       InternalStates::friction, system.frictions, [](const JointFriction& f) { return bristle_states(f.law) > 0; }, system.friction_x);
+  system.own_x = static_cast<int>(x_scale.size());
+  for (const OwnState& state : system.states) x_scale.push_back(state.scale);
   system.x_scale = Eigen::Map<const Eigen::VectorXd>(x_scale.data(), static_cast<Eigen::Index>(x_scale.size()));
+}
+
+void number_switches(System& system) {
+  for (std::vector<int>* places : {&system.joint_switch, &system.force_switch, &system.contact_switch}) places->clear();
+  if (system.switches.empty()) return;
+  system.joint_switch.assign(system.joints.size(), -1);
+  system.force_switch.assign(system.forces.size(), -1);
+  system.contact_switch.assign(system.contacts.size(), -1);
+  for (std::size_t k = 0; k < system.switches.size(); ++k) {
+    const Switch& s = system.switches[k];
+    std::vector<int>& places = s.of == Switch::joint   ? system.joint_switch
+                               : s.of == Switch::force ? system.force_switch
+                                                       : system.contact_switch;
+    const auto first = places.begin() + s.index;
+    std::fill(first, first + (s.of == Switch::contact ? system.contacts[static_cast<std::size_t>(s.index)].pairs : 1), static_cast<int>(k));
+  }
 }
 
 }  // namespace
@@ -85,9 +103,11 @@ void number(System& system, bool scheme_loses) {
   for (std::size_t i = 0; i < system.frictions.size(); ++i) account(Account::joint_friction, i);
   for (std::size_t i = 0; i < system.bodies.size(); ++i)
     if (system.bodies[i].modes() > 0 && !system.bodies[i].flex->zeta.isZero()) account(Account::damping, i);
+  for (std::size_t i = 0; i < system.switches.size(); ++i) account(Account::switching, i);
   if (scheme_loses) account(Account::scheme, 0);
 
   number_internal(system);
+  number_switches(system);
 }
 
 std::vector<InternalState> states_of(const System& system, const InternalStates& of) {

@@ -13,6 +13,8 @@
 #include "framework/dynamics/model/joint_friction.h"
 #include "framework/dynamics/model/joints.h"
 #include "framework/dynamics/model/marker.h"
+#include "framework/dynamics/model/signals.h"
+#include "framework/dynamics/model/switches.h"
 
 namespace pintle {
 
@@ -35,10 +37,10 @@ struct InternalStates {
 };
 
 /// What an integral of the ledger accounts for.
-enum class Account { hysteresis, friction, damper, load, driver, damping, scheme, joint_friction };
+enum class Account { hysteresis, friction, damper, load, driver, damping, scheme, joint_friction, switching };
 struct Integral {
   Account account;
-  int index;  ///< contact, force, joint, friction in a joint; of damping the body; of the scheme 0
+  int index;  ///< contact, force, joint, friction in a joint, switch; of damping the body; of the scheme 0
 };
 
 /// A scene made ready to run: built once, then never changed. Ground is not among the bodies.
@@ -50,6 +52,9 @@ struct System {
   std::vector<JointFriction> frictions;
   std::vector<Force> forces;
   std::vector<ContactPair> contacts;
+  std::vector<MotionSignal> signals;  ///< what laws see
+  std::vector<SignalLaw> laws;        ///< that size forces and change states
+  std::vector<OwnState> states;       ///< of the scene, the last of the internal states
   std::vector<std::string> joint_names, force_names, contact_names;
   /// Joints with play as they are without it: they hold where the mechanism is assembled.
   std::vector<Joint> loose;
@@ -71,6 +76,10 @@ struct System {
   std::vector<int> force_x;                      ///< first internal state of each force, 0 if it has none …
   Eigen::VectorXd x_scale;                       ///< what their errors are measured by; 0: as lengths are
   std::vector<int> contact_x, friction_x;        ///< … of each contact, of each friction in a joint
+  int own_x = 0;                                 ///< … of the scene's own states
+  std::vector<Switch> switches;                  ///< what events may release and engage
+  /// Switch of each, −1 for none; empty without switches.
+  std::vector<int> joint_switch, force_switch, contact_switch;
 
   int n_rigid() const { return 3 * static_cast<int>(bodies.size()); }
   int n() const { return eta_begin.empty() ? n_rigid() : eta_begin.back(); }
@@ -80,7 +89,8 @@ struct System {
   int n_s() const { return n() + n_x(); }  ///< what is of first order: speeds and internal states
   int x_begin() const { return 2 * n(); }  ///< of the internal states in y
   int z_begin() const { return n() + n_s(); }
-  int n_y() const { return z_begin() + n_z(); }
+  int switch_begin() const { return z_begin() + n_z(); }  ///< of two numbers for each switch in y
+  int n_y() const { return switch_begin() + 2 * static_cast<int>(switches.size()); }
 };
 
 /// Fills what follows from the lists: coordinates, rows, integrals. Call once, after the lists are complete.
@@ -112,7 +122,7 @@ inline bool has_gravity(const System& s) { return s.gravity.x() != 0 || s.gravit
 /// Everything that changes in time. Copy one to branch a run, store one to restart it.
 struct State {
   double t = 0;                            ///< [s]
-  Eigen::VectorXd y;                       ///< coordinates q, speeds s, internal states x, ledger integrals z: n + n + n_x + n_z
+  Eigen::VectorXd y;                       ///< coordinates q, speeds s, internal states x, ledger integrals z, switches
   std::vector<double> impact_rate;         ///< per contact, latched approach speed; 0 while open [m/s]
   std::vector<DryFriction> friction = {};  ///< per contact, then per friction in a joint; empty without dry_states
 };

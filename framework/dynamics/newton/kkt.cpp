@@ -68,6 +68,7 @@ struct Kkt::Data {
       values[at(*to++)] += value;
       values[at(*to++)] += value;
     });
+    for (const int row : eq.released) values[at(where_D[at(row)])] = -1;
   }
 
   // D makes the largest entry of each row and column of D J D one, R that of each row of R Cq D.

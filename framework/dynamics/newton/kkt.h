@@ -26,6 +26,7 @@ class Kkt {
 
   /// @param J  the summands of Tangent::evaluate. After pose. Nothing of ours allocates; KLU does at the
   ///           first call and when its pivots have become bad.
+  /// Of a row that is released −y = y of the right-hand side.
   /// @returns false if singular to working precision though dependent rows are allowed for
   bool factor(const System&, const Equations&, const std::vector<double>& J);
   /// x, y of  J x + Cqᵀ y = x,  Cq x = y, in place: n and n_rows. Of dependent rows y is the solution of

@@ -237,7 +237,7 @@ double Schur::nonzeros() const {
   return sum;
 }
 
-void Schur::sum(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta) {
+void Schur::sum(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta, std::span<const int> released) {
   for (const int i : zeros_) values_[at(i)] = 0;
   if (terms_.empty()) return;
   const double* entries = B.front().data();
@@ -248,10 +248,11 @@ void Schur::sum(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta)
   for (std::size_t k = 0; k < first_terms_; ++k) values_[at(terms_[k].to)] = product(terms_[k]);
   for (std::size_t k = first_terms_; k < terms_.size(); ++k) values_[at(terms_[k].to)] += product(terms_[k]);
   for (const ModalTerm& t : modal_terms_) values_[at(t.to)] += B_eta[at(t.i)].row(t.r).dot(B_eta[at(t.j)].row(t.c));
+  for (const int row : released) values_[at(diagonal_[at(row)])] = 1;
 }
 
-bool Schur::factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta, double least) {
-  sum(B, B_eta);
+bool Schur::factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta, double least, std::span<const int> released) {
+  sum(B, B_eta, released);
   lost_ = 0;
   if (sparse()) least_ = data_->sparse->factor(values_);
   const bool independent = sparse() ? least_ > least : factor_dense(least);
@@ -262,7 +263,7 @@ bool Schur::factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_e
     return true;
   }
   if (sparse()) return factor_shifted();
-  sum(B, B_eta);  // the factor took its place
+  sum(B, B_eta, released);  // the factor took its place
   return factor_by_rank(independent ? bound : least);
 }
 

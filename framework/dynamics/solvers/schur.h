@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,10 +30,11 @@ class Schur {
   /// One end of each joint, as System::end_marker counts them: B = L J, m × 3 in a 3 × 3 block.
   using Block = ConstraintRows::Block;
 
-  /// Sums and factors S; pivots not above `least` count as lost. Ends on flexible bodies are given in the metric of M⁻¹ (to_metric). No allocation
+  /// Sums and factors S; pivots not above `least` count as lost. Of rows that are released, which have no entries, μ is what r is. Ends on flexible bodies are given in the metric of M⁻¹ (to_metric). No allocation
   /// when dense or thin (SparseLdl), but at the first dependent rows of a sparse one.
   /// @returns false if S is not finite, or a row has no entries; dependent rows are allowed for
-  bool factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta, double least = dependent_rows::lost);
+  bool factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta, double least = dependent_rows::lost,
+              std::span<const int> released = {});
   /// μ ← S⁻¹ μ; of dependent rows the least norm, rows in metres counted over the mechanism's length, of
   /// what misses r by the least sum of squares. @pre factor returned true
   void solve(Eigen::VectorXd& mu);
@@ -69,7 +71,7 @@ class Schur {
   };
   struct Data;
   std::vector<int> divide(const std::vector<Pattern::Place>& places);
-  void sum(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta);
+  void sum(const std::vector<Block>& B, const std::vector<RowBlock>& B_eta, std::span<const int> released);
   bool factor_shifted();
   bool factor_by_rank(double least);
   bool factor_dense(double least);

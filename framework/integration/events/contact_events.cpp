@@ -57,6 +57,7 @@ Guard ContactEvents::guard(int event, const State& state) const {
     return {inside.value, inside.rate};
   }
   if (!log_.touching(event)) return onset_of(system_, event, state);
+  if (is_released(system_, Switch::contact, event, state.y)) return {-1};
   return is_rigid(system_.contacts[at(event)]) ? pressed(event, state) : gap_of(system_, event, state);
 }
 
@@ -69,6 +70,7 @@ Guard ContactEvents::pressed(int contact, const State& state) const {
 
 Guard ContactEvents::guard(int event, const State& state, const Equations& eq) const {
   if (leaving(event) >= 0 || system_.contacts[at(event)].profiles || is_rigid(system_.contacts[at(event)])) return guard(event, state);
+  if (is_released(system_, Switch::contact, event, state.y)) return {-1};
   const Gap& gap = eq.contact[at(event)].gap;
   return {gap.depth, gap.rate};
 }

@@ -41,11 +41,24 @@ struct WatchedGuard {
 
 /// What an event's action has done.
 struct EventOutcome {
-  enum class Change { nothing, forces, jump } change = Change::forces;  ///< jump: forces jump, or the state does
+  /// jump: forces jump, or the state does; rows: constraint rows have come or gone besides.
+  enum class Change { nothing, forces, jump, rows } change = Change::forces;
   double first_step = std::numeric_limits<double>::infinity();  ///< the next step's bound by accuracy, of methods that follow impacts [s]
   bool of_every_method = false;                                 ///< that bound
   std::string end = {};                                         ///< the integration ends here, and why; empty: it goes on
   std::string failure = {};                                     ///< it cannot go on, and why
+  std::string did = {};                                         ///< in words, for the list of happenings; empty: it is not listed there
+  bool save = false, row = false;                               ///< the state is to be saved, a row of results to be written
+};
+
+/// What an event of the scene has done.
+struct Happening {
+  double t = 0;
+  std::string event, did;
+  template <class A>
+  void archive(A& x) {
+    x(PINTLE_MEMBERS(t, event, did));
+  }
 };
 
 /// Events of one kind: guards with directions, and what happens where they pass zero. A group owns the modes between its

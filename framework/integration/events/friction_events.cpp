@@ -65,7 +65,9 @@ WatchedGuard FrictionEvents::watch(int event) const {
 }
 
 bool FrictionEvents::of_rigid(std::size_t k) const { return k < system_.contacts.size() && is_rigid(system_.contacts[k]); }
-bool FrictionEvents::touches(std::size_t k, const State& state) const { return k >= system_.contacts.size() || state.impact_rate[k] > 0; }
+bool FrictionEvents::touches(std::size_t k, const State& state) const {
+  return k >= system_.contacts.size() ? !rubs_in_released_joint(system_, state, k) : state.impact_rate[k] > 0;
+}
 
 FrictionNow FrictionEvents::now(std::size_t k, const State& state) const {
   const DryFriction& dry = state.friction[k];

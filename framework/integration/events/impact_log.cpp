@@ -181,6 +181,7 @@ Guard belonging(const ContactPair& pair, const Facing& now) {
 }  // namespace
 
 Guard onset_of(const System& system, int contact, const State& state) {
+  if (is_released(system, Switch::contact, contact, state.y)) return {-1};
   const ContactPair& pair = system.contacts[at(contact)];
   const Facing now = facing(system, pair, state);
   Guard out{now.gap.depth, now.gap.rate};

@@ -24,6 +24,7 @@ void Partition::choose(const System& system, const Equations& eq) {
   dependent_.clear();
   for (Index i = 0; i < qr.rank(); ++i) dependent_.push_back(static_cast<int>(qr.colsPermutation().indices()[i]));
   factor();
+  released_ = eq.released;
   chosen_quality_ = quality_;
   ++choices_;
 }

@@ -75,9 +75,9 @@ void Stages::watch(const Equations& eq) {
 
 bool Stages::settle(const System& system, Instant& node, Equations& eq) {
   if (constraints_ == Constraints::partitioning && system.n_rows() > 0) {
-    if (partition_.dependent().empty()) {
+    if (partition_.dependent().empty() || !system.switches.empty()) {
       pose(system, node.state.t, node.state.y, eq);
-      partition_.choose(system, eq);
+      if (!partition_.suits(eq)) partition_.choose(system, eq);
     }
     if (!partition_.correct(system, node.state.t, node.state.y, eq)) return false;
   } else if (!project(system, node.state.t, node.state.y, eq)) {
@@ -92,7 +92,8 @@ bool Stages::settle(const System& system, Instant& node, Equations& eq) {
 
 void Stages::refresh(const System& system, Equations& eq) {
   if (constraints_ != Constraints::partitioning || system.n_rows() == 0) return;
-  const bool rank_changed = static_cast<int>(partition_.dependent().size()) != system.n_rows() - eq.schur.lost();
+  const bool rank_changed =
+      static_cast<int>(partition_.dependent().size()) != system.n_rows() - eq.schur.lost() - static_cast<int>(eq.released.size());
   if (partition_.worn() || rank_changed) partition_.choose(system, eq);
 }
 
@@ -163,7 +164,7 @@ void Stages::refine_cubics(const System& system, const Step& step, State& out) c
   const std::array<double, 7>* d = quartic_of(tableau_);
   if (d == nullptr) return;
   const double x = (out.t - step.from.state.t) / step.h, bend = step.h * x * x * (1 - x) * (1 - x);
-  const Index cubic = system.n_x() + system.n_z();
+  const Index cubic = system.n_y() - 2 * system.n();
   for (std::size_t i = 0; i < d->size(); ++i)
     if ((*d)[i] != 0) out.y.tail(cubic) += (bend * (*d)[i]) * (i + 1 < d->size() ? k_[i] : step.dy_end()).tail(cubic);
 }

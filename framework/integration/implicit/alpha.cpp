@@ -89,6 +89,7 @@ bool Alpha::settle(const System& system, Instant& node, Equations& eq) {
   memory.dy_before = node.dy;
   forces_of(system, eq, memory);
   tired_ = true;
+  if (!system.switches.empty()) kkt_.forget();  // its pivots may be of rows that are released
   return node.dy.allFinite();
 }
 
@@ -155,7 +156,7 @@ bool Alpha::soften_start(const System& system, double h, const Instant& from, Eq
   return true;
 }
 
-void Alpha::soften_internal(const System& system, double weight, const State& at_start, const Equations& eq) {
+void Alpha::soften_internal(const System& system, double weight, const State& at_start, Equations& eq) {
   own_ = start_;
   double *x = start_.data() + system.n(), *once = own_.data() + system.n();
   filter_internal_states(system, at_start, eq, weight, once);
@@ -264,7 +265,8 @@ bool Alpha::attempt(const System& system, double h, Step& step, Equations& eq) {
   to.state.impact_rate = from.impact_rate;
   to.state.friction = from.friction;
   to.state.y.resize(system.n_y());
-  to.state.y.tail(system.n_x() + system.n_z()) = from.y.tail(system.n_x() + system.n_z());
+  const Index rest = system.n_y() - 2 * system.n();
+  to.state.y.tail(rest) = from.y.tail(rest);
   trouble_.clear();
   if (step.from.memory.h == 0 && !soften_start(system, h, step.from, eq)) return false;
   Weights w = predict(h, step.from, to);

@@ -72,7 +72,7 @@ class Alpha {
   bool soften_start(const System&, double h, const Instant& from, Equations&);
   void soften_bend(const System&, const Step&, double x, State& out, Equations&);
   void interpolate_internal(const System&, const Step&, double x, State& out, Equations&);
-  void soften_internal(const System&, double weight, const State&, const Equations&);
+  void soften_internal(const System&, double weight, const State&, Equations&);
   Weights predict(double h, const Instant& from, Instant& to);
   bool iterate(const System&, const Weights&, Instant& to, Equations&);
   void move_to(const System&, const State&, Equations&);

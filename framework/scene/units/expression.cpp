@@ -6,32 +6,48 @@
 
 #include "framework/common/nearest.h"
 #include "framework/scene/units/formula_parser.h"
+#include "framework/scene/units/signal_law.h"
 
 namespace pintle {
 
 namespace {
 
-[[noreturn]] void unknown(const std::string& name, const Parameters& parameters) {
+[[noreturn]] void unknown(const std::string& name, const Parameters& parameters, const SignalNames* signals) {
   if (is_function(name)) throw ExpressionError("the function " + name + " needs its parentheses");
   if (const std::string_view remedy = instead_of(name); !remedy.empty())
     throw ExpressionError("it contains " + name + ": " + std::string(remedy));
   std::vector<std::string> known{"t", "pi"};
   for (const auto& [parameter, value] : parameters) known.push_back(parameter);
   for (const Unit& u : units()) known.emplace_back(u.name);
-  throw ExpressionError("\"" + name + "\" is neither a parameter nor a unit." + did_you_mean(name, known));
+  std::vector<std::string> all = known;
+  if (signals)
+    for (const auto& [signal, what] : *signals) all.push_back(signal);
+  throw ExpressionError("\"" + name + "\" is neither a parameter nor a unit" + (signals ? " nor a signal." : ".") +
+                        did_you_mean(name, nearest(name, all).empty() ? known : all));
 }
 
 int value_of(const Word& word, const Vocabulary& known, Formula& formula) {
   const std::string& name = word.text;
   if (word.kind == Word::Kind::number) return formula.constant({word.value, {}});
+  if (word.kind == Word::Kind::signal) {
+    const SignalName& signal = known.signals->find(name)->second;
+    if (!signal.refused.empty()) throw ExpressionError(name + " " + signal.refused);
+    return formula.input(name, signal.dimension);
+  }
   if (const auto found = known.parameters.find(name); found != known.parameters.end()) return formula.constant(found->second);
   if (name == "t") return formula.time();
   if (name == "pi") return formula.constant({std::numbers::pi, {}});
   if (const Unit* u = known.unit(name)) return formula.constant({u->factor, u->dimension});
-  unknown(name, known.parameters);
+  unknown(name, known.parameters, known.signals);
 }
 
 int result_of(const FormulaStep& step, std::span<const int> x, const Vocabulary& known, Formula& formula) {
+  switch (step.op) {
+    case Op::sign: return formula.sign(x[0]);
+    case Op::deadband: return formula.deadband(x[0], x[1]);
+    case Op::saturate: return formula.saturate(x[0], x[1], x[2]);
+    default: break;
+  }
   switch (x.size()) {
     case 0: return value_of(*step.word, known, formula);
     case 1: return formula.term(step.op, x[0]);
@@ -78,7 +94,14 @@ Law law_from(const Formula& formula, int root, std::string_view text) {
     const Jet jet{formula.quantity(root).value, 0, 0};
     return {[jet](double) { return jet; }, std::string(text), true};
   }
-  return {formula.program(root), std::string(text), false};
+  if (formula.inputs().empty()) return {formula.program(root), std::string(text), false};
+  if (formula.inputs().size() > most_signals)
+    throw ExpressionError("it names more than " + std::to_string(most_signals) + " signals: split it into outputs or states");
+  Law law{{}, std::string(text), false};
+  law.of_signals = SignalFormula(formula.program(root));
+  law.signals = formula.inputs();
+  law.uses_time = formula.uses_time();
+  return law;
 }
 
 Law law_with(const std::vector<FormulaStep>& steps, std::string_view text, const Dimension& of_time, const Dimension& expected,
@@ -124,9 +147,9 @@ double read_frequency(std::string_view text, const Parameters& parameters) {
   return q.value / (2 * std::numbers::pi);
 }
 
-Law read_law(std::string_view text, const Dimension& expected, const Parameters& parameters) {
+Law read_law(std::string_view text, const Dimension& expected, const Parameters& parameters, const SignalNames* signals) {
   try {
-    const Vocabulary known{parameters};
+    const Vocabulary known{parameters, {}, signals};
     const std::vector<Word> words = spell(text, known);
     const std::vector<FormulaStep> steps = parse(words);
     try {
@@ -139,6 +162,18 @@ Law read_law(std::string_view text, const Dimension& expected, const Parameters&
         throw ExpressionError(std::string(error.what()) + " (t is a time; give every factor of t its unit, or none)", error.at);
       }
     }
+  } catch (const ExpressionError& error) {
+    refuse(text, error);
+  }
+}
+
+MeasuredLaw read_measured_law(std::string_view text, const Parameters& parameters, const SignalNames& signals) {
+  try {
+    const Vocabulary known{parameters, {}, &signals};
+    const std::vector<Word> words = spell(text, known);
+    Formula formula(dimension::time);
+    const int root = build(parse(words), known, formula);
+    return {law_from(formula, root, text), formula.quantity(root).dimension};
   } catch (const ExpressionError& error) {
     refuse(text, error);
   }

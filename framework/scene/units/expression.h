@@ -27,7 +27,16 @@ double read_frequency(std::string_view text, const Parameters& = {});
 /// An expression in t. t is a time, so 150 rad/s*t is an angle; where no factor of t has a unit, t
 /// is the bare number of seconds, so 150*t is an angle as well.
 /// @throws ExpressionError  it cannot be read or does not have the dimension
-Law read_law(std::string_view text, const Dimension& expected, const Parameters& = {});
+/// @param signals  numbers of the motion that it may name; with any of them the law is one of signals
+Law read_law(std::string_view text, const Dimension& expected, const Parameters& = {}, const SignalNames* signals = nullptr);
+
+/// An expression in t and signals of whatever dimension it has.
+struct MeasuredLaw {
+  Law law;
+  Dimension dimension;
+};
+/// @throws ExpressionError  it cannot be read
+MeasuredLaw read_measured_law(std::string_view text, const Parameters&, const SignalNames&);
 
 /// Why a parameter may not have this name, or empty if it may.
 std::string fault_of_name(std::string_view name);

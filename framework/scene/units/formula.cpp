@@ -1,5 +1,6 @@
 #include "framework/scene/units/formula.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -10,7 +11,7 @@ namespace pintle {
 namespace {
 
 int operands(Op op) {
-  if (op <= Op::time) return 0;
+  if (op <= Op::input) return 0;
   if (op <= Op::smooth) return 1;
   return op < Op::choose ? 2 : 3;
 }
@@ -58,12 +59,14 @@ double product_to_the_bit(double a, double b) {
 
 }  // namespace
 
-Jet Program::operator()(double t) const {
+Jet Program::operator()(const Jet& t, const Jet* inputs) const {
   std::array<Jet, most_stacked> stack;
   std::size_t top = 0;  // one past the last operand
   for (const Instruction& i : code) {
     switch (operands(i.op)) {
-      case 0: stack[top++] = i.op == Op::time ? Jet{t, 1, 0} : Jet{i.value, 0, 0}; break;
+      case 0:
+        stack[top++] = i.op == Op::time ? t : i.op == Op::input ? inputs[static_cast<std::size_t>(i.value)] : Jet{i.value, 0, 0};
+        break;
       case 1: stack[top - 1] = apply(i.op, stack[top - 1]); break;
       case 2:
         --top;
@@ -80,6 +83,13 @@ int Formula::constant(const Quantity& q) { return append({.op = Op::constant, .d
 int Formula::time() {
   uses_time_ = true;
   return append({.op = Op::time, .dimension = of_time_});
+}
+
+int Formula::input(const std::string& name, const Dimension& d) {
+  const auto known = std::ranges::find(inputs_, name);
+  const auto place = static_cast<double>(known - inputs_.begin());
+  if (known == inputs_.end()) inputs_.push_back(name);
+  return append({.op = Op::input, .dimension = d, .value = place});
 }
 
 int Formula::term(Op op, int ia) {
@@ -113,6 +123,22 @@ int Formula::step(int x, int x0, int x1) {
   const int width = term(Op::subtract, x1, x0);
   if (is_constant(width) && quantity(width).value <= 0) throw ExpressionError("step(t, t0, t1) needs t0 before t1");
   return term(Op::smooth, term(Op::divide, term(Op::subtract, x, x0), width));
+}
+
+int Formula::sign(int x) {
+  const int zero = constant({0, {}});
+  return term(Op::subtract, term(Op::greater, x, zero), term(Op::less, x, zero));
+}
+
+int Formula::deadband(int x, int width) {
+  if (is_constant(width) && quantity(width).value < 0) throw ExpressionError("deadband(x, w) needs a w that is not below 0");
+  return term(Op::subtract, x, saturate(x, term(Op::negate, width), width));
+}
+
+int Formula::saturate(int x, int lo, int hi) {
+  if (is_constant(lo) && is_constant(hi) && quantity(lo).value > quantity(hi).value)
+    throw ExpressionError("saturate(x, lo, hi) needs lo below hi");
+  return term(Op::min, term(Op::max, x, lo), hi);
 }
 
 int Formula::append(Term term) {
@@ -161,6 +187,8 @@ Program Formula::program(int root) const {
 
 // Returns how many operands are on the stack at most while term i is worked out.
 int Formula::write(int i, std::vector<Program::Instruction>& code) const {
+  constexpr std::size_t longest = 20'000;
+  if (code.size() > longest) throw ExpressionError("it is too long when written out: name parts of it in parameters");
   const Term& term = terms_[index(i)];
   int deepest = 1, before = 0;
   for (const int operand : {term.a, term.b, term.c}) {

@@ -23,7 +23,8 @@ struct Quantity {
 
 enum class Op : unsigned char {
   constant,
-  time,  // no operand
+  time,
+  input,  // no operand
   negate,
   sin,
   cos,
@@ -53,19 +54,23 @@ enum class Op : unsigned char {
   both,
   either,  // two, answer 1 or 0
   choose,  // three: condition, then, else
+  sign,
+  deadband,
+  saturate,  // words of the language that a formula writes out by the others
 };
 
-/// A formula in t as a stack machine over jets: value, rate and acceleration are exact, by the
+/// A formula in t and in inputs as a stack machine over jets: value, rate and acceleration are exact, by the
 /// rules of differentiation. No allocation and no shared state: safe to call from many threads.
 struct Program {
   struct Instruction {
     Op op;
-    double value = 0;  ///< of a constant
+    double value = 0;  ///< of a constant; of an input its index
   };
   static constexpr int most_stacked = 32;
   std::vector<Instruction> code;  ///< postfix
 
-  Jet operator()(double t) const;
+  Jet operator()(double t) const { return (*this)(Jet{t, 1, 0}, nullptr); }
+  Jet operator()(const Jet& t, const Jet* inputs) const;
 };
 
 /// Builds a formula term by term, judging dimensions and folding constants as it goes. A term is
@@ -79,6 +84,8 @@ class Formula {
 
   int constant(const Quantity&);
   int time();
+  /// A number of the motion; the same name is the same input.
+  int input(const std::string& name, const Dimension&);
   int term(Op, int a);
   int term(Op, int a, int b);
   int choose(int condition, int then, int otherwise);
@@ -87,7 +94,13 @@ class Formula {
 
   bool is_constant(int i) const { return terms_[index(i)].op == Op::constant; }
   Quantity quantity(int i) const { return {terms_[index(i)].value, terms_[index(i)].dimension}; }
+  /// sign(x): −1, 0 or 1. deadband(x, w): what x is beyond ±w. saturate(x, lo, hi).
+  int sign(int x);
+  int deadband(int x, int width);
+  int saturate(int x, int lo, int hi);
+
   bool uses_time() const { return uses_time_; }
+  const std::vector<std::string>& inputs() const { return inputs_; }
   Program program(int root) const;
 
  private:
@@ -105,6 +118,7 @@ class Formula {
 
   Dimension of_time_;
   bool uses_time_ = false;
+  std::vector<std::string> inputs_;
   std::vector<Term> terms_;
 };
 

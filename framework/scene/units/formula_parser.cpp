@@ -42,7 +42,7 @@ struct Function {
   Op op;
   int least, most;  // arguments; of any number, op joins one after the other
 };
-constexpr std::array<Function, 15> functions{{{"sin", Op::sin, 1, 1},
+constexpr std::array<Function, 18> functions{{{"sin", Op::sin, 1, 1},
                                               {"cos", Op::cos, 1, 1},
                                               {"tan", Op::tan, 1, 1},
                                               {"asin", Op::asin, 1, 1},
@@ -56,7 +56,10 @@ constexpr std::array<Function, 15> functions{{{"sin", Op::sin, 1, 1},
                                               {"min", Op::min, 1, any},
                                               {"max", Op::max, 1, any},
                                               {"if", Op::choose, 3, 3},
-                                              {"step", Op::smooth, 3, 3}}};
+                                              {"step", Op::smooth, 3, 3},
+                                              {"sign", Op::sign, 1, 1},
+                                              {"deadband", Op::deadband, 2, 2},
+                                              {"saturate", Op::saturate, 3, 3}}};
 
 bool adds(const Word& w) { return w.kind == Kind::sign && (w.text == "+" || w.text == "-"); }
 
@@ -126,7 +129,8 @@ class Parser {
     const Word& word = take();
     switch (word.kind) {
       case Kind::number:
-      case Kind::name: return steps_.push_back({&word});
+      case Kind::name:
+      case Kind::signal: return steps_.push_back({&word});
       case Kind::function: return call(word);
       case Kind::open: expression(weakest); return close(word);
       default: return adds(word) ? signed_operand(word) : misplaced(word);

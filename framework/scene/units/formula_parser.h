@@ -27,7 +27,7 @@ struct FormulaStep {
 ///     product    = signed {("*" | "/") signed}
 ///     signed     = ["+" | "-"] power
 ///     power      = operand ["^" signed]
-///     operand    = number | name | "(" expression ")" | call
+///     operand    = number | name | signal | "(" expression ")" | call
 ///     call       = function "(" [expression {"," expression}] ")"
 ///
 /// The steps point to the words, which must outlive them.

@@ -8,7 +8,7 @@
 
 namespace pintle {
 
-/// A formula over jets or over ranges of them, as far as wanted.
+/// A formula of time alone, over jets or over ranges of them, as far as wanted.
 template <class Value>
 class Machine {
  public:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "framework/common/nearest.h"
 #include "framework/scene/units/unit.h"
 
 namespace pintle {
@@ -55,6 +56,7 @@ class Speller {
   std::vector<Word> words() {
     for (skip_space(); !rest_.empty(); skip_space()) {
       const char c = rest_.front();
+      if (signal()) continue;
       if (is_digit(c) || (c == '.' && rest_.size() > 1 && is_digit(rest_[1])))
         number();
       else if (is_letter(c))
@@ -87,7 +89,7 @@ class Speller {
   bool after_value() const {
     if (words_.empty()) return false;
     const Kind k = words_.back().kind;
-    return k == Kind::number || k == Kind::name || k == Kind::close;
+    return k == Kind::number || k == Kind::name || k == Kind::signal || k == Kind::close;
   }
   std::string between(std::string_view next) const { return "nothing stands between " + words_.back().text + " and " + std::string(next); }
   [[noreturn]] void side_by_side(std::string_view next) const {
@@ -96,6 +98,8 @@ class Speller {
   }
 
   void number();
+  bool signal();
+  void refuse_dotted() const;
   void name();
   void multiply_by_unit(std::string_view unit);
   void open() {
@@ -137,7 +141,39 @@ void Speller::number() {
   take(Kind::number, length, value);
 }
 
+// "gudgeon pin.normal": names may hold blanks and signs, so that what is known decides where one ends.
+bool Speller::signal() {
+  if (!known_.signals || known_.signals->empty()) return false;
+  constexpr std::size_t longest_name = 170;
+  for (std::size_t length = std::min(rest_.size(), longest_name); length > 0; --length) {
+    const auto within = [&](std::size_t i) { return i < rest_.size() && (is_letter(rest_[i]) || is_digit(rest_[i])); };
+    if ((within(length) && within(length - 1)) || !known_.signals->contains(rest_.substr(0, length))) continue;
+    if (after_value()) side_by_side(rest_.substr(0, length));
+    take(Kind::signal, length);
+    return true;
+  }
+  return false;
+}
+
+// What looks like a signal and is none: owner, point, letter.
+void Speller::refuse_dotted() const {
+  const std::size_t end = std::min(rest_.find_first_of("+*/^()<>=&|!,"), rest_.find(" - "));
+  std::string_view word = rest_.substr(0, end);
+  while (word.ends_with(' ')) word.remove_suffix(1);
+  const std::size_t dot = word.find('.');
+  if (dot == std::string_view::npos || dot + 1 >= word.size() || !is_letter(word[dot + 1])) return;
+  const std::string name(word);
+  if (!known_.signals) fail("\"" + name + "\" changes with the motion, but this value cannot: write numbers, units and parameters");
+  std::vector<std::string> names;
+  for (const auto& [known, what] : *known_.signals) names.push_back(known);
+  std::string hint = did_you_mean(name, names);
+  constexpr std::size_t most = 300;
+  if (hint.size() > most) hint = " Signals are written owner.column, as trajectory.csv does: crank.angle, slider.P.vx, coil.length";
+  fail("there is no signal \"" + name + "\"." + hint);
+}
+
 void Speller::name() {
+  refuse_dotted();
   std::size_t length = 0;
   while (length < rest_.size() && (is_letter(rest_[length]) || is_digit(rest_[length]))) ++length;
   const std::string_view text = rest_.substr(0, length);

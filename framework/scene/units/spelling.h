@@ -12,17 +12,25 @@ namespace pintle {
 
 using Parameters = std::map<std::string, Quantity, std::less<>>;
 
+/// A number of the motion that expressions may name.
+struct SignalName {
+  Dimension dimension;
+  std::string refused = {};  ///< why it may not stand here; empty: it may
+};
+using SignalNames = std::map<std::string, SignalName, std::less<>>;
+
 /// What names an expression may use beside t, pi and the functions. Must not outlive its parts.
 struct Vocabulary {
   const Parameters& parameters;
   std::span<const Unit> more_units = {};          ///< beside units()
+  const SignalNames* signals = nullptr;           ///< none: the value cannot change with the motion
   const Unit* unit(std::string_view name) const;  ///< nullptr if there is none
 };
 
 /// An expression cut into words, with the multiplications that a space before a unit means written
-/// out. `10 mm` becomes 10 * mm; `1/2 mm` becomes 1 / 2 * mm.
+/// out. `10 mm` becomes 10 * mm; `1/2 mm` becomes 1 / 2 * mm. A signal is the longest known name that the text goes on with.
 struct Word {
-  enum class Kind { number, name, function, sign, open, close, comma } kind;
+  enum class Kind { number, name, signal, function, sign, open, close, comma } kind;
   std::string text;
   std::size_t at = 0;  ///< its first character's place in the expression, from 1
   double value = 0;    ///< of a number

@@ -241,14 +241,28 @@ Json load(const SceneTorque& f) { return {{"torque", json(f.law)}, {"on", json(f
 Json load(const SceneSpring& f) {
   Json out = {{"spring", ends(f.a, f.b)}, {"damping", f.damping}, {"free length", f.free_length}};
   if (f.stiffness > 0) out["stiffness"] = f.stiffness;
+  if (f.law) out = {{"spring", ends(f.a, f.b)}, {"law", json(*f.law)}};
   return out;
 }
 Json load(const SceneTorsionSpring& f) {
   Json out = {{"torsion spring", ends(f.a, f.b)}, {"damping", f.damping}, {"free angle", f.free_angle}};
   if (f.stiffness > 0) out["stiffness"] = f.stiffness;
+  if (f.law) out = {{"torsion spring", ends(f.a, f.b)}, {"law", json(*f.law)}};
   return out;
 }
 Json load(const SceneMaxwell& f) { return {{"maxwell", ends(f.a, f.b)}, {"stiffness", f.stiffness}, {"damping", f.damping}}; }
+
+// Said where it is not so from the start.
+Json with_engaged(Json element, bool engaged) {
+  if (!engaged) element["engaged"] = false;
+  return element;
+}
+
+Json json(const SceneState& s) {
+  Json out = {{"rate", json(s.rate)}, {"start", s.start}, {"scale", s.scale}};
+  if (!s.unit.empty()) out["unit"] = s.unit;
+  return out;
+}
 
 Json json(const StartBody& start) {
   Json out = Json::object();
@@ -317,13 +331,17 @@ std::string filled_in(const Scene& scene, const Parameters& parameters) {
   Json& bodies = out["bodies"] = Json::object();
   for (const SceneBody& b : scene.bodies) append(bodies, b.name, json(b));
   Json& joints = out["joints"] = Json::object();
-  for (const SceneJoint& j : scene.joints) append(joints, j.name, json(j));
+  for (const SceneJoint& j : scene.joints) append(joints, j.name, with_engaged(json(j), j.engaged));
   Json& contacts = out["contacts"] = Json::object();
-  for (const SceneContact& c : scene.contacts) append(contacts, c.name, json(c));
+  for (const SceneContact& c : scene.contacts) append(contacts, c.name, with_engaged(json(c), c.engaged));
   Json& drivers = out["drivers"] = Json::object();
-  for (const SceneDriver& d : scene.drivers) append(drivers, d.name, json(d));
+  for (const SceneDriver& d : scene.drivers) append(drivers, d.name, with_engaged(json(d), d.engaged));
   Json& forces = out["forces"] = Json::object();
-  for (const SceneLoad& l : scene.loads) append(forces, l.name, std::visit([](const auto& what) { return load(what); }, l.what));
+  for (const SceneLoad& l : scene.loads)
+    append(forces, l.name, with_engaged(std::visit([](const auto& what) { return load(what); }, l.what), l.engaged));
+  for (const SceneState& s : scene.states) append(out["states"], s.name, json(s));
+  for (const SceneOutput& o : scene.outputs) append(out["outputs"], o.name, json(o.law));
+  for (const SceneEvent& e : scene.events) append(out["events"], e.name, json(e));
   out["start"] = starts(scene);
   if (scene.statics) out["static"] = json(*scene.statics);
   if (scene.has_run) out["run"] = json(scene.run);

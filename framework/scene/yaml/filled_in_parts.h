@@ -17,5 +17,6 @@ Json json(const Pair&);
 Json json(const SceneMaterial&);  ///< as an entry of `materials`
 Json json(const SceneElastic&);   ///< the body but for points and pose
 Json json(const SceneStatic&);
+Json json(const SceneEvent&);
 
 }  // namespace pintle

@@ -51,10 +51,20 @@ const std::vector<std::string> hysteresis_factors{
 const std::vector<Key> arc_keys{{"arc", required, "20 mm"}};
 const std::vector<Key> spline_keys{{"file", required, "cam.csv"}, {"length unit"}};
 const std::vector<Key> polar_keys{{"file", required, "cam.csv"}, {"angle unit"}, {"radius unit"}};
+const Key engaged_key{"engaged", optional, "", {"true", "false"}};
+const std::vector<Key> doing_keys{
+    {"release"}, {"engage"}, {"set"}, {"stop"}, {"save", optional, "", {"true", "false"}}, {"row", optional, "", {"true", "false"}}};
+const std::vector<Key> load_table_keys{{"table", required, "torque.csv"},
+                                       {"interpolation", optional, "", {"spline", "linear"}},
+                                       {"over"},
+                                       {"over unit"},
+                                       {"periodic", optional, "", {"true", "false"}},
+                                       {"time unit"},
+                                       {"value unit"}};
 constexpr const char* two_eyes = "[{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]";
 
 std::vector<Key> joint_keys() {
-  std::vector<Key> keys{{"clearance"}, {"friction"}};
+  std::vector<Key> keys{{"clearance"}, {"friction"}, engaged_key};
   const auto add = [&](const char* key) {
     if (std::ranges::find(keys, key, &Key::name) == keys.end()) keys.push_back({key});
   };
@@ -78,6 +88,9 @@ const std::vector<KeyTable>& tables() {
         {"contacts"},
         {"drivers"},
         {"forces"},
+        {"states"},
+        {"outputs"},
+        {"events"},
         {"static"},
         {"start", optional, "", {"equilibrium"}},
         {"run"},
@@ -242,7 +255,8 @@ const std::vector<KeyTable>& tables() {
         {"tangential restitution"},
         {"restitution law", optional, "", {"newton", "poisson"}},
         {"normal"},
-        {"friction"}}},
+        {"friction"},
+        engaged_key}},
       {"contacts.*.normal.*",
        {{"restitution"},
         {"young"},
@@ -269,7 +283,7 @@ const std::vector<KeyTable>& tables() {
       {"contacts.*.friction.coulomb", coulomb_keys},
       {"contacts.*.friction.lugre", lugre_keys},
       {"contacts.*.friction.gonthier", gonthier_keys},
-      {"drivers.*", {{"angle"}, {"distance"}, {"law", required, "150 rad/s*t"}}},
+      {"drivers.*", {{"angle"}, {"distance"}, {"law", required, "150 rad/s*t"}, engaged_key}},
       {"drivers.*.law",
        {{"table", required, "motion.csv"}, {"interpolation", optional, "", {"spline", "linear"}}, {"time unit"}, {"value unit"}}},
       {"forces.*",
@@ -285,9 +299,21 @@ const std::vector<KeyTable>& tables() {
         {"stiffness"},
         {"damping"},
         {"free length"},
-        {"free angle"}}},
-      {"forces.*.torque",
-       {{"table", required, "torque.csv"}, {"interpolation", optional, "", {"spline", "linear"}}, {"time unit"}, {"value unit"}}},
+        {"free angle"},
+        {"law"},
+        engaged_key}},
+      {"forces.*.torque", load_table_keys},
+      {"forces.*.force.*", load_table_keys},
+      {"forces.*.law", load_table_keys},
+      {"states.*", {{"rate", required, "setpoint - arm.angle"}, {"start"}, {"unit"}, {"scale"}}},
+      {"events.*",
+       {{"when", required, "crank.angle > 30 deg"},
+        {"once", optional, "", {"true", "false"}},
+        {"from start", optional, "", {"true", "false"}},
+        {"do", required, "{release: latch pin}"},
+        {"else"}}},
+      {"events.*.do", doing_keys},
+      {"events.*.else", doing_keys},
       {"start.*", {{"at"}, {"x"}, {"y"}, {"angle"}, {"velocity"}, {"vx"}, {"vy"}, {"speed"}, {"deflection"}, {"modes"}, {"eccentricity"}}},
       {"run",
        {{"until", required, "0.1 s"},

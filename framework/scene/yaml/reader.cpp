@@ -98,7 +98,11 @@ Scene read(const std::string& text, const std::string& file, const Overrides& ov
   read_joints(root, scene);
   read_contacts(root, scene);
   read_drivers(root, folder, scene);
+  read_states(root, scene);
   read_forces(root, folder, scene);
+  read_state_rates(root, scene);
+  read_outputs(root, scene);
+  read_events(root, scene);
   read_start(root, scene);
   read_static(root, scene);
   read_output(root, scene);

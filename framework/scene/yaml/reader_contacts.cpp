@@ -145,6 +145,7 @@ SceneContact read_contact(const Node& node, const Scene& scene) {
               (known.empty() ? "; give it one: profiles: {rim: {disc: A, radius: 20 mm}}" : "." + did_you_mean(ref->point, known)));
   }
   read_laws(node, "contacts.*", out.normal, out.impact, out.friction);
+  out.engaged = read_engaged(node);
   return out;
 }
 

@@ -7,38 +7,40 @@ namespace pintle {
 
 namespace {
 
-const std::array<KindKeys, 2> driver_kinds{{{"angle", {"law"}}, {"distance", {"law"}}}};
+const std::array<KindKeys, 2> driver_kinds{{{"angle", {"law", "engaged"}}, {"distance", {"law", "engaged"}}}};
 
-const std::array<KindKeys, 5> force_kinds{{{"force", {"at", "follows"}},
-                                           {"torque", {"on", "from"}},
-                                           {"spring", {"stiffness", "damping", "free length"}},
-                                           {"torsion spring", {"stiffness", "damping", "free angle"}},
-                                           {"maxwell", {"stiffness", "damping"}}}};
+const std::array<KindKeys, 5> force_kinds{{{"force", {"at", "follows", "engaged"}},
+                                           {"torque", {"on", "from", "engaged"}},
+                                           {"spring", {"stiffness", "damping", "free length", "law", "engaged"}},
+                                           {"torsion spring", {"stiffness", "damping", "free angle", "law", "engaged"}},
+                                           {"maxwell", {"stiffness", "damping", "engaged"}}}};
 
 void must_have(const Node& node, std::string_view key, const std::string& example) {
   if (!node.has(key)) node.fail("lacks a required key; add for example " + std::string(key) + ": " + example);
 }
 
-SceneForce read_force(const Node& node, const std::filesystem::path& folder, double until) {
+SceneForce read_force(const Node& node) {
   must_have(node, "at", "crank.A");
-  const auto parts = node.at("force").items(2, "two components [x, y], each a force or a law in t");
-  const auto law = [&](const Node& part) { return read_time_law(part, dimension::force, Smoothness::load, folder, until); };
-  SceneForce force{read_point_ref(node.at("at")), law(parts[0]), law(parts[1])};
+  SceneForce force{read_point_ref(node.at("at")), {}, {}};
   if (node.has("follows")) force.follows = node.at("follows").yes();
   return force;
 }
 
-SceneTorque read_torque(const Node& node, const std::filesystem::path& folder, double until) {
+SceneTorque read_torque(const Node& node) {
   must_have(node, "on", "crank");
   PointRef from{"ground", "", node.place()};
   if (node.has("from")) from = read_point_ref(node.at("from"));
-  return {from, read_point_ref(node.at("on")), read_time_law(node.at("torque"), dimension::torque, Smoothness::load, folder, until)};
+  return {from, read_point_ref(node.at("on")), {}};
 }
 
 // What the two kinds of springs have in common.
 template <class Spring>
 Spring read_ends_and_rates(const Node& node, std::string_view kind, const Dimension& stiffness, const Dimension& damping) {
-  if (!node.has("stiffness") && !node.has("damping")) node.fail("neither springs nor damps; add stiffness, damping or both");
+  if (node.has("law"))
+    for (const char* other : {"stiffness", "damping", "free length", "free angle"})
+      if (node.has(other)) node.at(other).fail("stands beside `law`, which says all that the spring does; keep one of them");
+  if (!node.has("stiffness") && !node.has("damping") && !node.has("law"))
+    node.fail("neither springs nor damps; add stiffness, damping or both, or a law");
   Spring spring;
   std::tie(spring.a, spring.b) = read_ends(node.at(kind));
   read_optional(node, "stiffness", stiffness, rule::positive, spring.stiffness);
@@ -72,6 +74,22 @@ SceneMaxwell read_maxwell(const Node& node) {
 // Until when laws are judged.
 double end_of_run(const Scene& scene) { return scene.has_run ? scene.run.until : 0; }
 
+// The laws of a force, which may name whatever the scene has.
+void read_laws_of(const Node& node, const std::filesystem::path& folder, double until, ActingSignals& signals, SceneLoad& load) {
+  const auto law = [&](const Node& at, std::string_view keys, const Dimension& d) { return read_load_law(at, keys, d, folder, until, signals); };
+  if (auto* force = std::get_if<SceneForce>(&load.what)) {
+    const auto parts = node.at("force").items(2, "two components [x, y], each a force or a law in t and signals");
+    force->x = law(parts[0], "forces.*.force.*", dimension::force);
+    force->y = law(parts[1], "forces.*.force.*", dimension::force);
+  } else if (auto* torque = std::get_if<SceneTorque>(&load.what)) {
+    torque->law = law(node.at("torque"), "forces.*.torque", dimension::torque);
+  } else if (auto* spring = std::get_if<SceneSpring>(&load.what); spring && node.has("law")) {
+    spring->law = law(node.at("law"), "forces.*.law", dimension::force);
+  } else if (auto* torsion = std::get_if<SceneTorsionSpring>(&load.what); torsion && node.has("law")) {
+    torsion->law = law(node.at("law"), "forces.*.law", dimension::torque);
+  }
+}
+
 }  // namespace
 
 void read_drivers(const Node& root, const std::filesystem::path& folder, Scene& scene) {
@@ -86,24 +104,30 @@ void read_drivers(const Node& root, const std::filesystem::path& folder, Scene& 
     std::tie(driver.a, driver.b) = read_ends(node.at(driver_kinds[kind].kind));
     driver.law =
         read_time_law(node.at("law"), kind == 0 ? dimension::angle : dimension::length, Smoothness::driver, folder, end_of_run(scene));
+    driver.engaged = read_engaged(node);
     scene.drivers.push_back(std::move(driver));
   }
 }
 
 void read_forces(const Node& root, const std::filesystem::path& folder, Scene& scene) {
   if (!root.has("forces")) return;
-  for (const Node& node : root.at("forces").entries("names and forces: {load: {force: [0, -10 N], at: crank.A}}")) {
+  const std::vector<Node> entries = root.at("forces").entries("names and forces: {load: {force: [0, -10 N], at: crank.A}}");
+  for (const Node& node : entries) {
     SceneLoad load{checked_name(node), {}, node.place()};
     check_keys(node, "forces.*");
     switch (which_kind(node, force_kinds)) {
-      case 0: load.what = read_force(node, folder, end_of_run(scene)); break;
-      case 1: load.what = read_torque(node, folder, end_of_run(scene)); break;
+      case 0: load.what = read_force(node); break;
+      case 1: load.what = read_torque(node); break;
       case 2: load.what = read_spring(node); break;
       case 3: load.what = read_torsion_spring(node); break;
       default: load.what = read_maxwell(node);
     }
+    load.engaged = read_engaged(node);
     scene.loads.push_back(std::move(load));
   }
+  ActingSignals signals(scene);
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    read_laws_of(entries[i], folder, end_of_run(scene), signals, scene.loads[scene.loads.size() - entries.size() + i]);
 }
 
 }  // namespace pintle

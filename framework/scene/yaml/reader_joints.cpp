@@ -16,6 +16,7 @@ const std::vector<KindKeys>& joint_keys() {
       for (const JointNumber& number : word.numbers) k.beside.emplace_back(number.key);
       if (word.clearance) k.beside.emplace_back("clearance");
       if (word.friction) k.beside.emplace_back("friction");
+      k.beside.emplace_back("engaged");
     }
     return out;
   }();
@@ -176,6 +177,7 @@ SceneJoint read_joint(const Node& node) {
   check_keys(node, "joints.*");
   const JointWord& word = joint_words()[which_kind(node, joint_keys())];
   joint.kind = word.kind;
+  joint.engaged = read_engaged(node);
   read_points(node.at(word.word), word, joint);
   for (const JointNumber& number : word.numbers) {
     if (number.required && !node.has(number.key)) node.fail(std::string("lacks a required key; add for example ") + number.required);

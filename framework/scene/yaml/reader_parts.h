@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/scene/units/spelling.h"
 #include "framework/scene/yaml/keys.h"
 #include "framework/scene/yaml/yaml_node.h"
 
@@ -18,7 +19,11 @@ void read_bodies(const Node& root, Scene&);  ///< ground and bodies; after mater
 void read_joints(const Node& root, Scene&);
 void read_contacts(const Node& root, Scene&);  ///< after bodies
 void read_drivers(const Node& root, const std::filesystem::path& folder, Scene&);
-void read_forces(const Node& root, const std::filesystem::path& folder, Scene&);
+void read_states(const Node& root, Scene&);                                       ///< but their rates; before forces
+void read_forces(const Node& root, const std::filesystem::path& folder, Scene&);  ///< after all that has signals
+void read_state_rates(const Node& root, Scene&);                                  ///< after forces
+void read_outputs(const Node& root, Scene&);                                      ///< after state rates
+void read_events(const Node& root, Scene&);  ///< after all that they act on
 void read_start(const Node& root, Scene&);   ///< after bodies and joints
 void read_static(const Node& root, Scene&);  ///< after bodies
 void read_run(const Node& root, Scene&);
@@ -52,6 +57,25 @@ SceneFriction read_friction_law(const Node&, const std::string& keys);
 enum class Smoothness { driver, load };  ///< a driver needs two derivatives, a load only the value
 /// An expression in t, or {table: file}; judged to be finite from 0 to `until`.
 Law read_time_law(const Node&, const Dimension&, Smoothness, const std::filesystem::path& folder, double until);
+/// @throws SceneError  it is not finite somewhere from 0 to `until`
+void must_be_finite(const Node&, const Law&, Smoothness, double until);
+/// The path of the file that a table names. @throws SceneError  it is not beside the scene
+std::filesystem::path table_file(const Node& table, const std::filesystem::path& folder);
+
+/// The signals that what acts on the motion may name, found when first asked for.
+class ActingSignals {
+ public:
+  explicit ActingSignals(const Scene& scene) : scene_(scene) {}
+  const SignalNames& names();
+  const Scene& scene() const { return scene_; }
+
+ private:
+  const Scene& scene_;
+  std::optional<SignalNames> names_;
+};
+
+/// A load as a law of time or of signals: an expression, or {table: file, over: expression}.
+Law read_load_law(const Node&, std::string_view keys, const Dimension&, const std::filesystem::path& folder, double until, ActingSignals&);
 
 /// What a body of elements says; its points are read already.
 SceneElastic read_elastic(const Node& body, const SceneBody&, const std::vector<SceneMaterial>&);
@@ -73,6 +97,9 @@ void check_own_point(const Node&, const std::string& name, const SceneBody&);
 std::string read_own_point(const Node&, const SceneBody&);
 /// n quantities in a list, each after the rule. `remedy`: what to write.
 std::vector<double> read_quantities(const Node&, std::size_t n, const Dimension&, Rule, const std::string& remedy);
+
+/// What events may release is in the mechanism at the start, if it does not say otherwise.
+bool read_engaged(const Node&);
 
 /// A length above zero.
 inline double read_size(const Node& node) { return node.quantity(dimension::length, rule::positive); }

@@ -67,7 +67,7 @@ void must_cover(const Node& node, const std::string& file, const Samples& sample
 Law read_table_law(const Node& node, const Dimension& expected, Smoothness smoothness, const std::filesystem::path& folder, double until) {
   const bool driver = smoothness == Smoothness::driver;
   const char* keys = driver ? "drivers.*.law" : "forces.*.torque";
-  check_keys(node, keys);
+  if (driver) check_keys(node, keys);
   const std::string file = node.at("table").text("the name of a file beside the scene");
   bool linear = false;
   if (node.has("interpolation")) {
@@ -77,17 +77,22 @@ Law read_table_law(const Node& node, const Dimension& expected, Smoothness smoot
   }
   const double time_unit = unit_factor(node, "time unit", dimension::time);
   const double value_unit = unit_factor(node, "value unit", expected);
-  std::filesystem::path path;
-  try {
-    path = contained_file(file, folder);
-  } catch (const FileRefused& rejected) {
-    node.at("table").fail(rejected.what());
-  }
-  Samples samples = read_samples(path, time_unit, value_unit, node.place().key);
+  Samples samples = read_samples(table_file(node, folder), time_unit, value_unit, node.place().key);
   must_cover(node, file, samples, until);
   const std::string text = table_text(file, linear, time_unit, value_unit, expected);
   if (linear) return {Polyline(std::move(samples)), text, false};
   return {Spline(std::move(samples)), text, false};
+}
+
+}  // namespace
+
+std::filesystem::path table_file(const Node& node, const std::filesystem::path& folder) {
+  const std::string file = node.at("table").text("the name of a file beside the scene");
+  try {
+    return contained_file(file, folder);
+  } catch (const FileRefused& rejected) {
+    node.at("table").fail(rejected.what());
+  }
 }
 
 void must_be_finite(const Node& node, const Law& law, Smoothness smoothness, double until) {
@@ -101,8 +106,6 @@ void must_be_finite(const Node& node, const Law& law, Smoothness smoothness, dou
       node.fail(node.shown() + " has no finite speed and acceleration at t = " + decimal(t) + " s; a driver needs both");
   }
 }
-
-}  // namespace
 
 std::string checked_name(const Node& node) {
   const std::string name = node.name();

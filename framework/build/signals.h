@@ -1,0 +1,50 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/build/markers.h"
+#include "framework/mechanism/model.h"
+#include "framework/scene/signal_words.h"
+
+namespace pintle {
+
+/// Makes signals and laws of a system from those of the scene. Signals come with markers of their own: a law is `begun` where the
+/// scene has it and `finished` when the size of the mechanism is known, which signals are not to change.
+class SignalMaker {
+ public:
+  SignalMaker(const Scene& scene, Markers& markers, Model& model) : scene_(scene), markers_(markers), model_(model) {}
+
+  /// Its index in System::laws; of a law of time too.
+  int begin(const Law&, const Place&);
+  void finish();
+  /// A law that need not be among the system's: of an output, of an event. After finish. @throws SceneError  an unknown signal
+  SignalLaw law(const Law&, const Place&);
+  int signal(const std::string& name, const Place&);  ///< its index in System::signals
+  const std::map<std::string, SignalWord, std::less<>>& words();
+
+ private:
+  MotionSignal made(const SignalWord&);
+  int frame(const PointRef& body);
+  int add(const Marker&);
+  [[noreturn]] void wrong(const Place&, const std::string& message) const;
+
+  const Scene& scene_;
+  Markers& markers_;
+  Model& model_;
+  std::optional<std::map<std::string, SignalWord, std::less<>>> words_;
+  std::map<std::string, int, std::less<>> known_;
+  struct Begun {
+    std::size_t law;
+    const Law* from;
+    Place place;
+  };
+  std::vector<Begun> begun_;
+};
+
+/// An output, whose inputs are signals, columns of the trajectory and outputs before it.
+WrittenOutput written_output(const Scene&, const SceneOutput&, const Model&, SignalMaker&);
+
+}  // namespace pintle

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include "framework/dynamics/equations/equations.h"
+#include "framework/dynamics/equations/marker_jacobian.h"
+#include "framework/dynamics/model/flexible_tangent.h"
+
+/// Laws of signals at an instant: their values, how they answer to the motion, and the scene's own states. Theory: docs/theory/signals.md.
+namespace pintle {
+
+/// eq.signals and eq.laws. After speed. @param x  the internal states
+void evaluate_laws(const System&, double t, const double* x, Equations&);
+
+/// slopes(l, k) ← ∂(law l)/∂(signal k), laws × signals. After evaluate_laws.
+void law_slopes(const System&, const Equations&, double t, Eigen::MatrixXd& slopes);
+
+/// Own states as internal.h has those of owners: x = base + weight g solved for; (1 − weight g_x)⁻¹ v. Both in eq's own scratch.
+void follow_own_states(const System&, Equations&, double t, double weight, const double* base, double* x);
+void filter_own_states(const System&, const State&, Equations&, double weight, double* v);
+/// Those that have no rest of their own: nothing that they do changes how fast they or others change.
+std::vector<int> restless_states(const System&, Equations&, double t);
+
+/// What the laws add to the tangent: −Σ d (F_σ ∂σ/∂q)ᵀ and so in s, d being what a unit of the force does; where own states follow the
+/// motion, F_σ + F_x (1/weight − g_x)⁻¹ g_σ stands for F_σ.
+class LawTangent {
+ public:
+  explicit LawTangent(const System&);
+
+  /// One size of one force: bodies that it acts on and bodies that its law sees; block[i][j] the first summand of ∂(on[i])/∂(by[j]).
+  struct Sized {
+    std::size_t force;
+    bool other;
+    int law;
+    std::vector<int> on, by;
+    std::vector<std::vector<int>> block;
+  };
+  std::vector<Sized> sized;
+
+  /// Subtracts from the summands at `values`. After apply_forces.
+  void add(const System&, const State&, const Equations&, const TangentWeights&, double* values);
+  /// Columns and rows of the own states in ∂f/∂x and in the derivatives of g.
+  void couple(const System&, const State&, const Equations&, Eigen::MatrixXd& f_x, Eigen::MatrixXd& g_q, Eigen::MatrixXd& g_s,
+              Eigen::MatrixXd& g_x);
+
+ private:
+  void condense(const System&, double weight);
+  void see(const System&, const State&, const Equations&, int law, double w_q, double w_s);  ///< row_ ← w_q ∂/∂q + w_s ∂/∂s
+  void point(const System&, const Equations&, const Sized&);                                 ///< d_ ← what a unit does
+
+  Eigen::MatrixXd slopes_, g_signals_, follow_, A_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  Eigen::VectorXd row_, d_;
+  MarkerJacobian jacobian_;
+};
+
+}  // namespace pintle

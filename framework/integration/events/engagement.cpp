@@ -1,0 +1,175 @@
+#include "framework/integration/events/engagement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/common/index.h"
+#include "framework/common/text.h"
+#include "framework/dynamics/equations/internal.h"
+#include "framework/dynamics/equations/rigid_contacts.h"
+#include "framework/integration/events/impact_log.h"
+
+namespace pintle {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double meets = 1e-6;      // of the mechanism's length, or radians: so far apart points of a joint may be that is engaged
+constexpr double too_far_in = 0.1;  // of a contact's size: so deep it may be that is engaged
+constexpr double agrees = 1e-9;     // of the fastest speed
+
+double& released(const System& system, int k, VectorXd& y) { return y[system.switch_begin() + 2 * k]; }
+double& offset(const System& system, int k, VectorXd& y) { return y[system.switch_begin() + 2 * k + 1]; }
+double& lost(const System& system, int k, VectorXd& y) {
+  const auto z = std::ranges::find_if(system.integrals, [&](const Integral& i) { return i.account == Account::switching && i.index == k; });
+  return y[system.z_begin() + (z - system.integrals.begin())];
+}
+
+double stored(const System& system, const Switch& s, const Equations& eq) {
+  if (s.of == Switch::force) return eq.force[at(s.index)].stored;
+  double sum = 0;
+  for (int c = s.index; s.of == Switch::contact && c < s.index + system.contacts[at(s.index)].pairs; ++c)
+    sum += eq.contact[at(c)].normal.stored;
+  return sum;
+}
+
+void evaluate_forces(const System& system, const State& state, Equations& eq) {
+  pose(system, state.t, state.y, eq);
+  update_mass(system, state.y, eq);
+  speed(system, state.t, state.y, eq);
+  apply_forces(system, state, eq);
+}
+
+// What it remembers of before is forgotten.
+void release(const System& system, const Switch& s, State& state) {
+  if (s.of == Switch::contact)
+    for (int c = s.index; c < s.index + system.contacts[at(s.index)].pairs; ++c) {
+      state.impact_rate[at(c)] = 0;
+      straighten_bristles(system, c, state);
+      if (!state.friction.empty()) state.friction[at(c)] = {};
+    }
+  for (std::size_t k = 0; k < system.frictions.size(); ++k) {
+    if (s.of != Switch::joint || system.frictions[k].joint != s.index) continue;
+    state.y.segment(system.x_begin() + system.friction_x[k], bristle_states(system.frictions[k].law)).setZero();
+    state.friction[system.contacts.size() + k] = {};
+  }
+}
+
+// It begins with its own states at rest.
+void rest_states(const System& system, int force, State& state) {
+  const Index n = static_cast<Index>(internal_states(system.forces[at(force)]).size());
+  if (n == 0) return;
+  VectorXd at_rest = state.y;
+  relax_internal_states(system, state.t, at_rest);
+  const Index begin = system.x_begin() + system.force_x[at(force)];
+  state.y.segment(begin, n) = at_rest.segment(begin, n);
+}
+
+// Takes what the joint finds for the angle or length that it holds. @returns why it cannot be engaged
+std::string latch(const System& system, int k, State& state, Equations& eq) {
+  const Switch& s = system.switches[at(k)];
+  const Joint& joint = system.joints[at(s.index)];
+  pose(system, state.t, state.y, eq);
+  const int latched = latched_row(joint), begin = system.row_begin[at(s.index)];
+  for (int row = 0; row < rows(joint); ++row) {
+    const double left = eq.C[begin + row];
+    if (row == latched)
+      offset(system, k, state.y) = left;
+    else if (!(std::abs(left) * system.row_scale[begin + row] <= meets))
+      return "cannot be engaged: its points are " + number_text(std::abs(left), 6) + " m apart (" + row_name(joint, row) + "), and " +
+             number_text(meets * system.length, 3) + " m is all that closes; engage it where they meet, or pull them together by a spring";
+  }
+  return "";
+}
+
+std::string too_deep(const System& system, const Switch& s, const State& state) {
+  for (int c = s.index; c < s.index + system.contacts[at(s.index)].pairs; ++c) {
+    if (!(onset_of(system, c, state).value > 0)) continue;
+    const double depth = gap_of(system, c, state).value;
+    if (depth > too_far_in * contact_size(system.contacts[at(c)], system.length))
+      return "cannot be engaged: its surfaces overlap by " + number_text(depth, 6) +
+             " m there, more than a tenth of their smallest radius; engage it while they are apart";
+  }
+  return "";
+}
+
+// Speeds onto what the joints allow; books what that takes away, joint by joint, and what drivers put in.
+void share_impulse(const System& system, std::span<const SwitchOver> changes, State& state, Equations& eq, Engagement& out) {
+  VectorXd impulse = eq.Cdot;
+  eq.schur.solve(impulse);
+  for (const SwitchOver& change : changes) {
+    const Switch& s = system.switches[at(change.at)];
+    if (s.of != Switch::joint || !change.engage) continue;
+    const int row = system.row_begin[at(s.index)], m = system.row_begin[at(s.index) + 1] - row;
+    const double gone = impulse.segment(row, m).dot(eq.Cdot.segment(row, m)) / 2;
+    lost(system, change.at, state.y) += gone;
+    out.lost += gone;
+  }
+  for (std::size_t j = 0; j < system.joints.size(); ++j)
+    if (system.joint_z[j] >= 0) out.work += impulse[system.row_begin[j]] * eq.rows[j].Ct[0];
+  book_driver_impulses(system, eq, impulse, state);
+}
+
+std::string of_rigid_contacts(const System& system, const State& state) {
+  for (std::size_t c = 0; c < system.contacts.size(); ++c)
+    if (is_rigid(system.contacts[c]) && state.impact_rate[c] > 0 &&
+        gap_of(system, static_cast<int>(c), state).rate > agrees * fastest_rate(system, state.y) * system.length)
+      return "cannot be engaged: the impulse would drive the closed rigid contact \"" + system.contact_names[c] +
+             "\" together; give that contact a law with a stiffness";
+  return "";
+}
+
+std::string strike_joints(const System& system, std::span<const SwitchOver> changes, State& state, Equations& eq, Engagement& out) {
+  pose(system, state.t, state.y, eq);
+  factor(system, state.y, eq);
+  if (!eq.regular) return "cannot be engaged in a singular pose";
+  speed(system, state.t, state.y, eq);
+  share_impulse(system, changes, state, eq, out);
+  if (!project(system, state.t, state.y, eq)) return "cannot be engaged: other joints do not let it close";
+  if (!(velocity_violation(system, state.y, eq) <= agrees))
+    return "cannot be engaged: it asks for speeds that other joints or drivers do not allow";
+  return of_rigid_contacts(system, state);
+}
+
+}  // namespace
+
+Engagement switch_over(const System& system, std::span<const SwitchOver> asked, State& state, Equations& eq) {
+  Engagement out;
+  std::vector<SwitchOver> changes;
+  for (const SwitchOver& one : asked)
+    if ((released(system, one.at, state.y) > 0.5) == one.engage) changes.push_back(one);
+  if (changes.empty()) return out;
+  out.changed = true;
+  const auto fail = [&](int k, const std::string& why) {
+    out.trouble = "\"" + switch_name(system, system.switches[at(k)]) + "\" " + why;
+    return out;
+  };
+
+  evaluate_forces(system, state, eq);
+  for (const SwitchOver& one : changes) lost(system, one.at, state.y) += stored(system, system.switches[at(one.at)], eq);
+  int engaged = -1;  // the last of the joints that are
+  for (const SwitchOver& one : changes) {
+    const Switch& s = system.switches[at(one.at)];
+    released(system, one.at, state.y) = one.engage ? 0 : 1;
+    offset(system, one.at, state.y) = 0;
+    if (!one.engage) release(system, s, state);
+    if (one.engage && s.of == Switch::force) rest_states(system, s.index, state);
+    if (one.engage && s.of == Switch::contact)
+      if (const std::string why = too_deep(system, s, state); !why.empty()) return fail(one.at, why);
+    if (one.engage && s.of == Switch::joint) engaged = one.at;
+  }
+  for (const SwitchOver& one : changes)
+    if (one.engage && system.switches[at(one.at)].of == Switch::joint)
+      if (const std::string why = latch(system, one.at, state, eq); !why.empty()) return fail(one.at, why);
+  if (engaged >= 0)
+    if (const std::string why = strike_joints(system, changes, state, eq, out); !why.empty()) return fail(engaged, why);
+  for (std::size_t k = 0; k < state.friction.size(); ++k)  // whether it slides or sticks is decided anew
+    if (k >= system.contacts.size() || state.impact_rate[k] > 0) state.friction[k] = {};
+  evaluate_forces(system, state, eq);
+  for (const SwitchOver& one : changes) lost(system, one.at, state.y) -= stored(system, system.switches[at(one.at)], eq);
+  return out;
+}
+
+}  // namespace pintle

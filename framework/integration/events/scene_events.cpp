@@ -1,0 +1,155 @@
+#include "framework/integration/events/scene_events.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/common/archive.h"
+#include "framework/common/index.h"
+#include "framework/common/text.h"
+#include "framework/integration/events/roots.h"
+#include "framework/integration/stepper.h"
+
+namespace pintle {
+
+namespace {
+
+constexpr double guard_rounding = 1e-15, guard_near = 1e-12;  // of a guard's size: where it is met, and where it is zero
+
+}  // namespace
+
+SceneEvents::SceneEvents(const System& system, std::vector<SceneEventRule> rules)
+    : system_(system), rules_(std::move(rules)), waits_(rules_.size(), Waits::for_true), size_(rules_.size(), 0) {}
+
+// The least of them all.
+Guard SceneEvents::all_of(int event, const State& state) const {
+  Guard least{std::numeric_limits<double>::infinity()};
+  for (const auto& one : rules_[at(event)].when)
+    if (const Guard now = one(system_, state); !(now.value >= least.value)) least = now;
+  return least;
+}
+
+WatchedGuard SceneEvents::watch(int event) const {
+  if (waits_[at(event)] == Waits::no_more) return {};
+  const Direction way = waits_[at(event)] == Waits::for_true ? Direction::rising : Direction::falling;
+  return {.direction = way, .zero = guard_near * size_[at(event)], .at_once = true};
+}
+
+// It becomes false a little below the zero at which it has become true.
+Guard SceneEvents::guard(int event, const State& state) const {
+  Guard now = all_of(event, state);
+  if (waits_[at(event)] == Waits::for_false) now.value += 2 * guard_near * size_[at(event)];
+  return now;
+}
+
+// Parts of the step are looked at, and where the guard bends towards zero between three of them.
+std::optional<double> SceneEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
+  constexpr int parts = 8;
+  if (waits_[at(event)] == Waits::no_more) return std::nullopt;
+  const double sign = waits_[at(event)] == Waits::for_true ? -1 : 1;
+  const auto value = [&](double t) { return sign * guard(event, motion.at(t)).value; };  // below zero where it comes
+  std::array<double, 3> t{}, f{};
+  for (int i = 0; i <= parts; ++i) {
+    const double now = step.from.state.t + step.h * (i == 0 ? 1e-9 : static_cast<double>(i) / parts);
+    std::rotate(t.begin(), t.begin() + 1, t.end()), std::rotate(f.begin(), f.begin() + 1, f.end());
+    t[2] = now, f[2] = value(now);
+    if (f[2] < 0) return i == 0 ? std::nullopt : std::optional(now);
+    if (i >= 2 && f[1] <= f[0] && f[1] <= f[2])
+      if (const auto inside = below_zero_near(value, t, f)) return inside;
+  }
+  return std::nullopt;
+}
+
+bool SceneEvents::met(int event, const Guard& guard) const { return std::abs(guard.value) <= guard_rounding * size_[at(event)]; }
+
+void SceneEvents::start(Step& step) {
+  for (int event = 0; event < size(); ++event) {
+    const double now = all_of(event, step.to.state).value;
+    size_[at(event)] = std::isfinite(now) ? std::abs(now) : 0;
+    if (now > 0 && !rules_[at(event)].from_start) waits_[at(event)] = Waits::for_false;
+  }
+}
+
+void SceneEvents::follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) {
+  for (std::size_t k = 0; k < size_.size(); ++k)
+    for (const double value : {from[k].value, to[k].value})
+      if (std::isfinite(value)) size_[k] = std::max(size_[k], std::abs(value));
+}
+
+namespace {
+
+std::string list_of(const System& system, const std::vector<SwitchOver>& changes, bool engaged) {
+  std::string out;
+  for (const SwitchOver& one : changes)
+    if (one.engage == engaged)
+      out += (out.empty() ? engaged ? "engaged " : "released " : ", ") + switch_name(system, system.switches[at(one.at)]);
+  return out;
+}
+
+void add_words(std::string& did, const std::string& words) {
+  if (!words.empty()) did += (did.empty() ? "" : "; ") + words;
+}
+
+}  // namespace
+
+// @returns false where they cannot be switched so
+bool SceneEvents::switches_all(const std::vector<EventAction>& actions, State& state, EventOutcome& out) {
+  std::vector<SwitchOver> changes;
+  for (const EventAction& action : actions)
+    if (const auto* change = std::get_if<SwitchOver>(&action)) changes.push_back(*change);
+  if (changes.empty()) return true;
+  if (!eq_) eq_ = std::make_unique<Equations>(system_);
+  const Engagement made = switch_over(system_, changes, state, *eq_);
+  if (!made.trouble.empty()) {
+    out.failure = made.trouble;
+    return false;
+  }
+  if (made.changed) out.change = EventOutcome::Change::rows;
+  add_words(out.did, list_of(system_, changes, false));
+  add_words(out.did, list_of(system_, changes, true) + (made.lost > 0 ? " (" + number_text(made.lost, 6) + " J lost)" : ""));
+  if (!made.changed) out.did += " (already so)";
+  return true;
+}
+
+EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
+  const SceneEventRule& rule = rules_[at(event)];
+  const bool becomes_true = waits_[at(event)] == Waits::for_true;
+  const std::vector<EventAction>& actions = becomes_true ? rule.actions : rule.otherwise;
+  waits_[at(event)] = !becomes_true ? Waits::for_true : rule.once ? Waits::no_more : Waits::for_false;
+  EventOutcome out{.change = EventOutcome::Change::nothing};
+  State& state = step.to.state;
+  if (!switches_all(actions, state, out)) {
+    out.failure = "the event \"" + rule.name + "\": " + out.failure;
+    return out;
+  }
+  for (const EventAction& action : actions) {
+    if (const auto* set = std::get_if<SetState>(&action)) {
+      set->set(system_, state);
+      out.change = std::max(out.change, EventOutcome::Change::jump);
+      add_words(out.did, "set " + set->name);
+    } else if (const auto* stop = std::get_if<StopRun>(&action)) {
+      out.end = stop->reason;
+      add_words(out.did, "stopped the run");
+    } else if (const auto* record = std::get_if<Record>(&action)) {
+      (*record == Record::state ? out.save : out.row) = true;
+      add_words(out.did, *record == Record::state ? "saved the state" : "wrote a row");
+    }
+  }
+  return out;
+}
+
+void SceneEvents::save(Writer& out) const {
+  out.whole(waits_);
+  out.whole(size_);
+}
+void SceneEvents::load(Reader& in) {
+  in.whole(waits_);
+  in.whole(size_);
+}
+const char* SceneEvents::fault() const {
+  const bool sound = waits_.size() == rules_.size() && size_.size() == rules_.size() &&
+                     std::ranges::all_of(waits_, [](Waits w) { return w <= Waits::no_more; }) &&
+                     std::ranges::all_of(size_, [](double x) { return std::isfinite(x) && x >= 0; });
+  return sound ? nullptr : "it is of another system, or has numbers that are none";
+}
+
+}  // namespace pintle

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "framework/integration/events/engagement.h"
+#include "framework/integration/events/event.h"
+
+namespace pintle {
+
+/// What an event of the scene does. All that it switches it switches at one instant, before the rest.
+struct StopRun {
+  std::string reason;
+};
+/// A change of the state: a number of the scene's own gets a value.
+struct SetState {
+  std::string name;
+  std::function<void(const System&, State&)> set;
+};
+enum class Record { state, row };
+using EventAction = std::variant<SwitchOver, SetState, StopRun, Record>;
+
+/// An event as the scene describes it: it comes when all of its guards have become positive, and acts once, or each time that they do.
+struct SceneEventRule {
+  std::string name;
+  std::vector<std::function<Guard(const System&, const State&)>> when;
+  std::vector<EventAction> actions;
+  std::vector<EventAction> otherwise = {};  ///< when they no longer are
+  bool once = false;
+  bool from_start = true;  ///< where they are positive at the start, it acts there
+};
+
+/// The events of a scene, in their order. At one instant they come after those of contacts and of friction.
+class SceneEvents final : public EventGroup {
+ public:
+  SceneEvents(const System&, std::vector<SceneEventRule>);
+
+  int order() const override { return 2; }
+  int size() const override { return static_cast<int>(rules_.size()); }
+  std::string name(int event) const override { return rules_[static_cast<std::size_t>(event)].name; }
+  WatchedGuard watch(int event) const override;
+  Guard guard(int event, const State&) const override;
+  Guard guard(int event, const State& state, const Equations&) const override { return guard(event, state); }
+  std::optional<double> positive_inside(int event, const Step&, const DenseOutput&) const override;
+  bool met(int event, const Guard&) const override;
+  void start(Step&) override;
+  void follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) override;
+  EventOutcome act(int event, Step&, const Guard&) override;
+  void save(Writer&) const override;
+  void load(Reader&) override;
+  const char* fault() const override;
+
+ private:
+  /// What an event is waiting for: to become true or, having acted, false; or nothing any more.
+  enum class Waits : unsigned char { for_true, for_false, no_more };
+  Guard all_of(int event, const State&) const;
+  bool switches_all(const std::vector<EventAction>&, State&, EventOutcome&);
+
+  const System& system_;
+  std::vector<SceneEventRule> rules_;
+  std::vector<Waits> waits_;
+  std::vector<double> size_;       ///< of each event's guard so far, the largest
+  std::unique_ptr<Equations> eq_;  ///< from the first switching on
+};
+
+}  // namespace pintle

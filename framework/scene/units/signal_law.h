@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <variant>
+
+#include "framework/scene/units/formula.h"
+#include "framework/scene/units/table.h"
+
+/// Laws of signals as SignalFunctions (framework/common/signal_function.h).
+namespace pintle {
+
+inline constexpr std::size_t most_signals = 32;  ///< in one expression
+
+/// A formula in its inputs and t. A derivative is the rate at which the value changes while one input changes at rate 1.
+struct SignalFormula {
+  explicit SignalFormula(Program);
+  double operator()(double t, const double* in, double* slope) const;
+  Program program;
+  std::size_t inputs = 0;  ///< how many it has
+};
+
+/// A table over a formula: of f(x(in)) the derivatives are f′ ∂x/∂in.
+struct SignalTable {
+  std::variant<Spline, Polyline> table;
+  SignalFormula over;
+  double begin = 0, period = 0;  ///< what the samples span, where it comes again and again; period 0: it holds the values at its ends
+  double operator()(double t, const double* in, double* slope) const;
+};
+
+/// Samples that span one period, as a table that comes again and again.
+/// @pre the first value is the last
+SignalTable periodic_table(Samples, bool linear, SignalFormula over);
+
+}  // namespace pintle

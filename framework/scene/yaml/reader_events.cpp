@@ -1,0 +1,114 @@
+#include <algorithm>
+
+#include "framework/common/nearest.h"
+#include "framework/scene/units/guard.h"
+#include "framework/scene/units/signal_law.h"
+#include "framework/scene/yaml/reader_parts.h"
+
+namespace pintle {
+
+namespace {
+
+std::vector<std::string> read_names(const Node& node) {
+  constexpr const char* what = "the name of a joint, driver, force or contact, or a list of them";
+  if (!node.is_list()) return {node.text(what)};
+  std::vector<std::string> out;
+  for (const Node& item : node.list(1, what)) out.push_back(item.text(what));
+  return out;
+}
+
+Law read_event_law(const Node& node, const Dimension& expected, const SignalNames& names) {
+  try {
+    return read_law(node.text("an expression in t and signals, " + describe(expected)), expected, node.source().parameters, &names);
+  } catch (const ExpressionError& error) {
+    node.fail(error.what());
+  }
+}
+
+std::vector<std::pair<std::string, Law>> read_settings(const Node& group, const Scene& scene, const SignalNames& names) {
+  std::vector<std::pair<std::string, Law>> out;
+  for (const Node& node : group.entries("names of states and what they become: {integral: 0}")) {
+    if (std::ranges::find(scene.states, node.name(), &SceneState::name) == scene.states.end()) {
+      std::vector<std::string> known;
+      for (const SceneState& s : scene.states) known.push_back(s.name);
+      node.fail(
+          "there is no state \"" + node.name() + "\"" +
+          (known.empty() ? "; add one under states: {" + node.name() + ": {rate: 0, start: 0}}" : "." + did_you_mean(node.name(), known)));
+    }
+    out.emplace_back(node.name(), read_event_law(node, names.find(node.name())->second.dimension, names));
+  }
+  return out;
+}
+
+SceneDoing read_doing(const Node& node, const std::string& keys, const Scene& scene, const SignalNames& names) {
+  check_keys(node, keys);
+  SceneDoing out;
+  if (node.has("release")) out.release = read_names(node.at("release"));
+  if (node.has("engage")) out.engage = read_names(node.at("engage"));
+  for (const std::string& name : out.release)
+    if (std::ranges::find(out.engage, name) != out.engage.end())
+      node.at("engage").fail("\"" + name + "\" is released and engaged by one event; keep one of them");
+  if (node.has("set")) out.set = read_settings(node.at("set"), scene, names);
+  if (node.has("stop")) out.stop = node.at("stop").text("why the run stops: \"the crank has come to rest\"");
+  if (node.has("save")) out.save = node.at("save").yes();
+  if (node.has("row")) out.row = node.at("row").yes();
+  if (!out.does()) node.fail("does nothing; write for example {release: latch pin}");
+  return out;
+}
+
+// Of a condition that never changes, a function that does not either.
+std::vector<Law> read_comparisons(const Node& node, const Law& condition) {
+  if (condition.constant) {
+    const double holds = condition.at(0).value;
+    if (holds != 0 && holds != 1) node.fail(node.shown() + " is no condition; write a comparison such as t > 0.1 s");
+    return {{[holds](double) { return Jet{holds - 0.5, 0, 0}; }, condition.text, true}};
+  }
+  std::vector<Law> out;
+  const auto names = [](const Program& program, Op what) {
+    return std::ranges::any_of(program.code, [what](const Program::Instruction& i) { return i.op == what; });
+  };
+  try {
+    const auto* of_time = condition.at.target<Program>();
+    for (Program& one : comparisons(of_time ? *of_time : condition.of_signals.target<SignalFormula>()->program)) {
+      Law law{.at = {}, .text = condition.text, .constant = false, .uses_time = names(one, Op::time)};
+      if (names(one, Op::input))
+        law.of_signals = SignalFormula(std::move(one)), law.signals = condition.signals;
+      else
+        law.at = std::move(one);
+      out.push_back(std::move(law));
+    }
+  } catch (const ExpressionError& error) {
+    node.fail("\"" + condition.text + "\": " + error.what());
+  }
+  return out;
+}
+
+SceneEvent read_event(const Node& node, const Scene& scene, const SignalNames& names) {
+  SceneEvent event;
+  event.name = checked_name(node);
+  event.place = node.place();
+  check_keys(node, "events.*");
+  const Node when = node.at("when");
+  event.guard = read_event_law(when, dimension::number, names);
+  event.when = read_comparisons(when, event.guard);
+  if (node.has("once")) event.once = node.at("once").yes();
+  if (node.has("from start")) event.from_start = node.at("from start").yes();
+  event.then = read_doing(node.at("do"), "events.*.do", scene, names);
+  if (node.has("else")) event.otherwise = read_doing(node.at("else"), "events.*.else", scene, names);
+  if (event.once && node.has("else"))
+    node.at("else").fail("never comes: an event that comes once does not wait for its end; leave out once or else");
+  return event;
+}
+
+}  // namespace
+
+void read_events(const Node& root, Scene& scene) {
+  if (!root.has("events")) return;
+  ActingSignals signals(scene);
+  for (const Node& node : root.at("events").entries("names and events: {trip: {when: crank.angle > 30 deg, do: {release: latch pin}}}"))
+    scene.events.push_back(read_event(node, scene, signals.names()));
+}
+
+bool read_engaged(const Node& node) { return !node.has("engaged") || node.at("engaged").yes(); }
+
+}  // namespace pintle
