@@ -97,7 +97,8 @@ function parallelPlot(width, height, scales, rows, colourOf, brushes, brushed) {
     const axis = svgElement("g", { transform: `translate(${px(i)} 0)` });
     axis.append(svgElement("line", { y1: top, y2: height - bottom, class: "axis" }));
     for (const [share, text] of scale.ticks(4)) axis.append(svgElement("text", { x: -6, y: py(share) + 4, class: "end tick" }, text));
-    axis.append(svgElement("text", { y: i % 2 ? 13 : 28, class: "middle title" }, scale.title()));
+    const side_class = i === 0 ? "start" : i === scales.length - 1 ? "end" : "middle";
+    axis.append(svgElement("text", { x: i === 0 ? -side + 4 : i === scales.length - 1 ? side - 4 : 0, y: i % 2 ? 13 : 28, class: `title ${side_class}` }, scale.title()));
     const brush = brushes.get(scale.column.index);
     if (brush) axis.append(svgElement("rect", { x: -9, width: 18, y: py(brush[1]), height: py(brush[0]) - py(brush[1]), class: "brush" }));
     const handle = svgElement("rect", { x: -14, width: 28, y: top, height: height - top - bottom, class: "handle" });

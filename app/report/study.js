@@ -96,7 +96,7 @@ class StudyPage {
       const unit = scales[c]?.unit ?? "";
       const button = element("button", { type: "button", className: "quiet", textContent: column.name + (unit ? ` [${unit}]` : "") + (c === index ? (ascending ? " ↑" : " ↓") : "") });
       button.onclick = () => ((this.sorted = { index: c, ascending: c === index ? !ascending : true }), this.draw());
-      return element("th", { scope: "col" }, button);
+      return element("th", { scope: "col", className: scales[c] ? "number" : "" }, button);
     });
     const most = 1000;
     const body = rows.slice(0, most).map(({ row, number }) => {
