@@ -28,8 +28,8 @@ constexpr const char* exit_codes =
     "  1  a file or directory cannot be read or written, or memory does not suffice; what was computed is kept and named\n"
     "  2  the scene or the command line is wrong\n"
     "  3  the mechanism cannot be assembled\n"
-    "  4  the integration failed, of check: when tried out, of sweep: in every case; or of tradeoff: the accuracy asked for\n"
-    "     could not be shown; what was computed is kept\n"
+    "  4  the integration failed, of check: when tried out, of sweep and sensitivity: in every case; or of tradeoff: the accuracy\n"
+    "     asked for could not be shown; of fit: the goal or a limit could not be met; what was computed is kept\n"
     "  5  the ledger leaves more energy unexplained than the scene's bound; the results are kept\n"
     "  6  stopped by the user (Ctrl-C), SIGTERM or SIGHUP; what was computed is kept. A second signal ends at once\n"
     "\n"
@@ -137,13 +137,32 @@ void add_study_options(CLI::App& command, Options& options, const std::string& s
   command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
 }
 
+constexpr const char* what_fit_writes =
+    "A study names a scene, what may vary, a goal and limits; docs/studies.md has its language. It writes\n"
+    "  fit.csv                 every case that was tried, the same whatever the number of workers\n"
+    "  fitted.yaml             the scene with the best values, ready to run\n"
+    "  fit.json                the best values, how each search ended\n"
+    "  path.csv                of a path: its points, and where the curve passes them\n"
+    "  study.yaml, scene.yaml, journal-0.txt   as sweep does: started again after any end, it goes on from there\n"
+    "Exit code 4: nothing could be measured, no point meets the limits, or the goal is not within its tolerance; the output says\n"
+    "which. Others: see pintle --help\n";
+
+constexpr const char* what_sensitivity_writes =
+    "A study names a scene, measures and parameters, and how these scatter; docs/studies.md has its language. It writes\n"
+    "  sensitivity.csv         derivatives with their errors, worst case, scatter, Sobol indices with their intervals\n"
+    "  sensitivity.json        the same, for programs\n"
+    "  sweep.csv, …            the cases, as sweep does: started again after any end, it goes on from there\n"
+    "Exit code 4: no case ran to its end. Others: see pintle --help\n";
+
+/// What a study of cases shares with the others.
 void add_sweep_options(CLI::App& command, Options& options) {
+  const std::string name = command.get_name();
   add_study_options(command, options, "study file (YAML)", "cases",
-                    "directory for the results, or of the same sweep, to go on with (default: runs/STUDY-sweep)");
+                    "directory for the results, or of the same study, to go on with (default: runs/STUDY-" + name + ")");
   command.add_option("-t,--threads", options.threads, "cases run at once by this process (default: as many as cores; under MPI 1)")
       ->type_name("N")
       ->check(whole(1, 4096));
-  command.footer(what_sweep_writes);
+  command.footer(name == "sweep" ? what_sweep_writes : name == "fit" ? what_fit_writes : what_sensitivity_writes);
 }
 
 constexpr const char* what_tradeoff_writes =
@@ -251,7 +270,7 @@ void add_options(CLI::App& command, Options& options) {
   add_bounds(command, options);
   if (name == "report") return add_report_options(command, options);
   if (name == "plot") return add_plot_options(command, options);
-  if (name == "sweep") return add_sweep_options(command, options);
+  if (name == "sweep" || name == "fit" || name == "sensitivity") return add_sweep_options(command, options);
   if (name == "tradeoff") return add_tradeoff_options(command, options);
   command.add_option("scene", options.scene, "scene file (YAML)")->required()->check(named())->type_name("SCENE.yaml");
   command
@@ -316,6 +335,8 @@ int carry_out(int argc, char** argv) {
       {app.add_subcommand("inverse", "Find the driving torques and joint forces of a driven mechanism"), inverse},
       {app.add_subcommand("linearize", "Find natural frequencies, damping and state-space matrices about a state"), linearize},
       {app.add_subcommand("sweep", "Run many cases of a scene into one table, by threads or MPI"), sweep},
+      {app.add_subcommand("fit", "Find parameters that reach a goal, within limits"), fit},
+      {app.add_subcommand("sensitivity", "Find how measures depend on parameters and their tolerances"), sensitivity},
       {app.add_subcommand("tradeoff", "Measure error against time over settings of fidelity, and recommend one"), tradeoff},
       {app.add_subcommand("report", "Turn the results of a run into one page: motion, plots, impacts, ledger"), report},
       {app.add_subcommand("plot", "Plot columns of results in the terminal, or as an SVG picture"), plot},

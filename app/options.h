@@ -47,6 +47,8 @@ int sweep(const Options&);
 int tradeoff(const Options&);
 int report(const Options&);
 int plot(const Options&);
+int fit(const Options&);
+int sensitivity(const Options&);
 
 /// What a scene's files may do and cost, from here on.  @throws SceneError  an option cannot be read
 void set_bounds(const Options&);

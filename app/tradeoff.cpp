@@ -65,6 +65,9 @@ Asked understood(const Options& options) {
   const Overrides set = overrides(options);
   if (is_study(options.scene)) {
     StudyFile file = read_study(options.scene);
+    if (file.study.scene.question.analysis != Analysis::run)
+      file.root().at("analysis").fail("tradeoff weighs the time of runs against their accuracy; leave it out, or use sweep");
+    require_measures(file);
     file.study.scene.common.insert(file.study.scene.common.end(), set.begin(), set.end());
     asked.scene = file.study.scene;
     asked.measures = options.quantities.empty() ? file.study.measures : asked_quantities(options);

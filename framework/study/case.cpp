@@ -1,15 +1,26 @@
 #include "framework/study/case.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <new>
 #include <optional>
 
+#include "framework/analysis/kinematics/inverse.h"
+#include "framework/analysis/kinematics/kinematics.h"
+#include "framework/analysis/linearize/linearize.h"
+#include "framework/analysis/natural_modes/natural_modes.h"
+#include "framework/bodies/elastic_body.h"
 #include "framework/bodies/segments.h"
 #include "framework/build/build.h"
+#include "framework/build/inertia_defaults.h"
 #include "framework/common/library_threads.h"
+#include "framework/common/text.h"
+#include "framework/configuration/equilibrium.h"
 #include "framework/scene/text_file.h"
+#include "framework/study/measures/mode_measure.h"
 #include "meshes/limits.h"
 
 namespace pintle {
@@ -56,39 +67,141 @@ struct Timed {
   bool over = false;
 };
 
-void run_in(Outcome& out, const CaseSource& source, const Overrides& overrides, const std::vector<Measure>& measures,
-            const CaseLimits& limits) {
-  const auto begin = clock::now();
-  Overrides all = source.common;
-  all.insert(all.end(), overrides.begin(), overrides.end());
-  Scene scene = with_pieces(read_scene_text(source.text, source.file.string(), all, source.file.parent_path()));
-  require_run(scene);
-  validate_words(source, measures, scene);
-  prepare(scene, measures);
+/// Listeners that stop a case, and whether they did for its time.
+Listeners watched(const CaseLimits& limits, Timed& timed) {
+  Listeners out;
+  if (limits.go_on || limits.seconds > 0)
+    out.progress = [&](double) {
+      timed.over = limits.seconds > 0 && since(timed.begin) > limits.seconds;
+      return !timed.over && (!limits.go_on || limits.go_on());
+    };
+  return out;
+}
+
+/// Where the mechanism rests, as a run of one row.
+Run resting(const Scene& scene, const Model& model, const Assembly& assembly, double at) {
+  const Equilibrium rest = find_equilibrium(scene, model, assembly, at);
+  Run run;
+  run.status = rest.found ? Status::finished : Status::failed;
+  run.reason = rest.found ? "" : "no equilibrium: " + rest.reason;
+  run.trajectory = rest.table;
+  run.t_end = rest.found ? at : -1;
+  return run;
+}
+
+Run follow_case(const Scene& scene, const Model& model, const Assembly& assembly, const Question& question, const Listeners& listeners) {
+  switch (question.analysis) {
+    case Analysis::kinematics: return kinematics(scene, model, assembly, listeners);
+    case Analysis::inverse: return inverse(scene, model, assembly, listeners).run;
+    case Analysis::statics: return resting(scene, model, assembly, question.at.value_or(0));
+    default: return simulate(scene, model, assembly, listeners);
+  }
+}
+
+/// What a run, or what is like one, has come to.
+void take_over(Outcome& out, const Run& run) {
+  out.status = status_text(run.status);
+  out.reason = one_line(run.reason);
+  out.t_end = run.t_end;
+  out.counts = run.counts;
+  out.impacts = static_cast<long>(run.impacts.size());
+  out.unexplained_share = run.energy_in_play > 0 ? std::abs(run.worst_unexplained) / run.energy_in_play : 0;
+}
+
+std::string curves_csv(const std::vector<Measure>& curves, const Scene& scene, const Model& model, const Run& run) {
+  std::vector<std::vector<double>> columns;
+  std::string out = "t [s]";
+  for (const Measure& m : curves) {
+    columns.push_back(curve(m, scene, model, run));
+    const std::string unit = measured_unit(m, scene);
+    out += "," + csv_field(m.name + (unit.empty() ? "" : " [" + unit + "]"));
+  }
+  out += '\n';
+  for (std::size_t r = 0; r < run.trajectory.rows(); ++r) {
+    append_number(out, run.trajectory.data[r * run.trajectory.columns()]);
+    for (const std::vector<double>& column : columns) {
+      out += ',';
+      if (r < column.size()) append_number(out, column[r]);
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+/// Analyses that make columns: a run, kinematics, inverse, statics.
+void follow_in(Outcome& out, const CaseSource& source, const std::vector<Measure>& measures, const CaseLimits& limits, Scene& scene,
+               clock::time_point begin) {
   if (limits.time_alone) scene.output.every = scene.run.until;
   const Model model = limits.bodies ? build(scene, *limits.bodies) : build(scene);
   const Assembly assembly = assemble(scene, model);
   out.build_seconds = since(begin);
-
   Timed timed;
-  Listeners listeners;
-  if (limits.go_on || limits.seconds > 0)
-    listeners.progress = [&](double) {
-      timed.over = limits.seconds > 0 && since(timed.begin) > limits.seconds;
-      return !timed.over && (!limits.go_on || limits.go_on());
-    };
-  auto run = std::make_shared<Run>(simulate(scene, model, assembly, listeners));
+  auto run = std::make_shared<Run>(follow_case(scene, model, assembly, source.question, watched(limits, timed)));
   out.run_seconds = since(timed.begin);
   if (run->status == Status::out_of_memory) throw std::bad_alloc();
-  out.status = timed.over ? "over its limit" : status_text(run->status);
-  out.reason = one_line(run->reason);
-  if (timed.over) out.reason = "stopped after " + std::to_string(out.run_seconds) + " s of computing";
-  out.t_end = run->t_end;
-  out.counts = run->counts;
-  out.impacts = static_cast<long>(run->impacts.size());
-  out.unexplained_share = run->energy_in_play > 0 ? std::abs(run->worst_unexplained) / run->energy_in_play : 0;
+  take_over(out, *run);
+  if (timed.over) out.status = "over its limit", out.reason = "stopped after " + std::to_string(out.run_seconds) + " s of computing";
   if (!limits.time_alone) measure(source, measures, scene, model, *run, out);
+  if (limits.curves && !limits.curves->empty()) out.curves = curves_csv(*limits.curves, scene, model, *run);
   if (limits.keep_run) out.run = std::move(run);
+}
+
+/// The state that a linearisation is about; nothing, and why, where there is none.
+std::optional<State> linearized_about(const Scene& scene, const Model& model, const Question& question, Outcome& out) {
+  const Assembly assembly = assemble(scene, model);
+  if (question.equilibrium) {
+    const Equilibrium rest = find_equilibrium(scene, model, assembly, question.at.value_or(0));
+    if (rest.found) return rest.state;
+    out.status = status_text(Status::failed), out.reason = one_line("no equilibrium to linearize about: " + rest.reason);
+    return {};
+  }
+  if (!question.at) return linearized_start(scene, model, assembly).state;
+  try {
+    return state_at(model, assembly.start, *question.at);
+  } catch (const SceneError&) {
+    throw;
+  } catch (const std::runtime_error& e) {
+    out.status = status_text(Status::failed), out.reason = one_line(e.what());
+    return {};
+  }
+}
+
+/// Analyses that find modes.
+void modes_in(Outcome& out, const CaseSource& source, const std::vector<Measure>& measures, const CaseLimits& limits, const Scene& scene,
+              clock::time_point begin) {
+  std::vector<AskedMode> asked;
+  for (const Measure& m : measures) asked.push_back(read_mode_measure(m, scene)), out.units[asked.size() - 1] = asked.back().unit;
+  const clock::time_point solving = clock::now();
+  if (source.question.analysis == Analysis::modes) {
+    std::map<std::string, int> most;
+    for (const AskedMode& a : asked) most[a.body] = std::max(most[a.body], a.number);
+    for (const auto& [body, count] : most) {
+      const ModesReport report = modes_of(scene, elastic_body(scene, elastic_of(scene, body)), count);
+      for (std::size_t i = 0; i < asked.size(); ++i)
+        if (asked[i].body == body) out.values[i] = value_of(asked[i], report);
+    }
+  } else {
+    const Model model = limits.bodies ? build(scene, *limits.bodies) : build(scene);
+    const std::optional<State> about = linearized_about(scene, model, source.question, out);
+    if (!about) return;
+    const Linearization lin = linearize(scene, model, *about, source.question.equilibrium ? Laws::hold : Laws::go_on);
+    out.t_end = about->t;
+    for (std::size_t i = 0; i < asked.size(); ++i) out.values[i] = value_of(asked[i], lin);
+  }
+  out.status = status_text(Status::finished);
+  out.build_seconds = since(begin) - since(solving), out.run_seconds = since(solving);
+}
+
+void run_in(Outcome& out, const CaseSource& source, const Overrides& overrides, const std::vector<Measure>& measures,
+            const CaseLimits& limits) {
+  const auto begin = clock::now();
+  Scene scene = case_scene(source, overrides);
+  validate_words(source, measures, scene);
+  std::vector<Measure> recorded = measures;
+  if (limits.curves) recorded.insert(recorded.end(), limits.curves->begin(), limits.curves->end());
+  prepare(scene, recorded);
+  if (of_modes(source.question)) return modes_in(out, source, measures, limits, scene, begin);
+  follow_in(out, source, measures, limits, scene, begin);
 }
 
 }  // namespace
@@ -98,9 +211,21 @@ CaseSource read_case_source(const std::filesystem::path& scene, Overrides common
   return {scene, read_text_file(scene, most_bytes), std::move(common)};
 }
 
-Scene common_scene(const CaseSource& source) {
-  return with_pieces(read_scene_text(source.text, source.file.string(), source.common, source.file.parent_path()));
+Scene case_scene(const CaseSource& source, const Overrides& overrides) {
+  Overrides all = source.common;
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  Scene scene = read_scene_text(source.text, source.file.string(), all, source.file.parent_path());
+  const Question& q = source.question;
+  if (over_time(q) || (q.analysis == Analysis::linearize && q.at && !q.equilibrium)) require_run(scene);
+  switch (q.analysis) {
+    case Analysis::modes: return scene;
+    case Analysis::kinematics: return ready_for_kinematics(std::move(scene));
+    case Analysis::statics: return with_pieces(ready_for_statics(std::move(scene)));
+    default: return with_pieces(std::move(scene));
+  }
 }
+
+Scene common_scene(const CaseSource& source) { return case_scene(source, {}); }
 
 Outcome run_case(const CaseSource& source, const Overrides& overrides, const std::vector<Measure>& measures, const CaseLimits& limits) {
   hold_library_threads();

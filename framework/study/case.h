@@ -15,11 +15,14 @@ namespace pintle {
 struct CaseSource {
   std::filesystem::path file;  ///< tables and drawings are sought beside it
   std::string text;
-  Overrides common = {};  ///< hold for all cases; a case's own come after
+  Overrides common = {};   ///< hold for all cases; a case's own come after
+  Question question = {};  ///< what is asked of each
 };
 /// @throws SceneError  there is no such file
 CaseSource read_case_source(const std::filesystem::path& scene, Overrides common = {});
-/// What all cases begin from, beams cut into pieces. @throws SceneError
+/// A case's scene, made ready for the question. @throws SceneError  it cannot be read, or has not what the question needs
+Scene case_scene(const CaseSource&, const Overrides&);
+/// What all cases begin from. @throws SceneError
 Scene common_scene(const CaseSource&);
 
 class BodyStore;
@@ -37,18 +40,20 @@ struct Outcome {
   Counts counts;
   long impacts = 0;                ///< of all clearances
   double unexplained_share = 0;    ///< of the energy in play, at worst
-  std::shared_ptr<const Run> run;  ///< kept if asked for
+  std::string curves = {};         ///< a CSV file: time, and a column for each curve that was asked for
+  std::shared_ptr<const Run> run;  ///< kept if asked for; none where modes are found
 };
 
 struct CaseLimits {
   double seconds = 0;       ///< of simulating; 0: none
   bool keep_run = false;    ///< Outcome::run
+  const std::vector<Measure>* curves = nullptr;  ///< Outcome::curves; none: there are none
   bool time_alone = false;  ///< no rows but the first and the last: run_seconds is then what the integration takes, and measures are NaN
   BodyStore* bodies = nullptr;       ///< shared by the cases of a study; none: each makes its own
   std::function<bool()> go_on = {};  ///< asked now and then; false interrupts the run
 };
 
-/// Reads, builds, assembles and runs one case. Never throws but for want of memory. May be called from several threads at
+/// Reads, builds, assembles and runs one case, or asks another question of it. Never throws but for want of memory. May be called from several threads at
 /// once; the outcome (times aside) does not depend on what the others do, nor on the number of cores: from the first call
 /// on, OpenBLAS (in the whole program) and OpenMP (in this thread) compute in the thread that asks.
 Outcome run_case(const CaseSource&, const Overrides&, const std::vector<Measure>&, const CaseLimits& = {});

@@ -1,5 +1,7 @@
 #include "framework/study/study.h"
 
+#include <algorithm>
+
 #include "framework/scene/text_file.h"
 #include "framework/scene/yaml/keys.h"
 #include "framework/scene/yaml/override.h"
@@ -15,12 +17,31 @@ Overrides read_set(const Node& node) {
   return out;
 }
 
-std::vector<Measure> read_measures(const Node& node, const std::string& file) {
+/// What is asked of each case: `analysis`, `at`, `equilibrium`.
+Question read_question(const Node& root) {
+  Question q;
+  const auto words = choices("study", "analysis");
+  if (root.has("analysis"))
+    q.analysis = static_cast<Analysis>(std::ranges::find(words, root.at("analysis").one_of(words)) - words.begin());
+  const bool linearizes = q.analysis == Analysis::linearize;
+  if (root.has("at")) {
+    if (!linearizes && q.analysis != Analysis::statics)
+      root.at("at").fail("is of analysis: statics and linearize alone; the instant of a measure stands in its words: x of BODY at 0.05 s");
+    q.at = root.at("at").quantity(dimension::time, rule::not_negative);
+  }
+  if (root.has("equilibrium")) {
+    if (!linearizes) root.at("equilibrium").fail("is of analysis: linearize alone; leave it out, or write analysis: statics to find the equilibrium");
+    q.equilibrium = root.at("equilibrium").yes();
+  }
+  return q;
+}
+
+std::vector<Measure> read_measures(const Node& node, const std::string& file, const Question& question) {
   constexpr const char* remedy = "names and what they are: {peak: peak force at crank pin, lost: energy lost}";
   std::vector<Measure> out;
   const auto add = [&](const Node& entry, const std::string& name) {
     const std::string words = entry.text("words such as peak force at crank pin");
-    out.push_back({name.empty() ? words : name, words, entry.place(), file});
+    out.push_back({name.empty() ? words : name, words, entry.place(), file, question, {}});
   };
   if (node.is_scalar())
     add(node, "");
@@ -73,6 +94,25 @@ std::string first_in(const Node& scene, const char* group, const char* otherwise
 
 }  // namespace
 
+void require_measures(const StudyFile& file) {
+  if (file.study.measures.empty())
+    file.root().fail("lacks a required key; add for example measure: {peak: peak force at crank pin}");
+}
+
+std::vector<Measure> read_curves(const StudyFile& file) {
+  std::vector<Measure> out;
+  if (!file.root().has("keep")) return out;
+  const Node keep = file.root().at("keep");
+  const Question& question = file.study.scene.question;
+  if (!over_time(question)) keep.fail("is of analyses over time, run, kinematics and inverse; leave it out, each case has one state here");
+  for (const Node& entry : keep.list(1, "a list of quantities such as [x of slider, force at crank pin]")) {
+    const std::string words = entry.text("a quantity such as x of slider or force at crank pin");
+    out.push_back({words, "final " + words, entry.place(), file.study.file, question, {}});
+  }
+  judge(out, common_scene(file.study.scene));
+  return out;
+}
+
 StudyFile read_study(const std::filesystem::path& path) {
   constexpr std::size_t most_bytes = std::size_t{100} << 20;
   StudyFile file;
@@ -90,9 +130,13 @@ StudyFile read_study(const std::filesystem::path& path) {
   if (kind != ".yaml" && kind != ".yml" && kind != ".json") scene.fail(scene.shown() + " is no scene; name a .yaml, .yml or .json file");
   if (!std::filesystem::exists(scene_path)) scene.fail("there is no file " + scene_path.string() + "; it is sought beside the study");
   file.study.scene = read_case_source(scene_path, root.has("set") ? read_set(root.at("set")) : Overrides{});
-  file.study.measures = read_measures(root.at("measure"), path.string());
+  const Question question = file.study.scene.question = read_question(root);
   const Scene common = common_scene(file.study.scene);
-  require_run(common);
+  if (!root.has("measure")) {
+    if (!root.has("goal")) require_measures(file);
+    return file;
+  }
+  file.study.measures = read_measures(root.at("measure"), path.string(), question);
   judge(file.study.measures, common);
   validate_names(file.study.measures, common, root.at("measure"));
   return file;

@@ -18,7 +18,7 @@ struct Study {
   std::vector<Measure> measures;
 };
 
-/// The tree of a study file, and the study that stands in its common keys (title, scene, set, measure).
+/// The tree of a study file, and the study that stands in its common keys (title, scene, set, analysis, measure).
 struct StudyFile {
   Yaml tree;
   Source source;
@@ -27,5 +27,9 @@ struct StudyFile {
 };
 /// @throws SceneError  naming file, line, key, value and remedy
 StudyFile read_study(const std::filesystem::path&);
+/// @throws SceneError  it measures nothing, which only a study with a goal may do
+void require_measures(const StudyFile&);
+/// `keep`: quantities of which each case leaves a curve. @throws SceneError  the scene has not such a thing
+std::vector<Measure> read_curves(const StudyFile&);
 
 }  // namespace pintle

@@ -7,6 +7,7 @@
 #include "framework/study/measures/columns.h"
 #include "framework/study/measures/measure_words.h"
 #include "framework/study/measures/measurables.h"
+#include "framework/study/measures/mode_measure.h"
 #include "framework/study/measures/signal.h"
 
 namespace pintle {
@@ -14,7 +15,7 @@ namespace pintle {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double rows_in_a_window = 2000, most_rows = 200'000;
+constexpr double rows_in_a_window = 2000, rows_of_a_path = 500, most_rows = 200'000;
 
 std::vector<double> lengths(const std::vector<double>& x, const std::vector<double>& y) {
   std::vector<double> out(x.size());
@@ -55,6 +56,8 @@ class Measuring {
       return value_at(all, to) - (from > 0 ? value_at(all, from) : 0);
     return statistic(between(all, from, to), from, to);
   }
+
+  std::vector<double> rows() const { return signal().y; }
 
  private:
   double statistic(const Signal& x, double from, double to) const {
@@ -336,31 +339,53 @@ double interval(double most, double until, std::vector<double> instants) {
 
 }  // namespace
 
+std::vector<Passage> passages_of(const Measure& measure, const Scene& scene, const Run& run) {
+  const PointRef p = point_named(scene, measure.path->point);
+  const std::string name = p.body + "." + p.point;
+  const Columns columns(run);
+  return passages(*measure.path, {columns.times(), columns.motion(name + ".x"), columns.motion(name + ".y"), columns.motion(name + ".vx"),
+                                  columns.motion(name + ".vy")});
+}
+
 MeasuredValue measured(const Measure& measure, const Scene& scene, const Model& model, const Run& run) {
   const Asked asked = read_measure(measure, scene);
+  if (asked.what == What::path)
+    return {run.t_end < scene.run.until * (1 - 1e-9) ? nan : rms_distance(passages_of(measure, scene, run)), asked.unit};
   return {Measuring(asked, scene, model, run).value(), asked.unit};
 }
 
-std::string measured_unit(const Measure& measure, const Scene& scene) { return read_measure(measure, scene).unit; }
+std::vector<double> curve(const Measure& measure, const Scene& scene, const Model& model, const Run& run) {
+  const Asked asked = read_measure(measure, scene);
+  return Measuring(asked, scene, model, run).rows();
+}
+
+std::string measured_unit(const Measure& measure, const Scene& scene) {
+  return of_modes(measure.question) ? read_mode_measure(measure, scene).unit : read_measure(measure, scene).unit;
+}
 
 void prepare(Scene& scene, const std::vector<Measure>& measures) {
   scene.output.frames = 0;
-  if (!scene.has_run) return;
+  const bool one_state = !measures.empty() && measures.front().question.analysis == Analysis::statics;
+  if (!scene.has_run && !one_state) return;
   const double until = scene.run.until, written = scene.output.every > 0 ? scene.output.every : until / 1000;
   double most = written;
   std::vector<double> instants;
   for (const Measure& m : measures) {
     Asked asked;
+    if (of_modes(m.question)) return;
     try {
       asked = read_measure(m, scene);
     } catch (const SceneError&) {
       continue;
     }
     record(scene, asked);
+    if (one_state) continue;
     const double to = std::isinf(asked.to) ? until : asked.to;
     instants.push_back(asked.from), instants.push_back(to);
-    if (sampled(asked) && to > asked.from) most = std::min(most, std::max((to - asked.from) / rows_in_a_window, until / most_rows));
+    const double rows = asked.what == What::path ? rows_of_a_path : rows_in_a_window;
+    if (sampled(asked) && to > asked.from) most = std::min(most, std::max((to - asked.from) / rows, until / most_rows));
   }
+  if (one_state) return;
   if (const double every = interval(most, until, instants); every != written) scene.output.every = every;
 }
 

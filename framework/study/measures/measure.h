@@ -4,17 +4,21 @@
 #include <vector>
 
 #include "framework/analysis/simulate/simulate.h"
+#include "framework/study/measures/path_distance.h"
+#include "framework/study/measures/question.h"
 
 /// Many runs of one scene: what is measured of each, the cases, the tables. docs/studies.md
 namespace pintle {
 
-/// A number that a run yields, asked for in words: "peak force at gudgeon pin", "x of slider at 0.05 s",
-/// "energy lost", "rms torque of crank drive after 10 ms". docs/studies.md has the grammar.
+/// A number that a run, or another analysis, yields, asked for in words: "peak force at gudgeon pin", "x of slider at 0.05 s",
+/// "energy lost", "rms torque of crank drive after 10 ms", "frequency of mode 1". docs/studies.md has the grammar.
 struct Measure {
   std::string name;       ///< heads its column
   std::string words;      ///< as the user wrote them
   Place place = {};       ///< where
   std::string file = {};  ///< of the study, for messages; empty: the scene's
+  Question question = {};  ///< what yields it
+  std::optional<PathTarget> path = {};  ///< instead of words: the rms distance of a curve to these points
 };
 
 struct MeasuredValue {
@@ -24,6 +28,11 @@ struct MeasuredValue {
 /// What a measure is in a run. Of the scene, the names count: it is the one that was built.
 /// @throws SceneError  the words cannot be read, or name what the scene has not; with what it has
 MeasuredValue measured(const Measure&, const Scene&, const Model&, const Run&);
+/// Where the curve of a measure with a path passes its points. @pre it has one
+std::vector<Passage> passages_of(const Measure&, const Scene&, const Run&);
+
+/// What it is about in each row of a run, whatever its statistic. Empty: there is no such thing in this case.
+std::vector<double> curve(const Measure&, const Scene&, const Model&, const Run&);
 
 /// Its unit, without a run. @throws SceneError  as above
 std::string measured_unit(const Measure&, const Scene&);

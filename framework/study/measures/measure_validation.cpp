@@ -8,6 +8,7 @@
 #include "framework/study/measures/measure.h"
 #include "framework/study/measures/measure_words.h"
 #include "framework/study/measures/measurables.h"
+#include "framework/study/measures/mode_measure.h"
 
 namespace pintle {
 
@@ -46,15 +47,22 @@ std::string those_that_bend(const Scene& scene) {
 
 void judge(const std::vector<Measure>& measures, const Scene& scene) {
   for (const Measure& m : measures) {
+    if (of_modes(m.question)) {
+      read_mode_measure(m, scene);
+      continue;
+    }
     const Asked asked = read_measure(m, scene);
+    if (!over_time(m.question)) continue;
     const double last = std::isinf(asked.to) ? asked.from : asked.to;
-    if (last > scene.run.until * (1 + 1e-9))
+    const bool late = m.path && !m.path->times.empty() && std::ranges::max(m.path->times) > scene.run.until * (1 + 1e-9);
+    if (late || last > scene.run.until * (1 + 1e-9))
       fail(m, scene, "lies after the end of the run; make run.until longer, or ask for an earlier time");
   }
 }
 
 void validate_flexible(const std::vector<Measure>& measures, const Scene& scene, const std::vector<std::string>& varied) {
   for (const Measure& m : measures) {
+    if (of_modes(m.question)) continue;
     const Asked asked = read_measure(m, scene);
     const SceneBody* body = elastic(asked) ? body_of(asked, scene) : nullptr;
     const auto may_change = [&](const std::string& path) { return path == "bodies" || path.starts_with("bodies." + body->name); };

@@ -21,6 +21,7 @@ class Reading {
       : measure_(measure), scene_(scene), words_(measure.words), measurables_(measurables_of(scene)) {}
 
   Asked read() {
+    if (measure_.path) return read_path();
     words_.skip_articles();
     read_statistic();
     const std::size_t begin = words_.place();
@@ -33,6 +34,7 @@ class Reading {
            described(measurables_));
     }
     read_time();
+    judge_question();
     judge();
     if (asked_.frequency) asked_.unit = "Hz";
     if (asked_.time_of) asked_.unit = "s";
@@ -40,6 +42,16 @@ class Reading {
   }
 
  private:
+  Asked read_path() {
+    const std::string& point = measure_.path->point;
+    if (std::ranges::find(measurables_.points, point) == measurables_.points.end())
+      fail("\"" + point + "\" is no point of a body of this scene." + did_you_mean(point, measurables_.points));
+    is(What::path, "m", "", point);
+    asked_.statistic = Statistic::rms;
+    judge_question();
+    return asked_;
+  }
+
   [[noreturn]] void fail(const std::string& message) const {
     Place place = measure_.place;
     if (place.key.empty()) place.key = "measure \"" + measure_.words + "\"";
@@ -324,8 +336,27 @@ class Reading {
     if (!(asked_.to > 0)) fail("its window is empty");
   }
 
+  /// What the analysis does not know is refused; what statics knows is of its one instant.
+  void judge_question() {
+    const Analysis analysis = measure_.question.analysis;
+    if (analysis == Analysis::run) return;
+    const bool motion = asked_.what == What::motion || asked_.what == What::distance || asked_.what == What::path;
+    if (analysis == Analysis::kinematics && !motion)
+      fail("kinematics knows motion alone; write for example range of x of BODY.POINT, or analysis: inverse for forces");
+    const bool of_the_ledger = asked_.what == What::energy || cumulative(asked_.what) || (asked_.what == What::column && asked_.owner.empty());
+    if (of_the_ledger)
+      fail(std::string(analysis == Analysis::statics ? "statics" : "inverse") +
+           " keeps no account of energies and impacts; ask for forces or motion, or write analysis: run");
+    if (analysis != Analysis::statics) return;
+    if (asked_.statistic != Statistic::none || asked_.instant || asked_.frequency || asked_.time_of)
+      fail("statics finds one state, so nothing has a time, a peak or a mean; write for example force at JOINT, x of BODY (the instant "
+           "whose loads count is the study's key at)");
+    asked_.instant = true, asked_.from = asked_.to = measure_.question.at.value_or(0);
+  }
+
   void judge() const {
     const bool events = asked_.what == What::impacts || asked_.what == What::free_flight || asked_.what == What::contact_time;
+    if (measure_.question.analysis == Analysis::statics) return;
     if (asked_.instant && (asked_.statistic != Statistic::none || asked_.time_of || asked_.frequency))
       fail("an instant has one value; leave out the word before what is measured, or give a window: after 10 ms, before 1 s");
     if (events && (asked_.statistic != Statistic::none && asked_.statistic != Statistic::last))

@@ -28,6 +28,7 @@ enum class What {
   free_flight,   ///< the longest time between two contacts
   contact_time,  ///< in contact, in all
   written,       ///< an output or a state of the scene's own: the owner
+  path,          ///< distance of a point's curve to the measure's path
   column         ///< of trajectory.csv or ledger.csv; part is its header without unit and body
 };
 
@@ -48,7 +49,8 @@ struct Asked {
 /// Grows with time, so that without a statistic its change in the window is meant.
 bool cumulative(What);
 
-/// @throws SceneError  the words cannot be read or name what the scene has not; says what it has
+/// @throws SceneError  the words cannot be read, name what the scene has not, or ask what the measure's question does not tell; says
+///                     what there is
 Asked read_measure(const Measure&, const Scene&);
 
 }  // namespace pintle

@@ -46,46 +46,16 @@ double power(double ratio, double u) {
   return out;
 }
 
-Quantity quantity(const Node& node) {
-  try {
-    return read_quantity(node.text("a value such as 0.1 mm"), node.source().parameters);
-  } catch (const ExpressionError& error) {
-    node.fail(error.what());
-  }
-}
-
-struct Interval {
-  Span span;
-  Dimension dimension;
-};
-
-Interval interval(const Node& group) {
-  const Quantity a = quantity(group.at("from")), b = quantity(group.at("to"));
-  const bool fits = same(a.dimension, b.dimension) || (a.value == 0 && bare(a.dimension)) || (b.value == 0 && bare(b.dimension));
-  if (!fits) group.fail("from is " + describe(a.dimension) + " and to is " + describe(b.dimension) + "; give both in units of one kind");
-  Interval out{{a.value, b.value, false}, bare(a.dimension) ? b.dimension : a.dimension};
-  if (group.has("scale")) out.span.logarithmic = group.at("scale").one_of(choices("study.sweep.random.*", "scale")) == "log";
-  if (out.span.logarithmic && !(a.value > 0 && b.value > 0))
-    group.fail("a logarithmic scale needs from and to greater than 0; write scale: linear");
-  return out;
-}
-
-/// A number in SI with its unit, so that a header can name it.
-std::string with_unit(double x, const Dimension& dimension) {
-  const std::string unit = si_unit(dimension);
-  return unit.empty() ? decimal(x) : decimal(x) + " " + unit;
-}
-
 Texts values(const Node& node) {
   Texts out;
   if (node.is_map()) {
     if (!node.has("from") && !node.has("to")) node.fail("is " + node.shown() + "; write " + how_values_look);
     check_keys(node, "study.sweep.grid.*");
-    const Interval range = interval(node);
+    const ValueSpan range = read_span(node);
     const auto n = static_cast<std::size_t>(node.at("count").count(1));
     if (n > most_cases) node.at("count").fail("is more than " + std::to_string(most_cases) + " cases; take fewer");
     for (std::size_t k = 0; k < n; ++k)
-      out.emplace_back(with_unit(range.span.at(n == 1 ? 0 : static_cast<double>(k) / static_cast<double>(n - 1)), range.dimension));
+      out.emplace_back(range.text(n == 1 ? 0 : static_cast<double>(k) / static_cast<double>(n - 1)));
     return out;
   }
   if (node.is_list() && node.yaml().items.empty())
@@ -204,14 +174,44 @@ Cases sampled(const Node& section, bool latin) {
     }
     if (!entry.is_map()) entry.fail("is " + entry.shown() + "; write " + how_spans_look);
     check_keys(entry, "study.sweep.random.*");
-    const Interval range = interval(entry);
-    for (std::size_t k = 0; k < n; ++k) cases.values[k].emplace_back(with_unit(range.span.at(u[k]), range.dimension));
+    const ValueSpan range = read_span(entry);
+    for (std::size_t k = 0; k < n; ++k) cases.values[k].emplace_back(range.text(u[k]));
   }
   if (cases.names.empty()) section.fail("names nothing to vary; add for example clearance: {from: 0.01 mm, to: 0.5 mm}");
   return cases;
 }
 
 }  // namespace
+
+Quantity read_value(const Node& node) {
+  try {
+    return read_quantity(node.text("a value such as 0.1 mm"), node.source().parameters);
+  } catch (const ExpressionError& error) {
+    node.fail(error.what());
+  }
+}
+
+ValueSpan read_span(const Node& group) {
+  const Quantity a = read_value(group.at("from")), b = read_value(group.at("to"));
+  const bool fits = same(a.dimension, b.dimension) || (a.value == 0 && bare(a.dimension)) || (b.value == 0 && bare(b.dimension));
+  if (!fits) group.fail("from is " + describe(a.dimension) + " and to is " + describe(b.dimension) + "; give both in units of one kind");
+  ValueSpan out{{a.value, b.value, false}, bare(a.dimension) ? b.dimension : a.dimension};
+  if (group.has("scale")) out.span.logarithmic = group.at("scale").one_of(choices("study.sweep.random.*", "scale")) == "log";
+  if (out.span.logarithmic && !(a.value > 0 && b.value > 0))
+    group.fail("a logarithmic scale needs from and to greater than 0; write scale: linear");
+  return out;
+}
+
+std::string with_unit(double x, const Dimension& dimension) {
+  const std::string unit = si_unit(dimension);
+  return unit.empty() ? decimal(x) : decimal(x) + " " + unit;
+}
+
+std::string ValueSpan::text(double u) const { return with_unit(span.at(u), dimension); }
+
+double ValueSpan::where(double value) const { return span.where(value); }
+
+double Span::where(double x) const { return logarithmic ? std::log(x / from) / std::log(to / from) : (x - from) / (to - from); }
 
 Overrides Cases::overrides(std::size_t k) const {
   Overrides out;

@@ -38,7 +38,22 @@ struct Span {
   double from = 0, to = 1;
   bool logarithmic = false;
   double at(double u) const;
+  double where(double x) const;  ///< its inverse, not rounded
 };
+
+/// A span as a study writes it, {from: 1 mm, to: 2 mm, scale: log}, with its unit.
+struct ValueSpan {
+  Span span;
+  Dimension dimension;
+  std::string text(double u) const;   ///< in SI with its unit
+  double where(double value) const;   ///< u, from 0 to 1 inside
+};
+/// @throws SceneError  the ends are of different kinds, or not above 0 on a logarithmic scale
+ValueSpan read_span(const Node& group);
+/// A value with its unit. @throws SceneError
+Quantity read_value(const Node&);
+/// A number in SI with its unit, so that a header can name it.
+std::string with_unit(double x, const Dimension&);
 
 /// A stream of numbers for one name, the same whatever else varies.
 class Stream {

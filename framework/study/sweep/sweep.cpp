@@ -4,12 +4,11 @@
 #include <chrono>
 #include <exception>
 #include <iterator>
-#include <optional>
+#include <memory>
 #include <thread>
 
-#include "files/files.h"
 #include "framework/common/file.h"
-#include "framework/common/text.h"
+#include "framework/study/sweep/study_folder.h"
 #include "framework/study/sweep/worker_pool.h"
 
 namespace pintle {
@@ -67,11 +66,12 @@ std::size_t portion(std::size_t left, std::size_t workers, std::size_t idle, con
 /// Process 0, or the only one: works, and hands out to the others.
 class Leader {
  public:
-  Leader(const Sweep& sweep, Journal& journal, const SweepSettings& settings, const std::vector<std::size_t>& numbers, SweepEnd& end)
+  Leader(const Sweep& sweep, Journal& journal, const fs::path& folder, const SweepSettings& settings,
+         const std::vector<std::size_t>& numbers, SweepEnd& end)
       : settings_(settings),
         end_(end),
         present_(settings.communicator ? settings.communicator->size() - 1 : 0),
-        workers_(sweep, journal, 0, settings.threads) {
+        workers_(sweep, journal, folder, 0, settings.threads) {
     workers_.queue().add(numbers);
     if (present_ == 0) workers_.queue().close();
   }
@@ -148,8 +148,10 @@ class Leader {
 /// One of the other processes: asks for cases when its last one has been drawn, so that more are there when that is done.
 class Follower {
  public:
-  Follower(const Sweep& sweep, Journal& journal, const SweepSettings& settings)
-      : settings_(settings), communicator_(*settings.communicator), workers_(sweep, journal, communicator_.rank(), settings.threads) {}
+  Follower(const Sweep& sweep, Journal& journal, const fs::path& folder, const SweepSettings& settings)
+      : settings_(settings),
+        communicator_(*settings.communicator),
+        workers_(sweep, journal, folder, communicator_.rank(), settings.threads) {}
 
   /// @returns its words of leave
   Message follow() {
@@ -217,7 +219,7 @@ SweepEnd run_as_follower(const Sweep& sweep, const fs::path& folder, const Sweep
       throw std::runtime_error(folder.string() + ": process " + std::to_string(communicator.rank()) +
                                " does not see it; name a directory with --out that all machines share");
     Journal journal(journal_path(folder, communicator.rank()), sweep.print);
-    Follower follower(sweep, journal, settings);
+    Follower follower(sweep, journal, folder, settings);
     last = follower.follow();
     end.shortage = follower.shortage();
   } catch (...) {
@@ -226,49 +228,6 @@ SweepEnd run_as_follower(const Sweep& sweep, const fs::path& folder, const Sweep
   take_leave(communicator, last);  // after the journal is closed: process 0 reads it then
   if (trouble) std::rethrow_exception(trouble);
   return end;
-}
-
-/// Makes the folder, or judges whether it is one to go on with.
-void open_folder(const fs::path& folder) {
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(folder, error))) {
-    const auto is_ours = [&](const fs::path& p) {
-      const std::string name = p.filename().string();
-      return name.starts_with("journal-") || name.starts_with("study.yaml") || name.starts_with("scene.yaml") ||
-             name.find(".part") != std::string::npos;
-    };
-    if (!fs::is_directory(folder)) throw SceneError(folder.string(), {}, "exists already and is not a directory; name another with --out");
-    const fs::directory_iterator entries(folder);
-    if (!fs::exists(journal_path(folder, 0)) &&
-        !std::all_of(begin(entries), end(entries), [&](const auto& e) { return is_ours(e.path()); }))
-      throw SceneError(folder.string(), {}, "exists already and holds no sweep; name another directory with --out");
-  }
-  fs::create_directories(folder, error);
-  if (error) throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another place with --out");
-}
-
-std::string text_or_nothing(const fs::path& path) {
-  constexpr std::size_t most_bytes = std::size_t{100} << 20;
-  try {
-    return read_file(path, most_bytes);
-  } catch (const FileRefused&) {
-    return {};  // then it is not what was kept there
-  }
-}
-
-/// Why the folder of another study is refused: what has changed since, as far as that is known.
-std::string what_differs(const Sweep& sweep, const fs::path& folder) {
-  const auto differs = [&](const char* name, const std::string& now) {
-    return fs::exists(folder / name) && text_or_nothing(folder / name) != now;
-  };
-  const bool study = differs("study.yaml", sweep.text), scene = differs("scene.yaml", sweep.study.scene.text);
-  const std::string was = study && scene ? "The study and its scene are not those"
-                          : study        ? "The study is not the one"
-                                         : "The scene is not the one";
-  if (study || scene)
-    return was + " that ran there (kept there as " + (study ? "study.yaml" : "") + (study && scene ? " and " : "") +
-           (scene ? "scene.yaml" : "") + ")";
-  return "Study and scene are those that ran there, but --set, a file that they name or the program's version is another";
 }
 
 void write_tables(const Sweep& sweep, const fs::path& folder, const SweepEnd& end) {
@@ -301,22 +260,10 @@ SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettin
 
   SweepEnd end;
   end.workers = settings.threads * (communicator ? communicator->size() : 1);
-  std::optional<Journal> journal;
+  std::unique_ptr<Journal> journal;
   std::vector<std::size_t> numbers;
   try {
-    open_folder(folder);
-    const fs::path own = journal_path(folder, 0);
-    try {
-      journal.emplace(own, sweep.print, &end.notes);
-    } catch (const OtherStudy&) {
-      throw SceneError(
-          folder.string(), {},
-          "belongs to another study. " + what_differs(sweep, folder) + ". Name another directory with --out, or remove " + folder.string());
-    }
-    if (!journals_are_free(folder, own, 10))
-      throw std::runtime_error(folder.string() + ": processes of an earlier session still work there; wait for them, or end them");
-    write_synced(folder / "study.yaml", sweep.text);
-    write_synced(folder / "scene.yaml", sweep.study.scene.text);
+    journal = open_study_folder(sweep, folder, end.notes);
     std::vector<bool> ended(sweep.cases.size() + 1, false);
     for (const Row& row : read_journals(folder, sweep.print, sweep.cases.size(), &end.notes)) ended[row.number] = !lacked_memory(row);
     for (std::size_t k = 1; k < ended.size(); ++k)
@@ -329,7 +276,7 @@ SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettin
   end.count.before = sweep.cases.size() - numbers.size();
   if (communicator) send_all(*communicator, go);
   {
-    Leader leader(sweep, *journal, settings, numbers, end);
+    Leader leader(sweep, *journal, folder, settings, numbers, end);
     leader.lead();
   }
   journal.reset();

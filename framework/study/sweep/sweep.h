@@ -22,12 +22,23 @@ struct Sweep {
   CaseLimits limits;        ///< of each case
   std::string text;         ///< of the study file
   std::uint64_t print = 0;  ///< fingerprint of the study, its scene, the files that they name and the program
+  std::vector<Measure> keep = {};  ///< of which each case leaves a curve, curves/case-N.csv
 };
 
 /// Reads a study with a section `sweep`, and some of its cases, so that a study none of whose cases can be read is refused
 /// at once. `set` holds for all cases, after the study's own.
 /// @throws SceneError  naming file, line, key, value and remedy
 Sweep read_sweep(const std::filesystem::path&, const Overrides& set = {});
+
+/// What every study of cases shares: the cases with the study's text and fingerprint, judged as read_sweep does.
+/// @param set     the user's overrides, part of the fingerprint
+/// @param common  further overrides, which the study's text says
+/// @throws SceneError  none of the cases can be read, or a name is not known
+Sweep cases_of(const StudyFile&, Cases, const std::filesystem::path&, const Overrides& set, const Overrides& common);
+/// @throws SceneError  what the study measures is not there
+void judge_measures(const Sweep&);
+/// The override that `most steps` of a section means.
+Overrides step_limit(const Node& section);
 
 /// How far a sweep is. Cases of this process and, in process 0, of the others.
 struct SweepCount {

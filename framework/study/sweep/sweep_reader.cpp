@@ -57,11 +57,11 @@ class Trial {
 
   /// What the reader says of case k; empty if it can be read. Name i may have another value there.
   std::string refusal(std::size_t k, std::size_t i = 0, const std::string* value = nullptr) const {
-    const CaseSource& source = sweep_.study.scene;
-    Overrides all = source.common;
-    for (auto& [name, text] : sweep_.cases.overrides(k)) all.emplace_back(name, value && name == sweep_.cases.names[i] ? *value : text);
+    Overrides set = sweep_.cases.overrides(k);
+    for (auto& [name, text] : set)
+      if (value && name == sweep_.cases.names[i]) text = *value;
     try {
-      require_run(read_scene_text(source.text, source.file.string(), all, source.file.parent_path()));
+      case_scene(sweep_.study.scene, set);
     } catch (const SceneError& error) {
       return error.what();
     }
@@ -131,19 +131,13 @@ class Trial {
 
 }  // namespace
 
-Sweep read_sweep(const fs::path& path, const Overrides& set) {
-  StudyFile file = read_study(path);
-  const Node root = file.root();
-  if (!root.has("sweep")) root.fail("has no sweep; add for example sweep: {grid: {clearance: [0.01 mm, 0.1 mm]}}");
-  const Node section = root.at("sweep");
+Sweep cases_of(const StudyFile& file, Cases cases, const fs::path& path, const Overrides& set, const Overrides& common) {
   Sweep out;
-  out.cases = read_cases(section);
+  out.cases = std::move(cases);
   out.study = file.study;
-  Overrides& common = out.study.scene.common;
-  common.insert(common.end(), set.begin(), set.end());
-  if (section.has("limit")) out.limits.seconds = section.at("limit").quantity(dimension::time, rule::positive);
-  if (section.has("most steps")) common.emplace_back("run.max steps", std::to_string(section.at("most steps").count(1)));
-
+  Overrides& all = out.study.scene.common;
+  all.insert(all.end(), set.begin(), set.end());
+  all.insert(all.end(), common.begin(), common.end());
   out.text = read_text_file(path, most_bytes);
   const CaseSource& scene = out.study.scene;
   out.print = fingerprint(scene.text, fingerprint(out.text, fingerprint(PINTLE_VERSION)));
@@ -153,9 +147,30 @@ Sweep read_sweep(const fs::path& path, const Overrides& set) {
   out.print = print_of_files(file.tree, folder, out.print);
   for (const auto& [name, value] : set) out.print = print_of_files({Yaml::Kind::scalar, 0, {}, value, {}}, folder, out.print);
   Trial(out).judge();
-  const Scene all_have = common_scene(out.study.scene);
-  judge(out.study.measures, all_have);
-  validate_flexible(out.study.measures, all_have, out.cases.names);
+  return out;
+}
+
+void judge_measures(const Sweep& sweep) {
+  const Scene all_have = common_scene(sweep.study.scene);
+  judge(sweep.study.measures, all_have);
+  validate_flexible(sweep.study.measures, all_have, sweep.cases.names);
+}
+
+Overrides step_limit(const Node& section) {
+  if (!section.has("most steps")) return {};
+  return {{"run.max steps", std::to_string(section.at("most steps").count(1))}};
+}
+
+Sweep read_sweep(const fs::path& path, const Overrides& set) {
+  const StudyFile file = read_study(path);
+  const Node root = file.root();
+  if (!root.has("sweep")) root.fail("has no sweep; add for example sweep: {grid: {clearance: [0.01 mm, 0.1 mm]}}");
+  require_measures(file);
+  const Node section = root.at("sweep");
+  Sweep out = cases_of(file, read_cases(section), path, set, step_limit(section));
+  if (section.has("limit")) out.limits.seconds = section.at("limit").quantity(dimension::time, rule::positive);
+  out.keep = read_curves(file);
+  judge_measures(out);
   return out;
 }
 

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <new>
 
+#include "framework/common/file.h"
+
 namespace pintle {
 
-WorkerPool::WorkerPool(const Sweep& sweep, Journal& journal, int rank, int threads) : sweep_(sweep), journal_(journal), rank_(rank) {
+WorkerPool::WorkerPool(const Sweep& sweep, Journal& journal, const std::filesystem::path& folder, int rank, int threads)
+    : sweep_(sweep), journal_(journal), folder_(folder / "curves"), rank_(rank) {
+  if (!sweep.keep.empty()) std::filesystem::create_directories(folder_);
   try {
     start(threads);
   } catch (const std::exception& error) {
@@ -100,6 +104,7 @@ void WorkerPool::run(std::size_t number, int thread) {
   const auto begin = std::chrono::steady_clock::now();
   CaseLimits limits = sweep_.limits;
   limits.bodies = &bodies_;
+  limits.curves = &sweep_.keep;
   limits.go_on = [this] {
     poll_();
     return !stopped_;
@@ -112,6 +117,7 @@ void WorkerPool::run(std::size_t number, int thread) {
     outcome.reason = "there was not enough memory; run fewer cases at once (--threads)";
   }
   if (stopped_ || outcome.status == status_text(Status::interrupted)) return;
+  if (!outcome.curves.empty()) write_text(folder_ / ("case-" + std::to_string(number) + ".csv"), outcome.curves);
   Row row{number,
           outcome.status,
           outcome.reason,

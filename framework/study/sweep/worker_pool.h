@@ -25,7 +25,8 @@ class WorkerPool {
     double busy = 0;  ///< [s]
   };
 
-  WorkerPool(const Sweep&, Journal&, int rank, int threads);
+  /// @param folder  takes the curves of cases
+  WorkerPool(const Sweep&, Journal&, const std::filesystem::path& folder, int rank, int threads);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
 
@@ -54,6 +55,7 @@ class WorkerPool {
 
   const Sweep& sweep_;
   Journal& journal_;
+  std::filesystem::path folder_;
   int rank_;
   TaskQueue queue_;
   BodyStore bodies_;  ///< of all its cases

@@ -181,7 +181,5 @@ std::string tradeoff_json(const TradeReport&);
 /// The report as text for a terminal, or as Markdown; `figure` is the path of the picture, empty: none.
 std::string tradeoff_text(const TradeReport&);
 std::string tradeoff_markdown(const TradeReport&, const std::string& figure, const std::string& heading = "#");
-/// The scene with overrides applied, its tables and drawings found from `directory`.
-std::string recommended_scene(const CaseSource&, const Overrides&, const std::filesystem::path& directory, const std::string& comment);
 
 }  // namespace pintle

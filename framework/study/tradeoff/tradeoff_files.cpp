@@ -6,6 +6,7 @@
 #include "framework/common/printed.h"
 #include "framework/common/text.h"
 #include "framework/scene/yaml/json_text.h"
+#include "framework/study/changed_scene.h"
 #include "framework/study/tradeoff/tradeoff.h"
 #include "framework/study/tradeoff/tradeoff_words.h"
 
@@ -172,7 +173,7 @@ void write_tradeoff(const std::filesystem::path& directory, const std::filesyste
   const TradePoint& p = r.points[*r.recommended];
   write_text(
       directory / "recommended.yaml",
-      recommended_scene(source, p.set, final_directory,
+      changed_scene(source, p.set, final_directory,
                         "Recommended by pintle tradeoff for " + source.file.filename().string() + ": " + setting_text(r.plan, p) + "\n" +
                             "Measured: " + time_text(p.time) + ", error " + error_text(p) +
                             (r.quantities.empty() ? "" : " of " + r.quantities.front()) + (r.quantities.size() > 1 ? " and others" : "")));

@@ -1,9 +1,10 @@
+#include "framework/study/changed_scene.h"
+
 #include <algorithm>
 
 #include "framework/scene/units/expression.h"
 #include "framework/scene/units/unit.h"
 #include "framework/scene/yaml/override.h"
-#include "framework/study/tradeoff/tradeoff.h"
 
 namespace pintle {
 
@@ -61,7 +62,7 @@ void block(const Yaml& yaml, std::size_t indent, std::string& out) {
 
 }  // namespace
 
-std::string recommended_scene(const CaseSource& source, const Overrides& set, const fs::path& directory, const std::string& comment) {
+std::string changed_scene(const CaseSource& source, const Overrides& set, const fs::path& directory, const std::string& comment) {
   Yaml scene = parse_yaml(source.text, source.file.string());
   Overrides all = source.common;
   all.insert(all.end(), set.begin(), set.end());

@@ -1,0 +1,135 @@
+// pintle fit: parameters that reach a goal.
+#include "framework/study/fit/fit.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <map>
+#include <thread>
+
+#include "app/options.h"
+#include "app/progress.h"
+
+namespace pintle::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// On a terminal a line that is written over.
+class FitProgress {
+ public:
+  explicit FitProgress(bool quiet) : on_(!quiet && ::isatty(STDERR_FILENO)) { heed_signals(); }
+  ~FitProgress() {
+    if (shown_) std::cerr << "\r\033[K" << std::flush;
+  }
+  FitProgress(const FitProgress&) = delete;
+  bool operator()(std::size_t done, std::size_t most) {
+    if (on_) shown_ = true, std::cerr << "\r  " << done << " cases of at most " << most << "\033[K" << std::flush;
+    return !asked_to_stop();
+  }
+
+ private:
+  bool on_, shown_ = false;
+};
+
+std::string methods_text(const FitPlan& plan) {
+  std::string out;
+  for (const Optimiser m : plan.methods())
+    if (out != name_of(m)) out += (out.empty() ? "" : ", then ") + std::string(name_of(m));
+  return out + " from " + std::to_string(plan.starts) + (plan.starts == 1 ? " start" : " starts") + ", seed " + std::to_string(plan.seed);
+}
+
+std::string cases_text(const FitPlan& plan, const FitEnd& end) {
+  std::map<std::string, std::size_t> trouble;
+  for (const Trying& t : end.tried)
+    if (!t.worth.known) ++trouble[t.row.status == "finished" ? "without the measure" : t.row.status];
+  std::string out = std::to_string(end.tried.size()) + " of at most " + std::to_string(plan.evaluations);
+  for (const auto& [status, n] : trouble) out += ", " + std::to_string(n) + " " + status;
+  if (end.before > 0) out += "; " + std::to_string(end.before) + " in earlier sessions";
+  return out;
+}
+
+void add_best(Rows& rows, const FitPlan& plan, const FitEnd& end) {
+  const Trying& t = end.tried[*end.best];
+  const std::vector<double> values = measured_values(plan, t);
+  for (std::size_t m = 0; m < values.size(); ++m) rows.emplace_back(measured_header(plan, end, m), number(values[m], 9));
+  for (const Bound& b : plan.goal.bounds)
+    rows.emplace_back(measured_header(plan, end, b.measure),
+                      std::string(b.at_most ? "at most " : "at least ") + number(b.limit) +
+                          (b.at_most == (values[b.measure] <= b.limit * (1 + (b.limit > 0 ? met_within : -met_within))) ? ": met" : ": see the value"));
+  for (std::size_t j = 0; j < plan.variables.size(); ++j) {
+    const ValueSpan& span = plan.variables[j].span;
+    const double x = variable_value(t, j), u = span.where(x);
+    const char* end_of_span = u < 1e-6 ? ", at the lower end of its span" : u > 1 - 1e-6 ? ", at the upper end of its span" : "";
+    rows.emplace_back(variable_header(plan.variables[j]),
+                      number(x, 9) + " (from " + number(span.span.from) + " to " + number(span.span.to) + end_of_span + ")");
+  }
+  rows.emplace_back("found", "in case " + std::to_string(t.row.number) + "; " + std::to_string(agreeing(plan, end)) + " of " +
+                                 std::to_string(end.best_of.size()) + " searches came to this point");
+}
+
+void print(const FitPlan& plan, const FitEnd& end, const fs::path& out) {
+  std::cout << (plan.base.study.title.empty() ? plan.base.study.file : plan.base.study.title) << "\n";
+  Rows rows{{"method", methods_text(plan)}, {"cases", cases_text(plan, end)}};
+  if (end.best) add_best(rows, plan, end);
+  rows.emplace_back("computing", number(end.seconds, 3) + " s by " + std::to_string(end.workers) + (end.workers > 1 ? " workers" : " worker"));
+  if (end.stopped)
+    rows.emplace_back("history", (out / "fit-so-far.csv").string());
+  else
+    rows.emplace_back("results", (out / "fit.csv").string() +
+                                     (fs::exists(out / "fitted.yaml") ? ", ready to run: " + (out / "fitted.yaml").string() : ""));
+  print_rows(std::cout, rows);
+  if (end.stopped) std::cout << "  " << stopped_by() << "; the same command goes on from here\n";
+}
+
+/// What the end lacks; empty if nothing.
+std::string lack(const FitPlan& plan, const FitEnd& end) {
+  if (!end.best) {
+    const auto first = std::ranges::find_if(end.tried, [](const Trying& t) { return !t.worth.known; });
+    std::string out = "none of " + std::to_string(end.tried.size()) + " points could be measured; give a start that works, or more sample";
+    if (first != end.tried.end())
+      out += "; the first: " + first->row.status + (first->row.reason.empty() ? "" : ": " + first->row.reason);
+    return out;
+  }
+  if (end.tried[*end.best].worth.worst() > met_within)
+    return "no point was found that meets all limits of subject to; there is no fitted.yaml. Widen vary or the limits, or allow more evaluations";
+  if (!end.meets(plan)) return "the goal is not reached within its tolerance; what came nearest is in fitted.yaml";
+  return "";
+}
+
+}  // namespace
+
+int fit(const Options& options) {
+  now_doing("reading the study");
+  const FitPlan plan = read_fit(options.scene, overrides(options));
+  const fs::path out =
+      options.out.empty() ? fs::path("runs") / (fs::path(options.scene).stem().string() + "-fit") : fs::path(options.out);
+  FitSettings settings;
+  settings.threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  FitEnd end;
+  now_doing("searching");
+  {
+    FitProgress progress(options.quiet || options.json);
+    settings.progress = [&](std::size_t done, std::size_t most) { return progress(done, most); };
+    end = run_fit(plan, out, settings);
+  }
+  for (const std::string& note : end.notes) std::cerr << "note: " << note << "\n";
+  if (options.json)
+    std::cout << fit_json(plan, end);
+  else if (!options.quiet)
+    print(plan, end, out);
+  if (end.stopped) {
+    if (options.quiet || options.json) std::cerr << plan.base.study.file << ": " << stopped_by() << "; the same command goes on from here\n";
+    return stopped;
+  }
+  if (const std::string what = lack(plan, end); !what.empty()) {
+    std::cerr << plan.base.study.file << ": " << what << "\n";
+    return run_failed;
+  }
+  return ok;
+}
+
+}  // namespace pintle::app

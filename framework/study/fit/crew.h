@@ -1,0 +1,62 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace pintle {
+
+/// Does task(0) … task(count − 1) by some threads, each drawing the next; `poll` is called some ten times a second by the caller. Where
+/// the system gives no thread the caller does the tasks, which then must call `poll` themselves.
+/// @returns threads that worked, the caller included if it did
+/// @throws what a task throws, when all have ended
+inline std::size_t share_out(std::size_t count, int threads, const std::function<void(std::size_t)>& task, const std::function<void()>& poll) {
+  std::atomic<std::size_t> next = 0;
+  std::size_t out = 0;
+  std::exception_ptr trouble;
+  std::mutex mutex;
+  std::condition_variable ended;
+  const auto work = [&] {
+    try {
+      for (std::size_t k; (k = next++) < count;) task(k);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!trouble) trouble = std::current_exception();
+      next = count;
+    }
+    const std::lock_guard lock(mutex);
+    --out;
+    ended.notify_all();
+  };
+  std::vector<std::thread> crew;
+  try {
+    for (std::size_t k = 0; k < std::min(count, static_cast<std::size_t>(threads)); ++k) {
+      {
+        const std::lock_guard lock(mutex);
+        ++out;
+      }
+      crew.emplace_back(work);
+    }
+  } catch (const std::exception&) {  // the others do the work
+    const std::lock_guard lock(mutex);
+    --out;
+  }
+  if (crew.empty()) out = 1, work();
+  for (std::unique_lock lock(mutex); out > 0;) {
+    ended.wait_for(lock, std::chrono::milliseconds(100), [&] { return out == 0; });
+    lock.unlock();
+    poll();
+    lock.lock();
+  }
+  for (std::thread& t : crew) t.join();
+  if (trouble) std::rethrow_exception(trouble);
+  return std::max<std::size_t>(1, crew.size());
+}
+
+}  // namespace pintle

@@ -1,0 +1,78 @@
+#include "framework/study/sweep/study_folder.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "files/files.h"
+#include "framework/common/file.h"
+
+namespace pintle {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Makes the folder, or judges whether it is one to go on with.
+void open_folder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(folder, error))) {
+    const auto is_ours = [&](const fs::path& p) {
+      const std::string name = p.filename().string();
+      return name.starts_with("journal-") || name.starts_with("study.yaml") || name.starts_with("scene.yaml") ||
+             name.find(".part") != std::string::npos;
+    };
+    if (!fs::is_directory(folder)) throw SceneError(folder.string(), {}, "exists already and is not a directory; name another with --out");
+    const fs::directory_iterator entries(folder);
+    if (!fs::exists(journal_path(folder, 0)) &&
+        !std::all_of(begin(entries), end(entries), [&](const auto& e) { return is_ours(e.path()); }))
+      throw SceneError(folder.string(), {}, "exists already and holds no study; name another directory with --out");
+  }
+  fs::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another place with --out");
+}
+
+std::string text_or_nothing(const fs::path& path) {
+  constexpr std::size_t most_bytes = std::size_t{100} << 20;
+  try {
+    return read_file(path, most_bytes);
+  } catch (const FileRefused&) {
+    return {};  // then it is not what was kept there
+  }
+}
+
+/// Why the folder of another study is refused: what has changed since, as far as that is known.
+std::string what_differs(const Sweep& sweep, const fs::path& folder) {
+  const auto differs = [&](const char* name, const std::string& now) {
+    return fs::exists(folder / name) && text_or_nothing(folder / name) != now;
+  };
+  const bool study = differs("study.yaml", sweep.text), scene = differs("scene.yaml", sweep.study.scene.text);
+  const std::string was = study && scene ? "The study and its scene are not those"
+                          : study        ? "The study is not the one"
+                                         : "The scene is not the one";
+  if (study || scene)
+    return was + " that ran there (kept there as " + (study ? "study.yaml" : "") + (study && scene ? " and " : "") +
+           (scene ? "scene.yaml" : "") + ")";
+  return "Study and scene are those that ran there, but --set, a file that they name or the program's version is another";
+}
+
+}  // namespace
+
+std::unique_ptr<Journal> open_study_folder(const Sweep& sweep, const fs::path& folder, std::vector<std::string>& notes) {
+  open_folder(folder);
+  const fs::path own = journal_path(folder, 0);
+  std::unique_ptr<Journal> journal;
+  try {
+    journal = std::make_unique<Journal>(own, sweep.print, &notes);
+  } catch (const OtherStudy&) {
+    throw SceneError(
+        folder.string(), {},
+        "belongs to another study. " + what_differs(sweep, folder) + ". Name another directory with --out, or remove " + folder.string());
+  }
+  if (!journals_are_free(folder, own, 10))
+    throw std::runtime_error(folder.string() + ": processes of an earlier session still work there; wait for them, or end them");
+  write_synced(folder / "study.yaml", sweep.text);
+  write_synced(folder / "scene.yaml", sweep.study.scene.text);
+  return journal;
+}
+
+}  // namespace pintle
