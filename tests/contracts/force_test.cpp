@@ -51,6 +51,9 @@ const Kind kinds[] = {
     {"TorsionSpring", TorsionSpring{0, 1, 25, 0, -0.8}},
     {"DampedTorsionSpring", TorsionSpring{0, 1, 25, 2, -0.8}},
     {"Maxwell", Maxwell{0, 1, 40, 3}},
+    {"BeltSpan", BeltSpan{0, 1, 0.1, -0.05, 40, 0, -6}},
+    {"DampedBeltSpan", BeltSpan{0, 1, 0.1, -0.05, 40, 3, -6, 1}},
+    {"SlackBeltSpan", BeltSpan{0, 1, 0.1, 0.2, 40, 3, 20}},
 };
 bool is_load(const Force& f) { return std::holds_alternative<PointForce>(f) || std::holds_alternative<Torque>(f); }
 

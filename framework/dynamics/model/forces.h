@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "framework/common/time_law.h"
+#include "framework/dynamics/model/belt_span.h"
 #include "framework/dynamics/model/internal_states.h"
 #include "framework/dynamics/model/marker.h"
 #include "framework/dynamics/model/wrench_tangent.h"
@@ -56,7 +57,7 @@ struct Maxwell {
   auto members() const { return std::tie(a, b, k, c); }
 };
 
-using Force = std::variant<PointForce, Torque, Spring, TorsionSpring, Maxwell>;
+using Force = std::variant<PointForce, Torque, Spring, TorsionSpring, Maxwell, BeltSpan>;
 
 /// Those of a force element, in order.
 std::span<const InternalState> internal_states(const Force&);

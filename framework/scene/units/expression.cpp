@@ -11,12 +11,12 @@ namespace pintle {
 
 namespace {
 
-[[noreturn]] void unknown(const std::string& name, const Parameters& parameters) {
+[[noreturn]] void unknown(const std::string& name, const Vocabulary& vocabulary) {
   if (is_function(name)) throw ExpressionError("the function " + name + " needs its parentheses");
   if (const std::string_view remedy = instead_of(name); !remedy.empty())
     throw ExpressionError("it contains " + name + ": " + std::string(remedy));
-  std::vector<std::string> known{"t", "pi"};
-  for (const auto& [parameter, value] : parameters) known.push_back(parameter);
+  std::vector<std::string> known{std::string(vocabulary.variable), "pi"};
+  for (const auto& [parameter, value] : vocabulary.parameters) known.push_back(parameter);
   for (const Unit& u : units()) known.emplace_back(u.name);
   throw ExpressionError("\"" + name + "\" is neither a parameter nor a unit." + did_you_mean(name, known));
 }
@@ -24,11 +24,11 @@ namespace {
 int value_of(const Word& word, const Vocabulary& known, Formula& formula) {
   const std::string& name = word.text;
   if (word.kind == Word::Kind::number) return formula.constant({word.value, {}});
+  if (name == known.variable) return formula.time();
   if (const auto found = known.parameters.find(name); found != known.parameters.end()) return formula.constant(found->second);
-  if (name == "t") return formula.time();
   if (name == "pi") return formula.constant({std::numbers::pi, {}});
   if (const Unit* u = known.unit(name)) return formula.constant({u->factor, u->dimension});
-  unknown(name, known.parameters);
+  unknown(name, known);
 }
 
 int result_of(const FormulaStep& step, std::span<const int> x, const Vocabulary& known, Formula& formula) {
@@ -144,6 +144,17 @@ Law read_law(std::string_view text, const Dimension& expected, const Parameters&
   }
 }
 
+Law read_curve(std::string_view text, std::string_view variable, const Dimension& of, const Dimension& expected,
+               const Parameters& parameters) {
+  try {
+    const Vocabulary known{parameters, {}, variable};
+    const std::vector<Word> words = spell(text, known);
+    return law_with(parse(words), text, of, expected, known);
+  } catch (const ExpressionError& error) {
+    refuse(text, error);
+  }
+}
+
 std::string fault_of_name(std::string_view name) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -151,6 +162,7 @@ std::string fault_of_name(std::string_view name) {
     return "a parameter's name is letters, digits and _, and begins with a letter";
   if (name == "t") return "t is the time; choose another name";
   if (name == "pi") return "pi is a constant; choose another name";
+  if (name == "present") return "present is what a length or angle is at the start; choose another name";
   if (find_unit(name)) return std::string(name) + " is a unit; choose another name";
   if (is_function(name)) return std::string(name) + " is a function; choose another name";
   return {};

@@ -12,10 +12,11 @@ namespace pintle {
 
 using Parameters = std::map<std::string, Quantity, std::less<>>;
 
-/// What names an expression may use beside t, pi and the functions. Must not outlive its parts.
+/// What names an expression may use beside pi and the functions. Must not outlive its parts.
 struct Vocabulary {
   const Parameters& parameters;
   std::span<const Unit> more_units = {};          ///< beside units()
+  std::string_view variable = "t";                ///< what it is a function of
   const Unit* unit(std::string_view name) const;  ///< nullptr if there is none
 };
 

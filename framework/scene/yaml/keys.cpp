@@ -51,6 +51,7 @@ const std::vector<std::string> hysteresis_factors{
 const std::vector<Key> arc_keys{{"arc", required, "20 mm"}};
 const std::vector<Key> spline_keys{{"file", required, "cam.csv"}, {"length unit"}};
 const std::vector<Key> polar_keys{{"file", required, "cam.csv"}, {"angle unit"}, {"radius unit"}};
+const std::vector<Key> curve_table_keys{{"table", required, "cam.csv"}, {"angle unit"}, {"value unit"}};
 constexpr const char* two_eyes = "[{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]";
 
 std::vector<Key> joint_keys() {
@@ -61,7 +62,10 @@ std::vector<Key> joint_keys() {
   for (const JointWord& word : joint_words()) {
     add(word.word);
     for (const JointNumber& number : word.numbers) add(number.key);
+    for (const char* key : word.couples) add(key);
   }
+  for (Key& key : keys)
+    if (key.name == "inside" || key.name == "crossed") key.choices = {"false", "true"};
   return keys;
 }
 
@@ -180,6 +184,9 @@ const std::vector<KeyTable>& tables() {
        {{"force"}, {"torque"}, {"at"}, {"pressure"}, {"traction"}, {"on"}, {"acceleration"}, {"spin"}, {"about"}, {"line load"}, {"body"}}},
       {"static.contacts.*", {{"between", required, "[pin.outline, rocker.bore]"}}},
       {"joints.*", joint_keys()},
+      {"joints.*.differential.*", {{"angle"}, {"displacement"}, {"distance"}, {"ratio"}}},
+      {"joints.*.lift", curve_table_keys},
+      {"joints.*.swing", curve_table_keys},
       {"joints.*.friction", {{"coulomb"}, {"lugre"}, {"gonthier"}, {"radius"}, {"length"}, {"preload"}}},
       {"joints.*.friction.coulomb", coulomb_keys},
       {"joints.*.friction.lugre", lugre_keys},
@@ -282,10 +289,14 @@ const std::vector<KeyTable>& tables() {
         {"spring"},
         {"torsion spring"},
         {"maxwell"},
+        {"belt"},
         {"stiffness"},
         {"damping"},
         {"free length"},
-        {"free angle"}}},
+        {"free angle"},
+        {"radii"},
+        {"crossed", optional, "", {"true", "false"}},
+        {"pretension"}}},
       {"forces.*.torque",
        {{"table", required, "torque.csv"}, {"interpolation", optional, "", {"spline", "linear"}}, {"time unit"}, {"value unit"}}},
       {"start.*", {{"at"}, {"x"}, {"y"}, {"angle"}, {"velocity"}, {"vx"}, {"vy"}, {"speed"}, {"deflection"}, {"modes"}, {"eccentricity"}}},

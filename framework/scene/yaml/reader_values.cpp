@@ -90,6 +90,8 @@ Law read_table_law(const Node& node, const Dimension& expected, Smoothness smoot
   return {Spline(std::move(samples)), text, false};
 }
 
+}  // namespace
+
 void must_be_finite(const Node& node, const Law& law, Smoothness smoothness, double until) {
   constexpr int looks = 64;
   for (int i = 0; i <= looks; ++i) {
@@ -101,8 +103,6 @@ void must_be_finite(const Node& node, const Law& law, Smoothness smoothness, dou
       node.fail(node.shown() + " has no finite speed and acceleration at t = " + decimal(t) + " s; a driver needs both");
   }
 }
-
-}  // namespace
 
 std::string checked_name(const Node& node) {
   const std::string name = node.name();
