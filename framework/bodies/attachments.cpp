@@ -60,6 +60,12 @@ std::vector<Attachment> attachments_of(const Scene& scene, const BuiltOrder& ord
         [&](const auto& what) {
           if constexpr (requires { what.at; }) {
             add(Attachment::force, order.loads[i], 1, what.at);
+          } else if constexpr (requires { what.pulleys; }) {
+            int span = order.loads[i];
+            for (std::size_t k = 0; k < what.pulleys.size(); ++k, ++span) {
+              add(Attachment::force, span, 0, what.pulleys[k]);
+              add(Attachment::force, span, 1, what.pulleys[(k + 1) % what.pulleys.size()]);
+            }
           } else {
             add(Attachment::force, order.loads[i], 0, what.a);
             add(Attachment::force, order.loads[i], 1, what.b);

@@ -90,6 +90,8 @@ std::vector<int> interface_of(const Scene& scene, const ElasticBody& e) {
         [&](const auto& w) {
           if constexpr (requires { w.at; })
             note(w.at);
+          else if constexpr (requires { w.pulleys; })
+            std::ranges::for_each(w.pulleys, note);
           else
             note(w.a), note(w.b);
         },

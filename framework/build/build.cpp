@@ -13,6 +13,7 @@
 #include "framework/build/clearance.h"
 #include "framework/build/contacts.h"
 #include "framework/build/choose_method.h"
+#include "framework/build/couplings.h"
 #include "framework/build/elastic_bodies.h"
 #include "framework/build/events.h"
 #include "framework/build/joints.h"
@@ -61,6 +62,8 @@ class Builder {
     record();
     keep_drawings();
     report_flexible(scene_, elements_, elastic_, model_);
+    model_.system.length = size();
+    settle_start(scene_, model_);
     model_.system.length = size();
     signals_.finish();
     for (const SceneOutput& o : scene_.outputs) add(o);
@@ -119,10 +122,7 @@ class Builder {
 
   void add(const SceneJoint& j) {
     unique(j.name, "joint", j.place);
-    markers_.two_bodies(j.a, j.b, j.place);
-    const JointWord& word = word_of(j);
-    const PointRef c = cage_of(j);
-    if (word.third) markers_.two_bodies(j.a, c, j.place), markers_.two_bodies(j.b, c, j.place);
+    apart(j);
     if (j.play || is_open(j)) return model_.order.joints.push_back(-1);
     if (j.clearance) return add_contact(j);
     const Joint made = joint_of(scene_, j, markers_);
@@ -130,6 +130,17 @@ class Builder {
     if (j.friction && rubs(j.friction->law)) model_.system.frictions.push_back(friction_of(scene_, j, model_.order.joints.back()));
     model_.system.joints.push_back(made);
     model_.system.joint_names.push_back(j.name);
+  }
+
+  /// Its ends are on bodies of their own.
+  void apart(const SceneJoint& j) const {
+    markers_.two_bodies(j.a, j.b, j.place);
+    if (j.coupling && !j.coupling->terms.empty()) {
+      for (const SceneTerm& t : j.coupling->terms) markers_.two_bodies(t.a, t.b, j.place);
+    } else if (word_of(j).third) {
+      const PointRef frame = j.c.value_or(PointRef{"ground", "", j.place});
+      markers_.two_bodies(j.a, frame, j.place), markers_.two_bodies(j.b, frame, j.place);
+    }
   }
 
   /// The contact that it is, and the joint that it would be.
@@ -209,7 +220,7 @@ class Builder {
     if (d.kind == DriverKind::angle) {
       model_.system.joints.push_back(AngleDriver{a, b, d.law.at});
     } else {
-      if (!(d.law.at(0).value > 0)) wrong(d.place, "a driven distance must stay above 0; at t = 0 it is not");
+      if (!d.from_present && !(d.law.at(0).value > 0)) wrong(d.place, "a driven distance must stay above 0; at t = 0 it is not");
       model_.system.joints.push_back(DistanceDriver{a, b, d.law.at});
     }
     model_.system.joint_names.push_back(d.name);
@@ -250,6 +261,8 @@ class Builder {
         size(SizedForce::restoring, a, b, l, *r->law);
       else
         forces.push_back(TorsionSpring{a, b, r->stiffness, r->damping, r->free_angle});
+    } else if (const auto* belt = std::get_if<SceneBelt>(&l.what)) {
+      return add(*belt, l);
     } else {
       const auto& m = std::get<SceneMaxwell>(l.what);
       markers_.two_bodies(m.a, m.b, l.place);
@@ -273,6 +286,14 @@ class Builder {
   void add(const SceneOutput& o) {
     unique(o.name, "output", o.place);
     model_.outputs.push_back(written_output(scene_, o, model_, signals_));
+  }
+
+  void add(const SceneBelt& belt, const SceneLoad& l) {
+    int span = 0;
+    for (const BeltSpan& s : spans_of(scene_, l, belt, markers_)) {
+      model_.system.forces.push_back(s);
+      model_.system.force_names.push_back(l.name + " " + std::to_string(++span));
+    }
   }
 
   void validate_starts() {

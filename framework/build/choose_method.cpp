@@ -61,6 +61,10 @@ class Parts {
     } else if (const auto* m = std::get_if<Maxwell>(&force)) {
       const double w = mobility(system_, m->a).force + mobility(system_, m->b).force;
       see({std::sqrt(m->k * w), m->k / m->c, "the spring in series with the damper \"" + name + "\""});
+    } else if (const auto* span = std::get_if<BeltSpan>(&force)) {
+      const Mobility a = mobility(system_, span->a), b = mobility(system_, span->b);
+      const double w = a.force + b.force + span->radius_a * span->radius_a * a.couple + span->radius_b * span->radius_b * b.couple;
+      see({std::sqrt(span->k * w), span->c * w, "the belt \"" + name + "\""});
     }
   }
   void see(const Body& body) {

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "framework/build/clearance.h"
+#include "framework/build/couplings.h"
 #include "framework/scene/error.h"
 #include "framework/scene/joint_words.h"
 
@@ -32,28 +33,22 @@ double nearest_turn(const Scene& scene, const SceneJoint& j, const Markers& mark
 
 }  // namespace
 
-PointRef cage_of(const SceneJoint& j) { return j.c.value_or(PointRef{"ground", "", j.place}); }
-
 Joint joint_of(const Scene& scene, const SceneJoint& j, Markers& markers) {
   const JointWord& word = word_of(j);
-  const bool turns = word.clamps || word.turns;
-  const int a = markers.marker(j.a, turns || word.guides ? Holds::direction : Holds::point);
-  const int b = markers.marker(j.b, turns ? Holds::direction : Holds::point);
+  if (is_coupling(j)) return coupling_of(scene, j, markers);
+  const int a = markers.marker(j.a, word.clamps || word.guides ? Holds::direction : Holds::point);
+  const int b = markers.marker(j.b, word.clamps ? Holds::direction : Holds::point);
   switch (j.kind) {
     case JointKind::revolute: return Revolute{a, b};
     case JointKind::slot: return Slot{a, b};
     case JointKind::prismatic: return Prismatic{a, b, nearest_turn(scene, j, markers)};
     case JointKind::weld: return Weld{a, b, nearest_turn(scene, j, markers)};
     case JointKind::distance:
-      if (!(j.length > 0)) throw SceneError(scene.file, j.place, "length must be above 0; for two points that coincide use revolute");
+      if (!(j.length > 0) && !j.from_present)
+        throw SceneError(scene.file, j.place, "length must be above 0; for two points that coincide use revolute");
       return Distance{a, b, j.length};
-    case JointKind::differential: break;
+    default: throw SceneError(scene.file, j.place, std::string("a ") + word.word + " joint lacks the sizes of its coupling");
   }
-  if (j.ratio == 0) throw SceneError(scene.file, j.place, "ratio must not be 0: the first shaft would be fixed to the cage; use weld");
-  const PointRef c = cage_of(j);
-  return Differential{
-      a, b, markers.marker(c, Holds::direction), j.ratio,
-      drawn_angle(scene, j.a, markers) + j.ratio * drawn_angle(scene, j.b, markers) - (1 + j.ratio) * drawn_angle(scene, c, markers)};
 }
 
 JointFriction friction_of(const Scene& scene, const SceneJoint& j, int joint) {

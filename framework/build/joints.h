@@ -11,9 +11,6 @@ namespace pintle {
 /// @throws SceneError  points that are not there or have no direction; a length or ratio that cannot be
 Joint joint_of(const Scene&, const SceneJoint&, Markers&);
 
-/// The third point of a differential: the ground where it is left out.
-PointRef cage_of(const SceneJoint&);
-
 /// @param joint  its index in System::joints
 /// @throws SceneError  a law that is a curve of the speed; a joint that takes no friction; a radius or preload that cannot be
 JointFriction friction_of(const Scene&, const SceneJoint&, int joint);

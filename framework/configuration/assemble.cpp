@@ -260,14 +260,18 @@ auto as_if_ideal(const Scene& scene, const System& system, const System& closed,
   }
 }
 
+int close_joints(const Scene& scene, const System& system, const System& closed, Rough& r) {
+  return as_if_ideal(scene, system, closed, r, [&](Closure& closure, const System& these) {
+    return undeformed_first(these, r, &Rough::W_pose, [&](Rough& from) { return close_joints(scene, closure, these, from); });
+  });
+}
+
 Assembly assembled(const Scene& scene, const System& system, const Bent& bent) {
   const System closed = without_play(system);
   Rough r = rough_state(scene, closed, bent);
   const VectorXd before = r.y.head(system.n());
   Assembly out;
-  out.iterations = as_if_ideal(scene, system, closed, r, [&](Closure& closure, const System& these) {
-    return undeformed_first(these, r, &Rough::W_pose, [&](Rough& from) { return close_joints(scene, closure, these, from); });
-  });
+  out.iterations = close_joints(scene, system, closed, r);
   out.moved = (r.y.head(system.n()) - before).lpNorm<Eigen::Infinity>();
   as_if_ideal(scene, system, closed, r, [&](Closure& closure, const System& these) {
     return undeformed_first(these, r, &Rough::W_speed, [&](Rough& from) { return match_speeds(scene, closure, these, from); });
@@ -374,6 +378,13 @@ void refuse_rigid_contacts(const Scene& scene, const System& system, const std::
     if (is_rigid(system.contacts[c]))
       throw AssemblyError(scene.file, named_place(scene, system.contact_names[c]),
                           what + " needs contacts that give way; instead of model: impact give it a normal law with a stiffness");
+}
+
+VectorXd closed_pose(const Scene& scene, const System& system, const std::vector<std::pair<int, VectorXd>>& bent) {
+  const System closed = without_play(system);
+  Rough r = rough_state(scene, closed, bent);
+  close_joints(scene, system, closed, r);
+  return r.y;
 }
 
 Assembly assemble(const Scene& scene, const System& system) { return assembled(scene, system, {}); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/configuration/redundancy.h"
@@ -27,6 +28,10 @@ struct Assembly {
 ///                        drivers that contradict each other, now or later in the run
 Assembly assemble(const Scene&, const Model&);
 Assembly assemble(const Scene&, const System&);
+
+/// The first half of it: where coordinates begin, speeds are as the scene says.
+/// @param bent  bodies that start bent, and their modal coordinates   @throws AssemblyError  as assemble
+Eigen::VectorXd closed_pose(const Scene&, const System&, const std::vector<std::pair<int, Eigen::VectorXd>>& bent);
 
 /// What of an assembly makes a run's numbers doubtful, in words: joint forces shared out by convention, a start in a singular pose.
 std::vector<std::string> warnings_of(const Model&, const Assembly&);

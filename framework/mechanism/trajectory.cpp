@@ -277,6 +277,10 @@ void trajectory_columns(const Model& model, Out out) {
     wrench_columns(
         system, system.joint_names[at(k)], of.force, of.couple, written_marker(system, k),
         [&](const Now& now) { return joint_wrench(system, now.eq, k); }, out);
+    for (int row = 0; row < of.rows(); ++row)
+      if (const char* effort = of.efforts[at(row)])
+        out(system.joint_names[at(k)], {{effort, "N"}},
+            [&](const Now& now) { return std::array{-now.eq.lambda[system.row_begin[at(k)] + row]}; });
   }
   for (std::size_t k = 0; k < system.frictions.size(); ++k)
     out(system.joint_names[at(system.frictions[k].joint)], {{".sliding", "m/s"}, {".load", "N"}, {".friction", "N"}},
@@ -292,9 +296,13 @@ void trajectory_columns(const Model& model, Out out) {
   }
   for (std::size_t k = 0; k < system.forces.size(); ++k) {
     const bool turns = is_turning(system.forces[k]);
+    const auto* span = std::get_if<BeltSpan>(&system.forces[k]);
     wrench_columns(
-        system, system.force_names[k], !turns, turns, marker_b(system.forces[k]), [&](const Now& now) { return now.eq.force[k].on_b; },
-        out);
+        system, system.force_names[k], !turns, turns || span, marker_b(system.forces[k]),
+        [&](const Now& now) { return now.eq.force[k].on_b; }, out);
+    if (span)
+      out(system.force_names[k], {{".tension", "N"}},
+          [&](const Now& now) { return std::array{tension(*span, now.eq.motion[at(span->a)], now.eq.motion[at(span->b)])}; });
   }
   for (const InternalStates& owner : system.internal) internal_columns(system, owner, out);
   for (std::size_t i = 0; i < system.states.size(); ++i)

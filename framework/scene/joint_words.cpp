@@ -22,13 +22,34 @@ std::span<const JointWord> joint_words() {
       {.kind = JointKind::weld, .word = "weld", .clamps = true, .numbers = {angle}},
       {.kind = JointKind::distance, .word = "distance", .clearance = true, .numbers = {length}},
       {.kind = JointKind::differential, .word = "differential", .third = true, .turns = true, .numbers = {ratio}},
+      {.kind = JointKind::gear, .word = "gear", .turns = true, .couples = {"radii", "teeth", "inside"}},
+      {.kind = JointKind::rack, .word = "rack", .turns = true, .couples = {"radius"}},
+      {.kind = JointKind::rolling, .word = "rolling", .turns = true, .couples = {"radius", "radii", "inside"}},
+      {.kind = JointKind::belt, .word = "belt", .turns = true, .couples = {"radii", "crossed"}},
+      {.kind = JointKind::screw, .word = "screw", .third = true, .turns = true, .couples = {"lead"}},
+      {.kind = JointKind::cam, .word = "cam", .third = true, .turns = true, .couples = {"lift", "swing"}},
   };
   return words;
 }
 
 const JointWord& word_of(const SceneJoint& joint) { return *std::ranges::find(joint_words(), joint.kind, &JointWord::kind); }
 
+namespace {
+
+// Where something is measured a point counts, not only its body.
+std::vector<const PointRef*> points_of(const std::vector<SceneTerm>& terms) {
+  std::vector<const PointRef*> out;
+  for (const bool turning : {false, true})
+    for (const SceneTerm& t : terms)
+      for (const PointRef* p : {&t.a, &t.b})
+        if (turning == (t.kind == SceneTerm::angle) && std::ranges::find(out, p->body, &PointRef::body) == out.end()) out.push_back(p);
+  return out;
+}
+
+}  // namespace
+
 std::vector<const PointRef*> points_of(const SceneJoint& joint) {
+  if (joint.coupling && !joint.coupling->terms.empty()) return points_of(joint.coupling->terms);
   if (joint.c) return {&joint.a, &joint.b, &*joint.c};
   return {&joint.a, &joint.b};
 }

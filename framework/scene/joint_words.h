@@ -26,12 +26,13 @@ struct JointWord {
   bool clearance = false;  ///< takes one
   bool friction = false;   ///< likewise
   std::vector<JointNumber> numbers = {};
+  std::vector<const char*> couples = {};  ///< keys of SceneCoupling that stand beside it
 };
 
 std::span<const JointWord> joint_words();
 const JointWord& word_of(const SceneJoint&);
 
-/// The points that a joint joins, in order.
+/// The points that a joint joins, in the order of its ends; of a relation of terms one of each body.
 std::vector<const PointRef*> points_of(const SceneJoint&);
 /// The point that carries a profile, BODY.PROFILE; of a rigid body and the ground the origin.
 /// @throws SceneError  a flexible body's profile that no point carries

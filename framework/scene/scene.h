@@ -185,13 +185,33 @@ struct SceneJointFriction {
   double preload = 0;  ///< [N]
 };
 
-enum class JointKind { revolute, prismatic, slot, weld, distance, differential };
+/// A coordinate of a linear relation: b's direction less a's, b along a's direction, or the distance from a to b; times `ratio`.
+struct SceneTerm {
+  enum Kind { angle, displacement, distance } kind = angle;
+  PointRef a, b;
+  double ratio = 1;
+};
+
+/// What couplings say beside their points: wheels their sizes, relations their terms or curve. They start as they are assembled.
+struct SceneCoupling {
+  Pair radii{0, 0};                   ///< of the wheels at a and b [m]; 0: from `teeth`
+  Pair teeth{0, 0};                   ///< instead, of gears
+  bool inside = false;                ///< the smaller wheel runs in the larger
+  bool crossed = false;               ///< of a belt
+  double radius = 0;                  ///< of the wheel b on a line [m]
+  double lead = 0;                    ///< of a screw: its nut's way a turn, not 0 [m]
+  std::vector<SceneTerm> terms = {};  ///< of a differential; empty: two shafts and a cage
+  bool swings = false;                ///< of a cam: its follower turns
+  Law curve = {};                     ///< of a cam: lift [m] or swing [rad] over the cam's angle [rad] in place of time
+};
+
+enum class JointKind { revolute, prismatic, slot, weld, distance, differential, gear, rack, rolling, belt, screw, cam };
 
 struct SceneJoint {
   std::string name;
   JointKind kind = JointKind::revolute;
   PointRef a, b;
-  std::optional<PointRef> c = {};           ///< differential: the cage; else the ground
+  std::optional<PointRef> c = {};           ///< differential, screw, cam: the cage or frame; else the ground
   double length = 0;                        ///< distance [m]
   double angle = 0;                         ///< prismatic, weld: b's direction less a's [rad]
   double ratio = 1;                         ///< differential: turns of a against the cage for one of b's the other way
@@ -200,6 +220,8 @@ struct SceneJoint {
   std::optional<ScenePlay> play = {};               ///< prismatic, slot and distance only
   std::optional<SceneJointFriction> friction = {};  ///< revolute, prismatic and slot, without clearance
   bool engaged = true;                              ///< at the start
+  bool from_present = false;                        ///< `length` is added to that at the start, as the rest is assembled
+  std::optional<SceneCoupling> coupling = {};       ///< gear, rack, rolling, belt, screw, cam, and differential of terms
 };
 
 /// A revolute with clearance whose bearing is an arc.
@@ -226,6 +248,7 @@ struct SceneDriver {
   Law law;  ///< [rad] or [m]
   Place place;
   bool engaged = true;  ///< at the start
+  bool from_present = false;  ///< `law` is added to what is imposed as it is at the start, as the rest is assembled
 };
 
 /// A point force in world axes, or in the axes of the body it acts on if `follows`.
@@ -254,9 +277,15 @@ struct SceneMaxwell {
   PointRef a, b;
   double stiffness = 0, damping = 0;  ///< [N/m], [N s/m], > 0
 };
+/// An elastic belt round pulleys, from each to the next and from the last to the first: a span of its own each.
+struct SceneBelt {
+  std::vector<PointRef> pulleys;
+  std::vector<double> radii;                          ///< below 0 where it goes round clockwise, the order of pulleys followed [m]
+  double stiffness = 0, damping = 0, pretension = 0;  ///< over the strain and its rate, at the start [N], [N s], [N]
+};
 struct SceneLoad {
   std::string name;
-  std::variant<SceneForce, SceneTorque, SceneSpring, SceneTorsionSpring, SceneMaxwell> what;
+  std::variant<SceneForce, SceneTorque, SceneSpring, SceneTorsionSpring, SceneMaxwell, SceneBelt> what;
   Place place;
   bool engaged = true;  ///< at the start
 };

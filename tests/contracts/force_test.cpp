@@ -56,6 +56,9 @@ const Kind kinds[] = {
     {"SizedCouple", SizedForce{SizedForce::couple, 0, 1, 1}},
     {"SizedPull", SizedForce{SizedForce::pull, 0, 1, 1}},
     {"Restoring", SizedForce{SizedForce::restoring, 0, 1, 0}},
+    {"BeltSpan", BeltSpan{0, 1, 0.1, -0.05, 40, 0, -6}},
+    {"DampedBeltSpan", BeltSpan{0, 1, 0.1, -0.05, 40, 3, -6, 1}},
+    {"SlackBeltSpan", BeltSpan{0, 1, 0.1, 0.2, 40, 3, 20}},
 };
 bool is_load(const Force& f) {
   return std::holds_alternative<PointForce>(f) || std::holds_alternative<Torque>(f) || std::holds_alternative<SizedForce>(f);

@@ -64,10 +64,6 @@ const Kind kinds[] = {
      [](int a, int b, double) {
        return Joint{Distance{a, b, 0.8}};
      }},
-    {"Differential",
-     [](int a, int b, double angle) {
-       return Joint{Differential{a, b, 2, -0.6, angle}};
-     }},
     {"AngleDriver",
      [](int a, int b, double) {
        return Joint{AngleDriver{a, b, sine}};
@@ -75,6 +71,51 @@ const Kind kinds[] = {
     {"DistanceDriver",
      [](int a, int b, double) {
        return Joint{DistanceDriver{a, b, sine}};
+     }},
+    {"Gear",
+     [](int a, int b, double) {
+       return Joint{Gear{a, b, 0.3, 0.5, 0.1}};
+     }},
+    {"RingGear",
+     [](int a, int b, double) {
+       return Joint{Gear{a, b, 0.7, -0.3, 0.1}};
+     }},
+    {"Rack",
+     [](int a, int b, double) {
+       return Joint{Rack{a, b, -0.3, 0.1}};
+     }},
+    {"RollsOnDisc",
+     [](int a, int b, double) {
+       return Joint{RollsOnDisc{{a, b, 0.3, 0.5, 0.1}}};
+     }},
+    {"RollsInDisc",
+     [](int a, int b, double) {
+       return Joint{RollsOnDisc{{a, b, 0.9, -0.3, 0.1}}};
+     }},
+    {"RollsOnLine",
+     [](int a, int b, double) {
+       return Joint{RollsOnLine{{a, b, -0.3, 0.1}}};
+     }},
+    {"Differential",
+     [](int a, int b, double) {
+       return Joint{relation(true, {{a, b, 2}, 3}, {{Coordinate::angle, 2, 0, 1}, {Coordinate::angle, 2, 1, -0.6}})};
+     }},
+    {"Screw",
+     [](int a, int b, double) {
+       return Joint{relation(false, {{a, b, 2}, 3}, {{Coordinate::displacement, 2, 1, 1}, {Coordinate::angle, 2, 0, -0.2}})};
+     }},
+    {"Cam",
+     [](int a, int b, double) {
+       return Joint{relation(false, {{a, b, 2}, 3}, {{Coordinate::angle, 2, 0, 0}, {Coordinate::displacement, 2, 1, 1}}, sine)};
+     }},
+    {"CurveOverADistance",
+     [](int a, int b, double) {
+       return Joint{relation(true, {{a, b, 2}, 3}, {{Coordinate::distance, 0, 1, 0.4}, {Coordinate::angle, 2, 1, 1}}, sine)};
+     }},
+    {"ThreeTerms",
+     [](int a, int b, double) {
+       return Joint{relation(false, {{a, b, 2}, 3},
+                             {{Coordinate::distance, 0, 1, 1}, {Coordinate::displacement, 1, 0, 0.7}, {Coordinate::angle, 2, 1, 0.3}})};
      }},
 };
 
@@ -222,7 +263,7 @@ TEST_P(JointContract, PropertiesSayWhatItReads) {
     std::vector<MarkerMotion> markers;
     for (std::size_t i = 0; i < n_; ++i) {
       markers.push_back(moving(p[i], v[i]));
-      if (i > 0 || !of.direction) markers.back().u.setConstant(std::nan(""));
+      if (!of.directions[i]) markers.back().u.setConstant(std::nan(""));
     }
     Evaluated r{{}, std::vector<ConstraintRows::Block>(n_, ConstraintRows::Block::Zero())};
     evaluate_pose(joint_, markers.data(), 0.3, r.rows, r.L.data());

@@ -28,6 +28,7 @@ class Sum : public ValueWriter<Sum> {
 
   /// Forty times a decade from a microsecond to ten days.
   void add(const TimeLaw& law) {
+    if (!law) return add(false);
     constexpr int decades = 12, each = 40;
     for (int i = -1; i <= decades * each; ++i) try {
         const Jet jet = law(i < 0 ? 0 : 1e-6 * std::pow(10, static_cast<double>(i) / each));
@@ -43,6 +44,15 @@ class Sum : public ValueWriter<Sum> {
   requires requires(const Kind& kind) { kind.members(); }
   void add(const Kind& joint_or_force) {
     std::apply([this](const auto&... member) { this->add(member...); }, joint_or_force.members());
+  }
+  void add(const Relation& relation) {
+    const auto& [ends, coordinates, curve, properties, constant] = relation;
+    for (const int marker : ends) add(marker);
+    add(coordinates, curve, rows(Joint{relation}), constant);
+  }
+  void add(const Coordinate& c) {
+    const auto& [kind, a, b, ratio] = c;
+    add(kind, a, b, ratio);
   }
   void add(const ContactPair& p) {
     const auto& [a, b, gap, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid, slack,

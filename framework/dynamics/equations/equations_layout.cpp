@@ -48,8 +48,11 @@ Equations::Equations(const System& system)
     own.left = own.change = VectorXd::Zero(n);
   }
   directed.assign(motion.size(), false);
-  for (const Joint& j : system.joints)
-    if (properties_of(j).direction) directed[at(*ends_of(j).begin())] = true;
+  for (const Joint& j : system.joints) {
+    const JointEnds joined = ends_of(j);
+    for (std::size_t i = 0; i < at(joined.n); ++i)
+      if (properties_of(j).directions[i]) directed[at(joined.marker[i])] = true;
+  }
   for (const Force& acting : system.forces)
     if (turns_with_b(acting)) directed[at(marker_b(acting))] = true;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {

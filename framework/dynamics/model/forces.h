@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "framework/common/time_law.h"
+#include "framework/dynamics/model/belt_span.h"
 #include "framework/dynamics/model/internal_states.h"
 #include "framework/dynamics/model/marker.h"
 #include "framework/dynamics/model/wrench_tangent.h"
@@ -65,7 +66,7 @@ struct SizedForce {
   auto members() const { return std::tie(way, a, b, size, other); }
 };
 
-using Force = std::variant<PointForce, Torque, Spring, TorsionSpring, Maxwell, SizedForce>;
+using Force = std::variant<PointForce, Torque, Spring, TorsionSpring, Maxwell, SizedForce, BeltSpan>;
 
 /// Those of a force element, in order.
 std::span<const InternalState> internal_states(const Force&);

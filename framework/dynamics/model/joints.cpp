@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "framework/common/index.h"
+#include "framework/dynamics/model/joint_parts.h"
 
 namespace pintle {
 
@@ -15,8 +16,7 @@ namespace {
 using Eigen::Vector2d;
 using Block = ConstraintRows::Block;
 using M = const MarkerMotion&;
-
-// What several joints have in common. `row` is where the rows of a part start; a has the block L[0], b L[1].
+using namespace joint_parts;
 
 void coincide(M a, M b, ConstraintRows& out, Block* L) {
   out.C.head<2>() = b.r - a.r;
@@ -26,27 +26,10 @@ void coincide(M a, M b, ConstraintRows& out, Block* L) {
   L[1].row(1) << 0, 1, 0;
 }
 
-// C = n·d with d = r_b − r_a;  Ċ = n·ḋ − w_a u·d
-void ride_line(M a, M b, ConstraintRows& out, Block* L) {
-  const Vector2d n = perp(a.u), d = b.r - a.r;
-  out.C[0] = n.dot(d);
-  L[0].row(0) << -n.x(), -n.y(), -a.u.dot(d);
-  L[1].row(0) << n.x(), n.y(), 0;
-}
-double ride_line_kappa(M a, M b) {
-  const Vector2d d = b.r - a.r, dv = b.v - a.v;
-  return -2 * a.w * a.u.dot(dv) - a.w * a.w * perp(a.u).dot(d);
-}
-// Minus the Hessian of λ n·d, n = Zu_a.
-void ride_line_tangent(M a, M b, double lambda, WrenchTangent& out) {
-  const Vector2d along = lambda * a.u;
-  const Eigen::Index a_turns = angle_of(0);
-  out.pose.block<2, 1>(place_of(0), a_turns) = -along;
-  out.pose.block<1, 2>(a_turns, place_of(0)) = -along.transpose();
-  out.pose.block<2, 1>(place_of(1), a_turns) = along;
-  out.pose.block<1, 2>(a_turns, place_of(1)) = along.transpose();
-  out.pose(a_turns, a_turns) = lambda * cross(a.u, b.r - a.r);
-}
+// Across a's direction u: n·d, n = Zu.
+void ride_line(M a, M b, ConstraintRows& out, Block* L) { project(a, b, perp(a.u), 0, out, L); }
+double ride_line_kappa(M a, M b) { return project_kappa(a, b, perp(a.u)); }
+void ride_line_tangent(M a, M b, double lambda, WrenchTangent& out) { project_tangent(a, b, perp(a.u), lambda, out); }
 
 void keep_angle(M a, M b, double angle, int row, ConstraintRows& out, Block* L) {
   out.C[row] = b.angle - a.angle - angle;
@@ -54,30 +37,7 @@ void keep_angle(M a, M b, double angle, int row, ConstraintRows& out, Block* L) 
   L[1].row(row) << 0, 0, 1;
 }
 
-// C = |d| − length;  Ċ = e·ḋ;  C̈ = e·d̈ + (|ḋ|² − (e·ḋ)²)/|d|
-Vector2d direction(M a, M b) {
-  const Vector2d d = b.r - a.r;
-  const double length = d.norm();
-  return length > 0 ? Vector2d(d / length) : Vector2d(1, 0);
-}
-void keep_length(M a, M b, double length, ConstraintRows& out, Block* L) {
-  const Vector2d e = direction(a, b);
-  out.C[0] = (b.r - a.r).norm() - length;
-  L[0].row(0) << -e.x(), -e.y(), 0;
-  L[1].row(0) << e.x(), e.y(), 0;
-}
-double keep_length_kappa(M a, M b) {
-  const double across = cross(direction(a, b), b.v - a.v), length = (b.r - a.r).norm();
-  return length > 0 ? across * across / length : 0;
-}
-// Minus the Hessian of λ |d|.
-void keep_length_tangent(M a, M b, double lambda, WrenchTangent& out) {
-  const Vector2d d = b.r - a.r;
-  const double length = d.norm();
-  if (length == 0) return;
-  const Vector2d across = perp(d) / length;
-  oppose(lambda / length * across * across.transpose(), out.pose);
-}
+void keep_length_tangent(M a, M b, double lambda, WrenchTangent& out) { oppose(lambda * length_curvature(a, b), out.pose); }
 
 // The joints, each: `pose` gives C and L, `speed` Ct and kappa where they are not zero, `curve` the tangent of its wrenches
 // where it is not zero. m: all markers.
@@ -105,18 +65,11 @@ void pose(const Weld& j, const MarkerMotion* m, double, ConstraintRows& out, Blo
 }
 
 void pose(const Distance& j, const MarkerMotion* m, double, ConstraintRows& out, Block* L) {
-  keep_length(m[j.a], m[j.b], j.length, out, L);
+  keep_length(m[j.a], m[j.b], j.length, 0, out, L);
 }
 void speed(const Distance& j, const MarkerMotion* m, double, ConstraintRows& out) { out.kappa[0] = keep_length_kappa(m[j.a], m[j.b]); }
 void curve(const Distance& j, const MarkerMotion* m, const double* lambda, WrenchTangent& out) {
   keep_length_tangent(m[j.a], m[j.b], lambda[0], out);
-}
-
-void pose(const Differential& j, const MarkerMotion* m, double, ConstraintRows& out, Block* L) {
-  out.C[0] = m[j.a].angle + j.ratio * m[j.b].angle - (1 + j.ratio) * m[j.cage].angle - j.angle;
-  L[0].row(0) << 0, 0, 1;
-  L[1].row(0) << 0, 0, j.ratio;
-  L[2].row(0) << 0, 0, -(1 + j.ratio);
 }
 
 void pose(const AngleDriver& j, const MarkerMotion* m, double t, ConstraintRows& out, Block* L) {
@@ -129,7 +82,7 @@ void speed(const AngleDriver& j, const MarkerMotion*, double t, ConstraintRows& 
 }
 
 void pose(const DistanceDriver& j, const MarkerMotion* m, double t, ConstraintRows& out, Block* L) {
-  keep_length(m[j.a], m[j.b], j.law(t).value, out, L);
+  keep_length(m[j.a], m[j.b], j.law(t).value, 0, out, L);
 }
 void speed(const DistanceDriver& j, const MarkerMotion* m, double t, ConstraintRows& out) {
   const Jet law = j.law(t);
@@ -177,7 +130,13 @@ JointEnds leading_ints(const std::tuple<Member&...>& members) {
 }  // namespace
 
 JointEnds ends_of(const Joint& joint) {
-  return std::visit([](const auto& j) { return leading_ints(j.members()); }, joint);
+  const auto listed = [](const auto& j) {
+    if constexpr (requires { j.ends; })
+      return j.ends;
+    else
+      return leading_ints(j.members());
+  };
+  return std::visit(listed, joint);
 }
 
 const TimeLaw* driver_law(const Joint& joint) {

@@ -5,40 +5,9 @@
 #include <variant>
 
 #include "framework/common/time_law.h"
-#include "framework/dynamics/model/marker.h"
-#include "framework/dynamics/model/wrench_tangent.h"
+#include "framework/dynamics/model/couplings.h"
 
 namespace pintle {
-
-/// One joint's share of the constraints, written in the poses p_i = (r, angle) of its markers, so
-/// that no joint knows what a body is:
-///   C(p, t) = 0,   Σ L_i ṗ_i + Ct = 0,   Σ L_i p̈_i + kappa = 0,   L_i = ∂C/∂p_i.
-/// The first m rows are used. The joint acts on marker i with the wrench −L_iᵀλ.
-struct ConstraintRows {
-  using Block = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;  ///< L_i; one an end of the joint
-  Eigen::Vector3d C = Eigen::Vector3d::Zero();                 ///< violation [m or rad]
-  Eigen::Vector3d Ct = Eigen::Vector3d::Zero();                ///< ∂C/∂t; zero unless driven [m/s or rad/s]
-  Eigen::Vector3d kappa = Eigen::Vector3d::Zero();             ///< what C̈ holds besides accelerations
-};
-
-/// How a joint is drawn at its marker b.
-enum class JointSymbol { none, pin, guide, pin_in_guide, rod };
-
-/// What all joints of a kind have in common.
-struct JointProperties {
-  /// Its constraint equations, as messages call them. One called "angle" is in radians, others in metres.
-  std::array<const char*, 3> equations = {};
-  bool force = true, couple = false;  ///< what of its reaction is written
-  bool angles = true;                 ///< turning a marker can change its rows
-  bool direction = false;             ///< it reads the direction u of marker a
-  JointSymbol symbol = JointSymbol::none;
-  WrenchPattern curvature = {};  ///< of its wrenches at given λ
-  constexpr int rows() const { return (equations[0] != nullptr) + (equations[1] != nullptr) + (equations[2] != nullptr); }
-};
-
-namespace joint_curvature {
-inline constexpr WrenchPattern along_a_line{{{{true, true}, {true, false}}}}, of_a_length{{{{true, true}, {true, true}}}};
-}
 
 /// Pin: the two points coincide. λ is the force of b on a [N], world axes.
 ///   C = r_b − r_a
@@ -53,7 +22,7 @@ struct Slot {
   int a, b;
   auto members() const { return std::tie(a, b); }
   static constexpr JointProperties properties{
-      .equations = {"across"}, .direction = true, .symbol = JointSymbol::pin_in_guide, .curvature = joint_curvature::along_a_line};
+      .equations = {"across"}, .directions = {true}, .symbol = JointSymbol::pin_in_guide, .curvature = joint_curvature::along_a_line};
 };
 /// Guide: the slot, and b's direction keeps `angle` to a's.
 ///   C = [n·(r_b − r_a); φ_b − φ_a − angle]      λ: push along n [N], couple of b on a [N m]
@@ -63,7 +32,7 @@ struct Prismatic {
   auto members() const { return std::tie(a, b, angle); }
   static constexpr JointProperties properties{.equations = {"across", "angle"},
                                               .couple = true,
-                                              .direction = true,
+                                              .directions = {true},
                                               .symbol = JointSymbol::guide,
                                               .curvature = joint_curvature::along_a_line};
 };
@@ -84,15 +53,6 @@ struct Distance {
   static constexpr JointProperties properties{
       .equations = {"length"}, .angles = false, .symbol = JointSymbol::rod, .curvature = joint_curvature::of_a_length};
 };
-/// Two shafts on a cage c, which may be the ground: their angles against it go together, by couples alone.
-///   C = (φ_a − φ_c) + ratio (φ_b − φ_c) − angle  −λ is the torque on a, −ratio λ on b [N m]
-struct Differential {
-  int a, b, cage;
-  double ratio;      ///< not 0
-  double angle = 0;  ///< [rad]
-  auto members() const { return std::tie(a, b, cage, ratio, angle); }
-  static constexpr JointProperties properties{.equations = {"angle"}, .force = false, .couple = true};
-};
 /// Imposed angle.   C = φ_b − φ_a − law(t)        −λ is the driving torque on b [N m]
 struct AngleDriver {
   int a, b;
@@ -108,20 +68,15 @@ struct DistanceDriver {
   static constexpr JointProperties properties{.equations = {"length"}, .angles = false, .curvature = joint_curvature::of_a_length};
 };
 
-using Joint = std::variant<Revolute, Slot, Prismatic, Weld, Distance, Differential, AngleDriver, DistanceDriver>;
+using Joint =
+    std::variant<Revolute, Slot, Prismatic, Weld, Distance, AngleDriver, DistanceDriver, Gear, Rack, RollsOnDisc, RollsOnLine, Relation>;
 
 inline const JointProperties& properties_of(const Joint& joint) {
   return std::visit([](const auto& j) -> const JointProperties& { return j.properties; }, joint);
 }
 inline int rows(const Joint& j) { return properties_of(j).rows(); }
 
-/// The markers that a joint joins, in order: its ends. They are its first members, and its only ones of type int.
-struct JointEnds {
-  std::array<int, most_ends> marker;
-  int n;
-  const int* begin() const { return marker.data(); }
-  const int* end() const { return marker.data() + n; }
-};
+/// The markers that a joint joins, in order: its ends. They are its first members, and its only ones of type int; a relation lists them.
 JointEnds ends_of(const Joint&);
 
 /// The law of a driver, nullptr of other joints.

@@ -94,8 +94,9 @@ void number(System& system, bool scheme_loses) {
     const auto* spring = std::get_if<Spring>(&f);
     const auto* torsion = std::get_if<TorsionSpring>(&f);
     const auto* maxwell = std::get_if<Maxwell>(&f);
-    const bool passive = spring || torsion || maxwell;
-    const double c = spring ? spring->c : torsion ? torsion->c : maxwell ? maxwell->c : 0;
+    const auto* belt = std::get_if<BeltSpan>(&f);
+    const bool passive = spring || torsion || maxwell || belt;
+    const double c = spring ? spring->c : torsion ? torsion->c : maxwell ? maxwell->c : belt ? belt->c : 0;
     system.force_z.push_back(!passive ? account(Account::load, i) : c > 0 ? account(Account::damper, i) : -1);
   }
   for (std::size_t i = 0; i < system.joints.size(); ++i)

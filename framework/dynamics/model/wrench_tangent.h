@@ -9,7 +9,7 @@
 /// How what acts between markers answers to their motion. Theory: docs/theory/tangent.md.
 namespace pintle {
 
-inline constexpr int most_ends = 3;  ///< markers that one joint joins
+inline constexpr int most_ends = 6;  ///< markers that one joint joins
 
 /// Which 3 × 3 blocks ∂(wrench i)/∂(pose j) can differ from zero in any state, and whether wrenches answer to rates at all.
 struct WrenchPattern {

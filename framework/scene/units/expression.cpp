@@ -12,17 +12,17 @@ namespace pintle {
 
 namespace {
 
-[[noreturn]] void unknown(const std::string& name, const Parameters& parameters, const SignalNames* signals) {
+[[noreturn]] void unknown(const std::string& name, const Vocabulary& vocabulary) {
   if (is_function(name)) throw ExpressionError("the function " + name + " needs its parentheses");
   if (const std::string_view remedy = instead_of(name); !remedy.empty())
     throw ExpressionError("it contains " + name + ": " + std::string(remedy));
-  std::vector<std::string> known{"t", "pi"};
-  for (const auto& [parameter, value] : parameters) known.push_back(parameter);
+  std::vector<std::string> known{std::string(vocabulary.variable), "pi"};
+  for (const auto& [parameter, value] : vocabulary.parameters) known.push_back(parameter);
   for (const Unit& u : units()) known.emplace_back(u.name);
   std::vector<std::string> all = known;
-  if (signals)
-    for (const auto& [signal, what] : *signals) all.push_back(signal);
-  throw ExpressionError("\"" + name + "\" is neither a parameter nor a unit" + (signals ? " nor a signal." : ".") +
+  if (vocabulary.signals)
+    for (const auto& [signal, what] : *vocabulary.signals) all.push_back(signal);
+  throw ExpressionError("\"" + name + "\" is neither a parameter nor a unit" + (vocabulary.signals ? " nor a signal." : ".") +
                         did_you_mean(name, nearest(name, all).empty() ? known : all));
 }
 
@@ -34,11 +34,11 @@ int value_of(const Word& word, const Vocabulary& known, Formula& formula) {
     if (!signal.refused.empty()) throw ExpressionError(name + " " + signal.refused);
     return formula.input(name, signal.dimension);
   }
+  if (name == known.variable) return formula.time();
   if (const auto found = known.parameters.find(name); found != known.parameters.end()) return formula.constant(found->second);
-  if (name == "t") return formula.time();
   if (name == "pi") return formula.constant({std::numbers::pi, {}});
   if (const Unit* u = known.unit(name)) return formula.constant({u->factor, u->dimension});
-  unknown(name, known.parameters, known.signals);
+  unknown(name, known);
 }
 
 int result_of(const FormulaStep& step, std::span<const int> x, const Vocabulary& known, Formula& formula) {
@@ -179,6 +179,17 @@ MeasuredLaw read_measured_law(std::string_view text, const Parameters& parameter
   }
 }
 
+Law read_curve(std::string_view text, std::string_view variable, const Dimension& of, const Dimension& expected,
+               const Parameters& parameters) {
+  try {
+    const Vocabulary known{parameters, {}, nullptr, variable};
+    const std::vector<Word> words = spell(text, known);
+    return law_with(parse(words), text, of, expected, known);
+  } catch (const ExpressionError& error) {
+    refuse(text, error);
+  }
+}
+
 std::string fault_of_name(std::string_view name) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -186,6 +197,7 @@ std::string fault_of_name(std::string_view name) {
     return "a parameter's name is letters, digits and _, and begins with a letter";
   if (name == "t") return "t is the time; choose another name";
   if (name == "pi") return "pi is a constant; choose another name";
+  if (name == "present") return "present is what a length or angle is at the start; choose another name";
   if (find_unit(name)) return std::string(name) + " is a unit; choose another name";
   if (is_function(name)) return std::string(name) + " is a function; choose another name";
   return {};

@@ -38,6 +38,10 @@ struct MeasuredLaw {
 /// @throws ExpressionError  it cannot be read
 MeasuredLaw read_measured_law(std::string_view text, const Parameters&, const SignalNames&);
 
+/// An expression in another variable, `variable`, of the dimension `of`; derivatives are by it.
+/// @throws ExpressionError  likewise
+Law read_curve(std::string_view text, std::string_view variable, const Dimension& of, const Dimension& expected, const Parameters& = {});
+
 /// Why a parameter may not have this name, or empty if it may.
 std::string fault_of_name(std::string_view name);
 

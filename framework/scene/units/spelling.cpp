@@ -181,7 +181,7 @@ void Speller::name() {
   while (next < rest_.size() && rest_[next] == ' ') ++next;
   const bool calls = next < rest_.size() && rest_[next] == '(';
   if (after_value()) {
-    const bool value = calls || text == "t" || text == "pi" || known_.parameters.contains(text);
+    const bool value = calls || text == known_.variable || text == "pi" || known_.parameters.contains(text);
     if (value) side_by_side(text);
     if (!known_.unit(text)) fail(between(text) + ", and " + no_unit(std::string(text)));
     multiply_by_unit(text);

@@ -19,11 +19,12 @@ struct SignalName {
 };
 using SignalNames = std::map<std::string, SignalName, std::less<>>;
 
-/// What names an expression may use beside t, pi and the functions. Must not outlive its parts.
+/// What names an expression may use beside pi and the functions. Must not outlive its parts.
 struct Vocabulary {
   const Parameters& parameters;
   std::span<const Unit> more_units = {};          ///< beside units()
   const SignalNames* signals = nullptr;           ///< none: the value cannot change with the motion
+  std::string_view variable = "t";                ///< what it is a function of
   const Unit* unit(std::string_view name) const;  ///< nullptr if there is none
 };
 

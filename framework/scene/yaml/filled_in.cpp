@@ -1,3 +1,5 @@
+#include <array>
+
 #include "framework/scene/joint_words.h"
 #include "framework/scene/yaml/filled_in_parts.h"
 #include "framework/scene/yaml/json_text.h"
@@ -213,11 +215,37 @@ Json json(const ScenePlay& play) {
   return out;
 }
 
+std::string after_present(double added, const char* unit) {
+  return added == 0 ? "present" : "present + " + Json(added).dump() + " " + unit;
+}
+
+Json terms(const std::vector<SceneTerm>& all) {
+  constexpr std::array words{"angle", "displacement", "distance"};
+  Json out = Json::array();
+  for (const SceneTerm& t : all) out.push_back({{words[t.kind], ends(t.a, t.b)}, {"ratio", t.ratio}});
+  return out;
+}
+
+void put_coupling(const SceneJoint& joint, Json& out) {
+  const SceneCoupling& c = *joint.coupling;
+  const bool meshes = joint.kind == JointKind::gear || (joint.kind == JointKind::rolling && c.radius == 0);
+  if (c.radius > 0) out["radius"] = c.radius;
+  if (c.radii[0] > 0) out["radii"] = json(c.radii);
+  if (c.teeth[0] > 0) out["teeth"] = json(c.teeth);
+  if (meshes) out["inside"] = c.inside;
+  if (joint.kind == JointKind::belt) out["crossed"] = c.crossed;
+  if (joint.kind == JointKind::screw) out["lead"] = c.lead;
+  if (joint.kind == JointKind::cam) out[c.swings ? "swing" : "lift"] = json(c.curve);
+}
+
 Json json(const SceneJoint& joint) {
   const JointWord& word = word_of(joint);
   Json out = Json::object();
+  if (joint.coupling && !joint.coupling->terms.empty()) return {{word.word, terms(joint.coupling->terms)}};
   for (const PointRef* point : points_of(joint)) out[word.word].push_back(json(*point));
   for (const JointNumber& number : word.numbers) out[number.key] = joint.*number.value;
+  if (joint.from_present) out["length"] = after_present(joint.length, "m");
+  if (joint.coupling) put_coupling(joint, out);
   if (joint.clearance) out["clearance"] = json(*joint.clearance);
   if (joint.friction) {
     out["friction"] = json(joint.friction->law, false);
@@ -232,7 +260,7 @@ Json json(const SceneJoint& joint) {
 Json json(const SceneDriver& driver) {
   Json out = Json::object();
   out[driver.kind == DriverKind::angle ? "angle" : "distance"] = ends(driver.a, driver.b);
-  out["law"] = json(driver.law);
+  out["law"] = driver.from_present ? Json(driver.law.text) : json(driver.law);
   return out;
 }
 
@@ -261,6 +289,13 @@ Json with_engaged(Json element, bool engaged) {
 Json json(const SceneState& s) {
   Json out = {{"rate", json(s.rate)}, {"start", s.start}, {"scale", s.scale}};
   if (!s.unit.empty()) out["unit"] = s.unit;
+  return out;
+}
+
+Json load(const SceneBelt& f) {
+  Json out = {{"stiffness", f.stiffness}, {"damping", f.damping}, {"pretension", f.pretension}};
+  for (const PointRef& p : f.pulleys) out["belt"].push_back(json(p));
+  out["radii"] = f.radii;
   return out;
 }
 

@@ -61,6 +61,7 @@ const std::vector<Key> load_table_keys{{"table", required, "torque.csv"},
                                        {"periodic", optional, "", {"true", "false"}},
                                        {"time unit"},
                                        {"value unit"}};
+const std::vector<Key> curve_table_keys{{"table", required, "cam.csv"}, {"angle unit"}, {"value unit"}};
 constexpr const char* two_eyes = "[{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]";
 
 std::vector<Key> joint_keys() {
@@ -71,7 +72,10 @@ std::vector<Key> joint_keys() {
   for (const JointWord& word : joint_words()) {
     add(word.word);
     for (const JointNumber& number : word.numbers) add(number.key);
+    for (const char* key : word.couples) add(key);
   }
+  for (Key& key : keys)
+    if (key.name == "inside" || key.name == "crossed") key.choices = {"false", "true"};
   return keys;
 }
 
@@ -193,6 +197,9 @@ const std::vector<KeyTable>& tables() {
        {{"force"}, {"torque"}, {"at"}, {"pressure"}, {"traction"}, {"on"}, {"acceleration"}, {"spin"}, {"about"}, {"line load"}, {"body"}}},
       {"static.contacts.*", {{"between", required, "[pin.outline, rocker.bore]"}}},
       {"joints.*", joint_keys()},
+      {"joints.*.differential.*", {{"angle"}, {"displacement"}, {"distance"}, {"ratio"}}},
+      {"joints.*.lift", curve_table_keys},
+      {"joints.*.swing", curve_table_keys},
       {"joints.*.friction", {{"coulomb"}, {"lugre"}, {"gonthier"}, {"radius"}, {"length"}, {"preload"}}},
       {"joints.*.friction.coulomb", coulomb_keys},
       {"joints.*.friction.lugre", lugre_keys},
@@ -296,11 +303,15 @@ const std::vector<KeyTable>& tables() {
         {"spring"},
         {"torsion spring"},
         {"maxwell"},
+        {"belt"},
         {"stiffness"},
         {"damping"},
         {"free length"},
         {"free angle"},
         {"law"},
+        {"radii"},
+        {"crossed", optional, "", {"true", "false"}},
+        {"pretension"},
         engaged_key}},
       {"forces.*.torque", load_table_keys},
       {"forces.*.force.*", load_table_keys},

@@ -9,11 +9,12 @@ namespace {
 
 const std::array<KindKeys, 2> driver_kinds{{{"angle", {"law", "engaged"}}, {"distance", {"law", "engaged"}}}};
 
-const std::array<KindKeys, 5> force_kinds{{{"force", {"at", "follows", "engaged"}},
+const std::array<KindKeys, 6> force_kinds{{{"force", {"at", "follows", "engaged"}},
                                            {"torque", {"on", "from", "engaged"}},
                                            {"spring", {"stiffness", "damping", "free length", "law", "engaged"}},
                                            {"torsion spring", {"stiffness", "damping", "free angle", "law", "engaged"}},
-                                           {"maxwell", {"stiffness", "damping", "engaged"}}}};
+                                           {"maxwell", {"stiffness", "damping", "engaged"}},
+                                           {"belt", {"stiffness", "damping", "radii", "crossed", "pretension"}}}};
 
 void must_have(const Node& node, std::string_view key, const std::string& example) {
   if (!node.has(key)) node.fail("lacks a required key; add for example " + std::string(key) + ": " + example);
@@ -71,6 +72,26 @@ SceneMaxwell read_maxwell(const Node& node) {
   return out;
 }
 
+SceneBelt read_belt(const Node& node) {
+  must_have(node, "radii", "[40 mm, 80 mm]");
+  must_have(node, "stiffness", "20 kN, its force over its strain");
+  SceneBelt out;
+  const std::vector<Node> pulleys = node.at("belt").list(2, "two pulleys or more in the order in which the belt runs: [motor, drum]");
+  for (const Node& p : pulleys) out.pulleys.push_back(read_point_ref(p));
+  const std::string remedy = "a radius for each of the " + std::to_string(pulleys.size()) + " pulleys";
+  out.radii =
+      read_quantities(node.at("radii"), pulleys.size(), dimension::length, {[](double r) { return r != 0; }, "must not be 0"}, remedy);
+  if (node.has("crossed") && node.at("crossed").yes()) {
+    if (pulleys.size() > 2)
+      node.at("crossed").fail("belongs to two pulleys; of more, give those a radius below 0 that it goes round the other way");
+    out.radii[1] = -out.radii[1];
+  }
+  out.stiffness = node.at("stiffness").quantity(dimension::force, rule::positive);
+  read_optional(node, "damping", {1, 1, -1, 0}, rule::not_negative, out.damping);
+  read_optional(node, "pretension", dimension::force, rule::not_negative, out.pretension);
+  return out;
+}
+
 // Until when laws are judged.
 double end_of_run(const Scene& scene) { return scene.has_run ? scene.run.until : 0; }
 
@@ -102,9 +123,12 @@ void read_drivers(const Node& root, const std::filesystem::path& folder, Scene& 
     const std::size_t kind = which_kind(node, driver_kinds);
     driver.kind = kind == 0 ? DriverKind::angle : DriverKind::distance;
     std::tie(driver.a, driver.b) = read_ends(node.at(driver_kinds[kind].kind));
-    driver.law =
-        read_time_law(node.at("law"), kind == 0 ? dimension::angle : dimension::length, Smoothness::driver, folder, end_of_run(scene));
     driver.engaged = read_engaged(node);
+    const Node law = node.at("law");
+    const Dimension imposed = kind == 0 ? dimension::angle : dimension::length;
+    driver.from_present = says_present(law);
+    driver.law = driver.from_present ? read_after_present(law, imposed, end_of_run(scene))
+                                     : read_time_law(law, imposed, Smoothness::driver, folder, end_of_run(scene));
     scene.drivers.push_back(std::move(driver));
   }
 }
@@ -120,7 +144,8 @@ void read_forces(const Node& root, const std::filesystem::path& folder, Scene& s
       case 1: load.what = read_torque(node); break;
       case 2: load.what = read_spring(node); break;
       case 3: load.what = read_torsion_spring(node); break;
-      default: load.what = read_maxwell(node);
+      case 4: load.what = read_maxwell(node); break;
+      default: load.what = read_belt(node);
     }
     load.engaged = read_engaged(node);
     scene.loads.push_back(std::move(load));

@@ -17,6 +17,7 @@ const std::vector<KindKeys>& joint_keys() {
       if (word.clearance) k.beside.emplace_back("clearance");
       if (word.friction) k.beside.emplace_back("friction");
       k.beside.emplace_back("engaged");
+      k.beside.insert(k.beside.end(), word.couples.begin(), word.couples.end());
     }
     return out;
   }();
@@ -140,6 +141,7 @@ void read_points(const Node& node, const JointWord& word, SceneJoint& joint) {
     std::tie(joint.a, joint.b) = read_ends(node);
     return;
   }
+  if (read_terms(node, joint)) return;
   const std::string remedy = "two points, or three: [left.A, right.A, cage.A]; the third is the ground if it is left out";
   const std::vector<Node> points = node.list(2, remedy);
   if (points.size() > 3) node.fail("is " + node.shown() + "; write " + remedy);
@@ -181,11 +183,18 @@ SceneJoint read_joint(const Node& node) {
   read_points(node.at(word.word), word, joint);
   for (const JointNumber& number : word.numbers) {
     if (number.required && !node.has(number.key)) node.fail(std::string("lacks a required key; add for example ") + number.required);
+    if (number.of == JointNumber::length && says_present(node.at(number.key))) {
+      joint.length = read_after_present(node.at(number.key), dimension::length).at(0).value;
+      joint.from_present = true;
+      if (node.has("clearance")) node.at(number.key).fail("cannot be present beside a clearance; write the length");
+      continue;
+    }
     const Dimension& expected = number.of == JointNumber::angle    ? dimension::angle
                                 : number.of == JointNumber::length ? dimension::length
                                                                    : dimension::number;
     read_optional(node, number.key, expected, number.required ? rule::positive : rule::any, joint.*number.value);
   }
+  read_coupling(node, word, joint);
   if (node.has("friction")) joint.friction = read_joint_friction(node.at("friction"), joint, node.has("clearance"));
   if (!node.has("clearance")) return joint;
   if (joint.kind == JointKind::revolute)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "framework/scene/units/spelling.h"
+#include "framework/scene/joint_words.h"
 #include "framework/scene/yaml/keys.h"
 #include "framework/scene/yaml/yaml_node.h"
 
@@ -93,6 +94,16 @@ Made read_made(const Node& owner, std::string_view keys, const std::vector<Scene
 
 /// @throws SceneError  at the node: the body has no such point
 void check_own_point(const Node&, const std::string& name, const SceneBody&);
+/// The terms of a differential that lists groups; false: it lists points.
+bool read_terms(const Node& list, SceneJoint&);
+/// What a coupling says beside its points.
+void read_coupling(const Node& joint, const JointWord&, SceneJoint&);
+/// An expression that adds to `present`, what a length or angle is at the start; and the law of what it adds.
+bool says_present(const Node&);
+/// @param until  as of read_time_law
+Law read_after_present(const Node&, const Dimension&, double until = 0);
+/// Of a law from 0 to `until`.
+void must_be_finite(const Node&, const Law&, Smoothness, double until);
 /// Name of a point that the body has.
 std::string read_own_point(const Node&, const SceneBody&);
 /// n quantities in a list, each after the rule. `remedy`: what to write.

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <tuple>
+#include <vector>
+
+#include "framework/common/time_law.h"
+#include "framework/dynamics/model/joint_properties.h"
+
+/// Joints that let bodies move together: wheels, racks, discs that roll, and relations of angles and lengths. They start as the
+/// mechanism is assembled: `phase` and `constant` are what C would be there without them. Theory: docs/theory/gears.md.
+namespace pintle {
+
+/// Two pitch circles that do not slip, their centres held by other joints; or two pulleys on a belt. With the angle ψ of r_b − r_a
+/// teeth push where the circles touch, and a belt pulls along its spans.
+///   C = radius_a φ_a + radius_b φ_b − (radius_a + radius_b) ψ − phase    −λ: force on the rim of a, counter-clockwise [N]
+struct Gear {
+  int a, b;
+  double radius_a, radius_b;  ///< > 0, not 0; below 0: both turn the same way round, as in a ring or on an open belt [m]
+  double phase = 0;           ///< [m]
+  auto members() const { return std::tie(a, b, radius_a, radius_b, phase); }
+  static constexpr JointProperties properties{
+      .equations = {"teeth"}, .couple = true, .curvature = joint_curvature::of_a_length, .efforts = {".force"}};
+};
+/// A pinion b on a rack, the line through a along a's direction u; what keeps it there are other joints.
+///   C = u·(r_b − r_a) + radius (φ_b − φ_a) − phase    −λ: force on the pinion along u, at the line [N]
+struct Rack {
+  int a, b;
+  double radius;     ///< > 0 of a pinion to the left of the line [m]
+  double phase = 0;  ///< [m]
+  auto members() const { return std::tie(a, b, radius, phase); }
+  static constexpr JointProperties properties{.equations = {"teeth"},
+                                              .couple = true,
+                                              .directions = {true},
+
+                                              .curvature = joint_curvature::along_a_line,
+                                              .efforts = {".force"}};
+};
+/// A disc a that rolls on a disc b without slip, or in it: the gear, and the distance of the centres kept.
+///   C = [± (|r_b − r_a| − |radius_a + radius_b|); as of the gear]    the sign is that of radius_b; −λ: what presses a on b, … [N]
+struct RollsOnDisc : Gear {
+  static constexpr JointProperties properties{.equations = {"contact", "slip"},
+                                              .couple = true,
+
+                                              .curvature = joint_curvature::of_a_length,
+                                              .efforts = {".normal", ".force"}};
+};
+/// A disc b that rolls without slip on the line through a along a's direction, n = Zu.
+///   C = [± (n·(r_b − r_a) − radius); as of the rack]    the sign is that of the radius
+struct RollsOnLine : Rack {
+  static constexpr JointProperties properties{.equations = {"contact", "slip"},
+                                              .couple = true,
+                                              .directions = {true},
+
+                                              .curvature = joint_curvature::along_a_line,
+                                              .efforts = {".normal", ".force"}};
+};
+
+/// What a relation relates, of two of its ends: φ_b − φ_a, u_a·(r_b − r_a) or |r_b − r_a|.
+struct Coordinate {
+  enum Kind { angle, displacement, distance } kind;
+  int a, b;      ///< places among the relation's ends
+  double ratio;  ///< [1], [rad/m] or [m/rad]
+};
+inline constexpr std::size_t most_coordinates = most_ends / 2;
+
+/// A linear relation of coordinates, and a curve over the first of them: a differential, a screw, a cam.
+///   C = Σ ratio_i c_i − curve(c_0) − constant    −λ ∂C/∂c_i is the force or couple along c_i
+struct Relation {
+  JointEnds ends;  ///< each on a body of its own
+  std::vector<Coordinate> coordinates;
+  TimeLaw curve = {};  ///< of c_0 in place of time; empty: none
+  JointProperties properties = {};
+  double constant = 0;
+};
+/// @param of_angles  C is an angle, else a length   @param coordinates  at most most_coordinates
+Relation relation(bool of_angles, const JointEnds&, std::vector<Coordinate> coordinates, TimeLaw curve = {});
+
+/// As of every joint: joints.h.
+void pose(const Gear&, const MarkerMotion* m, double, ConstraintRows&, ConstraintRows::Block* L);
+void speed(const Gear&, const MarkerMotion* m, double, ConstraintRows&);
+void curve(const Gear&, const MarkerMotion* m, const double* lambda, WrenchTangent&);
+void pose(const Rack&, const MarkerMotion* m, double, ConstraintRows&, ConstraintRows::Block* L);
+void speed(const Rack&, const MarkerMotion* m, double, ConstraintRows&);
+void curve(const Rack&, const MarkerMotion* m, const double* lambda, WrenchTangent&);
+void pose(const RollsOnDisc&, const MarkerMotion* m, double, ConstraintRows&, ConstraintRows::Block* L);
+void speed(const RollsOnDisc&, const MarkerMotion* m, double, ConstraintRows&);
+void curve(const RollsOnDisc&, const MarkerMotion* m, const double* lambda, WrenchTangent&);
+void pose(const RollsOnLine&, const MarkerMotion* m, double, ConstraintRows&, ConstraintRows::Block* L);
+void speed(const RollsOnLine&, const MarkerMotion* m, double, ConstraintRows&);
+void curve(const RollsOnLine&, const MarkerMotion* m, const double* lambda, WrenchTangent&);
+void pose(const Relation&, const MarkerMotion* m, double, ConstraintRows&, ConstraintRows::Block* L);
+void speed(const Relation&, const MarkerMotion* m, double, ConstraintRows&);
+void curve(const Relation&, const MarkerMotion* m, const double* lambda, WrenchTangent&);
+
+}  // namespace pintle

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+
+#include "framework/dynamics/model/marker.h"
+#include "framework/dynamics/model/wrench_tangent.h"
+
+namespace pintle {
+
+/// One joint's share of the constraints, written in the poses p_i = (r, angle) of its markers, so
+/// that no joint knows what a body is:
+///   C(p, t) = 0,   Σ L_i ṗ_i + Ct = 0,   Σ L_i p̈_i + kappa = 0,   L_i = ∂C/∂p_i.
+/// The first m rows are used. The joint acts on marker i with the wrench −L_iᵀλ.
+struct ConstraintRows {
+  using Block = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;  ///< L_i; one an end of the joint
+  Eigen::Vector3d C = Eigen::Vector3d::Zero();                 ///< violation [m or rad]
+  Eigen::Vector3d Ct = Eigen::Vector3d::Zero();                ///< ∂C/∂t; zero unless driven [m/s or rad/s]
+  Eigen::Vector3d kappa = Eigen::Vector3d::Zero();             ///< what C̈ holds besides accelerations
+};
+
+/// The markers that a joint joins, in order.
+struct JointEnds {
+  std::array<int, most_ends> marker;
+  int n;
+  const int* begin() const { return marker.data(); }
+  const int* end() const { return marker.data() + n; }
+};
+
+/// How a joint is drawn at its marker b.
+enum class JointSymbol { none, pin, guide, pin_in_guide, rod };
+
+/// What all joints of a kind have in common.
+struct JointProperties {
+  /// Its constraint equations, as messages call them. One called "angle" is in radians, others in metres.
+  std::array<const char*, 3> equations = {};
+  bool force = true, couple = false;            ///< what of its reaction is written
+  bool angles = true;                           ///< turning a marker can change its rows
+  std::array<bool, most_ends> directions = {};  ///< of which markers it reads the direction u
+  JointSymbol symbol = JointSymbol::none;
+  WrenchPattern curvature = {};  ///< of its wrenches at given λ
+  /// What −λ of each equation is called in results, ".force", where it is written beside the wrench. [N]
+  std::array<const char*, 3> efforts = {};
+  constexpr int rows() const { return (equations[0] != nullptr) + (equations[1] != nullptr) + (equations[2] != nullptr); }
+};
+
+namespace joint_curvature {
+inline constexpr WrenchPattern along_a_line{{{{true, true}, {true, false}}}}, of_a_length{{{{true, true}, {true, true}}}};
+}
+
+}  // namespace pintle
