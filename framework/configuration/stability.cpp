@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_coordinates = 1200;  // dense beyond this takes minutes
+constexpr int most_dense = 1200;  // dense beyond this takes minutes
 
 // Columns: scaled displacements that violate no row.
 MatrixXd open_directions(const System& system, const Equations& eq) {
@@ -54,7 +54,7 @@ double at_work(const System& system, const Equations& eq, const VectorXd& lambda
 Stability stability_of(const System& system, const State& state, const Equations& eq, const VectorXd& lambda, VectorXd* direction) {
   Stability out;
   if (direction) direction->resize(0);
-  if (system.n() > most_coordinates) return out;
+  if (system.n() > most_dense) return out;
   const MatrixXd Z = open_directions(system, eq);
   out.judged = true;
   out.freedoms = static_cast<int>(Z.cols());

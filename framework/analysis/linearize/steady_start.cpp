@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_coordinates = 600;
+constexpr int most_dense = 600;
 
 /// The frames' speeds and accelerations where no shape moves.
 class FrameMotion {
@@ -59,7 +59,7 @@ Assembly steady_start(const Model& model, const Assembly& assembly) {
   constexpr int most = 60;
   const System& system = model.system;
   const Index n = system.n();
-  if (n == system.n_rigid() || n > most_coordinates) return assembly;
+  if (n == system.n_rigid() || n > most_dense) return assembly;
   Assembly out = assembly;
   State& state = out.start;
   Equations eq(system);
