@@ -46,7 +46,7 @@ Fitted fitted(const SweepFolder& folder, const std::string& study, const FitSett
   f.end = run_fit(f.plan, folder / out, settings);
   return f;
 }
-const std::string wanted = "goal: {reach: {frequency of mode 1: {to: 3 Hz, tolerance: 1 mHz}}}\n";
+const std::string wanted = "goal: {reach: {frequency of mode 1: {to: 3 Hz, tolerance: 0.001 Hz}}}\n";
 
 TEST(Fit, ChebyshevsLinkageIsFoundFromAPoorStart) {
   const SweepFolder folder;
@@ -80,8 +80,8 @@ TEST(Fit, HoeckensStraightestLineIsFoundFromAPoorStart) {
   for (double g = 2; g < 2.4; g += 0.005)
     for (double l = 2.6; l < 3.0; l += 0.005) best = std::min(best, hoecken(g, l));
   EXPECT_LE(found, 0.1 * best) << "as straight as the best of a fine grid";
-  EXPECT_NEAR(ground, 0.22, 0.002);  // Norton's table has three digits
-  EXPECT_NEAR(link, 0.28, 0.002);
+  EXPECT_NEAR(ground / 0.22, 1, 0.01);  // Norton's table, to what about so flat a least value can be told from it
+  EXPECT_NEAR(link / 0.28, 1, 0.01);
 }
 
 TEST(Fit, ASpringIsChosenForANaturalFrequency) {
@@ -118,7 +118,7 @@ TEST(Fit, ALimitHoldsTheBestPointAndIsMetThere) {
 TEST(Fit, IsTheSameToTheBitForAnyNumberOfWorkersAndAfterAnyEnd) {
   const SweepFolder folder;
   const std::string study = "vary: {stiffness: {from: 10 N/m, to: 5 N/mm}, mass: {from: -1 kg, to: 3 kg, start: 1 kg}}\nmeasure: {f: frequency of mode "
-                            "1}\ngoal: {reach: {f: {to: 3 Hz, tolerance: 1 mHz}}}\nfit: {starts: 3, evaluations: 120}\n";
+                            "1}\ngoal: {reach: {f: {to: 3 Hz, tolerance: 0.001 Hz}}}\nfit: {starts: 3, evaluations: 120}\n";
   const Fitted one = fitted(folder, study, {1, {}}, "one");
   fitted(folder, study, {4, {}}, "four");
   // Stopped again and again, as by Ctrl-C.

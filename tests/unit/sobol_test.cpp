@@ -48,14 +48,14 @@ TEST(Sobol, FindsTheSharesOfIshigamisFunctionWithinTheirIntervals) {
   const double b = 0.1, p4 = std::pow(pi, 4), V = 49.0 / 8 + b * p4 / 5 + b * b * p4 * p4 / 18 + 0.5;
   const double V1 = std::pow(1 + b * p4 / 5, 2) / 2, V2 = 49.0 / 8, V13 = 8 * b * b * p4 * p4 / 225;
   const double first[] = {V1 / V, V2 / V, 0}, total[] = {(V1 + V13) / V, V2 / V, V13 / V};
-  const std::vector<SobolIndex> found = sobol_indices(sampled(ishigami, 3, 8192), 1);
+  const std::vector<SobolIndex> found = sobol_indices(sampled(ishigami, 3, 2048), 1);
   for (std::size_t i = 0; i < 3; ++i) {
-    // The interval is two standard errors wide on each side; twice that is missed by one of ten thousand.
+    // The interval is two standard errors wide on each side; four of them are missed by one of ten thousand.
     const auto near = [&](const Share& s, double exact) {
       EXPECT_LT(std::abs(s.value - exact), (s.high - s.low) + 1e-9) << i;
       EXPECT_LE(s.low, s.value) << i;
       EXPECT_GE(s.high, s.value) << i;
-      EXPECT_LT(s.high - s.low, 0.1) << i;
+      EXPECT_LT(s.high - s.low, 0.2) << i;
     };
     near(found[i].first, first[i]);
     near(found[i].total, total[i]);
@@ -63,7 +63,7 @@ TEST(Sobol, FindsTheSharesOfIshigamisFunctionWithinTheirIntervals) {
 }
 
 TEST(Sobol, OfASumOfInputsFirstAndTotalAreTheSharesOfTheSquares) {
-  const std::vector<SobolIndex> found = sobol_indices(sampled([](const Inputs& u) { return 3 * u[0] + 4 * u[1]; }, 2, 4096), 1);
+  const std::vector<SobolIndex> found = sobol_indices(sampled([](const Inputs& u) { return 3 * u[0] + 4 * u[1]; }, 2, 1024), 1);
   for (std::size_t i = 0; i < 2; ++i) {
     const double exact = i == 0 ? 9.0 / 25 : 16.0 / 25;
     EXPECT_NEAR(found[i].first.value, exact, found[i].first.high - found[i].first.low);
