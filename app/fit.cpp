@@ -38,7 +38,7 @@ class FitProgress {
 std::string methods_text(const FitPlan& plan) {
   std::string out;
   for (const Optimiser m : plan.methods())
-    if (out != name_of(m)) out += (out.empty() ? "" : ", then ") + std::string(name_of(m));
+    if (!out.ends_with(name_of(m))) out += (out.empty() ? "" : ", then ") + std::string(name_of(m));
   return out + " from " + std::to_string(plan.starts) + (plan.starts == 1 ? " start" : " starts") + ", seed " + std::to_string(plan.seed);
 }
 

@@ -49,7 +49,7 @@ class Ends {
 
 Relation of_terms(const Scene& scene, const SceneJoint& j, Markers& markers) {
   const std::vector<SceneTerm>& terms = j.coupling->terms;
-  if (terms.size() < 2 || terms.size() > most_coordinates) throw SceneError(scene.file, j.place, "a differential has two or three terms");
+  if (terms.size() < 2 || terms.size() > most_terms) throw SceneError(scene.file, j.place, "a differential has two or three terms");
   const Ends ends(scene, j, markers);
   std::vector<Coordinate> coordinates;
   for (const SceneTerm& t : terms) {

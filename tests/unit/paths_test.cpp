@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 using namespace pintle_test;
 
 const char* const scene_commands[] = {"run", "check", "statics", "kinematics", "inverse", "linearize", "modes", "static", "mesh"};
-const char* const study_commands[] = {"sweep", "tradeoff"};
+const char* const study_commands[] = {"sweep", "fit", "sensitivity", "tradeoff"};
 
 const char* const wheel = R"(
 bodies: {wheel: {rigid: {mass: 1, inertia: 1}}}
@@ -29,6 +29,9 @@ class Paths : public testing::Test {
     folder_.write("empty", "");
     folder_.write("scene.yaml", wheel);
     folder_.write("study.yaml", "scene: scene.yaml\nmeasure: {work: work of motor}\nsweep: {grid: {run.tolerance: [1e-6, 1e-7]}}\n");
+    folder_.write("sought.yaml",
+                  "scene: scene.yaml\nmeasure: {work: work of motor}\ngoal: {minimise: work}\nvary: {run.tolerance: {from: 1e-7, to: 1e-6}}\n"
+                  "fit: {starts: 1, evaluations: 2}\nsensitivity: {parameters: {run.tolerance: {at: 1e-6}}}\n");
     folder_.write("trade.yaml", "scene: scene.yaml\nmeasure: {work: work of motor}\n");
     fs::create_directory(at("inside"));
     folder_.write("inside/file", "text\n");
@@ -61,8 +64,9 @@ TEST_F(Paths, ASceneOrStudyIsAnOrdinaryFileThatSaysSomething) {
 
 TEST_F(Paths, ResultsGoWhereNothingIs) {
   for (const std::string command :
-       {"run", "statics", "kinematics", "inverse", "linearize", "modes", "static", "mesh", "sweep", "tradeoff"}) {
-    const std::string input = at(command == "sweep" ? "study.yaml" : command == "tradeoff" ? "trade.yaml" : "scene.yaml");
+       {"run", "statics", "kinematics", "inverse", "linearize", "modes", "static", "mesh", "sweep", "fit", "sensitivity", "tradeoff"}) {
+    const bool seeks = command == "fit" || command == "sensitivity";
+    const std::string input = at(command == "sweep" ? "study.yaml" : seeks ? "sought.yaml" : command == "tradeoff" ? "trade.yaml" : "scene.yaml");
     expect_refused({command, input, "--out", ""}, "--out");
     // Commands on a body refuse this scene for want of elements; they share the rest with the others.
     if (command == "modes" || command == "static" || command == "mesh") continue;
@@ -113,6 +117,7 @@ TEST_F(Paths, AJournalIsAnOrdinaryFile) {
   fs::create_directory(at("swept"));
   ASSERT_EQ(mkfifo(at("swept/journal-0.txt").c_str(), 0600), 0);
   expect_refused({"sweep", at("study.yaml"), "--out", at("swept")}, at("swept/journal-0.txt"));
+  expect_refused({"fit", at("sought.yaml"), "--out", at("swept")}, at("swept/journal-0.txt"));
 }
 
 }  // namespace

@@ -154,4 +154,16 @@ TEST(ExitCodes, ASweepOfWhichNoCaseRanIsFour) {
   EXPECT_EQ(exit_code({"sweep", "-q"}, {{"study.yaml", study}, {"scene.yaml", started_four_bar}}, said), 0);
 }
 
+TEST(ExitCodes, AFitOrSensitivityThatCanMeasureNothingIsFour) {
+  const std::string study =
+      "scene: scene.yaml\nmeasure: {lost: energy lost}\ngoal: {minimise: lost}\nvary: {run.tolerance: {from: 1e-7, to: 1e-6}}\n"
+      "fit: {starts: 1, evaluations: 2}\nsensitivity: {levels: 1, parameters: {run.tolerance: {at: 1e-6}}}\n";
+  for (const char* verb : {"fit", "sensitivity"}) {
+    std::string said;
+    EXPECT_EQ(exit_code({verb, "-q"}, {{"study.yaml", study}, {"scene.yaml", out_of_reach}}, said), 4);
+    EXPECT_TRUE(holds(said, "none of") && holds(said, "failed")) << said;
+    EXPECT_EQ(exit_code({verb, "-q"}, {{"study.yaml", study}, {"scene.yaml", started_four_bar}}, said), 0) << said;
+  }
+}
+
 }  // namespace

@@ -62,7 +62,7 @@ struct Coordinate {
   int a, b;      ///< places among the relation's ends
   double ratio;  ///< [1], [rad/m] or [m/rad]
 };
-inline constexpr std::size_t most_coordinates = most_ends / 2;
+inline constexpr std::size_t most_terms = most_ends / 2;
 
 /// A linear relation of coordinates, and a curve over the first of them: a differential, a screw, a cam.
 ///   C = Σ ratio_i c_i − curve(c_0) − constant    −λ ∂C/∂c_i is the force or couple along c_i
@@ -73,7 +73,7 @@ struct Relation {
   JointProperties properties = {};
   double constant = 0;
 };
-/// @param of_angles  C is an angle, else a length   @param coordinates  at most most_coordinates
+/// @param of_angles  C is an angle, else a length   @param coordinates  at most most_terms
 Relation relation(bool of_angles, const JointEnds&, std::vector<Coordinate> coordinates, TimeLaw curve = {});
 
 /// As of every joint: joints.h.

@@ -133,11 +133,13 @@ class Descent {
     const WorthAt worth = [this](const BoxPoint& u) { return look(u); };
     std::string end;
     for (const Optimiser method : plan_.methods()) {
-      SearchSettings s{method, best_.u, plan_.goal.bounds.size(), first_step, plan_.precision, plan_.step, plan_.goal.good_enough(), plan_.seed + first_};
+      within_ = !plan_.goal.bounds.empty() && !takes_constraints(method);
+      if (within_ && best_.worth.worst() > met_within) break;
+      SearchSettings s{method, best_.u, within_ ? 0 : plan_.goal.bounds.size(), first_step, plan_.precision, plan_.step, plan_.goal.good_enough(), plan_.seed + first_};
       end += (end.empty() ? "" : ", then ") + std::string(name_of(method)) + ": " + search(s, worth);
       if (s.good_enough >= 0 && best_.worth.worst() <= met_within && best_.worth.value <= s.good_enough) break;
       if (used_ >= share_ || evaluations_.stopped()) break;
-      first_step = std::min(first_step, 0.02);
+      first_step /= 2;
     }
     return end;
   }
@@ -145,7 +147,14 @@ class Descent {
   const Tried& best() const { return best_; }
 
  private:
+  /// To a method that knows no limits, a point beyond them is not known.
   const Worth* look(const BoxPoint& u) {
+    static const Worth beyond;
+    const Worth* found = find(u);
+    return found && within_ && found->worst() > met_within ? &beyond : found;
+  }
+
+  const Worth* find(const BoxPoint& u) {
     if (const auto seen = seen_.find(u); seen != seen_.end()) return &seen->second;
     if (used_ >= share_) return nullptr;
     const Worth* worth = evaluations_.at(first_ + used_, u);
@@ -158,6 +167,7 @@ class Descent {
   const FitPlan& plan_;
   Evaluations& evaluations_;
   std::size_t first_, share_, used_ = 0;
+  bool within_ = false;  ///< points beyond the limits are hidden
   Tried best_;
   std::map<BoxPoint, Worth> seen_;
 };
@@ -233,7 +243,7 @@ void search_all(const FitPlan& plan, Evaluations& evaluations, const FitSettings
   const Tried& best = *std::ranges::min_element(found, [](const Tried& a, const Tried& b) { return better(a.worth, b.worth); });
   const std::size_t left = plan.evaluations + 1 - first_left;
   share_out(
-      1, settings.threads, [&](std::size_t) { Descent(plan, evaluations, first_left, left).go(best, 0.01); }, poll);
+      1, settings.threads, [&](std::size_t) { Descent(plan, evaluations, first_left, left).go(best, 0.02); }, poll);
   evaluations.take(first_left, left, "last search", end.tried);
 }
 

@@ -113,9 +113,10 @@ Overrides FitPlan::overrides(const BoxPoint& u) const {
 
 std::vector<Optimiser> FitPlan::methods() const {
   if (method) return {*method};
-  if (!goal.bounds.empty()) return {Optimiser::cobyla, Optimiser::cobyla};
+  // A peak or a range has kinks along valleys, in which models of the measure stay stuck and simplices do not.
+  if (!goal.bounds.empty()) return {Optimiser::cobyla, Optimiser::nelder_mead, Optimiser::nelder_mead};
   if (variables.size() < 2) return {Optimiser::sbplx};  // bobyqa wants two
-  return {Optimiser::bobyqa, Optimiser::sbplx};
+  return {Optimiser::bobyqa, Optimiser::nelder_mead, Optimiser::nelder_mead};
 }
 
 std::size_t FitPlan::share() const {

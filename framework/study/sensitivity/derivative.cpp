@@ -17,7 +17,9 @@ Derivative derivative(double step, const std::vector<double>& plus, const std::v
     for (std::size_t j = 0; j < above.size(); ++j) {
       four *= 4;
       row.push_back(row[j] + (row[j] - above[j]) / (four - 1));
-      const double error = std::max(std::abs(row[j + 1] - row[j]), std::abs(row[j + 1] - above[j]));
+      const double apart = std::max(std::abs(row[j + 1] - row[j]), std::abs(row[j + 1] - above[j]));
+      const double rounding = 2 * std::numeric_limits<double>::epsilon() * std::max(std::abs(plus[k]), std::abs(minus[k])) / h;
+      const double error = 2 * apart + rounding;
       if (!(error >= best.error)) best = {row[j + 1], error};
     }
     if (k == 0) best.value = row[0];

@@ -10,7 +10,8 @@ struct Derivative {
 };
 
 /// From central differences with the steps h, h/2, h/4, …, by Richardson's extrapolation: of all that can be made of them that with
-/// the least error as its neighbours show it (Ridders 1982). Noise in the values, which grows as the step falls, is thus seen too.
+/// the least error: twice what its neighbours in the table show (Ridders 1982), and the rounding of the values. Noise in the values, which
+/// grows as the step falls, is thus seen too.
 /// @param plus, minus  values at x + h/2ᵏ and x − h/2ᵏ; levels after the first that is NaN are left out
 Derivative derivative(double step, const std::vector<double>& plus, const std::vector<double>& minus);
 
