@@ -311,8 +311,8 @@ double deepest_inside(const std::vector<Eigen::Vector2d>& outline, const std::ve
     bool inside = false;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
-      const Eigen::Vector2d from = outline[before] - p, along = outline[i] - outline[before];
-      if ((from.y() > 0) != (from.y() + along.y() > 0) && from.x() - from.y() * along.x() / along.y() > 0) inside = !inside;
+      const Eigen::Vector2d from = outline[before] - p, to = outline[i] - p, along = to - from;
+      if ((from.y() > 0) != (to.y() > 0) && from.x() - from.y() * along.x() / along.y() > 0) inside = !inside;
       const double length = along.squaredNorm(), part = length > 0 ? std::clamp(-from.dot(along) / length, 0.0, 1.0) : 0;
       nearest = std::min(nearest, (from + part * along).norm());
     }
