@@ -43,6 +43,7 @@ constexpr const char* what_it_writes =
     "It writes\n"
     "  trajectory.csv   motion of each body, force of each joint, eccentricity and contact of each clearance\n"
     "  ledger.csv       each energy, loss and work against time, and what none of them explains\n"
+    "  actions.csv      what the events of the scene did, and when\n"
     "  events.csv       an impact a row: begin, end, speeds, deepest penetration, peak force, energy lost\n"
     "  run.json         the scene with every value filled in, status, counts, timings\n"
     "  mechanism.pvd    the animation for ParaView, with frames/*.vtu, if the scene asks for frames\n"

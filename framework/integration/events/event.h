@@ -36,6 +36,7 @@ struct WatchedGuard {
   double zero = 0;                        ///< a guard nearer to zero than this is there
   double overshoot = 0;  ///< 0: steps end where the guard is zero. Positive: they end where it is at most this far past zero
   bool at_once = false;  ///< may follow at the instant of the event before
+  bool level = false;    ///< comes, too, wherever a step begins with the guard past zero
   bool kink = false;     ///< a force has a kink there: a step that would pass it ends there instead
 };
 

@@ -89,6 +89,7 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
   const double t0 = step.from.state.t, t1 = step.to.state.t;
   const Guard from = turned(from_[at], w), to = turned(to_[at], w);
   const auto along = [&](double t) { return turned(guard(at, motion.at(t)), w); };
+  if (w.level && from.value > w.zero) return t0;
   double begin = t0, end = t1;
   const bool spent = spent_[at];
   if (spent && from.rate > 0) return std::nullopt;  // it is the passage of before

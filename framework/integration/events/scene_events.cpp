@@ -13,31 +13,49 @@ namespace pintle {
 
 namespace {
 
-constexpr double guard_rounding = 1e-15, guard_near = 1e-12;  // of a guard's size: where it is met, and where it is zero
+constexpr double guard_rounding = 1e-15, guard_near = 1e-12;  // of the largest that it was: where it is met, and where it is zero
 
 }  // namespace
 
 SceneEvents::SceneEvents(const System& system, std::vector<SceneEventRule> rules)
-    : system_(system), rules_(std::move(rules)), waits_(rules_.size(), Waits::for_true), size_(rules_.size(), 0) {}
+    : system_(system), rules_(std::move(rules)), waits_(rules_.size(), Waits::for_true), shift_(rules_.size(), 0) {
+  for (const SceneEventRule& rule : rules_) {
+    first_.push_back(size_.size());
+    size_.resize(size_.size() + rule.when.size(), 0);
+  }
+}
 
-// The least of them all.
+// The least of them all, each over the largest that it was.
 Guard SceneEvents::all_of(int event, const State& state) const {
   Guard least{std::numeric_limits<double>::infinity()};
-  for (const auto& one : rules_[at(event)].when)
-    if (const Guard now = one(system_, state); !(now.value >= least.value)) least = now;
+  const auto& when = rules_[at(event)].when;
+  for (std::size_t k = 0; k < when.size(); ++k) {
+    Guard now = when[k](system_, state);
+    if (std::isnan(now.value)) return now;
+    if (const double size = size_[first_[at(event)] + k]; size > 0) now.value /= size, now.rate /= size;
+    if (now.value < least.value) least = now;
+  }
   return least;
+}
+
+void SceneEvents::see(const State& state) {
+  for (std::size_t event = 0; event < rules_.size(); ++event)
+    for (std::size_t k = 0; k < rules_[event].when.size(); ++k) {
+      const double now = std::abs(rules_[event].when[k](system_, state).value);
+      double& size = size_[first_[event] + k];
+      if (std::isfinite(now)) size = std::max(size, now);
+    }
 }
 
 WatchedGuard SceneEvents::watch(int event) const {
   if (waits_[at(event)] == Waits::no_more) return {};
   const Direction way = waits_[at(event)] == Waits::for_true ? Direction::rising : Direction::falling;
-  return {.direction = way, .zero = guard_near * size_[at(event)], .at_once = true};
+  return {.direction = way, .zero = guard_near, .at_once = true, .level = true};
 }
 
-// It becomes false a little below the zero at which it has become true.
 Guard SceneEvents::guard(int event, const State& state) const {
   Guard now = all_of(event, state);
-  if (waits_[at(event)] == Waits::for_false) now.value += 2 * guard_near * size_[at(event)];
+  now.value += shift_[at(event)];
   return now;
 }
 
@@ -59,21 +77,15 @@ std::optional<double> SceneEvents::positive_inside(int event, const Step& step, 
   return std::nullopt;
 }
 
-bool SceneEvents::met(int event, const Guard& guard) const { return std::abs(guard.value) <= guard_rounding * size_[at(event)]; }
+bool SceneEvents::met(int, const Guard& guard) const { return std::abs(guard.value) <= guard_rounding; }
 
 void SceneEvents::start(Step& step) {
-  for (int event = 0; event < size(); ++event) {
-    const double now = all_of(event, step.to.state).value;
-    size_[at(event)] = std::isfinite(now) ? std::abs(now) : 0;
-    if (now > 0 && !rules_[at(event)].from_start) waits_[at(event)] = Waits::for_false;
-  }
+  see(step.to.state);
+  for (int event = 0; event < size(); ++event)
+    if (all_of(event, step.to.state).value > 0 && !rules_[at(event)].from_start) waits_[at(event)] = Waits::for_false;
 }
 
-void SceneEvents::follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) {
-  for (std::size_t k = 0; k < size_.size(); ++k)
-    for (const double value : {from[k].value, to[k].value})
-      if (std::isfinite(value)) size_[k] = std::max(size_[k], std::abs(value));
-}
+void SceneEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard>, const DenseOutput&) { see(step.to.state); }
 
 namespace {
 
@@ -117,6 +129,8 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
   waits_[at(event)] = !becomes_true ? Waits::for_true : rule.once ? Waits::no_more : Waits::for_false;
   EventOutcome out{.change = EventOutcome::Change::nothing};
   State& state = step.to.state;
+  const double now = all_of(event, state).value;  // zero, but for what the clock's last digit leaves
+  shift_[at(event)] = becomes_true ? std::max(2 * guard_near, -2 * now) : std::min(0.0, -2 * now);
   if (!switches_all(actions, state, out)) {
     out.failure = "the event \"" + rule.name + "\": " + out.failure;
     return out;
@@ -140,15 +154,19 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
 void SceneEvents::save(Writer& out) const {
   out.whole(waits_);
   out.whole(size_);
+  out.whole(shift_);
 }
 void SceneEvents::load(Reader& in) {
   in.whole(waits_);
   in.whole(size_);
+  in.whole(shift_);
 }
 const char* SceneEvents::fault() const {
-  const bool sound = waits_.size() == rules_.size() && size_.size() == rules_.size() &&
+  const std::size_t comparisons = rules_.empty() ? 0 : first_.back() + rules_.back().when.size();
+  const bool sound = waits_.size() == rules_.size() && size_.size() == comparisons && shift_.size() == rules_.size() &&
                      std::ranges::all_of(waits_, [](Waits w) { return w <= Waits::no_more; }) &&
-                     std::ranges::all_of(size_, [](double x) { return std::isfinite(x) && x >= 0; });
+                     std::ranges::all_of(size_, [](double x) { return std::isfinite(x) && x >= 0; }) &&
+                     std::ranges::all_of(shift_, [](double x) { return std::isfinite(x); });
   return sound ? nullptr : "it is of another system, or has numbers that are none";
 }
 

@@ -57,13 +57,16 @@ class SceneEvents final : public EventGroup {
   /// What an event is waiting for: to become true or, having acted, false; or nothing any more.
   enum class Waits : unsigned char { for_true, for_false, no_more };
   Guard all_of(int event, const State&) const;
+  void see(const State&);
   bool switches_all(const std::vector<EventAction>&, State&, EventOutcome&);
 
   const System& system_;
   std::vector<SceneEventRule> rules_;
   std::vector<Waits> waits_;
-  std::vector<double> size_;       ///< of each event's guard so far, the largest
-  std::unique_ptr<Equations> eq_;  ///< from the first switching on
+  std::vector<std::size_t> first_;  ///< place in `size_` of each event's first comparison
+  std::vector<double> size_;        ///< of each comparison so far, the largest, by which it is measured
+  std::vector<double> shift_;       ///< of each guard since it was last passed: so it is not passed again where it stands
+  std::unique_ptr<Equations> eq_;   ///< from the first switching on
 };
 
 }  // namespace pintle

@@ -89,7 +89,7 @@ bool Alpha::settle(const System& system, Instant& node, Equations& eq) {
   memory.dy_before = node.dy;
   forces_of(system, eq, memory);
   tired_ = true;
-  if (!system.switches.empty()) kkt_.forget();  // its pivots may be of rows that are released
+  if (!system.switches.empty()) kkt_.forget(), factored_ = false;  // its pivots may be of rows that are released
   return node.dy.allFinite();
 }
 

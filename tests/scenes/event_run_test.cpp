@@ -1,0 +1,149 @@
+// Events of a scene: restarts, what is written out, and what is refused, by name.
+
+#include <gtest/gtest.h>
+
+#include "framework/build/build.h"
+#include "framework/integration/integrator.h"
+#include "tests/refusal.h"
+#include "tests/scenes/text_runs.h"
+
+namespace pintle_scenes::event_run_test {
+namespace {
+
+using namespace pintle;
+
+// A swinging arm that a latch lets go, a spring catches, and a clutch ties to a disc now and then.
+const char* busy = R"(
+gravity: [0, -9.81]
+bodies:
+  arm: {rigid: {mass: 2 kg, inertia: 0.1 kg m^2}, points: {O: [-0.3, 0]}}
+  disc: {rigid: {mass: 1 kg, inertia: 0.05 kg m^2}}
+joints:
+  hinge: {revolute: [ground, arm.O], friction: {coulomb: {coefficient: 0.1}, radius: 10 mm}}
+  axle: {revolute: [ground, disc]}
+  clutch: {differential: [arm, disc], ratio: -1, engaged: false}
+drivers: {latch: {angle: [ground, arm], law: 0 rad}}
+forces:
+  engine: {torque: "1 N m - 0.1 N m s*disc.speed", on: disc}
+  catch: {torsion spring: [ground, arm], stiffness: 200 N m/rad, damping: 1 N m s/rad, free angle: -1 rad, engaged: false}
+states: {passed: {rate: 0/(1 s), start: 0}}
+start: {arm: {angle: 0}}
+events:
+  go: {when: t > 50 ms, once: true, do: {release: latch}}
+  low: {when: arm.angle < -1 rad, do: {engage: catch, set: {passed: passed + 1}}, else: {release: catch}}
+  tie: {when: arm.speed < -2 rad/s, do: {engage: clutch}, else: {release: clutch, row: true}}
+run: {until: 1 s}
+)";
+
+Scene by(const Method& method) {
+  Scene s = read_scene_text(busy, "scene.yaml");
+  s.run.method = method.words;
+  s.run.tolerance = method.tolerance;
+  s.run.constraints = method.name == std::string("partitioning") ? "partitioning" : "projection";
+  return s;
+}
+
+const Method methods[] = {{"dopri5", "dopri5", 1e-6, 0},
+                          {"partitioning", "rkf45", 1e-6, 0},
+                          {"verner87", "verner87", 1e-6, 0},
+                          {"implicit", "generalized-alpha", 1e-5, 0}};
+class EventRun : public testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(Methods, EventRun, testing::ValuesIn(methods), name_of);
+
+TEST_P(EventRun, GoesOnFromAnyStepToTheLastBit) {
+  const Scene s = by(GetParam());
+  const Model model = build(s);
+  const State start = assemble(s, model).start;
+  Integrator run(model.system, model.scheme, start);
+  std::vector<std::string> saved{run.save()};
+  while (run.state().t < s.run.until) {
+    ASSERT_TRUE(run.advance(s.run.until)) << run.failure();
+    saved.push_back(run.save());
+  }
+  ASSERT_GE(run.happenings().size(), 6u) << "few events, no exam";
+  for (std::size_t k = 0; k < saved.size(); k += 7) {
+    Integrator next(model.system, model.scheme, start);
+    next.load(saved[k]);
+    while (next.state().t < s.run.until) ASSERT_TRUE(next.advance(s.run.until)) << next.failure();
+    ASSERT_EQ(next.save(), saved.back()) << "from step " << k;
+  }
+}
+
+TEST_P(EventRun, MovesTheSameWhateverIsWrittenOut) {
+  Scene s = by(GetParam());
+  const Whole few = run(s);
+  expect_sound(few);
+  s.output.every = 0.0011;
+  const Whole many = run(s);
+  ASSERT_EQ(few.run.happenings.size(), many.run.happenings.size());
+  for (std::size_t k = 0; k < few.run.happenings.size(); ++k) EXPECT_EQ(few.run.happenings[k].t, many.run.happenings[k].t);
+  for (const char* column : {"arm.angle [rad]", "disc.speed [rad/s]", "passed [1]"})
+    EXPECT_EQ(few.run.trajectory.column(column).back(), many.run.trajectory.column(column).back()) << column;
+}
+
+std::string disc(const std::string& more) {
+  return R"(
+gravity: [0, -9.81]
+bodies: {ball: {rigid: {mass: 1 kg, inertia: 0.01 kg m^2}, points: {C: [0, 0]}, profiles: {rim: {disc: C, radius: 0.1}}}}
+ground: {points: {G: [0, 0]}, profiles: {floor: {path: [[5, 0], [-5, 0]]}}}
+contacts: {rest: {between: [ball.rim, ground.floor], normal: {spring-damper: {stiffness: 1e4 N/m, damping: 50 N s/m}}}}
+start: {ball: {x: 0, y: 0.099019}}
+run: {until: 0.5 s}
+)" + more;
+}
+
+TEST(EventContact, ThatIsReleasedLetsThrough) {
+  const Whole w = run(disc("events: {open: {when: t > 0.3 s, do: {release: rest}}}"));
+  expect_sound(w);
+  EXPECT_NEAR(w.run.trajectory.column("ball.y [m]").back(), 0.1 - 9.81 / 1e4 - 9.81 / 2 * 0.2 * 0.2, 1e-6);
+  EXPECT_FALSE(w.run.impacts.empty());
+}
+TEST(EventContact, IsNotEngagedDeepInside) {
+  const Whole w = run(disc("events: {open: {when: t > 0.1 s, do: {release: rest}}, close: {when: ball.y < 0.05, do: {engage: rest}}}"));
+  EXPECT_EQ(w.run.status, Status::failed);
+  EXPECT_NE(w.run.reason.find("the event \"close\": \"rest\" cannot be engaged: its surfaces overlap"), std::string::npos) << w.run.reason;
+}
+
+TEST(EventRefusal, OfAJointThatDoesNotMeet) {
+  const Whole w = run(disc("joints: {pin: {revolute: [ground.G, ball.C], engaged: false}}\nevents: {shut: {when: t > 0.1 s, do: {engage: pin}}}"));
+  EXPECT_EQ(w.run.status, Status::failed);
+  EXPECT_NE(w.run.reason.find("\"pin\" cannot be engaged: its points are"), std::string::npos) << w.run.reason;
+}
+TEST(EventRefusal, OfALoopThatTakesNoTime) {
+  const Whole w = run(disc("states: {k: {rate: 0/(1 s), start: 0.5}}\n"
+                           "events: {up: {when: k < 1, do: {set: {k: 2}}}, down: {when: k > 1, do: {set: {k: 0}}}}"));
+  EXPECT_EQ(w.run.status, Status::failed);
+  EXPECT_NE(w.run.reason.find("again and again without time passing"), std::string::npos) << w.run.reason;
+}
+
+struct Bad {
+  const char *events, *said;
+};
+TEST(EventRefusal, NamesWhatIsWrongInTheScene) {
+  for (const auto& [events, said] : {
+           Bad{"e: {when: t > 1 s, do: {release: rets}}", "Did you mean \"rest\"?"},
+           Bad{"e: {when: t > 1 s, do: {release: rest, engage: rest}}", "released and engaged by one event"},
+           Bad{"e: {when: ball.y, do: {release: rest}}", "expected a number"},
+           Bad{"e: {when: ball.y == 1, do: {release: rest}}", "passes a value"},
+           Bad{"e: {when: \"t > 1 s || t < 0.1 s\", do: {release: rest}}", "write two"},
+           Bad{"e: {when: bal.y > 1, do: {release: rest}}", "ball.y"},
+           Bad{"e: {when: ball.y > 1 s, do: {release: rest}}", "length"},
+           Bad{"e: {when: t > 1 s, do: {set: {k: 1}}}", "there is no state \"k\""},
+           Bad{"e: {when: t > 1 s, do: {}}", "does nothing"},
+           Bad{"e: {when: t > 1 s, do: {relaese: rest}}", "Did you mean \"release\"?"},
+           Bad{"e: {when: t > 1 s, once: true, do: {release: rest}, else: {engage: rest}}", "never comes"},
+       })
+    pintle_test::expect_refused([&, text = std::string(events)] { build(read_scene_text(disc("events: {" + text + "}"), "scene.yaml")); },
+                                {said});
+}
+
+TEST(EventWarning, SaysWhatNeverComesAndWhatNeverActs) {
+  const Whole w = run(disc("joints: {pin: {revolute: [ground.G, ball.C], engaged: false}}\nevents: {never: {when: 1 > 2, do: {stop: so}}}"));
+  std::string all;
+  for (const std::string& warning : w.run.warnings) all += warning + "\n";
+  EXPECT_NE(all.find("the event \"never\" never comes"), std::string::npos) << all;
+  EXPECT_NE(all.find("\"pin\" starts released, and no event engages it"), std::string::npos) << all;
+}
+
+}  // namespace
+}  // namespace pintle_scenes::event_run_test
