@@ -27,6 +27,8 @@ void Redirection::redirect(SceneJoint& joint) const {
   const std::string a = joint.a.body, b = joint.b.body;
   redirect(joint.a, joint.b, joint.place);
   if (joint.c) redirect(*joint.c);
+  if (joint.coupling)
+    for (SceneTerm& term : joint.coupling->terms) redirect(term.a, term.b, joint.place);
   if (!joint.clearance) return;
   std::string& bearing = joint.clearance->bearing;
   bearing = bearing == a ? joint.a.body : bearing == b ? joint.b.body : bearing;
@@ -45,6 +47,8 @@ void Redirection::redirect(SceneLoad& load) const {
       [&](auto& what) {
         if constexpr (requires { what.at; })
           redirect(what.at);
+        else if constexpr (requires { what.pulleys; })
+          for (PointRef& pulley : what.pulleys) redirect(pulley);
         else
           redirect(what.a, what.b, load.place);
       },

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <type_traits>
+#include <variant>
 
 #include "framework/common/index.h"
 
@@ -130,6 +132,50 @@ void draw_clearances(const System& system, const Drafting& drafting, const Equat
   }
 }
 
+// A wheel, with a spoke that turns with it.
+void draw_wheel(const MarkerMotion& m, double radius, Part part, int owner, Drawing& out) {
+  const double r = std::abs(radius);
+  out.lines.push_back({part, owner, true, circle(m.r, r)});
+  out.lines.push_back({part, owner, false, {m.r, m.r + r * Vector2d(std::cos(m.angle), std::sin(m.angle))}});
+}
+// The span from a to b round pulleys with radii > 0 where it goes round counter-clockwise.
+void draw_span(const MarkerMotion& a, const MarkerMotion& b, double radius_a, double radius_b, Part part, int owner, Drawing& out) {
+  const Vector2d d = b.r - a.r;
+  const double delta = radius_b - radius_a, apart = d.squaredNorm() - delta * delta;
+  if (!(apart > 0)) return;
+  const double angle = std::atan2(d.y(), d.x()) - std::atan2(delta, std::sqrt(apart));
+  const Vector2d normal(-std::sin(angle), std::cos(angle));
+  out.lines.push_back({part, owner, false, {a.r - radius_a * normal, b.r - radius_b * normal}});
+}
+
+// Pitch circles, pulleys and their belts, discs that roll.
+void draw_wheels(const System& system, const Equations& eq, Drawing& out) {
+  const int bodies = static_cast<int>(system.bodies.size());
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const int owner = bodies + static_cast<int>(k);
+    const auto draw = [&]<class Kind>(const Kind& j) {
+      if constexpr (std::is_base_of_v<Rack, Kind>) draw_wheel(eq.motion[at(j.b)], j.radius, Part::joint, owner, out);
+      if constexpr (std::is_base_of_v<Gear, Kind>) {
+        const MarkerMotion &a = eq.motion[at(j.a)], &b = eq.motion[at(j.b)];
+        draw_wheel(a, j.radius_a, Part::joint, owner, out);
+        draw_wheel(b, j.radius_b, Part::joint, owner, out);
+        constexpr double touching = 1e-2;  // else a belt joins them
+        if (std::abs((b.r - a.r).norm() - std::abs(j.radius_a + j.radius_b)) < touching * std::abs(j.radius_a)) return;
+        draw_span(a, b, j.radius_a, -j.radius_b, Part::joint, owner, out);
+        draw_span(b, a, -j.radius_b, j.radius_a, Part::joint, owner, out);
+      }
+    };
+    std::visit(draw, system.joints[k]);
+  }
+  for (const Force& force : system.forces)
+    if (const auto* span = std::get_if<BeltSpan>(&force)) {
+      const MarkerMotion &a = eq.motion[at(span->a)], &b = eq.motion[at(span->b)];
+      const int body = std::max(system.markers[at(span->b)].body, 0);
+      draw_wheel(b, span->radius_b, Part::spring, body, out);
+      draw_span(a, b, span->radius_a, span->radius_b, Part::spring, body, out);
+    }
+}
+
 // Surfaces, and what each pair that touches does to b.
 void draw_profiles(const Model& model, const Equations& eq, Drawing& out) {
   const System& system = model.system;
@@ -195,6 +241,7 @@ Drawing draw(const Model& model, const Drafting& drafting, const State& state, c
       case JointSymbol::rod: out.lines.push_back({Part::joint, bodies + joint, false, {a.r, b.r}}); break;
     }
   }
+  draw_wheels(system, eq, out);
   draw_clearances(system, drafting, eq, out);
   draw_profiles(model, eq, out);
   for (std::size_t f = 0; f < system.forces.size(); ++f)

@@ -73,12 +73,12 @@ TEST(BeltDrive, PullsOnly) {
 // centres have come apart by what stretches both spans so. Heavily damped by the guide's damper.
 TEST(BeltDrive, IsHeldTautByATensioner) {
   constexpr double F = 500, L0 = 0.3;
-  const Whole w = run(
-      "ground: {points: {D: [0.3, 0]}}\nbodies:\n  motor: {rigid: {mass: 1, inertia: 1e-3}}\n"
-      "  drum: {pose: {at: [0.3, 0]}, rigid: {mass: 1, inertia: 5e-3}}\njoints:\n  bearing: {revolute: [ground, motor]}\n"
-      "  guide: {slot: [ground, drum]}\nforces:\n  belt: {belt: [motor, drum], radii: [0.04, 0.08], stiffness: 20 kN}\n"
-      "  pull: {force: [500, 0], at: drum}\n  damper: {spring: [ground, drum], damping: 600}\n"
-      "run: {until: 0.6, tolerance: 1e-10}\noutput: {frames: 0, every: 0.1}\n");
+  const Whole w =
+      run("ground: {points: {D: [0.3, 0]}}\nbodies:\n  motor: {rigid: {mass: 1, inertia: 1e-3}}\n"
+          "  drum: {pose: {at: [0.3, 0]}, rigid: {mass: 1, inertia: 5e-3}}\njoints:\n  bearing: {revolute: [ground, motor]}\n"
+          "  guide: {slot: [ground, drum]}\nforces:\n  belt: {belt: [motor, drum], radii: [0.04, 0.08], stiffness: 20 kN}\n"
+          "  pull: {force: [500, 0], at: drum}\n  damper: {spring: [ground, drum], damping: 600}\n"
+          "run: {until: 0.6, tolerance: 1e-10}\noutput: {frames: 0, every: 0.1}\n");
   expect_sound(w);
   const double L = w.last("drum.x [m]"), delta = 0.04, k = span_stiffness(delta), l = std::sqrt(L * L - delta * delta),
                l0 = std::sqrt(L0 * L0 - delta * delta), cosine = l / L;
@@ -91,13 +91,14 @@ TEST(BeltDrive, IsHeldTautByATensioner) {
 
 // Round three pulleys, one on the back: turned by hand without slip all go as their radii, and the belt is not stretched.
 TEST(BeltDrive, GoesRoundManyPulleys) {
-  const Whole w = run(
-      "ground: {points: {B: [0.4, 0], C: [0.2, 0.12]}}\nbodies:\n  a: {rigid: {mass: 1, inertia: 1e-3}}\n"
-      "  b: {pose: {at: [0.4, 0]}, rigid: {mass: 1, inertia: 1e-3}}\n  c: {pose: {at: [0.2, 0.12]}, rigid: {mass: 1, inertia: 1e-3}}\n"
-      "joints:\n  A: {revolute: [ground, a]}\n  B: {revolute: [ground.B, b]}\n  C: {revolute: [ground.C, c]}\n"
-      "forces:\n  belt: {belt: [a, b, c], radii: [0.05, 0.08, -0.03], stiffness: 20 kN, pretension: 100 N}\n"
-      "drivers:\n  one: {angle: [ground, a], law: 20*t}\n  two: {angle: [ground, b], law: 20*t*0.05/0.08}\n  three: {angle: [ground, c], law: -20*t*0.05/0.03}\n"
-      "run: {until: 1}\noutput: {frames: 0, every: 0.1}\n");
+  const Whole w =
+      run("ground: {points: {B: [0.4, 0], C: [0.2, 0.12]}}\nbodies:\n  a: {rigid: {mass: 1, inertia: 1e-3}}\n"
+          "  b: {pose: {at: [0.4, 0]}, rigid: {mass: 1, inertia: 1e-3}}\n  c: {pose: {at: [0.2, 0.12]}, rigid: {mass: 1, inertia: 1e-3}}\n"
+          "joints:\n  A: {revolute: [ground, a]}\n  B: {revolute: [ground.B, b]}\n  C: {revolute: [ground.C, c]}\n"
+          "forces:\n  belt: {belt: [a, b, c], radii: [0.05, 0.08, -0.03], stiffness: 20 kN, pretension: 100 N}\n"
+          "drivers:\n  one: {angle: [ground, a], law: 20*t}\n  two: {angle: [ground, b], law: 20*t*0.05/0.08}\n  three: {angle: [ground, "
+          "c], law: -20*t*0.05/0.03}\n"
+          "run: {until: 1}\noutput: {frames: 0, every: 0.1}\n");
   ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
   for (const std::string span : {"1", "2", "3"})
     for (const double tension : w.column("belt " + span + ".tension [N]")) EXPECT_NEAR(tension, 100, 1e-6);

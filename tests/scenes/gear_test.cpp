@@ -27,7 +27,8 @@ const std::vector<Method> methods{{"dopri5", "dopri5", 1e-10, 1e-8}, {"alpha", "
 
 /// Wheels of 0.1 and 0.2 m, the second at (0.3, 0) or where the first runs in it.
 std::string two_wheels(const std::string& coupling, double apart = 0.3) {
-  return "ground: {points: {B: [" + number(apart) + ", 0]}}\nbodies:\n  a: {rigid: {mass: 1, inertia: 2e-3}}\n  b: {pose: {at: [" + number(apart) +
+  return "ground: {points: {B: [" + number(apart) + ", 0]}}\nbodies:\n  a: {rigid: {mass: 1, inertia: 2e-3}}\n  b: {pose: {at: [" +
+         number(apart) +
          ", 0]}, rigid: {mass: 2, inertia: 5e-3}}\njoints:\n  at A: {revolute: [ground, a]}\n  at B: {revolute: [ground.B, b]}\n  pair: " +
          coupling + "\n";
 }
@@ -67,7 +68,8 @@ TEST_P(OnFixedAxles, TurnByTheirRatioAndSpeedUpAsOneInertia) {
 TEST_P(OnFixedAxles, BearTheForceBetweenThem) {
   const Pair p = GetParam();
   const Scene s = ready_for_statics(pintle::read_scene_text(
-      two_wheels(p.coupling, p.apart) + "forces: {motor: {torque: 5, on: a}}\ndrivers: {brake: {angle: [ground, b], law: 0}}\n" + rest, "s.yaml"));
+      two_wheels(p.coupling, p.apart) + "forces: {motor: {torque: 5, on: a}}\ndrivers: {brake: {angle: [ground, b], law: 0}}\n" + rest,
+      "s.yaml"));
   const Model model = build(s);
   const Equilibrium at_rest = find_equilibrium(s, model, assemble(s, model));
   ASSERT_TRUE(at_rest.found) << at_rest.reason;
@@ -85,7 +87,8 @@ INSTANTIATE_TEST_SUITE_P(Each, OnFixedAxles, testing::ValuesIn(pairs), [](const 
 TEST(GearTrain, ThatClosesOnItselfIsLocked) {
   const std::string three =
       "ground: {points: {B: [0.2, 0], C: [0.1, \"0.1*sqrt(3)\"]}}\nbodies:\n  a: {rigid: {mass: 1, inertia: 2e-3}}\n"
-      "  b: {pose: {at: [0.2, 0]}, rigid: {mass: 1, inertia: 2e-3}}\n  c: {pose: {at: [0.1, \"0.1*sqrt(3)\"]}, rigid: {mass: 1, inertia: 2e-3}}\n"
+      "  b: {pose: {at: [0.2, 0]}, rigid: {mass: 1, inertia: 2e-3}}\n  c: {pose: {at: [0.1, \"0.1*sqrt(3)\"]}, rigid: {mass: 1, inertia: "
+      "2e-3}}\n"
       "joints:\n  A: {revolute: [ground, a]}\n  B: {revolute: [ground.B, b]}\n  C: {revolute: [ground.C, c]}\n"
       "  ab: {gear: [a, b], teeth: [20, 20]}\n  bc: {gear: [b, c], teeth: [20, 20]}\n  ca: {gear: [c, a], teeth: [20, 20]}\n";
   const Whole w = run(three + "forces: {motor: {torque: 0.3, on: a}}\n" + rest);
@@ -109,11 +112,12 @@ TEST(Carried, WheelsTurnWithTheLineOfCentres) {
                                          {"{gear: [ground, planet], radii: [0.3, 0.05], inside: true}", 0.25, -5},
                                          {"{belt: [ground, planet], radii: [0.1, 0.1]}", 0.3, 0},
                                          {"{belt: [ground, planet], radii: [0.1, 0.05]}", 0.3, -1}}) {
-    const std::string text = "bodies:\n  arm: {rigid: {mass: 1, inertia: 1e-2}, points: {P: [" + number(c.arm) +
-                             ", 0]}}\n  planet: {pose: {at: [" + number(c.arm) +
-                             ", 0]}, rigid: {mass: 1, inertia: 1e-3}}\njoints:\n  hub: {revolute: [ground, arm]}\n  pin: {revolute: [arm.P, planet]}\n"
-                             "  pair: " +
-                             c.coupling + "\ndrivers: {motor: {angle: [ground, arm], law: 15*t}}\nrun: {until: 1}\noutput: {frames: 0, every: 0.05}\n";
+    const std::string text =
+        "bodies:\n  arm: {rigid: {mass: 1, inertia: 1e-2}, points: {P: [" + number(c.arm) + ", 0]}}\n  planet: {pose: {at: [" +
+        number(c.arm) +
+        ", 0]}, rigid: {mass: 1, inertia: 1e-3}}\njoints:\n  hub: {revolute: [ground, arm]}\n  pin: {revolute: [arm.P, planet]}\n"
+        "  pair: " +
+        c.coupling + "\ndrivers: {motor: {angle: [ground, arm], law: 15*t}}\nrun: {until: 1}\noutput: {frames: 0, every: 0.05}\n";
     const Scene s = pintle::read_scene_text(text, "s.yaml");
     const Model model = build(s);
     const Run moved = kinematics(s, model, assemble(s, model));
@@ -150,11 +154,13 @@ TEST(RackAndPinion, SpeedUpAsOneMass) {
   for (const double side : {-1.0, 1.0})
     for (const Method& method : methods) {
       const std::string at = "[0.1, " + number(0.05 * side) + "]";
-      const Whole w = run("ground: {points: {P: " + at + "}}\nbodies:\n  bar: {rigid: {mass: 2, inertia: 1e-2}}\n  pinion: {pose: {at: " + at +
-                              "}, rigid: {mass: 1, inertia: 1e-3}}\njoints:\n  guide: {prismatic: [ground, bar]}\n  bearing: {revolute: [ground.P, pinion]}\n"
-                              "  teeth: {rack: [bar, pinion], radius: 0.05}\nforces: {motor: {torque: 0.6, on: pinion}}\n" +
-                              rest,
-                          method);
+      const Whole w =
+          run("ground: {points: {P: " + at + "}}\nbodies:\n  bar: {rigid: {mass: 2, inertia: 1e-2}}\n  pinion: {pose: {at: " + at +
+                  "}, rigid: {mass: 1, inertia: 1e-3}}\njoints:\n  guide: {prismatic: [ground, bar]}\n  bearing: {revolute: [ground.P, "
+                  "pinion]}\n"
+                  "  teeth: {rack: [bar, pinion], radius: 0.05}\nforces: {motor: {torque: 0.6, on: pinion}}\n" +
+                  rest,
+              method);
       expect_sound(w);
       const double a = side * 0.6 / 0.05 / (2 + 1e-3 / (0.05 * 0.05)), t = 0.1;
       EXPECT_NEAR(w.last("bar.x [m]"), a * t * t / 2, std::abs(a) * t * t * method.near);
@@ -168,8 +174,9 @@ TEST(RackAndPinion, SpeedUpAsOneMass) {
 TEST(Rolling, DownASlope) {
   constexpr double slope = 0.3, r = 0.1, m = 2, J = 0.012, k = J / (m * r * r);
   for (const Method& method : methods) {
-    const Whole w = run("gravity: [0, -9.81]\nground: {points: {L: {at: [1, 2], angle: " + number(-slope) + "}}}\nbodies:\n  disc: {pose: {at: [" +
-                            number(1 + r * std::sin(slope)) + ", " + number(2 + r * std::cos(slope)) + "], angle: 1}, rigid: {mass: 2, inertia: 0.012}}\n" +
+    const Whole w = run("gravity: [0, -9.81]\nground: {points: {L: {at: [1, 2], angle: " + number(-slope) +
+                            "}}}\nbodies:\n  disc: {pose: {at: [" + number(1 + r * std::sin(slope)) + ", " +
+                            number(2 + r * std::cos(slope)) + "], angle: 1}, rigid: {mass: 2, inertia: 0.012}}\n" +
                             "joints: {contact: {rolling: [ground.L, disc], radius: 0.1}}\n" + rest,
                         method);
     expect_sound(w);
@@ -187,8 +194,9 @@ TEST(Rolling, InABowlAndOnADrum) {
   constexpr double R = 1, r = 0.2, k = 0.4;
   const auto scene = [&](bool inside) {
     const double y = inside ? -(R - r) : R + r;
-    return pintle::read_scene_text("gravity: [0, -9.81]\nbodies:\n  disc: {pose: {at: [0, " + number(y) + "]}, rigid: {mass: 1.5, inertia: " +
-                                       number(1.5 * k * r * r) + "}}\njoints: {contact: {rolling: [ground, disc], radii: [1, 0.2]" +
+    return pintle::read_scene_text("gravity: [0, -9.81]\nbodies:\n  disc: {pose: {at: [0, " + number(y) +
+                                       "]}, rigid: {mass: 1.5, inertia: " + number(1.5 * k * r * r) +
+                                       "}}\njoints: {contact: {rolling: [ground, disc], radii: [1, 0.2]" +
                                        (inside ? ", inside: true" : "") + "}}\nstart: {disc: {vx: " + (inside ? "2.5" : "0") + "}}\n" +
                                        "run: {until: 2, tolerance: 1e-10}\noutput: {frames: 0, every: 0.1}\n",
                                    "s.yaml");

@@ -101,7 +101,8 @@ TEST(Cam, InputIsRefusedWithTheRemedy) {
   const auto refused = [&](const std::string& lobe, const std::vector<std::string>& parts) {
     expect_refused([&] { build(pintle::read_scene_text(text(lobe), "s.yaml", {}, folder)); }, parts);
   };
-  refused("{cam: [cam, valve], lift: {table: open.csv, angle unit: deg, value unit: mm}}", {"s.yaml:7", "joints.lobe.lift", "open.csv", "whole turn"});
+  refused("{cam: [cam, valve], lift: {table: open.csv, angle unit: deg, value unit: mm}}",
+          {"s.yaml:7", "joints.lobe.lift", "open.csv", "whole turn"});
   refused("{cam: [cam, valve], lift: {table: part.csv, angle unit: deg, value unit: mm}}", {"joints.lobe", "does not cover", "0 deg"});
   refused("{cam: [cam, valve], lift: 5 deg*sin(angle)}", {"joints.lobe.lift", "expected a length"});
   refused("{cam: [cam, valve], lift: 5 mm*sin(angel)}", {"angel", "angle"});
@@ -109,8 +110,9 @@ TEST(Cam, InputIsRefusedWithTheRemedy) {
   refused("{cam: [cam, valve], lift: 5 mm*tan(angle/2)}", {"joints.lobe.lift", "not finite"});
   refused("{cam: [cam, valve]}", {"lift", "swing"});
   // What leaves its table while it runs says so, and does not go on.
-  const Whole w = run(pintle::read_scene_text(text("{cam: [cam, valve], lift: {table: part.csv, angle unit: deg, value unit: mm}}"), "s.yaml",
-                                              {{"drivers.motor.law", "45 deg + 4*t"}, {"start", "{cam: {angle: 45 deg}}"}}, folder));
+  const Whole w =
+      run(pintle::read_scene_text(text("{cam: [cam, valve], lift: {table: part.csv, angle unit: deg, value unit: mm}}"), "s.yaml",
+                                  {{"drivers.motor.law", "45 deg + 4*t"}, {"start", "{cam: {angle: 45 deg}}"}}, folder));
   EXPECT_NE(w.run.status, Status::finished);
   EXPECT_FALSE(w.run.reason.empty());
   fs::remove_all(folder);
@@ -122,12 +124,12 @@ TEST(Cam, InputIsRefusedWithTheRemedy) {
 TEST(Screw, DrivesItsNut) {
   for (const double lead : {0.02, -0.02})
     for (const Method& method : methods) {
-      const Whole w = run(
-          "gravity: [9.81, 0]\nground: {points: {G: [0, 0.1]}}\nbodies:\n  rotor: {rigid: {mass: 1, inertia: 1e-4}}\n"
-          "  nut: {pose: {at: [0.3, 0.1]}, rigid: {mass: 5, inertia: 1e-2}}\njoints:\n  bearing: {revolute: [ground, rotor]}\n"
-          "  guide: {prismatic: [ground.G, nut]}\n  spindle: {screw: [rotor, nut, ground.G], lead: " +
-              number(lead) + "}\nforces: {motor: {torque: 0.1, on: rotor}}\nrun: {until: 0.2}\noutput: {frames: 0, every: 0.1}\n",
-          method);
+      const Whole w =
+          run("gravity: [9.81, 0]\nground: {points: {G: [0, 0.1]}}\nbodies:\n  rotor: {rigid: {mass: 1, inertia: 1e-4}}\n"
+              "  nut: {pose: {at: [0.3, 0.1]}, rigid: {mass: 5, inertia: 1e-2}}\njoints:\n  bearing: {revolute: [ground, rotor]}\n"
+              "  guide: {prismatic: [ground.G, nut]}\n  spindle: {screw: [rotor, nut, ground.G], lead: " +
+                  number(lead) + "}\nforces: {motor: {torque: 0.1, on: rotor}}\nrun: {until: 0.2}\noutput: {frames: 0, every: 0.1}\n",
+              method);
       expect_sound(w);
       const double p = lead / (2 * M_PI), alpha = (0.1 + 5 * g * p) / (1e-4 + 5 * p * p), t = 0.2;
       EXPECT_NEAR(w.last("rotor.angle [rad]"), alpha * t * t / 2, std::abs(alpha) * t * t * method.near);
@@ -139,13 +141,14 @@ TEST(Screw, DrivesItsNut) {
 // A rope over a loose pulley: y₁ + 2 y₂ stays, so that (4 m₁ + m₂) a₂ = (2 m₁ − m₂) g.
 TEST(Differential, OfDisplacementsIsATackle) {
   for (const Method& method : methods) {
-    const Whole w = run(
-        "gravity: [0, -9.81]\nground: {points: {U: {at: [0, 0], angle: 90 deg}, V: {at: [1, 0], angle: 90 deg}}}\nbodies:\n"
-        "  one: {pose: {at: [0, 0.4]}, rigid: {mass: 3, inertia: 1}}\n  two: {pose: {at: [1, 0.2]}, rigid: {mass: 2, inertia: 1}}\njoints:\n"
-        "  A: {prismatic: [ground.U, one], angle: -90 deg}\n  B: {prismatic: [ground.V, two], angle: -90 deg}\n"
-        "  tackle: {differential: [{displacement: [ground.U, one]}, {displacement: [ground.V, two], ratio: 2}]}\n"
-        "run: {until: 0.3}\noutput: {frames: 0, every: 0.1}\n",
-        method);
+    const Whole w =
+        run("gravity: [0, -9.81]\nground: {points: {U: {at: [0, 0], angle: 90 deg}, V: {at: [1, 0], angle: 90 deg}}}\nbodies:\n"
+            "  one: {pose: {at: [0, 0.4]}, rigid: {mass: 3, inertia: 1}}\n  two: {pose: {at: [1, 0.2]}, rigid: {mass: 2, inertia: "
+            "1}}\njoints:\n"
+            "  A: {prismatic: [ground.U, one], angle: -90 deg}\n  B: {prismatic: [ground.V, two], angle: -90 deg}\n"
+            "  tackle: {differential: [{displacement: [ground.U, one]}, {displacement: [ground.V, two], ratio: 2}]}\n"
+            "run: {until: 0.3}\noutput: {frames: 0, every: 0.1}\n",
+            method);
     expect_sound(w);
     const double a = (2 * 3 - 2) * g / (4 * 3 + 2), t = 0.3;
     EXPECT_NEAR(w.last("two.y [m]"), 0.2 + a * t * t / 2, a * t * t * method.near);
@@ -156,9 +159,11 @@ TEST(Differential, OfDisplacementsIsATackle) {
 // Two cylinders on one pipe, pistons of 1 and 0.5: what one arm takes in the other gives out, 1:2. Statics by virtual work.
 TEST(Differential, OfDistancesLinksTwoArms) {
   const Whole w = run(
-      "ground: {points: {P: [0, -0.3], Q: [2, -0.3], B: [2, 0]}}\nbodies:\n  left: {rigid: {mass: 1, inertia: 0.1}, points: {C: [0.5, 0]}}\n"
+      "ground: {points: {P: [0, -0.3], Q: [2, -0.3], B: [2, 0]}}\nbodies:\n  left: {rigid: {mass: 1, inertia: 0.1}, points: {C: [0.5, "
+      "0]}}\n"
       "  right: {pose: {at: [2, 0]}, rigid: {mass: 1, inertia: 0.1}, points: {C: [-0.4, 0.1]}}\njoints:\n  A: {revolute: [ground, left]}\n"
-      "  B: {revolute: [ground.B, right]}\n  pipe: {differential: [{distance: [ground.P, left.C]}, {distance: [ground.Q, right.C], ratio: 0.5}]}\n"
+      "  B: {revolute: [ground.B, right]}\n  pipe: {differential: [{distance: [ground.P, left.C]}, {distance: [ground.Q, right.C], ratio: "
+      "0.5}]}\n"
       "drivers: {hand: {angle: [ground, left], law: 0.3*sin(3*t)}}\nrun: {until: 1}\noutput: {frames: 0, every: 0.1}\n");
   ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
   const auto left = w.column("left.angle [rad]"), right = w.column("right.angle [rad]");
@@ -169,8 +174,10 @@ TEST(Differential, OfDistancesLinksTwoArms) {
 
 TEST(Differential, RefusesTermsThatCannotBe) {
   const auto refused = [](const std::string& terms, const std::vector<std::string>& parts) {
-    const std::string text = "bodies:\n  a: {rigid: {mass: 1, inertia: 1}, points: {P: [1, 0], Q: [0, 1]}}\n  b: {rigid: {mass: 1, inertia: 1}}\njoints:\n  j: {differential: " +
-                             terms + "}\nrun: {until: 1}\n";
+    const std::string text =
+        "bodies:\n  a: {rigid: {mass: 1, inertia: 1}, points: {P: [1, 0], Q: [0, 1]}}\n  b: {rigid: {mass: 1, inertia: 1}}\njoints:\n  j: "
+        "{differential: " +
+        terms + "}\nrun: {until: 1}\n";
     expect_refused([&] { build(pintle::read_scene_text(text, "s.yaml")); }, parts);
   };
   refused("[{angle: [ground, a]}]", {"s.yaml:5", "joints.j.differential", "two or three terms"});

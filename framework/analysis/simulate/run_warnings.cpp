@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 #include <sstream>
+#include <variant>
+#include <vector>
 
 #include "framework/common/text.h"
 
@@ -51,6 +53,18 @@ void warn_of_pushing(const System& system, Run& run) {
     s << "\"" << system.contact_names[c] << "\": the massless link pushed, with up to " << -force.least << " N, in " << force.pushing
       << " of " << force.rows << " outputs, as no wall could pull: contact would be lost there";
     run.warnings.push_back(s.str());
+  }
+}
+
+void warn_of_lifting(const System& system, Run& run) {
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    if (!std::holds_alternative<RollsOnDisc>(system.joints[k]) && !std::holds_alternative<RollsOnLine>(system.joints[k])) continue;
+    const std::vector<double> normal = run.trajectory.column(system.joint_names[k] + ".normal [N]");
+    const auto pulls = std::ranges::count_if(normal, [](double force) { return force < 0; });
+    if (pulls == 0) continue;
+    run.warnings.push_back("\"" + system.joint_names[k] + "\": the rolling disc was held down, with up to " +
+                           number_text(-*std::ranges::min_element(normal), 3) + " N, in " + std::to_string(pulls) + " of " +
+                           std::to_string(normal.size()) + " outputs: it would lift off there; a contact lets it");
   }
 }
 

@@ -11,5 +11,7 @@ void warn_of_depth(const System&, Run&);
 void warn_of_gap(const System&, const Model&, const SavedState& from, Run&);
 /// A massless link holds the journal at the wall whether the wall presses or not.
 void warn_of_pushing(const System&, Run&);
+/// A disc that rolls is held in contact, whether it presses or not.
+void warn_of_lifting(const System&, Run&);
 
 }  // namespace pintle

@@ -133,6 +133,7 @@ class Simulation {
     if (from) warn_of_gap(system_, model_, *from, run_);
     warn_of_depth(system_, run_);
     warn_of_pushing(system_, run_);
+    warn_of_lifting(system_, run_);
     slow_.warn(system_, run_.energy_in_play, run_.warnings);
     monitor_.warn(run_.warnings);
     run_.counts = integrator_.counts();
