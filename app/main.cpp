@@ -36,6 +36,7 @@ constexpr const char* exit_codes =
     "A scene is a YAML file; docs/scene.md has its language, examples/ has scenes to start from:\n"
     "  pintle check examples/slider_crank_clearance.yaml\n"
     "  pintle run examples/slider_crank_clearance.yaml --set clearance=0.1mm --out worn\n"
+    "  pintle report worn        (worn/report.html, for any browser)\n"
     "  paraview worn/mechanism.pvd\n"
     "  pintle modes examples/modes_eye_bar.yaml --count 8\n";
 

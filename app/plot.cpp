@@ -45,17 +45,19 @@ std::vector<fs::path> tables_in(const fs::path& directory) {
 /// The table that has a column of this name, with its unit or without.
 fs::path table_with(const std::vector<fs::path>& tables, std::string& name) {
   std::vector<std::string> known;
-  for (const fs::path& table : tables)
-    for (const std::string& heading : CsvReader(table).header()) {
+  for (const fs::path& table : tables) {
+    const CsvReader file(table);
+    for (const std::string& heading : file.header()) {
       known.push_back(column_name(heading).name);
       if (name != heading && name != known.back()) continue;
       name = known.back();
       return table;
     }
+  }
   const std::string near = nearest(name, known);
-  throw ResultsError(
-      tables.front().parent_path().string() + ": has no column " + quoted(name) +
-      (near.empty() ? "; the first line of trajectory.csv and of ledger.csv names them all" : "; did you mean " + quoted(near) + "?"));
+  throw ResultsError(tables.front().parent_path().string() + ": has no column " + pintle::quoted(name) +
+                     (near.empty() ? "; the first line of trajectory.csv and of ledger.csv names them all"
+                                   : "; did you mean " + pintle::quoted(near) + "?"));
 }
 
 /// @param evenly  at evenly spaced rows, so that columns share their times; else with the extremes of every stretch
@@ -72,7 +74,7 @@ PlottedColumn read_column(const fs::path& table, const std::string& name, bool e
   if (evenly && !reduced.whole) return found_in(reduced.poses).value();
   for (const Sheet& sheet : reduced.sheets)
     if (auto found = found_in(sheet)) return *found;
-  throw ResultsError(table.string() + ": has no column " + quoted(name));
+  throw ResultsError(table.string() + ": has no column " + pintle::quoted(name));
 }
 
 /// A panel a column, for the terminal; a panel a unit, for a picture.
@@ -86,7 +88,7 @@ std::vector<Panel> panels_of(const Options& options, bool one_each) {
     const fs::path table = table_with(tables, name);
     const PlottedColumn y = read_column(table, name, against != "t");
     if (against != "t" && y.t != x.t)
-      throw ResultsError("--against " + against + ": stands in another table than " + quoted(name) +
+      throw ResultsError("--against " + against + ": stands in another table than " + pintle::quoted(name) +
                          ", with other rows; name one of the same");
     const std::string unit = one_each ? std::to_string(out.size()) : y.name.unit;
     if (!of_unit.contains(unit)) {

@@ -5,9 +5,15 @@
 /// Columns that a first look should show: what happens in clearances and contacts, else joint forces, and how the mechanism moves.
 function firstPlots(model, table) {
   const known = (names) => names.filter((name) => table.columns.has(name));
+  const spans = new Map();  // the widest of each unit: what is far below it is rounding
+  for (const { unit, y } of table.columns.values()) {
+    const [least, most] = rangeOf(y);
+    spans.set(unit, Math.max(spans.get(unit) ?? 0, most - least));
+  }
   const varies = (name) => {
-    const [least, most] = rangeOf(table.columns.get(name).y);
-    return most > least;
+    const { unit, y } = table.columns.get(name);
+    const [least, most] = rangeOf(y);
+    return most - least > 1e-9 * spans.get(unit);
   };
   const out = [];
   const [clearance] = model.contacts.filter((c) => c.radius);

@@ -195,8 +195,10 @@ function pairOf(first, second) {
 }
 
 function orbitPlot(panel, columns, width, height) {
-  const abscissa = panel.table.columns.get(panel.against);
-  panel.pairs = columns.map((column) => pairOf(abscissa, column));
+  const evenly = panel.table.poses.columns;  // where both are read at the same rows, if they are
+  const column = (name) => evenly.get(name) ?? panel.table.columns.get(name);
+  const abscissa = column(panel.against);
+  panel.pairs = columns.map(({ name }) => pairOf(abscissa, column(name)));
   const wide = panel.pairs.map(({ x }) => rangeOf(x));
   const high = panel.pairs.map(({ y }) => rangeOf(y));
   let x = padded(Math.min(...wide.map((r) => r[0])), Math.max(...wide.map((r) => r[1])));

@@ -38,8 +38,9 @@ std::optional<Description> motion_in(const fs::path& directory) {
 }
 
 Scene scene_of(const Description& results) {
-  const std::string name = results.file.string() + " (scene)", written = results.json.value("file", std::string());
-  Scene scene = read_scene_text(results.json["scene"].dump(), name, {}, fs::path(written).parent_path());
+  std::string file = results.json.value("file", std::string());  // meshes and tables are sought beside it
+  if (file.empty()) file = results.file.string();
+  Scene scene = read_scene_text(results.json["scene"].dump(), file, {}, fs::path(file).parent_path());
   scene = results.question == "kinematics" ? ready_for_kinematics(std::move(scene)) : with_pieces(std::move(scene));
   scene.output.frames = std::max(scene.output.frames, 2);  // shapes for drawing are kept
   return scene;
@@ -56,7 +57,7 @@ Json sheet_json(const Sheet& sheet) {
 Json table_json(const ReducedTable& table) {
   Json sheets = Json::array();
   for (const Sheet& sheet : table.sheets) sheets.push_back(sheet_json(sheet));
-  return {{"rows", table.rows}, {"whole", table.whole}, {"sheets", sheets}, {"poses", table.whole ? Json() : sheet_json(table.poses)}};
+  return {{"rows", table.rows}, {"whole", table.whole}, {"sheets", sheets}, {"poses", table.poses.t.empty() ? Json() : sheet_json(table.poses)}};
 }
 
 Json event_json(const std::vector<std::string>& fields) {
