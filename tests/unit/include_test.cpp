@@ -32,9 +32,9 @@ TEST_F(Include, ReadsPartsAsIfTheyStoodThere) {
 }
 
 TEST_F(Include, MakesAnAssemblyOfAScene) {
-  put("engine.yaml", "title: engine\ngravity: [0, 1]\nparameters: {m: 1 kg}\nbodies: {rod: {rigid: {mass: m, inertia: 1}}}\nrun: {until: 1 s}\n");
+  put("engine.yaml", "title: engine\ngravity: [0, 1]\nparameters: {heavy: 1 kg}\nbodies: {rod: {rigid: {mass: heavy, inertia: 1}}}\nrun: {until: 1 s}\n");
   const Scene is = read("assemblies: {engine: {include: engine.yaml, ports: [on], joints: {hold: {revolute: [on, rod]}}}}\n"
-                        "instances: {left: {of: engine, with: {m: 2 kg}, ports: {on: ground}}, right: {of: engine, ports: {on: ground}}}\n");
+                        "instances: {left: {of: engine, with: {heavy: 2 kg}, ports: {on: ground}}, right: {of: engine, ports: {on: ground}}}\n");
   EXPECT_EQ(is.gravity[1], 0);
   ASSERT_EQ(is.bodies.size(), 2u);
   EXPECT_EQ(is.bodies[0].mass, 2);

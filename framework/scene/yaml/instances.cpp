@@ -15,7 +15,7 @@ namespace pintle {
 
 namespace {
 
-constexpr std::size_t most_values = 2'000'000;
+constexpr std::size_t most_values = 1'000'000;
 constexpr long most_copies = 100'000;
 constexpr int most_levels = 30;
 
@@ -74,7 +74,7 @@ class Expansion {
 
   Yaml copied(const Yaml& yaml, int scope) {
     if (++values_ > most_values)
-      node(yaml, yaml.key).fail("repeat and instances make more than two million values; repeat less");
+      node(yaml, yaml.key).fail("repeat and instances make more than a million values; repeat less");
     Yaml out{yaml.kind, yaml.line, yaml.key, yaml.text, {}, yaml.file, scope};
     out.items.reserve(yaml.items.size());
     for (const Yaml& item : yaml.items) out.items.push_back(copied(item, scope));
