@@ -157,9 +157,9 @@ std::string Node::file(const std::string& remedy) const {
 
 Law Node::law(const Dimension& expected) const {
   try {
-    Law law = read_law(text("an expression in t, " + describe(expected)), expected, parameters());
-    if (const Scope* scope = source_->scope(yaml_->scope)) law.text = spelled_out(law.text, *scope);
-    return law;
+    const Law law = read_law(text("an expression in t, " + describe(expected)), expected, parameters());
+    const Scope* scope = source_->scope(yaml_->scope);
+    return scope ? read_law(spelled_out(law.text, *scope), expected, source_->parameters) : law;  // the text that is kept says the same
   } catch (const ExpressionError& error) {
     fail(error.what());
   }
