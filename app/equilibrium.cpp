@@ -6,6 +6,8 @@
 
 #include "app/options.h"
 #include "app/run_end.h"
+#include "framework/analysis/simulate/identity.h"
+#include "framework/analysis/simulate/saved_state.h"
 #include "framework/bodies/segments.h"
 #include "framework/build/build.h"
 #include "framework/build/inertia_defaults.h"
@@ -77,6 +79,9 @@ void add_values(const Table& table, Rows& rows) {
   }
 }
 
+constexpr const char* rest_file = "rest.state";
+bool runs_from_rest(const Scene& scene, const Equilibrium& e) { return e.found && scene.has_run; }
+
 void print(const Scene& scene, const Equilibrium& e, const fs::path& out) {
   std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
   Rows rows;
@@ -89,6 +94,7 @@ void print(const Scene& scene, const Equilibrium& e, const fs::path& out) {
     add_values(e.table, rows);
   }
   rows.emplace_back("results", out.string() + ", drawing " + (out / "mechanism.pvd").string());
+  if (runs_from_rest(scene, e)) rows.emplace_back("to start from it", "pintle run SCENE --restart " + (out / rest_file).string());
   print_rows(std::cout, rows);
   for (const std::string& w : e.warnings) std::cout << "  warning: " << w << "\n";
   std::cout << "  " << (e.found ? "at rest" : "NOT AT REST: " + e.reason) << "\n";
@@ -108,6 +114,7 @@ int equilibrium(const Options& options) {
 
   write_whole(options, out, [&](const fs::path& folder) {
     write_equilibrium(folder, scene, model, found);
+    if (runs_from_rest(scene, found)) write_text(folder / rest_file, state_text(identity(scene, model, assembly), beginning(model, found.state)));
     FrameWriter writer(folder);
     Equations eq(model.system);
     Eigen::VectorXd dy(model.system.n_y());

@@ -19,6 +19,8 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUtilities.h>
 
+#include "framework/scene/colour.h"
+
 namespace pintle {
 
 namespace fs = std::filesystem;
@@ -126,6 +128,8 @@ Drawing read_lines(const fs::path& file) {
   for (vtkIdType i = 0; i < owners->GetNumberOfValues(); ++i) {
     drawing.owners.push_back(owners->GetValue(i));
   }
+  if (auto* colours = vtkStringArray::SafeDownCast(facts->GetAbstractArray("colours")))
+    for (vtkIdType i = 0; i < colours->GetNumberOfValues(); ++i) drawing.colours.push_back(rgb_of(colours->GetValue(i)));
   vtkNew<vtkIdList> ids;
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c) {
     grid->GetCellPoints(c, ids);

@@ -13,6 +13,8 @@
 #include "app/run_end.h"
 #include "framework/analysis/simulate/identity.h"
 #include "framework/bodies/segments.h"
+#include "framework/build/inertia_defaults.h"
+#include "framework/common/nearest.h"
 #include "framework/common/processor_time.h"
 #include "framework/common/text.h"
 #include "framework/output/results.h"
@@ -223,8 +225,35 @@ void foresee_room(const Options& options, const Scene& scene, Model& model) {
 
 }  // namespace
 
+namespace {
+
+/// Bodies that forces have nothing to act on.
+std::vector<std::string> massless_bodies(const Scene& scene) {
+  std::vector<std::string> out;
+  for (const SceneBody& b : scene.bodies)
+    if (!b.elastic && (b.mass == 0 || b.inertia == 0)) out.push_back("\"" + b.name + "\"");
+  return out;
+}
+
+/// What there is to say of a scene whose motion can be asked for, but not its forces.
+int check_kinematics(const Options& options, Scene scene, const std::vector<std::string>& massless) {
+  scene.warnings.push_back(listed(massless, "and") + (massless.size() == 1 ? " lacks" : " lack") +
+                           " mass or inertia: only `pintle kinematics` can run this scene (and `pintle statics`, with masses or without gravity)");
+  scene = ready_for_kinematics(std::move(scene));
+  const Model model = build(scene);
+  const Assembly assembly = assemble(scene, model);
+  if (options.json)
+    std::cout << check_json(scene, model, assembly, CostEstimate{});
+  else
+    print_check(scene, model, assembly);
+  return ok;
+}
+
+}  // namespace
+
 int check(const Options& options) {
   const Scene scene = with_pieces(runnable(options));
+  if (const auto massless = massless_bodies(scene); !massless.empty()) return check_kinematics(options, scene, massless);
   const double begin = processor_time();
   Model model = build_with_preliminary_run(scene);
   const double built = processor_time() - begin - (model.preliminary_run ? model.preliminary_run->seconds : 0);

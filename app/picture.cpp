@@ -142,7 +142,11 @@ std::map<int, Colour> body_colours(const pintle::Drawing& drawing) {
   }
   for (const auto& body : drawing.bodies) colours[owner_of(drawing, body)] = ink;
   std::size_t n = 0;
-  for (auto& [owner, colour] : colours) colour = palette[n++ % palette.size()];
+  for (auto& [owner, colour] : colours) {
+    const auto o = static_cast<std::size_t>(owner);
+    const auto own = o < drawing.colours.size() ? drawing.colours[o] : std::nullopt;
+    colour = own ? Colour((*own)[0] / 255.0, (*own)[1] / 255.0, (*own)[2] / 255.0) : palette[n++ % palette.size()];
+  }
   return colours;
 }
 

@@ -30,7 +30,7 @@ CellShape shape_of(const std::string& element) {
 template <class Work>
 Mesh in_file(const Scene& scene, const SceneBody& body, Work&& work) {
   SceneBody named;
-  named.place = {body.place.line, body.place.key.empty() ? "" : body.place.key + ".plate.file"};
+  named.place = {body.place.line, body.place.key.empty() ? "" : body.place.key + ".plate.file", body.place.file};
   return in_body(scene, named, std::forward<Work>(work));
 }
 

@@ -41,6 +41,7 @@ class Builder {
   Model build() {
     model_.system.gravity = vector(scene_.gravity);
     if (scene_.bodies.empty()) throw SceneError(scene_.file, {0, "bodies"}, "there is no body; a scene needs at least one");
+    model_.warnings = scene_.warnings;
     elastic_ = elastic_bodies(scene_, store_, preliminary_);
     model_.preliminary_run = elastic_.preliminary_run;
     elements_.resize(scene_.bodies.size());

@@ -11,6 +11,7 @@
 #include "framework/common/index.h"
 #include "framework/configuration/branching.h"
 #include "framework/configuration/closure.h"
+#include "framework/configuration/drawn_pose.h"
 #include "framework/configuration/equilibrium.h"
 #include "framework/configuration/ideal_pin.h"
 #include "framework/configuration/least_step.h"
@@ -217,10 +218,11 @@ const std::string& last_driver(const System& system, const std::vector<Redundanc
 
 std::vector<std::string> warnings_of(const Model& model, const Assembly& assembly) {
   const System& system = model.system;
-  std::vector<std::string> out;
+  std::vector<std::string> out = assembly.doubts;
   std::string singular;
   bool any = false;
   for (const Redundancy& r : assembly.redundant) {
+    if (const std::string twice = driven_twice(system, r); r.permanent && !twice.empty()) out.push_back(twice);
     any = any || r.permanent;
     if (!r.permanent) singular += (singular.empty() ? "" : ", ") + row_text(system, r.joint, r.row);
   }
@@ -245,9 +247,9 @@ System without_play(System system) {
 
 // A step of the assembly, first with joints that have play as they are without it; where the scene starts them otherwise, without them.
 template <class Do>
-auto as_if_ideal(const Scene& scene, const System& system, const System& closed, Rough& r, Do does) {
+auto as_if_ideal(const Scene& scene, const System& system, const System& closed, const std::vector<Eigen::Vector2d>& drawn, Rough& r, Do does) {
   const auto with = [&](const System& these) {
-    Closure closure(scene, these, pressed_directions(scene, these));
+    Closure closure(scene, these, pressed_directions(scene, these), drawn);
     return does(closure, these);
   };
   if (system.loose.empty()) return with(system);
@@ -260,8 +262,8 @@ auto as_if_ideal(const Scene& scene, const System& system, const System& closed,
   }
 }
 
-int close_joints(const Scene& scene, const System& system, const System& closed, Rough& r) {
-  return as_if_ideal(scene, system, closed, r, [&](Closure& closure, const System& these) {
+int close_joints(const Scene& scene, const System& system, const System& closed, const std::vector<Eigen::Vector2d>& drawn, Rough& r) {
+  return as_if_ideal(scene, system, closed, drawn, r, [&](Closure& closure, const System& these) {
     return undeformed_first(these, r, &Rough::W_pose, [&](Rough& from) { return close_joints(scene, closure, these, from); });
   });
 }
@@ -271,9 +273,11 @@ Assembly assembled(const Scene& scene, const System& system, const Bent& bent) {
   Rough r = rough_state(scene, closed, bent);
   const VectorXd before = r.y.head(system.n());
   Assembly out;
-  out.iterations = close_joints(scene, system, closed, r);
+  const std::vector<Eigen::Vector2d> drawn = drawn_journals(scene, system, r.y, out.doubts);
+  out.iterations = close_joints(scene, system, closed, drawn, r);
   out.moved = (r.y.head(system.n()) - before).lpNorm<Eigen::Infinity>();
-  as_if_ideal(scene, system, closed, r, [&](Closure& closure, const System& these) {
+  doubt_moves(scene, system, before, r.y.head(system.n()), out.doubts);
+  as_if_ideal(scene, system, closed, drawn, r, [&](Closure& closure, const System& these) {
     return undeformed_first(these, r, &Rough::W_speed, [&](Rough& from) { return match_speeds(scene, closure, these, from); });
   });
   r.y.conservativeResizeLike(VectorXd::Zero(system.n_y()));
@@ -383,7 +387,8 @@ void refuse_rigid_contacts(const Scene& scene, const System& system, const std::
 VectorXd closed_pose(const Scene& scene, const System& system, const std::vector<std::pair<int, VectorXd>>& bent) {
   const System closed = without_play(system);
   Rough r = rough_state(scene, closed, bent);
-  close_joints(scene, system, closed, r);
+  std::vector<std::string> told_later;
+  close_joints(scene, system, closed, drawn_journals(scene, system, r.y, told_later), r);
   return r.y;
 }
 

@@ -16,6 +16,7 @@ struct Assembly {
   std::vector<bool> shared;           ///< per row: its force is not unique; the least norm shares it out
   double moved = 0;                   ///< how far the worst coordinate went from the rough pose [m or rad]
   int iterations = 0;
+  std::vector<std::string> doubts = {};  ///< where it does not follow the drawn pose, in words
 };
 
 /// Puts the mechanism together at t = 0: the pose nearest to the rough one that closes every joint and

@@ -31,10 +31,12 @@ class Closure {
 
  public:
   /// @param pressed  unit vectors along which massless links stand that the scene gives no eccentricity
-  Closure(const Scene& scene, const System& system, const std::vector<Eigen::Vector2d>& pressed)
+  /// @param drawn    where journals are drawn in their bearings, for those that it gives none; empty: in the middle
+  Closure(const Scene& scene, const System& system, const std::vector<Eigen::Vector2d>& pressed,
+          const std::vector<Eigen::Vector2d>& drawn = {})
       : system_(system), eq_(system), offset_(at(n_clearances(system))), drift_(offset_.size()) {
     for (std::size_t c = 0; c < offset_.size(); ++c) {
-      offset_[c].setZero();
+      offset_[c] = drawn.empty() ? Eigen::Vector2d::Zero() : drawn[c];
       drift_[c].setZero();
       for (const StartJournal& s : scene.start_journals)
         if (s.joint == system.contact_names[c]) {

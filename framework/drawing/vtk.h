@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,9 @@ struct CollectedFile {
 };
 /// A .pvd: when to show which file.
 void write_collection(const std::filesystem::path&, const std::vector<CollectedFile>&);
+
+/// Red, green, blue.
+using Rgb = std::array<unsigned char, 3>;
 
 /// What kind of thing a drawn line is; written as the cell field `part` and named in field data.
 enum class Part { link, joint, journal, bearing, spring, guide, trace };
@@ -62,6 +67,7 @@ struct Drawing {
   double exaggeration = 1;          ///< drawn clearance over true clearance
   double deformation = 1;           ///< drawn deformation of the flexible bodies over the true one
   std::vector<std::string> owners;  ///< names of bodies, joints and contacts; the same in each frame
+  std::vector<std::optional<Rgb>> colours;  ///< of the first owners, the bodies; empty where no body has one
   std::vector<DrawnLine> lines;
   std::vector<DrawnForce> forces;
   std::vector<DrawnBody> bodies;  ///< flexible ones; the same, with the same cells, in each frame
@@ -80,6 +86,8 @@ struct Drawing {
 /// | `owner`                  | cells  | index into `owners`                                      |
 /// | `force [N]`              | points | vector; zero except at a force's vertex                  |
 /// | `parts`, `owners`        | frame  | the names of the two numberings                          |
+/// | `colours`                | frame  | #rrggbb of the owners that the scene gives one, if any   |
+/// | `colour`                 | cells  | the same in red, green, blue, 0 to 255; grey for others  |
 /// | `TimeValue`              | frame  | t [s]                                                    |
 /// | `clearance exaggeration` | frame  | drawn clearance over true clearance                      |
 ///

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cassert>
+#include <cstdio>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -38,6 +39,29 @@ vtkNew<vtkDoubleArray> number(const char* name, double value) {
   vtkNew<vtkDoubleArray> array;
   array->SetName(name);
   array->InsertNextValue(value);
+  return array;
+}
+
+std::vector<std::string> colour_words(const Drawing& drawing) {
+  std::vector<std::string> out;
+  for (const std::optional<Rgb>& rgb : drawing.colours) {
+    std::array<char, 8> text{};
+    if (rgb) std::snprintf(text.data(), text.size(), "#%02x%02x%02x", (*rgb)[0], (*rgb)[1], (*rgb)[2]);
+    out.emplace_back(text.data());
+  }
+  return out;
+}
+
+vtkNew<vtkUnsignedCharArray> cell_colours(const Drawing& drawing, vtkIntArray* owner) {
+  constexpr Rgb grey{96, 96, 96};
+  vtkNew<vtkUnsignedCharArray> array;
+  array->SetName("colour");
+  array->SetNumberOfComponents(3);
+  for (vtkIdType i = 0; i < owner->GetNumberOfValues(); ++i) {
+    const auto o = static_cast<std::size_t>(owner->GetValue(i));
+    const Rgb rgb = o < drawing.colours.size() ? drawing.colours[o].value_or(grey) : grey;
+    array->InsertNextTypedTuple(rgb.data());
+  }
   return array;
 }
 
@@ -81,6 +105,10 @@ vtkNew<vtkUnstructuredGrid> lines_of(const Drawing& drawing) {
   grid->GetPointData()->AddArray(force);
   grid->GetCellData()->AddArray(part);
   grid->GetCellData()->AddArray(owner);
+  if (!drawing.colours.empty()) {
+    grid->GetCellData()->AddArray(cell_colours(drawing, owner));
+    grid->GetFieldData()->AddArray(strings("colours", colour_words(drawing)));
+  }
   grid->GetFieldData()->AddArray(number("TimeValue", drawing.t));
   grid->GetFieldData()->AddArray(number("clearance exaggeration", drawing.exaggeration));
   grid->GetFieldData()->AddArray(strings("parts", part_names));

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "framework/common/index.h"
+#include "framework/scene/colour.h"
 
 namespace pintle {
 
@@ -78,6 +79,8 @@ Drafting::Drafting(const Scene& scene, const Model& model) {
     half = std::max(half, bearing_radius(c.gap));
   }
   const double width = 1.6 * pin;
+  if (std::ranges::any_of(scene.bodies, [](const SceneBody& b) { return !b.colour.empty(); }))
+    for (const SceneBody& b : scene.bodies) colours.push_back(rgb_of(b.colour));
   deformation = scene.output.deformation;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     owners.push_back(system.bodies[b].name);
@@ -204,6 +207,7 @@ Drawing draw(const Model& model, const Drafting& drafting, const State& state, c
   out.t = state.t;
   out.exaggeration = drafting.exaggeration;
   out.owners = drafting.owners;
+  out.colours = drafting.colours;
   const int bodies = static_cast<int>(system.bodies.size()), joints = static_cast<int>(system.joints.size());
   out.deformation = drafting.deformation;
   auto flexible = model.drawings.begin();

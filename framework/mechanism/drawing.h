@@ -9,6 +9,7 @@ namespace pintle {
 struct Drafting {
   Drafting(const Scene&, const Model&);
   std::vector<std::string> owners;                  ///< bodies, joints, contacts
+  std::vector<std::optional<Rgb>> colours = {};     ///< as in Drawing
   std::vector<std::vector<Eigen::Vector2d>> links;  ///< closed outlines, body axes
   double pin = 0;                                   ///< radius of a joint's circle [m]
   double exaggeration = 1;                          ///< of clearances

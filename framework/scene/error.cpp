@@ -9,7 +9,7 @@ namespace {
 std::string sentence(const std::string& file, const Place& place, const std::string& message) {
   std::ostringstream s;
   s.imbue(std::locale::classic());
-  s << (file.empty() ? "scene" : file);
+  s << (!place.file.empty() ? place.file : file.empty() ? "scene" : file);
   if (place.line > 0) s << ':' << place.line;
   if (!place.key.empty()) s << (place.line == set_by_override ? ": --set " : ": ") << place.key;
   s << ": " << message;

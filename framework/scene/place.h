@@ -14,6 +14,7 @@ inline constexpr int set_by_override = -1;
 struct Place {
   int line = 0;     ///< 1-based, or set_by_override
   std::string key;  ///< path of keys, "joints.gudgeon pin.clearance.radial"
+  std::string file = {};  ///< an included one; empty: the scene's
 };
 
 }  // namespace pintle

@@ -4,6 +4,7 @@
 
 #include "framework/scene/units/expression.h"
 #include "framework/scene/units/unit.h"
+#include "framework/scene/yaml/instances.h"
 #include "framework/scene/yaml/override.h"
 
 namespace pintle {
@@ -64,6 +65,8 @@ void block(const Yaml& yaml, std::size_t indent, std::string& out) {
 
 std::string changed_scene(const CaseSource& source, const Overrides& set, const fs::path& directory, const std::string& comment) {
   Yaml scene = parse_yaml(source.text, source.file.string());
+  const bool whole = std::ranges::find(scene.items, "include", &Yaml::key) == scene.items.end() && !has_copies(scene);
+  if (!whole) scene = parse_yaml(common_scene(source).filled_in, source.file.string());  // written out
   Overrides all = source.common;
   all.insert(all.end(), set.begin(), set.end());
   set_parameters(scene, apply_paths(scene, source.file.string(), all));

@@ -60,7 +60,7 @@ const std::vector<Layer> layers{
     {"framework/bodies/", {"files/", "meshes/", "framework/common/", "framework/scene/", "framework/component/", "framework/dynamics/"}},
     {"framework/drawing/", {"elements/", "meshes/", "framework/common/", "framework/component/", "framework/bodies/"}},
     {"framework/mechanism/",
-     {"elements/", "framework/common/", "framework/dynamics/", "framework/integration/", "framework/bodies/", "framework/drawing/"}},
+     {"elements/", "framework/common/", "framework/scene/colour.h", "framework/dynamics/", "framework/integration/", "framework/bodies/", "framework/drawing/"}},
     {"framework/configuration/",
      {"framework/common/", "framework/scene/", "framework/dynamics/", "framework/integration/", "framework/mechanism/"}},
     {"framework/build/",

@@ -167,7 +167,8 @@ void require_driven(const Scene& scene, const Model& model, const Assembly& asse
   std::vector<std::string> loose;
   const auto clearances = static_cast<std::size_t>(n_clearances(system));
   for (std::size_t c = 0; c < clearances; ++c) loose.push_back(system.contact_names[c]);
-  const Place place{scene.drivers.empty() ? 0 : scene.drivers.front().place.line, "drivers"};
+  Place place = scene.drivers.empty() ? Place{} : scene.drivers.front().place;
+  place.key = "drivers";
   if (!loose.empty())
     throw AssemblyError(
         scene.file, place,

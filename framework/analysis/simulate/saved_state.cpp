@@ -45,6 +45,12 @@ bool each_number(State& s, F f) {  // the same order for writing and reading
 
 }  // namespace
 
+SavedState beginning(const Model& model, const State& state) {
+  Integrator integrator(model.system, model.scheme, state);
+  const Energies now = energies(model.system, state, integrator.equations());
+  return {state.t, integrator.save(), now, 0, 0};
+}
+
 std::string state_text(const std::string& identity, const SavedState& state) {
   std::ostringstream out;
   out.imbue(std::locale::classic());

@@ -16,6 +16,9 @@ struct SavedState {
   double energy_in_play = 0, worst_unexplained = 0;  ///< so far [J]
 };
 
+/// A state from which a run starts: its books open with it.
+SavedState beginning(const Model&, const State&);
+
 /// A state as a file holds it, with a checksum of the whole.
 /// @param identity  of what it belongs to (identity.h), found before the run: files may change meanwhile
 std::string state_text(const std::string& identity, const SavedState&);

@@ -1,4 +1,6 @@
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "framework/scene/joint_words.h"
 #include "framework/scene/yaml/filled_in_parts.h"
@@ -25,10 +27,17 @@ Json json(const Law& law) {
   return law.text;
 }
 
+/// One that a reader could doubt says its unit.
+Json angle(double value) {
+  constexpr double turn = 2 * std::numbers::pi;
+  if (std::abs(value) <= turn) return value;
+  return Json(value).dump() + " rad";
+}
+
 Json points(const std::vector<ScenePoint>& all) {
   Json out = Json::object();
   for (const ScenePoint& p : all) {
-    Json point = {{"angle", p.angle}};
+    Json point = {{"angle", angle(p.angle)}};
     if (p.hole.empty())
       point["at"] = json(p.at);
     else
@@ -91,7 +100,8 @@ Json json(const SceneBody& body) {
     out["rigid"] = rigid(body);
   out["points"] = points(body.points);
   if (!body.profiles.empty()) out["profiles"] = profiles(body.profiles);
-  out["pose"] = {{"at", json(body.at)}, {"angle", body.angle}};
+  if (body.drawn) out["pose"] = {{"at", json(body.at)}, {"angle", angle(body.angle)}};
+  if (!body.colour.empty()) out["colour"] = body.colour;
   return out;
 }
 
@@ -243,7 +253,8 @@ Json json(const SceneJoint& joint) {
   Json out = Json::object();
   if (joint.coupling && !joint.coupling->terms.empty()) return {{word.word, terms(joint.coupling->terms)}};
   for (const PointRef* point : points_of(joint)) out[word.word].push_back(json(*point));
-  for (const JointNumber& number : word.numbers) out[number.key] = joint.*number.value;
+  for (const JointNumber& number : word.numbers)
+    out[number.key] = number.of == JointNumber::angle ? angle(joint.*number.value) : Json(joint.*number.value);
   if (joint.from_present) out["length"] = after_present(joint.length, "m");
   if (joint.coupling) put_coupling(joint, out);
   if (joint.clearance) out["clearance"] = json(*joint.clearance);
@@ -273,7 +284,7 @@ Json load(const SceneSpring& f) {
   return out;
 }
 Json load(const SceneTorsionSpring& f) {
-  Json out = {{"torsion spring", ends(f.a, f.b)}, {"damping", f.damping}, {"free angle", f.free_angle}};
+  Json out = {{"torsion spring", ends(f.a, f.b)}, {"damping", f.damping}, {"free angle", angle(f.free_angle)}};
   if (f.stiffness > 0) out["stiffness"] = f.stiffness;
   if (f.law) out = {{"torsion spring", ends(f.a, f.b)}, {"law", json(*f.law)}};
   return out;
@@ -306,7 +317,7 @@ Json json(const StartBody& start) {
   };
   put("x", start.x);
   put("y", start.y);
-  put("angle", start.angle);
+  if (start.angle) out["angle"] = angle(*start.angle);
   put("vx", start.vx);
   put("vy", start.vy);
   put("speed", start.speed);

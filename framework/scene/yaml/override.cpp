@@ -51,7 +51,9 @@ Yaml* find(Yaml& map, const std::string& key) {
 /// Entries of these groups have names that the scene's author chose: what is not among them is mistyped, not new.
 /// What the entry is called in a message, or null.
 const char* named_entry(const std::string& group) {
-  constexpr std::array<std::array<const char*, 2>, 6> named{{{"bodies", "body"},
+  constexpr std::array<std::array<const char*, 2>, 8> named{{{"bodies", "body"},
+                                                             {"instances", "instance"},
+                                                             {"assemblies", "assembly"},
                                                              {"joints", "joint"},
                                                              {"drivers", "driver"},
                                                              {"forces", "force"},
@@ -65,6 +67,12 @@ const char* named_entry(const std::string& group) {
 void mark(Yaml& yaml) {
   yaml.line = set_by_override;
   for (Yaml& item : yaml.items) mark(item);
+}
+
+/// What is put into an instance's part may use its parameters.
+void adopt(Yaml& yaml, int scope) {
+  yaml.scope = scope;
+  for (Yaml& item : yaml.items) adopt(item, scope);
 }
 
 std::optional<std::size_t> whole(const std::string& s) {
@@ -141,10 +149,11 @@ class Walk {
     if (i > 0) must_be_key(group, i);
     if (Yaml* found = find(group, steps_[i])) return found;
     if (removing) return nullptr;
-    return &group.items.emplace_back(Yaml{Yaml::Kind::nothing, set_by_override, steps_[i], {}, {}});
+    return &group.items.emplace_back(Yaml{Yaml::Kind::nothing, set_by_override, steps_[i], {}, {}, 0, group.scope});
   }
 
   void put(Yaml& group, Yaml value) const {
+    adopt(value, group.scope);
     const std::size_t last = steps_.size() - 1;
     const bool removing = value.kind == Yaml::Kind::nothing;
     if (last == 0) must_be_key(group, 0);
@@ -234,6 +243,22 @@ Overrides apply_paths(Yaml& scene, const std::string& file, const Overrides& ove
       parameters.emplace_back(name, value);
   }
   return parameters;
+}
+
+namespace {
+bool is_definition(std::string_view group) { return group == "parameters" || group == "assemblies" || group == "instances"; }
+}  // namespace
+
+std::pair<Overrides, Overrides> written_and_made(const Yaml& scene, const Overrides& overrides) {
+  std::pair<Overrides, Overrides> out;
+  for (const auto& [name, value] : overrides) {
+    const std::vector<std::string> path = steps(name);
+    const auto group = std::ranges::find(scene.items, path[0], &Yaml::key);
+    const bool made = path.size() > 1 && named_entry(path[0]) && !is_definition(path[0]) &&
+                      (group == scene.items.end() || std::ranges::find(group->items, path[1], &Yaml::key) == group->items.end());
+    (made ? out.second : out.first).emplace_back(name, value);
+  }
+  return out;
 }
 
 std::string override_text(const Yaml& yaml) { return text(yaml, false); }

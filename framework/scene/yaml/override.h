@@ -18,6 +18,9 @@ bool is_path(const std::string& name, const Yaml& scene);
 /// @throws SceneError  naming `--set PATH`: the path leads nowhere, or the value is not YAML
 Overrides apply_paths(Yaml& scene, const std::string& file, const Overrides&);
 
+/// The overrides for the tree as it is written, and those for what only comes of its instances and repeated entries.
+std::pair<Overrides, Overrides> written_and_made(const Yaml& scene, const Overrides&);
+
 /// A value as an override's text: on one line, read back to the same tree.
 std::string override_text(const Yaml&);
 

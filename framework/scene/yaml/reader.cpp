@@ -5,6 +5,8 @@
 
 #include "framework/common/nearest.h"
 #include "framework/scene/text_file.h"
+#include "framework/scene/yaml/include.h"
+#include "framework/scene/yaml/instances.h"
 #include "framework/scene/yaml/override.h"
 #include "framework/scene/yaml/reader_parts.h"
 
@@ -30,22 +32,6 @@ Quantity overridden(const std::string& name, const std::string& text, const Quan
   }
 }
 
-Quantity parameter(const Node& node, const std::vector<std::string>& all) {
-  if (const std::string fault = fault_of_name(node.name()); !fault.empty())
-    node.fail("\"" + node.name() + "\" cannot name a parameter: " + fault);
-  const std::string text = node.text("a value such as 0.1 mm");
-  try {
-    return read_quantity(text, node.source().parameters);
-  } catch (const ExpressionError& error) {
-    const std::string said = error.what();
-    for (const std::string& other : all)
-      if (said.find(": \"" + other + "\" is neither") != std::string::npos)
-        node.fail("\"" + text + "\": " + other + " is not known yet; parameters are read from the " + "top, so write " + other + " above " +
-                  node.name());
-    node.fail(said);
-  }
-}
-
 void read_parameters(const Node& root, const Overrides& overrides, Source& source, Scene& scene) {
   std::map<std::string, std::string> set;
   for (const auto& [name, text] : overrides) set[name] = text;
@@ -56,7 +42,7 @@ void read_parameters(const Node& root, const Overrides& overrides, Source& sourc
     all = group.keys();
     for (const Node& node : entries) {
       const std::string name = node.name();
-      Quantity q = parameter(node, all);
+      Quantity q = read_parameter(node, all);
       if (const auto found = set.find(name); found != set.end()) q = overridden(name, found->second, q, source);
       source.parameters[name] = q;
       scene.parameters.emplace_back(name, q.value);
@@ -84,12 +70,19 @@ Scene read(const std::string& text, const std::string& file, const Overrides& ov
   Source source{file, {}, folder};
   const Node root(tree, source, {tree.line, {}});
   if (tree.kind == Yaml::Kind::nothing) root.fail("is empty; docs/scene.md shows what to write");
-  const Overrides parameters = tree.kind == Yaml::Kind::map ? apply_paths(tree, file, overrides) : overrides;
+  include_files(tree, source);
+  const bool copies = tree.kind == Yaml::Kind::map && has_copies(tree);
+  const auto [now, later] = copies ? written_and_made(tree, overrides) : std::pair{overrides, Overrides{}};
+  const Overrides parameters = tree.kind == Yaml::Kind::map ? apply_paths(tree, file, now) : now;
   check_keys(root, "");
 
   Scene scene;
   scene.file = file;
+  source.doubts = &scene.warnings;
   read_parameters(root, parameters, source, scene);
+  if (copies) expand(tree, source);
+  apply_paths(tree, file, later);
+  if (!root.has("bodies")) root.fail("lacks a required key; add for example bodies: {crank: {rigid: {mass: 0.3 kg, inertia: 1e-4 kg m^2}}}");
   if (root.has("title")) scene.title = root.at("title").text("a line of text");
   if (root.has("gravity")) scene.gravity = root.at("gravity").pair(dimension::acceleration);
   read_run(root, scene);
@@ -114,6 +107,22 @@ Scene read(const std::string& text, const std::string& file, const Overrides& ov
 }
 
 }  // namespace
+
+Quantity read_parameter(const Node& node, const std::vector<std::string>& all) {
+  if (const std::string fault = fault_of_name(node.name()); !fault.empty())
+    node.fail("\"" + node.name() + "\" cannot name a parameter: " + fault);
+  const std::string text = node.text("a value such as 0.1 mm");
+  try {
+    return read_quantity(text, node.parameters());
+  } catch (const ExpressionError& error) {
+    const std::string said = error.what();
+    for (const std::string& other : all)
+      if (said.find(": \"" + other + "\" is neither") != std::string::npos)
+        node.fail("\"" + text + "\": " + other + " is not known yet; parameters are read from the " + "top, so write " + other + " above " +
+                  node.name());
+    node.fail(said);
+  }
+}
 
 void require_run(const Scene& scene) {
   if (!scene.has_run)

@@ -1,5 +1,8 @@
 #include <array>
+#include <cmath>
 
+#include "framework/common/nearest.h"
+#include "framework/scene/colour.h"
 #include "framework/scene/yaml/reader_parts.h"
 
 namespace pintle {
@@ -16,7 +19,42 @@ void read_hole(const Node& node, bool plate, ScenePoint& point) {
     point.coupling = RimCoupling::average;
 }
 
-ScenePoint read_point(const Node& node, std::string_view keys, bool plate) {
+/// A place in the world of the drawn pose, in the body's axes; a direction beside it is drawn in the world as well.
+void read_world(const Node& node, const SceneBody& body, ScenePoint& point) {
+  for (const char* key : {"at", "hole"})
+    if (node.has(key)) node.at(key).fail("stands beside world, which says the place; keep one of them");
+  const Pair world = node.at("world").pair(dimension::length);
+  const double c = std::cos(body.angle), s = std::sin(body.angle), x = world[0] - body.at[0], y = world[1] - body.at[1];
+  point.at = {c * x + s * y, c * y - s * x};
+  if (node.has("angle")) point.angle -= body.angle;
+}
+
+/// Axes of a body that is drawn by places in the world alone: in the middle of the first two, x from one to the other.
+void read_drawn_pose(const Node& points, SceneBody& body) {
+  std::vector<Pair> world;
+  for (const Node& point : points.entries("names and places: {A: [10 mm, 0]}"))
+    if (point.is_map() && point.has("world") && world.size() < 2) world.push_back(point.at("world").pair(dimension::length));
+  if (world.empty()) return;
+  body.drawn = true;
+  const Pair a = world.front(), b = world.back();
+  body.at = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
+  body.angle = std::atan2(b[1] - a[1], b[0] - a[0]);
+}
+
+void read_pose(const Node& node, SceneBody& body) {
+  if (node.has("pose")) {
+    const Node pose = node.at("pose");
+    check_keys(pose, "bodies.*.pose");
+    body.drawn = true;
+    if (pose.has("at")) body.at = pose.at("at").pair(dimension::length);
+    read_optional(pose, "angle", dimension::angle, rule::any, body.angle);
+  } else if (node.has("points")) {
+    read_drawn_pose(node.at("points"), body);
+  }
+}
+
+/// @param body  whose point it is; nullptr: the ground's
+ScenePoint read_point(const Node& node, std::string_view keys, bool plate, const SceneBody* body) {
   ScenePoint point;
   point.name = checked_name(node);
   point.place = node.place();
@@ -28,6 +66,10 @@ ScenePoint read_point(const Node& node, std::string_view keys, bool plate) {
     node.fail("is " + node.shown() + "; write [x, y] or {at: [x, y], angle: 0}" + (plate ? ", or {hole: …, coupling: rigid}" : ""));
   check_keys(node, keys);
   read_optional(node, "angle", dimension::angle, rule::any, point.angle);
+  if (body && node.has("world")) {
+    read_world(node, *body, point);
+    return point;
+  }
   if (node.has("hole")) {
     read_hole(node, plate, point);
     return point;
@@ -38,10 +80,10 @@ ScenePoint read_point(const Node& node, std::string_view keys, bool plate) {
   return point;
 }
 
-std::vector<ScenePoint> read_points(const Node& owner, std::string_view keys, bool plate) {
+std::vector<ScenePoint> read_points(const Node& owner, std::string_view keys, bool plate, const SceneBody* body) {
   std::vector<ScenePoint> points;
   if (!owner.has("points")) return points;
-  for (const Node& node : owner.at("points").entries("names and places: {A: [10 mm, 0]}")) points.push_back(read_point(node, keys, plate));
+  for (const Node& node : owner.at("points").entries("names and places: {A: [10 mm, 0]}")) points.push_back(read_point(node, keys, plate, body));
   return points;
 }
 
@@ -52,10 +94,19 @@ void read_rigid(const Node& node, SceneBody& body) {
   if (node.has("center")) body.center = node.at("center").pair(dimension::length);
 }
 
-const std::vector<std::string> beside_elements{"points",     "profiles",    "pose",  "modes",   "damping",
-                                               "stiffening", "mass matrix", "lumps", "supports"};
+const std::vector<std::string> beside_elements{"points",     "profiles",    "pose",  "modes",    "damping",
+                                               "stiffening", "mass matrix", "lumps", "supports", "colour"};
 const std::array<KindKeys, 3> body_kinds{
-    {{"rigid", {"points", "profiles", "pose"}}, {"beam", beside_elements}, {"plate", beside_elements}}};
+    {{"rigid", {"points", "profiles", "pose", "colour"}}, {"beam", beside_elements}, {"plate", beside_elements}}};
+
+std::string read_colour(const Node& node) {
+  const std::string colour = node.text("a colour such as steelblue or \"#4682b4\"");
+  const std::vector<std::string> known = colour_names();
+  if (rgb_of(colour)) return colour;
+  const std::string near = nearest(colour, known);
+  node.fail(node.shown() + " is no colour; write a name of CSS such as steelblue, or \"#4682b4\" in quotes." +
+            (near.empty() ? "" : " Did you mean \"" + near + "\"?"));
+}
 
 SceneBody read_body(const Node& node, const std::vector<SceneMaterial>& materials) {
   SceneBody body;
@@ -64,18 +115,14 @@ SceneBody read_body(const Node& node, const std::vector<SceneMaterial>& material
   if (body.name == "ground") node.fail("\"ground\" is always there and has no mass; put its points under the key ground");
   check_keys(node, "bodies.*");
   const std::size_t kind = which_kind(node, body_kinds);
-  body.points = read_points(node, "bodies.*.points.*", kind == 2);
+  read_pose(node, body);
+  body.points = read_points(node, "bodies.*.points.*", kind == 2, &body);
   if (kind == 0)
     read_rigid(node.at("rigid"), body);
   else
     body.elastic = read_elastic(node, body, materials);
   body.profiles = read_profiles(node, "bodies.*.profiles.*", body.points, body.name);
-  if (node.has("pose")) {
-    const Node pose = node.at("pose");
-    check_keys(pose, "bodies.*.pose");
-    if (pose.has("at")) body.at = pose.at("at").pair(dimension::length);
-    read_optional(pose, "angle", dimension::angle, rule::any, body.angle);
-  }
+  if (node.has("colour")) body.colour = read_colour(node.at("colour"));
   return body;
 }
 
@@ -84,7 +131,7 @@ SceneBody read_body(const Node& node, const std::vector<SceneMaterial>& material
 void read_bodies(const Node& root, Scene& scene) {
   if (root.has("ground")) {
     check_keys(root.at("ground"), "ground");
-    scene.ground = read_points(root.at("ground"), "ground.points.*", false);
+    scene.ground = read_points(root.at("ground"), "ground.points.*", false, nullptr);
     scene.ground_profiles = read_profiles(root.at("ground"), "ground.profiles.*", scene.ground, "ground");
   }
   const Node bodies = root.at("bodies");

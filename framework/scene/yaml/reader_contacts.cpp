@@ -75,7 +75,7 @@ std::vector<Pair> read_points(const Node& law) {
                force_unit = unit_factor(law, "force unit", dimension::force);
   std::filesystem::path path;
   try {
-    path = contained_file(file.text("the name of a file beside the scene"), law.source().folder);
+    path = contained_file(file.file("the name of a file beside the scene"), law.source().folder);
   } catch (const FileRefused& rejected) {
     file.fail(rejected.what());
   }

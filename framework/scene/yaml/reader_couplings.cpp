@@ -27,7 +27,7 @@ Law law_at_present(const Node& node, const Dimension& expected, double present) 
   Parameters parameters = node.source().parameters;
   parameters["present"] = {present, expected};
   try {
-    return read_law(node.text(describe(expected)), expected, parameters);
+    return read_law(node.expression(describe(expected)), expected, parameters);
   } catch (const ExpressionError& error) {
     node.fail(error.what());
   }
@@ -95,7 +95,7 @@ struct Bounded {
 
 Law read_curve_table(const Node& node, const Dimension& expected, const std::string& keys) {
   check_keys(node, keys);
-  const std::string file = node.at("table").text("the name of a file beside the scene");
+  const std::string file = node.at("table").file("the name of a file beside the scene");
   const double angle_unit = unit_factor(node, "angle unit", dimension::angle), value_unit = unit_factor(node, "value unit", expected);
   std::filesystem::path path;
   try {
@@ -121,7 +121,7 @@ Law read_cam_curve(const Node& node, const Dimension& expected, const std::strin
   if (node.is_map()) return read_curve_table(node, expected, keys);
   Law law;
   try {
-    law = read_curve(node.text("an expression in angle, or {table: cam.csv, angle unit: deg, value unit: mm}"), "angle", dimension::angle,
+    law = read_curve(node.expression("an expression in angle, or {table: cam.csv, angle unit: deg, value unit: mm}"), "angle", dimension::angle,
                      expected, node.source().parameters);
   } catch (const ExpressionError& error) {
     node.fail(error.what());

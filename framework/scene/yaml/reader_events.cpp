@@ -11,15 +11,15 @@ namespace {
 
 std::vector<std::string> read_names(const Node& node) {
   constexpr const char* what = "the name of a joint, driver, force or contact, or a list of them";
-  if (!node.is_list()) return {node.text(what)};
+  if (!node.is_list()) return {node.part(what).part};
   std::vector<std::string> out;
-  for (const Node& item : node.list(1, what)) out.push_back(item.text(what));
+  for (const Node& item : node.list(1, what)) out.push_back(item.part(what).part);
   return out;
 }
 
 Law read_event_law(const Node& node, const Dimension& expected, const SignalNames& names) {
   try {
-    return read_law(node.text("an expression in t and signals, " + describe(expected)), expected, node.source().parameters, &names);
+    return read_law(node.expression("an expression in t and signals, " + describe(expected)), expected, node.source().parameters, &names);
   } catch (const ExpressionError& error) {
     node.fail(error.what());
   }
@@ -28,14 +28,15 @@ Law read_event_law(const Node& node, const Dimension& expected, const SignalName
 std::vector<std::pair<std::string, Law>> read_settings(const Node& group, const Scene& scene, const SignalNames& names) {
   std::vector<std::pair<std::string, Law>> out;
   for (const Node& node : group.entries("names of states and what they become: {integral: 0}")) {
-    if (std::ranges::find(scene.states, node.name(), &SceneState::name) == scene.states.end()) {
+    const std::string name = resolved(node.source(), node.yaml().scope, {node.name(), ""}).part;
+    if (std::ranges::find(scene.states, name, &SceneState::name) == scene.states.end()) {
       std::vector<std::string> known;
       for (const SceneState& s : scene.states) known.push_back(s.name);
       node.fail(
           "there is no state \"" + node.name() + "\"" +
           (known.empty() ? "; add one under states: {" + node.name() + ": {rate: 0, start: 0}}" : "." + did_you_mean(node.name(), known)));
     }
-    out.emplace_back(node.name(), read_event_law(node, names.find(node.name())->second.dimension, names));
+    out.emplace_back(name, read_event_law(node, names.find(name)->second.dimension, names));
   }
   return out;
 }

@@ -127,7 +127,7 @@ SceneClearance read_clearance(const Node& node, const SceneJoint& joint) {
   if (clearance.radial >= clearance.bearing_radius)
     radial.fail(radial.shown() + " must be less than the bearing radius " + radius.shown() + ": the journal's radius is their difference");
   const Node bearing = node.at("bearing");
-  clearance.bearing = bearing.text("the body that carries the bearing");
+  clearance.bearing = bearing.part("the body that carries the bearing").part;
   if (clearance.bearing != joint.a.body && clearance.bearing != joint.b.body)
     bearing.fail(bearing.shown() + " is not joined here; write " + joint.a.body + " or " + joint.b.body);
   if (node.has("friction")) clearance.friction = read_friction(node.at("friction"), "joints.*.clearance.friction");

@@ -61,7 +61,7 @@ Material read_elasticity(const Node& node, std::string_view keys) {
 }
 
 const SceneMaterial& named(const Node& node, const std::vector<SceneMaterial>& all) {
-  const std::string name = node.text("the name of a material of the scene");
+  const std::string name = node.part("the name of a material of the scene").part;
   std::vector<std::string> known;
   for (const SceneMaterial& m : all) {
     if (m.name == name) return m;
@@ -80,7 +80,10 @@ SceneMaterial read_either(const Node& owner, std::string_view keys, const std::v
     owner.at("poisson").fail(
         "is said by the material already; leave it out, or write young and "
         "poisson instead of material");
-  return named(owner.at("material"), all);
+  SceneMaterial material = named(owner.at("material"), all);
+  auto* layered = std::get_if<Orthotropic>(&material.material.elastic);
+  if (layered && layered->angle != 0 && owner.is_mirrored()) layered->angle = -layered->angle, material.name.clear();
+  return material;
 }
 
 }  // namespace

@@ -33,6 +33,8 @@ void read_output(const Node& root, Scene&);  ///< after run
 /// The name of a body, point, joint, driver or force: what a table's header and "body.point" can
 /// bear.
 std::string checked_name(const Node&);
+/// The value of a parameter. @param all  the names of those of its group
+Quantity read_parameter(const Node&, const std::vector<std::string>& all);
 /// "crank.A", "crank" or "ground".
 PointRef read_point_ref(const Node&);
 /// [a, b]   @param remedy  what to write in place of another list

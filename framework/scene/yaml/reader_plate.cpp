@@ -118,7 +118,7 @@ std::string ending(const std::string& path) {
 SceneFile read_file(const Node& plate) {
   static const std::vector<std::string> drawings{".geo", ".step", ".stp", ".brep"}, meshes{".msh", ".inp"};
   const Node node = plate.at("file");
-  SceneFile file{node.text("the name of a drawing or mesh beside the scene"), 1, false};
+  SceneFile file{node.file("the name of a drawing or mesh beside the scene"), 1, false};
   const std::string kind = ending(file.path);
   const bool drawing = std::ranges::find(drawings, kind) != drawings.end();
   if (!drawing && std::ranges::find(meshes, kind) == meshes.end())

@@ -21,6 +21,7 @@ ScenePathPoint read_place(const Node& node, const std::vector<ScenePoint>& point
     return out;
   }
   out.point = node.text("a point of the body, or [x, y]");
+  if (body == "ground") out.point = resolved(node.source(), node.yaml().scope, {"ground", out.point}).point;
   std::vector<std::string> known;
   for (const ScenePoint& p : points) known.push_back(p.name);
   if (std::ranges::find(known, out.point) == known.end())
@@ -53,7 +54,7 @@ std::vector<ScenePathPoint> read_path(const Node& node, std::string_view keys, c
 std::filesystem::path file_of(const Node& group) {
   const Node file = group.at("file");
   try {
-    return contained_file(file.text("the name of a file beside the scene"), group.source().folder);
+    return contained_file(file.file("the name of a file beside the scene"), group.source().folder);
   } catch (const FileRefused& rejected) {
     file.fail(rejected.what());
   }

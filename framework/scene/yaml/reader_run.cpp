@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <unordered_map>
 
 #include "framework/common/nearest.h"
 #include "framework/scene/yaml/reader_parts.h"
@@ -73,19 +74,33 @@ StartJournal read_start_journal(const Node& node) {
   return start;
 }
 
-void read_start_entry(const Node& node, Scene& scene) {
+/// Where the entries of a list are by their names, so that a long scene is read in a time that goes with its length.
+template <class Entry>
+std::unordered_map<std::string, const Entry*> by_name(const std::vector<Entry>& all) {
+  std::unordered_map<std::string, const Entry*> out;
+  for (const Entry& e : all) out.emplace(e.name, &e);
+  return out;
+}
+
+struct StartNames {
+  std::unordered_map<std::string, const SceneBody*> bodies;
+  std::unordered_map<std::string, const SceneJoint*> joints;
+};
+
+void read_start_entry(const Node& node, const StartNames& names, Scene& scene) {
   check_keys(node, "start.*");
   const std::string name = node.name();
-  const auto found = std::ranges::find(scene.bodies, name, &SceneBody::name);
-  const bool body = found != scene.bodies.end();
-  const auto joint = std::ranges::find(scene.joints, name, &SceneJoint::name);
-  const bool journal = joint != scene.joints.end() && joint->clearance && !is_open(*joint);
+  const auto found = names.bodies.find(name);
+  const auto joint_found = names.joints.find(name);
+  const bool body = found != names.bodies.end();
+  const SceneJoint* joint = joint_found == names.joints.end() ? nullptr : joint_found->second;
+  const bool journal = joint && joint->clearance && !is_open(*joint);
   if (body && journal) node.fail("both a body and a joint are named \"" + name + "\"; rename one of them");
   if (body) {
-    scene.start_bodies.push_back(read_start_body(node, *found));
+    scene.start_bodies.push_back(read_start_body(node, *found->second));
   } else if (journal) {
     scene.start_journals.push_back(read_start_journal(node));
-  } else if (joint != scene.joints.end()) {
+  } else if (joint) {
     node.fail(joint->play || is_open(*joint)
                   ? "the play of \"" + name + "\" starts as its bodies do; start one of these, off the middle"
                   : "the joint \"" + name + "\" has no clearance for a journal to start in; give it one, or start a body");
@@ -193,7 +208,9 @@ void read_start(const Node& root, Scene& scene) {
     scene.start_at_rest = true;
     return;
   }
-  for (const Node& node : root.at("start").entries("bodies and how they start: {crank: {speed: 5 rad/s}}")) read_start_entry(node, scene);
+  const StartNames names{by_name(scene.bodies), by_name(scene.joints)};
+  for (const Node& node : root.at("start").entries("bodies and how they start: {crank: {speed: 5 rad/s}}"))
+    read_start_entry(node, names, scene);
 }
 
 void read_run(const Node& root, Scene& scene) {

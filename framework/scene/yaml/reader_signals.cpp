@@ -23,7 +23,7 @@ bool may_name_signals(const std::string& text, const Scene& scene) {
 
 Law read_acting_law(const Node& node, const Dimension& expected, const SignalNames& names) {
   try {
-    return read_law(node.text("an expression in t and signals, " + describe(expected)), expected, node.source().parameters, &names);
+    return read_law(node.expression("an expression in t and signals, " + describe(expected)), expected, node.source().parameters, &names);
   } catch (const ExpressionError& error) {
     node.fail(error.what());
   }
@@ -44,8 +44,8 @@ std::string signal_table_text(const Node& node, bool linear, bool periodic, doub
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(17);
-  out << "{\"table\": " << json_quoted(node.at("table").text("")) << ", \"interpolation\": \"" << (linear ? "linear" : "spline")
-      << "\", \"over\": " << json_quoted(node.at("over").text("")) << ", \"periodic\": " << (periodic ? "true" : "false");
+  out << "{\"table\": " << json_quoted(node.at("table").file("")) << ", \"interpolation\": \"" << (linear ? "linear" : "spline")
+      << "\", \"over\": " << json_quoted(node.at("over").expression("")) << ", \"periodic\": " << (periodic ? "true" : "false");
   if (over_unit != 1) out << ", \"over unit\": \"" << over_unit << " " << over_si << "\"";
   if (value_unit != 1) out << ", \"value unit\": \"" << value_unit << " " << value_si << "\"";
   out << "}";
@@ -66,7 +66,7 @@ Law read_signal_table(const Node& node, std::string_view keys, const Dimension& 
   const Node over = node.at("over");
   MeasuredLaw x;
   try {
-    x = read_measured_law(over.text("a signal such as ram.y"), node.source().parameters, signals.names());
+    x = read_measured_law(over.expression("a signal such as ram.y"), node.source().parameters, signals.names());
   } catch (const ExpressionError& error) {
     over.fail(error.what());
   }
@@ -140,7 +140,7 @@ void read_states(const Node& root, Scene& scene) {
       }
     } else if (node.has("start")) {
       try {
-        d = read_quantity(node.at("start").text("a value such as 0 rad s"), node.source().parameters).dimension;
+        d = read_quantity(node.at("start").text("a value such as 0 rad s"), node.at("start").parameters()).dimension;
       } catch (const ExpressionError& error) {
         node.at("start").fail(error.what());
       }
@@ -170,7 +170,7 @@ void read_outputs(const Node& root, Scene& scene) {
   for (const Node& node : entries) {
     check_signal_name(node, scene, "an output");
     if (names.contains(node.name())) node.fail("\"" + node.name() + "\" is a signal already; give this output a name of its own");
-    const std::string text = node.text("an expression such as gas.fx*piston.vx");
+    const std::string text = node.expression("an expression such as gas.fx*piston.vx");
     try {
       MeasuredLaw read = read_measured_law(text, node.source().parameters, names);
       scene.outputs.push_back({node.name(), std::move(read.law), si_unit(read.dimension), node.place()});

@@ -68,7 +68,7 @@ Law read_table_law(const Node& node, const Dimension& expected, Smoothness smoot
   const bool driver = smoothness == Smoothness::driver;
   const char* keys = driver ? "drivers.*.law" : "forces.*.torque";
   if (driver) check_keys(node, keys);
-  const std::string file = node.at("table").text("the name of a file beside the scene");
+  const std::string file = node.at("table").file("the name of a file beside the scene");
   bool linear = false;
   if (node.has("interpolation")) {
     const Node choice = node.at("interpolation");
@@ -87,7 +87,7 @@ Law read_table_law(const Node& node, const Dimension& expected, Smoothness smoot
 }  // namespace
 
 std::filesystem::path table_file(const Node& node, const std::filesystem::path& folder) {
-  const std::string file = node.at("table").text("the name of a file beside the scene");
+  const std::string file = node.at("table").file("the name of a file beside the scene");
   try {
     return contained_file(file, folder);
   } catch (const FileRefused& rejected) {
@@ -116,11 +116,10 @@ std::string checked_name(const Node& node) {
 }
 
 PointRef read_point_ref(const Node& node) {
-  const std::string text = node.text("a point such as crank.A, or a body such as ground");
-  const std::size_t dot = text.find('.');
-  PointRef ref{text.substr(0, dot), dot == std::string::npos ? "" : text.substr(dot + 1), node.place()};
-  const bool malformed = ref.body.empty() || (dot != std::string::npos && ref.point.empty()) || ref.point.find('.') != std::string::npos;
-  if (malformed) node.fail(node.shown() + " is no point; write body.point such as crank.A, or a body");
+  const std::string remedy = "a point such as crank.A, or a body such as ground", text = node.text(remedy);
+  PartName name = node.part(remedy);
+  PointRef ref{std::move(name.part), std::move(name.point), node.place()};
+  if (ref.body.empty() || text.back() == '.' || ref.point.find('.') != std::string::npos) node.fail(node.shown() + " is no point; write body.point such as crank.A, or a body");
   return ref;
 }
 

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "framework/common/nearest.h"
+#include "framework/common/text.h"
 
 namespace pintle {
 
-void Node::fail(const std::string& message) const { throw SceneError(source_->file, place_, message); }
+void Node::fail(const std::string& message) const {
+  const Scope* scope = source_->scope(yaml_->scope);
+  throw SceneError(source_->file, place_, scope ? message + scope->said : message);
+}
 
 std::string Node::shown() const {
   constexpr std::size_t most = 40;
@@ -20,7 +25,7 @@ std::string Node::shown() const {
 
 Node Node::child(const Yaml& entry) const {
   const std::string path = place_.key.empty() ? entry.key : place_.key + "." + entry.key;
-  return {entry, *source_, {entry.line, path}, entry.key};
+  return {entry, *source_, {entry.line, path, source_->file_of(entry.file)}, entry.key};
 }
 
 std::vector<Node> Node::entries(const std::string& remedy) const {
@@ -48,7 +53,7 @@ std::vector<Node> Node::list(std::size_t least, const std::string& remedy) const
 std::vector<Node> Node::children() const {
   std::vector<Node> out;
   for (std::size_t i = 0; i < yaml_->items.size(); ++i)
-    out.push_back({yaml_->items[i], *source_, {yaml_->items[i].line, place_.key + "[" + std::to_string(i + 1) + "]"}});
+    out.push_back({yaml_->items[i], *source_, {yaml_->items[i].line, place_.key + "[" + std::to_string(i + 1) + "]", place_.file}});
   return out;
 }
 
@@ -75,7 +80,8 @@ double Node::quantity(const Dimension& expected, Rule must) const {
   const std::string written = text(describe(expected));
   double value = 0;
   try {
-    value = read_quantity(written, expected, source_->parameters);
+    value = read_quantity(written, expected, parameters());
+    if (expected.angle == 1 && same(expected, dimension::number)) doubt_radians(value);
   } catch (const ExpressionError& error) {
     fail(error.what());
   }
@@ -83,11 +89,20 @@ double Node::quantity(const Dimension& expected, Rule must) const {
   return value;
 }
 
+void Node::doubt_radians(double value) const {
+  constexpr double turn = 2 * std::numbers::pi;
+  if (!source_->doubts || std::abs(value) <= turn || !bare(read_quantity(yaml_->text, parameters()).dimension)) return;
+  source_->doubts->push_back(SceneError(source_->file, place_,
+                                        shown() + " without a unit is in rad, " + number_text(value / turn, 3) + " turns; if degrees are meant, write \"" +
+                                            yaml_->text + " deg\", else \"" + yaml_->text + " rad\"")
+                                 .what());
+}
+
 double Node::frequency(Rule must) const {
   const std::string written = text("a frequency such as 5 kHz");
   double value = 0;
   try {
-    value = read_frequency(written, source_->parameters);
+    value = read_frequency(written, parameters());
   } catch (const ExpressionError& error) {
     fail(error.what());
   }
@@ -120,9 +135,43 @@ std::string Node::one_of(std::span<const std::string> choices) const {
   return written;
 }
 
+bool Node::is_mirrored() const {
+  const Scope* scope = source_->scope(yaml_->scope);
+  return scope && scope->mirrored;
+}
+
+PartName Node::part(const std::string& remedy) const {
+  std::string name = text(remedy);
+  try {
+    if (name.find('{') != std::string::npos) name = numbered(name, parameters());
+  } catch (const ExpressionError& error) {
+    fail(error.what());
+  }
+  return resolved(*source_, yaml_->scope, part_name(name));
+}
+
+std::string Node::file(const std::string& remedy) const {
+  const std::string name = text(remedy);
+  return yaml_->file == 0 ? name : (source_->included[static_cast<std::size_t>(yaml_->file - 1)].folder / name).lexically_normal().string();
+}
+
+std::string Node::expression(const std::string& remedy) const {
+  std::string written = text(remedy);
+  if (yaml_->scope == 0) return written;
+  try {
+    if (written.find('{') != std::string::npos) written = numbered(written, parameters());
+  } catch (const ExpressionError& error) {
+    fail(error.what());
+  }
+  SpelledOut out = spelled_out(written, *source_, yaml_->scope);
+  if (out.names_parts && is_mirrored())
+    fail(shown() + " names numbers of the motion, which are not mirrored with their instance; write this into the scene for each side");
+  return std::move(out.text);
+}
+
 Law Node::law(const Dimension& expected) const {
   try {
-    return read_law(text("an expression in t, " + describe(expected)), expected, source_->parameters);
+    return read_law(expression("an expression in t, " + describe(expected)), expected, source_->parameters);
   } catch (const ExpressionError& error) {
     fail(error.what());
   }

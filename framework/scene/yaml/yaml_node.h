@@ -8,6 +8,7 @@
 
 #include "framework/scene/error.h"
 #include "framework/scene/units/expression.h"
+#include "framework/scene/yaml/scope.h"
 
 /// A YAML file as a tree that knows where each key and value was written. Only
 /// yaml_tree.cpp includes yaml-cpp.
@@ -19,6 +20,7 @@ struct Yaml {
   std::string key = {};          ///< in a map; unique there
   std::string text = {};         ///< scalar
   std::vector<Yaml> items = {};  ///< list and map, in the order written
+  int file = 0, scope = 0;       ///< where it comes from, of Source::included and Source::scopes, from 1; 0: the scene
 };
 
 /// Anchors, aliases, tags, repeated keys and a second document are refused: a scene is a tree that
@@ -49,13 +51,6 @@ inline constexpr Rule inside_zero_one{[](double x) { return x > 0 && x < 1; }, "
 
 inline constexpr const char* hint_about_commas = "Inside { } or [ ] a comma separates entries: put an expression with commas in quotes.";
 
-/// What every value of one file shares.
-struct Source {
-  std::string file;
-  Parameters parameters;
-  std::filesystem::path folder = {};  ///< where the files are that the scene names
-};
-
 /// A value in its place: knows the file, the path of keys to it and the line, so that whatever is
 /// wrong with it can say where. Cheap to copy; must not outlive tree and source.
 class Node {
@@ -66,6 +61,7 @@ class Node {
   [[noreturn]] void fail(const std::string& message) const;
   const Place& place() const { return place_; }
   const Source& source() const { return *source_; }
+  const Parameters& parameters() const { return source_->visible(yaml_->scope); }  ///< that an expression here may use
   std::string name() const { return std::string(name_); }  ///< the last key
 
   const Yaml& yaml() const { return *yaml_; }  ///< what stands here
@@ -93,10 +89,18 @@ class Node {
   Pair pair(const Dimension&) const;
   long count(long least) const;  ///< a whole number ≥ least
   bool yes() const;              ///< true or false
+  bool is_mirrored() const;      ///< it stands in a mirrored instance
+  /// The body or joint, and point, that is named here, as the whole scene calls them.
+  PartName part(const std::string& remedy) const;
+  /// A file that is named here, relative to the scene's folder.
+  std::string file(const std::string& remedy) const;
   std::string one_of(std::span<const std::string> choices) const;
+  /// An expression as the whole scene would write it.
+  std::string expression(const std::string& remedy) const;
   Law law(const Dimension&) const;  ///< an expression in t
 
  private:
+  void doubt_radians(double value) const;
   Node child(const Yaml& entry) const;
   std::vector<Node> children() const;  // of a list
   const Yaml* yaml_;

@@ -8,6 +8,7 @@
 #include "framework/common/fingerprint.h"
 #include "framework/common/text.h"
 #include "framework/scene/text_file.h"
+#include "framework/scene/yaml/include.h"
 #include "framework/study/sweep/sweep.h"
 
 namespace pintle {
@@ -33,6 +34,18 @@ std::uint64_t print_of_files(const Yaml& tree, const fs::path& folder, std::uint
   if (tree.kind == Yaml::Kind::scalar)
     if (const std::optional<std::string> file = file_named(tree.text, folder)) print = fingerprint(*file, fingerprint(tree.text, print));
   for (const Yaml& item : tree.items) print = print_of_files(item, folder, print);
+  return print;
+}
+
+/// Of the files that a scene includes, and of those that they name.
+std::uint64_t print_of_included(const CaseSource& scene, std::uint64_t print) {
+  Source source{scene.file.string(), {}, scene.file.parent_path()};
+  Yaml tree = parse_yaml(scene.text, source.file);
+  include_files(tree, source);
+  for (const Source::Included& file : source.included) {
+    const std::string text = read_file(file.file, most_bytes);
+    print = print_of_files(parse_yaml(text, file.file), source.folder / file.folder, fingerprint(text, print));
+  }
   return print;
 }
 
@@ -144,6 +157,7 @@ Sweep cases_of(const StudyFile& file, Cases cases, const fs::path& path, const O
   for (const auto& [name, value] : set) out.print = fingerprint(value, fingerprint(name + "=", out.print));
   const fs::path folder = scene.file.parent_path();
   out.print = print_of_files(parse_yaml(scene.text, scene.file.string()), folder, out.print);
+  out.print = print_of_included(scene, out.print);
   out.print = print_of_files(file.tree, folder, out.print);
   for (const auto& [name, value] : set) out.print = print_of_files({Yaml::Kind::scalar, 0, {}, value, {}}, folder, out.print);
   Trial(out).judge();

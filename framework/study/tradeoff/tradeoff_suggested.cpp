@@ -2,6 +2,8 @@
 #include <charconv>
 
 #include "framework/build/build.h"
+#include "framework/scene/yaml/include.h"
+#include "framework/scene/yaml/instances.h"
 #include "framework/scene/yaml/keys.h"
 #include "framework/scene/yaml/override.h"
 #include "framework/study/tradeoff/tradeoff.h"
@@ -87,7 +89,9 @@ TradePlan suggested_plan(const CaseSource& source) {
   require_run(scene);
   const Model model = build(scene);
   Yaml tree = parse_yaml(source.text, source.file.string());
-  apply_paths(tree, source.file.string(), source.common);
+  Source files{source.file.string(), {}, source.file.parent_path()};
+  include_files(tree, files);
+  apply_paths(tree, source.file.string(), has_copies(tree) ? written_and_made(tree, source.common).first : source.common);
 
   TradePlan plan;
   plan.title = scene.title.empty() ? source.file.stem().string() : scene.title;

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Colours of pictures, by the names that CSS has for them or as #rrggbb.
+namespace pintle {
+
+/// Red, green, blue. Nothing for a text that is no colour.
+std::optional<std::array<unsigned char, 3>> rgb_of(std::string_view text);
+std::vector<std::string> colour_names();
+
+}  // namespace pintle

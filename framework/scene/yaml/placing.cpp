@@ -1,0 +1,334 @@
+#include "framework/scene/yaml/placing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "framework/common/text.h"
+#include "framework/scene/joint_words.h"
+
+namespace pintle {
+
+Pair Placing::turn() const {
+  const double quarters = angle / (std::numbers::pi / 2), whole = std::round(quarters);
+  if (std::abs(quarters - whole) > 1e-15 * std::max(1.0, std::abs(whole))) return {std::cos(angle), std::sin(angle)};
+  constexpr std::array<Pair, 4> right{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  return right[static_cast<std::size_t>(std::fmod(std::fmod(whole, 4) + 4, 4))];
+}
+
+Pair Placing::vector(const Pair& v) const {
+  const auto [c, s] = turn();
+  const double y = sign() * v[1];
+  return {c * v[0] - s * y, s * v[0] + c * y};
+}
+
+Pair Placing::point(const Pair& p) const {
+  const Pair v = vector(p);
+  return {at[0] + v[0], at[1] + v[1]};
+}
+
+Placing operator*(const Placing& outer, const Placing& inner) {
+  return {outer.point(inner.at), outer.direction(inner.angle), outer.mirrored != inner.mirrored};
+}
+
+namespace {
+
+/// A value that can be changed, and what reads it.
+struct Spot {
+  Yaml& yaml;
+  Node node;
+
+  bool has(std::string_view key) const { return node.has(key); }
+  Spot at(std::string_view key) const { return {*std::ranges::find(yaml.items, key, &Yaml::key), node.at(key)}; }
+  std::vector<Spot> list(const char* remedy) const {
+    std::vector<Spot> out;
+    const std::vector<Node> nodes = node.list(0, remedy);
+    for (std::size_t i = 0; i < nodes.size(); ++i) out.push_back({yaml.items[i], nodes[i]});
+    return out;
+  }
+  std::vector<Spot> entries(const char* remedy) const {
+    std::vector<Spot> out;
+    const std::vector<Node> nodes = node.entries(remedy);
+    for (std::size_t i = 0; i < nodes.size(); ++i) out.push_back({yaml.items[i], nodes[i]});
+    return out;
+  }
+};
+
+Yaml scalar_like(const Yaml& like, const std::string& key, const std::string& text) {
+  return {Yaml::Kind::scalar, like.line, key, text, {}, like.file, like.scope};
+}
+Yaml number_like(const Yaml& like, const std::string& key, double value) {
+  std::string text;
+  append_number(text, value);
+  return scalar_like(like, key, text);
+}
+Yaml pair_like(const Yaml& like, const std::string& key, const Pair& p) {
+  Yaml out{Yaml::Kind::list, like.line, key, {}, {}, like.file, like.scope};
+  out.items = {number_like(like, "", p[0]), number_like(like, "", p[1])};
+  return out;
+}
+void set(const Spot& spot, double value) { spot.yaml = number_like(spot.yaml, spot.yaml.key, value); }
+void set(const Spot& spot, const Pair& p) { spot.yaml = pair_like(spot.yaml, spot.yaml.key, p); }
+void set_text(const Spot& spot, const std::string& text) { spot.yaml.text = text; }
+
+void put(Yaml& map, Yaml entry) {
+  const auto there = std::ranges::find(map.items, entry.key, &Yaml::key);
+  if (there == map.items.end())
+    map.items.push_back(std::move(entry));
+  else
+    *there = std::move(entry);
+}
+
+[[noreturn]] void cannot_mirror(const Node& node, const std::string& remedy) { node.fail("cannot be mirrored; " + remedy); }
+
+/// Of axes whose y axis is drawn on the other side.
+Pair flipped(const Pair& p) { return {p[0], -p[1]}; }
+
+/// Points of the body whose axes are mirrored, of the ground moved.
+struct PlacesOf {
+  const Placing& placing;
+  bool ground;
+  Pair point(const Pair& p) const { return ground ? placing.point(p) : placing.mirrored ? flipped(p) : p; }
+  double direction(double a) const { return ground ? placing.direction(a) : placing.sign() * a; }
+  bool stays() const { return ground ? placing.stays() : !placing.mirrored; }
+};
+
+void place_spot(const Spot& spot, const PlacesOf& places) {
+  if (spot.node.is_list()) set(spot, places.point(spot.node.pair(dimension::length)));
+}
+
+void place_origin(Spot profile, std::string_view key, const PlacesOf& places) {
+  if (profile.has(key)) return place_spot(profile.at(key), places);
+  if (places.ground && key == "about") put(profile.yaml, pair_like(profile.yaml, "about", places.point({0, 0})));
+}
+
+void place_polar(const Spot& polar, const PlacesOf& places) {
+  if (polar.node.is_map()) polar.node.fail("is a file, which cannot be mirrored or turned; write its points, or make a body carry it");
+  for (const Spot& point : polar.list("angles and radii")) {
+    const std::vector<Spot> two = point.list("[angle, radius]");
+    if (!two.empty()) set(two[0], places.direction(two[0].node.quantity(dimension::angle)));
+  }
+  if (places.placing.mirrored) std::ranges::reverse(polar.yaml.items);
+}
+
+/// The side of the material of an open profile changes as one goes along its mirror image.
+void swap_side(const Spot& profile) {
+  const bool closed = profile.has("polar") || (profile.has("closed") && profile.at("closed").node.yes());
+  if (closed) return;
+  const bool right = profile.has("material") && profile.at("material").node.text("left or right") == "right";
+  if (profile.has("material") && !right && profile.at("material").yaml.text != "left") return;  // told by the reader
+  put(profile.yaml, scalar_like(profile.yaml, "material", right ? "left" : "right"));
+}
+
+void place_profile(const Spot& profile, const PlacesOf& places) {
+  if (places.stays()) return;
+  const bool mirrored = places.placing.mirrored;
+  for (const char* key : {"disc", "hole"}) place_origin(profile, key, places);
+  const bool surface = profile.has("path") || profile.has("spline");
+  if (profile.has("path"))
+    for (const Spot& item : profile.at("path").list("points and arcs")) {
+      place_spot(item, places);
+      if (mirrored && item.node.is_map() && item.has("arc")) set(item.at("arc"), -item.at("arc").node.quantity(dimension::length));
+    }
+  if (profile.has("spline")) {
+    const Spot spline = profile.at("spline");
+    if (spline.node.is_map()) spline.node.fail("is a file, which cannot be mirrored or turned; write its points, or make a body carry it");
+    for (const Spot& item : spline.list("points")) place_spot(item, places);
+  }
+  if (profile.has("polar")) {
+    place_polar(profile.at("polar"), places);
+    place_origin(profile, "about", places);
+  }
+  if (mirrored && surface) swap_side(profile);
+}
+
+void negate(const Spot& owner, std::string_view key, const Dimension& of) {
+  if (owner.has(key)) set(owner.at(key), -owner.at(key).node.quantity(of));
+}
+
+/// A law of time, or a table, with its sign changed.
+void negate_law(const Spot& law, const char* unit) {
+  if (!law.node.is_map()) return set_text(law, "-(" + law.node.text("a law of time") + ")");
+  const std::string of = law.has("value unit") ? law.at("value unit").node.text("a unit") : unit;
+  put(law.yaml, scalar_like(law.yaml, "value unit", "-1*(" + of + ")"));
+}
+
+void place_point(const Spot& point, const PlacesOf& places, const Placing& placing) {
+  if (point.node.is_list()) return place_spot(point, places);
+  if (!point.node.is_map()) return;
+  const PlacesOf world{placing, true};
+  const bool drawn = point.has("world");
+  if (drawn) place_spot(point.at("world"), world);
+  if (point.has("at")) place_spot(point.at("at"), places);
+  const PlacesOf& of = drawn ? world : places;
+  if (point.has("angle"))
+    set(point.at("angle"), of.direction(point.at("angle").node.quantity(dimension::angle)));
+  else if (drawn || places.ground)
+    put(point.yaml, number_like(point.yaml, "angle", of.direction(0)));
+}
+
+/// A point that is drawn by its place alone gets a direction where the ground turns.
+void place_ground_point(Spot point, const Placing& placing) {
+  if (point.node.is_list() && placing.direction(0) != 0) {
+    const Pair p = placing.point(point.node.pair(dimension::length));
+    Yaml with{Yaml::Kind::map, point.yaml.line, point.yaml.key, {}, {}, point.yaml.file, point.yaml.scope};
+    with.items = {pair_like(with, "at", p), number_like(with, "angle", placing.direction(0))};
+    point.yaml = std::move(with);
+    return;
+  }
+  place_point(point, {placing, true}, placing);
+}
+
+void mirror_elastic(const Spot& made) {
+  if (made.has("orthotropic")) negate(made.at("orthotropic"), "angle", dimension::angle);
+  if (made.has("file")) cannot_mirror(made.at("file").node, "draw the other side into a file of its own, and give it to a body of its own");
+  if (made.has("link") && made.at("link").has("triangle") && made.at("link").at("triangle").has("centers"))
+    for (const Spot& center : made.at("link").at("triangle").at("centers").list("centres [x, y]"))
+      set(center, flipped(center.node.pair(dimension::length)));
+  if (!made.has("grid") || !made.at("grid").has("corners")) return;
+  const Spot corners = made.at("grid").at("corners");
+  for (const Spot& corner : corners.list("corners [x, y]")) set(corner, flipped(corner.node.pair(dimension::length)));
+  std::ranges::reverse(corners.yaml.items);
+}
+
+void mirror_body(const Spot& body) {
+  if (body.has("rigid") && body.at("rigid").has("center")) {
+    const Spot center = body.at("rigid").at("center");
+    set(center, flipped(center.node.pair(dimension::length)));
+  }
+  for (const char* made : {"beam", "plate"})
+    if (body.has(made)) mirror_elastic(body.at(made));
+  if (!body.has("plate") || !body.has("supports")) return;
+  for (Yaml& place : body.at("supports").yaml.items)
+    place.key = place.key == "top" ? "bottom" : place.key == "bottom" ? "top" : place.key;
+}
+
+void place_body(Spot body, const Placing& placing) {
+  const PlacesOf places{placing, false};
+  bool drawn = false;
+  if (body.has("points"))
+    for (const Spot& point : body.at("points").entries("names and places")) {
+      drawn = drawn || (point.node.is_map() && point.has("world"));
+      place_point(point, places, placing);
+    }
+  if (body.has("profiles"))
+    for (const Spot& profile : body.at("profiles").entries("names and profiles")) place_profile(profile, places);
+  if (placing.mirrored) mirror_body(body);
+  Pair at{0, 0};
+  double angle = 0;
+  const bool posed = body.has("pose");
+  if (posed && body.at("pose").has("at")) at = body.at("pose").at("at").node.pair(dimension::length);
+  if (posed && body.at("pose").has("angle")) angle = body.at("pose").at("angle").node.quantity(dimension::angle);
+  if (drawn && !posed) return;  // the points say where it is
+  Yaml pose{Yaml::Kind::map, body.yaml.line, "pose", {}, {}, body.yaml.file, body.yaml.scope};
+  pose.items = {pair_like(pose, "at", placing.point(at)), number_like(pose, "angle", placing.direction(angle))};
+  put(body.yaml, std::move(pose));
+}
+
+void mirror_joint(const Spot& joint) {
+  std::vector<std::string> known{"clearance", "friction", "engaged"};
+  for (const JointWord& word : joint_words()) {
+    known.emplace_back(word.word);
+    for (const JointNumber& number : word.numbers) {
+      known.emplace_back(number.key);
+      if (number.of == JointNumber::angle) negate(joint, number.key, dimension::angle);
+    }
+  }
+  for (const Node& entry : joint.node.entries("keys and values"))
+    if (std::ranges::find(known, entry.name()) == known.end()) cannot_mirror(entry, "write this joint into the scene for each side");
+  if (joint.has("clearance") && joint.at("clearance").has("arc")) negate(joint.at("clearance").at("arc"), "middle", dimension::angle);
+}
+
+void mirror_driver(const Spot& driver) {
+  if (driver.has("angle") && driver.has("law")) negate_law(driver.at("law"), "rad");
+}
+
+/// Components in axes that are turned and mirrored.
+void place_components(const Spot& force, const Placing& placing) {
+  const std::vector<Spot> two = force.list("two components [x, y]");
+  if (two.size() != 2) return;  // told by the reader
+  const auto [c, s] = placing.turn();
+  if (c != 0 && s != 0) {
+    for (const Spot& part : two)
+      if (part.node.is_map()) part.node.fail("is a table, which cannot be turned; add follows: true, or write it as an expression");
+    const std::string x = two[0].node.text("a force"), y = two[1].node.text("a force");
+    const auto times = [](double factor, const std::string& of) {
+      std::string text = "(";
+      append_number(text, factor);
+      return text + ")*(" + of + ")";
+    };
+    set_text(two[0], times(c, x) + " + " + times(-s * placing.sign(), y));
+    set_text(two[1], times(s, x) + " + " + times(c * placing.sign(), y));
+    return;
+  }
+  const std::array<double, 2> signs = c != 0 ? std::array{c, c * placing.sign()} : std::array{s, -s * placing.sign()};
+  for (std::size_t i = 0; i < 2; ++i)
+    if (signs[i] < 0) negate_law(two[i], "N");
+  if (c == 0) std::swap(two[0].yaml, two[1].yaml);
+}
+
+void place_force(const Spot& force, const Placing& placing) {
+  if (force.has("force")) {
+    const bool follows = force.has("follows") && force.at("follows").node.yes();
+    place_components(force.at("force"), follows ? Placing{{0, 0}, 0, placing.mirrored} : placing);
+  }
+  if (!placing.mirrored) return;
+  static const std::vector<std::string> known{"force",   "at",        "follows", "torque",      "on",        "from",      "spring",
+                                              "maxwell", "stiffness", "damping", "free length", "torsion spring", "free angle", "law", "engaged"};
+  for (const Node& entry : force.node.entries("keys and values"))
+    if (std::ranges::find(known, entry.name()) == known.end()) cannot_mirror(entry, "write this force into the scene for each side");
+  if (force.has("torque")) negate_law(force.at("torque"), "N*m");
+  negate(force, "free angle", dimension::angle);
+}
+
+/// x and y, or one of them where the other has no part in it.
+void place_plane(Spot start, const char* both, const char* x, const char* y, const Dimension& of, const Placing& placing) {
+  const auto placed = [&](const Pair& p) { return of.time == 0 ? placing.point(p) : placing.vector(p); };
+  if (start.has(both)) set(start.at(both), placed(start.at(both).node.pair(of)));
+  const bool has_x = start.has(x), has_y = start.has(y);
+  if (!has_x && !has_y) return;
+  const Pair p{has_x ? start.at(x).node.quantity(of) : 0, has_y ? start.at(y).node.quantity(of) : 0}, out = placed(p);
+  const auto [c, s] = placing.turn();
+  if (has_x && has_y) return set(start.at(x), out[0]), set(start.at(y), out[1]);
+  if (c != 0 && s != 0) start.at(has_x ? x : y).node.fail(std::string("alone says nothing where the instance is turned; write ") + both + ": [x, y]");
+  const std::size_t which = (has_x ? 0U : 1U) ^ (c == 0 ? 1U : 0U);
+  const Spot old = start.at(has_x ? x : y);
+  old.yaml = number_like(old.yaml, which == 0 ? x : y, out[which]);
+}
+
+void place_start(const Spot& start, const Placing& placing) {
+  if (!start.node.is_map()) return;
+  if (start.has("modes") && placing.mirrored) cannot_mirror(start.at("modes").node, "say by deflection how the body is bent");
+  place_plane(start, "at", "x", "y", dimension::length, placing);
+  place_plane(start, "velocity", "vx", "vy", dimension::speed, placing);
+  if (start.has("angle")) set(start.at("angle"), placing.direction(start.at("angle").node.quantity(dimension::angle)));
+  if (start.has("eccentricity")) set(start.at("eccentricity"), placing.vector(start.at("eccentricity").node.pair(dimension::length)));
+  if (start.has("speed") && start.at("speed").node.is_list())
+    set(start.at("speed"), placing.vector(start.at("speed").node.pair(dimension::speed)));
+  else if (start.has("speed") && placing.mirrored)
+    negate(start, "speed", dimension::angular_speed);
+  if (start.has("deflection") && placing.mirrored)
+    for (const Spot& point : start.at("deflection").entries("points and displacements"))
+      set(point, flipped(point.node.pair(dimension::length)));
+}
+
+}  // namespace
+
+void place(Yaml& entry, const std::string& section, const std::string& path, const Placing& placing, const Source& source) {
+  const Spot spot{entry, {entry, source, {entry.line, path, source.file_of(entry.file)}, entry.key}};
+  if (section == "ground.points") return place_ground_point(spot, placing);
+  if (!spot.node.is_map()) {
+    if (placing.mirrored) cannot_mirror(spot.node, "write it into the scene");
+    return;
+  }
+  if (section == "ground.profiles") return place_profile(spot, {placing, true});
+  if (section == "bodies") return place_body(spot, placing);
+  if (section == "start") return place_start(spot, placing);
+  if (section == "forces") return place_force(spot, placing);
+  if (!placing.mirrored || section == "contacts" || section == "materials") return;
+  if (section == "joints") return mirror_joint(spot);
+  if (section == "drivers") return mirror_driver(spot);
+  cannot_mirror(spot.node, "write it into the scene");
+}
+
+}  // namespace pintle
