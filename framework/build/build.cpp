@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <utility>
+#include <variant>
 
 #include "framework/bodies/body_store.h"
 #include "framework/bodies/elastic_parts.h"
@@ -346,12 +347,25 @@ class Builder {
     if (scene_.output.frames == 1) wrong(scene_.output.place, "one frame is no animation; ask for 0, or 2 and more");
   }
 
+  static double size_of(const Joint& joint) {
+    const auto size = [](const auto& j) {
+      if constexpr (requires { j.length; })
+        return j.length;
+      else if constexpr (requires { j.radius_a; })
+        return std::max(std::abs(j.radius_a), std::abs(j.radius_b));
+      else if constexpr (requires { j.radius; })
+        return std::abs(j.radius);
+      else
+        return 0.0;
+    };
+    return std::visit(size, joint);
+  }
+
   // The largest arm of a body or distance between ground points: what "small" is measured by.
   double size() const {
     double length = 0;
     for (const Marker& m : model_.system.markers) length = std::max(length, m.x_BP.norm());
-    for (const Joint& j : model_.system.joints)
-      if (const auto* d = std::get_if<Distance>(&j)) length = std::max(length, d->length);
+    for (const Joint& j : model_.system.joints) length = std::max(length, size_of(j));
     for (const ContactPair& c : model_.system.contacts)
       if (!c.profiles || c.journal) length = std::max(length, bearing_radius(c.gap));
     for (const DrawnProfile& p : model_.profiles)

@@ -226,7 +226,8 @@ Joint coupling_of(const Scene& scene, const SceneJoint& j, Markers& markers) {
   const SceneCoupling& c = *j.coupling;
   const int a = markers.marker(j.a, Holds::direction), b = markers.marker(j.b, Holds::direction);
   if (c.radius > 0) return j.kind == JointKind::rack ? Joint{Rack{a, b, c.radius}} : Joint{RollsOnLine{{a, b, c.radius}}};
-  const Pair& sizes = c.teeth[0] > 0 ? c.teeth : c.radii;
+  constexpr double small = 1e-9;  // so that teeth are no size of the mechanism before their radii are known
+  const Pair sizes = c.teeth[0] > 0 ? Pair{small * c.teeth[0], small * c.teeth[1]} : c.radii;
   if (!(sizes[0] > 0 && sizes[1] > 0)) throw SceneError(scene.file, j.place, "the radii of its wheels must be above 0");
   const bool alike = c.inside || (j.kind == JointKind::belt && !c.crossed);  // both turn the same way round
   const Gear gear{a, b, sizes[0], alike ? -sizes[1] : sizes[1]};

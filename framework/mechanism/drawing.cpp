@@ -156,7 +156,7 @@ void draw_wheels(const System& system, const Equations& eq, Drawing& out) {
   const int bodies = static_cast<int>(system.bodies.size());
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const int owner = bodies + static_cast<int>(k);
-    const auto draw = [&]<class Kind>(const Kind& j) {
+    const auto wheels = [&]<class Kind>(const Kind& j) {
       if constexpr (std::is_base_of_v<Rack, Kind>) draw_wheel(eq.motion[at(j.b)], j.radius, Part::joint, owner, out);
       if constexpr (std::is_base_of_v<Gear, Kind>) {
         const MarkerMotion &a = eq.motion[at(j.a)], &b = eq.motion[at(j.b)];
@@ -168,7 +168,7 @@ void draw_wheels(const System& system, const Equations& eq, Drawing& out) {
         draw_span(b, a, -j.radius_b, j.radius_a, Part::joint, owner, out);
       }
     };
-    std::visit(draw, system.joints[k]);
+    std::visit(wheels, system.joints[k]);
   }
   for (const Force& force : system.forces)
     if (const auto* span = std::get_if<BeltSpan>(&force)) {
