@@ -114,7 +114,8 @@ int equilibrium(const Options& options) {
 
   write_whole(options, out, [&](const fs::path& folder) {
     write_equilibrium(folder, scene, model, found);
-    if (runs_from_rest(scene, found)) write_text(folder / rest_file, state_text(identity(scene, model, assembly), beginning(model, found.state)));
+    if (runs_from_rest(scene, found))
+      write_text(folder / rest_file, state_text(identity(scene, model, assembly), beginning(model, found.state)));
     FrameWriter writer(folder);
     Equations eq(model.system);
     Eigen::VectorXd dy(model.system.n_y());

@@ -237,8 +237,9 @@ std::vector<std::string> massless_bodies(const Scene& scene) {
 
 /// What there is to say of a scene whose motion can be asked for, but not its forces.
 int check_kinematics(const Options& options, Scene scene, const std::vector<std::string>& massless) {
-  scene.warnings.push_back(listed(massless, "and") + (massless.size() == 1 ? " lacks" : " lack") +
-                           " mass or inertia: only `pintle kinematics` can run this scene (and `pintle statics`, with masses or without gravity)");
+  scene.warnings.push_back(
+      listed(massless, "and") + (massless.size() == 1 ? " lacks" : " lack") +
+      " mass or inertia: only `pintle kinematics` can run this scene (and `pintle statics`, with masses or without gravity)");
   scene = ready_for_kinematics(std::move(scene));
   const Model model = build(scene);
   const Assembly assembly = assemble(scene, model);

@@ -121,7 +121,8 @@ std::string explain_laws(const Scene& scene, double t) {
   each_law(scene, [&](const Law& law, const std::string& name, const Place& place, const SceneDriver*) {
     if (!out.empty() || scale_of(law.at, scene.run.until).known) return;
     const std::string line = place.line > 0 ? ":" + std::to_string(place.line) : std::string();
-    const std::string which = "the law" + (law.text.empty() ? "" : " " + law.text) + " of \"" + name + "\" (" + (place.file.empty() ? scene.file : place.file) + line + ") ";
+    const std::string which = "the law" + (law.text.empty() ? "" : " " + law.text) + " of \"" + name + "\" (" +
+                              (place.file.empty() ? scene.file : place.file) + line + ") ";
     const Jet now = law.at(t), then = law.at(t + 1e-9 * scene.run.until);
     double before = 0;
     for (int i = 0; i < looks; ++i) {

@@ -247,7 +247,8 @@ System without_play(System system) {
 
 // A step of the assembly, first with joints that have play as they are without it; where the scene starts them otherwise, without them.
 template <class Do>
-auto as_if_ideal(const Scene& scene, const System& system, const System& closed, const std::vector<Eigen::Vector2d>& drawn, Rough& r, Do does) {
+auto as_if_ideal(const Scene& scene, const System& system, const System& closed, const std::vector<Eigen::Vector2d>& drawn, Rough& r,
+                 Do does) {
   const auto with = [&](const System& these) {
     Closure closure(scene, these, pressed_directions(scene, these), drawn);
     return does(closure, these);

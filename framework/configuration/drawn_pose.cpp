@@ -17,12 +17,13 @@ namespace {
 bool is_drawn(const Scene& scene, const std::string& body) {
   if (body == "ground") return true;
   const auto found = std::ranges::find(scene.bodies, body, &SceneBody::name);
-  return found != scene.bodies.end() && found->drawn;
+  return found != scene.bodies.end() && found->drawn_at;
 }
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> drawn_journals(const Scene& scene, const System& system, const Eigen::VectorXd& y, std::vector<std::string>& doubts) {
+std::vector<Eigen::Vector2d> drawn_journals(const Scene& scene, const System& system, const Eigen::VectorXd& y,
+                                            std::vector<std::string>& doubts) {
   std::vector<Eigen::Vector2d> out(at(n_clearances(system)), Eigen::Vector2d::Zero());
   if (out.empty()) return out;
   constexpr double rounding = 1e-6, direction_is_meant = 0.5;  // of the clearance
@@ -37,23 +38,25 @@ std::vector<Eigen::Vector2d> drawn_journals(const Scene& scene, const System& sy
     const double clearance = pair.gap.clearance();
     if (e.norm() <= clearance && e.norm() > clearance * (is_held(pair) ? direction_is_meant : rounding)) out[c] = e;
     if (e.norm() > clearance + bearing_radius(pair.gap))
-      doubts.push_back(quoted(joint->name) + ": the journal is drawn " + number_text(e.norm(), 3) + " m from the middle of its bearing, outside it; " +
+      doubts.push_back(quoted(joint->name) + ": the journal is drawn " + number_text(e.norm(), 3) +
+                       " m from the middle of its bearing, outside it; " +
                        "it starts in the middle: correct the bodies' `pose`, or give the joint an eccentricity in `start`");
   }
   return out;
 }
 
-void doubt_moves(const Scene& scene, const System& system, const Eigen::VectorXd& before, const Eigen::VectorXd& after, std::vector<std::string>& doubts) {
+void doubt_moves(const Scene& scene, const System& system, const Eigen::VectorXd& before, const Eigen::VectorXd& after,
+                 std::vector<std::string>& doubts) {
   constexpr double far = 0.5, turned = std::numbers::pi / 2;  // of the mechanism's length; [rad]
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
-    if (!scene.bodies[b].drawn) continue;
     const Eigen::Vector3d move = (after - before).segment<3>(static_cast<Eigen::Index>(3 * b));
     const double away = move.head<2>().norm();
-    const bool moved = away > far * system.length;
-    if (!moved && !(std::abs(move[2]) > turned)) continue;
-    doubts.push_back("to close the joints " + quoted(scene.bodies[b].name) + " was " +
-                     (moved ? "moved by " + number_text(away, 3) + " m" : "turned by " + number_text(move[2] * 180 / std::numbers::pi, 3) + " deg") +
-                     " from where it is drawn; if another way to close was meant, correct its `pose` or pin it in `start`");
+    const bool moved = scene.bodies[b].drawn_at && away > far * system.length;
+    if (!moved && !(scene.bodies[b].drawn_angle && std::abs(move[2]) > turned)) continue;
+    doubts.push_back(
+        "to close the joints " + quoted(scene.bodies[b].name) + " was " +
+        (moved ? "moved by " + number_text(away, 3) + " m" : "turned by " + number_text(move[2] * 180 / std::numbers::pi, 3) + " deg") +
+        " from where it is drawn; if another way to close was meant, correct its `pose` or pin it in `start`");
   }
 }
 
@@ -63,7 +66,8 @@ std::string driven_twice(const System& system, const Redundancy& r) {
     if (is_driver(system.joints[at(k)])) drivers.push_back(quoted(system.joint_names[at(k)]));
   if (is_driver(system.joints[at(r.joint)])) drivers.push_back(quoted(system.joint_names[at(r.joint)]));
   if (drivers.size() < 2) return "";
-  return "the drivers " + listed(drivers, "and") + " move one freedom in the same way, and how they share its force is settled by convention; leave " +
+  return "the drivers " + listed(drivers, "and") +
+         " move one freedom in the same way, and how they share its force is settled by convention; leave " +
          (drivers.size() == 2 ? "one" : "all but one") + " of them out";
 }
 

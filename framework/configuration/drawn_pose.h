@@ -17,7 +17,8 @@ namespace pintle {
 std::vector<Eigen::Vector2d> drawn_journals(const Scene&, const System&, const Eigen::VectorXd& y, std::vector<std::string>& doubts);
 
 /// Bodies that closing the joints has taken far from where they are drawn, as into another branch.
-void doubt_moves(const Scene&, const System&, const Eigen::VectorXd& before, const Eigen::VectorXd& after, std::vector<std::string>& doubts);
+void doubt_moves(const Scene&, const System&, const Eigen::VectorXd& before, const Eigen::VectorXd& after,
+                 std::vector<std::string>& doubts);
 
 /// Drivers that move one freedom in the same way, in words; empty: there are none.
 std::string driven_twice(const System&, const Redundancy&);

@@ -63,10 +63,10 @@ struct DrawnBody {
 
 /// One frame of an animation.
 struct Drawing {
-  double t = 0;                     ///< [s]
-  double exaggeration = 1;          ///< drawn clearance over true clearance
-  double deformation = 1;           ///< drawn deformation of the flexible bodies over the true one
-  std::vector<std::string> owners;  ///< names of bodies, joints and contacts; the same in each frame
+  double t = 0;                             ///< [s]
+  double exaggeration = 1;                  ///< drawn clearance over true clearance
+  double deformation = 1;                   ///< drawn deformation of the flexible bodies over the true one
+  std::vector<std::string> owners;          ///< names of bodies, joints and contacts; the same in each frame
   std::vector<std::optional<Rgb>> colours;  ///< of the first owners, the bodies; empty where no body has one
   std::vector<DrawnLine> lines;
   std::vector<DrawnForce> forces;

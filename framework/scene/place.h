@@ -12,8 +12,8 @@ inline constexpr int set_by_override = -1;
 
 /// Where a thing was written, so that `build` can name it; line 0 for a scene made in C++.
 struct Place {
-  int line = 0;     ///< 1-based, or set_by_override
-  std::string key;  ///< path of keys, "joints.gudgeon pin.clearance.radial"
+  int line = 0;           ///< 1-based, or set_by_override
+  std::string key;        ///< path of keys, "joints.gudgeon pin.clearance.radial"
   std::string file = {};  ///< an included one; empty: the scene's
 };
 

@@ -78,8 +78,8 @@ struct SceneBody {
   Pair at{0, 0};                             ///< rough starting position of the body's origin, world [m]
   double angle = 0;                          ///< rough starting angle [rad]
   Place place;
-  bool drawn = false;       ///< the scene says where it is: `at` and `angle` are not mere defaults
-  std::string colour = {};  ///< in pictures: a name of CSS or #rrggbb; empty: chosen there
+  bool drawn_at = false, drawn_angle = false;  ///< the scene says so: they are not mere defaults
+  std::string colour = {};                     ///< in pictures: a name of CSS or #rrggbb; empty: chosen there
 };
 
 /// One contact body's elasticity.
@@ -401,7 +401,7 @@ struct Scene {
   RunOptions run;
   OutputOptions output;
   std::vector<std::string> warnings = {};  ///< what could be read but may not be meant, in words
-  std::string filled_in;  ///< the scene as JSON text with every parameter and default filled in
+  std::string filled_in;                   ///< the scene as JSON text with every parameter and default filled in
 };
 
 }  // namespace pintle

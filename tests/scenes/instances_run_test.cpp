@@ -18,7 +18,9 @@ std::size_t column(const Table& table, const std::string& name) {
   EXPECT_NE(found, table.header.end()) << name;
   return static_cast<std::size_t>(found - table.header.begin());
 }
-double value(const Table& table, std::size_t row, const std::string& name) { return table.data[row * table.header.size() + column(table, name)]; }
+double value(const Table& table, std::size_t row, const std::string& name) {
+  return table.data[row * table.header.size() + column(table, name)];
+}
 std::size_t rows(const Table& table) { return table.data.size() / table.header.size(); }
 
 pintle::Scene example(const std::string& name, const pintle::Overrides& set = {}) {
@@ -121,7 +123,8 @@ TEST(InstancesRun, AMirroredSuspensionHeavesWithoutRolling) {
   double heave = 0;
   for (std::size_t row = 0; row < rows(table); ++row) {
     EXPECT_NEAR(value(table, row, "chassis.angle [rad]"), 0, 1e-9);
-    EXPECT_NEAR(value(table, row, "left upright.angle [rad]") + value(table, row, "right upright.angle [rad]"), 3.14159265358979323846, 1e-9);
+    EXPECT_NEAR(value(table, row, "left upright.angle [rad]") + value(table, row, "right upright.angle [rad]"), 3.14159265358979323846,
+                1e-9);
     heave = std::max(heave, std::abs(value(table, row, "chassis.y [m]") - value(table, 0, "chassis.y [m]")));
   }
   EXPECT_GT(heave, 1e-3);
@@ -129,11 +132,12 @@ TEST(InstancesRun, AMirroredSuspensionHeavesWithoutRolling) {
 
 TEST(DrawnJournal, StartsWhereItIsDrawn) {
   const auto scene = [](const std::string& y, const std::string& more) {
-    return pintle::read_scene_text("gravity: [0, -9.81]\nbodies: {bob: {rigid: {mass: 1, inertia: 0.1}, points: {A: [0, 0]}, pose: {at: [0, " + y +
-                                       "]}}}\njoints: {pin: {revolute: [ground, bob.A], clearance: {radial: 0.1 mm, bearing radius: 10 mm, bearing: ground, "
-                                       "normal: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}}}}\n" +
-                                       more + "run: {until: 1 us}\n",
-                                   "scene.yaml");
+    return pintle::read_scene_text(
+        "gravity: [0, -9.81]\nbodies: {bob: {rigid: {mass: 1, inertia: 0.1}, points: {A: [0, 0]}, pose: {at: [0, " + y +
+            "]}}}\njoints: {pin: {revolute: [ground, bob.A], clearance: {radial: 0.1 mm, bearing radius: 10 mm, bearing: ground, "
+            "normal: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}}}}\n" +
+            more + "run: {until: 1 us}\n",
+        "scene.yaml");
   };
   const auto begins = [&](const pintle::Scene& s) { return value(run(s).run.trajectory, 0, "bob.y [m]"); };
   const auto doubted = [&](const pintle::Scene& s) {
@@ -149,8 +153,10 @@ TEST(DrawnJournal, StartsWhereItIsDrawn) {
 
 TEST(DrawnPose, ThatIsLeftFarBehindIsTold) {
   const auto warnings = [](const std::string& pose) {
-    return run("bodies: {crank: {rigid: {mass: 1, inertia: 1}, points: {A: [1, 0]}}, rod: {rigid: {mass: 1, inertia: 1}, points: {A: [-1, 0], B: [1, 0]}, pose: {" +
-               pose + "}}}\njoints: {a: {revolute: [ground, crank]}, b: {revolute: [crank.A, rod.A]}, c: {slot: [ground, rod.B]}}\n"
+    return run("bodies: {crank: {rigid: {mass: 1, inertia: 1}, points: {A: [1, 0]}}, rod: {rigid: {mass: 1, inertia: 1}, points: {A: [-1, "
+               "0], B: [1, 0]}, pose: {" +
+               pose +
+               "}}}\njoints: {a: {revolute: [ground, crank]}, b: {revolute: [crank.A, rod.A]}, c: {slot: [ground, rod.B]}}\n"
                "start: {crank: {angle: 60 deg}}\nrun: {until: 1 us}\n")
         .run.warnings;
   };

@@ -20,21 +20,26 @@ struct Include : testing::Test {
 };
 
 TEST_F(Include, ReadsPartsAsIfTheyStoodThere) {
-  put("parts/wheel.yaml", "include: steel.yaml\nparameters: {r: 1 m, w: 2*r}\nbodies: {wheel: {rigid: {mass: 1, inertia: 1}, points: {P: [w, 0]}}}\n"
-                          "ground: {points: {A: [0, 0]}}\nrun: {until: 5 s}\n");
+  put("parts/wheel.yaml",
+      "include: steel.yaml\nparameters: {r: 1 m, w: 2*r}\nbodies: {wheel: {rigid: {mass: 1, inertia: 1}, points: {P: [w, 0]}}}\n"
+      "ground: {points: {A: [0, 0]}}\nrun: {until: 5 s}\n");
   put("parts/steel.yaml", "materials: {steel: {young: 1 GPa, poisson: 0.3, density: 1}}\n");
-  const Scene is = read("include: [parts/wheel.yaml, parts/steel.yaml]\nparameters: {r: 3 m}\nground: {points: {B: [1, 0]}}\nrun: {until: 1 s}\n"
-                        "joints: {axle: {revolute: [ground.A, wheel.P]}}\n");
-  const Scene hand = read("materials: {steel: {young: 1 GPa, poisson: 0.3, density: 1}}\nparameters: {r: 3 m, w: 2*r}\n"
-                          "bodies: {wheel: {rigid: {mass: 1, inertia: 1}, points: {P: [w, 0]}}}\nground: {points: {A: [0, 0], B: [1, 0]}}\nrun: {until: 1 s}\n"
-                          "joints: {axle: {revolute: [ground.A, wheel.P]}}\n");
+  const Scene is = read(
+      "include: [parts/wheel.yaml, parts/steel.yaml]\nparameters: {r: 3 m}\nground: {points: {B: [1, 0]}}\nrun: {until: 1 s}\n"
+      "joints: {axle: {revolute: [ground.A, wheel.P]}}\n");
+  const Scene hand = read(
+      "materials: {steel: {young: 1 GPa, poisson: 0.3, density: 1}}\nparameters: {r: 3 m, w: 2*r}\n"
+      "bodies: {wheel: {rigid: {mass: 1, inertia: 1}, points: {P: [w, 0]}}}\nground: {points: {A: [0, 0], B: [1, 0]}}\nrun: {until: 1 s}\n"
+      "joints: {axle: {revolute: [ground.A, wheel.P]}}\n");
   EXPECT_EQ(is.filled_in, hand.filled_in);
 }
 
 TEST_F(Include, MakesAnAssemblyOfAScene) {
-  put("engine.yaml", "title: engine\ngravity: [0, 1]\nparameters: {heavy: 1 kg}\nbodies: {rod: {rigid: {mass: heavy, inertia: 1}}}\nrun: {until: 1 s}\n");
-  const Scene is = read("assemblies: {engine: {include: engine.yaml, ports: [on], joints: {hold: {revolute: [on, rod]}}}}\n"
-                        "instances: {left: {of: engine, with: {heavy: 2 kg}, ports: {on: ground}}, right: {of: engine, ports: {on: ground}}}\n");
+  put("engine.yaml",
+      "title: engine\ngravity: [0, 1]\nparameters: {heavy: 1 kg}\nbodies: {rod: {rigid: {mass: heavy, inertia: 1}}}\nrun: {until: 1 s}\n");
+  const Scene is = read(
+      "assemblies: {engine: {include: engine.yaml, ports: [on], joints: {hold: {revolute: [on, rod]}}}}\n"
+      "instances: {left: {of: engine, with: {heavy: 2 kg}, ports: {on: ground}}, right: {of: engine, ports: {on: ground}}}\n");
   EXPECT_EQ(is.gravity[1], 0);
   ASSERT_EQ(is.bodies.size(), 2u);
   EXPECT_EQ(is.bodies[0].mass, 2);
@@ -43,12 +48,13 @@ TEST_F(Include, MakesAnAssemblyOfAScene) {
 
 TEST_F(Include, TellsTheFileAndLineOfAMistake) {
   put("parts/wheel.yaml", "bodies:\n  wheel: {rigid: {mass: 1 kg, inertia: 1},\n    points: {P: [1 s, 0]}}\n");
-  expect_one_line(refusal("include: parts/wheel.yaml\n"), (folder.path / "parts/wheel.yaml").string() + ":3: bodies.wheel.points.P[1]: ", {"a time"});
+  expect_one_line(refusal("include: parts/wheel.yaml\n"),
+                  (folder.path / "parts/wheel.yaml").string() + ":3: bodies.wheel.points.P[1]: ", {"a time"});
   put("parts/wheel.yaml", "bodies:\n  wheel: {rigid: {mass: 1 kg, inertia: 1\n");
   expect_says(refusal("include: parts/wheel.yaml\n"), {"parts/wheel.yaml:", "this is not YAML"});
   put("parts/wheel.yaml", "bodies: {wheel: {rigid: {mass: 1 kg, inertia: 1}}}\n");
-  expect_one_line(refusal("include: parts/wheel.yaml\nbodies:\n  wheel: {rigid: {mass: 1}}\n"), (folder.path / "scene.yaml").string() + ":3: bodies.wheel: ",
-                  {"parts/wheel.yaml:1 as well", "rename"});
+  expect_one_line(refusal("include: parts/wheel.yaml\nbodies:\n  wheel: {rigid: {mass: 1}}\n"),
+                  (folder.path / "scene.yaml").string() + ":3: bodies.wheel: ", {"parts/wheel.yaml:1 as well", "rename"});
 }
 
 TEST_F(Include, FindsTablesBesideTheFileThatNamesThem) {

@@ -75,19 +75,22 @@ run: {until: 1 s}
 output: {points: [frame.L]}
 )";
 
-std::string leg(const std::string& name, const std::string& x, const std::string& phase, const std::string& length, const std::string& what) {
+std::string leg(const std::string& name, const std::string& x, const std::string& phase, const std::string& length,
+                const std::string& what) {
   if (what == "materials") return name + " steel: {young: 1 GPa, poisson: 0.3, density: 1}";
   if (what == "points") return name + " O: [1 mm + " + x + ", 2 mm + 10 mm]";
   if (what == "bodies")
-    return name + " thigh: {rigid: {mass: 1 kg, inertia: 1}, points: {H: [0, 0], K: [" + length + ", 0]}, pose: {at: [" + x + ", 10 mm - " + length +
-           "], angle: " + phase + "}}, " + name + " shin: {beam: {from: K, to: F, section: {circle: 10 mm}, material: " + name +
+    return name + " thigh: {rigid: {mass: 1 kg, inertia: 1}, points: {H: [0, 0], K: [" + length + ", 0]}, pose: {at: [" + x + ", 10 mm - " +
+           length + "], angle: " + phase + "}}, " + name + " shin: {beam: {from: K, to: F, section: {circle: 10 mm}, material: " + name +
            " steel}, points: {K: [0, 0], F: [" + length + ", 0]}, pose: {at: [" + x + ", 10 mm]}}";
   if (what == "joints")
-    return name + " hip: {revolute: [frame." + (name == "left" ? "L" : "R") + ", " + name + " thigh.H]}, " + name + " knee: {revolute: [" + name +
-           " thigh.K, " + name + " shin.K], clearance: {radial: 1 um, bearing radius: 1 mm, bearing: " + name + " thigh, model: massless link}}";
+    return name + " hip: {revolute: [frame." + (name == "left" ? "L" : "R") + ", " + name + " thigh.H]}, " + name + " knee: {revolute: [" +
+           name + " thigh.K, " + name + " shin.K], clearance: {radial: 1 um, bearing radius: 1 mm, bearing: " + name +
+           " thigh, model: massless link}}";
   if (what == "drivers") return name + " motor: {angle: [frame, " + name + " thigh], law: (" + phase + ") + 360 deg*t/turn}";
   if (what == "forces")
-    return name + " back: {spring: [ground." + name + " O, " + name + " shin.F], damping: 1}, " + name + " weight: {torque: 1 N m, on: " + name + " shin}";
+    return name + " back: {spring: [ground." + name + " O, " + name + " shin.F], damping: 1}, " + name +
+           " weight: {torque: 1 N m, on: " + name + " shin}";
   return name + " thigh: {angle: " + phase + "}, " + name + " knee: {eccentricity: [1 um, 0]}";
 }
 
@@ -96,10 +99,11 @@ std::string legs_by_hand() {
     return "{" + leg("left", "-120 mm", "0 rad", "80 mm", what) + ", " + leg("right", "120 mm", "90 deg", "70 m", what) + "}";
   };
   const auto with_own = [&](const std::string& own, const std::string& what) { return "{" + own + ", " + both(what).substr(1); };
-  return "parameters: {turn: 2 s, far: 120 mm}\nmaterials: " + both("materials") + "\nground: {points: " + with_own("O: [0, 1 m]", "points") +
+  return "parameters: {turn: 2 s, far: 120 mm}\nmaterials: " + both("materials") +
+         "\nground: {points: " + with_own("O: [0, 1 m]", "points") +
          ", profiles: {floor: {path: [[-1 m, 0], [1 m, 0]], material: right}}}\nbodies: " +
-         with_own("frame: {rigid: {mass: 1 kg, inertia: 1}, points: {L: [-far, 0], R: [far, 0]}}", "bodies") + "\njoints: " + both("joints") +
-         "\ndrivers: " + both("drivers") + "\nforces: " + both("forces") + "\nstart: " + both("start") +
+         with_own("frame: {rigid: {mass: 1 kg, inertia: 1}, points: {L: [-far, 0], R: [far, 0]}}", "bodies") +
+         "\njoints: " + both("joints") + "\ndrivers: " + both("drivers") + "\nforces: " + both("forces") + "\nstart: " + both("start") +
          "\nrun: {until: 1 s}\noutput: {points: [frame.L, left thigh.K, right thigh.K]}\n";
 }
 
@@ -121,7 +125,8 @@ TEST(Instances, AreReachedByOverrides) {
   EXPECT_EQ(read_whole(legs, {{"instances.right.with.phase", "45 deg"}}), read_whole(text));
   EXPECT_EQ(read_scene_text(legs, "scene.yaml", {{"bodies.right thigh.rigid.mass", "7 kg"}}).bodies[3].mass, 7);
   EXPECT_EQ(read_scene_text(legs, "scene.yaml", {{"bodies.right thigh.rigid.mass", "length/(1 m)*1 kg"}}).bodies[3].mass, 70);
-  expect_says(refusal_of(legs, {{"bodies.right thing.rigid.mass", "7 kg"}}), {"there is no body \"right thing\"", "Did you mean \"right thigh\"?"});
+  expect_says(refusal_of(legs, {{"bodies.right thing.rigid.mass", "7 kg"}}),
+              {"there is no body \"right thing\"", "Did you mean \"right thigh\"?"});
   expect_says(refusal_of(legs, {{"instances.rigth.at", "[0, 0]"}}), {"there is no instance \"rigth\"", "Did you mean \"right\"?"});
 }
 
@@ -172,25 +177,48 @@ TEST(Instances, AreRefusedWithLineAndInstance) {
     return text.replace(text.find(from), from.size(), to);
   };
   const std::vector<Spoiled> all{
-      {"of: leg, at: [-far", "of: lag, at: [-far", "scene.yaml:22: instances.left.of: ", {"there is no assembly \"lag\"", "Did you mean \"leg\"?"}},
-      {"phase: 90 deg, length: 70}", "phas: 90 deg}", "scene.yaml:23: instances.right.with.phas: ", {"has no such parameter", "Did you mean \"phase\"?"}},
+      {"of: leg, at: [-far",
+       "of: lag, at: [-far",
+       "scene.yaml:22: instances.left.of: ",
+       {"there is no assembly \"lag\"", "Did you mean \"leg\"?"}},
+      {"phase: 90 deg, length: 70}",
+       "phas: 90 deg}",
+       "scene.yaml:23: instances.right.with.phas: ",
+       {"has no such parameter", "Did you mean \"phase\"?"}},
       {"phase: 90 deg, length: 70}", "phase: 90 mm}", "scene.yaml:23: instances.right.with.phase: ", {"a length", "an angle"}},
       {", ports: {hip: frame.L}", "", "scene.yaml:22: instances.left: ", {"port \"hip\"", "add ports: {hip: body.A}"}},
-      {"ports: {hip: frame.L}", "ports: {hip: frame.L, knee: frame}", "scene.yaml:22: instances.left.ports.knee: ", {"no such port", "hip"}},
-      {"mass: 1 kg, inertia: 1}, points: {H", "mas: 1 kg, inertia: 1}, points: {H", "scene.yaml:12: bodies.left thigh.rigid.mas: ",
+      {"ports: {hip: frame.L}",
+       "ports: {hip: frame.L, knee: frame}",
+       "scene.yaml:22: instances.left.ports.knee: ",
+       {"no such port", "hip"}},
+      {"mass: 1 kg, inertia: 1}, points: {H",
+       "mas: 1 kg, inertia: 1}, points: {H",
+       "scene.yaml:12: bodies.left thigh.rigid.mas: ",
        {"Did you mean \"mass\"?", "(in the instance \"left\", scene.yaml:22)"}},
       {"young: 1 GPa", "young: 1 mm", "scene.yaml:9: materials.left steel.young: ", {"a length", "in the instance \"left\""}},
-      {"section: {circle: 10 mm}, material: steel", "section: {circle: 10 mm}, material: steal", "scene.yaml:13: bodies.left shin.beam.material: ",
+      {"section: {circle: 10 mm}, material: steel",
+       "section: {circle: 10 mm}, material: steal",
+       "scene.yaml:13: bodies.left shin.beam.material: ",
        {"\"steal\"", "left steel"}},
       {"length: 80 mm}", "length: longth}", "scene.yaml:7: assemblies.leg.parameters.length: ", {"\"longth\"", "in the instance \"left\""}},
       {"    ports: [hip]", "    gravity: [0, 1]\n    ports: [hip]", "scene.yaml:8: assemblies.leg.gravity: ", {"unknown key"}},
       {"output: {points: [thigh.K]}", "output: {frames: 3}", "scene.yaml:20: assemblies.leg.output.frames: ", {"belongs to the scene"}},
-      {"bodies: {frame:", "bodies: {left shin: {rigid: {mass: 1}}, frame:", "scene.yaml:13: bodies.left shin: ",
+      {"bodies: {frame:",
+       "bodies: {left shin: {rigid: {mass: 1}}, frame:",
+       "scene.yaml:13: bodies.left shin: ",
        {"the name stands at scene.yaml:4 as well", "rename"}},
-      {"instances:\n", "instances:\n  many: {of: leg, repeat: 1e9, ports: {hip: frame.L}}\n", "scene.yaml:22: instances.many.repeat: ",
+      {"instances:\n",
+       "instances:\n  many: {of: leg, repeat: 1e9, ports: {hip: frame.L}}\n",
+       "scene.yaml:22: instances.many.repeat: ",
        {"more than a hundred thousand"}},
-      {"instances:\n", "instances:\n  many: {of: leg, repeat: 1e5, ports: {hip: frame.L}}\n", "scene.yaml:", {"more than a million values"}},
-      {"instances:\n", "instances:\n  many: {of: leg, repeat: 1.5, ports: {hip: frame.L}}\n", "scene.yaml:22: instances.many.repeat: ", {"whole number"}},
+      {"instances:\n",
+       "instances:\n  many: {of: leg, repeat: 1e5, ports: {hip: frame.L}}\n",
+       "scene.yaml:",
+       {"more than a million values"}},
+      {"instances:\n",
+       "instances:\n  many: {of: leg, repeat: 1.5, ports: {hip: frame.L}}\n",
+       "scene.yaml:22: instances.many.repeat: ",
+       {"whole number"}},
       {"frame.L}}\n", "\"frame {1.5}.L\"}}\n", "scene.yaml:22: instances.left.ports.hip: ", {"1.5", "whole number"}},
       {"frame.L}}\n", "\"frame {1.L\"}}\n", "scene.yaml:22: instances.left.ports.hip: ", {"a brace is not closed"}}};
   expect_each_refused(all, in_legs);

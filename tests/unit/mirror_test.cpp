@@ -108,7 +108,8 @@ TEST_P(Mirror, PlacesTheGround) {
 }
 
 /// A profile's places in the world, arcs and side of the material.
-void expect_image(const Map& map, const SceneProfile& now, const SceneProfile& before, const SceneBody& now_on, const SceneBody& before_on) {
+void expect_image(const Map& map, const SceneProfile& now, const SceneProfile& before, const SceneBody& now_on,
+                  const SceneBody& before_on) {
   ASSERT_EQ(now.points.size(), before.points.size()) << now.name;
   const std::size_t n = now.points.size();
   const auto place = [](const SceneProfile& p, std::size_t k, const SceneBody& on) {
@@ -149,7 +150,8 @@ TEST_P(Mirror, TurnsLoadsStartsAndAngles) {
   expect_near(force(is, 0, 0.7), map.vector({0.7, 2}), "push");
   expect_near(force(is, 1, 0), {1, map.turns() * 2}, "thrust");
   EXPECT_EQ(std::get<SceneTorque>(is.loads[2].what).law.at(0).value, map.turns() * 3);
-  EXPECT_EQ(std::get<SceneTorsionSpring>(is.loads[3].what).free_angle, map.turns() * std::get<SceneTorsionSpring>(was.loads[3].what).free_angle);
+  EXPECT_EQ(std::get<SceneTorsionSpring>(is.loads[3].what).free_angle,
+            map.turns() * std::get<SceneTorsionSpring>(was.loads[3].what).free_angle);
   EXPECT_EQ(is.joints[0].angle, map.turns() * was.joints[0].angle);
   EXPECT_EQ(is.drivers[0].law.at(2).value, map.turns() * 7);
   const StartBody &now = is.start_bodies[0], &before = was.start_bodies[0];
@@ -171,8 +173,10 @@ TEST_P(Mirror, IsReadBackTheSameFromWhatIsKept) {
 INSTANTIATE_TEST_SUITE_P(, Mirror, testing::ValuesIn(maps));
 
 TEST(MirrorTwice, IsNoMirror) {
-  const Scene is = read_scene_text("assemblies:\n  it:" + parts + "  both: {instances: {j: {of: it, mirror: x}}}\ninstances: {i: {of: both, mirror: x}}\nrun: {until: 1 s}\n",
-                                   "scene.yaml"),
+  const Scene is = read_scene_text(
+                  "assemblies:\n  it:" + parts +
+                      "  both: {instances: {j: {of: it, mirror: x}}}\ninstances: {i: {of: both, mirror: x}}\nrun: {until: 1 s}\n",
+                  "scene.yaml"),
               was = drawn();
   for (std::size_t p = 0; p < was.bodies[0].points.size(); ++p)
     expect_near(in_world(is.bodies[0], is.bodies[0].points[p].at), in_world(was.bodies[0], was.bodies[0].points[p].at), "twice");
@@ -184,9 +188,10 @@ TEST(MirrorRefusals, NameWhatHasNoMirrorImage) {
     return refusal_of("assemblies: {it: {" + it + "}}\ninstances: {i: {of: it, mirror: x, angle: 30 deg}}\nrun: {until: 1 s}\n");
   };
   const std::string body = "bodies: {a: {rigid: {mass: 1, inertia: 1}}}";
-  expect_one_line(refused("bodies: {a: {plate: {file: a.geo, thickness: 1 mm, young: 1, poisson: 0.3, density: 1}}}"), "scene.yaml:1: bodies.i a.plate.file: ",
-                  {"cannot be mirrored", "in the instance \"i\""});
-  expect_says(refused("bodies: {a: {rigid: {mass: 1, inertia: 1}, profiles: {c: {spline: {file: c.csv}}}}}"), {"bodies.i a.profiles.c.spline", "file"});
+  expect_one_line(refused("bodies: {a: {plate: {file: a.geo, thickness: 1 mm, young: 1, poisson: 0.3, density: 1}}}"),
+                  "scene.yaml:1: bodies.i a.plate.file: ", {"cannot be mirrored", "in the instance \"i\""});
+  expect_says(refused("bodies: {a: {rigid: {mass: 1, inertia: 1}, profiles: {c: {spline: {file: c.csv}}}}}"),
+              {"bodies.i a.profiles.c.spline", "file"});
   expect_says(refused(body + ", start: {a: {modes: [1]}}"), {"start.i a.modes", "deflection"});
   expect_says(refused(body + ", start: {a: {x: 1}}"), {"start.i a.x", "at: [x, y]"});
   expect_says(refused(body + ", forces: {f: {force: [{table: a.csv}, 0], at: a}}"), {"forces.i f.force", "follows: true"});

@@ -100,7 +100,8 @@ Json json(const SceneBody& body) {
     out["rigid"] = rigid(body);
   out["points"] = points(body.points);
   if (!body.profiles.empty()) out["profiles"] = profiles(body.profiles);
-  if (body.drawn) out["pose"] = {{"at", json(body.at)}, {"angle", angle(body.angle)}};
+  if (body.drawn_at) out["pose"]["at"] = json(body.at);
+  if (body.drawn_angle) out["pose"]["angle"] = angle(body.angle);
   if (!body.colour.empty()) out["colour"] = body.colour;
   return out;
 }

@@ -97,7 +97,8 @@ class Inclusion {
     source_.included.push_back({shown, from_scene.parent_path()});
     Yaml tree = parse_yaml(read_text_file(source_.folder / from_scene, most_bytes), shown);
     if (tree.kind != Yaml::Kind::map)
-      throw SceneError(shown, {tree.line, {}}, "holds no keys of a scene, but " + named.place().key + " reads \"" + name.string() + "\" as one");
+      throw SceneError(shown, {tree.line, {}},
+                       "holds no keys of a scene, but " + named.place().key + " reads \"" + name.string() + "\" as one");
     mark_file(tree, static_cast<int>(source_.included.size()));
     return tree;
   }
@@ -134,8 +135,7 @@ class Inclusion {
 
   /// What is included stands ahead; a value of a parameter and a setting are the part's own where it gives them.
   void merge(Yaml& part, Yaml all, bool is_scene) const {
-    std::erase_if(all.items,
-                  [&](const Yaml& section) { return is_setting(section) && (!is_scene || entry_of(part, section.key)); });
+    std::erase_if(all.items, [&](const Yaml& section) { return is_setting(section) && (!is_scene || entry_of(part, section.key)); });
     own_values(part, all, "parameters");
     own_values(part, all, "start");
     std::vector<Yaml> own = std::move(part.items);

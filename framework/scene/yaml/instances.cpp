@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "framework/common/nearest.h"
 #include "framework/common/text.h"
@@ -26,9 +27,7 @@ const Yaml* item_of(const Yaml& map, std::string_view key) {
 
 bool repeats(const Yaml& entry) { return entry.kind == Yaml::Kind::map && item_of(entry, "repeat"); }
 
-bool says_ground(const Yaml& yaml) {
-  return yaml.text == "ground" || std::ranges::any_of(yaml.items, says_ground);
-}
+bool says_ground(const Yaml& yaml) { return yaml.text == "ground" || std::ranges::any_of(yaml.items, says_ground); }
 
 /// What belongs to the scene as a whole; all other groups of the top hold parts by name.
 bool is_of_the_whole(std::string_view section) {
@@ -42,9 +41,9 @@ bool is_written_out(std::string_view section) {
 /// The scene, or an instance of an assembly.
 struct Part {
   const Yaml& written;
-  std::string path;         ///< of its keys: "assemblies.leg."
-  int scope = 0;            ///< 0: the scene
-  std::string name = {};    ///< of the instance
+  std::string path;       ///< of its keys: "assemblies.leg."
+  int scope = 0;          ///< 0: the scene
+  std::string name = {};  ///< of the instance
   Placing placing = {};
   const Part* outer = nullptr;
   std::string full(const std::string& own) const { return name.empty() ? own : name + " " + own; }
@@ -63,7 +62,10 @@ class Expansion {
     }
     lay({.written = written_, .path = ""});
     for (const Yaml& section : out_.items)
-      if (!is_of_the_whole(section.key) && section.kind == Yaml::Kind::map) refuse_twins(section);
+      if (section.key == "ground")
+        for (const Yaml& kind : section.items) refuse_twins(kind, "ground." + kind.key);
+      else if (!is_of_the_whole(section.key) && section.kind == Yaml::Kind::map)
+        refuse_twins(section, section.key);
     return std::move(out_);
   }
 
@@ -73,8 +75,7 @@ class Expansion {
   }
 
   Yaml copied(const Yaml& yaml, int scope) {
-    if (++values_ > most_values)
-      node(yaml, yaml.key).fail("repeat and instances make more than a million values; repeat less");
+    if (++values_ > most_values) node(yaml, yaml.key).fail("repeat and instances make more than a million values; repeat less");
     Yaml out{yaml.kind, yaml.line, yaml.key, yaml.text, {}, yaml.file, scope};
     out.items.reserve(yaml.items.size());
     for (const Yaml& item : yaml.items) out.items.push_back(copied(item, scope));
@@ -115,7 +116,8 @@ class Expansion {
 
   void lay(const Part& part) {
     for (const Yaml& section : part.written.items)
-      if (part.scope == 0 && (section.key == "parameters" || (is_of_the_whole(section.key) && section.key != "start" && section.key != "ground")))
+      if (part.scope == 0 &&
+          (section.key == "parameters" || (is_of_the_whole(section.key) && section.key != "start" && section.key != "ground")))
         out_.items.push_back(copied(section, 0));
       else if (!is_written_out(section.key))
         lay_section(section, part);
@@ -133,7 +135,8 @@ class Expansion {
   void lay_section(const Yaml& section, const Part& part) {
     const bool scene = part.scope == 0;
     if (section.kind != Yaml::Kind::map) {
-      if (!scene) node(section, part.path + section.key).fail("must be a group of names in an assembly; a scene alone may say it otherwise");
+      if (!scene)
+        node(section, part.path + section.key).fail("must be a group of names in an assembly; a scene alone may say it otherwise");
       out_.items.push_back(copied(section, 0));
       return;
     }
@@ -156,6 +159,7 @@ class Expansion {
           one.key = resolved(source_, part.scope, {one.key, ""}).part;
         else if (one.key != "ground")
           one.key = part.full(one.key);
+        if (as == "start" && !started_.insert(one.key).second) return;  // what holds the instance has said it
         if (!part.placing.stays()) place(one, as, as + "." + one.key, part.placing, source_);
         to.items.push_back(std::move(one));
       });
@@ -272,7 +276,8 @@ class Expansion {
     }
     for (const auto& [name, value] : given)
       if (std::ranges::find(known, name) == known.end())
-        value.fail("\"" + assembly.key + "\" has no such parameter" + (known.empty() ? "; name it under its parameters" : "." + did_you_mean(name, known)));
+        value.fail("\"" + assembly.key + "\" has no such parameter" +
+                   (known.empty() ? "; name it under its parameters" : "." + did_you_mean(name, known)));
   }
 
   /// A bare number has the parameter's unit.
@@ -285,7 +290,8 @@ class Expansion {
     }
     if (bare(q.dimension)) return {q.value, usual.dimension};
     if (!bare(usual.dimension) && !same(q.dimension, usual.dimension))
-      value.fail(value.shown() + " is " + describe(q.dimension) + ", but the assembly gives " + value.name() + " as " + describe(usual.dimension));
+      value.fail(value.shown() + " is " + describe(q.dimension) + ", but the assembly gives " + value.name() + " as " +
+                 describe(usual.dimension));
     return q;
   }
 
@@ -297,7 +303,8 @@ class Expansion {
     if (spec.has("ports"))
       for (const Node& port : spec.at("ports").entries("names of the assembly's ports and points: {hip: body.R}")) {
         if (std::ranges::find(known, port.name()) == known.end())
-          port.fail("\"" + assembly.key + "\" has no such port" + (known.empty() ? "; name it under its ports" : "." + did_you_mean(port.name(), known)));
+          port.fail("\"" + assembly.key + "\" has no such port" +
+                    (known.empty() ? "; name it under its ports" : "." + did_you_mean(port.name(), known)));
         scope.ports.emplace(port.name(), port.part("a point such as body.R, or a body"));
       }
     for (const std::string& port : known)
@@ -315,18 +322,19 @@ class Expansion {
     Yaml pair{Yaml::Kind::list, like.line, "at", {}, {}, like.file, 0};
     pair.items = {number("", inner.placing.at[0]), number("", inner.placing.at[1])};
     at.items = {std::move(pair), number("angle", inner.placing.angle)};
+    at.items.back().text += " rad";
     Yaml& ground = group(out_, {.line = like.line, .key = "ground", .file = like.file});
     group(ground, {.line = like.line, .key = "points", .file = like.file}).items.push_back(std::move(at));
   }
 
-  void refuse_twins(const Yaml& section) const {
+  void refuse_twins(const Yaml& section, const std::string& path) const {
     std::unordered_map<std::string_view, const Yaml*> seen;
     for (const Yaml& entry : section.items)
       if (const auto [other, fresh] = seen.try_emplace(entry.key, &entry); !fresh) {
         const Yaml& first = *other->second;
-        node(entry, section.key + "." + entry.key)
-            .fail("the name stands at " + (first.file == 0 ? source_.file : source_.file_of(first.file)) + ":" + std::to_string(first.line) +
-                  " as well; rename one of them");
+        node(entry, path + "." + entry.key)
+            .fail("the name stands at " + (first.file == 0 ? source_.file : source_.file_of(first.file)) + ":" +
+                  std::to_string(first.line) + " as well; rename one of them");
       }
   }
 
@@ -334,6 +342,7 @@ class Expansion {
   const Yaml written_;
   Yaml out_;
   std::size_t values_ = 0;
+  std::unordered_set<std::string> started_;
   std::map<const Yaml*, const OwnNames*> names_;
   std::map<const Yaml*, bool> says_ground_;
 };

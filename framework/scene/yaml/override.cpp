@@ -246,7 +246,12 @@ Overrides apply_paths(Yaml& scene, const std::string& file, const Overrides& ove
 }
 
 namespace {
-bool is_definition(std::string_view group) { return group == "parameters" || group == "assemblies" || group == "instances"; }
+/// Not made of entries that instances and repeats add to.
+bool is_as_written(std::string_view group) {
+  static constexpr std::array as_written{"title", "gravity", "parameters", "run",        "static",   "output",
+                                         "start", "ground",  "include",    "assemblies", "instances"};
+  return std::ranges::find(as_written, group) != as_written.end();
+}
 }  // namespace
 
 std::pair<Overrides, Overrides> written_and_made(const Yaml& scene, const Overrides& overrides) {
@@ -254,7 +259,7 @@ std::pair<Overrides, Overrides> written_and_made(const Yaml& scene, const Overri
   for (const auto& [name, value] : overrides) {
     const std::vector<std::string> path = steps(name);
     const auto group = std::ranges::find(scene.items, path[0], &Yaml::key);
-    const bool made = path.size() > 1 && named_entry(path[0]) && !is_definition(path[0]) &&
+    const bool made = path.size() > 1 && !is_as_written(path[0]) &&
                       (group == scene.items.end() || std::ranges::find(group->items, path[1], &Yaml::key) == group->items.end());
     (made ? out.second : out.first).emplace_back(name, value);
   }

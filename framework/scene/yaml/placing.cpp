@@ -67,6 +67,12 @@ Yaml pair_like(const Yaml& like, const std::string& key, const Pair& p) {
   out.items = {number_like(like, "", p[0]), number_like(like, "", p[1])};
   return out;
 }
+Yaml angle_like(const Yaml& like, const std::string& key, double value) {
+  Yaml out = number_like(like, key, value);
+  out.text += " rad";
+  return out;
+}
+void set_angle(const Spot& spot, double value) { spot.yaml = angle_like(spot.yaml, spot.yaml.key, value); }
 void set(const Spot& spot, double value) { spot.yaml = number_like(spot.yaml, spot.yaml.key, value); }
 void set(const Spot& spot, const Pair& p) { spot.yaml = pair_like(spot.yaml, spot.yaml.key, p); }
 void set_text(const Spot& spot, const std::string& text) { spot.yaml.text = text; }
@@ -106,7 +112,7 @@ void place_polar(const Spot& polar, const PlacesOf& places) {
   if (polar.node.is_map()) polar.node.fail("is a file, which cannot be mirrored or turned; write its points, or make a body carry it");
   for (const Spot& point : polar.list("angles and radii")) {
     const std::vector<Spot> two = point.list("[angle, radius]");
-    if (!two.empty()) set(two[0], places.direction(two[0].node.quantity(dimension::angle)));
+    if (!two.empty()) set_angle(two[0], places.direction(two[0].node.quantity(dimension::angle)));
   }
   if (places.placing.mirrored) std::ranges::reverse(polar.yaml.items);
 }
@@ -143,7 +149,9 @@ void place_profile(const Spot& profile, const PlacesOf& places) {
 }
 
 void negate(const Spot& owner, std::string_view key, const Dimension& of) {
-  if (owner.has(key)) set(owner.at(key), -owner.at(key).node.quantity(of));
+  if (!owner.has(key)) return;
+  const double opposite = -owner.at(key).node.quantity(of);
+  of.angle == 1 && of.time == 0 ? set_angle(owner.at(key), opposite) : set(owner.at(key), opposite);
 }
 
 /// A law of time, or a table, with its sign changed.
@@ -162,9 +170,9 @@ void place_point(const Spot& point, const PlacesOf& places, const Placing& placi
   if (point.has("at")) place_spot(point.at("at"), places);
   const PlacesOf& of = drawn ? world : places;
   if (point.has("angle"))
-    set(point.at("angle"), of.direction(point.at("angle").node.quantity(dimension::angle)));
-  else if (drawn || places.ground)
-    put(point.yaml, number_like(point.yaml, "angle", of.direction(0)));
+    set_angle(point.at("angle"), of.direction(point.at("angle").node.quantity(dimension::angle)));
+  else if (places.ground)
+    put(point.yaml, angle_like(point.yaml, "angle", of.direction(0)));
 }
 
 /// A point that is drawn by its place alone gets a direction where the ground turns.
@@ -172,7 +180,7 @@ void place_ground_point(Spot point, const Placing& placing) {
   if (point.node.is_list() && placing.direction(0) != 0) {
     const Pair p = placing.point(point.node.pair(dimension::length));
     Yaml with{Yaml::Kind::map, point.yaml.line, point.yaml.key, {}, {}, point.yaml.file, point.yaml.scope};
-    with.items = {pair_like(with, "at", p), number_like(with, "angle", placing.direction(0))};
+    with.items = {pair_like(with, "at", p), angle_like(with, "angle", placing.direction(0))};
     point.yaml = std::move(with);
     return;
   }
@@ -199,8 +207,7 @@ void mirror_body(const Spot& body) {
   for (const char* made : {"beam", "plate"})
     if (body.has(made)) mirror_elastic(body.at(made));
   if (!body.has("plate") || !body.has("supports")) return;
-  for (Yaml& place : body.at("supports").yaml.items)
-    place.key = place.key == "top" ? "bottom" : place.key == "bottom" ? "top" : place.key;
+  for (Yaml& place : body.at("supports").yaml.items) place.key = place.key == "top" ? "bottom" : place.key == "bottom" ? "top" : place.key;
 }
 
 void place_body(Spot body, const Placing& placing) {
@@ -221,7 +228,9 @@ void place_body(Spot body, const Placing& placing) {
   if (posed && body.at("pose").has("angle")) angle = body.at("pose").at("angle").node.quantity(dimension::angle);
   if (drawn && !posed) return;  // the points say where it is
   Yaml pose{Yaml::Kind::map, body.yaml.line, "pose", {}, {}, body.yaml.file, body.yaml.scope};
-  pose.items = {pair_like(pose, "at", placing.point(at)), number_like(pose, "angle", placing.direction(angle))};
+  pose.items = {pair_like(pose, "at", placing.point(at))};
+  if (placing.direction(angle) != 0 || (posed && body.at("pose").has("angle")))
+    pose.items.push_back(angle_like(pose, "angle", placing.direction(angle)));
   put(body.yaml, std::move(pose));
 }
 
@@ -273,8 +282,9 @@ void place_force(const Spot& force, const Placing& placing) {
     place_components(force.at("force"), follows ? Placing{{0, 0}, 0, placing.mirrored} : placing);
   }
   if (!placing.mirrored) return;
-  static const std::vector<std::string> known{"force",   "at",        "follows", "torque",      "on",        "from",      "spring",
-                                              "maxwell", "stiffness", "damping", "free length", "torsion spring", "free angle", "law", "engaged"};
+  static const std::vector<std::string> known{"force",      "at",      "follows",   "torque",  "on",          "from",
+                                              "spring",     "maxwell", "stiffness", "damping", "free length", "torsion spring",
+                                              "free angle", "law",     "engaged"};
   for (const Node& entry : force.node.entries("keys and values"))
     if (std::ranges::find(known, entry.name()) == known.end()) cannot_mirror(entry, "write this force into the scene for each side");
   if (force.has("torque")) negate_law(force.at("torque"), "N*m");
@@ -290,7 +300,8 @@ void place_plane(Spot start, const char* both, const char* x, const char* y, con
   const Pair p{has_x ? start.at(x).node.quantity(of) : 0, has_y ? start.at(y).node.quantity(of) : 0}, out = placed(p);
   const auto [c, s] = placing.turn();
   if (has_x && has_y) return set(start.at(x), out[0]), set(start.at(y), out[1]);
-  if (c != 0 && s != 0) start.at(has_x ? x : y).node.fail(std::string("alone says nothing where the instance is turned; write ") + both + ": [x, y]");
+  if (c != 0 && s != 0)
+    start.at(has_x ? x : y).node.fail(std::string("alone says nothing where the instance is turned; write ") + both + ": [x, y]");
   const std::size_t which = (has_x ? 0U : 1U) ^ (c == 0 ? 1U : 0U);
   const Spot old = start.at(has_x ? x : y);
   old.yaml = number_like(old.yaml, which == 0 ? x : y, out[which]);
@@ -301,7 +312,7 @@ void place_start(const Spot& start, const Placing& placing) {
   if (start.has("modes") && placing.mirrored) cannot_mirror(start.at("modes").node, "say by deflection how the body is bent");
   place_plane(start, "at", "x", "y", dimension::length, placing);
   place_plane(start, "velocity", "vx", "vy", dimension::speed, placing);
-  if (start.has("angle")) set(start.at("angle"), placing.direction(start.at("angle").node.quantity(dimension::angle)));
+  if (start.has("angle")) set_angle(start.at("angle"), placing.direction(start.at("angle").node.quantity(dimension::angle)));
   if (start.has("eccentricity")) set(start.at("eccentricity"), placing.vector(start.at("eccentricity").node.pair(dimension::length)));
   if (start.has("speed") && start.at("speed").node.is_list())
     set(start.at("speed"), placing.vector(start.at("speed").node.pair(dimension::speed)));

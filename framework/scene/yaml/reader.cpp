@@ -82,7 +82,8 @@ Scene read(const std::string& text, const std::string& file, const Overrides& ov
   read_parameters(root, parameters, source, scene);
   if (copies) expand(tree, source);
   apply_paths(tree, file, later);
-  if (!root.has("bodies")) root.fail("lacks a required key; add for example bodies: {crank: {rigid: {mass: 0.3 kg, inertia: 1e-4 kg m^2}}}");
+  if (!root.has("bodies"))
+    root.fail("lacks a required key; add for example bodies: {crank: {rigid: {mass: 0.3 kg, inertia: 1e-4 kg m^2}}}");
   if (root.has("title")) scene.title = root.at("title").text("a line of text");
   if (root.has("gravity")) scene.gravity = root.at("gravity").pair(dimension::acceleration);
   read_run(root, scene);

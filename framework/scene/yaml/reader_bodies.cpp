@@ -35,7 +35,8 @@ void read_drawn_pose(const Node& points, SceneBody& body) {
   for (const Node& point : points.entries("names and places: {A: [10 mm, 0]}"))
     if (point.is_map() && point.has("world") && world.size() < 2) world.push_back(point.at("world").pair(dimension::length));
   if (world.empty()) return;
-  body.drawn = true;
+  body.drawn_at = true;
+  body.drawn_angle = world.size() > 1;
   const Pair a = world.front(), b = world.back();
   body.at = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
   body.angle = std::atan2(b[1] - a[1], b[0] - a[0]);
@@ -45,7 +46,8 @@ void read_pose(const Node& node, SceneBody& body) {
   if (node.has("pose")) {
     const Node pose = node.at("pose");
     check_keys(pose, "bodies.*.pose");
-    body.drawn = true;
+    body.drawn_at = pose.has("at");
+    body.drawn_angle = pose.has("angle");
     if (pose.has("at")) body.at = pose.at("at").pair(dimension::length);
     read_optional(pose, "angle", dimension::angle, rule::any, body.angle);
   } else if (node.has("points")) {
@@ -83,7 +85,8 @@ ScenePoint read_point(const Node& node, std::string_view keys, bool plate, const
 std::vector<ScenePoint> read_points(const Node& owner, std::string_view keys, bool plate, const SceneBody* body) {
   std::vector<ScenePoint> points;
   if (!owner.has("points")) return points;
-  for (const Node& node : owner.at("points").entries("names and places: {A: [10 mm, 0]}")) points.push_back(read_point(node, keys, plate, body));
+  for (const Node& node : owner.at("points").entries("names and places: {A: [10 mm, 0]}"))
+    points.push_back(read_point(node, keys, plate, body));
   return points;
 }
 

@@ -121,8 +121,8 @@ Law read_cam_curve(const Node& node, const Dimension& expected, const std::strin
   if (node.is_map()) return read_curve_table(node, expected, keys);
   Law law;
   try {
-    law = read_curve(node.expression("an expression in angle, or {table: cam.csv, angle unit: deg, value unit: mm}"), "angle", dimension::angle,
-                     expected, node.source().parameters);
+    law = read_curve(node.expression("an expression in angle, or {table: cam.csv, angle unit: deg, value unit: mm}"), "angle",
+                     dimension::angle, expected, node.source().parameters);
   } catch (const ExpressionError& error) {
     node.fail(error.what());
   }

@@ -119,7 +119,8 @@ PointRef read_point_ref(const Node& node) {
   const std::string remedy = "a point such as crank.A, or a body such as ground", text = node.text(remedy);
   PartName name = node.part(remedy);
   PointRef ref{std::move(name.part), std::move(name.point), node.place()};
-  if (ref.body.empty() || text.back() == '.' || ref.point.find('.') != std::string::npos) node.fail(node.shown() + " is no point; write body.point such as crank.A, or a body");
+  if (ref.body.empty() || text.back() == '.' || ref.point.find('.') != std::string::npos)
+    node.fail(node.shown() + " is no point; write body.point such as crank.A, or a body");
   return ref;
 }
 

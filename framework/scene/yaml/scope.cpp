@@ -38,7 +38,8 @@ void take_longest(const Names& names, std::string_view rest, GoesOn goes_on, std
       name = &entry.first;
     else
       name = &entry;
-    if (name->size() > longest.size() && rest.starts_with(*name) && goes_on(rest.substr(name->size()))) longest = rest.substr(0, name->size());
+    if (name->size() > longest.size() && rest.starts_with(*name) && goes_on(rest.substr(name->size())))
+      longest = rest.substr(0, name->size());
   }
 }
 
@@ -105,7 +106,8 @@ SpelledOut spelled_out(const std::string& expression, const Source& source, int 
       out.text += word;
     }
     if (begins && rest.starts_with('.')) {  // what follows is a column or a point, not a name of its own
-      const std::size_t end = std::min(rest.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_0123456789.", 1), rest.size());
+      const std::size_t end =
+          std::min(rest.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_0123456789.", 1), rest.size());
       out.text += rest.substr(0, end);
       rest.remove_prefix(end);
     }

@@ -29,15 +29,15 @@ struct OwnNames {
 };
 
 struct Scope {
-  int outer = 0;                       ///< the scope around it; 0: the scene
-  Parameters parameters = {};          ///< all that it sees
-  std::set<std::string> own = {};      ///< those of them that are not the scene's
-  std::string instance = {};           ///< its parts' names begin with this; empty: of a copy of a repeated entry
-  std::string said = {};               ///< for messages: ` (in the instance "left front", scene.yaml:31)`
-  const OwnNames* names = nullptr;     ///< of an instance
+  int outer = 0;                    ///< the scope around it; 0: the scene
+  Parameters parameters = {};       ///< all that it sees
+  std::set<std::string> own = {};   ///< those of them that are not the scene's
+  std::string instance = {};        ///< its parts' names begin with this; empty: of a copy of a repeated entry
+  std::string said = {};            ///< for messages: ` (in the instance "left front", scene.yaml:31)`
+  const OwnNames* names = nullptr;  ///< of an instance
   std::map<std::string, PartName> ports = {};
-  bool placed = false;                 ///< its `ground` is a place of its own
-  bool mirrored = false;               ///< what turns left in the assembly turns right here
+  bool placed = false;    ///< its `ground` is a place of its own
+  bool mirrored = false;  ///< what turns left in the assembly turns right here
 };
 
 /// What every value of one scene shares.
@@ -46,7 +46,7 @@ struct Source {
   Parameters parameters;
   std::filesystem::path folder = {};  ///< where the files are that the scene names
   struct Included {
-    std::string file;               ///< for messages
+    std::string file;              ///< for messages
     std::filesystem::path folder;  ///< from the scene's folder to the file's
   };
   std::deque<Included> included = {};  ///< Yaml::file counts from 1

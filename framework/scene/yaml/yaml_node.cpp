@@ -91,10 +91,14 @@ double Node::quantity(const Dimension& expected, Rule must) const {
 
 void Node::doubt_radians(double value) const {
   constexpr double turn = 2 * std::numbers::pi;
-  if (!source_->doubts || std::abs(value) <= turn || !bare(read_quantity(yaml_->text, parameters()).dimension)) return;
+  constexpr std::size_t most = 20;
+  if (!source_->doubts || source_->doubts->size() >= most || std::abs(value) <= turn ||
+      !bare(read_quantity(yaml_->text, parameters()).dimension))
+    return;
   source_->doubts->push_back(SceneError(source_->file, place_,
-                                        shown() + " without a unit is in rad, " + number_text(value / turn, 3) + " turns; if degrees are meant, write \"" +
-                                            yaml_->text + " deg\", else \"" + yaml_->text + " rad\"")
+                                        shown() + " without a unit is in rad, " + number_text(value / turn, 3) +
+                                            " turns; if degrees are meant, write \"" + yaml_->text + " deg\", else \"" + yaml_->text +
+                                            " rad\"")
                                  .what());
 }
 

@@ -62,7 +62,7 @@ class Node {
   const Place& place() const { return place_; }
   const Source& source() const { return *source_; }
   const Parameters& parameters() const { return source_->visible(yaml_->scope); }  ///< that an expression here may use
-  std::string name() const { return std::string(name_); }  ///< the last key
+  std::string name() const { return std::string(name_); }                          ///< the last key
 
   const Yaml& yaml() const { return *yaml_; }  ///< what stands here
 
