@@ -200,17 +200,24 @@ class Settling {
   std::vector<MarkerMotion> motion_;
 };
 
-/// The mechanism without some of its joints.
+/// What places the bodies, without some of the joints: neither forces nor what they depend on.
 System without(const System& system, const std::vector<int>& joints) {
-  System rest = system;
+  System rest;
+  rest.gravity = system.gravity;
+  rest.length = system.length;
+  rest.bodies = system.bodies;
+  rest.markers = system.markers;
+  rest.contacts = system.contacts;
+  rest.contact_names = system.contact_names;
+  rest.loose = system.loose;
+  rest.loose_names = system.loose_names;
   const auto before = [&](int joint) { return static_cast<int>(std::ranges::count_if(joints, [&](int k) { return k < joint; })); };
   for (ContactPair& pair : rest.contacts)
     if (pair.link >= 0) pair.link -= before(pair.link);
-  rest.frictions.clear();
-  for (std::size_t k = rest.joints.size(); k-- > 0;) {
-    if (std::ranges::find(joints, static_cast<int>(k)) == joints.end()) continue;
-    rest.joints.erase(rest.joints.begin() + static_cast<std::ptrdiff_t>(k));
-    rest.joint_names.erase(rest.joint_names.begin() + static_cast<std::ptrdiff_t>(k));
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    if (std::ranges::find(joints, static_cast<int>(k)) != joints.end()) continue;
+    rest.joints.push_back(system.joints[k]);
+    rest.joint_names.push_back(system.joint_names[k]);
   }
   number(rest);
   return rest;
