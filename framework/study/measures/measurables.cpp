@@ -41,6 +41,8 @@ Measurables measurables_of(const Scene& scene) {
       if (!whole.empty()) o.points.push_back(whole + "." + p.name);
     }
   }
+  for (const SceneOutput& output : scene.outputs) o.written.push_back(output.name);
+  for (const SceneState& state : scene.states) o.written.push_back(state.name);
   for (const Names* names : {&o.joints, &o.contacts}) o.walls.insert(o.walls.end(), names->begin(), names->end());
   for (const Names* names : {&o.joints, &o.contacts, &o.drivers, &o.loads}) o.actors.insert(o.actors.end(), names->begin(), names->end());
   return o;
@@ -50,7 +52,8 @@ std::string described(const Measurables& o) {
   std::string out;
   for (const std::string& part :
        {said(o.joints, "the joint", "the joints"), said(o.contacts, "the contact", "the contacts"),
-        said(o.drivers, "the driver", "the drivers"), said(o.loads, "the force", "the forces"), said(o.bodies, "the body", "the bodies")})
+        said(o.drivers, "the driver", "the drivers"), said(o.loads, "the force", "the forces"), said(o.bodies, "the body", "the bodies"),
+        said(o.written, "the output or state", "the outputs and states")})
     if (!part.empty()) out += (out.empty() ? " The scene has " : "; ") + part;
   return out + ".";
 }

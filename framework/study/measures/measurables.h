@@ -12,6 +12,7 @@ struct Measurables {
   Names joints, contacts, drivers, loads, bodies, points;
   Names walls;   ///< where something may be touched: joints and contacts
   Names actors;  ///< what has a force
+  Names written;  ///< outputs and states of the scene's own
 };
 Measurables measurables_of(const Scene&);
 /// " The scene has the joints …; the bodies …." for messages.

@@ -155,6 +155,7 @@ class Measuring {
       case What::lost: return lost();
       case What::work: return work();
       case What::column: return column();
+      case What::written: return of(columns_.motion(asked_.owner));
       default: return {};
     }
   }

@@ -68,7 +68,7 @@ class Reading {
   }
 
   bool read_what() {
-    return read_column() || read_force() || read_contact() || read_lost() || read_energy() || read_elastic() || read_motion();
+    return read_written() || read_column() || read_force() || read_contact() || read_lost() || read_energy() || read_elastic() || read_motion();
   }
 
   /// A name must follow.
@@ -129,6 +129,20 @@ class Reading {
     }
     words_.back_to(before);
     return false;
+  }
+
+  bool read_written() {
+    const std::string name = words_.take_name(measurables_.written);
+    if (name.empty()) return false;
+    std::string unit;
+    for (const SceneOutput& o : scene_.outputs)
+      if (o.name == name) unit = o.unit;
+    for (const SceneState& s : scene_.states)
+      if (s.name == name) unit = s.unit;
+    std::ranges::replace(unit, '*', ' ');
+    is(What::written, "", "", name);
+    asked_.unit = unit;
+    return true;
   }
 
   bool read_column() {

@@ -27,6 +27,7 @@ enum class What {
   impacts,       ///< how many begin
   free_flight,   ///< the longest time between two contacts
   contact_time,  ///< in contact, in all
+  written,       ///< an output or a state of the scene's own: the owner
   column         ///< of trajectory.csv or ledger.csv; part is its header without unit and body
 };
 
