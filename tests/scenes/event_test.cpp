@@ -152,7 +152,7 @@ joints: {bearing: {revolute: [ground, rotor]}}
 start: {rotor: {speed: 1 rad/s}}
 states:
   heater: {rate: 0/(1 s), start: 1}
-  warmth: {rate: "(3*heater - 1)/(1 s)", start: 0.5, scale: 1}
+  warmth: {rate: 3/(1 s)*heater - 1/(1 s), start: 0.5, scale: 1}
 events:
   off: {when: warmth > 1, do: {set: {heater: 0}}}
   on: {when: warmth < 0, do: {set: {heater: 1}}}

@@ -128,7 +128,7 @@ LawTangent::LawTangent(const System& system)
     if (!force) continue;
     for (const bool other : {false, true}) {
       const int law = other ? force->other : force->size;
-      if (law < 0 || is_released(system, Switch::force, static_cast<int>(k), state.y)) continue;
+      if (law < 0) continue;
       Sized one{k, other, law, {}, {}, {}};
       if (force->way > SizedForce::follows) add(one.on, system.markers[at(force->a)].body);
       add(one.on, system.markers[at(force->b)].body);
@@ -228,7 +228,7 @@ void LawTangent::couple(const System& system, const State& state, const Equation
     const auto* force = std::get_if<SizedForce>(&system.forces[k]);
     for (const bool other : {false, true}) {
       const int law = !force ? -1 : other ? force->other : force->size;
-      if (law < 0) continue;
+      if (law < 0 || is_released(system, Switch::force, static_cast<int>(k), state.y)) continue;
       point(system, eq, {k, other, law, {}, {}, {}});
       for (std::size_t s = 0; s < system.signals.size(); ++s)
         if (const MotionSignal& signal = system.signals[s]; signal.kind == MotionSignal::state)

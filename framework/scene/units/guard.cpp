@@ -6,14 +6,14 @@ namespace {
 
 constexpr const char* how_to_write_one = "; write a comparison such as crank.angle > 30 deg, or several joined by &&";
 
-int operands(Op op) {
+int operand_count(Op op) {
   if (op < Op::negate) return 0;
   return op <= Op::smooth ? 1 : op < Op::choose ? 2 : 3;
 }
 
 // Where the operand begins that ends with this instruction.
 std::size_t begin_of(const Program& program, std::size_t last) {
-  for (int wanted = operands(program.code[last].op); wanted > 0; --wanted) last = begin_of(program, last - 1);
+  for (int wanted = operand_count(program.code[last].op); wanted > 0; --wanted) last = begin_of(program, last - 1);
   return last;
 }
 
