@@ -159,7 +159,7 @@ std::optional<std::string> contents(const Scene& scene, const SceneFile& file) {
 }  // namespace
 
 std::optional<std::string> elements_key(const Scene& scene, const SceneBody& body) {
-  const auto& [name, mass, inertia, center, points, profiles, elastic, at, angle, place] = body;
+  const auto& [name, mass, inertia, center, points, profiles, elastic, at, angle, place, drawn_at, drawn_angle, colour] = body;
   const auto& [shape, lumped, lumps, supports, modes, damping, stiffening] = *elastic;
   Writer key;
   key.add(points, shape, lumped, lumps);
