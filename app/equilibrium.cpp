@@ -11,6 +11,7 @@
 #include "framework/bodies/segments.h"
 #include "framework/build/build.h"
 #include "framework/build/inertia_defaults.h"
+#include "framework/common/file.h"
 #include "framework/configuration/equilibrium.h"
 #include "framework/output/results.h"
 

@@ -13,6 +13,7 @@
 #include "app/run_end.h"
 #include "framework/analysis/simulate/identity.h"
 #include "framework/bodies/segments.h"
+#include "framework/build/build.h"
 #include "framework/build/inertia_defaults.h"
 #include "framework/common/nearest.h"
 #include "framework/common/processor_time.h"

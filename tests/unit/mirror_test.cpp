@@ -71,8 +71,8 @@ Pair in_world(const SceneBody& body, const Pair& p) {
 Pair along(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 void expect_near(const Pair& found, const Pair& expected, const std::string& what) {
-  EXPECT_NEAR(found[0], expected[0], 1e-14) << what;
-  EXPECT_NEAR(found[1], expected[1], 1e-14) << what;
+  EXPECT_NEAR(found[0], expected[0], 1e-13) << what;
+  EXPECT_NEAR(found[1], expected[1], 1e-13) << what;
 }
 
 struct Mirror : testing::TestWithParam<Map> {};

@@ -265,6 +265,13 @@ forces:
 start: {crank: {at: [0, 0], vx: 1, speed: 2}, pin: {eccentricity: [0, 0], speed: [0, 1]}}
 run: {until: 1, method: dopri5, constraints: partitioning, onset: {cut: 1 nm}, max steps: 10}
 output: {every: 0.1, frames: 3, exaggerate: 2, deformation: auto, points: [crank.A, ground.C, rod], stress: [rod.A]}
+assemblies:
+  cell:
+    parameters: {w: 1 mm}
+    ports: [on]
+    bodies: {box: {rigid: {mass: 1, inertia: 1}, points: {A: {world: [w, 0], angle: 1}}, colour: teal}}
+    joints: {hold: {revolute: [on, box.A]}}
+instances: {cell: {of: cell, repeat: 2, at: [index*1 m, 0], angle: 0.5, mirror: y, with: {w: 2 mm}, ports: {on: ground.C}}}
 )";
 
 TEST(SceneSchema, AcceptsWhatTheReaderAccepts) {
@@ -384,7 +391,13 @@ TEST(SceneSchema, RefusesWithTheReader) {
       {"restitution: 0.5}}}\ndrivers", "restitution: 0.5, force unit: N}}}\ndrivers"},
       {"{arc: 2 m}", "{ark: 2 m}"},
       {"round: 1 mm", "round: 0"},
-      {"  body: bracket\n  loads:", "  body: bracket\n  load:"}};
+      {"  body: bracket\n  loads:", "  body: bracket\n  load:"},
+      {"of: cell, ", ""},
+      {"of: cell, repeat: 2", "of: cell, repeat: -1"},
+      {"mirror: y", "mirror: z"},
+      {"world: [w, 0]", "world: w"},
+      {"ports: [on]", "ports: on"},
+      {"colour: teal", "colour: 7"}};
   for (const auto& [from, to] : spoiled) {
     std::string text = base;
     ASSERT_NE(text.find(from), std::string::npos) << from;

@@ -189,6 +189,9 @@ Json words(const Scene& scene) {
   if (!said.is_object()) return {};  // a scene made in C++
   said.erase("title");
   said.erase("output");
+  if (said.contains("bodies") && said["bodies"].is_object())
+    for (Json& body : said["bodies"])
+      if (body.is_object()) body.erase("colour");
   if (said.contains("run") && said["run"].is_object()) said["run"].erase("until");
   return said;
 }
