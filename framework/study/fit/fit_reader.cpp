@@ -54,8 +54,8 @@ Cases first_points(const Node& vary, const std::vector<Variable>& variables, std
 void read_method(const Node& section, FitPlan& plan) {
   if (!section.has("method")) return;
   const std::string word = section.at("method").one_of(choices("study.fit", "method"));
-  for (const Optimiser m : {Optimiser::bobyqa, Optimiser::cobyla, Optimiser::nelder_mead, Optimiser::sbplx, Optimiser::slsqp, Optimiser::mma,
-                            Optimiser::direct, Optimiser::crs, Optimiser::isres})
+  for (const Optimiser m : {Optimiser::bobyqa, Optimiser::cobyla, Optimiser::nelder_mead, Optimiser::sbplx, Optimiser::slsqp,
+                            Optimiser::mma, Optimiser::direct, Optimiser::crs, Optimiser::isres})
     if (word == name_of(m)) plan.method = m;
   if (!plan.method) return;
   if (!plan.goal.bounds.empty() && !takes_constraints(*plan.method))
@@ -101,7 +101,8 @@ std::size_t read_counts(const Node& root, FitPlan& plan) {
 
 BoxPoint FitPlan::point(std::size_t k) const {
   BoxPoint out;
-  for (std::size_t j = 0; j < variables.size(); ++j) out.push_back(std::clamp(variables[j].span.where(base.cases.quantity(k, j)->value), 0.0, 1.0));
+  for (std::size_t j = 0; j < variables.size(); ++j)
+    out.push_back(std::clamp(variables[j].span.where(base.cases.quantity(k, j)->value), 0.0, 1.0));
   return out;
 }
 
