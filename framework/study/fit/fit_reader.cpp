@@ -72,7 +72,7 @@ double share_of_span(const Node& section, const char* key, double otherwise) {
   return x;
 }
 
-constexpr std::size_t most_evaluations = 10'000'000;
+constexpr std::size_t most_evaluations = most_cases, most_values = 20'000'000;
 
 /// How many cases there are, and of what kind.
 std::size_t read_counts(const Node& root, FitPlan& plan) {
@@ -94,6 +94,8 @@ std::size_t read_counts(const Node& root, FitPlan& plan) {
   if (1 + sample + plan.starts > plan.evaluations)
     section.fail("has " + std::to_string(plan.evaluations) + " evaluations, fewer than its first points and starts take (" +
                  std::to_string(1 + sample + plan.starts) + "); give more evaluations, or less sample or starts");
+  if (sample > most_values / plan.variables.size())
+    section.fail("has more than " + std::to_string(most_values) + " values in its sample; take a smaller one");
   return sample;
 }
 

@@ -171,8 +171,9 @@ void read_counts(const Node& section, SensitivityPlan& plan) {
     section.at("corners").fail("are 2 to the power of the number of parameters; of more than " +
                                std::to_string(most_parameters_of_corners) + " leave them out");
   plan.corners = wanted ? std::size_t{1} << plan.parameters.size() : 0;
-  if (plan.random > most_cases || plan.sobol > most_cases || plan.cases() > most_cases)
-    section.fail("has more than " + std::to_string(most_cases) + " cases; take fewer");
+  constexpr std::size_t most_values = 20'000'000;
+  if (plan.random > most_cases || plan.sobol > most_cases || plan.cases() > std::min(most_cases, most_values / plan.parameters.size()))
+    section.fail("has more than " + std::to_string(most_cases) + " cases, or " + std::to_string(most_values) + " values; take fewer");
 }
 
 }  // namespace
