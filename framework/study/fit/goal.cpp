@@ -11,6 +11,15 @@ namespace pintle {
 
 namespace {
 
+/// "N m", "1/s", or nothing; a unit that the language does not write (of modal coordinates) takes bare numbers.
+Quantity one_of_unit(const std::string& unit) {
+  try {
+    if (!unit.empty()) return read_quantity(unit.starts_with("1/") ? unit : "1 " + unit);
+  } catch (const ExpressionError&) {
+  }
+  return {1, {}};
+}
+
 /// The scene that words are judged by, and the study to which they are added.
 struct GoalReader {
   const StudyFile& file;
@@ -39,7 +48,7 @@ struct GoalReader {
   double in_unit_of(std::size_t m, const Node& node) const {
     const std::string unit = measured_unit(study.measures[m], scene);
     if (unit == "Hz") return node.frequency();
-    const Quantity one = unit.empty() ? Quantity{1, {}} : read_quantity("1 " + unit);
+    const Quantity one = one_of_unit(unit);
     return node.quantity(one.dimension) / one.value;
   }
 };
