@@ -57,9 +57,10 @@ void add_best(Rows& rows, const FitPlan& plan, const FitEnd& end) {
   const std::vector<double> values = measured_values(plan, t);
   for (std::size_t m = 0; m < values.size(); ++m) rows.emplace_back(measured_header(plan, end, m), number(values[m], 9));
   for (const Bound& b : plan.goal.bounds)
-    rows.emplace_back(measured_header(plan, end, b.measure),
-                      std::string(b.at_most ? "at most " : "at least ") + number(b.limit) +
-                          (b.at_most == (values[b.measure] <= b.limit * (1 + (b.limit > 0 ? met_within : -met_within))) ? ": met" : ": see the value"));
+    rows.emplace_back(
+        measured_header(plan, end, b.measure),
+        std::string(b.at_most ? "at most " : "at least ") + number(b.limit) +
+            (b.at_most == (values[b.measure] <= b.limit * (1 + (b.limit > 0 ? met_within : -met_within))) ? ": met" : ": see the value"));
   for (std::size_t j = 0; j < plan.variables.size(); ++j) {
     const ValueSpan& span = plan.variables[j].span;
     const double x = variable_value(t, j), u = span.where(x);
@@ -67,15 +68,16 @@ void add_best(Rows& rows, const FitPlan& plan, const FitEnd& end) {
     rows.emplace_back(variable_header(plan.variables[j]),
                       number(x, 9) + " (from " + number(span.span.from) + " to " + number(span.span.to) + end_of_span + ")");
   }
-  rows.emplace_back("found", "in case " + std::to_string(t.row.number) + "; " + std::to_string(agreeing(plan, end)) + " of " +
-                                 std::to_string(end.best_of.size()) + " searches came to this point");
+  rows.emplace_back("found", "in case " + std::to_string(t.row.number) + ", " + t.phase + "; " + std::to_string(agreeing(plan, end)) + " of " +
+                                 std::to_string(end.best_of.size()) + " starts led there by themselves");
 }
 
 void print(const FitPlan& plan, const FitEnd& end, const fs::path& out) {
   std::cout << (plan.base.study.title.empty() ? plan.base.study.file : plan.base.study.title) << "\n";
   Rows rows{{"method", methods_text(plan)}, {"cases", cases_text(plan, end)}};
   if (end.best) add_best(rows, plan, end);
-  rows.emplace_back("computing", number(end.seconds, 3) + " s by " + std::to_string(end.workers) + (end.workers > 1 ? " workers" : " worker"));
+  rows.emplace_back("computing",
+                    number(end.seconds, 3) + " s by " + std::to_string(end.workers) + (end.workers > 1 ? " workers" : " worker"));
   if (end.stopped)
     rows.emplace_back("history", (out / "fit-so-far.csv").string());
   else
@@ -90,12 +92,12 @@ std::string lack(const FitPlan& plan, const FitEnd& end) {
   if (!end.best) {
     const auto first = std::ranges::find_if(end.tried, [](const Trying& t) { return !t.worth.known; });
     std::string out = "none of " + std::to_string(end.tried.size()) + " points could be measured; give a start that works, or more sample";
-    if (first != end.tried.end())
-      out += "; the first: " + first->row.status + (first->row.reason.empty() ? "" : ": " + first->row.reason);
+    if (first != end.tried.end()) out += "; the first: " + first->row.status + (first->row.reason.empty() ? "" : ": " + first->row.reason);
     return out;
   }
   if (end.tried[*end.best].worth.worst() > met_within)
-    return "no point was found that meets all limits of subject to; there is no fitted.yaml. Widen vary or the limits, or allow more evaluations";
+    return "no point was found that meets all limits of subject to; there is no fitted.yaml. Widen vary or the limits, or allow more "
+           "evaluations";
   if (!end.meets(plan)) return "the goal is not reached within its tolerance; what came nearest is in fitted.yaml";
   return "";
 }
@@ -105,8 +107,7 @@ std::string lack(const FitPlan& plan, const FitEnd& end) {
 int fit(const Options& options) {
   now_doing("reading the study");
   const FitPlan plan = read_fit(options.scene, overrides(options));
-  const fs::path out =
-      options.out.empty() ? fs::path("runs") / (fs::path(options.scene).stem().string() + "-fit") : fs::path(options.out);
+  const fs::path out = options.out.empty() ? fs::path("runs") / (fs::path(options.scene).stem().string() + "-fit") : fs::path(options.out);
   FitSettings settings;
   settings.threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   FitEnd end;
@@ -122,7 +123,8 @@ int fit(const Options& options) {
   else if (!options.quiet)
     print(plan, end, out);
   if (end.stopped) {
-    if (options.quiet || options.json) std::cerr << plan.base.study.file << ": " << stopped_by() << "; the same command goes on from here\n";
+    if (options.quiet || options.json)
+      std::cerr << plan.base.study.file << ": " << stopped_by() << "; the same command goes on from here\n";
     return stopped;
   }
   if (const std::string what = lack(plan, end); !what.empty()) {

@@ -39,10 +39,12 @@ void print_measure(const SensitivityPlan& plan, const MeasureSensitivity& m) {
   }
   std::printf("\n");
   if (scatters) std::printf("    worst case by derivatives  +-%s\n", number(m.linear_worst).c_str());
-  if (m.corners) std::printf("    worst case by corners      %s to %s\n", number(m.corners->least, 9).c_str(), number(m.corners->greatest, 9).c_str());
+  if (m.corners)
+    std::printf("    worst case by corners      %s to %s\n", number(m.corners->least, 9).c_str(), number(m.corners->greatest, 9).c_str());
   if (m.scatter)
-    std::printf("    Monte Carlo                mean %s, standard deviation %s, 95 %% from %s to %s (%zu cases)\n", number(m.scatter->mean, 9).c_str(),
-                number(m.scatter->deviation).c_str(), number(m.scatter->low, 9).c_str(), number(m.scatter->high, 9).c_str(), m.scatter->cases);
+    std::printf("    Monte Carlo                mean %s, standard deviation %s, 95 %% from %s to %s (%zu cases)\n",
+                number(m.scatter->mean, 9).c_str(), number(m.scatter->deviation).c_str(), number(m.scatter->low, 9).c_str(),
+                number(m.scatter->high, 9).c_str(), m.scatter->cases);
 }
 
 void print(const SensitivityPlan& plan, const std::vector<MeasureSensitivity>& all, const SweepEnd& end, const fs::path& out) {
@@ -86,8 +88,8 @@ int sensitivity(const Options& options) {
   else if (!options.quiet)
     print(plan, all, end, out);
   if (std::ranges::any_of(end.rows, [](const Row& r) { return r.status == "finished"; })) return ok;
-  std::cerr << plan.sweep.study.file << ": none of " << end.rows.size() << " cases ran to its end; case 1: " << end.rows.front().status << ": "
-            << end.rows.front().reason << "\n";
+  std::cerr << plan.sweep.study.file << ": none of " << end.rows.size() << " cases ran to its end; case 1: " << end.rows.front().status
+            << ": " << end.rows.front().reason << "\n";
   return run_failed;
 }
 

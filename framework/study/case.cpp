@@ -227,8 +227,10 @@ Scene case_scene(const CaseSource& source, const Overrides& overrides) {
 
 Scene common_scene(const CaseSource& source) { return case_scene(source, {}); }
 
-Outcome run_case(const CaseSource& source, const Overrides& overrides, const std::vector<Measure>& measures, const CaseLimits& limits) {
-  hold_library_threads();
+namespace {
+
+/// A case in one situation, or without any.
+Outcome one_outcome(const CaseSource& source, const Overrides& overrides, const std::vector<Measure>& measures, const CaseLimits& limits) {
   Outcome out;
   out.values.assign(measures.size(), std::numeric_limits<double>::quiet_NaN());
   out.units.resize(measures.size());
@@ -244,6 +246,39 @@ Outcome run_case(const CaseSource& source, const Overrides& overrides, const std
     out.status = "refused", out.reason = one_line(error.what());
   }
   return out;
+}
+
+/// What one of several situations adds to a case.
+void merge(Outcome& whole, const Outcome& part, const std::vector<std::size_t>& places, const std::string& situation) {
+  for (std::size_t i = 0; i < places.size(); ++i) whole.values[places[i]] = part.values[i], whole.units[places[i]] = part.units[i];
+  whole.build_seconds += part.build_seconds, whole.run_seconds += part.run_seconds;
+  whole.t_end = whole.status.empty() ? part.t_end : std::min(whole.t_end, part.t_end);
+  whole.counts.steps += part.counts.steps, whole.impacts += part.impacts;
+  whole.unexplained_share = std::max(whole.unexplained_share, part.unexplained_share);
+  const std::string finished = status_text(Status::finished);
+  if (!whole.status.empty() && whole.status != finished) return;  // the first trouble is told
+  whole.status = part.status;
+  whole.reason = part.reason.empty() ? "" : "in " + situation + ": " + part.reason;
+}
+
+}  // namespace
+
+Outcome run_case(const CaseSource& source, const Overrides& overrides, const std::vector<Measure>& measures, const CaseLimits& limits) {
+  hold_library_threads();
+  if (source.situations.empty()) return one_outcome(source, overrides, measures, limits);
+  Outcome whole;
+  whole.values.assign(measures.size(), std::numeric_limits<double>::quiet_NaN());
+  whole.units.resize(measures.size());
+  for (std::size_t s = 0; s < source.situations.size(); ++s) {
+    std::vector<Measure> here;
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < measures.size(); ++i)
+      if (measures[i].situation == s) here.push_back(measures[i]), places.push_back(i);
+    Overrides set = overrides;
+    set.insert(set.end(), source.situations[s].set.begin(), source.situations[s].set.end());
+    if (!here.empty()) merge(whole, one_outcome(source, set, here, limits), places, source.situations[s].name);
+  }
+  return whole;
 }
 
 }  // namespace pintle

@@ -11,12 +11,19 @@
 
 namespace pintle {
 
+/// A load, a speed or whatever else a case is looked at in, beside others: overrides that come after the case's own.
+struct Situation {
+  std::string name;
+  Overrides set;
+};
+
 /// The scene of a study, read from disk once: cases differ from it by overrides alone.
 struct CaseSource {
   std::filesystem::path file;  ///< tables and drawings are sought beside it
   std::string text;
   Overrides common = {};   ///< hold for all cases; a case's own come after
   Question question = {};  ///< what is asked of each
+  std::vector<Situation> situations = {};  ///< a case goes through all of them; none: through the scene as it is
 };
 /// @throws SceneError  there is no such file
 CaseSource read_case_source(const std::filesystem::path& scene, Overrides common = {});
@@ -45,8 +52,8 @@ struct Outcome {
 };
 
 struct CaseLimits {
-  double seconds = 0;       ///< of simulating; 0: none
-  bool keep_run = false;    ///< Outcome::run
+  double seconds = 0;                            ///< of simulating; 0: none
+  bool keep_run = false;                         ///< Outcome::run
   const std::vector<Measure>* curves = nullptr;  ///< Outcome::curves; none: there are none
   bool time_alone = false;  ///< no rows but the first and the last: run_seconds is then what the integration takes, and measures are NaN
   BodyStore* bodies = nullptr;       ///< shared by the cases of a study; none: each makes its own

@@ -21,8 +21,7 @@ Overrides read_set(const Node& node) {
 Question read_question(const Node& root) {
   Question q;
   const auto words = choices("study", "analysis");
-  if (root.has("analysis"))
-    q.analysis = static_cast<Analysis>(std::ranges::find(words, root.at("analysis").one_of(words)) - words.begin());
+  if (root.has("analysis")) q.analysis = static_cast<Analysis>(std::ranges::find(words, root.at("analysis").one_of(words)) - words.begin());
   const bool linearizes = q.analysis == Analysis::linearize;
   if (root.has("at")) {
     if (!linearizes && q.analysis != Analysis::statics)
@@ -30,10 +29,40 @@ Question read_question(const Node& root) {
     q.at = root.at("at").quantity(dimension::time, rule::not_negative);
   }
   if (root.has("equilibrium")) {
-    if (!linearizes) root.at("equilibrium").fail("is of analysis: linearize alone; leave it out, or write analysis: statics to find the equilibrium");
+    if (!linearizes)
+      root.at("equilibrium").fail("is of analysis: linearize alone; leave it out, or write analysis: statics to find the equilibrium");
     q.equilibrium = root.at("equilibrium").yes();
   }
   return q;
+}
+
+std::vector<Situation> read_situations(const Node& root, const CaseSource& source) {
+  std::vector<Situation> out;
+  if (!root.has("situations")) return out;
+  const Node section = root.at("situations");
+  for (const Node& entry : section.entries("names and what each sets: {idle: {speed: 800 rpm}, full: {speed: 6000 rpm}}")) {
+    out.push_back({entry.name(), read_set(entry)});
+    try {
+      case_scene(source, out.back().set);
+    } catch (const SceneError& error) {
+      entry.fail(error.what());
+    }
+  }
+  if (out.empty()) section.fail("names none; write for example {idle: {speed: 800 rpm}, full: {speed: 6000 rpm}}");
+  return out;
+}
+
+/// Each measure in each situation: "peak in idle", "peak in full".
+std::vector<Measure> in_situations(const std::vector<Measure>& measures, const std::vector<Situation>& situations) {
+  if (situations.empty()) return measures;
+  std::vector<Measure> out;
+  for (const Measure& m : measures)
+    for (std::size_t s = 0; s < situations.size(); ++s) {
+      Measure& one = out.emplace_back(m);
+      one.name += " in " + situations[s].name;
+      one.situation = s;
+    }
+  return out;
 }
 
 std::vector<Measure> read_measures(const Node& node, const std::string& file, const Question& question) {
@@ -95,8 +124,7 @@ std::string first_in(const Node& scene, const char* group, const char* otherwise
 }  // namespace
 
 void require_measures(const StudyFile& file) {
-  if (file.study.measures.empty())
-    file.root().fail("lacks a required key; add for example measure: {peak: peak force at crank pin}");
+  if (file.study.measures.empty()) file.root().fail("lacks a required key; add for example measure: {peak: peak force at crank pin}");
 }
 
 std::vector<Measure> read_curves(const StudyFile& file) {
@@ -104,6 +132,7 @@ std::vector<Measure> read_curves(const StudyFile& file) {
   if (!file.root().has("keep")) return out;
   const Node keep = file.root().at("keep");
   const Question& question = file.study.scene.question;
+  if (!file.study.scene.situations.empty()) keep.fail("leaves curves of one situation; leave out situations, or sweep what they set");
   if (!over_time(question)) keep.fail("is of analyses over time, run, kinematics and inverse; leave it out, each case has one state here");
   for (const Node& entry : keep.list(1, "a list of quantities such as [x of slider, force at crank pin]")) {
     const std::string words = entry.text("a quantity such as x of slider or force at crank pin");
@@ -131,6 +160,7 @@ StudyFile read_study(const std::filesystem::path& path) {
   if (!std::filesystem::exists(scene_path)) scene.fail("there is no file " + scene_path.string() + "; it is sought beside the study");
   file.study.scene = read_case_source(scene_path, root.has("set") ? read_set(root.at("set")) : Overrides{});
   const Question question = file.study.scene.question = read_question(root);
+  file.study.scene.situations = read_situations(root, file.study.scene);
   const Scene common = common_scene(file.study.scene);
   if (!root.has("measure")) {
     if (!root.has("goal")) require_measures(file);
@@ -139,6 +169,7 @@ StudyFile read_study(const std::filesystem::path& path) {
   file.study.measures = read_measures(root.at("measure"), path.string(), question);
   judge(file.study.measures, common);
   validate_names(file.study.measures, common, root.at("measure"));
+  file.study.measures = in_situations(file.study.measures, file.study.scene.situations);
   return file;
 }
 

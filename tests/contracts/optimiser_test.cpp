@@ -48,7 +48,12 @@ TEST_P(EveryOptimiser, FindsTheBottomOfABowl) {
 }
 
 TEST_P(EveryOptimiser, FindsACornerOfTheBox) {
-  const Searched s = searched(settings(), [](const BoxPoint& u) { return Worth{true, u[0] - 2 * u[1], {}}; }, most());
+  const Searched s = searched(
+      settings(),
+      [](const BoxPoint& u) {
+        return Worth{true, u[0] - 2 * u[1], {}};
+      },
+      most());
   EXPECT_NEAR(s.at[0], 0, 1e-3) << s.end;
   EXPECT_NEAR(s.at[1], 1, 1e-3) << s.end;
 }
@@ -88,7 +93,8 @@ TEST_P(EveryOptimiser, HandsOnWhatIsThrown) {
 TEST_P(EveryOptimiser, DoesTheSameEachTime) {
   const auto track = [&] {
     std::vector<BoxPoint> out;
-    searched(settings(), [&](const BoxPoint& u) { return out.push_back(u), bowl(u); }, 300);
+    searched(
+        settings(), [&](const BoxPoint& u) { return out.push_back(u), bowl(u); }, 300);
     return out;
   };
   EXPECT_EQ(track(), track());

@@ -1,4 +1,6 @@
 #include "framework/scene/error.h"
+#include "framework/study/fit/fit.h"
+#include "framework/study/sensitivity/sensitivity.h"
 #include "framework/study/study.h"
 #include "framework/study/sweep/sweep.h"
 #include "tests/fuzz/file.h"
@@ -23,10 +25,16 @@ run: {until: 0.3 s}
 
 void fuzz_study(std::string_view bytes) {
   static const auto written = fuzz_folder().write("scene.yaml", scene);
-  try {
-    read_sweep(fuzz_folder().write("study.yaml", bytes));
-  } catch (const SceneError&) {
-  }
+  const auto study = fuzz_folder().write("study.yaml", bytes);
+  const auto read = [&](auto reader) {
+    try {
+      reader(study, Overrides{});
+    } catch (const SceneError&) {
+    }
+  };
+  read(read_sweep);
+  read(read_fit);
+  read(read_sensitivity);
 }
 
 }  // namespace pintle

@@ -22,7 +22,9 @@ double variable(const FitPlan& plan, const FitEnd& end, const std::string& name)
   ADD_FAILURE() << name;
   return 0;
 }
-double measure(const FitPlan& plan, const FitEnd& end, std::size_t m) { return measured_values(plan, end.tried.at(end.best.value())).at(m); }
+double measure(const FitPlan& plan, const FitEnd& end, std::size_t m) {
+  return measured_values(plan, end.tried.at(end.best.value())).at(m);
+}
 
 /// A mass of 2 kg on a rail, held by a spring: f = √(k/m)/2π.
 constexpr const char* oscillator = R"(
@@ -105,9 +107,10 @@ TEST(Fit, ALimitHoldsTheBestPointAndIsMetThere) {
   for (const char* method : {"auto", "cobyla", "slsqp", "mma"}) {
     const SweepFolder folder;
     folder.write("scene.yaml", oscillator);
-    folder.write("study.yaml", std::string("scene: scene.yaml\nanalysis: linearize\nvary: {mass: {from: 0.1 kg, to: 5 kg, start: 4 kg}}\n") +
-                                   "goal: {maximise: frequency of mode 1}\nsubject to: {frequency of mode 1: {at most: 3 Hz}}\n" +
-                                   "fit: {evaluations: 300, method: " + method + "}\n");
+    folder.write("study.yaml",
+                 std::string("scene: scene.yaml\nanalysis: linearize\nvary: {mass: {from: 0.1 kg, to: 5 kg, start: 4 kg}}\n") +
+                     "goal: {maximise: frequency of mode 1}\nsubject to: {frequency of mode 1: {at most: 3 Hz}}\n" +
+                     "fit: {evaluations: 300, method: " + method + "}\n");
     const FitPlan plan = read_fit(folder / "study.yaml");
     const FitEnd end = run_fit(plan, folder / "out", {1, {}});
     EXPECT_TRUE(end.meets(plan)) << method;
@@ -117,8 +120,9 @@ TEST(Fit, ALimitHoldsTheBestPointAndIsMetThere) {
 
 TEST(Fit, IsTheSameToTheBitForAnyNumberOfWorkersAndAfterAnyEnd) {
   const SweepFolder folder;
-  const std::string study = "vary: {stiffness: {from: 10 N/m, to: 5 N/mm}, mass: {from: -1 kg, to: 3 kg, start: 1 kg}}\nmeasure: {f: frequency of mode "
-                            "1}\ngoal: {reach: {f: {to: 3 Hz, tolerance: 0.001 Hz}}}\nfit: {starts: 3, evaluations: 120}\n";
+  const std::string study =
+      "vary: {stiffness: {from: 10 N/m, to: 5 N/mm}, mass: {from: -1 kg, to: 3 kg, start: 1 kg}}\nmeasure: {f: frequency of mode "
+      "1}\ngoal: {reach: {f: {to: 3 Hz, tolerance: 0.001 Hz}}}\nfit: {starts: 3, evaluations: 120}\n";
   const Fitted one = fitted(folder, study, {1, {}}, "one");
   fitted(folder, study, {4, {}}, "four");
   // Stopped again and again, as by Ctrl-C.
@@ -142,7 +146,8 @@ TEST(Fit, ThatCanMeasureNothingOrCannotReachItsGoalSaysSo) {
   const Fitted missed = fitted(folder, "vary: {stiffness: {from: 10 N/m, to: 20 N/m}}\n" + wanted + "fit: {starts: 1, evaluations: 60}\n");
   EXPECT_FALSE(missed.end.meets(missed.plan));
   EXPECT_NEAR(variable(missed.plan, missed.end, "stiffness"), 20, 1e-3) << "the nearest";
-  const Fitted none = fitted(folder, "vary: {mass: {from: 1 kg, to: 2 kg}}\ngoal: {minimise: frequency of mode 9}\nfit: {evaluations: 60}\n", {1, {}}, "none");
+  const Fitted none = fitted(
+      folder, "vary: {mass: {from: 1 kg, to: 2 kg}}\ngoal: {minimise: frequency of mode 9}\nfit: {evaluations: 60}\n", {1, {}}, "none");
   EXPECT_FALSE(none.end.best);
   EXPECT_FALSE(fs::exists(folder / "none/fitted.yaml"));
 }
@@ -155,22 +160,23 @@ TEST(Fit, AStudyThatIsWrongIsRefusedInOneLine) {
     std::string text;
     std::vector<std::string> says;
   };
-  for (const Bad& b : std::vector<Bad>{{goal, {"vary"}},
-                                       {vary, {"measure"}},
-                                       {vary + "measure: frequency of mode 1\n", {"goal: {minimise:"}},
-                                       {"vary: {mas: {from: 1 kg, to: 3 kg}}\n" + goal, {"vary.mas", "Did you mean \"mass\"?"}},
-                                       {"vary: {mass: {from: 1 m, to: 3 m}}\n" + goal, {"vary.mass", "is a length"}},
-                                       {"vary: {mass: {from: 3 kg, to: 1 kg}}\n" + goal, {"vary.mass", "to must be greater than from"}},
-                                       {"vary: {mass: {from: 1 kg, to: 3 kg, start: 4 kg}}\n" + goal, {"vary.mass.start", "outside"}},
-                                       {vary + "goal: {minimise: frequency of block}\n", {"goal.minimise", "frequency of mode 1"}},
-                                       {vary + "goal: {minimize: frequency of mode 1}\n", {"minimize", "Did you mean \"minimise\"?"}},
-                                       {vary + "goal: {reach: {frequency of mode 1: 3 kg}}\n", {"goal.reach", "3 kg"}},
-                                       {vary + "goal: {reach: {damping of mode 1: 0}}\n", {"needs a tolerance"}},
-                                       {vary + goal + "subject to: {frequency of mode 1: {at most: 1 N}}\n", {"subject to", "at most"}},
-                                       {vary + goal + "subject to: {frequency of mode 1: {below: 1 Hz}}\n", {"Known here: at most or at least"}},
-                                       {vary + goal + "subject to: {frequency of mode 1: {at most: 1 Hz}}\nfit: {method: sbplx}\n", {"fit.method", "cobyla"}},
-                                       {vary + goal + "fit: {method: newton}\n", {"fit.method", "newton"}},
-                                       {vary + goal + "fit: {evaluations: 3, starts: 5}\n", {"fewer than"}}}) {
+  for (const Bad& b : std::vector<Bad>{
+           {goal, {"vary"}},
+           {vary, {"measure"}},
+           {vary + "measure: frequency of mode 1\n", {"goal: {minimise:"}},
+           {"vary: {mas: {from: 1 kg, to: 3 kg}}\n" + goal, {"vary.mas", "Did you mean \"mass\"?"}},
+           {"vary: {mass: {from: 1 m, to: 3 m}}\n" + goal, {"vary.mass", "is a length"}},
+           {"vary: {mass: {from: 3 kg, to: 1 kg}}\n" + goal, {"vary.mass", "to must be greater than from"}},
+           {"vary: {mass: {from: 1 kg, to: 3 kg, start: 4 kg}}\n" + goal, {"vary.mass.start", "outside"}},
+           {vary + "goal: {minimise: frequency of block}\n", {"goal.minimise", "frequency of mode 1"}},
+           {vary + "goal: {minimize: frequency of mode 1}\n", {"minimize", "Did you mean \"minimise\"?"}},
+           {vary + "goal: {reach: {frequency of mode 1: 3 kg}}\n", {"goal.reach", "3 kg"}},
+           {vary + "goal: {reach: {damping of mode 1: 0}}\n", {"needs a tolerance"}},
+           {vary + goal + "subject to: {frequency of mode 1: {at most: 1 N}}\n", {"subject to", "at most"}},
+           {vary + goal + "subject to: {frequency of mode 1: {below: 1 Hz}}\n", {"Known here: at most or at least"}},
+           {vary + goal + "subject to: {frequency of mode 1: {at most: 1 Hz}}\nfit: {method: sbplx}\n", {"fit.method", "cobyla"}},
+           {vary + goal + "fit: {method: newton}\n", {"fit.method", "newton"}},
+           {vary + goal + "fit: {evaluations: 3, starts: 5}\n", {"fewer than"}}}) {
     folder.write("study.yaml", "scene: scene.yaml\nanalysis: linearize\n" + b.text);
     pintle_test::expect_refused([&] { read_fit(folder / "study.yaml"); }, b.says);
   }
@@ -178,7 +184,8 @@ TEST(Fit, AStudyThatIsWrongIsRefusedInOneLine) {
 
 TEST(Fit, AFolderOfAnotherStudyIsRefused) {
   const SweepFolder folder;
-  const std::string study = "vary: {mass: {from: 1 kg, to: 3 kg}}\ngoal: {minimise: frequency of mode 1}\nfit: {starts: 1, evaluations: 10}\n";
+  const std::string study =
+      "vary: {mass: {from: 1 kg, to: 3 kg}}\ngoal: {minimise: frequency of mode 1}\nfit: {starts: 1, evaluations: 10}\n";
   fitted(folder, study);
   EXPECT_THROW(fitted(folder, study + "title: another\n"), SceneError);
 }

@@ -42,8 +42,10 @@ std::vector<Row> swept(const SweepFolder& folder, const std::string& scene, cons
 
 TEST(StudyAnalysis, KinematicsIsSweptWithItsCurves) {
   const SweepFolder folder;
-  const std::vector<Row> rows = swept(folder, turned, "analysis: kinematics\nmeasure: {reach: greatest x of bar.E, angle: final angle of bar}\nkeep: [y of bar.E]\n"
-                                                      "sweep: {grid: {speed: [2 rad/s, 4 rad/s]}}\n");
+  const std::vector<Row> rows =
+      swept(folder, turned,
+            "analysis: kinematics\nmeasure: {reach: greatest x of bar.E, angle: final angle of bar}\nkeep: [y of bar.E]\n"
+            "sweep: {grid: {speed: [2 rad/s, 4 rad/s]}}\n");
   for (const Row& r : rows) {
     ASSERT_EQ(r.status, "finished") << r.reason;
     EXPECT_NEAR(r.values[0], 0.6, 1e-9);
@@ -62,8 +64,9 @@ TEST(StudyAnalysis, KinematicsIsSweptWithItsCurves) {
 TEST(StudyAnalysis, InverseDynamicsIsSwept) {
   const SweepFolder folder;
   // The motor holds the weight; the hinge leads the mass centre round.
-  const std::vector<Row> rows = swept(folder, turned, "analysis: inverse\nmeasure: {torque: torque of motor at 0 s, force: force x at hinge at 0 s}\n"
-                                                      "sweep: {grid: {arm: [0.2 m, 0.3 m]}}\n");
+  const std::vector<Row> rows = swept(folder, turned,
+                                      "analysis: inverse\nmeasure: {torque: torque of motor at 0 s, force: force x at hinge at 0 s}\n"
+                                      "sweep: {grid: {arm: [0.2 m, 0.3 m]}}\n");
   for (const Row& r : rows) {
     const double arm = r.number == 1 ? 0.2 : 0.3;
     ASSERT_EQ(r.status, "finished") << r.reason;
@@ -84,7 +87,8 @@ joints: {pivot: {revolute: [ground.O, lever.O]}}
 forces: {spring: {spring: [ground.S, lever.M], stiffness: k, free length: 0}}
 )";
   const std::vector<Row> rows =
-      swept(folder, scene, "analysis: statics\nmeasure: {angle: angle of lever, height: y of lever.M}\nsweep: {grid: {k: [100 N/m, 150 N/m, 400 N/m]}}\n");
+      swept(folder, scene,
+            "analysis: statics\nmeasure: {angle: angle of lever, height: y of lever.M}\nsweep: {grid: {k: [100 N/m, 150 N/m, 400 N/m]}}\n");
   for (const Row& r : rows) {
     const double k = std::vector{100.0, 150.0, 400.0}[r.number - 1], angle = std::atan2(k * 0.4 - 2 * 9.81, k * 0.2);
     ASSERT_EQ(r.status, "finished") << r.reason;
@@ -95,9 +99,10 @@ forces: {spring: {spring: [ground.S, lever.M], stiffness: k, free length: 0}}
 
 TEST(StudyAnalysis, ALinearisationIsSwept) {
   const SweepFolder folder;
-  const std::vector<Row> rows =
-      swept(folder, hung, "analysis: linearize\nmeasure: {f: frequency of mode 1, n: natural frequency of mode 1, d: damping of root 1, r: real part of root 1}\n"
-                          "sweep: {grid: {stiffness: [10 N m/rad, 40 N m/rad]}}\n");
+  const std::vector<Row> rows = swept(folder, hung,
+                                      "analysis: linearize\nmeasure: {f: frequency of mode 1, n: natural frequency of mode 1, d: damping "
+                                      "of root 1, r: real part of root 1}\n"
+                                      "sweep: {grid: {stiffness: [10 N m/rad, 40 N m/rad]}}\n");
   for (const Row& r : rows) {
     const double J = 0.05 + 2 * 0.09, k = (r.number == 1 ? 10 : 40) + 2 * 9.81 * 0.3, w = std::sqrt(k / J), zeta = 0.4 / (2 * J * w);
     ASSERT_EQ(r.status, "finished") << r.reason;
@@ -112,15 +117,37 @@ TEST(StudyAnalysis, ModesOfABodyAreSwept) {
   const SweepFolder folder;
   // Free Euler beam: f₁ = 4.73004²/(2π L²) √(EI/ρA), I/A = h²/12; eight cubic elements are within 1e-4 of it.
   const std::string scene =
-      "parameters: {h: 10 mm}\nbodies: {rod: {beam: {from: a, to: b, elements: 8, section: {rectangle: [h, 20 mm]}, young: 210 GPa, poisson: 0.3, "
+      "parameters: {h: 10 mm}\nbodies: {rod: {beam: {from: a, to: b, elements: 8, section: {rectangle: [h, 20 mm]}, young: 210 GPa, "
+      "poisson: 0.3, "
       "density: 7800 kg/m^3, theory: euler, rotary inertia: false}, points: {a: [0, 0], b: [1 m, 0]}}}\n";
-  const std::vector<Row> rows = swept(folder, scene, "analysis: modes\nmeasure: {f: frequency of mode 1 of rod}\nsweep: {grid: {h: [10 mm, 20 mm]}}\n");
+  const std::vector<Row> rows =
+      swept(folder, scene, "analysis: modes\nmeasure: {f: frequency of mode 1 of rod}\nsweep: {grid: {h: [10 mm, 20 mm]}}\n");
   ASSERT_EQ(rows.size(), 2u);
   for (const Row& r : rows) {
     const double h = 0.01 * static_cast<double>(r.number);
     ASSERT_EQ(r.status, "finished") << r.reason;
     EXPECT_NEAR(r.values[0] / (std::pow(4.730040745, 2) / (2 * pi) * std::sqrt(210e9 / 7800 * h * h / 12)), 1, 2e-4);
   }
+}
+
+TEST(StudyAnalysis, ACaseGoesThroughSeveralSpeedsAndLoads) {
+  const SweepFolder folder;
+  const std::string study =
+      "analysis: inverse\nsituations: {slow: {speed: 2 rad/s}, fast: {speed: 10 rad/s, gravity: [0, 0]}, wrong: {arm: 0.1 m}}\n"
+      "measure: {force: force x at hinge at 0 s, torque: torque of motor at 0 s}\nsweep: {grid: {arm: [0.2 m, 0.3 m]}}\n";
+  const std::vector<Row> rows = swept(folder, turned, study);
+  for (const Row& r : rows) {
+    const double arm = r.number == 1 ? 0.2 : 0.3;
+    ASSERT_EQ(r.status, "finished") << r.reason;
+    EXPECT_NEAR(std::abs(r.values[0]), 2 * arm * 4, 1e-8);
+    EXPECT_NEAR(std::abs(r.values[1]), 2 * arm * 100, 1e-8);
+    EXPECT_NEAR(std::abs(r.values[2]), 2 * 0.1 * 4, 1e-8) << "what a situation sets comes after the case";
+    EXPECT_NEAR(std::abs(r.values[3]), 2 * 9.81 * arm, 1e-8);
+    EXPECT_NEAR(r.values[4], 0, 1e-8);
+  }
+  EXPECT_NE(contents(folder / "out/sweep.csv").find(",force in slow [N],force in fast [N],"), std::string::npos);
+  pintle_test::expect_refused([&] { swept(folder, turned, "situations: {slow: {sped: 1}}\n" + study.substr(study.find("measure"))); },
+                              {"situations.slow", "Did you mean \"speed\"?"});
 }
 
 TEST(StudyAnalysis, WhatAnAnalysisDoesNotKnowIsRefused) {
@@ -149,7 +176,8 @@ TEST(Sensitivity, OfAFrequencyMeetsItsClosedFormWithinItsError) {
   folder.write("scene.yaml", hung);
   folder.write("study.yaml",
                "scene: scene.yaml\nanalysis: linearize\nmeasure: {f: natural frequency of mode 1}\n"
-               "sensitivity: {parameters: {stiffness: {uniform: 2 N m/rad}, mass: {normal: 0.02 kg}, damping: {step: 0.1 N m s/rad}}, sobol: {count: 64}, "
+               "sensitivity: {parameters: {stiffness: {uniform: 2 N m/rad}, mass: {normal: 0.02 kg}, damping: {step: 0.1 N m s/rad}}, "
+               "sobol: {count: 64}, "
                "monte carlo: {count: 400}}\n");
   const SensitivityPlan plan = read_sensitivity(folder / "study.yaml");
   const SweepEnd end = run_sweep(plan.sweep, folder / "out", {2, nullptr, {}});

@@ -169,6 +169,22 @@ TEST_F(SweepKilled, TenTimesUnderMpiItLosesNothingAndRunsNothingTwice) {
   kill_ten_times({PINTLE_MPIRUN, "--oversubscribe", "-n", "2"}, {});
 }
 
+TEST_F(SweepKilled, AFitComesToTheSameBits) {
+  std::ofstream(folder_ / "fit.yaml")
+      << "scene: " PINTLE_SOURCE_DIR
+         "/examples/paper/fig05_clearance_001.yaml\n"
+         "set: {run.tolerance: 1e-7, length: 4 ms}\ngoal: {minimise: energy lost}\n"
+         "vary: {speed: {from: 50 rad/s, to: 200 rad/s}, clearance: {from: 0.01 mm, to: 0.5 mm, scale: log}}\n"
+         "fit: {starts: 2, evaluations: 120}\n";
+  const auto command = [&](const char* out, const char* threads) {
+    return Command{PINTLE_PROGRAM, "fit", folder_ / "fit.yaml", "-q", "--threads", threads, "--out", folder_ / out};
+  };
+  ASSERT_EQ(run(command("whole", "1")), 0) << contents(folder_ / "log");
+  for (const std::size_t most : {1u, 20u, 60u}) run(command("killed", "2"), [&] { return journalled(folder_ / "killed").size() >= most; });
+  ASSERT_EQ(run(command("killed", "3")), 0) << contents(folder_ / "log");
+  for (const char* file : {"fit.csv", "fitted.yaml"}) EXPECT_EQ(contents(folder_ / "killed" / file), contents(folder_ / "whole" / file)) << file;
+}
+
 /// Sockets that the program's processes listen at, from all networks: the inodes that they hold, looked up in /proc/net.
 int open_to_networks(const std::string& program) {
   std::set<std::string> listening;

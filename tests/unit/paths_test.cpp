@@ -29,9 +29,10 @@ class Paths : public testing::Test {
     folder_.write("empty", "");
     folder_.write("scene.yaml", wheel);
     folder_.write("study.yaml", "scene: scene.yaml\nmeasure: {work: work of motor}\nsweep: {grid: {run.tolerance: [1e-6, 1e-7]}}\n");
-    folder_.write("sought.yaml",
-                  "scene: scene.yaml\nmeasure: {work: work of motor}\ngoal: {minimise: work}\nvary: {run.tolerance: {from: 1e-7, to: 1e-6}}\n"
-                  "fit: {starts: 1, evaluations: 2}\nsensitivity: {parameters: {run.tolerance: {at: 1e-6}}}\n");
+    folder_.write(
+        "sought.yaml",
+        "scene: scene.yaml\nmeasure: {work: work of motor}\ngoal: {minimise: work}\nvary: {run.tolerance: {from: 1e-7, to: 1e-6}}\n"
+        "fit: {starts: 1, evaluations: 2}\nsensitivity: {parameters: {run.tolerance: {at: 1e-6}}}\n");
     folder_.write("trade.yaml", "scene: scene.yaml\nmeasure: {work: work of motor}\n");
     fs::create_directory(at("inside"));
     folder_.write("inside/file", "text\n");
@@ -66,7 +67,10 @@ TEST_F(Paths, ResultsGoWhereNothingIs) {
   for (const std::string command :
        {"run", "statics", "kinematics", "inverse", "linearize", "modes", "static", "mesh", "sweep", "fit", "sensitivity", "tradeoff"}) {
     const bool seeks = command == "fit" || command == "sensitivity";
-    const std::string input = at(command == "sweep" ? "study.yaml" : seeks ? "sought.yaml" : command == "tradeoff" ? "trade.yaml" : "scene.yaml");
+    const std::string input = at(command == "sweep"      ? "study.yaml"
+                                 : seeks                 ? "sought.yaml"
+                                 : command == "tradeoff" ? "trade.yaml"
+                                                         : "scene.yaml");
     expect_refused({command, input, "--out", ""}, "--out");
     // Commands on a body refuse this scene for want of elements; they share the rest with the others.
     if (command == "modes" || command == "static" || command == "mesh") continue;

@@ -118,12 +118,20 @@ TEST(StudySchema, AcceptsAllKindsOfCasesAndRefusesWhatIsNone) {
                            "sweep: {list: [{c: 1}, {run.method: dopri5}]}", "sweep: {list: {c: [1, 2]}, limit: 3 s, most steps: 100}",
                            "sweep: {random: {count: 9, seed: 2, c: {from: 1, to: 2}, d: [a, b]}}",
                            "sweep: {latin hypercube: {count: 9, c: {from: 1, to: 2, scale: linear}}}",
-                           "tradeoff: {error: 1%, axes: {t: {run.tolerance: [1e-4, 1e-6]}}}"})
+                           "tradeoff: {error: 1%, axes: {t: {run.tolerance: [1e-4, 1e-6]}}}",
+                           "analysis: linearize\nequilibrium: true\nat: 1 s\nkeep: [x of slider]\nsituations: {idle: {speed: 1}}",
+                           "vary: {a: {from: 1, to: 2 mm, start: 1, scale: log}}\ngoal: {reach: {f: 5 Hz, g: {to: 1, tolerance: 2}}}\n"
+                           "subject to: {f: {at most: 1 Hz}}\nfit: {method: slsqp, starts: 2, step: 1e-3}",
+                           "goal: {path: {point: a.b, through: [[0, 1], [2 mm, 0]], order: any}}",
+                           "sensitivity: {parameters: {a: {uniform: 1}, b: {normal: 1, step: 2, at: 3}}, sobol: {count: 9}}"})
     EXPECT_TRUE(accepted(head + good)) << good;
   for (const char* bad : {"sweeps: {}", "sweep: {grd: {}}", "sweep: {grid: {c: 1}}", "sweep: {grid: {c: {from: 1, to: 2}}}",
                           "sweep: {grid: {c: {from: 1, to: 2, count: 3, scale: lg}}}", "sweep: {random: {c: {from: 1, to: 2}}}",
-                          "tradeoff: {error: 1%}", "tradeoff: {axes: {}}"})
+                          "tradeoff: {error: 1%}", "tradeoff: {axes: {}}", "analysis: running", "goal: {minimise: a, maximise: b}",
+                          "goal: {path: {point: a.b}}", "vary: {a: {from: 1}}", "fit: {method: newton}", "subject to: {a: {below: 1}}",
+                          "sensitivity: {sobol: {count: 9}}"})
     EXPECT_FALSE(accepted(head + bad)) << bad;
+  EXPECT_TRUE(accepted("scene: a.yaml\ngoal: {minimise: energy lost}\n"));
   EXPECT_FALSE(accepted("scene: a.yaml\n"));
   EXPECT_FALSE(accepted("scene: a.yaml\nmeasure: {}\n"));
 }

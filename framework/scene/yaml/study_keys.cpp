@@ -15,6 +15,7 @@ std::span<const KeyTable> study_tables() {
         {"analysis", optional, "", {"run", "kinematics", "inverse", "statics", "linearize", "modes"}},
         {"at"},
         {"equilibrium"},
+        {"situations"},
         {"measure"},
         {"keep"},
         {"sweep"},

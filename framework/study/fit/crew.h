@@ -16,7 +16,8 @@ namespace pintle {
 /// the system gives no thread the caller does the tasks, which then must call `poll` themselves.
 /// @returns threads that worked, the caller included if it did
 /// @throws what a task throws, when all have ended
-inline std::size_t share_out(std::size_t count, int threads, const std::function<void(std::size_t)>& task, const std::function<void()>& poll) {
+inline std::size_t share_out(std::size_t count, int threads, const std::function<void(std::size_t)>& task,
+                             const std::function<void()>& poll) {
   std::atomic<std::size_t> next = 0;
   std::size_t out = 0;
   std::exception_ptr trouble;

@@ -26,7 +26,12 @@ using clock = std::chrono::steady_clock;
 class Evaluations {
  public:
   Evaluations(const FitPlan& plan, const fs::path& folder, const FitSettings& settings, FitEnd& end)
-      : plan_(plan), settings_(settings), folder_(folder), caller_(std::this_thread::get_id()), rows_(plan.evaluations + 1), worths_(rows_.size()) {
+      : plan_(plan),
+        settings_(settings),
+        folder_(folder),
+        caller_(std::this_thread::get_id()),
+        rows_(plan.evaluations + 1),
+        worths_(rows_.size()) {
     journal_ = open_study_folder(plan.base, folder, end.notes);
     for (Row& row : read_journals(folder, plan.base.print, plan.evaluations, &end.notes))
       if (!lacked_memory(row)) ++end.before, known_[row.number] = std::move(row);
@@ -75,13 +80,24 @@ class Evaluations {
     try {
       outcome = run_case(plan_.base.study.scene, plan_.overrides(u), plan_.base.study.measures, limits);
     } catch (const std::bad_alloc&) {
-      outcome.status = status_text(Status::out_of_memory), outcome.reason = "there was not enough memory; run fewer cases at once (--threads)";
+      outcome.status = status_text(Status::out_of_memory),
+      outcome.reason = "there was not enough memory; run fewer cases at once (--threads)";
       outcome.values.assign(plan_.base.study.measures.size(), std::nan(""));
     }
     std::vector<double> values = place(u);
     values.insert(values.end(), outcome.values.begin(), outcome.values.end());
-    return {number,        outcome.status,       outcome.reason,          values, outcome.units, outcome.t_end, outcome.unexplained_share,
-            outcome.counts.steps, outcome.impacts, "0", outcome.build_seconds, outcome.run_seconds};
+    return {number,
+            outcome.status,
+            outcome.reason,
+            values,
+            outcome.units,
+            outcome.t_end,
+            outcome.unexplained_share,
+            outcome.counts.steps,
+            outcome.impacts,
+            "0",
+            outcome.build_seconds,
+            outcome.run_seconds};
   }
 
   /// The variables in SI.
@@ -93,12 +109,14 @@ class Evaluations {
   void must_be_at(const Row& row, const BoxPoint& u) const {
     const std::vector<double> here = place(u);
     const auto same_bits = [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); };
-    if (row.values.size() != here.size() + plan_.base.study.measures.size() || !std::equal(here.begin(), here.end(), row.values.begin(), same_bits))
-      throw SceneError(folder_.string(), {},
-                       "case " + std::to_string(row.number) +
-                           " of its journal is not the one that the search comes to now: another version of NLopt or another processor wrote "
-                           "it; name another directory with --out, or remove " +
-                           folder_.string());
+    if (row.values.size() != here.size() + plan_.base.study.measures.size() ||
+        !std::equal(here.begin(), here.end(), row.values.begin(), same_bits))
+      throw SceneError(
+          folder_.string(), {},
+          "case " + std::to_string(row.number) +
+              " of its journal is not the one that the search comes to now: another version of NLopt or another processor wrote "
+              "it; name another directory with --out, or remove " +
+              folder_.string());
   }
 
   const FitPlan& plan_;
@@ -135,7 +153,14 @@ class Descent {
     for (const Optimiser method : plan_.methods()) {
       within_ = !plan_.goal.bounds.empty() && !takes_constraints(method);
       if (within_ && best_.worth.worst() > met_within) break;
-      SearchSettings s{method, best_.u, within_ ? 0 : plan_.goal.bounds.size(), first_step, plan_.precision, plan_.step, plan_.goal.good_enough(), plan_.seed + first_};
+      SearchSettings s{method,
+                       best_.u,
+                       within_ ? 0 : plan_.goal.bounds.size(),
+                       first_step,
+                       plan_.precision,
+                       plan_.step,
+                       plan_.goal.good_enough(),
+                       plan_.seed + first_};
       end += (end.empty() ? "" : ", then ") + std::string(name_of(method)) + ": " + search(s, worth);
       if (s.good_enough >= 0 && best_.worth.worst() <= met_within && best_.worth.value <= s.good_enough) break;
       if (used_ >= share_ || evaluations_.stopped()) break;
@@ -149,7 +174,7 @@ class Descent {
  private:
   /// To a method that knows no limits, a point beyond them is not known.
   const Worth* look(const BoxPoint& u) {
-    static const Worth beyond;
+    static const Worth beyond{};
     const Worth* found = find(u);
     return found && within_ && found->worst() > met_within ? &beyond : found;
   }

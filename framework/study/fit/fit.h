@@ -19,7 +19,7 @@ struct Variable {
 };
 
 struct FitPlan {
-  Sweep base;  ///< the study, and as its cases the first points: the start, then a Latin hypercube
+  Sweep base;         ///< the study, and as its cases the first points: the start, then a Latin hypercube
   CaseSource source;  ///< of the scene as it will be written: without what holds for the search alone
   std::vector<Variable> variables;
   Goal goal;
@@ -50,11 +50,11 @@ struct FitEnd {
   bool stopped = false;
   std::size_t workers = 1;
   std::vector<std::string> notes;
-  std::vector<Trying> tried;                ///< in an order that does not depend on the workers
-  std::optional<std::size_t> best;          ///< of them
-  std::vector<std::string> ends;            ///< of each search, how it ended
+  std::vector<Trying> tried;                        ///< in an order that does not depend on the workers
+  std::optional<std::size_t> best;                  ///< of them
+  std::vector<std::string> ends;                    ///< of each search, how it ended
   std::vector<std::optional<std::size_t>> best_of;  ///< of each search
-  std::size_t before = 0;                   ///< cases of earlier sessions
+  std::size_t before = 0;                           ///< cases of earlier sessions
   double seconds = 0;
 
   bool meets(const FitPlan&) const;  ///< the best meets all bounds, and the goal where it can be missed

@@ -36,7 +36,8 @@ Json best_json(const FitPlan& plan, const FitEnd& end) {
   const Trying& t = end.tried[*end.best];
   Json variables = Json::object(), measures = Json::object();
   for (std::size_t j = 0; j < plan.variables.size(); ++j)
-    variables[variable_header(plan.variables[j])] = {{"value", variable_value(t, j)}, {"at the end of its span", at_an_end(plan.variables[j], variable_value(t, j))}};
+    variables[variable_header(plan.variables[j])] = {{"value", variable_value(t, j)},
+                                                     {"at the end of its span", at_an_end(plan.variables[j], variable_value(t, j))}};
   const std::vector<double> values = measured_values(plan, t);
   for (std::size_t m = 0; m < values.size(); ++m) measures[measured_header(plan, end, m)] = finite(values[m]);
   return {{"case", t.row.number},

@@ -54,8 +54,8 @@ Cases first_points(const Node& vary, const std::vector<Variable>& variables, std
 void read_method(const Node& section, FitPlan& plan) {
   if (!section.has("method")) return;
   const std::string word = section.at("method").one_of(choices("study.fit", "method"));
-  for (const Optimiser m : {Optimiser::bobyqa, Optimiser::cobyla, Optimiser::nelder_mead, Optimiser::sbplx, Optimiser::slsqp, Optimiser::mma,
-                            Optimiser::direct, Optimiser::crs, Optimiser::isres})
+  for (const Optimiser m : {Optimiser::bobyqa, Optimiser::cobyla, Optimiser::nelder_mead, Optimiser::sbplx, Optimiser::slsqp,
+                            Optimiser::mma, Optimiser::direct, Optimiser::crs, Optimiser::isres})
     if (word == name_of(m)) plan.method = m;
   if (!plan.method) return;
   if (!plan.goal.bounds.empty() && !takes_constraints(*plan.method))
@@ -72,7 +72,7 @@ double share_of_span(const Node& section, const char* key, double otherwise) {
   return x;
 }
 
-constexpr std::size_t most_evaluations = 10'000'000;
+constexpr std::size_t most_evaluations = most_cases, most_values = 20'000'000;
 
 /// How many cases there are, and of what kind.
 std::size_t read_counts(const Node& root, FitPlan& plan) {
@@ -94,6 +94,8 @@ std::size_t read_counts(const Node& root, FitPlan& plan) {
   if (1 + sample + plan.starts > plan.evaluations)
     section.fail("has " + std::to_string(plan.evaluations) + " evaluations, fewer than its first points and starts take (" +
                  std::to_string(1 + sample + plan.starts) + "); give more evaluations, or less sample or starts");
+  if (sample > most_values / plan.variables.size())
+    section.fail("has more than " + std::to_string(most_values) + " values in its sample; take a smaller one");
   return sample;
 }
 
@@ -101,7 +103,8 @@ std::size_t read_counts(const Node& root, FitPlan& plan) {
 
 BoxPoint FitPlan::point(std::size_t k) const {
   BoxPoint out;
-  for (std::size_t j = 0; j < variables.size(); ++j) out.push_back(std::clamp(variables[j].span.where(base.cases.quantity(k, j)->value), 0.0, 1.0));
+  for (std::size_t j = 0; j < variables.size(); ++j)
+    out.push_back(std::clamp(variables[j].span.where(base.cases.quantity(k, j)->value), 0.0, 1.0));
   return out;
 }
 

@@ -3,12 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/common/nearest.h"
 #include "framework/scene/yaml/keys.h"
 #include "framework/study/sweep/sampling.h"
 
 namespace pintle {
 
 namespace {
+
+/// "N m", "1/s", or nothing; a unit that the language does not write (of modal coordinates) takes bare numbers.
+Quantity one_of_unit(const std::string& unit) {
+  try {
+    if (!unit.empty()) return read_quantity(unit.starts_with("1/") ? unit : "1 " + unit);
+  } catch (const ExpressionError&) {
+  }
+  return {1, {}};
+}
 
 /// The scene that words are judged by, and the study to which they are added.
 struct GoalReader {
@@ -19,8 +29,14 @@ struct GoalReader {
   /// The measure of this name or in these words.
   std::size_t measure(const Node& at, const std::string& words) const {
     for (std::size_t i = 0; i < study.measures.size(); ++i)
-      if (study.measures[i].name == words || study.measures[i].words == words) return i;
+      if (study.measures[i].name == words || (study.measures[i].words == words && file.study.scene.situations.empty())) return i;
+    if (!file.study.scene.situations.empty()) at.fail("must name a measure and its situation here" + known_measures());
     return add({words, words, at.place(), study.file, file.study.scene.question, {}});
+  }
+  std::string known_measures() const {
+    std::vector<std::string> names;
+    for (const Measure& m : study.measures) names.push_back(m.name);
+    return names.empty() ? "; name measures under measure" : "; there are " + listed(names, "and");
   }
   std::size_t add(const Measure& m) const {
     judge({m}, scene);
@@ -32,7 +48,7 @@ struct GoalReader {
   double in_unit_of(std::size_t m, const Node& node) const {
     const std::string unit = measured_unit(study.measures[m], scene);
     if (unit == "Hz") return node.frequency();
-    const Quantity one = unit.empty() ? Quantity{1, {}} : read_quantity("1 " + unit);
+    const Quantity one = one_of_unit(unit);
     return node.quantity(one.dimension) / one.value;
   }
 };
@@ -60,7 +76,8 @@ PathTarget read_path(const Node& node) {
     out.through.push_back({at[0], at[1]});
   }
   if (node.has("times")) {
-    for (const Node& t : node.at("times").list(1, "a time for each point")) out.times.push_back(t.quantity(dimension::time, rule::not_negative));
+    for (const Node& t : node.at("times").list(1, "a time for each point"))
+      out.times.push_back(t.quantity(dimension::time, rule::not_negative));
     if (out.times.size() != out.through.size())
       node.at("times").fail("has " + std::to_string(out.times.size()) + " times, through has " + std::to_string(out.through.size()) +
                             " points; give one for each, or leave times out");
@@ -75,6 +92,7 @@ PathTarget read_path(const Node& node) {
 }
 
 void read_path_goal(const GoalReader& reader, const Node& node, Goal& goal) {
+  if (!reader.file.study.scene.situations.empty()) node.fail("is of one situation; leave out situations");
   const PathTarget path = read_path(node);
   goal.measure = reader.add({"distance to path", "", node.place(), reader.study.file, reader.file.study.scene.question, path});
   goal.exact = node.has("tolerance");

@@ -24,9 +24,9 @@ struct Bound {
 
 struct Goal {
   enum class Kind { minimise, maximise, reach, path } kind = Kind::minimise;
-  std::size_t measure = 0;         ///< of minimise, maximise and path
-  std::vector<Aim> aims = {};      ///< of reach and path: the sum of ((value − to)/tolerance)² is made small
-  bool exact = false;              ///< a tolerance was given, so that the goal can be missed
+  std::size_t measure = 0;     ///< of minimise, maximise and path
+  std::vector<Aim> aims = {};  ///< of reach and path: the sum of ((value − to)/tolerance)² is made small
+  bool exact = false;          ///< a tolerance was given, so that the goal can be missed
   std::vector<Bound> bounds = {};
 
   Worth worth(const std::vector<double>& values) const;

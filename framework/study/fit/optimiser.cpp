@@ -43,7 +43,6 @@ class Searching {
     nlopt_set_xtol_abs1(opt_.get(), settings.precision);
     nlopt_set_initial_step1(opt_.get(), settings.first_step);
     nlopt_set_min_objective(opt_.get(), value, this);
-    if (settings.good_enough >= 0) nlopt_set_stopval(opt_.get(), settings.good_enough);
     const std::vector<double> tolerances(settings.constraints, met_within);
     if (settings.constraints > 0)
       nlopt_add_inequality_mconstraint(opt_.get(), static_cast<unsigned>(settings.constraints), excesses, this, tolerances.data());
@@ -56,8 +55,7 @@ class Searching {
     const nlopt_result end = nlopt_optimize(opt_.get(), x.data(), &least);
     if (trouble_) std::rethrow_exception(trouble_);
     switch (end) {
-      case NLOPT_FORCED_STOP: return "out of evaluations";
-      case NLOPT_STOPVAL_REACHED: return "good enough";
+      case NLOPT_FORCED_STOP: return good_ ? "good enough" : "out of evaluations";
       case NLOPT_ROUNDOFF_LIMITED: return "limited by rounding";
       case NLOPT_OUT_OF_MEMORY: throw std::bad_alloc();
       default: return end > 0 ? "converged" : "could not go on";
@@ -71,7 +69,8 @@ class Searching {
     auto& s = *static_cast<Searching*>(self);
     s.work_out(x, gradient != nullptr);
     if (gradient) std::ranges::copy(s.slope_.front(), gradient);
-    return s.here_.value;
+    for (unsigned j = 0; gradient && j < s.n(); ++j) gradient[j] /= s.unit_;
+    return s.here_.value / s.unit_;
   }
   static void excesses(unsigned m, double* out, unsigned n, const double* x, double* gradient, void* self) {
     auto& s = *static_cast<Searching*>(self);
@@ -80,7 +79,7 @@ class Searching {
     for (unsigned i = 0; gradient && i < m; ++i) std::ranges::copy(s.slope_[i + 1], gradient + i * n);
   }
 
-  /// The worth of a point, of one that is not known worse than all that were seen. NaN once the search is to end.
+  /// The worth of a point; of one that is not known, and once the search is to end, worse than all that were seen.
   Worth ask(const BoxPoint& x) {
     const Worth* found = trouble_ || ended_ ? nullptr : worth_(x);
     if (!found) {
@@ -89,7 +88,10 @@ class Searching {
       return beyond();
     }
     if (!found->known) return beyond();
+    const bool enough = settings_.good_enough >= 0 && found->value <= settings_.good_enough && found->worst() <= met_within;
+    if (enough) good_ = ended_ = true, nlopt_force_stop(opt_.get());
     if (seen_.excess.empty() && !any_) seen_ = *found, least_ = found->value;
+    if (!any_ && found->value != 0) unit_ = std::abs(found->value);
     any_ = true;
     seen_.value = std::max(seen_.value, found->value), least_ = std::min(least_, found->value);
     for (std::size_t i = 0; i < found->excess.size(); ++i) seen_.excess[i] = std::max(seen_.excess[i], found->excess[i]);
@@ -142,7 +144,8 @@ class Searching {
   BoxPoint x_;
   Worth here_, seen_;  ///< at x_; the greatest value and excesses so far
   double least_ = 0;
-  bool any_ = false, ended_ = false;
+  double unit_ = 1;  ///< the first value: to methods by gradient the first step is about as long as the slope
+  bool any_ = false, ended_ = false, good_ = false;
   std::vector<BoxPoint> slope_;  ///< of the value, then of each excess
   std::exception_ptr trouble_;
 };

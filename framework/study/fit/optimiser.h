@@ -20,8 +20,8 @@ bool takes_constraints(Optimiser);
 
 /// What a point is worth.
 struct Worth {
-  bool known = false;              ///< false: the mechanism could not be measured there
-  double value = 0;                ///< to be made small
+  bool known = false;               ///< false: the mechanism could not be measured there
+  double value = 0;                 ///< to be made small
   std::vector<double> excess = {};  ///< of each constraint, met where ≤ 0
 
   double worst() const;  ///< the greatest excess; 0 where all are met
@@ -39,11 +39,11 @@ struct SearchSettings {
   Optimiser method = Optimiser::bobyqa;
   BoxPoint start;
   std::size_t constraints = 0;
-  double first_step = 0.1;    ///< share of the box
-  double precision = 1e-6;    ///< share of the box to which a point is to be found
-  double difference = 1e-4;   ///< of gradients, share of the box
-  double good_enough = -1;    ///< a value at which to end; below 0: none
-  std::uint64_t seed = 1;     ///< of methods that look everywhere
+  double first_step = 0.1;   ///< share of the box
+  double precision = 1e-6;   ///< share of the box to which a point is to be found
+  double difference = 1e-4;  ///< of gradients, share of the box
+  double good_enough = -1;   ///< a value at which to end; below 0: none
+  std::uint64_t seed = 1;    ///< of methods that look everywhere
 };
 
 /// Excess up to which a constraint counts as met, of its limit.

@@ -13,12 +13,13 @@ namespace pintle {
 /// A number that a run, or another analysis, yields, asked for in words: "peak force at gudgeon pin", "x of slider at 0.05 s",
 /// "energy lost", "rms torque of crank drive after 10 ms", "frequency of mode 1". docs/studies.md has the grammar.
 struct Measure {
-  std::string name;       ///< heads its column
-  std::string words;      ///< as the user wrote them
-  Place place = {};       ///< where
-  std::string file = {};  ///< of the study, for messages; empty: the scene's
-  Question question = {};  ///< what yields it
+  std::string name;                     ///< heads its column
+  std::string words;                    ///< as the user wrote them
+  Place place = {};                     ///< where
+  std::string file = {};                ///< of the study, for messages; empty: the scene's
+  Question question = {};               ///< what yields it
   std::optional<PathTarget> path = {};  ///< instead of words: the rms distance of a curve to these points
+  std::size_t situation = 0;            ///< of the study, in which it is measured; without situations 0
 };
 
 struct MeasuredValue {

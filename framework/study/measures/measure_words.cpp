@@ -343,14 +343,16 @@ class Reading {
     const bool motion = asked_.what == What::motion || asked_.what == What::distance || asked_.what == What::path;
     if (analysis == Analysis::kinematics && !motion)
       fail("kinematics knows motion alone; write for example range of x of BODY.POINT, or analysis: inverse for forces");
-    const bool of_the_ledger = asked_.what == What::energy || cumulative(asked_.what) || (asked_.what == What::column && asked_.owner.empty());
+    const bool of_the_ledger =
+        asked_.what == What::energy || cumulative(asked_.what) || (asked_.what == What::column && asked_.owner.empty());
     if (of_the_ledger)
       fail(std::string(analysis == Analysis::statics ? "statics" : "inverse") +
            " keeps no account of energies and impacts; ask for forces or motion, or write analysis: run");
     if (analysis != Analysis::statics) return;
     if (asked_.statistic != Statistic::none || asked_.instant || asked_.frequency || asked_.time_of)
-      fail("statics finds one state, so nothing has a time, a peak or a mean; write for example force at JOINT, x of BODY (the instant "
-           "whose loads count is the study's key at)");
+      fail(
+          "statics finds one state, so nothing has a time, a peak or a mean; write for example force at JOINT, x of BODY (the instant "
+          "whose loads count is the study's key at)");
     asked_.instant = true, asked_.from = asked_.to = measure_.question.at.value_or(0);
   }
 

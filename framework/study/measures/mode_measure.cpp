@@ -24,11 +24,16 @@ struct PartWord {
   const char* unit;
 };
 /// Longer before shorter where one begins like another.
-constexpr std::array part_words{PartWord{"natural frequency", ModePart::natural, "Hz"},  PartWord{"undamped frequency", ModePart::natural, "Hz"},
-                                PartWord{"damped frequency", ModePart::frequency, "Hz"}, PartWord{"frequency", ModePart::frequency, "Hz"},
-                                PartWord{"damping ratio", ModePart::damping, ""},        PartWord{"damping", ModePart::damping, ""},
-                                PartWord{"decay rate", ModePart::decay, "1/s"},          PartWord{"decay", ModePart::decay, "1/s"},
-                                PartWord{"real part", ModePart::real, "1/s"},            PartWord{"imaginary part", ModePart::imaginary, "rad/s"}};
+constexpr std::array part_words{PartWord{"natural frequency", ModePart::natural, "Hz"},
+                                PartWord{"undamped frequency", ModePart::natural, "Hz"},
+                                PartWord{"damped frequency", ModePart::frequency, "Hz"},
+                                PartWord{"frequency", ModePart::frequency, "Hz"},
+                                PartWord{"damping ratio", ModePart::damping, ""},
+                                PartWord{"damping", ModePart::damping, ""},
+                                PartWord{"decay rate", ModePart::decay, "1/s"},
+                                PartWord{"decay", ModePart::decay, "1/s"},
+                                PartWord{"real part", ModePart::real, "1/s"},
+                                PartWord{"imaginary part", ModePart::imaginary, "rad/s"}};
 
 [[noreturn]] void fail_words(const Measure& m, const Scene& scene, const std::string& message) {
   Place place = m.place;

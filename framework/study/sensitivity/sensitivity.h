@@ -17,9 +17,9 @@ struct Scattered {
   std::string name;
   double at = 0;  ///< nominal, SI
   Dimension dimension;
-  double step = 0;                                      ///< of the widest difference
+  double step = 0;  ///< of the widest difference
   enum class Spread { none, uniform, normal } spread = Spread::none;
-  double width = 0;                                     ///< half the width of a uniform spread, or the standard deviation
+  double width = 0;  ///< half the width of a uniform spread, or the standard deviation
 
   double drawn(double u) const;  ///< at u of [0, 1) of its distribution
   double reach() const;          ///< from the nominal value to the worst: the width, or three standard deviations
@@ -30,9 +30,9 @@ struct SensitivityPlan {
   Sweep sweep;
   std::vector<Scattered> parameters;
   std::size_t levels = 3;
-  std::size_t corners = 0;      ///< all, or none
-  std::size_t random = 0;       ///< cases of the Monte Carlo sample
-  std::size_t sobol = 0;        ///< points of each of A and B
+  std::size_t corners = 0;  ///< all, or none
+  std::size_t random = 0;   ///< cases of the Monte Carlo sample
+  std::size_t sobol = 0;    ///< points of each of A and B
   std::uint64_t seed = 1, sobol_seed = 1;
 
   std::size_t first_difference() const { return 1; }

@@ -16,7 +16,9 @@ using Json = nlohmann::ordered_json;
 
 Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
-Json share_json(const Share& s) { return {{"value", number_or_null(s.value)}, {"from", number_or_null(s.low)}, {"to", number_or_null(s.high)}}; }
+Json share_json(const Share& s) {
+  return {{"value", number_or_null(s.value)}, {"from", number_or_null(s.low)}, {"to", number_or_null(s.high)}};
+}
 
 Json parameter_json(const SensitivityPlan& plan, const MeasureSensitivity& m, std::size_t i) {
   const Scattered& p = plan.parameters[i];
@@ -29,7 +31,8 @@ Json parameter_json(const SensitivityPlan& plan, const MeasureSensitivity& m, st
 Json measure_json(const SensitivityPlan& plan, const MeasureSensitivity& m) {
   Json parameters = Json::object();
   for (std::size_t i = 0; i < plan.parameters.size(); ++i) parameters[parameter_header(plan.parameters[i])] = parameter_json(plan, m, i);
-  Json out = {{"nominal", number_or_null(m.nominal)}, {"parameters", parameters}, {"worst case by derivatives", number_or_null(m.linear_worst)}};
+  Json out = {
+      {"nominal", number_or_null(m.nominal)}, {"parameters", parameters}, {"worst case by derivatives", number_or_null(m.linear_worst)}};
   if (m.corners) out["corners"] = {{"least", m.corners->least}, {"greatest", m.corners->greatest}};
   if (m.scatter)
     out["monte carlo"] = {{"cases", m.scatter->cases},
@@ -49,7 +52,8 @@ std::string parameter_header(const Scattered& p) {
 
 std::string sensitivity_csv(const SensitivityPlan& plan, const std::vector<MeasureSensitivity>& all) {
   std::string out =
-      "measure,nominal,parameter,at,derivative,error,of the tolerance,first order,first order from,first order to,total,total from,total to\n";
+      "measure,nominal,parameter,at,derivative,error,of the tolerance,first order,first order from,first order to,total,total from,total "
+      "to\n";
   for (const MeasureSensitivity& m : all)
     for (std::size_t i = 0; i < plan.parameters.size(); ++i) {
       const Scattered& p = plan.parameters[i];
@@ -57,8 +61,8 @@ std::string sensitivity_csv(const SensitivityPlan& plan, const std::vector<Measu
       out += csv_field(m.header) + ",";
       append_number(out, m.nominal);
       out += "," + csv_field(parameter_header(p));
-      for (const double x : {p.at, m.slopes[i].value, m.slopes[i].error, p.width > 0 ? m.slopes[i].value * p.reach() : NAN, share.first.value,
-                             share.first.low, share.first.high, share.total.value, share.total.low, share.total.high})
+      for (const double x : {p.at, m.slopes[i].value, m.slopes[i].error, p.width > 0 ? m.slopes[i].value * p.reach() : NAN,
+                             share.first.value, share.first.low, share.first.high, share.total.value, share.total.low, share.total.high})
         out += ',', append_number(out, x);
       out += '\n';
     }

@@ -72,7 +72,8 @@ Scattered read_parameter(const CaseSource& source, const Node& entry) {
   const auto has = [&](const char* key) { return entry.is_map() && entry.has(key); };
   const Quantity at = has("at") ? read_value(entry.at("at")) : nominal(source, entry);
   out.at = at.value, out.dimension = at.dimension;
-  if (has("uniform") && has("normal")) entry.fail("scatters in two ways; write uniform (half its width) or normal (its standard deviation)");
+  if (has("uniform") && has("normal"))
+    entry.fail("scatters in two ways; write uniform (half its width) or normal (its standard deviation)");
   for (const char* key : {"uniform", "normal"})
     if (has(key)) {
       out.spread = std::string(key) == "uniform" ? Scattered::Spread::uniform : Scattered::Spread::normal;
@@ -86,7 +87,8 @@ Scattered read_parameter(const CaseSource& source, const Node& entry) {
 /// Appends a case in which every parameter has a value.
 void add_case(Cases& cases, const std::vector<Scattered>& parameters, const std::vector<double>& values) {
   std::vector<std::optional<std::string>> one;
-  for (std::size_t i = 0; i < values.size(); ++i) one.emplace_back(with_unit(Span{values[i], values[i] + 1, false}.at(0), parameters[i].dimension));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    one.emplace_back(with_unit(Span{values[i], values[i] + 1, false}.at(0), parameters[i].dimension));
   cases.values.push_back(std::move(one));
 }
 
@@ -166,11 +168,12 @@ void read_counts(const Node& section, SensitivityPlan& plan) {
     if (section.has(group) && !scatters && (std::string_view(group) != "corners" || wanted))
       section.at(group).fail("needs parameters that scatter; give them {uniform: 0.1 mm} or {normal: 0.05 mm}");
   if (wanted && !small)
-    section.at("corners").fail("are 2 to the power of the number of parameters; of more than " + std::to_string(most_parameters_of_corners) +
-                               " leave them out");
+    section.at("corners").fail("are 2 to the power of the number of parameters; of more than " +
+                               std::to_string(most_parameters_of_corners) + " leave them out");
   plan.corners = wanted ? std::size_t{1} << plan.parameters.size() : 0;
-  if (plan.random > most_cases || plan.sobol > most_cases || plan.cases() > most_cases)
-    section.fail("has more than " + std::to_string(most_cases) + " cases; take fewer");
+  constexpr std::size_t most_values = 20'000'000;
+  if (plan.random > most_cases || plan.sobol > most_cases || plan.cases() > std::min(most_cases, most_values / plan.parameters.size()))
+    section.fail("has more than " + std::to_string(most_cases) + " cases, or " + std::to_string(most_values) + " values; take fewer");
 }
 
 }  // namespace
@@ -188,7 +191,8 @@ SensitivityPlan read_sensitivity(const fs::path& path, const Overrides& set) {
   SensitivityPlan plan;
   Cases cases;
   std::vector<double> nominal_values;
-  for (const Node& entry : section.at("parameters").entries("names of parameters (or paths): {length: {uniform: 0.1 mm}, mass: {step: 1 g}}")) {
+  for (const Node& entry :
+       section.at("parameters").entries("names of parameters (or paths): {length: {uniform: 0.1 mm}, mass: {step: 1 g}}")) {
     plan.parameters.push_back(read_parameter(source, entry));
     nominal_values.push_back(plan.parameters.back().at);
     cases.names.push_back(entry.name()), cases.places.push_back(entry.place());

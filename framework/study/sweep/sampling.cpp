@@ -54,8 +54,7 @@ Texts values(const Node& node) {
     const ValueSpan range = read_span(node);
     const auto n = static_cast<std::size_t>(node.at("count").count(1));
     if (n > most_cases) node.at("count").fail("is more than " + std::to_string(most_cases) + " cases; take fewer");
-    for (std::size_t k = 0; k < n; ++k)
-      out.emplace_back(range.text(n == 1 ? 0 : static_cast<double>(k) / static_cast<double>(n - 1)));
+    for (std::size_t k = 0; k < n; ++k) out.emplace_back(range.text(n == 1 ? 0 : static_cast<double>(k) / static_cast<double>(n - 1)));
     return out;
   }
   if (node.is_list() && node.yaml().items.empty())

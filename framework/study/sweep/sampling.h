@@ -45,8 +45,8 @@ struct Span {
 struct ValueSpan {
   Span span;
   Dimension dimension;
-  std::string text(double u) const;   ///< in SI with its unit
-  double where(double value) const;   ///< u, from 0 to 1 inside
+  std::string text(double u) const;  ///< in SI with its unit
+  double where(double value) const;  ///< u, from 0 to 1 inside
 };
 /// @throws SceneError  the ends are of different kinds, or not above 0 on a logarithmic scale
 ValueSpan read_span(const Node& group);

@@ -19,9 +19,9 @@ namespace pintle {
 struct Sweep {
   Study study;
   Cases cases;
-  CaseLimits limits;        ///< of each case
-  std::string text;         ///< of the study file
-  std::uint64_t print = 0;  ///< fingerprint of the study, its scene, the files that they name and the program
+  CaseLimits limits;               ///< of each case
+  std::string text;                ///< of the study file
+  std::uint64_t print = 0;         ///< fingerprint of the study, its scene, the files that they name and the program
   std::vector<Measure> keep = {};  ///< of which each case leaves a curve, curves/case-N.csv
 };
 

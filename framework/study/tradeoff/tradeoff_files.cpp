@@ -174,9 +174,9 @@ void write_tradeoff(const std::filesystem::path& directory, const std::filesyste
   write_text(
       directory / "recommended.yaml",
       changed_scene(source, p.set, final_directory,
-                        "Recommended by pintle tradeoff for " + source.file.filename().string() + ": " + setting_text(r.plan, p) + "\n" +
-                            "Measured: " + time_text(p.time) + ", error " + error_text(p) +
-                            (r.quantities.empty() ? "" : " of " + r.quantities.front()) + (r.quantities.size() > 1 ? " and others" : "")));
+                    "Recommended by pintle tradeoff for " + source.file.filename().string() + ": " + setting_text(r.plan, p) + "\n" +
+                        "Measured: " + time_text(p.time) + ", error " + error_text(p) +
+                        (r.quantities.empty() ? "" : " of " + r.quantities.front()) + (r.quantities.size() > 1 ? " and others" : "")));
 }
 
 }  // namespace pintle
