@@ -41,6 +41,11 @@ class FlexibleDrawing {
   double largest_displacement(const Eigen::VectorXd& eta) const;  ///< of a drawn point [m]
   double size() const { return size_; }                           ///< diagonal of the body [m]
 
+  const Eigen::Matrix2Xd& points() const { return x_; }  ///< from the mass centre, undeformed, body axes [m]
+  const std::vector<Cells>& cells() const { return cells_; }
+  const Eigen::MatrixXd& displacements() const { return u_; }  ///< [x y] of all points, a column a shape, body axes
+  const Eigen::MatrixXd& stresses() const { return stress_; }  ///< [σx σy τxy σz] likewise
+
  private:
   std::string name_;
   Eigen::Matrix2Xd x_;  ///< drawn points from the mass centre, undeformed, body axes [m]
