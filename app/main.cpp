@@ -36,6 +36,7 @@ constexpr const char* exit_codes =
     "A scene is a YAML file; docs/scene.md has its language, examples/ has scenes to start from:\n"
     "  pintle check examples/slider_crank_clearance.yaml\n"
     "  pintle run examples/slider_crank_clearance.yaml --set clearance=0.1mm --out worn\n"
+    "  pintle report worn        (worn/report.html, for any browser)\n"
     "  paraview worn/mechanism.pvd\n"
     "  pintle modes examples/modes_eye_bar.yaml --count 8\n";
 
@@ -209,9 +210,31 @@ void add_bounds(CLI::App& command, Options& options) {
       ->check(CLI::Range(0.1, 1e6));
 }
 
+constexpr const char* what_report_writes =
+    "One HTML file that needs no other file and no network: the mechanism moving, plots of any columns, impacts, the energy\n"
+    "ledger, warnings, and how the results were made. The mechanism is built again from the scene in the folder, so meshes and\n"
+    "drawings that it names must be where they were. Of tables too long for it every curve keeps its least and greatest values.\n"
+    "docs/report.md says more. Exit codes: see pintle --help\n";
+
+void add_report_options(CLI::App& command, Options& options) {
+  command.add_option("results", options.scene, "a folder that run, kinematics or inverse has written")
+      ->required()
+      ->check(named())
+      ->type_name("DIR");
+  command.add_option("-o,--out", options.out, "the page to write; one that is there is replaced (default: DIR/report.html)")
+      ->check(named())
+      ->type_name("FILE.html");
+  command.add_option("--size", options.megabytes, "how large the page may be, about, in MB (default 5)")
+      ->type_name("MB")
+      ->check(CLI::Range(1.0, 200.0));
+  command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  command.footer(what_report_writes);
+}
+
 void add_options(CLI::App& command, Options& options) {
   const std::string name = command.get_name();
   add_bounds(command, options);
+  if (name == "report") return add_report_options(command, options);
   if (name == "sweep") return add_sweep_options(command, options);
   if (name == "tradeoff") return add_tradeoff_options(command, options);
   command.add_option("scene", options.scene, "scene file (YAML)")->required()->check(named())->type_name("SCENE.yaml");
@@ -232,6 +255,7 @@ void add_options(CLI::App& command, Options& options) {
     command.add_option("--restart", options.restart, "go on from a saved state of this scene, states/NNNNN.state of a run")
         ->check(named())
         ->type_name("FILE.state");
+  if (name == "run") command.add_flag("--report", options.report, "make a page of the results as well, DIR/report.html");
   if (name == "run") command.footer(what_it_writes);
   if (name == "run") return;
   if (name == "linearize") return add_linearize_options(command, options);
@@ -277,6 +301,7 @@ int carry_out(int argc, char** argv) {
       {app.add_subcommand("linearize", "Find natural frequencies, damping and state-space matrices about a state"), linearize},
       {app.add_subcommand("sweep", "Run many cases of a scene into one table, by threads or MPI"), sweep},
       {app.add_subcommand("tradeoff", "Measure error against time over settings of fidelity, and recommend one"), tradeoff},
+      {app.add_subcommand("report", "Turn the results of a run into one page: motion, plots, impacts, ledger"), report},
       {app.add_subcommand("modes", "Find the natural frequencies and mode shapes of one body of elements"), modes},
       {app.add_subcommand("static",
                           "Solve the static load case of one body of elements, or of some that touch (of a whole mechanism: statics)"),

@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "app/cost_text.h"
 #include "app/progress.h"
+#include "app/report.h"
 #include "app/run_end.h"
 #include "framework/analysis/simulate/identity.h"
 #include "framework/bodies/segments.h"
@@ -330,7 +331,12 @@ int run(const Options& options) {
     std::cout << run_json(scene, model, assembly, result);
   else if (!options.quiet)
     print_run(scene, model, result, out);
-  return exit_code(options, scene, result);
+  const int exit = exit_code(options, scene, result);
+  if (!options.report || result.status == Status::not_written) return exit;
+  const fs::path page = out / "report.html";
+  write_report(out, page, options.megabytes);
+  if (!options.quiet && !options.json) std::cout << "  report: " << page.string() << "\n";
+  return exit;
 }
 
 }  // namespace pintle::app

@@ -28,6 +28,8 @@ struct Options {
   std::vector<std::string> allowed;  ///< folders that scenes may read from
   std::string mesh_time;             ///< of one body; empty: as the library says
   double mesh_memory = 0;            ///< [GB]; 0: likewise
+  bool report = false;               ///< of a run: make a page of its results
+  double megabytes = 5;              ///< of that page, about
 };
 
 // One a command; each returns its exit code.
@@ -42,6 +44,7 @@ int inverse(const Options&);
 int linearize(const Options&);
 int sweep(const Options&);
 int tradeoff(const Options&);
+int report(const Options&);
 
 /// What a scene's files may do and cost, from here on.  @throws SceneError  an option cannot be read
 void set_bounds(const Options&);

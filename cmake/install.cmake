@@ -4,7 +4,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(pintle_config ${CMAKE_INSTALL_LIBDIR}/cmake/pintle)
 
-install(TARGETS pintle pintle_eigen pintle_plots EXPORT pintleTargets)
+install(TARGETS pintle pintle_eigen pintle_plots pintle_report EXPORT pintleTargets)
 install(DIRECTORY contact elements files framework meshes DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pintle
   FILES_MATCHING PATTERN "*.h")
 install(FILES eigen_layout.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pintle)

@@ -1,0 +1,33 @@
+// The results of a run as one page.
+#include "app/report.h"
+
+#include <iostream>
+
+#include "app/options.h"
+#include "app/progress.h"
+#include "app/run_end.h"
+#include "framework/common/file.h"
+#include "framework/output/results_directory.h"
+#include "framework/report/run_report.h"
+
+namespace pintle::app {
+
+namespace fs = std::filesystem;
+
+void write_report(const fs::path& directory, const fs::path& file, double megabytes) {
+  now_doing("writing the report");
+  write_text(file, report_page(directory, report_limits(1e6 * megabytes)));
+}
+
+int report(const Options& options) {
+  const fs::path directory = without_slash(options.scene);
+  const fs::path file = options.out.empty() ? directory / "report.html" : fs::path(options.out);
+  if (!options.out.empty()) require_file_place(file);
+  write_report(directory, file, options.megabytes);
+  if (!options.quiet)
+    std::cout << "  " << file.string() << "  " << number(static_cast<double>(fs::file_size(file)) / 1e6, 3)
+              << " MB; open it in a browser\n";
+  return ok;
+}
+
+}  // namespace pintle::app

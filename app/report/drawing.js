@@ -1,0 +1,359 @@
+"use strict";
+
+// What is drawn of the mechanism at `stage.time`, from the ground up to the arrows.
+
+function drawMechanism(stage) {
+  const { model } = stage;
+  for (const profile of model.ground) drawGround(stage, stage.profilePoints(profile, stage.now), profile.closed);
+  for (const joint of model.joints) if (joint.symbol.includes("guide")) drawGuide(stage, joint);
+  model.bodies.forEach((body, b) => drawBody(stage, body, b));
+  if (stage.show.paths) stage.paths.forEach((path, i) => drawPath(stage, path, i));
+  for (const force of model.forces) if (force.spring) drawSpring(stage, force);
+  for (const joint of model.joints) drawJoint(stage, joint);
+  for (const contact of model.contacts) if (contact.radius) drawClearance(stage, contact);
+  if (stage.show.forces) drawForces(stage);
+  if (stage.show.names) drawNames(stage);
+  drawScaleBar(stage);
+  drawNotes(stage);
+}
+
+function trace(stage, points, closed) {
+  const { context } = stage;
+  context.beginPath();
+  points.forEach((p, i) => {
+    const [x, y] = stage.px(p);
+    if (i === 0) context.moveTo(x, y);
+    else context.lineTo(x, y);
+  });
+  if (closed) context.closePath();
+}
+
+function stroke(stage, colour, width, dash = []) {
+  const { context } = stage;
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.setLineDash(dash);
+  context.stroke();
+  context.setLineDash([]);
+}
+
+function fill(stage, colour, opacity) {
+  const { context } = stage;
+  context.globalAlpha = opacity;
+  context.fillStyle = colour;
+  context.fill();
+  context.globalAlpha = 1;
+}
+
+function circle(stage, at, pixels) {
+  const [x, y] = stage.px(at);
+  stage.context.beginPath();
+  stage.context.arc(x, y, Math.max(pixels, 0.5), 0, 2 * Math.PI);
+}
+
+// Ground
+
+function drawGround(stage, points, closed) {
+  const sides = points.map((p, i) => [p, points[i + 1] ?? (closed ? points[0] : null)]).filter(([, to]) => to);
+  const { context } = stage;
+  context.beginPath();
+  for (const [from, to] of sides) hatch(stage, stage.px(from), stage.px(to));
+  stroke(stage, stage.colours.faint, 1);
+  trace(stage, points, closed);
+  stroke(stage, stage.colours.ink, 1.5);
+}
+
+/// Short strokes on the left of a side, where the material is; only of what is in the picture.
+function hatch(stage, [x0, y0], [x1, y1]) {
+  const length = Math.hypot(x1 - x0, y1 - y0);
+  const seen = seenPart(stage, x0, y0, x1, y1);
+  if (!seen || length === 0) return;
+  const [dx, dy] = [(x1 - x0) / length, (y1 - y0) / length];
+  const spacing = 9;
+  for (let s = spacing * Math.ceil((seen[0] * length) / spacing); s <= seen[1] * length; s += spacing) {
+    const [x, y] = [x0 + s * dx, y0 + s * dy];
+    stage.context.moveTo(x, y);
+    stage.context.lineTo(x + 6 * dy - 5 * dx, y - 6 * dx - 5 * dy);
+  }
+}
+
+/// Shares of a line between which it is in the picture, null if it is nowhere.
+function seenPart(stage, x0, y0, x1, y1) {
+  let [from, to] = [0, 1];
+  for (const [start, step, limit] of [[x0, x1 - x0, stage.width], [y0, y1 - y0, stage.height]]) {
+    if (step === 0) {
+      if (start < 0 || start > limit) return null;
+      continue;
+    }
+    const [enter, leave] = [-start / step, (limit - start) / step].sort((a, b) => a - b);
+    from = Math.max(from, enter);
+    to = Math.min(to, leave);
+  }
+  return from < to ? [from, to] : null;
+}
+
+/// A small support under a pin that the ground holds.
+function drawSupport(stage, at, size) {
+  const [x, y] = stage.px(at);
+  const { context } = stage;
+  context.beginPath();
+  context.moveTo(x, y);
+  context.lineTo(x - size, y + 1.6 * size);
+  context.lineTo(x + size, y + 1.6 * size);
+  context.closePath();
+  fill(stage, stage.colours.faint, 0.25);
+  stroke(stage, stage.colours.faint, 1);
+  context.beginPath();
+  for (let k = -1; k < 1.01; k += 0.5) {
+    context.moveTo(x + k * size, y + 1.6 * size);
+    context.lineTo(x + (k - 0.45) * size, y + 2.1 * size);
+  }
+  stroke(stage, stage.colours.faint, 1);
+}
+
+// Bodies
+
+const bodyColour = (stage, b) => stage.colours.bodies[b % stage.colours.bodies.length];
+
+function drawBody(stage, body, b) {
+  const pose = stage.now[b];
+  const colour = bodyColour(stage, b);
+  const outlines = body.profiles.map((p) => ({ points: stage.profilePoints(p, stage.now), closed: p.closed }));
+  if (body.outline.length > 0) {
+    const points = Array.from({ length: body.outline.length / 2 }, (_, i) => toWorld(pose, body.outline[2 * i], body.outline[2 * i + 1]));
+    outlines.push({ points, closed: true });
+  }
+  if (body.profiles.length > 0) drawBars(stage, b, outlines, colour);
+  for (const { points, closed } of outlines) {
+    trace(stage, points, closed);
+    if (closed) fill(stage, colour, 0.22);
+    stroke(stage, colour, 1.75);
+  }
+  if (stage.meshes[b]) drawMesh(stage, stage.meshes[b], pose, colour);
+}
+
+/// What holds the surfaces of a body together: bars from its first joint to the others and to the middle of each surface.
+function drawBars(stage, b, outlines, colour) {
+  const { model, motion } = stage;
+  const markers = new Set([...model.joints, ...model.contacts.filter((c) => c.radius)].flatMap((j) => [j.a, j.b]).filter((m) => model.markers[m].body === b));
+  const middle = (points) => ({ x: points.reduce((sum, p) => sum + p.x, 0) / points.length, y: points.reduce((sum, p) => sum + p.y, 0) / points.length });
+  const [first, ...others] = [...[...markers].map((m) => motion.place(m, stage.now)), ...outlines.map(({ points }) => middle(points))];
+  for (const other of others) {
+    trace(stage, [first, other], false);
+    stage.context.globalAlpha = 0.3;
+    stroke(stage, colour, Math.min(Math.max(0.5 * model.pin * stage.scale, 3), 10));
+    stage.context.globalAlpha = 1;
+  }
+}
+
+function drawMesh(stage, mesh, pose, colour) {
+  mesh.bend(pose, stage.deformation);
+  const { context } = stage;
+  const at = new Float64Array(mesh.world.length);
+  for (let p = 0; p < mesh.count; ++p) [at[2 * p], at[2 * p + 1]] = stage.px({ x: mesh.world[2 * p], y: mesh.world[2 * p + 1] });
+  if (stage.show.stress) {
+    mesh.stress(pose.eta);
+    fillByStress(stage, mesh, at);
+  } else {
+    context.beginPath();
+    for (let k = 0; k < mesh.triangles.length; k += 3) traceTriangle(context, mesh.triangles, k, at);
+    fill(stage, colour, 0.3);
+  }
+  context.beginPath();
+  for (let k = 0; k < mesh.rim.length; k += 2) {
+    const [a, b] = [mesh.rim[k], mesh.rim[k + 1]];
+    context.moveTo(at[2 * a], at[2 * a + 1]);
+    context.lineTo(at[2 * b], at[2 * b + 1]);
+  }
+  stroke(stage, stage.show.stress ? stage.colours.ink : colour, stage.show.stress ? 0.8 : 1.5);
+}
+
+function traceTriangle(context, triangles, k, at) {
+  const [a, b, c] = [triangles[k], triangles[k + 1], triangles[k + 2]];
+  context.moveTo(at[2 * a], at[2 * a + 1]);
+  context.lineTo(at[2 * b], at[2 * b + 1]);
+  context.lineTo(at[2 * c], at[2 * c + 1]);
+  context.closePath();
+}
+
+/// Triangles of one colour are filled together.
+function fillByStress(stage, { triangles, mises }, at) {
+  const { context } = stage;
+  const groups = new Map();
+  for (let k = 0; k < triangles.length; k += 3) {
+    const mean = (mises[triangles[k]] + mises[triangles[k + 1]] + mises[triangles[k + 2]]) / 3;
+    const colour = scaleColour(stage.greatestStress > 0 ? mean / stage.greatestStress : 0);
+    if (!groups.has(colour)) groups.set(colour, []);
+    groups.get(colour).push(k);
+  }
+  for (const [colour, members] of groups) {
+    context.beginPath();
+    for (const k of members) traceTriangle(context, triangles, k, at);
+    fill(stage, colour, 1);
+    stroke(stage, colour, 0.7);  // no gaps between neighbours
+  }
+}
+
+// Joints, clearances, springs
+
+const pinPixels = (stage) => Math.min(Math.max(0.6 * stage.model.pin * stage.scale, 3), 9);
+
+function drawGuide(stage, joint) {
+  const a = stage.motion.place(joint.a, stage.now);
+  const b = stage.motion.place(joint.b, stage.now);
+  const [ux, uy] = [Math.cos(a.angle), Math.sin(a.angle)];
+  const along = ux * (b.x - a.x) + uy * (b.y - a.y);
+  const half = 0.5 * stage.model.length;
+  trace(stage, [along - half, along + half].map((s) => ({ x: a.x + s * ux, y: a.y + s * uy })), false);
+  stroke(stage, stage.colours.faint, 1, [8, 4, 2, 4]);
+}
+
+function drawJoint(stage, joint) {
+  const a = stage.motion.place(joint.a, stage.now);
+  const b = stage.motion.place(joint.b, stage.now);
+  if (joint.symbol === "rod") {
+    trace(stage, [a, b], false);
+    stroke(stage, stage.colours.ink, 2.5);
+  }
+  if (!joint.symbol.startsWith("pin")) return;
+  const { markers } = stage.model;
+  const grounded = joint.symbol === "pin" && (markers[joint.a].body < 0 || markers[joint.b].body < 0);
+  if (grounded) drawSupport(stage, b, 1.6 * pinPixels(stage) + 3);
+  circle(stage, b, pinPixels(stage));
+  fill(stage, stage.colours.paper, 1);
+  stroke(stage, stage.colours.ink, 1.5);
+}
+
+/// Bearing and journal, the play between them drawn larger than it is.
+function drawClearance(stage, contact) {
+  const centre = stage.motion.place(contact.b, stage.now);
+  const e = stage.motion.point(contact.name, ["ex", "ey"], stage.time);
+  if (!e) return;
+  const factor = stage.exaggeration;
+  const journal = Math.max(contact.radius - factor * contact.clearance, 0.05 * contact.radius);
+  circle(stage, centre, contact.radius * stage.scale);
+  fill(stage, stage.colours.paper, 1);
+  stroke(stage, stage.colours.ink, 1.5);
+  circle(stage, { x: centre.x + factor * e.x, y: centre.y + factor * e.y }, journal * stage.scale);
+  fill(stage, stage.colours.ink, 0.3);
+  stroke(stage, stage.colours.ink, 1.5);
+}
+
+function drawSpring(stage, spring) {
+  const [x0, y0] = stage.px(stage.motion.place(spring.a, stage.now));
+  const [x1, y1] = stage.px(stage.motion.place(spring.b, stage.now));
+  const length = Math.hypot(x1 - x0, y1 - y0) || 1;
+  const width = Math.min(Math.max(stage.model.pin * stage.scale, 4), 12);
+  const [nx, ny] = [(-width * (y1 - y0)) / length, (width * (x1 - x0)) / length];
+  const turns = 14;
+  const { context } = stage;
+  context.beginPath();
+  for (let i = 0; i <= turns; ++i) {
+    const side = i < 2 || i > turns - 2 ? 0 : i % 2 ? 1 : -1;
+    context.lineTo(x0 + ((x1 - x0) * i) / turns + side * nx, y0 + ((y1 - y0) * i) / turns + side * ny);
+  }
+  stroke(stage, stage.colours.spring, 1.5);
+}
+
+// Paths, forces, words
+
+function drawPath(stage, path, i) {
+  const colour = bodyColour(stage, i + 3);
+  const every = Math.max(1, Math.floor(path.t.length / 1500));
+  const points = [];
+  const done = [];
+  for (let k = 0; k < path.t.length; k += every) {
+    const point = { x: path.x[k], y: path.y[k] };
+    points.push(point);
+    if (path.t[k] <= stage.time) done.push(point);
+  }
+  stage.context.globalAlpha = 0.35;
+  trace(stage, points, false);
+  stroke(stage, colour, 1);
+  stage.context.globalAlpha = 1;
+  trace(stage, done, false);
+  stroke(stage, colour, 1.75);
+}
+
+function drawForces(stage) {
+  if (!(stage.usualForce > 0)) return;
+  const perNewton = (0.16 * Math.min(stage.width, stage.height) * stage.arrows) / stage.usualForce;
+  const longest = 0.55 * Math.min(stage.width, stage.height);
+  for (const { kind, at, force } of stage.motion.forces(stage.time, stage.now)) {
+    const size = Math.hypot(force.x, force.y);
+    const pixels = Math.min(size * perNewton, longest);
+    if (pixels > 2) drawArrow(stage, stage.px(at), force.x / size, -force.y / size, pixels, stage.colours[kind]);
+  }
+}
+
+function drawArrow(stage, [x, y], ux, uy, length, colour) {
+  const head = Math.min(9, 0.6 * length);
+  const [tx, ty] = [x + length * ux, y + length * uy];
+  const { context } = stage;
+  context.beginPath();
+  context.moveTo(x, y);
+  context.lineTo(tx - 0.8 * head * ux, ty - 0.8 * head * uy);
+  stroke(stage, colour, 2);
+  context.beginPath();
+  context.moveTo(tx, ty);
+  context.lineTo(tx - head * ux - 0.4 * head * uy, ty - head * uy + 0.4 * head * ux);
+  context.lineTo(tx - head * ux + 0.4 * head * uy, ty - head * uy - 0.4 * head * ux);
+  context.closePath();
+  fill(stage, colour, 1);
+}
+
+function write(stage, text, x, y, colour, align = "left") {
+  const { context } = stage;
+  context.font = "12px system-ui, sans-serif";
+  context.textAlign = align;
+  context.textBaseline = "middle";
+  context.lineWidth = 3;
+  context.strokeStyle = stage.colours.paper;
+  context.strokeText(text, x, y);
+  context.fillStyle = colour;
+  context.fillText(text, x, y);
+}
+
+/// Names of bodies in their middle, of joints beside them; what would cover another name is left out.
+function drawNames(stage) {
+  const taken = [];
+  const place = (text, x, y, colour, align) => {
+    const width = 7 * text.length;
+    const left = align === "center" ? x - width / 2 : x;
+    if (taken.some(([l, r, h]) => left < r && left + width > l && Math.abs(h - y) < 14)) return;
+    taken.push([left, left + width, y]);
+    write(stage, text, x, y, colour, align);
+  };
+  stage.model.bodies.forEach((body, b) => {
+    const [x, y] = stage.px(stage.now[b]);
+    place(body.name, x, y, bodyColour(stage, b), "center");
+  });
+  for (const thing of [...stage.model.joints, ...stage.model.contacts.filter((c) => c.radius)]) {
+    const [x, y] = stage.px(stage.motion.place(thing.b, stage.now));
+    if (thing.symbol !== "none") place(thing.name, x + 12, y - 12, stage.colours.ink, "left");
+  }
+}
+
+function drawScaleBar(stage) {
+  const wanted = 110 / stage.scale;
+  const power = 10 ** Math.floor(Math.log10(wanted));
+  const length = [5, 2, 1].map((n) => n * power).find((n) => n <= wanted) ?? power;
+  const pixels = length * stage.scale;
+  const [x, y] = [16, stage.height - 18];
+  const { context } = stage;
+  context.beginPath();
+  context.moveTo(x, y - 4);
+  context.lineTo(x, y);
+  context.lineTo(x + pixels, y);
+  context.lineTo(x + pixels, y - 4);
+  stroke(stage, stage.colours.ink, 1.25);
+  write(stage, engineering(length, "m"), x + pixels + 8, y - 2, stage.colours.ink);
+}
+
+/// What is not drawn as it is.
+function drawNotes(stage) {
+  const notes = [];
+  if (stage.model.contacts.some((c) => c.radius) && stage.exaggeration !== 1) notes.push(`clearance drawn ${plain(stage.exaggeration, 3)} times as large`);
+  if (stage.meshes.some((m) => m) && stage.deformation !== 1) notes.push(`deformation drawn ${plain(stage.deformation, 3)} times as large`);
+  notes.forEach((note, i) => write(stage, note, 16, 18 + 17 * i, stage.colours.faint));
+}

@@ -1,0 +1,51 @@
+"use strict";
+
+// How the results were made: run.json as lists and tables.
+
+const isScalar = (value) => value === null || typeof value !== "object";
+const scalarText = (value) => (value === null ? "none" : typeof value === "number" ? plain(value, 6) : typeof value === "boolean" ? (value ? "yes" : "no") : value || "–");
+
+function factsOf(value) {
+  if (isScalar(value)) return element("span", { textContent: scalarText(value) });
+  if (Array.isArray(value) && value.every(isScalar)) return element("span", { textContent: value.map(scalarText).join(", ") || "none" });
+  if (Array.isArray(value)) return tableOf(value);
+  const list = element("dl");
+  for (const [key, one] of Object.entries(value)) list.append(element("dt", { textContent: key }), element("dd", {}, factsOf(one)));
+  return list;
+}
+
+/// Objects with the same keys, a row each.
+function tableOf(objects) {
+  const keys = [...new Set(objects.flatMap((one) => Object.keys(one)))];
+  const rows = objects.map((one) => element("tr", {}, ...keys.map((key) => element("td", {}, factsOf(one[key] ?? null)))));
+  return element("div", { className: "scroll" }, element("table", {}, element("thead", {}, element("tr", {}, ...keys.map((key) => element("th", { scope: "col", textContent: key })))), element("tbody", {}, ...rows)));
+}
+
+function showFacts(run) {
+  const elsewhere = new Set(["title", "warnings", "scene text"]);
+  for (const [name, value] of Object.entries(run)) {
+    if (elsewhere.has(name) || isScalar(value) || Object.keys(value).length === 0) continue;
+    byId("facts").append(element("section", { className: "card" }, element("h3", { textContent: name }), factsOf(value)));
+  }
+  const single = Object.fromEntries(Object.entries(run).filter(([name, value]) => !elsewhere.has(name) && isScalar(value) && value !== ""));
+  byId("facts").prepend(element("section", { className: "card" }, element("h3", { textContent: "run" }), factsOf(single)));
+  byId("scene-text").textContent = run["scene text"] ?? "";
+  byId("scene-text").parentElement.hidden = !run["scene text"];
+}
+
+function showHead(title, run) {
+  byId("title").textContent = title;
+  const took = run["timings [s]"]?.integration ?? run["timings [s]"]?.computing;
+  const words = [];
+  if (run.status) words.push(run.status + (run.reason ? `: ${run.reason}` : ""));
+  if (run["reached [s]"] !== undefined) words.push(`to ${engineering(run["reached [s]"], "s", 6)}`);
+  if (run.method?.name) words.push(`by ${run.method.name}`);
+  if (run.counts?.steps) words.push(`${run.counts.steps} steps`);
+  if (took !== undefined) words.push(`computed in ${engineering(took, "s", 3)}`);
+  if (run.program) words.push(`${run.program} ${run.version}`);
+  byId("summary").textContent = words.join(" · ");
+  byId("summary").classList.toggle("trouble", (run.status ?? "finished") !== "finished");
+  const warnings = run.warnings ?? [];
+  byId("warnings").hidden = warnings.length === 0;
+  byId("warnings").append(...warnings.map((text) => element("li", { textContent: text })));
+}

@@ -1,0 +1,299 @@
+"use strict";
+
+// A plot of columns against time or against another column, drawn by uPlot; `clock` has the time shown and tells who asks of changes.
+
+class PlotPanel {
+  constructor(clock, table, names, against = null) {
+    this.clock = clock;
+    this.table = table;
+    this.names = names;
+    this.against = against;
+    this.values = element("ul", { className: "values" });
+    this.axis = element("button", { type: "button", className: "quiet", title: "What it is plotted against" });
+    const add = element("button", { type: "button", className: "quiet", textContent: "+ column" });
+    const close = element("button", { type: "button", className: "quiet", textContent: "×", title: "Remove this plot" });
+    close.ariaLabel = "Remove this plot";
+    this.area = element("div", { className: "area" });
+    this.root = element("article", { className: "panel" }, element("header", {}, this.values, element("span", { className: "tools" }, this.axis, add, close)), this.area);
+    add.onclick = () => pickColumn("Add a column", this.table.columns, (name) => this.change([...this.names.filter((n) => n !== name), name]));
+    this.axis.onclick = () => pickColumn("Plot against", this.table.columns, (name) => this.change(this.names, name), "time");
+    close.onclick = () => this.onclose?.();
+    clock.listen(() => this.showNow());
+  }
+
+  change(names, against = this.against) {
+    this.names = names;
+    this.against = against === "time" ? null : against;
+    this.draw();
+    this.onchange?.();
+  }
+
+  columns() {
+    return this.names.map((name) => this.table.columns.get(name)).filter((column) => column);
+  }
+
+  draw() {
+    this.plot?.destroy();
+    this.area.replaceChildren();
+    this.marker = element("div", { className: "now" });
+    const columns = this.columns();
+    this.axis.textContent = `against ${this.against ?? "time"}`;
+    this.listValues(columns);
+    if (columns.length === 0) return;
+    const build = this.against ? orbitPlot : timePlot;
+    this.plot = build(this, columns, this.area.clientWidth || 480, 230);
+    this.plot.over.append(this.marker);
+    this.showNow();
+  }
+
+  resize() {
+    if (this.plot && this.area.clientWidth > 0 && this.area.clientWidth !== this.plot.width) this.plot.setSize({ width: this.area.clientWidth, height: 230 });
+    this.showNow();
+  }
+
+  /// The columns as a legend that shows their values at the time shown; each can be taken out.
+  listValues(columns) {
+    this.values.replaceChildren();
+    this.shown = columns.map((column, i) => {
+      const value = element("output", {});
+      const remove = element("button", { type: "button", className: "quiet", textContent: "×" });
+      remove.ariaLabel = `Take out ${column.name}`;
+      remove.onclick = () => this.change(this.names.filter((name) => name !== column.name));
+      const swatch = element("i", { className: `swatch ${i >= 4 ? "dashed" : ""}` });
+      swatch.style.color = seriesColour(i);
+      this.values.append(element("li", {}, swatch, element("span", { textContent: column.name }), value, remove));
+      return { column, value };
+    });
+    if (columns.length === 0) this.values.append(element("li", { className: "hint", textContent: "no column yet" }));
+  }
+
+  /// Values at the time shown, or under the pointer, and where that is in the plot.
+  showNow() {
+    const time = this.clock.pointed ?? this.clock.time;
+    for (const { column, value } of this.shown ?? []) {
+      const x = valueAt(column, time);
+      value.textContent = takesPrefix.has(column.unit) ? engineering(x, column.unit, 7) : withUnit(x, column.unit, 7);
+      value.title = String(x);
+    }
+    if (!this.plot) return;
+    const place = this.against ? orbitPlace(this) : this.plot.valToPos(this.clock.time, "x");
+    if (this.against) this.marker.style.transform = `translate(${place[0]}px, ${place[1]}px)`;
+    else this.marker.style.transform = `translateX(${place}px)`;
+    this.marker.classList.toggle("dot", this.against !== null);
+    this.marker.hidden = this.against === null && (place < 0 || place > this.plot.over.clientWidth);
+  }
+}
+
+const axisStyle = () => ({ stroke: css("--ink"), grid: { stroke: css("--line"), width: 1 }, ticks: { stroke: css("--line"), width: 1, size: 5 }, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif" });
+
+/// An axis whose numbers are written in a fitting multiple of the unit.
+function axisOf(unit, title, scaleKey, more = {}) {
+  const fitted = (u) => {
+    const { min, max } = u.scales[scaleKey];
+    return scaleFor(Math.max(Math.abs(min ?? 0), Math.abs(max ?? 0)), unit);
+  };
+  return {
+    ...axisStyle(),
+    scale: scaleKey,
+    label: (u) => (scaleKey && u.scales[scaleKey] ? `${title ? title + " " : ""}[${fitted(u).unit || "–"}]` : title),
+    labelSize: 18,
+    labelGap: 2,
+    values: (u, splits) => axisNumbers(splits, fitted(u).factor),
+    ...more,
+  };
+}
+
+/// Numbers of an axis with as many decimals as tell them apart.
+function axisNumbers(splits, factor) {
+  const scaled = splits.map((x) => x * factor);
+  const step = scaled.length > 1 ? Math.abs(scaled[1] - scaled[0]) : 1;
+  let decimals = 0;
+  while (decimals < 8 && scaled.some((x) => Math.abs(Number(x.toFixed(decimals)) - x) > 1e-3 * step)) ++decimals;
+  return scaled.map((x) => (Math.abs(x) < 1e-9 * step ? 0 : x).toFixed(decimals).replace("-", "−"));
+}
+
+/// Columns with times of their own on all of their times together.
+function joined(columns) {
+  const withoutNaN = ({ y }) => (y.some(Number.isNaN) ? Array.from(y, (x) => (Number.isNaN(x) ? null : x)) : y);
+  if (columns.every(({ t }) => t === columns[0].t)) return [columns[0].t, ...columns.map(withoutNaN)];
+  return uPlot.join(columns.map((column) => [column.t, withoutNaN(column)]));
+}
+
+function timePlot(panel, columns, width, height) {
+  const units = [...new Set(columns.map(({ unit }) => unit))];
+  const scales = { x: { time: false } };
+  for (const unit of units) scales[`y ${unit}`] = { range: paddedRange };
+  const axes = units.map((unit, i) =>
+    axisOf(unit, "", `y ${unit}`, { side: i % 2 ? 1 : 3, size: 58, grid: { show: i === 0, stroke: css("--line"), width: 1 } }));
+  const series = columns.map(({ name, unit }, i) => ({
+    label: name, scale: `y ${unit}`, stroke: seriesColour(i), width: 1.5, dash: i >= 4 ? [6, 3] : undefined, points: { show: false },
+  }));
+  const options = {
+    width, height, scales,
+    legend: { show: false },
+    series: [{ label: "t" }, ...series],
+    axes: [axisOf("s", "time", "x", { size: 34, labelSize: 18 }), ...axes],
+    cursor: { y: false, sync: { key: "time" }, drag: { x: true, y: false }, points: { size: 6 } },
+    hooks: timeHooks(panel.clock),
+  };
+  return new uPlot(options, joined(columns), panel.area);
+}
+
+/// A range a little wider than the data, and not empty.
+function paddedRange(u, least, most) {
+  if (least === null || most === null) return [0, 1];
+  const margin = 0.06 * (most - least) || 0.1 * Math.abs(most) || 1;
+  return [least - margin, most + margin];
+}
+
+/// What every plot over time does: the pointer shows values, a click goes there, a zoom is one of all plots, impacts are marked.
+function timeHooks(clock) {
+  return {
+    ready: [(u) => clickGoes(u, clock)],
+    setCursor: [(u) => u.cursor.event && clock.point(u.cursor.left >= 0 && u.cursor.idx !== null ? u.data[0][u.cursor.idx] : null)],
+    setScale: [(u, key) => key === "x" && clock.zoom(u)],
+    drawClear: [(u) => markEvents(u, clock.events)],
+  };
+}
+
+function clickGoes(u, clock) {
+  let pressed = 0;
+  u.over.addEventListener("mousedown", (event) => (pressed = event.clientX));
+  u.over.addEventListener("mouseup", (event) => {
+    if (Math.abs(event.clientX - pressed) < 4 && u.cursor.idx !== null) clock.set(u.data[0][u.cursor.idx]);
+  });
+  u.over.addEventListener("mouseleave", () => clock.point(null));
+  clock.plots.add(u);
+  (u.hooks.destroy ??= []).push(() => clock.plots.delete(u));
+}
+
+function markEvents(u, events) {
+  if (events.length === 0) return;
+  const { ctx, bbox } = u;
+  ctx.save();
+  ctx.strokeStyle = css("--accent");
+  ctx.globalAlpha = events.length > 60 ? 0.25 : 0.45;
+  ctx.lineWidth = 1;
+  ctx.beginPath();
+  for (const time of events) {
+    const x = Math.round(u.valToPos(time, "x", true)) + 0.5;
+    if (x < bbox.left || x > bbox.left + bbox.width) continue;
+    ctx.moveTo(x, bbox.top);
+    ctx.lineTo(x, bbox.top + 7 * (window.devicePixelRatio || 1));
+  }
+  ctx.stroke();
+  ctx.restore();
+}
+
+// One column against another: a joint's orbit, a load over a path.
+
+/// Both columns at the times of the one that has fewer of them.
+function pairOf(first, second) {
+  const t = first.t.length <= second.t.length ? first.t : second.t;
+  const at = (column) => (column.t === t ? column.y : t.map((time) => valueAt(column, time)));
+  return { t, x: at(first), y: at(second) };
+}
+
+function orbitPlot(panel, columns, width, height) {
+  const evenly = panel.table.poses.columns;  // where both are read at the same rows, if they are
+  const column = (name) => evenly.get(name) ?? panel.table.columns.get(name);
+  const abscissa = column(panel.against);
+  panel.pairs = columns.map(({ name }) => pairOf(abscissa, column(name)));
+  const wide = panel.pairs.map(({ x }) => rangeOf(x));
+  const high = panel.pairs.map(({ y }) => rangeOf(y));
+  let x = padded(Math.min(...wide.map((r) => r[0])), Math.max(...wide.map((r) => r[1])));
+  let y = padded(Math.min(...high.map((r) => r[0])), Math.max(...high.map((r) => r[1])));
+  if (columns.every(({ unit }) => unit === abscissa.unit)) [x, y] = equalScales(x, y, (width - 80) / (height - 60));
+  const curve = (i) => ({
+    stroke: seriesColour(i), width: 1.25, paths: orbitPath, label: columns[i].name, points: { show: false },
+    facets: [{ scale: "x", auto: false, sorted: 0 }, { scale: "y", auto: false, sorted: 0 }],
+  });
+  const options = {
+    mode: 2, width, height,
+    legend: { show: false },
+    scales: { x: { time: false, auto: false, range: x }, y: { auto: false, range: y } },
+    series: [null, ...columns.map((_, i) => curve(i))],
+    axes: [axisOf(abscissa.unit, abscissa.name, "x", { size: 34, labelSize: 18 }), axisOf(columns[0].unit, "", "y", { size: 58 })],
+    cursor: { x: false, y: false, points: { show: false }, drag: { setScale: false, x: false, y: false } },
+    hooks: { ready: [(u) => orbitClicks(u, panel)] },
+  };
+  return new uPlot(options, [null, ...panel.pairs.map(({ x: px, y: py }) => [px, py])], panel.area);
+}
+
+const padded = (least, most) => paddedRange(null, least, most);
+
+/// The same length of both axes a unit, so that circles are round.
+function equalScales([x0, x1], [y0, y1], aspect) {
+  const unit = Math.max((x1 - x0) / aspect, y1 - y0);
+  const around = (a, b, size) => [(a + b - size) / 2, (a + b + size) / 2];
+  return [around(x0, x1, unit * aspect), around(y0, y1, unit)];
+}
+
+function orbitPath(u, seriesIndex) {
+  const [xs, ys] = u.data[seriesIndex];
+  const path = new Path2D();
+  let drawing = false;
+  for (let i = 0; i < xs.length; ++i) {
+    const there = isFinite(xs[i]) && isFinite(ys[i]);
+    if (there) path[drawing ? "lineTo" : "moveTo"](u.valToPos(xs[i], "x", true), u.valToPos(ys[i], "y", true));
+    drawing = there;
+  }
+  const { ctx } = u;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
+  ctx.clip();
+  ctx.strokeStyle = seriesColour(seriesIndex - 1);
+  ctx.lineWidth = 1.25 * (window.devicePixelRatio || 1);
+  ctx.stroke(path);
+  ctx.restore();
+  return null;
+}
+
+function orbitPlace({ plot, pairs, clock }) {
+  const { t, x, y } = pairs[0];
+  const i = nearestIndex(t, clock.time);
+  return [plot.valToPos(x[i], "x"), plot.valToPos(y[i], "y")];
+}
+
+/// A click goes to the time of the nearest point of a curve.
+function orbitClicks(u, { pairs, clock }) {
+  u.over.addEventListener("click", (event) => {
+    const box = u.over.getBoundingClientRect();
+    let best = { distance: Infinity, time: clock.time };
+    for (const { t, x, y } of pairs)
+      for (let i = 0; i < t.length; ++i) {
+        const distance = Math.hypot(u.valToPos(x[i], "x") - event.clientX + box.left, u.valToPos(y[i], "y") - event.clientY + box.top);
+        if (distance < best.distance) best = { distance, time: t[i] };
+      }
+    clock.set(best.time);
+  });
+}
+
+/// A dialogue that lists columns by part of their names.
+function pickColumn(title, columns, chosen, also = null) {
+  const dialog = byId("picker");
+  const filter = byId("picker-filter");
+  const list = byId("picker-list");
+  const names = [...(also ? [also] : []), ...columns.keys()];
+  const most = 300;
+  const fillList = () => {
+    const words = filter.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const fitting = names.filter((name) => words.every((word) => name.toLowerCase().includes(word)));
+    list.replaceChildren(...fitting.slice(0, most).map((name) => {
+      const button = element("button", { type: "button", textContent: name });
+      button.setAttribute("role", "option");
+      button.append(element("span", { className: "unit", textContent: prettyUnit(columns.get(name)?.unit ?? "") }));
+      button.onclick = () => (dialog.close(), chosen(name));
+      return button;
+    }));
+    if (fitting.length > most) list.append(element("p", { textContent: `… and ${fitting.length - most} more; write part of a name` }));
+  };
+  byId("picker-title").textContent = title;
+  filter.value = "";
+  filter.oninput = fillList;
+  filter.onkeydown = (event) => event.key === "Enter" && (event.preventDefault(), list.querySelector("button")?.click());
+  fillList();
+  dialog.showModal();
+  filter.focus();
+}

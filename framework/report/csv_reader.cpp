@@ -1,0 +1,111 @@
+#include "framework/report/csv_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <limits>
+
+namespace pintle {
+
+namespace {
+
+/// Fields of a record, those in quotes without them.
+std::vector<std::string> split_record(const std::string& record) {
+  std::vector<std::string> out(1);
+  bool in_quotes = false;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    const char c = record[i];
+    if (in_quotes && c == '"' && i + 1 < record.size() && record[i + 1] == '"')
+      out.back() += record[++i];
+    else if (c == '"')
+      in_quotes = !in_quotes;
+    else if (c == ',' && !in_quotes)
+      out.emplace_back();
+    else
+      out.back() += c;
+  }
+  return out;
+}
+
+std::ifstream opened(const std::filesystem::path& file) {
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  if (!in || in.peek() == std::char_traits<char>::eof())
+    throw ResultsError(file.string() + ": cannot be read: " + (errno ? std::strerror(errno) : "it is empty") +
+                       "; run the scene again, or name another folder of results");
+  return in;
+}
+
+}  // namespace
+
+CsvReader::CsvReader(std::filesystem::path file) : file_(std::move(file)), in_(opened(file_)) {
+  read_record();
+  header_ = split_record(record_);
+}
+
+bool CsvReader::read_record() {
+  line_ = lines_ + 1;
+  if (!std::getline(in_, record_)) return false;
+  ++lines_;
+  const auto in_quotes = [this] { return std::ranges::count(record_, '"') % 2 == 1; };
+  for (std::string more; in_quotes(); record_ += '\n' + more) {
+    if (!std::getline(in_, more)) fail("a quotation mark is not closed");
+    ++lines_;
+  }
+  if (in_.eof()) fail("the line is cut off; it has no end");
+  if (!record_.empty() && record_.back() == '\r') record_.pop_back();
+  return true;
+}
+
+void CsvReader::fail(const std::string& why) const {
+  throw ResultsError(file_.string() + ":" + std::to_string(line_) + ": " + why + "; run the scene again, or mend the file");
+}
+
+void CsvReader::require_count(std::size_t fields) const {
+  if (fields != header_.size()) fail("has " + std::to_string(fields) + " fields, where the heading has " + std::to_string(header_.size()));
+}
+
+bool CsvReader::next(std::vector<std::string>& fields) {
+  if (!read_record()) return false;
+  fields = split_record(record_);
+  require_count(fields.size());
+  return true;
+}
+
+bool CsvReader::next(std::vector<double>& row) {
+  if (!read_record()) return false;
+  row.clear();
+  const char *at = record_.data(), *const end = at + record_.size();
+  while (true) {
+    const char* const stop = std::find(at, end, ',');
+    double x = std::numeric_limits<double>::quiet_NaN();
+    if (at != stop) {
+      const auto [read, error] = std::from_chars(at, stop, x);
+      if (error != std::errc() || read != stop)
+        fail("\"" + std::string(at, stop) + "\" in column " + std::to_string(row.size() + 1) + " is no number");
+    }
+    row.push_back(x);
+    if (stop == end) break;
+    at = stop + 1;
+  }
+  require_count(row.size());
+  return true;
+}
+
+std::size_t count_rows(const std::filesystem::path& file) {
+  std::ifstream in = opened(file);
+  std::array<char, 1 << 16> block;
+  std::ptrdiff_t lines = 0;
+  while (in.read(block.data(), block.size()) || in.gcount() > 0) lines += std::count(block.data(), block.data() + in.gcount(), '\n');
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(lines - 1, 0));
+}
+
+ColumnName column_name(const std::string& heading) {
+  const std::size_t bracket = heading.rfind(" [");
+  if (bracket == std::string::npos || heading.back() != ']') return {heading, ""};
+  return {heading.substr(0, bracket), heading.substr(bracket + 2, heading.size() - bracket - 3)};
+}
+
+}  // namespace pintle

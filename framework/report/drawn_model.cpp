@@ -1,0 +1,201 @@
+#include "framework/report/drawn_model.h"
+
+#include <span>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/common/index.h"
+#include "framework/mechanism/trajectory.h"
+#include "framework/report/drawn_mesh.h"
+#include "framework/report/page.h"
+
+namespace pintle {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Line = std::vector<Eigen::Vector2d>;
+
+Json flat(const Line& points) {
+  Json out = Json::array();
+  for (const Eigen::Vector2d& p : points) out.push_back(p.x()), out.push_back(p.y());
+  return out;
+}
+
+Json place(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
+
+Json rows(const Eigen::Matrix2Xd& shape) {
+  Json x = Json::array(), y = Json::array();
+  for (Eigen::Index k = 0; k < shape.cols(); ++k) x.push_back(shape(0, k)), y.push_back(shape(1, k));
+  return {x, y};
+}
+
+Json marker_json(const Marker& m) {
+  Json out{{"body", m.body}, {"at", place(m.x_BP)}, {"angle", m.angle}};
+  if (m.shape.cols() > 0) {
+    out["shape"] = rows(m.shape);
+    out["slope"] = std::vector<double>(m.slope.begin(), m.slope.end());
+  }
+  return out;
+}
+
+/// Rows `per` a point of a matrix with a column a shape, of these points alone, shape by shape.
+std::string of_points(const Eigen::MatrixXd& all, int per, const std::vector<int>& points) {
+  std::vector<float> out;
+  for (Eigen::Index shape = 0; shape < all.cols(); ++shape)
+    for (const int p : points)
+      for (int k = 0; k < per; ++k) out.push_back(static_cast<float>(all(per * p + k, shape)));
+  return base64(std::span<const float>(out));
+}
+
+template <std::size_t n>
+std::string numbers(const std::vector<std::array<int, n>>& all) {
+  std::vector<int> out;
+  for (const auto& group : all) out.insert(out.end(), group.begin(), group.end());
+  return base64(std::span<const int>(out));
+}
+
+Json mesh_json(const FlexibleDrawing& body, std::size_t bytes) {
+  const std::size_t shapes = at(body.displacements().cols()), a_point = sizeof(float) * (2 + 6 * shapes) + 6 * 4;
+  const DrawnMesh mesh = drawn_mesh(body, std::max<std::size_t>(bytes / a_point, 50));
+  Line points;
+  for (const int p : mesh.points) points.push_back(body.points().col(p));
+  return {{"points", flat(points)},
+          {"of", body.points().cols()},
+          {"triangles", numbers(mesh.triangles)},
+          {"rim", numbers(mesh.rim)},
+          {"shapes", of_points(body.displacements(), 2, mesh.points)},
+          {"stresses", of_points(body.stresses(), 4, mesh.points)}};
+}
+
+Json profiles_json(const Model& model, int body) {
+  Json out = Json::array();
+  for (const DrawnProfile& p : model.profiles)
+    if (p.body == body) out.push_back({{"marker", p.marker}, {"closed", p.solid}, {"points", flat(p.points)}});
+  return out;
+}
+
+Json bodies_json(const Model& model, const Drafting& drafting, std::size_t mesh_bytes) {
+  Json out = Json::array();
+  auto flexible = model.drawings.begin();
+  const std::size_t share = mesh_bytes / std::max<std::size_t>(model.drawings.size(), 1);
+  for (std::size_t b = 0; b < model.system.bodies.size(); ++b) {
+    const Body& body = model.system.bodies[b];
+    Json one{{"name", body.name},
+             {"origin", place(body.x_BO)},
+             {"outline", flat(drafting.links[b])},
+             {"profiles", profiles_json(model, static_cast<int>(b))},
+             {"modes", body.modes()}};
+    if (body.flex && flexible != model.drawings.end()) one["mesh"] = mesh_json(*flexible++, share);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+const char* symbol_name(JointSymbol symbol) {
+  switch (symbol) {
+    case JointSymbol::none: return "none";
+    case JointSymbol::pin: return "pin";
+    case JointSymbol::guide: return "guide";
+    case JointSymbol::pin_in_guide: return "pin in guide";
+    case JointSymbol::rod: return "rod";
+  }
+  return "";
+}
+
+std::string body_of(const System& system, int marker) {
+  const int body = system.markers[at(marker)].body;
+  return body == ground ? "ground" : system.bodies[at(body)].name;
+}
+
+Json joints_json(const System& system) {
+  Json out = Json::array();
+  for (int k = 0; k < static_cast<int>(system.joints.size()); ++k) {
+    if (is_link(system, k)) continue;
+    const JointEnds ends = ends_of(system.joints[at(k)]);
+    const bool on_a = system.markers[at(ends.marker[1])].body == ground;
+    out.push_back({{"name", system.joint_names[at(k)]},
+                   {"symbol", symbol_name(properties_of(system.joints[at(k)]).symbol)},
+                   {"a", ends.marker[0]},
+                   {"b", ends.marker[1]},
+                   {"acts", ends.marker[on_a ? 0 : 1]},
+                   {"on", joint_subject(system, k)}});
+  }
+  return out;
+}
+
+Json contacts_json(const System& system) {
+  Json out = Json::array();
+  for (const ContactPair& c : system.contacts) {
+    if (c.pair > 0) continue;
+    const std::string& name = system.contact_names[at(&c - system.contacts.data())];
+    Json one{{"name", name}, {"a", c.a}, {"b", c.b}, {"on", body_of(system, c.profiles && !c.journal ? c.b : c.a)}};
+    if (!c.profiles) one["radius"] = bearing_radius(c.gap), one["clearance"] = c.gap.clearance();
+    one["eccentric"] = !c.profiles || c.journal;  // its columns are an eccentricity, not a place
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+Json forces_json(const System& system) {
+  Json out = Json::array();
+  for (std::size_t f = 0; f < system.forces.size(); ++f) {
+    const Force& force = system.forces[f];
+    const bool spring = std::holds_alternative<Spring>(force) || std::holds_alternative<Maxwell>(force);
+    out.push_back({{"name", system.force_names[f]},
+                   {"spring", spring},
+                   {"a", marker_a(force)},
+                   {"b", marker_b(force)},
+                   {"on", body_of(system, marker_b(force))}});
+  }
+  return out;
+}
+
+}  // namespace
+
+Json drawn_model_json(const Scene& scene, const Model& model, std::size_t mesh_bytes) {
+  const Drafting drafting(scene, model);
+  Json markers = Json::array(), points = Json::array();
+  for (const Marker& m : model.system.markers) markers.push_back(marker_json(m));
+  for (const RecordedPoint& p : model.points) points.push_back(p.name);
+  return {{"length", model.system.length},
+          {"pin", drafting.pin},
+          {"exaggeration", drafting.exaggeration},
+          {"deformation", drafting.deformation},
+          {"bodies", bodies_json(model, drafting, mesh_bytes)},
+          {"ground", profiles_json(model, ground)},
+          {"markers", markers},
+          {"joints", joints_json(model.system)},
+          {"contacts", contacts_json(model.system)},
+          {"forces", forces_json(model.system)},
+          {"points", points}};
+}
+
+std::vector<std::string> needed_columns(const Model& model) {
+  std::vector<std::string> out;
+  for (const Body& body : model.system.bodies) {
+    for (const char* const column : {".x", ".y", ".angle"}) out.push_back(body.name + column);
+    for (int i = 1; i <= body.modes(); ++i) out.push_back(body.name + ".mode " + std::to_string(i));
+  }
+  return out;
+}
+
+std::vector<std::string> drawn_columns(const Model& model) {
+  std::vector<std::string> out = needed_columns(model);
+  const System& system = model.system;
+  const auto add_force = [&](const std::string& name, const std::string& on) {
+    for (const char* const column : {".fx on ", ".fy on "}) out.push_back(name + column + on);
+  };
+  for (int k = 0; k < static_cast<int>(system.joints.size()); ++k) add_force(system.joint_names[at(k)], joint_subject(system, k));
+  for (const Json& c : contacts_json(system)) {
+    const std::string name = c["name"];
+    for (const char* const column : {".ex", ".ey", ".x", ".y"}) out.push_back(name + column);
+    add_force(name, c["on"]);
+  }
+  for (std::size_t f = 0; f < system.forces.size(); ++f) add_force(system.force_names[f], body_of(system, marker_b(system.forces[f])));
+  for (const RecordedPoint& p : model.points)
+    for (const char* const column : {".x", ".y"}) out.push_back(p.name + column);
+  return out;
+}
+
+}  // namespace pintle

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+/// The files of app/report/ as the build puts them into the program (cmake/embed.cmake).
+namespace pintle::page_parts {
+
+extern const std::string_view style, body, script;
+
+}  // namespace pintle::page_parts

@@ -1,0 +1,150 @@
+#include "framework/report/run_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/bodies/segments.h"
+#include "framework/build/build.h"
+#include "framework/build/inertia_defaults.h"
+#include "framework/common/text.h"
+#include "framework/report/drawn_model.h"
+#include "framework/report/description.h"
+#include "framework/report/page.h"
+#include "framework/report/table_report.h"
+#include "framework/scene/yaml/json_text.h"
+#include "framework/scene/yaml/reader.h"
+
+namespace pintle {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Results of a scene that moves.
+std::optional<Description> motion_in(const fs::path& directory) {
+  for (const char* const question : {"inverse", "kinematics", "run"}) {
+    auto out = description(directory, question);
+    if (!out) continue;
+    if (!out->json.contains("scene") || !out->json["scene"].is_object())
+      throw ResultsError(out->file.string() + ": holds no scene; only results of a scene file can be reported, so run it again from one");
+    return out;
+  }
+  return {};
+}
+
+Scene scene_of(const Description& results) {
+  std::string file = results.json.value("file", std::string());  // meshes and tables are sought beside it
+  if (file.empty()) file = results.file.string();
+  Scene scene = read_scene_text(results.json["scene"].dump(), file, {}, fs::path(file).parent_path());
+  scene = results.question == "kinematics" ? ready_for_kinematics(std::move(scene)) : with_pieces(std::move(scene));
+  scene.output.frames = std::max(scene.output.frames, 2);  // shapes for drawing are kept
+  return scene;
+}
+
+Json sheet_json(const Sheet& sheet) {
+  Json columns = Json::array();
+  for (std::size_t c = 0; c < sheet.columns.size(); ++c)
+    columns.push_back(
+        {{"name", sheet.columns[c].name}, {"unit", sheet.columns[c].unit}, {"values", base64(std::span<const double>(sheet.values[c]))}});
+  return {{"t", base64(std::span<const double>(sheet.t))}, {"columns", columns}};
+}
+
+Json table_json(const ReducedTable& table) {
+  Json sheets = Json::array();
+  for (const Sheet& sheet : table.sheets) sheets.push_back(sheet_json(sheet));
+  return {{"rows", table.rows}, {"whole", table.whole}, {"sheets", sheets}, {"poses", table.poses.t.empty() ? Json() : sheet_json(table.poses)}};
+}
+
+Json event_json(const std::vector<std::string>& fields) {
+  Json out = Json::array({fields[0]});
+  for (std::size_t k = 1; k < fields.size(); ++k) {
+    if (fields[k].empty())
+      out.push_back(nullptr);
+    else
+      out.push_back(std::stod(fields[k]));
+  }
+  return out;
+}
+
+double strength(const Json& event, std::size_t column) { return event[column].is_number() ? event[column].get<double>() : 0; }
+
+Json events_json(const fs::path& path, std::size_t most) {
+  CsvReader file(path);
+  Json columns = Json::array(), rows = Json::array();
+  std::size_t force = 0;
+  for (std::size_t c = 0; c < file.header().size(); ++c) {
+    const ColumnName column = column_name(file.header()[c]);
+    columns.push_back({{"name", column.name}, {"unit", column.unit}});
+    if (column.name == "impulse" || (force == 0 && column.name == "peak force")) force = c;
+  }
+  for (std::vector<std::string> fields; file.next(fields);) {
+    try {
+      rows.push_back(event_json(fields));
+    } catch (const std::logic_error&) {
+      file.fail("a field that should be a number is none");
+    }
+  }
+  const std::size_t all = rows.size();
+  if (all > most && force > 0) {
+    std::stable_sort(rows.begin(), rows.end(), [&](const Json& a, const Json& b) { return strength(a, force) > strength(b, force); });
+    rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(most), rows.end());
+  }
+  std::stable_sort(rows.begin(), rows.end(), [](const Json& a, const Json& b) { return strength(a, 1) < strength(b, 1); });
+  return {{"columns", columns}, {"rows", rows}, {"all", all}};
+}
+
+void require_columns(const fs::path& file, const ReducedTable& table, const std::vector<std::string>& needed) {
+  std::vector<std::string> there;
+  for (const Sheet& sheet : table.sheets)
+    for (const ColumnName& column : sheet.columns) there.push_back(column.name);
+  const std::set<std::string> known(there.begin(), there.end());
+  for (const std::string& name : needed)
+    if (!known.contains(name))
+      throw ResultsError(file.string() + ":1: has no column " + quoted(name) + ", which its scene asks for; it belongs to other results." +
+                         " Run the scene again");
+}
+
+}  // namespace
+
+ReportLimits report_limits(double bytes) {
+  ReportLimits out;
+  const double share = bytes / 5e6;
+  for (std::size_t* limit : {&out.trajectory.values, &out.trajectory.poses, &out.ledger, &out.events, &out.meshes, &out.text, &out.rows})
+    *limit = static_cast<std::size_t>(share * static_cast<double>(*limit));
+  return out;
+}
+
+namespace {
+
+std::string motion_page(const Description& results, const fs::path& directory, const ReportLimits& limits) {
+  const Scene scene = scene_of(results);
+  const Model model = build(scene);
+  const ReducedTable trajectory = reduced_by_column(directory / "trajectory.csv", limits.trajectory, drawn_columns(model));
+  require_columns(directory / "trajectory.csv", trajectory, needed_columns(model));
+  const std::string title = scene.title.empty() ? directory.filename().string() : scene.title;
+  Json out{{"title", title},
+           {"run", facts(results, limits.text)},
+           {"model", drawn_model_json(scene, model, limits.meshes)},
+           {"trajectory", table_json(trajectory)}};
+  if (results.question == "run" || fs::exists(directory / "ledger.csv")) {
+    out["ledger"] = table_json(reduced_by_row(directory / "ledger.csv", limits.ledger));
+    out["events"] = events_json(directory / "events.csv", limits.events);
+  }
+  return page(title, json_text(out, -1));
+}
+
+}  // namespace
+
+std::string report_page(const fs::path& directory, const ReportLimits& limits) {
+  if (const auto results = motion_in(directory)) return motion_page(*results, directory, limits);
+  if (const auto out = table_page(directory, limits.rows, limits.text)) return *out;
+  throw ResultsError(directory.string() + ": holds no results" + (fs::is_directory(directory) ? "" : ", as there is no such folder") +
+                     "; name a folder that `pintle run`, kinematics, inverse, sweep, tradeoff, linearize or modes has written");
+}
+
+}  // namespace pintle
