@@ -231,10 +231,27 @@ void add_report_options(CLI::App& command, Options& options) {
   command.footer(what_report_writes);
 }
 
+void add_plot_options(CLI::App& command, Options& options) {
+  command.add_option("results", options.scene, "a folder that run, kinematics or inverse has written")
+      ->required()
+      ->check(named())
+      ->type_name("DIR");
+  command.add_option("columns", options.quantities, "columns of trajectory.csv or ledger.csv, e.g. \"gudgeon pin.normal\"")
+      ->required()
+      ->type_name("COLUMN");
+  command.add_option("--against", options.against, "the column along x (default: the time), e.g. \"gudgeon pin.ex\"")->type_name("COLUMN");
+  command.add_option("-o,--out", options.out, "write a picture there; one that is there is replaced (default: to the terminal)")
+      ->check(named())
+      ->type_name("FILE.svg");
+  command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  command.footer("Exit codes: see pintle --help\n");
+}
+
 void add_options(CLI::App& command, Options& options) {
   const std::string name = command.get_name();
   add_bounds(command, options);
   if (name == "report") return add_report_options(command, options);
+  if (name == "plot") return add_plot_options(command, options);
   if (name == "sweep") return add_sweep_options(command, options);
   if (name == "tradeoff") return add_tradeoff_options(command, options);
   command.add_option("scene", options.scene, "scene file (YAML)")->required()->check(named())->type_name("SCENE.yaml");
@@ -302,6 +319,7 @@ int carry_out(int argc, char** argv) {
       {app.add_subcommand("sweep", "Run many cases of a scene into one table, by threads or MPI"), sweep},
       {app.add_subcommand("tradeoff", "Measure error against time over settings of fidelity, and recommend one"), tradeoff},
       {app.add_subcommand("report", "Turn the results of a run into one page: motion, plots, impacts, ledger"), report},
+      {app.add_subcommand("plot", "Plot columns of results in the terminal, or as an SVG picture"), plot},
       {app.add_subcommand("modes", "Find the natural frequencies and mode shapes of one body of elements"), modes},
       {app.add_subcommand("static",
                           "Solve the static load case of one body of elements, or of some that touch (of a whole mechanism: statics)"),

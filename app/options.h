@@ -29,6 +29,7 @@ struct Options {
   std::string mesh_time;             ///< of one body; empty: as the library says
   double mesh_memory = 0;            ///< [GB]; 0: likewise
   bool report = false;               ///< of a run: make a page of its results
+  std::string against;               ///< the column that plots have along x; empty: the time
   double megabytes = 5;              ///< of that page, about
 };
 
@@ -45,6 +46,7 @@ int linearize(const Options&);
 int sweep(const Options&);
 int tradeoff(const Options&);
 int report(const Options&);
+int plot(const Options&);
 
 /// What a scene's files may do and cost, from here on.  @throws SceneError  an option cannot be read
 void set_bounds(const Options&);

@@ -1,0 +1,129 @@
+// Columns of results as plots: in the terminal, or an SVG picture.
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <optional>
+
+#include "app/options.h"
+#include "app/progress.h"
+#include "app/run_end.h"
+#include "framework/common/file.h"
+#include "framework/common/nearest.h"
+#include "framework/common/text.h"
+#include "framework/output/results_directory.h"
+#include "framework/plots/plot.h"
+#include "framework/plots/terminal_plot.h"
+#include "framework/report/sheets.h"
+
+namespace pintle::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A column of a table, with times of its own.
+struct PlottedColumn {
+  ColumnName name;
+  std::vector<double> t, values;
+  std::string heading() const { return name.name + (name.unit.empty() ? "" : " [" + name.unit + "]"); }
+};
+
+/// The tables of a folder that have a time in their first column.
+std::vector<fs::path> tables_in(const fs::path& directory) {
+  std::vector<fs::path> out;
+  for (const char* const name : {"trajectory.csv", "ledger.csv"})
+    if (fs::exists(directory / name)) out.push_back(directory / name);
+  if (out.empty())
+    throw ResultsError(directory.string() + ": holds neither trajectory.csv nor ledger.csv; name a folder that `pintle run` has written");
+  return out;
+}
+
+/// The table that has a column of this name, with its unit or without.
+fs::path table_with(const std::vector<fs::path>& tables, std::string& name) {
+  std::vector<std::string> known;
+  for (const fs::path& table : tables) {
+    const CsvReader file(table);
+    for (const std::string& heading : file.header()) {
+      known.push_back(column_name(heading).name);
+      if (name != heading && name != known.back()) continue;
+      name = known.back();
+      return table;
+    }
+  }
+  const std::string near = nearest(name, known);
+  throw ResultsError(tables.front().parent_path().string() + ": has no column " + pintle::quoted(name) +
+                     (near.empty() ? "; the first line of trajectory.csv and of ledger.csv names them all"
+                                   : "; did you mean " + pintle::quoted(near) + "?"));
+}
+
+/// @param evenly  at evenly spaced rows, so that columns share their times; else with the extremes of every stretch
+PlottedColumn read_column(const fs::path& table, const std::string& name, bool evenly) {
+  constexpr std::size_t points = 4000;
+  const std::size_t columns = CsvReader(table).header().size();
+  const ReducedTable reduced = reduced_by_column(table, {2 * points * columns, 2 * points}, {name});
+  const auto found_in = [&](const Sheet& sheet) -> std::optional<PlottedColumn> {
+    for (std::size_t c = 0; c < sheet.columns.size(); ++c)
+      if (sheet.columns[c].name == name) return PlottedColumn{sheet.columns[c], sheet.t, sheet.values[c]};
+    if (name == "t") return PlottedColumn{{"t", "s"}, sheet.t, sheet.t};
+    return {};
+  };
+  if (evenly && !reduced.whole) return found_in(reduced.poses).value();
+  for (const Sheet& sheet : reduced.sheets)
+    if (auto found = found_in(sheet)) return *found;
+  throw ResultsError(table.string() + ": has no column " + pintle::quoted(name));
+}
+
+/// A panel a column, for the terminal; a panel a unit, for a picture.
+std::vector<Panel> panels_of(const Options& options, bool one_each) {
+  const std::vector<fs::path> tables = tables_in(without_slash(options.scene));
+  std::string against = options.against.empty() ? "t" : options.against;
+  const PlottedColumn x = read_column(table_with(tables, against), against, true);
+  std::vector<Panel> out;
+  std::map<std::string, std::size_t> of_unit;
+  for (std::string name : options.quantities) {
+    const fs::path table = table_with(tables, name);
+    const PlottedColumn y = read_column(table, name, against != "t");
+    if (against != "t" && y.t != x.t)
+      throw ResultsError("--against " + against + ": stands in another table than " + pintle::quoted(name) +
+                         ", with other rows; name one of the same");
+    const std::string unit = one_each ? std::to_string(out.size()) : y.name.unit;
+    if (!of_unit.contains(unit)) {
+      of_unit[unit] = out.size();
+      out.push_back({.title = y.heading(),
+                     .x_label = x.heading(),
+                     .y_label = "[" + y.name.unit + "]",
+                     .curves = {},
+                     .equal = y.name.unit == x.name.unit});
+    }
+    Panel& panel = out[of_unit[unit]];
+    if (!panel.curves.empty()) panel.title.clear();
+    panel.curves.push_back({.label = y.heading(), .x = against == "t" ? y.t : x.values, .y = y.values});
+  }
+  return out;
+}
+
+int terminal_columns() {
+  winsize size{};
+  return ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? std::clamp<int>(size.ws_col, 40, 200) : 100;
+}
+
+}  // namespace
+
+int plot(const Options& options) {
+  now_doing("reading the results");
+  if (options.out.empty()) {
+    for (const Panel& panel : panels_of(options, true)) std::cout << terminal_plot(panel, terminal_columns(), 19);
+    return ok;
+  }
+  const fs::path file = options.out;
+  require_file_place(file);
+  write_text(file, svg(panels_of(options, false)));
+  if (!options.quiet) std::cout << "  " << file.string() << "\n";
+  return ok;
+}
+
+}  // namespace pintle::app
