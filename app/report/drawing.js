@@ -123,12 +123,27 @@ function drawBody(stage, body, b) {
     const points = Array.from({ length: body.outline.length / 2 }, (_, i) => toWorld(pose, body.outline[2 * i], body.outline[2 * i + 1]));
     outlines.push({ points, closed: true });
   }
+  if (body.profiles.length > 0) drawBars(stage, b, outlines, colour);
   for (const { points, closed } of outlines) {
     trace(stage, points, closed);
     if (closed) fill(stage, colour, 0.22);
     stroke(stage, colour, 1.75);
   }
   if (stage.meshes[b]) drawMesh(stage, stage.meshes[b], pose, colour);
+}
+
+/// What holds the surfaces of a body together: bars from its first joint to the others and to the middle of each surface.
+function drawBars(stage, b, outlines, colour) {
+  const { model, motion } = stage;
+  const markers = new Set([...model.joints, ...model.contacts.filter((c) => c.radius)].flatMap((j) => [j.a, j.b]).filter((m) => model.markers[m].body === b));
+  const middle = (points) => ({ x: points.reduce((sum, p) => sum + p.x, 0) / points.length, y: points.reduce((sum, p) => sum + p.y, 0) / points.length });
+  const [first, ...others] = [...[...markers].map((m) => motion.place(m, stage.now)), ...outlines.map(({ points }) => middle(points))];
+  for (const other of others) {
+    trace(stage, [first, other], false);
+    stage.context.globalAlpha = 0.3;
+    stroke(stage, colour, Math.min(Math.max(0.5 * model.pin * stage.scale, 3), 10));
+    stage.context.globalAlpha = 1;
+  }
 }
 
 function drawMesh(stage, mesh, pose, colour) {

@@ -19,7 +19,7 @@ class EventTable {
     const scales = columns.map(({ unit }, c) => (c === 0 ? null : scaleFor(rangeOf(rows.map((row) => Math.abs(row[c] ?? 0)))[1], unit)));
     const heading = columns.map(({ name, unit }, c) => element("th", { scope: "col", textContent: name }, ...(unit ? [element("small", { textContent: ` [${scales[c].unit}]` })] : [])));
     this.rows = rows.map((row) => {
-      const cells = row.map((x, c) => (c === 0 ? element("td", { textContent: x }) : element("td", { className: "number", textContent: x === null ? "goes on" : plain(x * scales[c].factor, c < 3 ? 7 : 4), title: x === null ? "" : String(x) })));
+      const cells = row.map((x, c) => (c === 0 ? element("td", { textContent: x }) : element("td", { className: "number", textContent: x === null ? (c === 2 ? "goes on" : "–") : plain(x * scales[c].factor, c < 3 ? 7 : 4), title: x === null ? "" : String(x) })));
       const out = element("tr", { tabIndex: 0 }, ...cells);
       out.onclick = () => this.clock.set(row[1]);
       out.onkeydown = (event) => event.key === "Enter" && this.clock.set(row[1]);

@@ -61,11 +61,12 @@ class Motion {
     return { ...toWorld(pose, x, y), angle };
   }
 
-  /// A force by the names of its columns, null where there is none.
+  /// A force by the names of its columns, null where there is none. What the ground takes is shown as what it gives.
   force(name, on, time) {
     const fx = this.column(`${name}.fx on ${on}`);
     const fy = this.column(`${name}.fy on ${on}`);
-    return fx && fy ? { x: this.value(fx, time), y: this.value(fy, time) } : null;
+    const sign = on === "ground" ? -1 : 1;
+    return fx && fy ? { x: sign * this.value(fx, time), y: sign * this.value(fy, time) } : null;
   }
 
   /// Where a contact's columns put it, null without them.

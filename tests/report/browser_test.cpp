@@ -1,4 +1,5 @@
 // Pages in a browser: what they show equals the tables, and nothing goes wrong in them. Skipped where there is no Chromium.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -9,6 +10,7 @@ namespace pintle {
 
 namespace {
 
+namespace fs = std::filesystem;
 using pintle_report_test::between;
 using pintle_report_test::Folder;
 using pintle_report_test::Json;
@@ -60,6 +62,7 @@ TEST_P(Browser, ShowsTheValuesOfTheTables) {
     const auto row = std::ranges::find_if(trajectory.rows, [&](const auto& r) { return r[0] == moment["t"].get<double>(); });
     ASSERT_NE(row, trajectory.rows.end()) << moment["t"];
     for (const Json& value : moment["values"]) {
+      if (!value[0].is_string()) continue;  // a sum that stands in no table
       const auto column =
           std::ranges::find_if(trajectory.header, [&](const std::string& h) { return h.starts_with(value[0].get<std::string>() + " ["); });
       if (column == trajectory.header.end()) continue;  // of the ledger

@@ -2,6 +2,7 @@
 
 // Pages read back by hand: what is embedded in them, with a decoder of its own.
 #include <cstring>
+#include <limits>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
