@@ -62,7 +62,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
 
 bool Integrator::advance(double until) {
   if (!may_step(until) || !begin_step(until)) return false;
-  const double t0 = step_.from.state.t, wish = control_.wish(), law = law_end(scheme_, t0);
+  const double t0 = step_.from.state.t, wish = control_.wish(), law = law_end(scheme_, t0, stepper_->traits().implicit);
   const double ahead = std::min(kink_ahead(wish), law - t0);
   if (!step_to(std::min(until - t0, ahead))) return false;
   if (step_.h == ahead) control_.wish_for(std::max(control_.wish(), wish));  // cut short by a kink or a law, not by an error
