@@ -77,6 +77,25 @@ bool uses_time_beside_signals(const Scene& scene) {
   return std::ranges::any_of(scene.loads, any) || std::ranges::any_of(scene.states, [&](const SceneState& s) { return uses(s.rate); });
 }
 
+/// Which of the pieces that end so are no straight lines.
+std::vector<LawBend> bends_of(const TimeLaw& law, const std::vector<double>& ends) {
+  constexpr double edge = 1e-6, rounding = 1e-9;  // of a piece: a jump before it is none of its own; of rates
+  std::vector<LawBend> out;
+  double begin = 0;
+  for (const double end : ends) {
+    const double width = end - begin, a = begin + edge * width, b = end - edge * width;
+    const Jet from = law(a), middle = law((a + b) / 2), to = law(b);
+    const double slope = (to.value - from.value) / (b - a), off = middle.value - (from.value + to.value) / 2;
+    const double little =
+        rounding * std::max({std::abs(from.rate), std::abs(middle.rate), std::abs(to.rate), std::abs(middle.value) / width});
+    const bool straight = std::abs(from.rate - slope) <= little && std::abs(middle.rate - slope) <= little &&
+                          std::abs(to.rate - slope) <= little && std::abs(off) <= little * width;
+    if (!straight) out.push_back({begin, end});
+    begin = end;
+  }
+  return out;
+}
+
 bool accelerates_anew(const LawBreak& b) {
   return std::abs(b.right.accel - b.left.accel) > 1e-9 * std::max(std::abs(b.left.accel), std::abs(b.right.accel));
 }
@@ -107,6 +126,7 @@ void follow_laws(const Scene& scene, Scheme& scheme) {
     if (driver) validate_jumps(scene, *driver, scale);
     known = known && scale.known;
     for (const LawBreak& b : scale.breaks) scheme.changes.push_back({b.before, b.after, driver ? accelerates_anew(b) : value_jumps(b)});
+    scheme.bends.push_back(bends_of(law.at, scale.pieces));
     if (scale.pieces.size() > 1) scheme.pieces.push_back(std::move(scale.pieces));
   });
   order(scheme.changes);

@@ -105,6 +105,11 @@ Rough rough_state(const Scene& scene, const System& system, const Bent& bent) {
   throw AssemblyError(scene.file, named_place(scene, closure.owner(worst)), message + "; " + remedy);
 }
 
+constexpr double nearly_right = 1e-6;  // no pose and no speed is so by chance
+const char* const must_fit =
+    "redundant joints must fit each other to 1e-11 of the mechanism's size: write lengths, points and angles with more digits, or leave a "
+    "joint out";
+
 // What of C a run takes for met (onto_constraints); here no more may be left.
 double constraints_met(const System& system, const VectorXd& y) {
   constexpr double met = 1e-11, still_good = 1e-8;
@@ -144,13 +149,10 @@ int close_joints(const Scene& scene, Closure& closure, const System& system, Rou
   }
   const double left = C.size() > 0 ? C.lpNorm<Eigen::Infinity>() : 0;
   if (!(left <= constraints_met(system, r.y))) {
-    constexpr double misfit = 1e-6;  // no pose is nearly right by chance
     closure.violation(r.y);
     const bool pinned = !scene.start_bodies.empty();
     cannot(scene, pinned ? "cannot close with what `start` pins down" : "cannot close", closure, C, "",
-           left < misfit ? "redundant joints must fit each other to 1e-11 of the mechanism's size: write lengths, points and angles with "
-                           "more digits, or leave a joint out"
-                         : "check lengths and points, or give the bodies rough poses (`pose`) nearer to the wanted one");
+           left < nearly_right ? must_fit : "check lengths and points, or give the bodies rough poses (`pose`) nearer to the wanted one");
   }
   close_in(closure, system, r.W_pose, r.y, C, J);
   return i;
@@ -176,7 +178,8 @@ int match_speeds(const Scene& scene, Closure& closure, const System& system, Rou
     left = now;
   }
   if (left.lpNorm<Eigen::Infinity>() > 1e-8 * scale)
-    cannot(scene, "cannot move as `start` and the drivers ask", closure, left, "/s", "leave out a speed in `start`, or a driver");
+    cannot(scene, "cannot move as `start` and the drivers ask", closure, left, "/s",
+           left.lpNorm<Eigen::Infinity>() < nearly_right * scale ? must_fit : "leave out a speed in `start`, or a driver");
   const std::vector<Dependence> singular = singular_dependences(system, 0, r.y);
   if (!singular.empty() && !choose_branch(closure, system, J, singular, r.W_speed, r.y))
     throw AssemblyError(scene.file, named_place(scene, closure.owner(singular.front().N.back().first)),

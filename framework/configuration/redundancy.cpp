@@ -310,6 +310,9 @@ std::string explain_pose(const System& system, double t, const VectorXd& y) {
   const std::vector<Dependence> permanent = judged(system, t, y, space.dependences).permanent;
   if (const std::string open = misfit(system, t, y, permanent); !open.empty()) return open;
   const std::vector<Dependence> nearly = row_space_at(system, t, y, close).dependences;
+  std::vector<Dependence> undriven = nearly;
+  std::erase_if(undriven, [&](const Dependence& d) { return !names_in(system, d, true).empty(); });
+  if (const std::string open = misfit(system, t, y, undriven); !open.empty()) return open;
   const std::vector<bool> alone = left_out(nearly, permanent, system.n_rows());
   for (std::size_t k = 0; k < nearly.size(); ++k) {
     if (!alone[k]) continue;

@@ -63,7 +63,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
 bool Integrator::advance(double until) {
   row_ = save_ = false;
   if (!may_step(until) || !begin_step(until)) return false;
-  const double t0 = step_.from.state.t, wish = control_.wish(), law = law_end(scheme_, t0);
+  const double t0 = step_.from.state.t, wish = control_.wish(), law = law_end(scheme_, t0, sees_ends_alone());
   const double ahead = std::min(kink_ahead(wish), law - t0);
   if (!step_to(std::min(until - t0, ahead))) return false;
   if (step_.h == ahead) control_.wish_for(std::max(control_.wish(), wish));  // cut short by a kink or a law, not by an error
@@ -152,10 +152,26 @@ bool Integrator::step_to(double left) {
   return false;
 }
 
+// Forces that hold what rests are no part of the error, so that at rest laws alone keep steps short.
+bool Integrator::sees_ends_alone() const {
+  const StepperTraits& traits = stepper_->traits();
+  return traits.implicit || (traits.fixed_step == 0 && holds_anything(system_, step_.from.state));
+}
+
+// An implicit step is short, and forces of what is stiff are in balance at its ends alone.
+void Integrator::look_inside() {
+  held_.forget();
+  const StepperTraits& traits = stepper_->traits();
+  if (traits.implicit || traits.fixed_step > 0 || !holds_anything(system_, step_.from.state)) return;
+  held_.look(system_, *stepper_, step_, dense_);
+}
+
 // Where the dense output of a long step promises an event that true steps do not find, or a step goes too far past one: a shorter step.
 bool Integrator::end_at_first_event(std::optional<EventInStep>& event) {
   for (int halvings = 0;; ++halvings) {
+    look_inside();
     event = events_.first(step_, motion(), evaluated_at_end());
+    held_.forget();
     if (!event) return true;
     const Events::Ending ending = events_.end_at(*event, *stepper_, norm_, step_, eq_);
     if (ending == Events::Ending::there) {

@@ -70,7 +70,9 @@ class Integrator {
   bool act_on(const EventInStep&, double wish);
   void look_at_end();
   bool switch_method();
-  DenseOutput motion() { return {*stepper_, step_, dense_}; }
+  bool sees_ends_alone() const;
+  void look_inside();
+  DenseOutput motion() { return {*stepper_, step_, held_, dense_}; }
   const Equations* evaluated_at_end() const { return stepper_->traits().ends_evaluated && step_.h > 0 ? &eq_ : nullptr; }
   double least_part() const;
   std::string trouble() const;
@@ -87,6 +89,7 @@ class Integrator {
   Events events_;
   std::unique_ptr<Equations> sampled_;  ///< from the first sample on
   Step step_;
+  HeldForces held_;  ///< while events are sought
   State dense_;
   Counts counts_;
   std::vector<Happening> happenings_;

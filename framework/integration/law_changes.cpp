@@ -5,7 +5,21 @@
 
 namespace pintle {
 
-double law_end(const Scheme& scheme, double t) {
+namespace {
+
+/// Of a law with these bends, for a method that sees it at the ends of its steps alone.
+double end_within_bend(const std::vector<LawBend>& bends, double t) {
+  constexpr double steps = 6, rest = 0.01;  // a shorter rest of a bend is no step of its own
+  const auto bend = std::upper_bound(bends.begin(), bends.end(), t, [](double x, const LawBend& b) { return x < b.end; });
+  if (bend == bends.end()) return std::numeric_limits<double>::infinity();
+  if (t < bend->begin) return bend->begin;
+  const double longest = (bend->end - bend->begin) / steps;
+  return t + (1 + rest) * longest < bend->end ? t + longest : bend->end;
+}
+
+}  // namespace
+
+double law_end(const Scheme& scheme, double t, bool sees_ends_alone) {
   double ahead = std::numeric_limits<double>::infinity();
   const auto change =
       std::upper_bound(scheme.changes.begin(), scheme.changes.end(), t, [](double x, const LawChange& c) { return x < c.before; });
@@ -13,6 +27,8 @@ double law_end(const Scheme& scheme, double t) {
   for (const std::vector<double>& ends : scheme.pieces)
     if (const auto end = std::upper_bound(ends.begin(), ends.end(), t); end != ends.end() && end + 1 != ends.end())
       ahead = std::min(ahead, *(end + 1));
+  if (sees_ends_alone)
+    for (const std::vector<LawBend>& bends : scheme.bends) ahead = std::min(ahead, end_within_bend(bends, t));
   return ahead;
 }
 

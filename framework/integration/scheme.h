@@ -20,6 +20,11 @@ struct LawChange {
   bool jumps;            ///< forces or accelerations do; else only what is finer
 };
 
+/// A time in which a law is a polynomial of fifth degree, but no straight line.
+struct LawBend {
+  double begin, end;  ///< [s]
+};
+
 /// The method of time integration and its settings.
 struct Scheme {
   const Tableau* tableau = nullptr;  ///< explicit; nullptr: generalised-α, or Moreau's where the step is fixed
@@ -33,6 +38,7 @@ struct Scheme {
   double max_step = std::numeric_limits<double>::infinity();  ///< [s]
   std::vector<LawChange> changes = {};                        ///< of the laws of time, in order, apart from each other
   std::vector<std::vector<double>> pieces = {};  ///< of each law, ends of its smooth pieces, of which a step passes one whole at most
+  std::vector<std::vector<LawBend>> bends = {};  ///< of each law, its smooth pieces that are no straight lines, in order
   long max_steps = 100'000'000;
   double rho = 0.8;         ///< of generalised-α: spectral radius at infinite frequency, 0 to 1
   double switch_below = 0;  ///< an explicit step that stability, not accuracy, holds below this gives way to

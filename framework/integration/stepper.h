@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <string_view>
 
 #include "framework/dynamics/equations/equations.h"
 #include "framework/integration/error_norm.h"
+#include "framework/integration/held_forces.h"
 #include "framework/integration/scheme.h"
 #include "framework/integration/step.h"
 
@@ -73,18 +75,26 @@ class Stepper {
 /// As scene files call it, with the settings of the scheme. @returns nullptr if there is none of that name
 std::unique_ptr<Stepper> make_stepper(std::string_view name, const System&, const Scheme&, const Equations&);
 
+/// Of what is held at most, how well forces that hold are known inside a step of this tolerance.
+inline double known_inside(double tolerance) { return std::max(1e-6, 100 * tolerance); }
+
 /// A step's motion for those who look inside it.
 class DenseOutput {
  public:
-  DenseOutput(const Stepper& stepper, const Step& step, State& work) : stepper_(stepper), step_(step), work_(work) {}
+  DenseOutput(const Stepper& stepper, const Step& step, const HeldForces& held, State& work)
+      : stepper_(stepper), step_(step), held_(held), work_(work) {}
   const State& at(double t) const {
     stepper_.interpolate(step_, t, work_);
+    if (held_.known()) held_.put(step_, t, work_.friction);
     return work_;
   }
+  /// What holds friction and closed rigid contacts is known inside the step too, not at its ends alone.
+  bool knows_held_forces() const { return held_.known(); }
 
  private:
   const Stepper& stepper_;
   const Step& step_;
+  const HeldForces& held_;
   State& work_;
 };
 

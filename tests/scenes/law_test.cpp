@@ -71,6 +71,28 @@ TEST(TimeLaws, NoMethodMissesAPulseHoweverShort) {
     }
 }
 
+// At rest nothing but the law tells how long a step may be; these are nothing at the start and at the end of the run.
+TEST(TimeLaws, NoMethodPassesOverAWholeWaveFromRest) {
+  struct Wave {
+    std::string law;
+    double speed, angle;
+  };
+  const double pi = std::numbers::pi;
+  for (const Wave& wave : std::vector<Wave>{{"sin(2*pi*t)", 0, 1 / (2 * pi)},
+                                            {"sin(pi*t)^2", 1. / 2, 1. / 4},
+                                            {"t^2*(1 - t)^2", 1. / 30, 1. / 60},
+                                            {"if(t < 0.5, 0, sin(2*pi*(t - 0.5))^2)", 1. / 4, 1. / 16}})
+    for (const std::string& method : methods) {
+      Scene s = pushed(torque_law(wave.law));
+      s.run.method = method;
+      const Whole w = run(s);
+      EXPECT_EQ(w.run.status, Status::finished) << w.run.reason;
+      const double within = method == "generalized-alpha" ? 1e-5 : 1e-7;  // about the tolerance, and its power ⅔
+      EXPECT_NEAR(w.last("wheel.speed [rad/s]"), wave.speed, within) << wave.law << " " << method;
+      EXPECT_NEAR(w.last("wheel.angle [rad]"), wave.angle, within) << wave.law << " " << method;
+    }
+}
+
 TEST(TimeLaws, PulsesOfATableAreMet) {
   Scene s = pushed({Polyline({{0, 0.5, 0.5 + 1e-7, 0.5 + 2e-7, 1}, {0, 0, 1e7, 0, 0}}), "table", false});
   EXPECT_NEAR(run(s).last("wheel.speed [rad/s]"), 1, 1e-7);

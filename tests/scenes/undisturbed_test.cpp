@@ -9,8 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "framework/bodies/segments.h"
 #include "framework/build/build.h"
 #include "framework/integration/integrator.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/scenes/flexible_scenes.h"
 
 namespace pintle_scenes::undisturbed_test {
@@ -89,6 +91,38 @@ Scene flexible(const std::string& method, const std::string& stiffening, double 
   return s;
 }
 
+/// One of examples/, by its own method if none is named.
+Scene of_example(const std::string& file, const std::string& method = "") {
+  Scene s = with_pieces(read_scene(std::string(PINTLE_SOURCE_DIR) + "/examples/" + file + ".yaml"));
+  if (!method.empty()) s.run.method = method, s.run.tolerance = 1e-6;
+  return s;
+}
+
+/// A weight with a smooth outline strikes a roller at the end of a leaf, and rubs there.
+Scene leaf_under_a_weight(const std::string& method) {
+  Scene s = scene_of(R"(
+bodies:
+  leaf:
+    beam: {from: A, to: B, section: {rectangle: [20 mm, 2 mm]}, young: 207 GPa, poisson: 0.3, density: 7850, elements: 2}
+    points: {A: [0, 0], B: [200 mm, 0]}
+    modes: {craig-bampton: {count: 0}, frame: {tangent: A}}
+    profiles: {roller: {disc: B, radius: 5 mm}}
+  weight:
+    rigid: {mass: 0.5 kg, inertia: 1e-4 kg m^2}
+    profiles: {rim: {polar: [[0, 20 mm], [90 deg, 19 mm], [180 deg, 20 mm], [270 deg, 19 mm]]}}
+joints: {clamp: {weld: [ground, leaf.A]}}
+contacts:
+  blow:
+    between: [weight.rim, leaf.roller]
+    normal: {hunt-crossley: {restitution: 0.6, stiffness: 1e8 N/m^1.5}}
+    friction: {gonthier: {coefficient: 0.2, bristle stiffness: 1e4 1/m, dwell time: 10 ms}}
+start: {weight: {at: [203 mm, 24.5 mm], velocity: [0, -0.5]}}
+run: {until: 60 ms, tolerance: 1e-6}
+)");
+  s.run.method = method;
+  return s;
+}
+
 std::vector<Case> cases() {
   using enum Case::Must;
   std::vector<Case> all;
@@ -104,6 +138,13 @@ std::vector<Case> cases() {
     all.push_back({word + "_stiffened_by_rotation", [m] { return flexible(m, "rotation", 1e-4); }, 400, {}, strike});
     all.push_back({word + "_stiffened_by_all", [m] { return flexible(m, "axial", 0); }});
   }
+  for (const char* method : {"dopri5", "generalized-alpha"}) {
+    const std::string m = method;
+    all.push_back({(m == "dopri5" ? m : "alpha") + "_leaf_under_a_weight", [m] { return leaf_under_a_weight(m); }, 400, {}, strike});
+    for (const char* file :
+         {"drum_brake", "stick_slip", "stage_microslip", "rubber_mount", "planetary_gear", "release_hook", "guide_with_play"})
+      all.push_back({(m == "dopri5" ? m : "alpha") + "_" + file, [m, file] { return of_example(file, m); }});
+  }
   for (const char* method : {"dopri5", "verner87"}) {
     const std::string m = method;
     all.push_back({m + "_partitioned_impacts", [m] { return struck(m, "partitioning"); }, 200, {}, strike});
@@ -114,6 +155,8 @@ std::vector<Case> cases() {
                      return s;
                    }});
   }
+  for (const char* file : {"geneva", "ratchet", "walker", "woodpecker", "latch"})
+    all.push_back({file, [file] { return of_example(file); }});
   all.push_back({"alpha_sparse_redundant", [] { return cranks(20, "generalized-alpha"); }, 40});
   all.push_back(
       {"auto_switches", stiff_chain, 150, [](Scheme& s) { s.tableau = find_tableau("dopri5"), s.switch_below = 1; }, switch_over});

@@ -82,7 +82,7 @@ const std::vector<Layer> layers{
      {"framework/common/", "framework/scene/", "framework/component/", "framework/bodies/", "framework/drawing/"}},
     {"framework/analysis/cost/",
      {"framework/common/", "framework/dynamics/equations/internal.h", "framework/integration/", "framework/mechanism/",
-      "framework/configuration/", "framework/build/"}},
+      "framework/configuration/", "framework/build/", "framework/analysis/simulate/explain_failure.h"}},
     {"framework/output/",
      {"framework/common/", "framework/scene/", "framework/integration/", "framework/mechanism/", "framework/configuration/",
       "framework/build/", "framework/analysis/"}},

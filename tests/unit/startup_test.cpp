@@ -146,6 +146,33 @@ TEST(ExitCodes, CheckOfARunThatFailsWhenTriedOutIsFour) {
   EXPECT_EQ(said, "");
 }
 
+// Three cranks on one bar, a pin a nanometre beside its place: it closes where the cranks stand upright, and nowhere else.
+const std::string misfitting_cranks = R"(
+ground: {points: {A: [0, 0], B: [1, 0], C: [2, 0]}}
+bodies:
+  a: {rigid: {mass: 1, inertia: 0.1}, points: {P: [0.5, 0]}, pose: {at: [0, 0], angle: 90 deg}}
+  b: {rigid: {mass: 1, inertia: 0.1}, points: {P: [0.5, 0]}, pose: {at: [1, 0], angle: 90 deg}}
+  c: {rigid: {mass: 1, inertia: 0.1}, points: {P: [0.5, 0]}, pose: {at: [2, 0], angle: 90 deg}}
+  bar: {rigid: {mass: 1, inertia: 0.5}, points: {P: [0, 0], Q: [1.000000001, 0], R: [2, 0]}, pose: {at: [0, 0.5]}}
+joints:
+  base a: {revolute: [ground.A, a]}
+  base b: {revolute: [ground.B, b]}
+  base c: {revolute: [ground.C, c]}
+  top a: {revolute: [a.P, bar.P]}
+  top b: {revolute: [b.P, bar.Q]}
+  top c: {revolute: [c.P, bar.R]}
+start: {a: {angle: 90 deg, speed: 2}}
+run: {until: 5}
+)";
+
+TEST(ExitCodes, CheckNamesWhyTheRunFailsAsTheRunDoes) {
+  for (const Words& verb : {Words{"check"}, Words{"run", "-q"}}) {
+    std::string said;
+    EXPECT_EQ(exit_code(verb, {{"scene.yaml", misfitting_cranks}}, said), 4);
+    EXPECT_TRUE(holds(said, "redundant joints") && holds(said, "b\" stays open by") && holds(said, "more digits")) << said;
+  }
+}
+
 TEST(ExitCodes, ASweepOfWhichNoCaseRanIsFour) {
   const std::string study = "scene: scene.yaml\nmeasure: {turned: energy lost}\nsweep: {grid: {run.tolerance: [1e-6, 1e-7]}}\n";
   std::string said;

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "framework/analysis/cost/simpler.h"
+#include "framework/analysis/simulate/explain_failure.h"
 #include "framework/build/choose_method.h"
 #include "framework/common/processor_time.h"
 #include "framework/integration/integrator.h"
@@ -235,6 +236,8 @@ CostEstimate estimate_cost(const Scene& scene, const Model& model, const Assembl
   Integrator run(system, model.scheme, assembly.start);
   const Tried tried = try_for(run, system, model.scheme, p.until, share_of_the_run * seconds);
   p.run = cost_of(tried, p.until);
+  if (std::string& trouble = p.run.trial.trouble; !trouble.empty())
+    if (const std::string why = explain_failure(scene, system, run); !why.empty()) trouble += "; " + why;
   estimate_rows(scene, model, run, p.output);
   estimate_frames(scene, model, run, p.output);
   const double outputs = p.output.seconds();

@@ -9,11 +9,10 @@
 #include "framework/analysis/simulate/energy_balance.h"
 #include "framework/analysis/simulate/end_short.h"
 #include "framework/analysis/simulate/deflection_monitor.h"
-#include "framework/analysis/simulate/explain_numbers.h"
+#include "framework/analysis/simulate/explain_failure.h"
 #include "framework/analysis/simulate/explain_signals.h"
 #include "framework/analysis/simulate/run_warnings.h"
 #include "framework/analysis/simulate/slow_contact.h"
-#include "framework/build/laws.h"
 #include "framework/common/worse.h"
 #include "framework/integration/integrator.h"
 
@@ -254,15 +253,12 @@ class Simulation {
   /// Why a run could not go on.
   void explain(bool countable) {
     end(Status::failed, integrator_.failure());
-    const State& at = integrator_.state();
-    integrator_.sample(at.t, sampled_);
     std::string& reason = run_.reason;
     if (!reason.empty()) {
-      std::string why = explain_laws(scene_, at.t);
-      for (const State& tried : {integrator_.last().to.state, at})
+      std::string why;
+      for (const State& tried : {integrator_.last().to.state, integrator_.state()})
         if (why.empty()) why = explain_signals(scene_, model_, start_, tried);
-      if (why.empty() && at.y.allFinite()) why = explain_pose(system_, at.t, at.y);
-      if (why.empty()) why = explain_numbers(system_, integrator_);
+      if (why.empty()) why = explain_failure(scene_, system_, integrator_);
       if (why.empty()) why = monitor_.worst_warning();
       if (!why.empty()) reason += "; " + why;
     } else if (!countable) {

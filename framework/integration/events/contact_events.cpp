@@ -61,11 +61,12 @@ Guard ContactEvents::guard(int event, const State& state) const {
   return is_rigid(system_.contacts[at(event)]) ? pressed(event, state) : gap_of(system_, event, state);
 }
 
-// How much a closed rigid contact is pressed, of the most that any was, and a little more; below 0 once its forces have let it open.
+// How much a closed rigid contact is pressed, of the most that any was (in N as long as none was), and a little more; below 0 once its
+// forces have let it open.
 Guard ContactEvents::pressed(int contact, const State& state) const {
   if (!(state.impact_rate[at(contact)] > 0)) return {-1};
   const double load = state.friction[at(contact)].load;
-  return {(most_pressed_ > 0 ? load / most_pressed_ : 0) + 2 * part_pressed};
+  return {load / (most_pressed_ > 0 ? most_pressed_ : 1) + 2 * part_pressed};
 }
 
 Guard ContactEvents::guard(int event, const State& state, const Equations& eq) const {
@@ -97,6 +98,10 @@ std::optional<double> rise(const F& guard, double begin, const Guard& from, doub
 // A long step may take a body through a wall, or from beside a piece onto it. So parts of the step are looked at: where in one the
 // overlap or the margin becomes positive, the other may be.
 std::optional<double> ContactEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
+  if (leaving(event) < 0 && log_.touching(event) && is_rigid(system_.contacts[at(event)]) && motion.knows_held_forces()) {
+    const auto left = [&](double t) { return pressed(event, motion.at(t)).value; };
+    return below_zero_inside(left, step, pressed(event, step.from.state).value, known_inside(tolerance_));
+  }
   if (leaving(event) >= 0 || !system_.contacts[at(event)].profiles || log_.touching(event)) return std::nullopt;
   const int parts = parts_to_look_at(system_, event, step);
   if (parts == 0) return std::nullopt;
@@ -144,6 +149,13 @@ void ContactEvents::start(Step& step) {
     begin(c, step, std::max(now.rate, latched_at(system_, system_.contacts[at(c)], now.value)));
   }
   if (!rigid.empty()) strike(rigid, step);
+}
+
+// Of the first step too, what is pressed is measured by a force.
+void ContactEvents::begin_step(const State& from) {
+  for (int c = 0; c < contacts(); ++c)
+    if (is_rigid(system_.contacts[at(c)]) && log_.touching(c) && !time_stepping_)
+      most_pressed_ = std::max(most_pressed_, std::abs(from.friction[at(c)].load));
 }
 
 // A stay lasts as long as each step brings an impulse.

@@ -24,6 +24,7 @@ class ContactEvents final : public EventGroup {
   std::optional<double> positive_inside(int event, const Step&, const DenseOutput&) const override;
   bool met(int event, const Guard&) const override;
   void start(Step&) override;
+  void begin_step(const State&) override;
   void follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) override;
   EventOutcome act(int event, Step&, const Guard&) override;
   void save(Writer&) const override;

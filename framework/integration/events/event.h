@@ -88,6 +88,8 @@ class EventGroup {
 
   /// Modes as a start has them; the step ends there and begins nowhere.
   virtual void start(Step&) = 0;
+  /// Before guards of the step's start are asked.
+  virtual void begin_step(const State&) {}
   /// After each accepted step, before any event that ends it acts. Guards are those of the step's two ends. May change the modes of
   /// the step's end where forces there stay the same.
   virtual void follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) = 0;

@@ -38,6 +38,7 @@ void Events::start(Step& step) {
 }
 
 void Events::begin_step(const State& from) {
+  for (auto& g : groups_) g->begin_step(from);
   from_.swap(to_);
   if (!known_)
     for (std::size_t k = 0; k < places_.size(); ++k) from_[k] = guard(k, from);

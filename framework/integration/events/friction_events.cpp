@@ -1,7 +1,6 @@
 #include "framework/integration/events/friction_events.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -118,24 +117,14 @@ Guard FrictionEvents::guard(int event, const State& state, const FrictionNow& no
   return {force <= limit ? (limit > 0 ? force / limit : 0) - 1 : std::min(force / std::max(limit, 1e-300), 1e300) - 1};
 }
 
-// A slip that comes to 0 and back in one step.
+// A slip that comes to 0 and back in one step, or a force that comes to what can be held and back.
 std::optional<double> FrictionEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
-  constexpr int parts = 8;
   const DryFriction& dry = step.from.state.friction[place(event)];
-  if (!of_sliding(event) || dry.direction == 0 || dry.direction == DryFriction::undecided) return std::nullopt;
-  if (!touches(place(event), step.from.state)) return std::nullopt;
-  const auto slip = [&](double t) { return guard(event, motion.at(t)).value; };
-  std::array<double, 3> t{0, 0, step.from.state.t}, left{0, 0, guard(event, step.from.state).value};
-  for (int i = 1; i <= parts; ++i) {
-    std::rotate(t.begin(), t.begin() + 1, t.end());
-    std::rotate(left.begin(), left.begin() + 1, left.end());
-    t[2] = i < parts ? step.from.state.t + step.h * i / parts : step.to.state.t;
-    left[2] = slip(t[2]);
-    if (left[2] < 0 && i < parts) return t[2];
-    if (i == 1) continue;
-    if (const std::optional<double> between = below_zero_near(slip, t, left)) return between;
-  }
-  return std::nullopt;
+  if (dry.direction == DryFriction::undecided || of_sliding(event) == (dry.direction == 0)) return std::nullopt;
+  if (!touches(place(event), step.from.state) || (!of_sliding(event) && !motion.knows_held_forces())) return std::nullopt;
+  const double sign = of_sliding(event) ? 1 : -1;
+  const auto left = [&](double t) { return sign * guard(event, motion.at(t)).value; };
+  return below_zero_inside(left, step, sign * guard(event, step.from.state).value, of_sliding(event) ? 0 : known_inside(tolerance_));
 }
 
 bool FrictionEvents::met(int event, const Guard& at_end) const {

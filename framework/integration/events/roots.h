@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "framework/integration/events/event.h"
+#include "framework/integration/step.h"
 
 /// Zeros of guards along the dense output of a step.
 namespace pintle {
@@ -75,6 +76,25 @@ std::optional<double> below_zero_near(F value, std::array<double, 3> t, std::arr
     for (const std::size_t k : {1u, 2u})
       if (std::abs(t[k] - least) > std::abs(t[farthest] - least)) farthest = k;
     t[farthest] = least, f[farthest] = now;
+  }
+  return std::nullopt;
+}
+
+/// A time inside a step at which a value that is above zero at its start is below by more than `clear`: at eighths of the step, or at the
+/// least of parabolas between them.
+template <class F>
+std::optional<double> below_zero_inside(F value, const Step& step, double at_start, double clear = 0) {
+  constexpr int parts = 8;
+  std::array<double, 3> t{0, 0, step.from.state.t}, left{0, 0, at_start + clear};
+  const auto more = [&](double when) { return value(when) + clear; };
+  for (int i = 1; i <= parts; ++i) {
+    std::rotate(t.begin(), t.begin() + 1, t.end());
+    std::rotate(left.begin(), left.begin() + 1, left.end());
+    t[2] = i < parts ? step.from.state.t + step.h * i / parts : step.to.state.t;
+    left[2] = more(t[2]);
+    if (left[2] < 0 && i < parts) return t[2];
+    if (i == 1) continue;
+    if (const std::optional<double> between = below_zero_near(more, t, left)) return between;
   }
   return std::nullopt;
 }

@@ -91,6 +91,19 @@ TEST(LawChanges, AStepEndsBeforeTheNextChangeAndPassesOneWholePieceAtMost) {
   EXPECT_EQ(law_end(scheme, 1.7), 2.2);
 }
 
+TEST(LawChanges, AMethodThatSeesEndsAloneTakesSixStepsThroughEachBend) {
+  Scheme scheme;
+  scheme.bends = {{LawBend{0, 6}, LawBend{6, 7.5}, LawBend{20, 32}}, {LawBend{28, 40}}};
+  double t = 0;
+  for (const double end : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 6.25, 6.5, 6.75, 7.0, 7.25, 7.5, 20.0, 22.0, 24.0, 26.0, 28.0, 30.0, 32.0, 34.0}) {
+    EXPECT_DOUBLE_EQ(law_end(scheme, t, true), end) << t;
+    t = law_end(scheme, t, true);
+  }
+  EXPECT_EQ(law_end(scheme, 5 + 5e-3, true), 6) << "what is left is no step of its own";
+  EXPECT_EQ(law_end(scheme, 0, false), infinite);
+  EXPECT_EQ(law_end(scheme, 40, true), infinite);
+}
+
 TEST(LawChanges, AChangeIsThereUntilItIsPassed) {
   Scheme scheme;
   scheme.changes = {{1, 1.5, true}, {3, 3.5, false}};

@@ -1,8 +1,11 @@
-#include "framework/analysis/simulate/explain_numbers.h"
+#include "framework/analysis/simulate/explain_failure.h"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+
+#include "framework/build/laws.h"
+#include "framework/configuration/redundancy.h"
 
 namespace pintle {
 
@@ -36,8 +39,6 @@ Unlike most_unlike(const System& system) {
   return out;
 }
 
-}  // namespace
-
 std::string explain_numbers(const System& system, const Integrator& integrator) {
   constexpr double many = 1e6, few = 1e-9, unlike = 1e6;  // radians, of a pivot, times
   const Eigen::Index n = system.n();
@@ -60,6 +61,18 @@ std::string explain_numbers(const System& system, const Integrator& integrator) 
          " of what the joint forces are found from; give \"" + system.bodies[bodies.light].name +
          "\" a mass and an inertia nearer to the others', which changes nothing that counts where they are small beside " +
          "what it carries, or take method: generalized-alpha";
+}
+
+}  // namespace
+
+std::string explain_failure(const Scene& scene, const System& system, Integrator& integrator) {
+  const State at = integrator.state();
+  State sampled;
+  integrator.sample(at.t, sampled);
+  if (const std::string law = explain_laws(scene, at.t); !law.empty()) return law;
+  if (!at.y.allFinite()) return explain_numbers(system, integrator);
+  const std::string pose = explain_pose(system, at.t, at.y);
+  return pose.empty() ? explain_numbers(system, integrator) : pose;
 }
 
 }  // namespace pintle
