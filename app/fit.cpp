@@ -68,8 +68,8 @@ void add_best(Rows& rows, const FitPlan& plan, const FitEnd& end) {
     rows.emplace_back(variable_header(plan.variables[j]),
                       number(x, 9) + " (from " + number(span.span.from) + " to " + number(span.span.to) + end_of_span + ")");
   }
-  rows.emplace_back("found", "in case " + std::to_string(t.row.number) + ", " + t.phase + "; " + std::to_string(agreeing(plan, end)) + " of " +
-                                 std::to_string(end.best_of.size()) + " starts led there by themselves");
+  rows.emplace_back("found", "in case " + std::to_string(t.row.number) + ", " + t.phase + "; " + std::to_string(agreeing(plan, end)) +
+                                 " of " + std::to_string(end.best_of.size()) + " starts led there by themselves");
 }
 
 void print(const FitPlan& plan, const FitEnd& end, const fs::path& out) {

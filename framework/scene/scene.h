@@ -249,7 +249,7 @@ struct SceneDriver {
   PointRef a, b;
   Law law;  ///< [rad] or [m]
   Place place;
-  bool engaged = true;  ///< at the start
+  bool engaged = true;        ///< at the start
   bool from_present = false;  ///< `law` is added to what is imposed as it is at the start, as the rest is assembled
 };
 

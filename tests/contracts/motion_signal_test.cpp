@@ -23,18 +23,12 @@ struct Named {
   bool rate = false;  ///< it is the rate of the kind before it
 };
 void PrintTo(const Named& n, std::ostream* out) { *out << n.name; }
-const Named kinds[] = {{"X", Kind::x},
-                       {"VX", Kind::vx, true},
-                       {"Y", Kind::y},
-                       {"VY", Kind::vy, true},
-                       {"Angle", Kind::angle},
-                       {"Speed", Kind::speed, true},
-                       {"Length", Kind::length},
-                       {"LengthRate", Kind::length_rate, true},
-                       {"Twist", Kind::twist},
-                       {"TwistRate", Kind::twist_rate, true},
-                       {"Along", Kind::along},
-                       {"Across", Kind::across}};
+const Named kinds[] = {{"X", Kind::x},           {"VX", Kind::vx, true},
+                       {"Y", Kind::y},           {"VY", Kind::vy, true},
+                       {"Angle", Kind::angle},   {"Speed", Kind::speed, true},
+                       {"Length", Kind::length}, {"LengthRate", Kind::length_rate, true},
+                       {"Twist", Kind::twist},   {"TwistRate", Kind::twist_rate, true},
+                       {"Along", Kind::along},   {"Across", Kind::across}};
 
 MovingPoint part(const Vector12& z, Eigen::Index from) { return {z.segment<2>(from), z.segment<2>(from + 3), z[from + 5], z[from + 2]}; }
 double value(Kind kind, const Vector12& z) { return signal_value({kind, 0, 1, 0.4}, part(z, 0), part(z, 6)); }
