@@ -26,7 +26,7 @@ bool answers_to_speed(const FrictionLaw& law) {
 
 }  // namespace
 
-Tangent::Tangent(const System& system) : ends_{MarkerJacobian(system), MarkerJacobian(system), MarkerJacobian(system)}, laws_(system) {
+Tangent::Tangent(const System& system) : ends_(most_ends, MarkerJacobian(system)), laws_(system) {
   for (std::size_t i = 0; i < system.joints.size(); ++i)
     add(system, Interaction::joint, i, ends_of(system.joints[i]), properties_of(system.joints[i]).curvature);
   for (std::size_t i = 0; i < system.forces.size(); ++i)
