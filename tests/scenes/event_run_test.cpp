@@ -105,13 +105,15 @@ TEST(EventContact, IsNotEngagedDeepInside) {
 }
 
 TEST(EventRefusal, OfAJointThatDoesNotMeet) {
-  const Whole w = run(disc("joints: {pin: {revolute: [ground.G, ball.C], engaged: false}}\nevents: {shut: {when: t > 0.1 s, do: {engage: pin}}}"));
+  const Whole w =
+      run(disc("joints: {pin: {revolute: [ground.G, ball.C], engaged: false}}\nevents: {shut: {when: t > 0.1 s, do: {engage: pin}}}"));
   EXPECT_EQ(w.run.status, Status::failed);
   EXPECT_NE(w.run.reason.find("\"pin\" cannot be engaged: its points are"), std::string::npos) << w.run.reason;
 }
 TEST(EventRefusal, OfALoopThatTakesNoTime) {
-  const Whole w = run(disc("states: {k: {rate: 0/(1 s), start: 0.5}}\n"
-                           "events: {up: {when: k < 1, do: {set: {k: 2}}}, down: {when: k > 1, do: {set: {k: 0}}}}"));
+  const Whole w =
+      run(disc("states: {k: {rate: 0/(1 s), start: 0.5}}\n"
+               "events: {up: {when: k < 1, do: {set: {k: 2}}}, down: {when: k > 1, do: {set: {k: 0}}}}"));
   EXPECT_EQ(w.run.status, Status::failed);
   EXPECT_NE(w.run.reason.find("again and again without time passing"), std::string::npos) << w.run.reason;
 }
@@ -138,7 +140,8 @@ TEST(EventRefusal, NamesWhatIsWrongInTheScene) {
 }
 
 TEST(EventWarning, SaysWhatNeverComesAndWhatNeverActs) {
-  const Whole w = run(disc("joints: {pin: {revolute: [ground.G, ball.C], engaged: false}}\nevents: {never: {when: 1 > 2, do: {stop: so}}}"));
+  const Whole w =
+      run(disc("joints: {pin: {revolute: [ground.G, ball.C], engaged: false}}\nevents: {never: {when: 1 > 2, do: {stop: so}}}"));
   std::string all;
   for (const std::string& warning : w.run.warnings) all += warning + "\n";
   EXPECT_NE(all.find("the event \"never\" never comes"), std::string::npos) << all;

@@ -181,9 +181,10 @@ run: {until: 3 s}
 
 // Whatever happens between two discs and a torque on one: their angular momentum is that of the torque.
 TEST_P(ByMethod, AThousandSwitchingsKeepTheBooks) {
-  const Whole w = run(clutch("beat: {when: \"sin(1000*pi/0.1 s*t) > 0.3\", from start: false, do: {engage: clutch}, else: {release: clutch}}",
-                             "forces: {engine: {torque: 5 N m, on: a}}\noutput: {every: 0.01 s}"),
-                      GetParam());
+  const Whole w =
+      run(clutch("beat: {when: \"sin(1e4*pi*t/(1 s)) > 0.3\", from start: false, do: {engage: clutch}, else: {release: clutch}}",
+                 "forces: {engine: {torque: 5 N m, on: a}}\noutput: {every: 0.01 s}"),
+          GetParam());
   expect_sound(w);
   EXPECT_EQ(w.run.happenings.size(), 2000u);
   EXPECT_NEAR(0.2 * last(w, "a.speed [rad/s]") + 0.3 * last(w, "b.speed [rad/s]"), 0.2 * 10 - 0.3 * 3 + 5 * 0.2, 1e-6);
@@ -199,9 +200,10 @@ TEST_P(ByMethod, AChainIsCutInTwo) {
               number(0.05 + 0.1 * i) + ", 0]}}\n";
     joints += "  p" + std::to_string(i) + ": {revolute: [" + before + ", " + link + ".A]}\n";
   }
-  const Whole w = run("gravity: [0, -9.81]\nbodies:\n" + bodies + "joints:\n" + joints +
-                          "events: {cut: {when: l0.angle < -5 deg, once: true, do: {release: p20}}}\nrun: {until: 0.3 s}\noutput: {every: 0.01 s}",
-                      GetParam());
+  const Whole w =
+      run("gravity: [0, -9.81]\nbodies:\n" + bodies + "joints:\n" + joints +
+              "events: {cut: {when: l0.angle < -5 deg, once: true, do: {release: p20}}}\nrun: {until: 0.3 s}\noutput: {every: 0.01 s}",
+          GetParam());
   expect_sound(w);
   ASSERT_EQ(w.run.happenings.size(), 1u);
   EXPECT_EQ(last(w, "p20.fx on l20 [N]"), 0);
