@@ -133,7 +133,7 @@ ground: {points: {wall: [-1 m, 0]}}
 joints: {guide: {prismatic: [ground, block]}}
 forces: {coil: {spring: [ground.wall, block], stiffness: 200 N/m, free length: 1.1 m}}
 start: {block: {x: 0}}
-events: {cut: {when: block.x > 0.04, once: true, do: {release: coil}}}
+events: {cut: {when: block.x > 4 cm, once: true, do: {release: coil}}}
 run: {until: 0.2 s}
 )",
                       GetParam());
