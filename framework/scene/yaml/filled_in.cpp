@@ -332,7 +332,9 @@ std::string filled_in(const Scene& scene, const Parameters& parameters) {
   for (const SceneDriver& d : scene.drivers) append(drivers, d.name, json(d));
   Json& forces = out["forces"] = Json::object();
   for (const SceneLoad& l : scene.loads) append(forces, l.name, std::visit([](const auto& what) { return load(what); }, l.what));
+  if (!scene.states.empty()) out["states"] = Json::object();
   for (const SceneState& s : scene.states) append(out["states"], s.name, json(s));
+  if (!scene.outputs.empty()) out["outputs"] = Json::object();
   for (const SceneOutput& o : scene.outputs) append(out["outputs"], o.name, json(o.law));
   out["start"] = starts(scene);
   if (scene.statics) out["static"] = json(*scene.statics);
