@@ -122,7 +122,9 @@ INSTANTIATE_TEST_SUITE_P(Each, SignalsSaved, testing::Values("dopri5", "verner87
                          [](const auto& p) { return p.param[0] == 'g' ? "GeneralizedAlpha" : std::string(p.param); });
 
 std::string refusal_of_force(const std::string& torque) {
-  return pintle_test::refusal_by([&] { build(scene(with(with(servo, "METHOD", "dopri5"), "11 N m*(target - arm.angle) + 6 N m/s*integral - 6 N m s*arm.speed", torque))); });
+  return pintle_test::refusal_by([&] {
+    build(scene(with(with(servo, "METHOD", "dopri5"), "11 N m*(target - arm.angle) + 6 N m/s*integral - 6 N m s*arm.speed", torque)));
+  });
 }
 
 TEST(BadSignals, AreRefusedWithPlaceAndRemedy) {
@@ -151,11 +153,14 @@ TEST(BadSignals, OutputsInACircleAreNamed) {
 
 TEST(BadSignals, StatesNeedARateOfTheirUnit) {
   const auto refusal = [](const std::string& state) {
-    return pintle_test::refusal_by([&] { build(scene(with(with(servo, "METHOD", "dopri5"), "{rate: target - arm.angle, start: 0 rad s}", state))); });
+    return pintle_test::refusal_by(
+        [&] { build(scene(with(with(servo, "METHOD", "dopri5"), "{rate: target - arm.angle, start: 0 rad s}", state))); });
   };
-  pintle_test::expect_one_line(refusal("{rate: arm.tip.vx, start: 0 rad s}"), "scene.yaml:6: states.integral.rate: ", {"a speed [m/s]", "expected an angle [rad]"});
+  pintle_test::expect_one_line(refusal("{rate: arm.tip.vx, start: 0 rad s}"),
+                               "scene.yaml:6: states.integral.rate: ", {"a speed [m/s]", "expected an angle [rad]"});
   pintle_test::expect_one_line(refusal("{start: 0 rad s}"), "scene.yaml:6: states.integral: ", {"lacks", "rate"});
-  pintle_test::expect_one_line(refusal("{rate: arm.angle, start: 0 rad s, scale: 0}"), "scene.yaml:6: states.integral.scale: ", {"greater than 0"});
+  pintle_test::expect_one_line(refusal("{rate: arm.angle, start: 0 rad s, scale: 0}"),
+                               "scene.yaml:6: states.integral.scale: ", {"greater than 0"});
 }
 
 // The root of x has no value below 0: the run ends and says which law, when and where.

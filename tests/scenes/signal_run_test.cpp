@@ -13,9 +13,8 @@ using pintle_scenes::Method;
 using pintle_scenes::Whole;
 
 // At one tolerance explicit pairs err by a hundred times that, the implicit one by its power two thirds.
-const Method methods[] = {{"Dopri5", "dopri5", 1e-10, 1e-8},
-                          {"Verner87", "verner87", 1e-10, 1e-8},
-                          {"GeneralizedAlpha", "generalized-alpha", 1e-9, 1e-5}};
+const Method methods[] = {
+    {"Dopri5", "dopri5", 1e-10, 1e-8}, {"Verner87", "verner87", 1e-10, 1e-8}, {"GeneralizedAlpha", "generalized-alpha", 1e-9, 1e-5}};
 class SignalRun : public testing::TestWithParam<Method> {
  protected:
   Whole run(const std::string& text) const { return pintle_scenes::run(text, GetParam()); }
@@ -72,7 +71,8 @@ bodies: {block: {rigid: {mass: 0.5 kg, inertia: 1e-3}, points: {P: [0, 0]}}}
 joints: {guide: {prismatic: [ground, block]}}
 forces: {strut: {spring: [ground, block.P], law: "200 N/m*(strut.length - 1 m) + if(strut.rate > 0, 4, 0)*1 N s/m*strut.rate"}}
 start: {block: {x: 1.2 m}}
-run: {until: )yaml" + pintle_scenes::number(until) + "}\n");
+run: {until: )yaml" + pintle_scenes::number(until) +
+                      "}\n");
   pintle_scenes::expect_sound(w);
   EXPECT_NEAR(w.column("block.x [m]").back(), 1 + 0.2 * std::exp(-ratio * omega * pi / slow), 10 * near());
 }
@@ -116,7 +116,8 @@ TEST_P(SignalRun, APeriodicTableIsReadAtAnySpeed) {
                               "scene.yaml", {}, folder);
     return pintle_scenes::run(std::move(s), GetParam());
   };
-  const Whole table = scene("{table: sine.csv, over: wheel.angle, over unit: deg, periodic: true}"), formula = scene("\"0.3 N m*sin(wheel.angle)\"");
+  const Whole table = scene("{table: sine.csv, over: wheel.angle, over unit: deg, periodic: true}"),
+              formula = scene("\"0.3 N m*sin(wheel.angle)\"");
   std::filesystem::remove_all(folder);
   pintle_scenes::expect_sound(table);
   pintle_scenes::expect_sound(formula);

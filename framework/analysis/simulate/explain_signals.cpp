@@ -43,7 +43,8 @@ class LawsAt {
     found = "the law " + from.text + " of " + quoted(name) + " (" + scene_.file + line + ") " +
             (grown ? "has come to " + number_text(value) : "is not a finite number") + " at t = " + number_text(now_.t, 9) + " s";
     for (std::size_t k = 0; k < of.in.size(); ++k)
-      found += (k == 0 ? ", where " : ", ") + from.signals[k] + " = " + number_text(signal_at(system_, system_.signals[at(of.in[k])], now_.y));
+      found +=
+          (k == 0 ? ", where " : ", ") + from.signals[k] + " = " + number_text(signal_at(system_, system_.signals[at(of.in[k])], now_.y));
     found += grown ? ": it seems to grow beyond all bounds; keep it finite, for example with max(…)"
                    : ": keep it finite, for example with max(…) under a division or a root";
   }
