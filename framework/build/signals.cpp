@@ -48,7 +48,8 @@ int SignalMaker::signal(const std::string& name, const Place& place) {
     std::vector<std::string> names;
     for (const auto& [other, what] : words()) names.push_back(other);
     const std::string near = nearest(name, names);
-    wrong(place, "there is no signal " + quoted(name) + (near.empty() ? "; they are written as trajectory.csv writes its columns" : ". Did you mean " + quoted(near) + "?"));
+    wrong(place, "there is no signal " + quoted(name) +
+                     (near.empty() ? "; they are written as trajectory.csv writes its columns" : ". Did you mean " + quoted(near) + "?"));
   }
   if (word->second.what >= What::output)
     wrong(place, quoted(name) + " follows from the accelerations, and cannot size what they follow from; take places, speeds or states");
@@ -117,13 +118,15 @@ WrittenOutput written_output(const Scene& scene, const SceneOutput& o, const Mod
       out.in.push_back({WrittenOutput::Input::output, word->second.index});
     } else if (what == What::column) {
       if (header.empty()) header = trajectory_table(model).header;
-      const auto column = std::ranges::find_if(
-          header, [&](const std::string& h) { return h.starts_with(name) && (h.substr(name.size(), 2) == " [" || h.substr(name.size(), 4) == " on "); });
+      const auto column = std::ranges::find_if(header, [&](const std::string& h) {
+        return h.starts_with(name) && (h.substr(name.size(), 2) == " [" || h.substr(name.size(), 4) == " on ");
+      });
       if (column == header.end()) {
         const bool of_point = name.ends_with(".ax") || name.ends_with(".ay");
-        throw SceneError(scene.file, o.place,
-                         quoted(name) + " is no column of trajectory.csv" +
-                             (of_point ? "; name its point under output.points" : "; the columns are those that the thing has: docs/results.md"));
+        throw SceneError(
+            scene.file, o.place,
+            quoted(name) + " is no column of trajectory.csv" +
+                (of_point ? "; name its point under output.points" : "; the columns are those that the thing has: docs/results.md"));
       }
       out.in.push_back({WrittenOutput::Input::column, static_cast<int>(column - header.begin())});
     } else {

@@ -353,9 +353,10 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
   rest.settle(last, 1);
   out.iterations = way.iterations();
   out.residual = rest.residual();
-  out.method = !has_potential(rest.held) ? "overdamped flow into Newton's method, for loads that follow, or that signals size, have no potential"
-               : way.damped()            ? "Newton's method, damped towards the overdamped flow"
-                                         : "Newton's method";
+  out.method = !has_potential(rest.held)
+                   ? "overdamped flow into Newton's method, for loads that follow, or that signals size, have no potential"
+               : way.damped() ? "Newton's method, damped towards the overdamped flow"
+                              : "Newton's method";
   constexpr double told = 1e-6;  // looked at again: next to a singular pose the smallest change of pose upsets the joints' forces
   const bool was_found = out.found;
   out.found = out.found && out.residual <= told;

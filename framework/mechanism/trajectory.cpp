@@ -60,7 +60,8 @@ PointMotion motion_of(const System& system, const Marker& m, const State& state,
 
 bool is_turning(const Force& f) {
   const auto* sized = std::get_if<SizedForce>(&f);
-  return std::holds_alternative<Torque>(f) || std::holds_alternative<TorsionSpring>(f) || (sized && sized->way != SizedForce::pull && sized->way > SizedForce::follows);
+  return std::holds_alternative<Torque>(f) || std::holds_alternative<TorsionSpring>(f) ||
+         (sized && sized->way != SizedForce::pull && sized->way > SizedForce::follows);
 }
 
 struct Now {

@@ -14,15 +14,22 @@ namespace pintle {
 /// What a name stands for, of the points a and b.
 struct SignalWord {
   enum What {
-    x, y, vx, vy,             ///< of point a, or of body a's origin [m], [m/s]
-    angle, speed,             ///< of body a [rad], [rad/s]
-    ux, uy,                   ///< displacement of a point of a flexible body in its axes [m]
-    length, length_rate,      ///< between a and b [m], [m/s]
-    twist, twist_rate,        ///< direction of b less that of a [rad], [rad/s]
-    travel,                   ///< of b along a's direction [m]
-    state,                    ///< `index` among the scene's
-    output,                   ///< likewise
-    column,                   ///< of trajectory.csv: what the accelerations decide
+    x,
+    y,
+    vx,
+    vy,  ///< of point a, or of body a's origin [m], [m/s]
+    angle,
+    speed,  ///< of body a [rad], [rad/s]
+    ux,
+    uy,  ///< displacement of a point of a flexible body in its axes [m]
+    length,
+    length_rate,  ///< between a and b [m], [m/s]
+    twist,
+    twist_rate,  ///< direction of b less that of a [rad], [rad/s]
+    travel,      ///< of b along a's direction [m]
+    state,       ///< `index` among the scene's
+    output,      ///< likewise
+    column,      ///< of trajectory.csv: what the accelerations decide
   };
   What what;
   Dimension dimension;

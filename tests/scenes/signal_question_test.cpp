@@ -19,7 +19,7 @@ namespace {
 
 using pintle_scenes::Whole;
 
-const std::string servo = R"(
+const std::string servo = R"yaml(
 parameters: {target: 0.5 rad}
 bodies: {arm: {rigid: {mass: 1 kg, inertia: 1 kg m^2}, points: {O: [0, 0], tip: [1 m, 0]}}}
 joints: {pivot: {revolute: [ground, arm.O]}}
@@ -28,7 +28,7 @@ states:
 forces:
   servo: {torque: "11 N m*(target - arm.angle) + 6 N m/s*integral - 6 N m s*arm.speed", on: arm}
 run: {until: 2 s, method: METHOD}
-)";
+)yaml";
 std::string with(const std::string& text, const std::string& from, const std::string& to) {
   std::string out = text;
   const std::size_t at = out.find(from);
@@ -57,7 +57,7 @@ TEST(SignalsAtRest, ATableOverTheStrokeHoldsASpring) {
   const auto folder = std::filesystem::temp_directory_path() / "pintle_signal_table";
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "load.csv") << "stroke,load\n0,0\n10,3\n20,5\n";
-  const Scene s = read_scene_text(R"(
+  const Scene s = read_scene_text(R"yaml(
 bodies: {ram: {rigid: {mass: 5 kg, inertia: 0.01}, points: {P: [0, 0]}}}
 joints: {guide: {prismatic: [ground, ram]}}
 forces:
@@ -65,7 +65,7 @@ forces:
   frame: {spring: [ground, ram.P], law: "400 N/mm*frame.length - 1500 N"}
 start: {ram: {x: 14 mm}}
 run: {until: 1 s}
-)",
+)yaml",
                                   "scene.yaml", {}, folder);
   const Model model = build(s);
   const Equilibrium rest = find_equilibrium(s, model, assemble(s, model), 0);
@@ -122,7 +122,9 @@ INSTANTIATE_TEST_SUITE_P(Each, SignalsSaved, testing::Values("dopri5", "verner87
                          [](const auto& p) { return p.param[0] == 'g' ? "GeneralizedAlpha" : std::string(p.param); });
 
 std::string refusal_of_force(const std::string& torque) {
-  return pintle_test::refusal_by([&] { build(scene(with(with(servo, "METHOD", "dopri5"), "11 N m*(target - arm.angle) + 6 N m/s*integral - 6 N m s*arm.speed", torque))); });
+  return pintle_test::refusal_by([&] {
+    build(scene(with(with(servo, "METHOD", "dopri5"), "11 N m*(target - arm.angle) + 6 N m/s*integral - 6 N m s*arm.speed", torque)));
+  });
 }
 
 TEST(BadSignals, AreRefusedWithPlaceAndRemedy) {
@@ -151,22 +153,25 @@ TEST(BadSignals, OutputsInACircleAreNamed) {
 
 TEST(BadSignals, StatesNeedARateOfTheirUnit) {
   const auto refusal = [](const std::string& state) {
-    return pintle_test::refusal_by([&] { build(scene(with(with(servo, "METHOD", "dopri5"), "{rate: target - arm.angle, start: 0 rad s}", state))); });
+    return pintle_test::refusal_by(
+        [&] { build(scene(with(with(servo, "METHOD", "dopri5"), "{rate: target - arm.angle, start: 0 rad s}", state))); });
   };
-  pintle_test::expect_one_line(refusal("{rate: arm.speed, start: 0 m}"), "scene.yaml:6: states.integral.rate: ", {"expected a speed [m/s]"});
+  pintle_test::expect_one_line(refusal("{rate: arm.tip.vx, start: 0 rad s}"),
+                               "scene.yaml:6: states.integral.rate: ", {"a speed [m/s]", "expected an angle [rad]"});
   pintle_test::expect_one_line(refusal("{start: 0 rad s}"), "scene.yaml:6: states.integral: ", {"lacks", "rate"});
-  pintle_test::expect_one_line(refusal("{rate: arm.angle, start: 0 rad s, scale: 0}"), "scene.yaml:6: states.integral.scale: ", {"greater than 0"});
+  pintle_test::expect_one_line(refusal("{rate: arm.angle, start: 0 rad s, scale: 0}"),
+                               "scene.yaml:6: states.integral.scale: ", {"greater than 0"});
 }
 
-// 1/x grows as x comes to 0: the run ends and says which law, when and where.
-TEST(BadSignals, ADivisionByZeroEndsTheRunWithItsName) {
-  const Whole w = pintle_scenes::run(R"(
+// The root of x has no value below 0: the run ends and says which law, when and where.
+TEST(BadSignals, ALawWithoutAValueEndsTheRunWithItsName) {
+  const Whole w = pintle_scenes::run(R"yaml(
 bodies: {cart: {rigid: {mass: 1 kg, inertia: 0.1}, points: {P: [0, 0]}}}
 joints: {rail: {prismatic: [ground, cart]}}
 forces: {root: {force: ["-1 N*sqrt(cart.x/(1 m))", 0], at: cart.P}}
 start: {cart: {x: 0.1 m, vx: -1 m/s}}
 run: {until: 1 s, method: dopri5}
-)");
+)yaml");
   EXPECT_EQ(w.run.status, Status::failed);
   pintle_test::expect_says(w.run.reason, {"\"root\"", "not a finite number", "cart.x = "});
 }

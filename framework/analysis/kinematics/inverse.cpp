@@ -164,7 +164,7 @@ Inverse inverse(const Scene& scene, const Model& model, const Assembly& assembly
                           : !system.contacts.empty()  ? "profiles may touch"
                           : !system.frictions.empty() ? "friction in joints remembers what was before"
                           : open > 0                  ? std::to_string(open) + " freedoms are not driven"
-                                                      : !system.states.empty()    ? "states of the scene remember what was before"
+                          : !system.states.empty()    ? "states of the scene remember what was before"
                                                       : "springs in series with dampers remember what was before";
   out.how = "integrated forward with the drivers as constraints: " + why;
   integrate(scene, model, assembly, listeners, out);

@@ -122,8 +122,7 @@ double MotionAt::rate(const System& system) const {
       const double scale = system.x_scale[owner.begin + i];
       speed = std::max(speed, std::abs(internal_rates(eq, owner)[static_cast<std::size_t>(i)]) / (scale > 0 ? scale : system.length));
     }
-  for (const OwnState& own : system.states)
-    speed = std::max(speed, std::abs(eq.laws[static_cast<std::size_t>(own.rate)]) / own.scale);
+  for (const OwnState& own : system.states) speed = std::max(speed, std::abs(eq.laws[static_cast<std::size_t>(own.rate)]) / own.scale);
   return std::max(speed, std::sqrt(eq.a.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>()));
 }
 

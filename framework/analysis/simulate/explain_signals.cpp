@@ -43,7 +43,8 @@ class LawsAt {
     found = "the law " + from.text + " of " + quoted(name) + " (" + scene_.file + line + ") " +
             (grown ? "has come to " + number_text(value) : "is not a finite number") + " at t = " + number_text(now_.t, 9) + " s";
     for (std::size_t k = 0; k < of.in.size(); ++k)
-      found += (k == 0 ? ", where " : ", ") + from.signals[k] + " = " + number_text(signal_at(system_, system_.signals[at(of.in[k])], now_.y));
+      found +=
+          (k == 0 ? ", where " : ", ") + from.signals[k] + " = " + number_text(signal_at(system_, system_.signals[at(of.in[k])], now_.y));
     found += grown ? ": it seems to grow beyond all bounds; keep it finite, for example with max(…)"
                    : ": keep it finite, for example with max(…) under a division or a root";
   }
@@ -57,7 +58,14 @@ class LawsAt {
 
 std::string explain_signals(const Scene& scene, const Model& model, const State& start, const State& now) {
   if (model.system.laws.empty() || now.y.size() != model.system.n_y()) return "";
-  return LawsAt(scene, model, start, now).found;
+  constexpr double ahead = 1e-9;  // of the run: where it would be next
+  const std::string here = LawsAt(scene, model, start, now).found;
+  if (!here.empty()) return here;
+  State next = now;
+  const double dt = ahead * scene.run.until;
+  next.t += dt;
+  next.y.head(model.system.n()) += dt * now.y.segment(model.system.n(), model.system.n());
+  return LawsAt(scene, model, start, next).found;
 }
 
 }  // namespace pintle

@@ -161,9 +161,10 @@ class Sum : public ValueWriter<Sum> {
     if (z.account != Account::scheme) add(z.account, z.index);  // which `method: auto` may add as the run becomes longer
   }
   void add(const System& s) {
-    const auto& [gravity, bodies, markers, joints, frictions, forces, contacts, signals, laws, states, joint_names, force_names, contact_names, loose, loose_names,
-                 length, eta_begin, scale, row_begin, end_begin, end_marker, row_scale, integrals, contact_z, force_z, joint_z, internal,
-                 force_x, x_scale, contact_x, friction_x, own_x, switches, joint_switch, force_switch, contact_switch] = s;
+    const auto& [gravity, bodies, markers, joints, frictions, forces, contacts, signals, laws, states, joint_names, force_names,
+                 contact_names, loose, loose_names, length, eta_begin, scale, row_begin, end_begin, end_marker, row_scale, integrals,
+                 contact_z, force_z, joint_z, internal, force_x, x_scale, contact_x, friction_x, own_x, switches, joint_switch,
+                 force_switch, contact_switch] = s;
     add(gravity, bodies, markers, joints, frictions, forces, contacts, joint_names, force_names, contact_names, loose, loose_names, length,
         eta_begin, scale, row_begin, end_begin, end_marker, row_scale);
     for (const Integral& z : integrals) add(z);

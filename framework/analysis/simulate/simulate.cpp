@@ -258,8 +258,7 @@ class Simulation {
     std::string& reason = run_.reason;
     if (!reason.empty()) {
       std::string why = explain_laws(scene_, at.t);
-      for (const State& tried : {integrator_.last().to.state, at})
-        if (why.empty()) why = explain_signals(scene_, model_, start_, tried);
+      if (why.empty()) why = explain_signals(scene_, model_, start_, at);
       if (why.empty() && at.y.allFinite()) why = explain_pose(system_, at.t, at.y);
       if (why.empty()) why = explain_numbers(system_, integrator_);
       if (why.empty()) why = monitor_.worst_warning();

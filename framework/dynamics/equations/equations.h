@@ -83,7 +83,7 @@ struct Equations {
   Eigen::VectorXd f, a, lambda;  ///< forces, accelerations, multipliers
   std::vector<ContactEffect> contact;
   std::vector<ForceEffect> force;
-  std::vector<double> signals, laws;          ///< values of the system's
+  std::vector<double> signals, laws;  ///< values of the system's
   OwnScratch own;
   std::vector<JointFrictionEffect> friction;  ///< in joints
   Sticking sticking;

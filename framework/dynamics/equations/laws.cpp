@@ -70,8 +70,7 @@ void follow_own_states(const System& system, Equations& eq, double t, double wei
     with.A = -with.A;
     with.A.diagonal().array() += 1 / weight;
     for (Index k = 0; k < n; ++k)
-      with.left[k] =
-          eq.laws[at(system.states[at(k)].rate)] - (std::isinf(weight) ? 0 : (own[k] - base[system.own_x + k]) / weight);
+      with.left[k] = eq.laws[at(system.states[at(k)].rate)] - (std::isinf(weight) ? 0 : (own[k] - base[system.own_x + k]) / weight);
     with.lu.compute(with.A);
     with.change = with.lu.solve(with.left);
     if (!with.change.allFinite()) return;

@@ -20,12 +20,19 @@ namespace pintle {
 /// A number of the motion of the markers a and b, less `offset`; or an own state, whose number is a.
 struct MotionSignal {
   enum Kind {
-    x, y, angle,          ///< of a [m], [rad]
-    vx, vy, speed,        ///< of a [m/s], [rad/s]
-    length, length_rate,  ///< from a to b [m], [m/s]
-    twist, twist_rate,    ///< direction of b less that of a [rad], [rad/s]
-    along, across,        ///< b in the axes of a [m]
-    state,                ///< an own state
+    x,
+    y,
+    angle,  ///< of a [m], [rad]
+    vx,
+    vy,
+    speed,  ///< of a [m/s], [rad/s]
+    length,
+    length_rate,  ///< from a to b [m], [m/s]
+    twist,
+    twist_rate,  ///< direction of b less that of a [rad], [rad/s]
+    along,
+    across,  ///< b in the axes of a [m]
+    state,   ///< an own state
   } kind;
   int a = 0, b = 0;
   double offset = 0;

@@ -76,7 +76,9 @@ double end_of_run(const Scene& scene) { return scene.has_run ? scene.run.until :
 
 // The laws of a force, which may name whatever the scene has.
 void read_laws_of(const Node& node, const std::filesystem::path& folder, double until, ActingSignals& signals, SceneLoad& load) {
-  const auto law = [&](const Node& at, std::string_view keys, const Dimension& d) { return read_load_law(at, keys, d, folder, until, signals); };
+  const auto law = [&](const Node& at, std::string_view keys, const Dimension& d) {
+    return read_load_law(at, keys, d, folder, until, signals);
+  };
   if (auto* force = std::get_if<SceneForce>(&load.what)) {
     const auto parts = node.at("force").items(2, "two components [x, y], each a force or a law in t and signals");
     force->x = law(parts[0], "forces.*.force.*", dimension::force);

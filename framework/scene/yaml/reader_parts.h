@@ -23,9 +23,9 @@ void read_states(const Node& root, Scene&);                                     
 void read_forces(const Node& root, const std::filesystem::path& folder, Scene&);  ///< after all that has signals
 void read_state_rates(const Node& root, Scene&);                                  ///< after forces
 void read_outputs(const Node& root, Scene&);                                      ///< after state rates
-void read_events(const Node& root, Scene&);  ///< after all that they act on
-void read_start(const Node& root, Scene&);   ///< after bodies and joints
-void read_static(const Node& root, Scene&);  ///< after bodies
+void read_events(const Node& root, Scene&);                                       ///< after all that they act on
+void read_start(const Node& root, Scene&);                                        ///< after bodies and joints
+void read_static(const Node& root, Scene&);                                       ///< after bodies
 void read_run(const Node& root, Scene&);
 void read_output(const Node& root, Scene&);  ///< after run
 

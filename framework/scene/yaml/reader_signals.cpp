@@ -56,8 +56,9 @@ void must_close(const Node& node, const Samples& samples) {
   constexpr double alike = 1e-9;
   const auto [least, most] = std::ranges::minmax(samples.value);
   if (std::abs(samples.value.back() - samples.value.front()) <= alike * (most - least)) return;
-  node.at("periodic").fail("the table " + node.at("table").shown() +
-                           " does not end with the value that it begins with; let its last row be the first one a period later");
+  node.at("periodic")
+      .fail("the table " + node.at("table").shown() +
+            " does not end with the value that it begins with; let its last row be the first one a period later");
 }
 
 Law read_signal_table(const Node& node, std::string_view keys, const Dimension& expected, const std::filesystem::path& folder,
@@ -179,8 +180,9 @@ void read_outputs(const Node& root, Scene& scene) {
       const std::string said = error.what();
       for (const Node& other : entries)
         if (said.find("\"" + other.name() + "\" is neither") != std::string::npos)
-          node.fail("\"" + text + "\": " + other.name() + " is not known yet; an output may name those above it, and not itself, so write " +
-                    other.name() + " above " + node.name());
+          node.fail("\"" + text + "\": " + other.name() +
+                    " is not known yet; an output may name those above it, and not itself, so write " + other.name() + " above " +
+                    node.name());
       node.fail(said);
     }
   }

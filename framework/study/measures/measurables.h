@@ -10,8 +10,8 @@ namespace pintle {
 /// What a measure can be about in this scene.
 struct Measurables {
   Names joints, contacts, drivers, loads, bodies, points;
-  Names walls;   ///< where something may be touched: joints and contacts
-  Names actors;  ///< what has a force
+  Names walls;    ///< where something may be touched: joints and contacts
+  Names actors;   ///< what has a force
   Names written;  ///< outputs and states of the scene's own
 };
 Measurables measurables_of(const Scene&);

@@ -68,7 +68,8 @@ class Reading {
   }
 
   bool read_what() {
-    return read_written() || read_column() || read_force() || read_contact() || read_lost() || read_energy() || read_elastic() || read_motion();
+    return read_written() || read_column() || read_force() || read_contact() || read_lost() || read_energy() || read_elastic() ||
+           read_motion();
   }
 
   /// A name must follow.
