@@ -76,6 +76,7 @@ class Builder {
       if (const std::string warning = j.clearance ? rounding_warning(scene_, j, model_.system.length) : ""; !warning.empty())
         model_.warnings.push_back(warning);
     model_.clearances = complete_clearances(scene_, model_.system, model_.warnings);
+    if (!model_.system.laws.empty()) number(model_.system);  // for those who look at the motion's own rates
     for (std::string& warning : contact_warnings(scene_, model_.system, model_.order, elements_))
       model_.warnings.push_back(std::move(warning));
     scheme();
@@ -377,7 +378,6 @@ class Builder {
   void scheme() {
     const RunOptions& run = scene_.run;
     Scheme& s = model_.scheme;
-    if (!model_.system.laws.empty()) number(model_.system);
     choose_method(scene_, model_.system, s);
     number(model_.system, !s.tableau || s.switch_below > 0);
     s.tolerance = run.tolerance;

@@ -241,10 +241,11 @@ std::vector<std::string> warnings_of(const Model& model, const Assembly& assembl
 
 namespace {
 
+// With as many integrals, so that their states are of one length.
 System without_play(System system) {
   system.joints.insert(system.joints.end(), system.loose.begin(), system.loose.end());
   system.joint_names.insert(system.joint_names.end(), system.loose_names.begin(), system.loose_names.end());
-  number(system);
+  number(system, std::ranges::count(system.integrals, Account::scheme, &Integral::account) > 0);
   return system;
 }
 

@@ -20,14 +20,14 @@ using Vector12 = Eigen::Matrix<double, 12, 1>;  // poses and rates of a, of b
 struct Named {
   const char* name;
   Kind kind;
-  bool rate = false;  ///< it is the rate of the kind before it
+  Kind place = Kind::state;  ///< of which it is the rate
 };
 void PrintTo(const Named& n, std::ostream* out) { *out << n.name; }
-const Named kinds[] = {{"X", Kind::x},           {"VX", Kind::vx, true},
-                       {"Y", Kind::y},           {"VY", Kind::vy, true},
-                       {"Angle", Kind::angle},   {"Speed", Kind::speed, true},
-                       {"Length", Kind::length}, {"LengthRate", Kind::length_rate, true},
-                       {"Twist", Kind::twist},   {"TwistRate", Kind::twist_rate, true},
+const Named kinds[] = {{"X", Kind::x},           {"VX", Kind::vx, Kind::x},
+                       {"Y", Kind::y},           {"VY", Kind::vy, Kind::y},
+                       {"Angle", Kind::angle},   {"Speed", Kind::speed, Kind::angle},
+                       {"Length", Kind::length}, {"LengthRate", Kind::length_rate, Kind::length},
+                       {"Twist", Kind::twist},   {"TwistRate", Kind::twist_rate, Kind::twist},
                        {"Along", Kind::along},   {"Across", Kind::across}};
 
 MovingPoint part(const Vector12& z, Eigen::Index from) { return {z.segment<2>(from), z.segment<2>(from + 3), z[from + 5], z[from + 2]}; }
@@ -61,8 +61,8 @@ TEST_P(Signals, DerivativesAreDifferences) {
 
 // A rate is what the derivatives of its place make of the rates.
 TEST_P(Signals, RatesFollowFromPlaces) {
-  if (!GetParam().rate) return;
-  const Kind place = (&GetParam() - 1)->kind;
+  const Kind place = GetParam().place;
+  if (place == Kind::state) return;
   Draw draw(12);
   for (int n = 0; n < 50; ++n) {
     const Vector12 z = drawn(draw), of_place = slope(place, z);

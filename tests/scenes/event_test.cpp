@@ -133,7 +133,7 @@ ground: {points: {wall: [-1 m, 0]}}
 joints: {guide: {prismatic: [ground, block]}}
 forces: {coil: {spring: [ground.wall, block], stiffness: 200 N/m, free length: 1.1 m}}
 start: {block: {x: 0}}
-events: {cut: {when: block.x > 0.04, once: true, do: {release: coil}}}
+events: {cut: {when: block.x > 4 cm, once: true, do: {release: coil}}}
 run: {until: 0.2 s}
 )",
                       GetParam());
@@ -182,7 +182,7 @@ run: {until: 3 s}
 // Whatever happens between two discs and a torque on one: their angular momentum is that of the torque.
 TEST_P(ByMethod, AThousandSwitchingsKeepTheBooks) {
   const Whole w =
-      run(clutch("beat: {when: \"sin(1000*pi/0.1 s*t) > 0.3\", from start: false, do: {engage: clutch}, else: {release: clutch}}",
+      run(clutch("beat: {when: \"sin(1e4*pi*t/(1 s)) > 0.3\", from start: false, do: {engage: clutch}, else: {release: clutch}}",
                  "forces: {engine: {torque: 5 N m, on: a}}\noutput: {every: 0.01 s}"),
           GetParam());
   expect_sound(w);

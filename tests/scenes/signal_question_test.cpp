@@ -156,15 +156,15 @@ TEST(BadSignals, StatesNeedARateOfTheirUnit) {
     return pintle_test::refusal_by(
         [&] { build(scene(with(with(servo, "METHOD", "dopri5"), "{rate: target - arm.angle, start: 0 rad s}", state))); });
   };
-  pintle_test::expect_one_line(refusal("{rate: arm.speed, start: 0 m}"),
-                               "scene.yaml:6: states.integral.rate: ", {"expected a speed [m/s]"});
+  pintle_test::expect_one_line(refusal("{rate: arm.tip.vx, start: 0 rad s}"),
+                               "scene.yaml:6: states.integral.rate: ", {"a speed [m/s]", "expected an angle [rad]"});
   pintle_test::expect_one_line(refusal("{start: 0 rad s}"), "scene.yaml:6: states.integral: ", {"lacks", "rate"});
   pintle_test::expect_one_line(refusal("{rate: arm.angle, start: 0 rad s, scale: 0}"),
                                "scene.yaml:6: states.integral.scale: ", {"greater than 0"});
 }
 
-// 1/x grows as x comes to 0: the run ends and says which law, when and where.
-TEST(BadSignals, ADivisionByZeroEndsTheRunWithItsName) {
+// The root of x has no value below 0: the run ends and says which law, when and where.
+TEST(BadSignals, ALawWithoutAValueEndsTheRunWithItsName) {
   const Whole w = pintle_scenes::run(R"yaml(
 bodies: {cart: {rigid: {mass: 1 kg, inertia: 0.1}, points: {P: [0, 0]}}}
 joints: {rail: {prismatic: [ground, cart]}}

@@ -58,7 +58,14 @@ class LawsAt {
 
 std::string explain_signals(const Scene& scene, const Model& model, const State& start, const State& now) {
   if (model.system.laws.empty() || now.y.size() != model.system.n_y()) return "";
-  return LawsAt(scene, model, start, now).found;
+  constexpr double ahead = 1e-9;  // of the run: where it would be next
+  const std::string here = LawsAt(scene, model, start, now).found;
+  if (!here.empty()) return here;
+  State next = now;
+  const double dt = ahead * scene.run.until;
+  next.t += dt;
+  next.y.head(model.system.n()) += dt * now.y.segment(model.system.n(), model.system.n());
+  return LawsAt(scene, model, start, next).found;
 }
 
 }  // namespace pintle

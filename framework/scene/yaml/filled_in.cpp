@@ -9,7 +9,10 @@
 
 namespace pintle {
 
-void append(Json& object, const std::string& name, Json value) { object.get_ref<Json::object_t&>().push_back({name, std::move(value)}); }
+void append(Json& object, const std::string& name, Json value) {
+  if (object.is_null()) object = Json::object();
+  object.get_ref<Json::object_t&>().push_back({name, std::move(value)});
+}
 
 Json json(const Pair& p) { return Json::array({p[0], p[1]}); }
 
