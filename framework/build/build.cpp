@@ -60,7 +60,6 @@ class Builder {
     report_flexible(scene_, elements_, elastic_, model_);
     model_.system.length = size();
     signals_.finish();
-    for (const SceneOutput& o : scene_.outputs) add(o);
     for (ContactPair& pair : model_.system.contacts)
       if (is_rigid(pair)) pair.slack = touching_part * model_.system.length;
     for (const SceneJoint& j : scene_.joints)
@@ -70,6 +69,7 @@ class Builder {
     for (std::string& warning : contact_warnings(scene_, model_.system, model_.order, elements_))
       model_.warnings.push_back(std::move(warning));
     scheme();
+    for (const SceneOutput& o : scene_.outputs) add(o);
     return std::move(model_);
   }
 
