@@ -68,7 +68,6 @@ class Builder {
     settle_start(scene_, model_);
     model_.system.length = size();
     signals_.finish();
-    for (const SceneOutput& o : scene_.outputs) add(o);
     add_events(scene_, model_, signals_);
     for (ContactPair& pair : model_.system.contacts)
       if (is_rigid(pair)) pair.slack = touching_part * model_.system.length;
@@ -80,6 +79,7 @@ class Builder {
     for (std::string& warning : contact_warnings(scene_, model_.system, model_.order, elements_))
       model_.warnings.push_back(std::move(warning));
     scheme();
+    for (const SceneOutput& o : scene_.outputs) add(o);
     return std::move(model_);
   }
 
