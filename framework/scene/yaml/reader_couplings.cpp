@@ -8,6 +8,7 @@
 #include "files/files.h"
 #include "framework/common/text.h"
 #include "framework/scene/joint_words.h"
+#include "framework/scene/units/law_pole.h"
 #include "framework/scene/units/law_scale.h"
 #include "framework/scene/units/table.h"
 #include "framework/scene/yaml/filled_in_parts.h"
@@ -127,14 +128,15 @@ Law read_cam_curve(const Node& node, const Dimension& expected, const std::strin
     node.fail(error.what());
   }
   const LawScale scale = scale_of(law.at, full_turn);
+  const auto not_finite = [&](double angle) {
+    node.fail(node.shown() + " is not finite at " + number_text(angle) + " rad; it must be, with two derivatives");
+  };
+  if (!std::isnan(scale.not_finite)) not_finite(scale.not_finite);
+  if (const auto pole = pole_of(law.at, full_turn, true)) not_finite(*pole);
   for (const LawBreak& b : scale.breaks)
     if (value_jumps(b) || speed_jumps(b, scale.fastest))
       node.fail(node.shown() + " jumps, or its slope does, at " + number_text(b.after) +
                 " rad: the follower would be struck; write step(angle, …) instead of if, min, max or abs");
-  constexpr int looks = 64;
-  for (int i = 0; i <= looks; ++i)
-    if (const Jet jet = law.at(full_turn * i / looks); !std::isfinite(jet.value + jet.rate + jet.accel))
-      node.fail(node.shown() + " is not finite at " + number_text(full_turn * i / looks) + " rad; it must be, with two derivatives");
   return law;
 }
 
