@@ -21,8 +21,8 @@ struct Situation {
 struct CaseSource {
   std::filesystem::path file;  ///< tables and drawings are sought beside it
   std::string text;
-  Overrides common = {};   ///< hold for all cases; a case's own come after
-  Question question = {};  ///< what is asked of each
+  Overrides common = {};                   ///< hold for all cases; a case's own come after
+  Question question = {};                  ///< what is asked of each
   std::vector<Situation> situations = {};  ///< a case goes through all of them; none: through the scene as it is
 };
 /// @throws SceneError  there is no such file

@@ -182,7 +182,8 @@ TEST_F(SweepKilled, AFitComesToTheSameBits) {
   ASSERT_EQ(run(command("whole", "1")), 0) << contents(folder_ / "log");
   for (const std::size_t most : {1u, 20u, 60u}) run(command("killed", "2"), [&] { return journalled(folder_ / "killed").size() >= most; });
   ASSERT_EQ(run(command("killed", "3")), 0) << contents(folder_ / "log");
-  for (const char* file : {"fit.csv", "fitted.yaml"}) EXPECT_EQ(contents(folder_ / "killed" / file), contents(folder_ / "whole" / file)) << file;
+  for (const char* file : {"fit.csv", "fitted.yaml"})
+    EXPECT_EQ(contents(folder_ / "killed" / file), contents(folder_ / "whole" / file)) << file;
 }
 
 /// Sockets that the program's processes listen at, from all networks: the inodes that they hold, looked up in /proc/net.

@@ -125,11 +125,11 @@ TEST(StudySchema, AcceptsAllKindsOfCasesAndRefusesWhatIsNone) {
                            "goal: {path: {point: a.b, through: [[0, 1], [2 mm, 0]], order: any}}",
                            "sensitivity: {parameters: {a: {uniform: 1}, b: {normal: 1, step: 2, at: 3}}, sobol: {count: 9}}"})
     EXPECT_TRUE(accepted(head + good)) << good;
-  for (const char* bad : {"sweeps: {}", "sweep: {grd: {}}", "sweep: {grid: {c: 1}}", "sweep: {grid: {c: {from: 1, to: 2}}}",
-                          "sweep: {grid: {c: {from: 1, to: 2, count: 3, scale: lg}}}", "sweep: {random: {c: {from: 1, to: 2}}}",
-                          "tradeoff: {error: 1%}", "tradeoff: {axes: {}}", "analysis: running", "goal: {minimise: a, maximise: b}",
-                          "goal: {path: {point: a.b}}", "vary: {a: {from: 1}}", "fit: {method: newton}", "subject to: {a: {below: 1}}",
-                          "sensitivity: {sobol: {count: 9}}"})
+  for (const char* bad :
+       {"sweeps: {}", "sweep: {grd: {}}", "sweep: {grid: {c: 1}}", "sweep: {grid: {c: {from: 1, to: 2}}}",
+        "sweep: {grid: {c: {from: 1, to: 2, count: 3, scale: lg}}}", "sweep: {random: {c: {from: 1, to: 2}}}", "tradeoff: {error: 1%}",
+        "tradeoff: {axes: {}}", "analysis: running", "goal: {minimise: a, maximise: b}", "goal: {path: {point: a.b}}",
+        "vary: {a: {from: 1}}", "fit: {method: newton}", "subject to: {a: {below: 1}}", "sensitivity: {sobol: {count: 9}}"})
     EXPECT_FALSE(accepted(head + bad)) << bad;
   EXPECT_TRUE(accepted("scene: a.yaml\ngoal: {minimise: energy lost}\n"));
   EXPECT_FALSE(accepted("scene: a.yaml\n"));
