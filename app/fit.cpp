@@ -56,11 +56,11 @@ void add_best(Rows& rows, const FitPlan& plan, const FitEnd& end) {
   const Trying& t = end.tried[*end.best];
   const std::vector<double> values = measured_values(plan, t);
   for (std::size_t m = 0; m < values.size(); ++m) rows.emplace_back(measured_header(plan, end, m), number(values[m], 9));
-  for (const Bound& b : plan.goal.bounds)
-    rows.emplace_back(
-        measured_header(plan, end, b.measure),
-        std::string(b.at_most ? "at most " : "at least ") + number(b.limit) +
-            (b.at_most == (values[b.measure] <= b.limit * (1 + (b.limit > 0 ? met_within : -met_within))) ? ": met" : ": see the value"));
+  for (std::size_t i = 0; i < plan.goal.bounds.size(); ++i) {
+    const Bound& b = plan.goal.bounds[i];
+    rows.emplace_back(measured_header(plan, end, b.measure), std::string(b.at_most ? "at most " : "at least ") + number(b.limit) +
+                                                                 (t.worth.excess[i] <= met_within ? ": met" : ": NOT MET"));
+  }
   for (std::size_t j = 0; j < plan.variables.size(); ++j) {
     const ValueSpan& span = plan.variables[j].span;
     const double x = variable_value(t, j), u = span.where(x);
