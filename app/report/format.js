@@ -34,6 +34,7 @@ const withUnit = (x, unit, digits) => `${plain(x, digits)} ${prettyUnit(unit)}`.
 /// The same with a prefix where the unit takes one.
 function engineering(x, unit, digits = 4) {
   const scale = scaleFor(Math.abs(x), unit);
+  if (scale.unit.startsWith("10")) return withUnit(x, unit, digits);
   return `${plain(x * scale.factor, digits)} ${scale.unit}`.trim();
 }
 

@@ -105,8 +105,7 @@ const std::vector<Layer> layers{
       "framework/analysis/", "framework/study/measures/"}},
     {"framework/plots/", {"framework/common/", "framework/study/tradeoff/"}},
     {"framework/report/",
-     {"framework/common/", "framework/scene/", "framework/dynamics/model/", "framework/bodies/", "framework/drawing/",
-      "framework/mechanism/", "framework/build/", "framework/analysis/kinematics/"}},
+     {"framework/common/", "framework/scene/", "framework/bodies/", "framework/drawing/", "framework/mechanism/", "framework/build/"}},
 
     {"app/", {"files/", "elements/", "contact/", "meshes/", "framework/"}},
     {"examples/", {"elements/", "contact/", "meshes/", "framework/"}},
