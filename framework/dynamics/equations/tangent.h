@@ -66,7 +66,7 @@ class Tangent {
   std::vector<Own> own_;  ///< per body
   std::vector<Interaction> interactions_;
   std::vector<FlexibleScratch> flexible_;  ///< per flexible body
-  std::vector<MarkerJacobian> ends_;  ///< of one interaction
+  std::vector<MarkerJacobian> ends_;       ///< of one interaction
   LawTangent laws_;
 };
 
