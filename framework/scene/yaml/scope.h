@@ -59,7 +59,7 @@ struct Source {
   const Parameters& visible(int scope_) const { return scope_ == 0 ? parameters : scope(scope_)->parameters; }
 };
 
-/// What a name means that stands in a scope, as the whole scene calls it: an assembly's own parts come first, then those of what holds it.
+/// What a name means that stands in a scope, as the whole scene calls it: an assembly's ports and own parts come first, then those of what holds it.
 PartName resolved(const Source&, int scope, PartName);
 
 /// An expression with the values of parameters in the place of their names where the scene's do not hold, so that it means the same
