@@ -156,13 +156,19 @@ class Expansion {
     for (const Yaml& entry : section.items)
       each_copy(entry, part.path + as + ".", part.scope, [&](Yaml one) {
         if (as == "start")
-          one.key = resolved(source_, part.scope, {one.key, ""}).part;
+          one.key = starting(one.key, part);
         else if (one.key != "ground")
           one.key = part.full(one.key);
         if (as == "start" && !started_.insert(one.key).second) return;  // what holds the instance has said it
         if (!part.placing.stays()) place(one, as, as + "." + one.key, part.placing, source_);
         to.items.push_back(std::move(one));
       });
+  }
+
+  /// The body or joint that starts; a joint may have the name of a port.
+  std::string starting(const std::string& key, const Part& part) const {
+    const Scope* scope = source_.scope(part.scope);
+    return scope && scope->names->has(key) ? part.full(key) : resolved(source_, part.scope, {key, ""}).part;
   }
 
   /// Points of an assembly are recorded beside those of the scene.

@@ -81,9 +81,9 @@ PartName resolved(const Source& source, int scope, PartName name) {
       if (s->names->ground.contains(name.point)) return {"ground", s->instance + " " + name.point};
       continue;
     }
-    if (s->names->has(name.part)) return {s->instance + " " + name.part, name.point};
     if (const auto port = s->ports.find(name.part); port != s->ports.end())
       return name.point.empty() ? port->second : PartName{port->second.part, name.point};
+    if (s->names->has(name.part)) return {s->instance + " " + name.part, name.point};
   }
   return name;
 }

@@ -60,7 +60,7 @@ struct Source {
   const Parameters& visible(int scope_) const { return scope_ == 0 ? parameters : scope(scope_)->parameters; }
 };
 
-/// What a name means that stands in a scope, as the whole scene calls it: an assembly's own parts come first, then those of what holds it.
+/// What a name means that stands in a scope, as the whole scene calls it: an assembly's ports and own parts come first, then those of what holds it.
 PartName resolved(const Source&, int scope, PartName);
 
 /// An expression as the whole scene would write it: with the values of the scope's own parameters in the place of their names, and the
