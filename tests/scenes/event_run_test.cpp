@@ -113,7 +113,7 @@ TEST(EventRefusal, OfAJointThatDoesNotMeet) {
 TEST(EventRefusal, OfALoopThatTakesNoTime) {
   const Whole w =
       run(disc("states: {k: {rate: 0/(1 s), start: 0.5}}\n"
-               "events: {up: {when: k < 1, do: {set: {k: 2}}}, down: {when: k > 1, do: {set: {k: 0}}}}"));
+               "events: {flip: {when: k < 1, do: {set: {k: 2}}, else: {set: {k: 0}}}}"));
   EXPECT_EQ(w.run.status, Status::failed);
   EXPECT_NE(w.run.reason.find("again and again without time passing"), std::string::npos) << w.run.reason;
 }
