@@ -242,6 +242,9 @@ RateSpectrum spectrum(const Scene& scene, const System& system) {
   if (motion > 0) return s;
   for (const RateSpectrum::Part& p : s.parts)
     if (p.rate > 0) s.motion = s.motion > 0 ? std::min(s.motion, p.rate) : p.rate;
+  if (s.motion > 0) return s;
+  for (const RateSpectrum::Part& p : s.parts)  // nothing swings: what a motor or a state runs up by
+    if (p.decay > 0) s.motion = s.motion > 0 ? std::min(s.motion, p.decay) : p.decay;
   return s;
 }
 

@@ -49,7 +49,7 @@ TEST(SignalsLinearized, APidLoopHasThePolesOfItsGains) {
     for (const std::complex<double>& r : found) nearest = std::min(nearest, std::abs(r - root));
     EXPECT_LT(nearest, 1e-10);
   }
-  EXPECT_EQ(lin.space.states.back(), "integral [rad*s]");
+  EXPECT_EQ(lin.space.states.back(), "integral [s]");
 }
 
 // 3 kN at 10 mm and 5 kN at 20 mm, straight between, against a spring of 400 N/mm.
@@ -116,7 +116,7 @@ TEST_P(SignalsSaved, MoveAlikeHoweverOftenTheyAreWritten) {
   often.output.every = 1e-3, seldom.output.every = 0.5;
   const Whole a = pintle_scenes::run(often), b = pintle_scenes::run(seldom);
   EXPECT_EQ(a.column("arm.angle [rad]").back(), b.column("arm.angle [rad]").back());
-  EXPECT_EQ(a.column("integral [rad s]").back(), b.column("integral [rad s]").back());
+  EXPECT_EQ(a.column("integral [s]").back(), b.column("integral [s]").back());
 }
 INSTANTIATE_TEST_SUITE_P(Each, SignalsSaved, testing::Values("dopri5", "verner87", "generalized-alpha"),
                          [](const auto& p) { return p.param[0] == 'g' ? "GeneralizedAlpha" : std::string(p.param); });
@@ -157,7 +157,7 @@ TEST(BadSignals, StatesNeedARateOfTheirUnit) {
         [&] { build(scene(with(with(servo, "METHOD", "dopri5"), "{rate: target - arm.angle, start: 0 rad s}", state))); });
   };
   pintle_test::expect_one_line(refusal("{rate: arm.tip.vx, start: 0 rad s}"),
-                               "scene.yaml:6: states.integral.rate: ", {"a speed [m/s]", "expected an angle [rad]"});
+                               "scene.yaml:6: states.integral.rate: ", {"a speed [m/s]", "expected a number"});
   pintle_test::expect_one_line(refusal("{start: 0 rad s}"), "scene.yaml:6: states.integral: ", {"lacks", "rate"});
   pintle_test::expect_one_line(refusal("{rate: arm.angle, start: 0 rad s, scale: 0}"),
                                "scene.yaml:6: states.integral.scale: ", {"greater than 0"});

@@ -89,7 +89,7 @@ run: {until: 5 s}
 output: {every: 0.25 s}
 )yaml");
   pintle_scenes::expect_sound(w);
-  const auto t = w.column("t [s]"), angle = w.column("arm.angle [rad]"), integral = w.column("integral [rad s]");
+  const auto t = w.column("t [s]"), angle = w.column("arm.angle [rad]"), integral = w.column("integral [s]");
   // Θ/R = (11 s + 6)/((s + 1)(s + 2)(s + 3)), a step in R from t = 0
   const auto exact = [](double at) {
     return 0.5 * (1 + (-11 + 6.0) / (-1 * 1 * 2.0) * std::exp(-at) + (-22 + 6.0) / (-2 * -1 * 1.0) * std::exp(-2 * at) +

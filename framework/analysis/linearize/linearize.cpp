@@ -272,10 +272,11 @@ std::vector<LinearContact> contacts_of(const System& system, const MotionAt& her
 }
 
 bool laws_vary(const Scene& scene) {
-  const auto varies = [](const SceneLoad& l) {
+  const auto in_time = [](const Law& law) { return !law.constant && (law.signals.empty() || law.uses_time); };
+  const auto varies = [&](const SceneLoad& l) {
     const auto* f = std::get_if<SceneForce>(&l.what);
     const auto* q = std::get_if<SceneTorque>(&l.what);
-    return (f && !(f->x.constant && f->y.constant)) || (q && !q->law.constant);
+    return (f && (in_time(f->x) || in_time(f->y))) || (q && in_time(q->law));
   };
   return std::ranges::any_of(scene.loads, varies);
 }
