@@ -27,7 +27,8 @@ class Ends {
   }
   const JointEnds& markers() const { return ends_; }
   int place(const PointRef& ref, bool of_point) const {
-    const auto found = std::ranges::find_if(points_, [&](const PointRef* p) { return p->body == ref.body; });
+    const auto found = std::ranges::find_if(
+        points_, [&](const PointRef* p) { return p->body == ref.body && (p->body != "ground" || p->point == ref.point); });
     if (of_point && (*found)->point != ref.point)
       throw SceneError(scene_.file, place_,
                        "measures " + quoted(ref.body) + " at two of its points, " + quoted((*found)->point) + " and " + quoted(ref.point) +
