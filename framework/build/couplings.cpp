@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <variant>
 
 #include "framework/common/index.h"
@@ -26,7 +27,8 @@ class Ends {
   }
   const JointEnds& markers() const { return ends_; }
   int place(const PointRef& ref, bool of_point) const {
-    const auto found = std::ranges::find_if(points_, [&](const PointRef* p) { return p->body == ref.body; });
+    const auto found = std::ranges::find_if(
+        points_, [&](const PointRef* p) { return p->body == ref.body && (p->body != "ground" || p->point == ref.point); });
     if (of_point && (*found)->point != ref.point)
       throw SceneError(scene_.file, place_,
                        "measures " + quoted(ref.body) + " at two of its points, " + quoted((*found)->point) + " and " + quoted(ref.point) +
@@ -61,16 +63,21 @@ Relation of_terms(const Scene& scene, const SceneJoint& j, Markers& markers) {
   return relation(terms.front().kind == SceneTerm::angle, ends.markers(), std::move(coordinates));
 }
 
+PointRef frame_of(const SceneJoint& j) { return j.c.value_or(PointRef{"ground", "", j.place}); }
+
 // Of shafts or a shaft and a slide, and the cage or frame c that both are measured against: ends a, b, c.
 constexpr int shaft = 0, follower = 1, frame = 2;
 Relation on_a_frame(const Scene& scene, const SceneJoint& j, Markers& markers) {
   const bool slides = j.kind == JointKind::screw || (j.kind == JointKind::cam && !j.coupling->swings);
   const JointEnds ends{{markers.marker(j.a, Holds::direction), markers.marker(j.b, slides ? Holds::point : Holds::direction),
-                        markers.marker(j.c.value_or(PointRef{"ground", "", j.place}), Holds::direction)},
+                        markers.marker(frame_of(j), Holds::direction)},
                        3};
   const Coordinate::Kind moves = slides ? Coordinate::displacement : Coordinate::angle;
-  if (j.kind == JointKind::cam)
-    return relation(!slides, ends, {{Coordinate::angle, frame, shaft, 0}, {moves, frame, follower, 1}}, j.coupling->curve.at);
+  if (j.kind == JointKind::cam) {  // over the angle of the cam in the frame's axes, whatever direction the lift has there
+    const double direction = markers.marker_at(frame_of(j), Holds::direction).angle;
+    TimeLaw curve = [of = j.coupling->curve.at, direction](double angle) { return of(angle + direction); };
+    return relation(!slides, ends, {{Coordinate::angle, frame, shaft, 0}, {moves, frame, follower, 1}}, std::move(curve));
+  }
   if (j.kind == JointKind::screw) {
     if (j.coupling->lead == 0) throw SceneError(scene.file, j.place, "lead must not be 0: the nut would be fixed; use prismatic or weld");
     return relation(false, ends,
@@ -85,7 +92,8 @@ Relation on_a_frame(const Scene& scene, const SceneJoint& j, Markers& markers) {
 /// Settles one joint by the motion of its markers.
 class Settling {
  public:
-  Settling(const Scene& scene, const System& system, const Eigen::VectorXd& y) : scene_(scene), motion_(system.markers.size()) {
+  Settling(const Scene& scene, const System& system, const Eigen::VectorXd& y)
+      : scene_(scene), system_(system), motion_(system.markers.size()) {
     for (std::size_t i = 0; i < motion_.size(); ++i) {
       const MovingPoint p = moving_point(system, static_cast<int>(i), y);
       motion_[i].r = p.r;
@@ -112,7 +120,7 @@ class Settling {
       wheel->phase += open(made, 1);
     } else if (auto* related = std::get_if<Relation>(&made)) {
       if (related->curve && !std::isfinite(open(made)))
-        wrong(j.place, "its table does not cover the cam's angle at the start, " + angle(open_input(*related)) +
+        wrong(j.place, "its table does not cover the cam's angle at the start, " + angle(input(*related)) +
                            "; lengthen the table, or turn the cam by `start`");
       related->constant += open(made);
     }
@@ -152,9 +160,10 @@ class Settling {
     evaluate_pose(joint, motion_.data(), 0, rows, L.data());
     return rows.C[row];
   }
-  double open_input(const Relation& j) const {
-    const Coordinate& c = j.coordinates.front();
-    return motion_[at(j.ends.marker[at(c.b)])].angle - motion_[at(j.ends.marker[at(c.a)])].angle;
+  /// The angle that a cam's curve is over.
+  double input(const Relation& j) const {
+    const int of = j.ends.marker[shaft], against = j.ends.marker[frame];
+    return motion_[at(of)].angle - motion_[at(against)].angle + system_.markers[at(against)].angle;
   }
 
   /// Radii from teeth, and whether wheels touch or pulleys are apart.
@@ -197,6 +206,7 @@ class Settling {
   static double played(const SceneJoint& j) { return j.kind == JointKind::rolling ? 0.05 : 1e-3; }
 
   const Scene& scene_;
+  const System& system_;
   std::vector<MarkerMotion> motion_;
 };
 

@@ -36,13 +36,15 @@ const JointWord& word_of(const SceneJoint& joint) { return *std::ranges::find(jo
 
 namespace {
 
-// Where something is measured a point counts, not only its body.
+// Where something is measured a point counts, not only its body. The ground may be measured from several.
 std::vector<const PointRef*> points_of(const std::vector<SceneTerm>& terms) {
   std::vector<const PointRef*> out;
   for (const bool turning : {false, true})
     for (const SceneTerm& t : terms)
-      for (const PointRef* p : {&t.a, &t.b})
-        if (turning == (t.kind == SceneTerm::angle) && std::ranges::find(out, p->body, &PointRef::body) == out.end()) out.push_back(p);
+      for (const PointRef* p : {&t.a, &t.b}) {
+        const auto alike = [&](const PointRef* q) { return q->body == p->body && (q->body != "ground" || q->point == p->point); };
+        if (turning == (t.kind == SceneTerm::angle) && std::ranges::none_of(out, alike)) out.push_back(p);
+      }
   return out;
 }
 
