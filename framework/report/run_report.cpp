@@ -57,7 +57,10 @@ Json sheet_json(const Sheet& sheet) {
 Json table_json(const ReducedTable& table) {
   Json sheets = Json::array();
   for (const Sheet& sheet : table.sheets) sheets.push_back(sheet_json(sheet));
-  return {{"rows", table.rows}, {"whole", table.whole}, {"sheets", sheets}, {"poses", table.poses.t.empty() ? Json() : sheet_json(table.poses)}};
+  return {{"rows", table.rows},
+          {"whole", table.whole},
+          {"sheets", sheets},
+          {"poses", table.poses.t.empty() ? Json() : sheet_json(table.poses)}};
 }
 
 Json event_json(const std::vector<std::string>& fields) {
