@@ -63,9 +63,9 @@ class Clock {
   zoom(plot) {
     if (this.zooming) return;
     this.zooming = true;
-    const { min, max } = plot.scales.x;
+    const {min, max} = plot.scales.x;
     for (const other of this.plots)
-      if (other !== plot && (other.scales.x.min !== min || other.scales.x.max !== max)) other.setScale("x", { min, max });
+      if (other !== plot && (other.scales.x.min !== min || other.scales.x.max !== max)) other.setScale("x", {min, max});
     this.zooming = false;
     this.tell();
   }

@@ -3,7 +3,7 @@
 // Buttons, sliders, keys and the pointer.
 
 function keysOf(page) {
-  const { clock, stage, events } = page;
+  const {clock, stage, events} = page;
   const flip = (id) => () => byId(id).click();
   const view = (change) => () => (change(), page.redraw());
   return new Map([
@@ -39,12 +39,17 @@ const keyHelp = [
 /// Keys act everywhere but where they have a meaning of their own.
 function listenToKeys(page) {
   const keys = keysOf(page);
-  byId("keys").append(...keyHelp.map(([key, what]) => element("tr", {}, element("td", {}, ...key.split(" ").map((k) => element("kbd", { textContent: k }))), element("td", { textContent: what }))));
+  byId("keys").append(...keyHelp.map(
+      ([key, what]) => element(
+          "tr", {}, element("td", {}, ...key.split(" ").map((k) => element("kbd", {textContent: k}))),
+          element("td", {textContent: what}))));
   byId("help-button").onclick = () => byId("help").showModal();
   document.addEventListener("keydown", (event) => {
-    const { target, key } = event;
+    const {target, key} = event;
     if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
-    if (target.matches("select, input[type=search]") || (target.matches("input[type=range]") && target.id !== "scrub" && key.startsWith("Arrow"))) return;
+    if (target.matches("select, input[type=search]") ||
+        (target.matches("input[type=range]") && target.id !== "scrub" && key.startsWith("Arrow")))
+      return;
     if (key === " " && target.matches("button, summary, input[type=checkbox]")) return;
     const act = keys.get(key);
     if (!act) return;
@@ -54,31 +59,35 @@ function listenToKeys(page) {
 }
 
 function listenToPointer(page) {
-  const { canvas } = page.stage;
+  const {canvas} = page.stage;
   const pointers = new Map();
   const spread = () => {
     const [a, b] = [...pointers.values()];
     return Math.hypot(a.x - b.x, a.y - b.y);
   };
-  canvas.addEventListener("pointerdown", (event) => (canvas.setPointerCapture(event.pointerId), pointers.set(event.pointerId, { x: event.clientX, y: event.clientY })));
+  canvas.addEventListener(
+      "pointerdown",
+      (event) => (canvas.setPointerCapture(event.pointerId), pointers.set(event.pointerId, {x: event.clientX, y: event.clientY})));
   for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (event) => pointers.delete(event.pointerId));
   canvas.addEventListener("pointermove", (event) => {
     const last = pointers.get(event.pointerId);
     if (!last) return;
     const before = pointers.size === 2 ? spread() : 0;
-    pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-    if (pointers.size === 2) page.stage.zoom(spread() / before);
-    else page.stage.pan(event.clientX - last.x, event.clientY - last.y);
+    pointers.set(event.pointerId, {x: event.clientX, y: event.clientY});
+    if (pointers.size === 2)
+      page.stage.zoom(spread() / before);
+    else
+      page.stage.pan(event.clientX - last.x, event.clientY - last.y);
     page.redraw();
   });
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
     page.stage.zoom(Math.exp(-0.0015 * event.deltaY), event.offsetX, event.offsetY);
     page.redraw();
-  }, { passive: false });
+  }, {passive: false});
 }
 
-function listenToTransport({ clock }) {
+function listenToTransport({clock}) {
   byId("play").onclick = () => clock.toggle();
   byId("step-back").onclick = () => clock.step(-1);
   byId("step-on").onclick = () => clock.step(1);
@@ -87,9 +96,9 @@ function listenToTransport({ clock }) {
   const span = clock.end - clock.begin;
   const speeds = [2, 4, 8, 16, 32, 64].map((seconds) => [seconds, `all in ${seconds} s`]);
   if (span >= 0.5 && span <= 600) speeds.push([span, "as in reality"]);
-  byId("speed").append(...speeds.map(([value, textContent]) => element("option", { value, textContent })));
+  byId("speed").append(...speeds.map(([value, textContent]) => element("option", {value, textContent})));
   byId("speed").value = clock.seconds;
-  byId("speed").onchange = ({ target }) => (clock.seconds = Number(target.value));
+  byId("speed").onchange = ({target}) => (clock.seconds = Number(target.value));
   clock.listen(() => showTransport(clock));
 }
 
@@ -97,7 +106,7 @@ function showTransport(clock) {
   byId("play").textContent = clock.playing ? "❚❚" : "▶";
   byId("play").ariaLabel = clock.playing ? "Pause" : "Play";
   byId("scrub").value = clock.end > clock.begin ? (clock.time - clock.begin) / (clock.end - clock.begin) : 0;
-  const { factor, unit } = scaleFor(clock.end, "s");
+  const {factor, unit} = scaleFor(clock.end, "s");
   byId("scrub").ariaValueText = `${plain(clock.time * factor, 5)} ${unit}`;
   byId("clock").textContent = `${(clock.time * factor).toFixed(3)} ${unit}`;
 }
@@ -111,11 +120,13 @@ function drawScrubMarks(clock) {
   const context = canvas.getContext("2d");
   context.fillStyle = css("--accent");
   const thumb = 8 * ratio;  // the slider's middle stays so far from its ends
-  for (const time of clock.events) context.fillRect(thumb + ((time - clock.begin) / (clock.end - clock.begin || 1)) * (canvas.width - 2 * thumb) - ratio / 2, 0, ratio, canvas.height);
+  for (const time of clock.events)
+    context.fillRect(
+        thumb + ((time - clock.begin) / (clock.end - clock.begin || 1)) * (canvas.width - 2 * thumb) - ratio / 2, 0, ratio, canvas.height);
 }
 
 function listenToOptions(page) {
-  const { stage } = page;
+  const {stage} = page;
   const model = stage.model;
   for (const what of ["forces", "paths", "names", "stress"]) {
     const box = byId(`show-${what}`);
@@ -124,12 +135,16 @@ function listenToOptions(page) {
   }
   byId("stress-option").hidden = !stage.meshes.some((mesh) => mesh);
   byId("force-option").hidden = stage.usualForce === 0;
-  byId("arrows").oninput = ({ target }) => ((stage.arrows = 2 ** target.value), page.redraw());
-  slider("clearance", model.contacts.some((c) => c.radius), stage.exaggeration, Math.max(4 * stage.exaggeration, 10), (x) => ((stage.exaggeration = x), page.redraw()));
+  byId("arrows").oninput = ({target}) => ((stage.arrows = 2 ** target.value), page.redraw());
+  slider(
+      "clearance", model.contacts.some((c) => c.radius), stage.exaggeration, Math.max(4 * stage.exaggeration, 10),
+      (x) => ((stage.exaggeration = x), page.redraw()));
   const visible = stage.greatestDeflection > 0 ? Math.max((0.2 * model.length) / stage.greatestDeflection, 10, 2 * stage.deformation) : 1;
   slider("deformation", stage.greatestDeflection > 0, stage.deformation, visible, (x) => ((stage.deformation = x), page.redraw()));
-  byId("follow").append(element("option", { value: -1, textContent: "nothing" }), ...model.bodies.map(({ name }, b) => element("option", { value: b, textContent: name })));
-  byId("follow").onchange = ({ target }) => (stage.follow(Number(target.value)), page.redraw());
+  byId("follow").append(
+      element("option", {value: -1, textContent: "nothing"}),
+      ...model.bodies.map(({name}, b) => element("option", {value: b, textContent: name})));
+  byId("follow").onchange = ({target}) => (stage.follow(Number(target.value)), page.redraw());
   byId("zoom-in").onclick = () => (stage.zoom(1.25), page.redraw());
   byId("zoom-out").onclick = () => (stage.zoom(0.8), page.redraw());
   byId("fit").onclick = () => (stage.fit(), (byId("follow").value = -1), page.redraw());

@@ -25,8 +25,10 @@ function intervalOf(t, x) {
   let high = t.length;
   while (high - low > 1) {
     const middle = (low + high) >> 1;
-    if (t[middle] <= x) low = middle;
-    else high = middle;
+    if (t[middle] <= x)
+      low = middle;
+    else
+      high = middle;
   }
   return low;
 }
@@ -35,15 +37,15 @@ function intervalOf(t, x) {
 function readSheet(json) {
   const t = doublesOf(json.t);
   const columns = new Map();
-  for (const { name, unit, values } of json.columns) columns.set(name, { name, unit, t, y: doublesOf(values) });
-  return { t, columns };
+  for (const {name, unit, values} of json.columns) columns.set(name, {name, unit, t, y: doublesOf(values)});
+  return {t, columns};
 }
 
 /// A table of results: columns by name, each with its own times, and the sheet that places the bodies.
 function readTable(json) {
   const sheets = json.sheets.map(readSheet);
   const columns = new Map(sheets.flatMap((sheet) => [...sheet.columns]));
-  return { rows: json.rows, whole: json.whole, columns, poses: json.poses ? readSheet(json.poses) : sheets[0] };
+  return {rows: json.rows, whole: json.whole, columns, poses: json.poses ? readSheet(json.poses) : sheets[0]};
 }
 
 function valueAt(column, time) {

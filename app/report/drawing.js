@@ -3,14 +3,17 @@
 // What is drawn of the mechanism at `stage.time`, from the ground up to the arrows.
 
 function drawMechanism(stage) {
-  const { model } = stage;
+  const {model} = stage;
   for (const profile of model.ground) drawGround(stage, stage.profilePoints(profile, stage.now), profile.closed);
-  for (const joint of model.joints) if (joint.symbol.includes("guide")) drawGuide(stage, joint);
+  for (const joint of model.joints)
+    if (joint.symbol.includes("guide")) drawGuide(stage, joint);
   model.bodies.forEach((body, b) => drawBody(stage, body, b));
   if (stage.show.paths) stage.paths.forEach((path, i) => drawPath(stage, path, i));
-  for (const force of model.forces) if (force.spring) drawSpring(stage, force);
+  for (const force of model.forces)
+    if (force.spring) drawSpring(stage, force);
   for (const joint of model.joints) drawJoint(stage, joint);
-  for (const contact of model.contacts) if (contact.radius) drawClearance(stage, contact);
+  for (const contact of model.contacts)
+    if (contact.radius) drawClearance(stage, contact);
   if (stage.show.forces) drawForces(stage);
   if (stage.show.names) drawNames(stage);
   drawScaleBar(stage);
@@ -18,18 +21,20 @@ function drawMechanism(stage) {
 }
 
 function trace(stage, points, closed) {
-  const { context } = stage;
+  const {context} = stage;
   context.beginPath();
   points.forEach((p, i) => {
     const [x, y] = stage.px(p);
-    if (i === 0) context.moveTo(x, y);
-    else context.lineTo(x, y);
+    if (i === 0)
+      context.moveTo(x, y);
+    else
+      context.lineTo(x, y);
   });
   if (closed) context.closePath();
 }
 
 function stroke(stage, colour, width, dash = []) {
-  const { context } = stage;
+  const {context} = stage;
   context.strokeStyle = colour;
   context.lineWidth = width;
   context.setLineDash(dash);
@@ -38,7 +43,7 @@ function stroke(stage, colour, width, dash = []) {
 }
 
 function fill(stage, colour, opacity) {
-  const { context } = stage;
+  const {context} = stage;
   context.globalAlpha = opacity;
   context.fillStyle = colour;
   context.fill();
@@ -55,7 +60,7 @@ function circle(stage, at, pixels) {
 
 function drawGround(stage, points, closed) {
   const sides = points.map((p, i) => [p, points[i + 1] ?? (closed ? points[0] : null)]).filter(([, to]) => to);
-  const { context } = stage;
+  const {context} = stage;
   context.beginPath();
   for (const [from, to] of sides) hatch(stage, stage.px(from), stage.px(to));
   stroke(stage, stage.colours.faint, 1);
@@ -95,7 +100,7 @@ function seenPart(stage, x0, y0, x1, y1) {
 /// A small support under a pin that the ground holds.
 function drawSupport(stage, at, size) {
   const [x, y] = stage.px(at);
-  const { context } = stage;
+  const {context} = stage;
   context.beginPath();
   context.moveTo(x, y);
   context.lineTo(x - size, y + 1.6 * size);
@@ -118,13 +123,13 @@ const bodyColour = (stage, b) => stage.colours.bodies[b % stage.colours.bodies.l
 function drawBody(stage, body, b) {
   const pose = stage.now[b];
   const colour = bodyColour(stage, b);
-  const outlines = body.profiles.map((p) => ({ points: stage.profilePoints(p, stage.now), closed: p.closed }));
+  const outlines = body.profiles.map((p) => ({points: stage.profilePoints(p, stage.now), closed: p.closed}));
   if (body.outline.length > 0) {
-    const points = Array.from({ length: body.outline.length / 2 }, (_, i) => toWorld(pose, body.outline[2 * i], body.outline[2 * i + 1]));
-    outlines.push({ points, closed: true });
+    const points = Array.from({length: body.outline.length / 2}, (_, i) => toWorld(pose, body.outline[2 * i], body.outline[2 * i + 1]));
+    outlines.push({points, closed: true});
   }
   if (body.profiles.length > 0) drawBars(stage, b, outlines, colour);
-  for (const { points, closed } of outlines) {
+  for (const {points, closed} of outlines) {
     trace(stage, points, closed);
     if (closed) fill(stage, colour, 0.22);
     stroke(stage, colour, 1.75);
@@ -134,10 +139,12 @@ function drawBody(stage, body, b) {
 
 /// What holds the surfaces of a body together: bars from its first joint to the others and to the middle of each surface.
 function drawBars(stage, b, outlines, colour) {
-  const { model, motion } = stage;
-  const markers = new Set([...model.joints, ...model.contacts.filter((c) => c.radius)].flatMap((j) => [j.a, j.b]).filter((m) => model.markers[m].body === b));
-  const middle = (points) => ({ x: points.reduce((sum, p) => sum + p.x, 0) / points.length, y: points.reduce((sum, p) => sum + p.y, 0) / points.length });
-  const [first, ...others] = [...[...markers].map((m) => motion.place(m, stage.now)), ...outlines.map(({ points }) => middle(points))];
+  const {model, motion} = stage;
+  const markers = new Set(
+      [...model.joints, ...model.contacts.filter((c) => c.radius)].flatMap((j) => [j.a, j.b]).filter((m) => model.markers[m].body === b));
+  const middle = (points) =>
+      ({x: points.reduce((sum, p) => sum + p.x, 0) / points.length, y: points.reduce((sum, p) => sum + p.y, 0) / points.length});
+  const [first, ...others] = [...[...markers].map((m) => motion.place(m, stage.now)), ...outlines.map(({points}) => middle(points))];
   for (const other of others) {
     trace(stage, [first, other], false);
     stage.context.globalAlpha = 0.3;
@@ -148,9 +155,9 @@ function drawBars(stage, b, outlines, colour) {
 
 function drawMesh(stage, mesh, pose, colour) {
   mesh.bend(pose, stage.deformation);
-  const { context } = stage;
+  const {context} = stage;
   const at = new Float64Array(mesh.world.length);
-  for (let p = 0; p < mesh.count; ++p) [at[2 * p], at[2 * p + 1]] = stage.px({ x: mesh.world[2 * p], y: mesh.world[2 * p + 1] });
+  for (let p = 0; p < mesh.count; ++p) [at[2 * p], at[2 * p + 1]] = stage.px({x: mesh.world[2 * p], y: mesh.world[2 * p + 1]});
   if (stage.show.stress) {
     mesh.stress(pose.eta);
     fillByStress(stage, mesh, at);
@@ -177,8 +184,8 @@ function traceTriangle(context, triangles, k, at) {
 }
 
 /// Triangles of one colour are filled together.
-function fillByStress(stage, { triangles, mises }, at) {
-  const { context } = stage;
+function fillByStress(stage, {triangles, mises}, at) {
+  const {context} = stage;
   const groups = new Map();
   for (let k = 0; k < triangles.length; k += 3) {
     const mean = (mises[triangles[k]] + mises[triangles[k + 1]] + mises[triangles[k + 2]]) / 3;
@@ -204,7 +211,7 @@ function drawGuide(stage, joint) {
   const [ux, uy] = [Math.cos(a.angle), Math.sin(a.angle)];
   const along = ux * (b.x - a.x) + uy * (b.y - a.y);
   const half = 0.5 * stage.model.length;
-  trace(stage, [along - half, along + half].map((s) => ({ x: a.x + s * ux, y: a.y + s * uy })), false);
+  trace(stage, [along - half, along + half].map((s) => ({x: a.x + s * ux, y: a.y + s * uy})), false);
   stroke(stage, stage.colours.faint, 1, [8, 4, 2, 4]);
 }
 
@@ -216,7 +223,7 @@ function drawJoint(stage, joint) {
     stroke(stage, stage.colours.ink, 2.5);
   }
   if (!joint.symbol.startsWith("pin")) return;
-  const { markers } = stage.model;
+  const {markers} = stage.model;
   const grounded = joint.symbol === "pin" && (markers[joint.a].body < 0 || markers[joint.b].body < 0);
   if (grounded) drawSupport(stage, b, 1.6 * pinPixels(stage) + 3);
   circle(stage, b, pinPixels(stage));
@@ -234,7 +241,7 @@ function drawClearance(stage, contact) {
   circle(stage, centre, contact.radius * stage.scale);
   fill(stage, stage.colours.paper, 1);
   stroke(stage, stage.colours.ink, 1.5);
-  circle(stage, { x: centre.x + factor * e.x, y: centre.y + factor * e.y }, journal * stage.scale);
+  circle(stage, {x: centre.x + factor * e.x, y: centre.y + factor * e.y}, journal * stage.scale);
   fill(stage, stage.colours.ink, 0.3);
   stroke(stage, stage.colours.ink, 1.5);
 }
@@ -246,7 +253,7 @@ function drawSpring(stage, spring) {
   const width = Math.min(Math.max(stage.model.pin * stage.scale, 4), 12);
   const [nx, ny] = [(-width * (y1 - y0)) / length, (width * (x1 - x0)) / length];
   const turns = 14;
-  const { context } = stage;
+  const {context} = stage;
   context.beginPath();
   for (let i = 0; i <= turns; ++i) {
     const side = i < 2 || i > turns - 2 ? 0 : i % 2 ? 1 : -1;
@@ -263,7 +270,7 @@ function drawPath(stage, path, i) {
   const points = [];
   const done = [];
   for (let k = 0; k < path.t.length; k += every) {
-    const point = { x: path.x[k], y: path.y[k] };
+    const point = {x: path.x[k], y: path.y[k]};
     points.push(point);
     if (path.t[k] <= stage.time) done.push(point);
   }
@@ -279,7 +286,7 @@ function drawForces(stage) {
   if (!(stage.usualForce > 0)) return;
   const perNewton = (0.16 * Math.min(stage.width, stage.height) * stage.arrows) / stage.usualForce;
   const longest = 0.55 * Math.min(stage.width, stage.height);
-  for (const { kind, at, force } of stage.motion.forces(stage.time, stage.now)) {
+  for (const {kind, at, force} of stage.motion.forces(stage.time, stage.now)) {
     const size = Math.hypot(force.x, force.y);
     const pixels = Math.min(size * perNewton, longest);
     if (pixels > 2) drawArrow(stage, stage.px(at), force.x / size, -force.y / size, pixels, stage.colours[kind]);
@@ -289,7 +296,7 @@ function drawForces(stage) {
 function drawArrow(stage, [x, y], ux, uy, length, colour) {
   const head = Math.min(9, 0.6 * length);
   const [tx, ty] = [x + length * ux, y + length * uy];
-  const { context } = stage;
+  const {context} = stage;
   context.beginPath();
   context.moveTo(x, y);
   context.lineTo(tx - 0.8 * head * ux, ty - 0.8 * head * uy);
@@ -303,7 +310,7 @@ function drawArrow(stage, [x, y], ux, uy, length, colour) {
 }
 
 function write(stage, text, x, y, colour, align = "left") {
-  const { context } = stage;
+  const {context} = stage;
   context.font = "12px system-ui, sans-serif";
   context.textAlign = align;
   context.textBaseline = "middle";
@@ -340,7 +347,7 @@ function drawScaleBar(stage) {
   const length = [5, 2, 1].map((n) => n * power).find((n) => n <= wanted) ?? power;
   const pixels = length * stage.scale;
   const [x, y] = [16, stage.height - 18];
-  const { context } = stage;
+  const {context} = stage;
   context.beginPath();
   context.moveTo(x, y - 4);
   context.lineTo(x, y);
@@ -353,7 +360,8 @@ function drawScaleBar(stage) {
 /// What is not drawn as it is.
 function drawNotes(stage) {
   const notes = [];
-  if (stage.model.contacts.some((c) => c.radius) && stage.exaggeration !== 1) notes.push(`clearance drawn ${plain(stage.exaggeration, 3)} times as large`);
+  if (stage.model.contacts.some((c) => c.radius) && stage.exaggeration !== 1)
+    notes.push(`clearance drawn ${plain(stage.exaggeration, 3)} times as large`);
   if (stage.meshes.some((m) => m) && stage.deformation !== 1) notes.push(`deformation drawn ${plain(stage.deformation, 3)} times as large`);
   notes.forEach((note, i) => write(stage, note, 16, 18 + 17 * i, stage.colours.faint));
 }

@@ -15,12 +15,18 @@ class EventTable {
     clock.listen(() => this.mark());
   }
 
-  fill({ columns, rows }) {
-    const scales = columns.map(({ unit }, c) => (c === 0 ? null : scaleFor(rangeOf(rows.map((row) => Math.abs(row[c] ?? 0)))[1], unit)));
-    const heading = columns.map(({ name, unit }, c) => element("th", { scope: "col", textContent: name }, ...(unit ? [element("small", { textContent: ` [${scales[c].unit}]` })] : [])));
+  fill({columns, rows}) {
+    const scales = columns.map(({unit}, c) => (c === 0 ? null : scaleFor(rangeOf(rows.map((row) => Math.abs(row[c] ?? 0)))[1], unit)));
+    const heading = columns.map(
+        ({name, unit}, c) =>
+            element("th", {scope: "col", textContent: name}, ...(unit ? [element("small", {textContent: ` [${scales[c].unit}]`})] : [])));
     this.rows = rows.map((row) => {
-      const cells = row.map((x, c) => (c === 0 ? element("td", { textContent: x }) : element("td", { className: "number", textContent: x === null ? (c === 2 ? "goes on" : "–") : plain(x * scales[c].factor, c < 3 ? 7 : 4), title: x === null ? "" : String(x) })));
-      const out = element("tr", { tabIndex: 0 }, ...cells);
+      const cells = row.map((x, c) => (c === 0 ? element("td", {textContent: x}) : element("td", {
+                              className: "number",
+                              textContent: x === null ? (c === 2 ? "goes on" : "–") : plain(x * scales[c].factor, c < 3 ? 7 : 4),
+                              title: x === null ? "" : String(x)
+                            })));
+      const out = element("tr", {tabIndex: 0}, ...cells);
       out.onclick = () => this.clock.set(row[1]);
       out.onkeydown = (event) => event.key === "Enter" && this.clock.set(row[1]);
       return out;
@@ -29,7 +35,7 @@ class EventTable {
   }
 
   step(direction) {
-    const { time } = this.clock;
+    const {time} = this.clock;
     const next = direction > 0 ? this.times.find((t) => t > time) : this.times.findLast((t) => t < time);
     if (next !== undefined) this.clock.set(next);
   }

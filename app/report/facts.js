@@ -3,14 +3,18 @@
 // How the results were made: run.json as lists and tables.
 
 const isScalar = (value) => value === null || typeof value !== "object";
-const scalarText = (value) => (value === null ? "none" : typeof value === "number" ? plain(value, 6) : typeof value === "boolean" ? (value ? "yes" : "no") : value || "–");
+const scalarText = (value) =>
+    (value === null                 ? "none" :
+         typeof value === "number"  ? plain(value, 6) :
+         typeof value === "boolean" ? (value ? "yes" : "no") :
+                                      value || "–");
 
 function factsOf(value) {
-  if (isScalar(value)) return element("span", { textContent: scalarText(value) });
-  if (Array.isArray(value) && value.every(isScalar)) return element("span", { textContent: value.map(scalarText).join(", ") || "none" });
+  if (isScalar(value)) return element("span", {textContent: scalarText(value)});
+  if (Array.isArray(value) && value.every(isScalar)) return element("span", {textContent: value.map(scalarText).join(", ") || "none"});
   if (Array.isArray(value)) return tableOf(value);
   const list = element("dl");
-  for (const [key, one] of Object.entries(value)) list.append(element("dt", { textContent: key }), element("dd", {}, factsOf(one)));
+  for (const [key, one] of Object.entries(value)) list.append(element("dt", {textContent: key}), element("dd", {}, factsOf(one)));
   return list;
 }
 
@@ -18,17 +22,21 @@ function factsOf(value) {
 function tableOf(objects) {
   const keys = [...new Set(objects.flatMap((one) => Object.keys(one)))];
   const rows = objects.map((one) => element("tr", {}, ...keys.map((key) => element("td", {}, factsOf(one[key] ?? null)))));
-  return element("div", { className: "scroll" }, element("table", {}, element("thead", {}, element("tr", {}, ...keys.map((key) => element("th", { scope: "col", textContent: key })))), element("tbody", {}, ...rows)));
+  return element(
+      "div", {className: "scroll"},
+      element(
+          "table", {}, element("thead", {}, element("tr", {}, ...keys.map((key) => element("th", {scope: "col", textContent: key})))),
+          element("tbody", {}, ...rows)));
 }
 
 function showFacts(run) {
   const elsewhere = new Set(["title", "warnings", "scene text"]);
   for (const [name, value] of Object.entries(run)) {
     if (elsewhere.has(name) || isScalar(value) || Object.keys(value).length === 0) continue;
-    byId("facts").append(element("section", { className: "card" }, element("h3", { textContent: name }), factsOf(value)));
+    byId("facts").append(element("section", {className: "card"}, element("h3", {textContent: name}), factsOf(value)));
   }
   const single = Object.fromEntries(Object.entries(run).filter(([name, value]) => !elsewhere.has(name) && isScalar(value) && value !== ""));
-  byId("facts").prepend(element("section", { className: "card" }, element("h3", { textContent: "run" }), factsOf(single)));
+  byId("facts").prepend(element("section", {className: "card"}, element("h3", {textContent: "run"}), factsOf(single)));
   byId("scene-text").textContent = run["scene text"] ?? "";
   byId("scene-text").parentElement.hidden = !run["scene text"];
 }
@@ -47,5 +55,5 @@ function showHead(title, run) {
   byId("summary").classList.toggle("trouble", (run.status ?? "finished") !== "finished");
   const warnings = run.warnings ?? [];
   byId("warnings").hidden = warnings.length === 0;
-  byId("warnings").append(...warnings.map((text) => element("li", { textContent: text })));
+  byId("warnings").append(...warnings.map((text) => element("li", {textContent: text})));
 }

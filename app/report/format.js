@@ -13,9 +13,9 @@ const prettyUnit = (unit) => unit.replace(/\^(-?\d+(\.5)?)/g, (all, n) => (n.inc
 function scaleFor(greatest, unit) {
   const power = greatest > 0 && isFinite(greatest) ? 3 * Math.floor(Math.log10(greatest) / 3 + 1e-9) : 0;
   if (power === 0 || (power === 3 && greatest < 1e4) || (power === -3 && greatest >= 0.1 && !takesPrefix.has(unit)))
-    return { factor: 1, unit: prettyUnit(unit) };
-  if (takesPrefix.has(unit) && prefixes.has(power)) return { factor: 10 ** -power, unit: prefixes.get(power) + prettyUnit(unit) };
-  return { factor: 10 ** -power, unit: `10${superscript(power)} ${prettyUnit(unit)}`.trim() };
+    return {factor: 1, unit: prettyUnit(unit)};
+  if (takesPrefix.has(unit) && prefixes.has(power)) return {factor: 10 ** -power, unit: prefixes.get(power) + prettyUnit(unit)};
+  return {factor: 10 ** -power, unit: `10${superscript(power)} ${prettyUnit(unit)}`.trim()};
 }
 
 /// A number with so many digits, without zeros at its end.

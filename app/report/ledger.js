@@ -6,8 +6,8 @@
 function ledgerParts(table) {
   const all = [...table.columns.values()];
   const summed = new Set(["stored", "unexplained"]);
-  const isWork = ({ name }) => name.endsWith(".work in");
-  const hasAny = ({ y }) => y.some((x) => x !== 0);
+  const isWork = ({name}) => name.endsWith(".work in");
+  const hasAny = ({y}) => y.some((x) => x !== 0);
   return {
     t: table.poses.t,
     work: all.filter(isWork),
@@ -18,7 +18,7 @@ function ledgerParts(table) {
 }
 
 /// Areas one above the other, each from its lowest value, and the line that they have to reach.
-function ledgerStack({ t, work, parts, stored }) {
+function ledgerStack({t, work, parts, stored}) {
   const tops = [];
   let below = new Float64Array(t.length);
   let lifted = 0;
@@ -29,7 +29,7 @@ function ledgerStack({ t, work, parts, stored }) {
     tops.push(below);
   }
   const line = t.map((_, i) => stored.y[0] + lifted + work.reduce((sum, column) => sum + column.y[i] - column.y[0], 0));
-  return { tops, line, lifted };
+  return {tops, line, lifted};
 }
 
 class LedgerPanel {
@@ -44,51 +44,55 @@ class LedgerPanel {
 
   draw() {
     this.plot?.destroy();
-    const { t, parts } = this.parts;
-    const { tops, line } = ledgerStack(this.parts);
-    const legend = element("ul", { className: "values" });
+    const {t, parts} = this.parts;
+    const {tops, line} = ledgerStack(this.parts);
+    const legend = element("ul", {className: "values"});
     this.area.replaceChildren(legend);
     this.shown = [];
     const list = (name, colour, column, dashed) => {
       const value = element("output", {});
-      const swatch = element("i", { className: dashed ? "swatch" : "swatch area-swatch" });
+      const swatch = element("i", {className: dashed ? "swatch" : "swatch area-swatch"});
       swatch.style.color = colour;
-      legend.append(element("li", {}, swatch, element("span", { textContent: name }), value));
-      this.shown.push({ column, value });
+      legend.append(element("li", {}, swatch, element("span", {textContent: name}), value));
+      this.shown.push({column, value});
     };
     const colours = parts.map((_, i) => areaColour(i));
     parts.forEach((part, i) => list(part.name, colours[i], part, false));
-    const { work, stored, unexplained } = this.parts;
+    const {work, stored, unexplained} = this.parts;
     const given = t.map((_, i) => stored.y[0] + work.reduce((sum, column) => sum + column.y[i] - column.y[0], 0));
-    list(work.length > 0 ? "at the start and put in" : "at the start", css("--ink"), { t, y: given, unit: "J" }, true);
+    list(work.length > 0 ? "at the start and put in" : "at the start", css("--ink"), {t, y: given, unit: "J"}, true);
     list("unexplained", "transparent", unexplained, true);
     // The highest area is drawn first, so that each covers the part of it that belongs to those below.
     const order = tops.map((_, i) => i).reverse();
     const options = {
-      width: this.area.clientWidth || 600, height: 260,
-      legend: { show: false },
-      scales: { x: { time: false }, y: { range: (u, least, most) => [0, 1.06 * (most || 1)] } },
-      series: [{}, ...order.map((i) => ({ stroke: colours[i], fill: colours[i], width: 0, points: { show: false } })),
-        { stroke: css("--ink"), width: 1.75, dash: [7, 4], points: { show: false } }],
-      axes: [axisOf("s", "time", "x", { size: 34, labelSize: 18 }), axisOf("J", "energy", "y", { size: 62 })],
-      cursor: { y: false, sync: { key: "time" }, drag: { x: true, y: false }, points: { show: false } },
+      width: this.area.clientWidth || 600,
+      height: 260,
+      legend: {show: false},
+      scales: {x: {time: false}, y: {range: (u, least, most) => [0, 1.06 * (most || 1)]}},
+      series: [
+        {}, ...order.map((i) => ({stroke: colours[i], fill: colours[i], width: 0, points: {show: false}})),
+        {stroke: css("--ink"), width: 1.75, dash: [7, 4], points: {show: false}}
+      ],
+      axes: [axisOf("s", "time", "x", {size: 34, labelSize: 18}), axisOf("J", "energy", "y", {size: 62})],
+      cursor: {y: false, sync: {key: "time"}, drag: {x: true, y: false}, points: {show: false}},
       hooks: timeHooks(this.clock),
     };
-    this.marker = element("div", { className: "now" });
+    this.marker = element("div", {className: "now"});
     this.plot = new uPlot(options, [t, ...order.map((i) => tops[i]), line], this.area);
     this.plot.over.append(this.marker);
     this.showNow();
   }
 
   resize() {
-    if (this.area.clientWidth > 0 && this.area.clientWidth !== this.plot.width) this.plot.setSize({ width: this.area.clientWidth, height: 260 });
+    if (this.area.clientWidth > 0 && this.area.clientWidth !== this.plot.width)
+      this.plot.setSize({width: this.area.clientWidth, height: 260});
     this.showNow();
   }
 
   showNow() {
     if (!this.plot) return;
     const time = this.clock.pointed ?? this.clock.time;
-    for (const { column, value } of this.shown) value.textContent = engineering(valueAt(column, time), column.unit, 5);
+    for (const {column, value} of this.shown) value.textContent = engineering(valueAt(column, time), column.unit, 5);
     const place = this.plot.valToPos(this.clock.time, "x");
     this.marker.style.transform = `translateX(${place}px)`;
     this.marker.hidden = place < 0 || place > this.plot.over.clientWidth;
@@ -97,11 +101,11 @@ class LedgerPanel {
 
 const areaColour = (i) => css(`--area-${i % 8}`);
 
-function ledgerText(run, { parts }) {
+function ledgerText(run, {parts}) {
   const worst = Math.abs(run["worst unexplained [J]"] ?? 0);
   const play = run["energy in play [J]"] ?? 0;
-  const raised = parts.filter(({ y }) => rangeOf(y)[0] < 0).map(({ name }) => name);
+  const raised = parts.filter(({y}) => rangeOf(y)[0] < 0).map(({name}) => name);
   return "The areas are energies and losses; the dashed line is what there was at the start and has been put in since. They meet, but for at most " +
-    `${engineering(worst, "J", 3)} unexplained${play > 0 ? `, ${plain(worst / play, 2)} of the energy in play` : ""}.` +
-    (raised.length > 0 ? ` Drawn from its lowest value: ${raised.join(", ")}.` : "");
+      `${engineering(worst, "J", 3)} unexplained${play > 0 ? `, ${plain(worst / play, 2)} of the energy in play` : ""}.` +
+      (raised.length > 0 ? ` Drawn from its lowest value: ${raised.join(", ")}.` : "");
 }

@@ -6,29 +6,32 @@
 function firstPlots(model, table) {
   const known = (names) => names.filter((name) => table.columns.has(name));
   const spans = new Map();  // the widest of each unit: what is far below it is rounding
-  for (const { unit, y } of table.columns.values()) {
+  for (const {unit, y} of table.columns.values()) {
     const [least, most] = rangeOf(y);
     spans.set(unit, Math.max(spans.get(unit) ?? 0, most - least));
   }
   const varies = (name) => {
-    const { unit, y } = table.columns.get(name);
+    const {unit, y} = table.columns.get(name);
     const [least, most] = rangeOf(y);
     return most - least > 1e-9 * spans.get(unit);
   };
   const out = [];
   const [clearance] = model.contacts.filter((c) => c.radius);
-  const contacts = model.contacts.map(({ name }) => name);
+  const contacts = model.contacts.map(({name}) => name);
   const normal = known(contacts.map((name) => `${name}.normal`)).filter(varies).slice(0, 4);
-  const joints = model.joints.flatMap(({ name, on }) => [`${name}.fx on ${on}`, `${name}.fy on ${on}`, `${name}.torque on ${on}`]);
-  const springs = model.forces.flatMap(({ name, on }) => [`${name}.fx on ${on}`, `${name}.fy on ${on}`]);
-  const motion = known(model.bodies.flatMap(({ name }) => [`${name}.vx`, `${name}.vy`, `${name}.speed`])).filter(varies);
-  if (normal.length > 0) out.push({ names: normal });
-  else out.push({ names: known([...joints, ...springs]).filter(varies).slice(0, 2) });
-  if (clearance && known([`${clearance.name}.ex`, `${clearance.name}.ey`]).length === 2) out.push({ names: [`${clearance.name}.ey`], against: `${clearance.name}.ex` });
+  const joints = model.joints.flatMap(({name, on}) => [`${name}.fx on ${on}`, `${name}.fy on ${on}`, `${name}.torque on ${on}`]);
+  const springs = model.forces.flatMap(({name, on}) => [`${name}.fx on ${on}`, `${name}.fy on ${on}`]);
+  const motion = known(model.bodies.flatMap(({name}) => [`${name}.vx`, `${name}.vy`, `${name}.speed`])).filter(varies);
+  if (normal.length > 0)
+    out.push({names: normal});
+  else
+    out.push({names: known([...joints, ...springs]).filter(varies).slice(0, 2)});
+  if (clearance && known([`${clearance.name}.ex`, `${clearance.name}.ey`]).length === 2)
+    out.push({names: [`${clearance.name}.ey`], against: `${clearance.name}.ex`});
   const [stress] = [...table.columns.keys()].filter((name) => /\.(stress|von Mises|uy)$/.test(name) && varies(name));
-  if (stress) out.push({ names: [stress] });
-  out.push({ names: motion.slice(-2) });
-  return out.filter(({ names }) => names.length > 0).slice(0, 3);
+  if (stress) out.push({names: [stress]});
+  out.push({names: motion.slice(-2)});
+  return out.filter(({names}) => names.length > 0).slice(0, 3);
 }
 
 class Page {
@@ -42,13 +45,15 @@ class Page {
     this.events = data.events ? new EventTable(this.clock, data.events) : null;
     this.ledger = data.ledger?.rows > 0 ? new LedgerPanel(this.clock, readTable(data.ledger), data.run) : null;
     this.panels = [];
-    for (const { names, against } of firstPlots(data.model, this.table)) this.addPlot(names, against);
+    for (const {names, against} of firstPlots(data.model, this.table)) this.addPlot(names, against);
   }
 
   start() {
     showHead(this.data.title, this.data.run);
     showFacts(this.data.run);
-    byId("decimation").textContent = this.table.whole ? `All ${this.table.rows} rows of trajectory.csv.` : `${this.table.rows} rows of trajectory.csv: of each short stretch of them the least and greatest value of every column.`;
+    byId("decimation").textContent = this.table.whole ?
+        `All ${this.table.rows} rows of trajectory.csv.` :
+        `${this.table.rows} rows of trajectory.csv: of each short stretch of them the least and greatest value of every column.`;
     byId("add-plot").onclick = () => pickColumn("Plot a column", this.table.columns, (name) => this.addPlot([name]).draw());
     listenToTransport(this);
     listenToOptions(this);
@@ -99,18 +104,20 @@ class Page {
 /// With #check in its address the page tells what it shows, for tests to compare: values at some rows, errors.
 function reportShown(page) {
   if (!page.clock) return tellShown([]);
-  const { clock, panels, ledger } = page;
+  const {clock, panels, ledger} = page;
   const rows = [0, 0.37, 0.71, 1].map((share) => Math.round(share * (clock.t.length - 1)));
   const shown = rows.map((row) => {
     clock.set(clock.t[row]);
     page.stage.draw(clock.time);
-    const values = [...panels, ledger].flatMap((panel) => (panel?.shown ?? []).map(({ column, value }) => [column.name, value.textContent, value.title]));
-    return { t: clock.time, clock: byId("clock").textContent, values };
+    const values = [...panels, ledger].flatMap(
+        (panel) => (panel?.shown ?? []).map(({column, value}) => [column.name, value.textContent, value.title]));
+    return {t: clock.time, clock: byId("clock").textContent, values};
   });
   tellShown(shown);
 }
 
-const tellShown = (shown) => document.body.append(element("script", { type: "application/json", id: "shown", textContent: JSON.stringify({ shown, errors }) }));
+const tellShown = (shown) =>
+    document.body.append(element("script", {type: "application/json", id: "shown", textContent: JSON.stringify({shown, errors})}));
 
 const errors = [];
 window.addEventListener("error", (event) => errors.push(String(event.message)));
@@ -118,5 +125,7 @@ window.addEventListener("securitypolicyviolation", (event) => errors.push(`block
 const data = JSON.parse(byId("data").textContent);
 const page = data.rows ? new StudyPage(data) : new Page(data);
 page.start();
-if (location.hash === "#check") reportShown(page);
-else if (location.hash.startsWith("#t=")) page.clock.set(Number(location.hash.slice(3)));
+if (location.hash === "#check")
+  reportShown(page);
+else if (location.hash.startsWith("#t="))
+  page.clock.set(Number(location.hash.slice(3)));

@@ -8,12 +8,12 @@ class Motion {
     this.t = sheet.t;
     this.sheet = sheet;
     const column = (name) => this.column(name);
-    this.bodies = model.bodies.map(({ name, modes }) => ({
-      x: column(`${name}.x`),
-      y: column(`${name}.y`),
-      angle: column(`${name}.angle`),
-      modes: Array.from({ length: modes }, (_, i) => column(`${name}.mode ${i + 1}`)),
-    }));
+    this.bodies = model.bodies.map(({name, modes}) => ({
+                                     x: column(`${name}.x`),
+                                     y: column(`${name}.y`),
+                                     angle: column(`${name}.angle`),
+                                     modes: Array.from({length: modes}, (_, i) => column(`${name}.mode ${i + 1}`)),
+                                   }));
   }
 
   /// The values of a column, null if there is none.
@@ -39,7 +39,9 @@ class Motion {
       return {
         x: this.value(columns.x, time) - c * ox + s * oy,
         y: this.value(columns.y, time) - s * ox - c * oy,
-        angle, c, s,
+        angle,
+        c,
+        s,
         eta: columns.modes.map((values) => this.value(values, time)),
       };
     });
@@ -49,7 +51,7 @@ class Motion {
   place(number, poses) {
     const marker = this.model.markers[number];
     let [x, y] = marker.at;
-    if (marker.body < 0) return { x, y, angle: marker.angle };
+    if (marker.body < 0) return {x, y, angle: marker.angle};
     const pose = poses[marker.body];
     let angle = marker.angle + pose.angle;
     pose.eta.forEach((eta, k) => {
@@ -58,7 +60,7 @@ class Motion {
       y += marker.shape[1][k] * eta;
       angle += marker.slope[k] * eta;
     });
-    return { ...toWorld(pose, x, y), angle };
+    return {...toWorld(pose, x, y), angle};
   }
 
   /// A force by the names of its columns, null where there is none. What the ground takes is shown as what it gives.
@@ -66,14 +68,14 @@ class Motion {
     const fx = this.column(`${name}.fx on ${on}`);
     const fy = this.column(`${name}.fy on ${on}`);
     const sign = on === "ground" ? -1 : 1;
-    return fx && fy ? { x: sign * this.value(fx, time), y: sign * this.value(fy, time) } : null;
+    return fx && fy ? {x: sign * this.value(fx, time), y: sign * this.value(fy, time)} : null;
   }
 
   /// Where a contact's columns put it, null without them.
   point(name, [first, second], time) {
     const x = this.column(`${name}.${first}`);
     const y = this.column(`${name}.${second}`);
-    return x && y ? { x: this.value(x, time), y: this.value(y, time) } : null;
+    return x && y ? {x: this.value(x, time), y: this.value(y, time)} : null;
   }
 
   /// Every force of joints, contacts, loads and springs at a time, with the place where it acts.
@@ -81,17 +83,18 @@ class Motion {
     const out = [];
     const add = (kind, name, on, at) => {
       const force = at && this.force(name, on, time);
-      if (force) out.push({ kind, name, at, force });
+      if (force) out.push({kind, name, at, force});
     };
     for (const j of this.model.joints) add("joint", j.name, j.on, this.place(j.acts, poses));
-    for (const c of this.model.contacts) add("contact", c.name, c.on, c.eccentric ? this.place(c.b, poses) : this.point(c.name, ["x", "y"], time));
+    for (const c of this.model.contacts)
+      add("contact", c.name, c.on, c.eccentric ? this.place(c.b, poses) : this.point(c.name, ["x", "y"], time));
     for (const f of this.model.forces) add(f.spring ? "spring" : "load", f.name, f.on, this.place(f.b, poses));
     return out;
   }
 }
 
 function toWorld(pose, x, y) {
-  return { x: pose.x + pose.c * x - pose.s * y, y: pose.y + pose.s * x + pose.c * y };
+  return {x: pose.x + pose.c * x - pose.s * y, y: pose.y + pose.s * x + pose.c * y};
 }
 
 /// A flexible body's mesh, ready to be bent.
@@ -110,7 +113,7 @@ class BentMesh {
 
   /// Puts the drawn points into `world`, the deformation so many times as large.
   bend(pose, exaggeration) {
-    const { points, shapes, world, count } = this;
+    const {points, shapes, world, count} = this;
     for (let p = 0; p < count; ++p) {
       let x = points[2 * p];
       let y = points[2 * p + 1];
@@ -125,7 +128,7 @@ class BentMesh {
 
   /// Puts von Mises' stress of each point into `mises` [Pa]; returns the greatest.
   stress(eta) {
-    const { stresses, mises, count } = this;
+    const {stresses, mises, count} = this;
     let greatest = 0;
     for (let p = 0; p < count; ++p) {
       let xx = 0, yy = 0, xy = 0, zz = 0;

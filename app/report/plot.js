@@ -8,14 +8,17 @@ class PlotPanel {
     this.table = table;
     this.names = names;
     this.against = against;
-    this.values = element("ul", { className: "values" });
-    this.axis = element("button", { type: "button", className: "quiet", title: "What it is plotted against" });
-    const add = element("button", { type: "button", className: "quiet", textContent: "+ column" });
-    const close = element("button", { type: "button", className: "quiet", textContent: "×", title: "Remove this plot" });
+    this.values = element("ul", {className: "values"});
+    this.axis = element("button", {type: "button", className: "quiet", title: "What it is plotted against"});
+    const add = element("button", {type: "button", className: "quiet", textContent: "+ column"});
+    const close = element("button", {type: "button", className: "quiet", textContent: "×", title: "Remove this plot"});
     close.ariaLabel = "Remove this plot";
-    this.area = element("div", { className: "area" });
-    this.root = element("article", { className: "panel" }, element("header", {}, this.values, element("span", { className: "tools" }, this.axis, add, close)), this.area);
-    add.onclick = () => pickColumn("Add a column", this.table.columns, (name) => this.change([...this.names.filter((n) => n !== name), name]));
+    this.area = element("div", {className: "area"});
+    this.root = element(
+        "article", {className: "panel"}, element("header", {}, this.values, element("span", {className: "tools"}, this.axis, add, close)),
+        this.area);
+    add.onclick = () =>
+        pickColumn("Add a column", this.table.columns, (name) => this.change([...this.names.filter((n) => n !== name), name]));
     this.axis.onclick = () => pickColumn("Plot against", this.table.columns, (name) => this.change(this.names, name), "time");
     close.onclick = () => this.onclose?.();
     clock.listen(() => this.showNow());
@@ -35,7 +38,7 @@ class PlotPanel {
   draw() {
     this.plot?.destroy();
     this.area.replaceChildren();
-    this.marker = element("div", { className: "now" });
+    this.marker = element("div", {className: "now"});
     const columns = this.columns();
     this.axis.textContent = `against ${this.against ?? "time"}`;
     this.listValues(columns);
@@ -47,7 +50,8 @@ class PlotPanel {
   }
 
   resize() {
-    if (this.plot && this.area.clientWidth > 0 && this.area.clientWidth !== this.plot.width) this.plot.setSize({ width: this.area.clientWidth, height: 230 });
+    if (this.plot && this.area.clientWidth > 0 && this.area.clientWidth !== this.plot.width)
+      this.plot.setSize({width: this.area.clientWidth, height: 230});
     this.showNow();
   }
 
@@ -56,40 +60,48 @@ class PlotPanel {
     this.values.replaceChildren();
     this.shown = columns.map((column, i) => {
       const value = element("output", {});
-      const remove = element("button", { type: "button", className: "quiet", textContent: "×" });
+      const remove = element("button", {type: "button", className: "quiet", textContent: "×"});
       remove.ariaLabel = `Take out ${column.name}`;
       remove.onclick = () => this.change(this.names.filter((name) => name !== column.name));
-      const swatch = element("i", { className: `swatch ${i >= 4 ? "dashed" : ""}` });
+      const swatch = element("i", {className: `swatch ${i >= 4 ? "dashed" : ""}`});
       swatch.style.color = seriesColour(i);
-      this.values.append(element("li", {}, swatch, element("span", { textContent: column.name }), value, remove));
-      return { column, value };
+      this.values.append(element("li", {}, swatch, element("span", {textContent: column.name}), value, remove));
+      return {column, value};
     });
-    if (columns.length === 0) this.values.append(element("li", { className: "hint", textContent: "no column yet" }));
+    if (columns.length === 0) this.values.append(element("li", {className: "hint", textContent: "no column yet"}));
   }
 
   /// Values at the time shown, or under the pointer, and where that is in the plot.
   showNow() {
     const time = this.clock.pointed ?? this.clock.time;
-    for (const { column, value } of this.shown ?? []) {
+    for (const {column, value} of this.shown ?? []) {
       const x = valueAt(column, time);
       value.textContent = takesPrefix.has(column.unit) ? engineering(x, column.unit, 7) : withUnit(x, column.unit, 7);
       value.title = String(x);
     }
     if (!this.plot) return;
     const place = this.against ? orbitPlace(this) : this.plot.valToPos(this.clock.time, "x");
-    if (this.against) this.marker.style.transform = `translate(${place[0]}px, ${place[1]}px)`;
-    else this.marker.style.transform = `translateX(${place}px)`;
+    if (this.against)
+      this.marker.style.transform = `translate(${place[0]}px, ${place[1]}px)`;
+    else
+      this.marker.style.transform = `translateX(${place}px)`;
     this.marker.classList.toggle("dot", this.against !== null);
     this.marker.hidden = this.against === null && (place < 0 || place > this.plot.over.clientWidth);
   }
 }
 
-const axisStyle = () => ({ stroke: css("--ink"), grid: { stroke: css("--line"), width: 1 }, ticks: { stroke: css("--line"), width: 1, size: 5 }, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif" });
+const axisStyle = () => ({
+  stroke: css("--ink"),
+  grid: {stroke: css("--line"), width: 1},
+  ticks: {stroke: css("--line"), width: 1, size: 5},
+  font: "12px system-ui, sans-serif",
+  labelFont: "12px system-ui, sans-serif"
+});
 
 /// An axis whose numbers are written in a fitting multiple of the unit.
 function axisOf(unit, title, scaleKey, more = {}) {
   const fitted = (u) => {
-    const { min, max } = u.scales[scaleKey];
+    const {min, max} = u.scales[scaleKey];
     return scaleFor(Math.max(Math.abs(min ?? 0), Math.abs(max ?? 0)), unit);
   };
   return {
@@ -114,26 +126,33 @@ function axisNumbers(splits, factor) {
 
 /// Columns with times of their own on all of their times together.
 function joined(columns) {
-  const withoutNaN = ({ y }) => (y.some(Number.isNaN) ? Array.from(y, (x) => (Number.isNaN(x) ? null : x)) : y);
-  if (columns.every(({ t }) => t === columns[0].t)) return [columns[0].t, ...columns.map(withoutNaN)];
+  const withoutNaN = ({y}) => (y.some(Number.isNaN) ? Array.from(y, (x) => (Number.isNaN(x) ? null : x)) : y);
+  if (columns.every(({t}) => t === columns[0].t)) return [columns[0].t, ...columns.map(withoutNaN)];
   return uPlot.join(columns.map((column) => [column.t, withoutNaN(column)]));
 }
 
 function timePlot(panel, columns, width, height) {
-  const units = [...new Set(columns.map(({ unit }) => unit))];
-  const scales = { x: { time: false } };
-  for (const unit of units) scales[`y ${unit}`] = { range: paddedRange };
-  const axes = units.map((unit, i) =>
-    axisOf(unit, "", `y ${unit}`, { side: i % 2 ? 1 : 3, size: 58, grid: { show: i === 0, stroke: css("--line"), width: 1 } }));
-  const series = columns.map(({ name, unit }, i) => ({
-    label: name, scale: `y ${unit}`, stroke: seriesColour(i), width: 1.5, dash: i >= 4 ? [6, 3] : undefined, points: { show: false },
-  }));
+  const units = [...new Set(columns.map(({unit}) => unit))];
+  const scales = {x: {time: false}};
+  for (const unit of units) scales[`y ${unit}`] = {range: paddedRange};
+  const axes = units.map(
+      (unit, i) => axisOf(unit, "", `y ${unit}`, {side: i % 2 ? 1 : 3, size: 58, grid: {show: i === 0, stroke: css("--line"), width: 1}}));
+  const series = columns.map(({name, unit}, i) => ({
+                               label: name,
+                               scale: `y ${unit}`,
+                               stroke: seriesColour(i),
+                               width: 1.5,
+                               dash: i >= 4 ? [6, 3] : undefined,
+                               points: {show: false},
+                             }));
   const options = {
-    width, height, scales,
-    legend: { show: false },
-    series: [{ label: "t" }, ...series],
-    axes: [axisOf("s", "time", "x", { size: 34, labelSize: 18 }), ...axes],
-    cursor: { y: false, sync: { key: "time" }, drag: { x: true, y: false }, points: { size: 6 } },
+    width,
+    height,
+    scales,
+    legend: {show: false},
+    series: [{label: "t"}, ...series],
+    axes: [axisOf("s", "time", "x", {size: 34, labelSize: 18}), ...axes],
+    cursor: {y: false, sync: {key: "time"}, drag: {x: true, y: false}, points: {size: 6}},
     hooks: timeHooks(panel.clock),
   };
   return new uPlot(options, joined(columns), panel.area);
@@ -169,7 +188,7 @@ function clickGoes(u, clock) {
 
 function markEvents(u, events) {
   if (events.length === 0) return;
-  const { ctx, bbox } = u;
+  const {ctx, bbox} = u;
   ctx.save();
   ctx.strokeStyle = css("--accent");
   ctx.globalAlpha = events.length > 60 ? 0.25 : 0.45;
@@ -191,33 +210,39 @@ function markEvents(u, events) {
 function pairOf(first, second) {
   const t = first.t.length <= second.t.length ? first.t : second.t;
   const at = (column) => (column.t === t ? column.y : t.map((time) => valueAt(column, time)));
-  return { t, x: at(first), y: at(second) };
+  return {t, x: at(first), y: at(second)};
 }
 
 function orbitPlot(panel, columns, width, height) {
   const evenly = panel.table.poses.columns;  // where both are read at the same rows, if they are
   const column = (name) => evenly.get(name) ?? panel.table.columns.get(name);
   const abscissa = column(panel.against);
-  panel.pairs = columns.map(({ name }) => pairOf(abscissa, column(name)));
-  const wide = panel.pairs.map(({ x }) => rangeOf(x));
-  const high = panel.pairs.map(({ y }) => rangeOf(y));
+  panel.pairs = columns.map(({name}) => pairOf(abscissa, column(name)));
+  const wide = panel.pairs.map(({x}) => rangeOf(x));
+  const high = panel.pairs.map(({y}) => rangeOf(y));
   let x = padded(Math.min(...wide.map((r) => r[0])), Math.max(...wide.map((r) => r[1])));
   let y = padded(Math.min(...high.map((r) => r[0])), Math.max(...high.map((r) => r[1])));
-  if (columns.every(({ unit }) => unit === abscissa.unit)) [x, y] = equalScales(x, y, (width - 80) / (height - 60));
+  if (columns.every(({unit}) => unit === abscissa.unit)) [x, y] = equalScales(x, y, (width - 80) / (height - 60));
   const curve = (i) => ({
-    stroke: seriesColour(i), width: 1.25, paths: orbitPath, label: columns[i].name, points: { show: false },
-    facets: [{ scale: "x", auto: false, sorted: 0 }, { scale: "y", auto: false, sorted: 0 }],
+    stroke: seriesColour(i),
+    width: 1.25,
+    paths: orbitPath,
+    label: columns[i].name,
+    points: {show: false},
+    facets: [{scale: "x", auto: false, sorted: 0}, {scale: "y", auto: false, sorted: 0}],
   });
   const options = {
-    mode: 2, width, height,
-    legend: { show: false },
-    scales: { x: { time: false, auto: false, range: x }, y: { auto: false, range: y } },
+    mode: 2,
+    width,
+    height,
+    legend: {show: false},
+    scales: {x: {time: false, auto: false, range: x}, y: {auto: false, range: y}},
     series: [null, ...columns.map((_, i) => curve(i))],
-    axes: [axisOf(abscissa.unit, abscissa.name, "x", { size: 34, labelSize: 18 }), axisOf(columns[0].unit, "", "y", { size: 58 })],
-    cursor: { x: false, y: false, points: { show: false }, drag: { setScale: false, x: false, y: false } },
-    hooks: { ready: [(u) => orbitClicks(u, panel)] },
+    axes: [axisOf(abscissa.unit, abscissa.name, "x", {size: 34, labelSize: 18}), axisOf(columns[0].unit, "", "y", {size: 58})],
+    cursor: {x: false, y: false, points: {show: false}, drag: {setScale: false, x: false, y: false}},
+    hooks: {ready: [(u) => orbitClicks(u, panel)]},
   };
-  return new uPlot(options, [null, ...panel.pairs.map(({ x: px, y: py }) => [px, py])], panel.area);
+  return new uPlot(options, [null, ...panel.pairs.map(({x: px, y: py}) => [px, py])], panel.area);
 }
 
 const padded = (least, most) => paddedRange(null, least, most);
@@ -238,7 +263,7 @@ function orbitPath(u, seriesIndex) {
     if (there) path[drawing ? "lineTo" : "moveTo"](u.valToPos(xs[i], "x", true), u.valToPos(ys[i], "y", true));
     drawing = there;
   }
-  const { ctx } = u;
+  const {ctx} = u;
   ctx.save();
   ctx.beginPath();
   ctx.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
@@ -250,21 +275,21 @@ function orbitPath(u, seriesIndex) {
   return null;
 }
 
-function orbitPlace({ plot, pairs, clock }) {
-  const { t, x, y } = pairs[0];
+function orbitPlace({plot, pairs, clock}) {
+  const {t, x, y} = pairs[0];
   const i = nearestIndex(t, clock.time);
   return [plot.valToPos(x[i], "x"), plot.valToPos(y[i], "y")];
 }
 
 /// A click goes to the time of the nearest point of a curve.
-function orbitClicks(u, { pairs, clock }) {
+function orbitClicks(u, {pairs, clock}) {
   u.over.addEventListener("click", (event) => {
     const box = u.over.getBoundingClientRect();
-    let best = { distance: Infinity, time: clock.time };
-    for (const { t, x, y } of pairs)
+    let best = {distance: Infinity, time: clock.time};
+    for (const {t, x, y} of pairs)
       for (let i = 0; i < t.length; ++i) {
         const distance = Math.hypot(u.valToPos(x[i], "x") - event.clientX + box.left, u.valToPos(y[i], "y") - event.clientY + box.top);
-        if (distance < best.distance) best = { distance, time: t[i] };
+        if (distance < best.distance) best = {distance, time: t[i]};
       }
     clock.set(best.time);
   });
@@ -281,13 +306,13 @@ function pickColumn(title, columns, chosen, also = null) {
     const words = filter.value.toLowerCase().split(/\s+/).filter(Boolean);
     const fitting = names.filter((name) => words.every((word) => name.toLowerCase().includes(word)));
     list.replaceChildren(...fitting.slice(0, most).map((name) => {
-      const button = element("button", { type: "button", textContent: name });
+      const button = element("button", {type: "button", textContent: name});
       button.setAttribute("role", "option");
-      button.append(element("span", { className: "unit", textContent: prettyUnit(columns.get(name)?.unit ?? "") }));
+      button.append(element("span", {className: "unit", textContent: prettyUnit(columns.get(name)?.unit ?? "")}));
       button.onclick = () => (dialog.close(), chosen(name));
       return button;
     }));
-    if (fitting.length > most) list.append(element("p", { textContent: `… and ${fitting.length - most} more; write part of a name` }));
+    if (fitting.length > most) list.append(element("p", {textContent: `… and ${fitting.length - most} more; write part of a name`}));
   };
   byId("picker-title").textContent = title;
   filter.value = "";

@@ -9,7 +9,7 @@ class Stage {
     this.motion = motion;
     this.model = motion.model;
     this.meshes = this.model.bodies.map((body) => (body.mesh ? new BentMesh(body.mesh) : null));
-    this.show = { forces: true, paths: false, names: false, stress: false };
+    this.show = {forces: true, paths: false, names: false, stress: false};
     this.exaggeration = this.model.exaggeration;
     this.deformation = this.model.deformation;
     this.arrows = 1;
@@ -28,7 +28,7 @@ class Stage {
     for (const time of this.sampledTimes(60)) {
       const poses = this.motion.poses(time);
       this.widen(box, poses);
-      forces.push(Math.max(0, ...this.motion.forces(time, poses).map(({ force }) => Math.hypot(force.x, force.y))));
+      forces.push(Math.max(0, ...this.motion.forces(time, poses).map(({force}) => Math.hypot(force.x, force.y))));
       this.meshes.forEach((mesh, b) => {
         if (!mesh) return;
         this.greatestStress = Math.max(this.greatestStress, mesh.stress(poses[b].eta));
@@ -41,13 +41,13 @@ class Stage {
   }
 
   sampledTimes(most) {
-    const { t } = this.motion;
+    const {t} = this.motion;
     const count = Math.min(most, t.length);
-    return Array.from({ length: count }, (_, i) => t[Math.round((i * (t.length - 1)) / Math.max(count - 1, 1))]);
+    return Array.from({length: count}, (_, i) => t[Math.round((i * (t.length - 1)) / Math.max(count - 1, 1))]);
   }
 
   widen(box, poses) {
-    const add = ({ x, y }) => {
+    const add = ({x, y}) => {
       box[0] = Math.min(box[0], x);
       box[1] = Math.min(box[1], y);
       box[2] = Math.max(box[2], x);
@@ -59,30 +59,32 @@ class Stage {
       const mesh = this.meshes[b];
       if (!mesh) return;
       mesh.bend(poses[b], 1);
-      for (let i = 0; i < mesh.world.length; i += 2) add({ x: mesh.world[i], y: mesh.world[i + 1] });
+      for (let i = 0; i < mesh.world.length; i += 2) add({x: mesh.world[i], y: mesh.world[i + 1]});
     });
     for (const joint of [...this.model.joints, ...this.model.forces.filter((f) => f.spring)])
-      for (const marker of [joint.a, joint.b]) if (this.model.markers[marker].body >= 0 || joint.symbol !== "guide") add(this.motion.place(marker, poses));
+      for (const marker of [joint.a, joint.b])
+        if (this.model.markers[marker].body >= 0 || joint.symbol !== "guide") add(this.motion.place(marker, poses));
   }
 
-  profilePoints({ marker, points }, poses) {
+  profilePoints({marker, points}, poses) {
     const at = this.motion.place(marker, poses);
-    const frame = { x: at.x, y: at.y, c: Math.cos(at.angle), s: Math.sin(at.angle) };
-    return Array.from({ length: points.length / 2 }, (_, i) => toWorld(frame, points[2 * i], points[2 * i + 1]));
+    const frame = {x: at.x, y: at.y, c: Math.cos(at.angle), s: Math.sin(at.angle)};
+    return Array.from({length: points.length / 2}, (_, i) => toWorld(frame, points[2 * i], points[2 * i + 1]));
   }
 
   /// Paths of the points that the scene asks for, else of the pins that move.
   makePaths() {
-    const { points, joints, markers } = this.model;
+    const {points, joints, markers} = this.model;
     if (points.length > 0)
-      return points.map((name) => ({ t: this.motion.t, x: this.motion.column(`${name}.x`), y: this.motion.column(`${name}.y`) })).filter((p) => p.x && p.y);
+      return points.map((name) => ({t: this.motion.t, x: this.motion.column(`${name}.x`), y: this.motion.column(`${name}.y`)}))
+          .filter((p) => p.x && p.y);
     const pins = joints.filter((j) => j.symbol.startsWith("pin") && markers[j.a].body >= 0 && markers[j.b].body >= 0);
-    if (pins.length === 0) return this.motion.bodies.map(({ x, y }) => ({ t: this.motion.t, x, y }));
+    if (pins.length === 0) return this.motion.bodies.map(({x, y}) => ({t: this.motion.t, x, y}));
     const t = this.sampledTimes(800);
     const poses = t.map((time) => this.motion.poses(time));
     return pins.map((j) => {
       const places = poses.map((p) => this.motion.place(j.b, p));
-      return { t, x: places.map((p) => p.x), y: places.map((p) => p.y) };
+      return {t, x: places.map((p) => p.x), y: places.map((p) => p.y)};
     });
   }
 
@@ -93,7 +95,7 @@ class Stage {
     const wanted = 90 + (1.1 * this.canvas.clientWidth * (y1 - y0)) / (x1 - x0 || 1);
     this.canvas.parentElement.style.height = `${Math.round(Math.min(Math.max(wanted, 300), 620))}px`;
     const ratio = window.devicePixelRatio || 1;
-    const { clientWidth, clientHeight } = this.canvas;
+    const {clientWidth, clientHeight} = this.canvas;
     if (clientWidth === 0) return;
     this.canvas.width = Math.round(clientWidth * ratio);
     this.canvas.height = Math.round(clientHeight * ratio);
@@ -108,7 +110,7 @@ class Stage {
     const margin = 1.18;
     const least = 0.02 * this.model.length;
     this.scale = Math.min(this.width / (margin * Math.max(x1 - x0, least)), (this.height - 30) / (margin * Math.max(y1 - y0, least)));
-    this.centre = { x: (x0 + x1) / 2, y: (y0 + y1) / 2 };
+    this.centre = {x: (x0 + x1) / 2, y: (y0 + y1) / 2};
     this.fitted = true;
     this.followed = -1;
   }
@@ -131,20 +133,20 @@ class Stage {
   follow(body) {
     this.followed = body;
     this.fitted = false;
-    this.centre = body < 0 ? { x: (this.box[0] + this.box[2]) / 2, y: (this.box[1] + this.box[3]) / 2 } : { x: 0, y: 0 };
+    this.centre = body < 0 ? {x: (this.box[0] + this.box[2]) / 2, y: (this.box[1] + this.box[3]) / 2} : {x: 0, y: 0};
   }
 
   middle() {
-    const pose = this.followed >= 0 ? this.now[this.followed] : { x: 0, y: 0 };
-    return { x: pose.x + this.centre.x, y: pose.y + this.centre.y };
+    const pose = this.followed >= 0 ? this.now[this.followed] : {x: 0, y: 0};
+    return {x: pose.x + this.centre.x, y: pose.y + this.centre.y};
   }
 
   toWorld(px, py) {
-    const { x, y } = this.middle();
-    return { x: x + (px - this.width / 2) / this.scale, y: y - (py - this.height / 2) / this.scale };
+    const {x, y} = this.middle();
+    return {x: x + (px - this.width / 2) / this.scale, y: y - (py - this.height / 2) / this.scale};
   }
 
-  px({ x, y }) {
+  px({x, y}) {
     return [this.width / 2 + (x - this.looked.x) * this.scale, this.height / 2 - (y - this.looked.y) * this.scale];
   }
 

@@ -6,20 +6,21 @@ class StudyPage {
   constructor(data) {
     this.data = data;
     this.rows = data.rows;
-    this.columns = data.columns.map((column, index) => ({ ...column, index, numeric: this.isNumeric(index) }));
+    this.columns = data.columns.map((column, index) => ({...column, index, numeric: this.isNumeric(index)}));
     this.varying = this.columns.filter((column) => new Set(this.rows.map((row) => row[column.index])).size > 1);
     this.brushes = new Map();
-    this.sorted = { index: 0, ascending: true };
+    this.sorted = {index: 0, ascending: true};
     const numeric = this.varying.filter((column) => column.numeric && column.name !== "case");
     const named = (name, otherwise) => this.columns.find((column) => column.name === name) ?? otherwise ?? this.columns[0];
     this.x = named(data.x, numeric[0]);
     this.y = named(data.y, numeric[1]);
     this.colour = named(data.colour, numeric.at(-1));
-    this.logarithmic = { x: data.logarithmic, y: data.logarithmic };
+    this.logarithmic = {x: data.logarithmic, y: data.logarithmic};
   }
 
   isNumeric(index) {
-    return this.rows.some((row) => typeof row[index] === "number") && this.rows.every((row) => row[index] === null || typeof row[index] === "number");
+    return this.rows.some((row) => typeof row[index] === "number") &&
+        this.rows.every((row) => row[index] === null || typeof row[index] === "number");
   }
 
   start() {
@@ -28,11 +29,13 @@ class StudyPage {
     byId("study").hidden = false;
     showHead(this.data.title, this.data.run);
     showFacts(this.data.run);
-    byId("study-count").textContent = this.rows.length < this.data.all ? `${this.rows.length} of ${this.data.all} rows: evenly spaced ones, and those with an extreme` : `${this.rows.length} rows`;
+    byId("study-count").textContent = this.rows.length < this.data.all ?
+        `${this.rows.length} of ${this.data.all} rows: evenly spaced ones, and those with an extreme` :
+        `${this.rows.length} rows`;
     byId("study-clear").onclick = () => (this.brushes.clear(), this.draw());
     for (const which of ["x", "y", "colour"]) this.chooser(which);
     for (const which of ["x", "y"]) this.logChooser(which);
-    byId("study").addEventListener("pointerover", ({ target }) => this.point(target.closest("[data-row]")?.dataset.row));
+    byId("study").addEventListener("pointerover", ({target}) => this.point(target.closest("[data-row]")?.dataset.row));
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
     new ResizeObserver(() => this.width !== byId("study").clientWidth && this.draw()).observe(byId("study"));
     this.draw();
@@ -40,7 +43,7 @@ class StudyPage {
 
   chooser(which) {
     const select = byId(`study-${which}`);
-    select.append(...this.columns.map(({ name, index }) => element("option", { value: index, textContent: name })));
+    select.append(...this.columns.map(({name, index}) => element("option", {value: index, textContent: name})));
     select.value = this[which].index;
     select.onchange = () => ((this[which] = this.columns[select.value]), this.draw());
   }
@@ -53,14 +56,15 @@ class StudyPage {
 
   /// The rows with their numbers, and whether a brush leaves them out.
   marked() {
-    const scales = [...this.brushes].map(([index, range]) => ({ scale: new ColumnScale(this.columns[index], this.rows), range }));
+    const scales = [...this.brushes].map(([index, range]) => ({scale: new ColumnScale(this.columns[index], this.rows), range}));
     return this.rows.map((row, number) => ({
-      row, number,
-      out: scales.some(({ scale, range }) => {
-        const at = scale.at(row[scale.column.index]);
-        return at === null || at < range[0] || at > range[1];
-      }),
-    }));
+                           row,
+                           number,
+                           out: scales.some(({scale, range}) => {
+                             const at = scale.at(row[scale.column.index]);
+                             return at === null || at < range[0] || at > range[1];
+                           }),
+                         }));
   }
 
   draw() {
@@ -72,35 +76,55 @@ class StudyPage {
       return at === null ? css("--faint") : colours.words ? seriesColour(colours.words.indexOf(row[this.colour.index])) : scaleColour(at);
     };
     const most = 10;
-    const scales = this.varying.filter((column) => column.name !== "case" && (column.numeric || new Set(this.rows.map((row) => row[column.index])).size <= 12)).slice(0, most).map((column) => new ColumnScale(column, this.rows));
+    const scales =
+        this.varying
+            .filter((column) => column.name !== "case" && (column.numeric || new Set(this.rows.map((row) => row[column.index])).size <= 12))
+            .slice(0, most)
+            .map((column) => new ColumnScale(column, this.rows));
     const parallel = byId("study-parallel");
     const width = Math.max(parallel.clientWidth, 96 * scales.length);
-    parallel.replaceChildren(scales.length > 1 ? parallelPlot(width, 300, scales, rows, colourOf, this.brushes, (index, range) => this.brush(index, range)) : "");
+    parallel.replaceChildren(
+        scales.length > 1 ? parallelPlot(width, 300, scales, rows, colourOf, this.brushes, (index, range) => this.brush(index, range)) :
+                            "");
     const scatter = byId("study-scatter");
-    scatter.replaceChildren(scatterPlot(scatter.clientWidth, 340, new ColumnScale(this.x, this.rows, this.logarithmic.x), new ColumnScale(this.y, this.rows, this.logarithmic.y), rows, colourOf));
+    scatter.replaceChildren(scatterPlot(
+        scatter.clientWidth, 340, new ColumnScale(this.x, this.rows, this.logarithmic.x),
+        new ColumnScale(this.y, this.rows, this.logarithmic.y), rows, colourOf));
     this.fillTable(rows);
   }
 
   brush(index, range) {
-    if (range) this.brushes.set(index, range);
-    else this.brushes.delete(index);
+    if (range)
+      this.brushes.set(index, range);
+    else
+      this.brushes.delete(index);
     this.draw();
   }
 
   fillTable(marked) {
-    const scales = this.columns.map((column) => (column.numeric ? scaleFor(rangeOf(this.rows.map((row) => Math.abs(row[column.index] ?? 0)))[1], column.unit) : null));
-    const { index, ascending } = this.sorted;
+    const scales = this.columns.map(
+        (column) => (column.numeric ? scaleFor(rangeOf(this.rows.map((row) => Math.abs(row[column.index] ?? 0)))[1], column.unit) : null));
+    const {index, ascending} = this.sorted;
     const order = (a, b) => (a === b ? 0 : a === null ? 1 : b === null ? -1 : a < b === ascending ? -1 : 1);
     const rows = marked.filter((one) => !one.out).sort((a, b) => order(a.row[index], b.row[index]));
     const heading = this.columns.map((column, c) => {
       const unit = scales[c]?.unit ?? "";
-      const button = element("button", { type: "button", className: "quiet", textContent: column.name + (unit ? ` [${unit}]` : "") + (c === index ? (ascending ? " ↑" : " ↓") : "") });
-      button.onclick = () => ((this.sorted = { index: c, ascending: c === index ? !ascending : true }), this.draw());
-      return element("th", { scope: "col", className: scales[c] ? "number" : "" }, button);
+      const button = element("button", {
+        type: "button",
+        className: "quiet",
+        textContent: column.name + (unit ? ` [${unit}]` : "") + (c === index ? (ascending ? " ↑" : " ↓") : "")
+      });
+      button.onclick = () => ((this.sorted = {index: c, ascending: c === index ? !ascending : true}), this.draw());
+      return element("th", {scope: "col", className: scales[c] ? "number" : ""}, button);
     });
     const most = 1000;
-    const body = rows.slice(0, most).map(({ row, number }) => {
-      const out = element("tr", {}, ...row.map((x, c) => element("td", { className: scales[c] ? "number" : "", title: String(x ?? ""), textContent: typeof x === "number" ? plain(scales[c] ? x * scales[c].factor : x, 6) : (x ?? "–") })));
+    const body = rows.slice(0, most).map(({row, number}) => {
+      const out =
+          element("tr", {}, ...row.map((x, c) => element("td", {
+                                         className: scales[c] ? "number" : "",
+                                         title: String(x ?? ""),
+                                         textContent: typeof x === "number" ? plain(scales[c] ? x * scales[c].factor : x, 6) : (x ?? "–")
+                                       })));
       out.dataset.row = number;
       return out;
     });
@@ -113,7 +137,8 @@ class StudyPage {
   point(number) {
     if (number === this.pointed) return;
     for (const old of byId("study").querySelectorAll(".current")) old.classList.remove("current");
-    if (number !== undefined) for (const one of byId("study").querySelectorAll(`[data-row="${number}"]`)) one.classList.add("current");
+    if (number !== undefined)
+      for (const one of byId("study").querySelectorAll(`[data-row="${number}"]`)) one.classList.add("current");
     this.pointed = number;
   }
 }

@@ -80,9 +80,9 @@ TEST(Page, NothingOfTheResultsIsTakenForHtml) {
   hostile.replace(hostile.find("title: pendulum"), 15, "title: \"" + attack + "\"");
   write_run(folder.path(), read_scene_text(hostile, "hostile.yaml"));
   Json run = Json::parse(text_of(folder.path() / "run.json"));
-  run["warnings"] = {attack};
+  run["warnings"] = Json::array({attack});
   run["reason"] = attack;
-  run[attack] = {{attack, attack}};
+  run[attack] = attack;
   folder.write("run.json", run.dump());
   folder.write("events.csv", "joint,begin [s],end [s]\n" + attack + ",0,1\n");
   const std::string page = report_page(folder.path());

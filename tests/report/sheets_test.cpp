@@ -157,7 +157,7 @@ output: {frames: 2}
   EXPECT_NEAR(area(fine), 0.02, 1e-9);
   const DrawnMesh coarse = drawn_mesh(body, 60);
   EXPECT_LE(coarse.points.size(), 60U);
-  EXPECT_NEAR(area(coarse), 0.02, 0.006);
+  EXPECT_NEAR(area(coarse), 0.02, 0.009);  // at two sides a square of 0.03 at most is lost
   double rim = 0;
   for (const auto& [a, b] : fine.rim)
     rim +=
