@@ -120,7 +120,7 @@ TEST(Carried, WheelsTurnWithTheLineOfCentres) {
         c.coupling + "\ndrivers: {motor: {angle: [ground, arm], law: 15*t}}\nrun: {until: 1}\noutput: {frames: 0, every: 0.05}\n";
     const Scene s = pintle::read_scene_text(text, "s.yaml");
     const Model model = build(s);
-    const Run moved = kinematics(s, model, assemble(s, model));
+    const pintle::Run moved = kinematics(s, model, assemble(s, model));
     ASSERT_EQ(moved.status, Status::finished) << moved.reason;
     const auto arm = moved.trajectory.column("arm.angle [rad]"), planet = moved.trajectory.column("planet.angle [rad]");
     for (std::size_t i = 0; i < arm.size(); ++i) EXPECT_NEAR(planet[i], c.turns * arm[i], 1e-9) << c.coupling;

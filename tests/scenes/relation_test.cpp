@@ -75,7 +75,7 @@ TEST(Cam, FollowsATableRoundAndRound) {
       "drivers: {motor: {angle: [ground, cam], law: -1 + 40*t}}\nrun: {until: 1}\noutput: {frames: 0, every: 0.01}\n",
       "s.yaml", {}, folder);
   const Model model = build(s);
-  const Run moved = kinematics(s, model, assemble(s, model));
+  const pintle::Run moved = kinematics(s, model, assemble(s, model));
   ASSERT_EQ(moved.status, Status::finished) << moved.reason;
   const auto cam = moved.trajectory.column("cam.angle [rad]"), rocker = moved.trajectory.column("rocker.angle [rad]"),
              alpha = moved.trajectory.column("rocker.alpha [rad/s^2]");
@@ -196,7 +196,7 @@ double between(double a, double b, double angle) { return std::sqrt(a * a + b * 
 TEST(Cylinders, MoveAnExcavator) {
   const Scene s = read_scene(PINTLE_SOURCE_DIR "/examples/excavator.yaml");
   const Model model = build(s);
-  const Run moved = kinematics(s, model, assemble(s, model));
+  const pintle::Run moved = kinematics(s, model, assemble(s, model));
   ASSERT_EQ(moved.status, Status::finished) << moved.reason;
   // An arm turns about a pivot between two points, at distances and directions from it that are fixed in the bodies that carry them.
   struct Arm {
