@@ -131,10 +131,8 @@ std::optional<VectorXd> solve_complementarity(const MatrixXd& M, const VectorXd&
 
 // T = T⁺ − T⁻. Unknown z = (N, T⁺, T⁻, u) against (g, u + slip, u − slip, μ(N + N₀) − T⁺ − T⁻), u the speed of a slip, each over the
 // root of its own W. Without what slides zᵀM z = xᵀW x + uᵀμN ≥ 0, so that Lemke's method finds the impulses of an impact
-// [AnitescuPotra1997, theorem 1]. Where more contacts are closed than bodies can tell apart, rounding may leave the problem without a
-// solution, as rows of discs that fill a box from wall to wall; if each contact gives way a little it has one.
+// [AnitescuPotra1997, theorem 1].
 std::optional<VectorXd> unilateral_forces(std::span<const UnilateralContact> contacts, const MatrixXd& W, const VectorXd& c) {
-  constexpr double give = 1e-10, within = 1e-3;  // of each contact's own; of the rates: what forces beyond that hold is nothing real
   const auto n = static_cast<Index>(contacts.size());
   const auto m = static_cast<Index>(std::ranges::count_if(contacts, [](const UnilateralContact& k) { return k.tangent >= 0; }));
   const Index size = n + 3 * m;
@@ -173,14 +171,8 @@ std::optional<VectorXd> unilateral_forces(std::span<const UnilateralContact> con
   }
   const double most = q.cwiseProduct(unit).cwiseAbs().maxCoeff();
   if (!(most > 0)) return VectorXd(x0);
-  MatrixXd scaled = unit.asDiagonal() * M * unit.asDiagonal();
-  const VectorXd scaled_q = q.cwiseProduct(unit) / most;
-  auto z = solve_complementarity(scaled, scaled_q);
-  if (!z) {
-    scaled.diagonal().head(n + 2 * m).array() += give;
-    z = solve_complementarity(scaled, scaled_q);
-  }
-  if (!z || z->maxCoeff() * give > within) return std::nullopt;
+  const auto z = solve_complementarity(unit.asDiagonal() * M * unit.asDiagonal(), q.cwiseProduct(unit) / most);
+  if (!z) return std::nullopt;
   return VectorXd(X * (most * unit.cwiseProduct(*z)) + x0);
 }
 
