@@ -253,6 +253,7 @@ TEST_P(ForceBetween, PowerOnTheBodiesGoesWhereItSays) {
   System system = two_bodies(carriers);
   system.forces = {kind.force};
   system.force_names = {kind.name};
+  for (const double size : sizes) system.laws.push_back({[size](double, const double*, double*) { return size; }, {}});
   number(system);
   Equations eq(system);
   Draw draw(13);

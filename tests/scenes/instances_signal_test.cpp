@@ -11,7 +11,7 @@
 namespace pintle_scenes::instances_signal_test {
 namespace {
 
-constexpr const char *servo = R"(
+constexpr const char* servo = R"y(
 assemblies:
   servo:
     parameters: {target: 30 deg, gain: 4 N m/rad}
@@ -41,15 +41,15 @@ when:
 }
 }
     outputs: {power: motor.torque*arm.speed, twice: 2*power}
-)";
+)y";
 
 TEST(InstancesSignal, AreThoseWrittenByHandToTheLastBit) {
-      const pintle::Scene scene = pintle::read_scene_text(std::string(servo) + R"(
+  const pintle::Scene scene = pintle::read_scene_text(std::string(servo) + R"y(
 instances: {slow: {of: servo}, fast: {of: servo, with: {gain: 9 N m/rad, target: 50 deg}}}
 run: {until: 1 s}
-)",
-                                                          "scene.yaml");
-  const Whole is = run(scene), hand = run(R"(
+)y",
+                                                      "scene.yaml");
+  const Whole is = run(scene), hand = run(R"y(
 bodies: {slow arm: {rigid: {mass: 1 kg, inertia: 0.02}}, fast arm: {rigid: {mass: 1 kg, inertia: 0.02}}}
 joints: {slow bearing: {revolute: [ground, slow arm]}, fast bearing: {revolute: [ground, fast arm]}}
 drivers:
@@ -85,15 +85,15 @@ outputs:
   fast power: fast motor.torque*fast arm.speed
   fast twice: 2*fast power
 run: {until: 1 s}
-)");
+)y");
   EXPECT_EQ(is.run.trajectory.header, hand.run.trajectory.header);
-EXPECT_EQ(is.run.trajectory.data, hand.run.trajectory.data);
-const Whole again = run(scene.filled_in);
-EXPECT_EQ(again.run.trajectory.data, is.run.trajectory.data);
+  EXPECT_EQ(is.run.trajectory.data, hand.run.trajectory.data);
+  const Whole again = run(scene.filled_in);
+  EXPECT_EQ(again.run.trajectory.data, is.run.trajectory.data);
 }
 
 TEST(InstancesSignal, NumberTheirCopies) {
-  const Whole is = run(R"(
+  const Whole is = run(R"y(
 bodies: {wheel: {repeat: 3, rigid: {mass: 1 kg, inertia: 0.02}}}
 joints: {bearing: {repeat: 3, revolute: [ground, "wheel {index}"]}}
 forces:
@@ -101,7 +101,7 @@ forces:
 start: {wheel 1: {speed: 10 rad/s}, wheel 2: {speed: 10 rad/s}, wheel 3: {speed: 10 rad/s}}
 run: {until: 20 ms, tolerance: 1e-10}
 output: {every: 20 ms}
-)");
+)y");
   for (int i = 1; i <= 3; ++i)  // J ω' = -i c ω
     EXPECT_NEAR(is.last("wheel " + std::to_string(i) + ".speed [rad/s]"), 10 * std::exp(-i * 0.02 / 0.02), 1e-7);
 }

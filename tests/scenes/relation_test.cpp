@@ -233,7 +233,7 @@ TEST(Present, HoldsARodAsItIsDrawn) {
       "joints:\n  A: {revolute: [ground, arm]}\n  rod: {distance: [ground.C, arm.P], length: present}\n"
       "start: {arm: {angle: 0.3}}\nrun: {until: 0.1}\noutput: {frames: 0, every: 0.1}\n";
   const Whole w = run(text);
-  expect_sound(w);
+  expect_sound(w, 1e-12);
   EXPECT_NEAR(w.last("arm.angle [rad]"), 0.3, 1e-12);
   const Scene again = pintle::read_scene_text(pintle::read_scene_text(text, "s.yaml").filled_in, "again.json");
   EXPECT_NEAR(run(again).last("arm.angle [rad]"), 0.3, 1e-12);

@@ -45,8 +45,8 @@ double in_play(const Energies& e, const Energies& first) {
 }
 
 /// What rounding may leave in the books of a mechanism that hardly moves: places known to a part of its length and of their
-// distance from the world's origin, and speeds to the former over the run.
-double rounding_energy(const System& system, const State& state, double until) {
+/// distance from the world's origin, angles to that part, under weights and forces, and speeds to the former over the run.
+double rounding_energy(const System& system, const State& state, const Equations& eq, double until) {
   constexpr double part = 1e-12, of_distance = 1e-13;
   const double place = part * system.length, speed = place / until;
   double sum = 0;
@@ -54,6 +54,7 @@ double rounding_energy(const System& system, const State& state, double until) {
     const double distance = state.y.segment<2>(3 * static_cast<Eigen::Index>(b)).norm();
     sum += system.bodies[b].m * ((place + of_distance * distance) * system.gravity.norm() + speed * speed);
   }
+  for (const ForceEffect& force : eq.force) sum += force.on_b.head<2>().norm() * place + std::abs(force.on_b[2]) * part;
   return sum;
 }
 
@@ -140,7 +141,8 @@ class Simulation {
     run_.worst_position = integrator_.worst_position();
     run_.worst_velocity = integrator_.worst_velocity();
     run_.seconds = std::chrono::duration<double>(Wall::now() - begin_ - spent_listening_).count();
-    check_energy_balance(scene_, model_, integrator_.implicit(), rounding_energy(system_, integrator_.state(), scene_.run.until), run_);
+    check_energy_balance(scene_, model_, integrator_.implicit(),
+                         rounding_energy(system_, integrator_.state(), integrator_.sampled(), scene_.run.until), run_);
     return std::move(run_);
   }
 

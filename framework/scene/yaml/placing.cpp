@@ -237,10 +237,11 @@ void place_body(Spot body, const Placing& placing) {
 void mirror_joint(const Spot& joint) {
   std::vector<std::string> known{"clearance", "friction", "engaged"};
   for (const JointWord& word : joint_words()) {
+    const bool is_it = joint.has(word.word);
     known.emplace_back(word.word);
     for (const JointNumber& number : word.numbers) {
       known.emplace_back(number.key);
-      if (number.of == JointNumber::angle) negate(joint, number.key, dimension::angle);
+      if (is_it && number.of == JointNumber::angle) negate(joint, number.key, dimension::angle);
     }
   }
   for (const Node& entry : joint.node.entries("keys and values"))
