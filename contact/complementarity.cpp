@@ -23,8 +23,10 @@ class Lemke {
   }
 
   std::optional<VectorXd> solve() {
+    Index row;
     if (table_.col(rhs()).minCoeff() >= 0) return VectorXd(VectorXd::Zero(n_));
-    Index row = first(), enters = z0();
+    table_.col(rhs()).cwiseQuotient(-table_.col(z0())).minCoeff(&row);
+    Index enters = z0();
     for (Index pivots = 0; pivots < 50 * (n_ + 1); ++pivots) {
       const Index leaves = basic(row);
       pivot(row, enters);
@@ -42,51 +44,32 @@ class Lemke {
   Index rhs() const { return 2 * n_ + 1; }
   Index& basic(Index row) { return basic_[static_cast<std::size_t>(row)]; }
 
-  // What is left of a difference of like numbers is rounding, and none: it would else break ties of degenerate problems by chance.
   void pivot(Index row, Index enters) {
-    constexpr double rounding = 4e-15;
     table_.row(row) /= table_(row, enters);
     for (Index i = 0; i < n_; ++i) {
-      const double times = table_(i, enters);
-      if (i == row || times == 0) continue;
-      const auto terms = (times * table_.row(row)).eval();
-      const auto left = (table_.row(i) - terms).eval();
-      table_.row(i) = (left.array().abs() > rounding * terms.array().abs()).select(left, 0);
+      if (i == row || table_(i, enters) == 0) continue;
+      table_.row(i) -= table_(i, enters) * table_.row(row).eval();
       table_(i, enters) = 0;
     }
     basic(row) = enters;
   }
 
-  // The row that has come to 0 last when z₀ has grown so far that all are there; of several the first, as below.
-  Index first() {
-    constexpr double tie = 1e-12;
-    const VectorXd ratio = table_.col(rhs()).cwiseQuotient(-table_.col(z0()));
-    const double least = ratio.minCoeff();
-    Index row = n_ - 1;
-    while (ratio[row] > (1 - tie) * least) --row;
-    return row;
-  }
-
-  // The row that comes to 0 first as the variable grows; of several z₀'s, else the first as their rows of the inverse of the basis are
-  // ordered, by which pivots cannot go round in circles [CottlePangStone1992, 4.9].
+  // The row that comes to 0 first as the variable grows; of several z₀'s, else that of the largest pivot.
   std::optional<Index> blocking(Index enters) {
-    constexpr double rounding = 1e-12;
-    const double size = std::max(table_.col(enters).cwiseAbs().maxCoeff(), 1.0);
+    constexpr double rounding = 1e-12, tie = 1e-12;
+    const double size = table_.col(enters).cwiseAbs().maxCoeff();
     std::optional<Index> best;
-    for (Index i = 0; i < n_; ++i)
-      if (table_(i, enters) > rounding * size && (!best || comes_before(i, *best, enters))) best = i;
+    double least = std::numeric_limits<double>::infinity();
+    for (Index i = 0; i < n_; ++i) {
+      const double slope = table_(i, enters);
+      if (!(slope > rounding * std::max(size, 1.0))) continue;
+      const double ratio = std::max(table_(i, rhs()), 0.0) / slope;
+      const double near = tie * (std::abs(least) + std::abs(ratio));
+      const bool same = best && std::abs(ratio - least) <= near;
+      const bool better = !best || (same ? basic(*best) != z0() && (basic(i) == z0() || slope > table_(*best, enters)) : ratio < least);
+      if (better) best = i, least = same ? std::min(least, ratio) : ratio;
+    }
     return best;
-  }
-
-  bool comes_before(Index i, Index best, Index enters) {
-    constexpr double tie = 1e-12;
-    const auto order = [&](double a, double b) { return std::abs(a - b) <= tie * (std::abs(a) + std::abs(b)) ? 0 : a < b ? -1 : 1; };
-    const double slope = table_(i, enters), slope_best = table_(best, enters);
-    if (const int o = order(std::max(table_(i, rhs()), 0.0) / slope, std::max(table_(best, rhs()), 0.0) / slope_best); o != 0) return o < 0;
-    if (basic(i) == z0() || basic(best) == z0()) return basic(i) == z0();
-    for (Index j = 0; j < n_; ++j)
-      if (const int o = order(table_(i, j) / slope, table_(best, j) / slope_best); o != 0) return o < 0;
-    return false;
   }
 
   // But for rounding z₀ is 0, as where forces have to balance and cannot in all digits.
