@@ -133,7 +133,8 @@ const std::vector<Term> terms{
     {"impact law", entry_of(static_cast<NormalForce (*)(const ImpactLaw&, const Approach&)>(evaluate))},
     {"friction law", entry_of(static_cast<FrictionForce (*)(const FrictionLaw&, double, double)>(evaluate))},
     {"force or spring",
-     entry_of(static_cast<ForceEffect (*)(const Force&, const MarkerMotion&, const MarkerMotion&, double, const double*)>(evaluate))},
+     entry_of(static_cast<ForceEffect (*)(const Force&, const MarkerMotion&, const MarkerMotion&, double, const double*, const double*)>(
+         evaluate))},
     {"inertia of shapes", entry_of(evaluate_inertia)},
     {"forces on shapes", entry_of(add_forces)},
     {"rows on shapes", entry_of(to_metric)},
