@@ -110,7 +110,18 @@ std::optional<double> FrictionEvents::positive_inside(int event, const Step& ste
   if (!touches(place(event), step.from.state) || (!of_sliding(event) && !motion.knows_held_forces())) return std::nullopt;
   const double sign = of_sliding(event) ? 1 : -1;
   const auto left = [&](double t) { return sign * guard(event, motion.at(t)).value; };
-  return below_zero_inside(left, step, sign * guard(event, step.from.state).value, of_sliding(event) ? 0 : known_inside(tolerance_));
+  const double from = sign * guard(event, step.from.state).value;
+  const auto inside = below_zero_inside(left, step, from, of_sliding(event) ? 0 : known_inside(tolerance_));
+  const bool rounding = inside && !of_sliding(event) && moves_nothing(motion.at(*inside).friction[place(event)].force, step.h);
+  return rounding ? std::nullopt : inside;
+}
+
+// In a step of length h no body goes farther by this force than the last digits of its place.
+bool FrictionEvents::moves_nothing(double force, double h) const {
+  constexpr double digits = 1e-13;
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const Body& body : system_.bodies) lightest = std::min(lightest, body.m);
+  return std::abs(force) * h * h < 2 * digits * lightest * system_.length;
 }
 
 bool FrictionEvents::met(int event, const Guard& at_end) const {

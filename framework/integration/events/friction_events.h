@@ -35,6 +35,7 @@ class FrictionEvents final : public EventGroup {
   static bool of_sliding(int event) { return event % 2 == 0; }
   std::size_t place(int event) const { return dry_[static_cast<std::size_t>(event / 2)]; }
   double still(int event) const;
+  bool moves_nothing(double force, double h) const;
   bool touches(std::size_t at, const State&) const;
   FrictionNow now(std::size_t at, const State&) const;
   Guard guard(int event, const State&, const FrictionNow&) const;
