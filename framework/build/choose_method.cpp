@@ -129,12 +129,12 @@ class Parts {
     const Mobility of_force{mobility(system_, force.a).force + mobility(system_, force.b).force,
                             mobility(system_, force.a).couple + mobility(system_, force.b).couple};
     const Mobility a = mobility(system_, signal.a), b = of_two(signal.kind) ? mobility(system_, signal.b) : Mobility{};
-    const bool turns =
-        signal.kind == Kind::angle || signal.kind == Kind::speed || signal.kind == Kind::twist || signal.kind == Kind::twist_rate;
+    const bool turns = signal.kind == Kind::angle || signal.kind == Kind::speed || signal.kind == Kind::relative_angle ||
+                       signal.kind == Kind::relative_speed;
     const bool couple = force.way == SizedForce::couple || force.way == SizedForce::restoring;
     const double w = std::sqrt((couple ? of_force.couple : of_force.force) * (turns ? a.couple + b.couple : a.force + b.force));
     const bool rate = signal.kind == Kind::vx || signal.kind == Kind::vy || signal.kind == Kind::speed ||
-                      signal.kind == Kind::length_rate || signal.kind == Kind::twist_rate;
+                      signal.kind == Kind::length_rate || signal.kind == Kind::relative_speed;
     see({rate ? 0 : std::sqrt(slope * w), rate ? slope * w : 0, "the law of \"" + name + "\""});
   }
   /// y where the scene draws its bodies, at the speeds that it gives.

@@ -7,7 +7,7 @@
 
 #include "framework/build/markers.h"
 #include "framework/mechanism/model.h"
-#include "framework/scene/signal_words.h"
+#include "framework/scene/units/signal_words.h"
 
 namespace pintle {
 

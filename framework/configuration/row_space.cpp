@@ -19,17 +19,16 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Index = Eigen::Index;
-using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double weightless = 1e-6;  ///< of the largest weight of a dependence
 
 /// diag(row_scale) Cq diag(scale)
-Sparse scaled_jacobian(const System& system, const Equations& eq) {
+Eigen::SparseMatrix<double> scaled_jacobian(const System& system, const Equations& eq) {
   std::vector<Eigen::Triplet<double>> entries;
   visit_jacobian(eq, [&](int row, int column, double value) {
     if (value != 0) entries.emplace_back(row, column, system.row_scale[row] * system.scale[column] * value);
   });
-  Sparse J(system.n_rows(), system.n());
+  Eigen::SparseMatrix<double> J(system.n_rows(), system.n());
   J.setFromTriplets(entries.begin(), entries.end());
   return J;
 }
@@ -39,7 +38,7 @@ using Weights = std::vector<std::pair<int, double>>;
 /// R of A = Q R with columns of A in the order `column`, as SPQR leaves it.
 class QR {
  public:
-  QR(const Sparse& A, double tolerance) {
+  QR(const Eigen::SparseMatrix<double>& A, double tolerance) {
     const SuiteSparseMemory memory;
     cholmod_l_start(&common_);
     common_.print = 0;
@@ -52,7 +51,7 @@ class QR {
     SuiteSparse_long k = 0;
     for (Index c = 0; c < A.cols(); ++c) {
       begin[c] = k;
-      for (Sparse::InnerIterator it(A, c); it; ++it, ++k) row[k] = it.row(), value[k] = it.value();
+      for (Eigen::SparseMatrix<double>::InnerIterator it(A, c); it; ++it, ++k) row[k] = it.row(), value[k] = it.value();
     }
     begin[A.cols()] = k;
     SuiteSparseQR<double>(SPQR_ORDERING_COLAMD, tolerance, 0, matrix, &R_, &order_, &common_);
@@ -181,7 +180,7 @@ void to_echelon(const std::vector<std::size_t>& group, std::vector<Weights>& all
 RowSpace row_space(const System& system, const Equations& eq, double tolerance) {
   RowSpace out;
   if (system.n_rows() == 0) return out;
-  Sparse A = scaled_jacobian(system, eq).transpose();
+  Eigen::SparseMatrix<double> A = scaled_jacobian(system, eq).transpose();
   VectorXd length(A.cols());
   for (Index c = 0; c < A.cols(); ++c) {
     length[c] = A.col(c).norm();

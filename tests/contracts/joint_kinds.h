@@ -85,7 +85,7 @@ inline const Kind kinds[] = {
     {"ThreeTerms",
      [](int a, int b, double) {
        return Joint{relation(false, {{a, b, 2}, 3},
-                             {{Coordinate::distance, 0, 1, 1}, {Coordinate::displacement, 1, 0, 0.7}, {Coordinate::angle, 2, 1, 0.3}})};
+                             {{Coordinate::distance, 0, 1, 0.3}, {Coordinate::displacement, 1, 0, 0.4}, {Coordinate::angle, 2, 1, 1.5}})};
      }},
 };
 

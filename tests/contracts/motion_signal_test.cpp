@@ -23,12 +23,18 @@ struct Named {
   Kind place = Kind::state;  ///< of which it is the rate
 };
 void PrintTo(const Named& n, std::ostream* out) { *out << n.name; }
-const Named kinds[] = {{"X", Kind::x},           {"VX", Kind::vx, Kind::x},
-                       {"Y", Kind::y},           {"VY", Kind::vy, Kind::y},
-                       {"Angle", Kind::angle},   {"Speed", Kind::speed, Kind::angle},
-                       {"Length", Kind::length}, {"LengthRate", Kind::length_rate, Kind::length},
-                       {"Twist", Kind::twist},   {"TwistRate", Kind::twist_rate, Kind::twist},
-                       {"Along", Kind::along},   {"Across", Kind::across}};
+const Named kinds[] = {{"X", Kind::x},
+                       {"VX", Kind::vx, Kind::x},
+                       {"Y", Kind::y},
+                       {"VY", Kind::vy, Kind::y},
+                       {"Angle", Kind::angle},
+                       {"Speed", Kind::speed, Kind::angle},
+                       {"Length", Kind::length},
+                       {"LengthRate", Kind::length_rate, Kind::length},
+                       {"Twist", Kind::relative_angle},
+                       {"TwistRate", Kind::relative_speed, Kind::relative_angle},
+                       {"Along", Kind::along},
+                       {"Across", Kind::across}};
 
 MovingPoint part(const Vector12& z, Eigen::Index from) { return {z.segment<2>(from), z.segment<2>(from + 3), z[from + 5], z[from + 2]}; }
 double value(Kind kind, const Vector12& z) { return signal_value({kind, 0, 1, 0.4}, part(z, 0), part(z, 6)); }

@@ -25,7 +25,7 @@ std::string text(const Rod& r) {
 bodies:
   rod: {rigid: {mass: 1, inertia: {inertia}}, points: {O: [-1, 0]}}
 joints: {hinge: {revolute: [ground, rod.O]}}
-start: {rod: {angle: {angle}, speed: {speed}}}
+start: {rod: {angle: {angle} rad, speed: {speed}}}
 run: {until: {until}, tolerance: {tolerance}, method: {method}{more}}
 output: {every: {every}}
 )",

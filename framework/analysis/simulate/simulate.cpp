@@ -142,7 +142,7 @@ class Simulation {
     run_.worst_velocity = integrator_.worst_velocity();
     run_.seconds = std::chrono::duration<double>(Wall::now() - begin_ - spent_listening_).count();
     check_energy_balance(scene_, model_, integrator_.implicit(),
-                         rounding_energy(system_, integrator_.state(), integrator_.sampled(), scene_.run.until), run_);
+                         rounding_energy(system_, integrator_.state(), integrator_.equations(), scene_.run.until), run_);
     return std::move(run_);
   }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
 #include "framework/dynamics/model/joint_properties.h"
 
 /// What several joints have in common. `row` is the row of a part; a has the block L[0], b L[1], d = r_b − r_a.

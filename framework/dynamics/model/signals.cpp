@@ -26,8 +26,8 @@ double signal_value(const MotionSignal& signal, const MovingPoint& a, const Movi
         const double length = d.norm();
         return length > 0 ? d.dot(b.v - a.v) / length : 0.0;
       }
-      case Kind::twist: return b.angle - a.angle;
-      case Kind::twist_rate: return b.w - a.w;
+      case Kind::relative_angle: return b.angle - a.angle;
+      case Kind::relative_speed: return b.w - a.w;
       case Kind::along: return (b.r - a.r).dot(Vector2d(std::cos(a.angle), std::sin(a.angle)));
       case Kind::across: return (b.r - a.r).dot(Vector2d(-std::sin(a.angle), std::cos(a.angle)));
       case Kind::state: break;
@@ -62,8 +62,8 @@ SignalSlope signal_slope(const MotionSignal& signal, const MovingPoint& a, const
       }
       break;
     }
-    case Kind::twist: out.pose_b[2] = 1, out.pose_a[2] = -1; break;
-    case Kind::twist_rate: out.rate_b[2] = 1, out.rate_a[2] = -1; break;
+    case Kind::relative_angle: out.pose_b[2] = 1, out.pose_a[2] = -1; break;
+    case Kind::relative_speed: out.rate_b[2] = 1, out.rate_a[2] = -1; break;
     case Kind::along: in_axes({std::cos(a.angle), std::sin(a.angle)}); break;
     case Kind::across: in_axes({-std::sin(a.angle), std::cos(a.angle)}); break;
     case Kind::state: break;

@@ -28,8 +28,8 @@ struct MotionSignal {
     speed,  ///< of a [m/s], [rad/s]
     length,
     length_rate,  ///< from a to b [m], [m/s]
-    twist,
-    twist_rate,  ///< direction of b less that of a [rad], [rad/s]
+    relative_angle,
+    relative_speed,  ///< direction of b less that of a [rad], [rad/s]
     along,
     across,  ///< b in the axes of a [m]
     state,   ///< an own state

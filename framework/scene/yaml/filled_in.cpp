@@ -58,23 +58,23 @@ Json parameter(const std::string& name, double value, const Parameters& paramete
   return Json(value).dump() + " " + unit;
 }
 
-Json place(const ScenePathPoint& p) { return p.point.empty() ? json(p.at) : Json(p.point); }
+Json path_point(const ScenePathPoint& p) { return p.point.empty() ? json(p.at) : Json(p.point); }
 
 Json json(const SceneProfile& p) {
   if (p.kind == SceneProfile::disc || p.kind == SceneProfile::hole) {
     Json out = Json::object();
-    out[p.kind == SceneProfile::disc ? "disc" : "hole"] = place(p.centre);
+    out[p.kind == SceneProfile::disc ? "disc" : "hole"] = path_point(p.centre);
     out["radius"] = p.radius;
     if (!p.on.empty()) out["on"] = p.on;
     return out;
   }
   Json path = Json::array();
   for (const ScenePathPoint& point : p.points) {
-    path.push_back(place(point));
+    path.push_back(path_point(point));
     if (point.arc != 0) path.push_back({{"arc", point.arc}});
   }
   constexpr std::array sides{"left", "right", "inside", "outside"};
-  if (p.kind == SceneProfile::polar) return {{"polar", path}, {"about", place(p.centre)}, {"material", sides[p.material]}};
+  if (p.kind == SceneProfile::polar) return {{"polar", path}, {"about", path_point(p.centre)}, {"material", sides[p.material]}};
   Json out = {{p.kind == SceneProfile::spline ? "spline" : "path", path}, {"closed", p.closed}, {"material", sides[p.material]}};
   if (p.round > 0) out["round"] = p.round;
   if (!p.on.empty()) out["on"] = p.on;

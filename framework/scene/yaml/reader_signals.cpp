@@ -5,7 +5,7 @@
 #include <locale>
 #include <sstream>
 
-#include "framework/scene/signal_words.h"
+#include "framework/scene/units/signal_words.h"
 #include "framework/scene/units/signal_law.h"
 #include "framework/scene/yaml/reader_parts.h"
 

@@ -1,4 +1,4 @@
-#include "framework/scene/signal_words.h"
+#include "framework/scene/units/signal_words.h"
 
 #include "framework/scene/units/expression.h"
 
