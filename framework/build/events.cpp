@@ -76,8 +76,8 @@ SetState setting(const Scene& scene, const SceneEvent& event, const std::string&
   const auto state = std::ranges::find(scene.states, name, &SceneState::name);
   if (state == scene.states.end()) throw SceneError(scene.file, event.place, "there is no state " + quoted(name) + " to set");
   const int index = static_cast<int>(state - scene.states.begin());
-  return {name, [index, law = signals.law(value, event.place)](const System& system, State& now) {
-            now.y[own_state(system, index)] = law_at(system, law, now.t, now.y);
+  return {name, [index, law = signals.law(value, event.place)](const System& system, const State& seen, State& now) {
+            now.y[own_state(system, index)] = law_at(system, law, seen.t, seen.y);
           }};
 }
 

@@ -81,8 +81,8 @@ MotionSignal SignalMaker::made(const SignalWord& word) {
     case What::uy: return displacement(Kind::across);
     case What::length: return {Kind::length, point(word.a), point(word.b)};
     case What::length_rate: return {Kind::length_rate, point(word.a), point(word.b)};
-    case What::twist: return {Kind::relative_angle, direction(word.a), direction(word.b)};
-    case What::twist_rate: return {Kind::relative_speed, direction(word.a), direction(word.b)};
+    case What::relative_angle: return {Kind::relative_angle, direction(word.a), direction(word.b)};
+    case What::relative_speed: return {Kind::relative_speed, direction(word.a), direction(word.b)};
     case What::travel: return {Kind::along, direction(word.a), point(word.b)};
     default: return {Kind::state, word.index};
   }

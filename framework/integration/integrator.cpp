@@ -38,7 +38,8 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
       stepper_(make_stepper(name(scheme), system, scheme, eq_)),
       norm_(system, scheme.tolerance),
       control_(scheme.max_step),
-      events_(events_of(system, scheme, contacts_)) {
+      events_(events_of(system, scheme, contacts_)),
+      turn_ahead_(system) {
   if (start.y.size() != system.n_y())  // of another model, whose ledger may have other rows
     throw std::invalid_argument("a start of " + std::to_string(start.y.size()) + " numbers for a system of " +
                                 std::to_string(system.n_y()));
@@ -64,7 +65,7 @@ bool Integrator::advance(double until) {
   row_ = save_ = false;
   if (!may_step(until) || !begin_step(until)) return false;
   const double t0 = step_.from.state.t, wish = control_.wish(), law = law_end(scheme_, t0, sees_ends_alone());
-  const double ahead = std::min(kink_ahead(wish), law - t0);
+  const double ahead = std::min({kink_ahead(wish), law - t0, turn_ahead_.time(system_, step_.from.state)});
   if (!step_to(std::min(until - t0, ahead))) return false;
   if (step_.h == ahead) control_.wish_for(std::max(control_.wish(), wish));  // cut short by a kink or a law, not by an error
   for (const double end : {law, until})
@@ -197,7 +198,7 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   ++counts_.events;
   step_.y_before = step_.to.state.y;
   const EventOutcome outcome = events_.act(event, step_, wish);
-  if (!outcome.failure.empty()) return stop(outcome.failure);
+  if (!outcome.failure.empty()) return stop(outcome.failure, step_.to.state.t);
   if (!outcome.did.empty()) happenings_.push_back({step_.to.state.t, events_.name(event), outcome.did});
   row_ = outcome.row, save_ = outcome.save;
   ended_ = outcome.end;
@@ -268,8 +269,9 @@ double Integrator::least_part() const { return stepper_->strayed_near_singular(s
 
 std::string Integrator::trouble() const { return stepper_->trouble().empty() ? "" : ": " + stepper_->trouble(); }
 
-bool Integrator::stop(const std::string& reason) {
-  failure_ = "t = " + number_text(step_.from.state.t, 6) + " s: " + reason;
+bool Integrator::stop(const std::string& reason) { return stop(reason, step_.from.state.t); }
+bool Integrator::stop(const std::string& reason, double t) {
+  failure_ = "t = " + number_text(t, 6) + " s: " + reason;
   return false;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/integration/law_changes.h"
 #include "framework/integration/counts.h"
 #include "framework/integration/error_norm.h"
 #include "framework/integration/events/contact_events.h"
@@ -77,6 +78,7 @@ class Integrator {
   double least_part() const;
   std::string trouble() const;
   bool stop(const std::string& reason);
+  bool stop(const std::string& reason, double t);
 
   const System& system_;
   Scheme scheme_;
@@ -87,6 +89,7 @@ class Integrator {
   Switching switching_;
   ContactEvents* contacts_;  ///< among the events
   Events events_;
+  TurnAhead turn_ahead_;
   std::unique_ptr<Equations> sampled_;  ///< from the first sample on
   Step step_;
   HeldForces held_;  ///< while events are sought

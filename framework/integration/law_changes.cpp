@@ -1,6 +1,7 @@
 #include "framework/integration/law_changes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace pintle {
@@ -36,6 +37,24 @@ const LawChange* change_at(const Scheme& scheme, double t) {
   const auto next =
       std::upper_bound(scheme.changes.begin(), scheme.changes.end(), t, [](double x, const LawChange& c) { return x < c.before; });
   return next == scheme.changes.begin() || t >= (next - 1)->after ? nullptr : &*(next - 1);
+}
+
+TurnAhead::TurnAhead(const System& system) {
+  for (const MotionSignal& signal : system.signals) {
+    const bool rate = signal.kind == MotionSignal::vx || signal.kind == MotionSignal::vy || signal.kind == MotionSignal::speed ||
+                      signal.kind == MotionSignal::length_rate || signal.kind == MotionSignal::relative_speed;
+    matters_ = matters_ || (!rate && signal.kind != MotionSignal::state);
+  }
+  for (const Joint& joint : system.joints)
+    if (const auto* relation = std::get_if<Relation>(&joint)) matters_ = matters_ || relation->curve;
+}
+
+double TurnAhead::time(const System& system, const State& state) const {
+  constexpr double turn = 0.1;
+  double fastest = 0;
+  if (matters_)
+    for (int b = 0; b < static_cast<int>(system.bodies.size()); ++b) fastest = std::max(fastest, std::abs(state.y[system.n() + 3 * b + 2]));
+  return fastest > 0 ? turn / fastest : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace pintle

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "framework/dynamics/model/system.h"
 #include "framework/integration/scheme.h"
 
 namespace pintle {
@@ -10,5 +11,17 @@ namespace pintle {
 double law_end(const Scheme&, double t, bool sees_ends_alone = false);
 /// The change at which t stands, before it is passed; nullptr if it stands at none.
 const LawChange* change_at(const Scheme&, double t);
+
+/// How long a step may be where laws or events read places, or a cam has a curve: until the fastest body has turned by a tenth of a
+/// radian. A motion may be so smooth that its error lets a step pass over whole turns, and over all that happens in them.
+class TurnAhead {
+ public:
+  explicit TurnAhead(const System&);
+  /// Infinite where nothing reads places, or nothing turns [s].
+  double time(const System&, const State&) const;
+
+ private:
+  bool matters_ = false;
+};
 
 }  // namespace pintle

@@ -5,9 +5,20 @@
 
 namespace pintle {
 
+namespace {
+
+// The row says how bodies move together, not where: of gears, racks, discs that roll, belts and linear relations.
+bool moves_together(const Joint& joint, int row) {
+  if (const auto* relation = std::get_if<Relation>(&joint)) return !relation->curve;
+  const std::string_view name = properties_of(joint).equations[at(row)];
+  return name == "teeth" || name == "slip";
+}
+
+}  // namespace
+
 int latched_row(const Joint& joint) {
   for (int row = 0; row < rows(joint); ++row)
-    if (is_angle_row(joint, row)) return row;
+    if (is_angle_row(joint, row) || moves_together(joint, row)) return row;
   return is_driver(joint) ? 0 : -1;
 }
 

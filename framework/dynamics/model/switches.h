@@ -20,7 +20,8 @@ struct Switch {
   bool released = false;  ///< at the start
 };
 
-/// The row in which a joint takes what it finds when it is engaged: its angle, or what a driver imposes; −1: it has none.
+/// The row in which a joint takes what it finds when it is engaged: its angle, how it makes bodies move together, or what a driver imposes;
+/// −1: it has none.
 int latched_row(const Joint&);
 
 /// Is the element out of the mechanism? Never, where no event can take it out.

@@ -135,9 +135,10 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
     out.failure = "the event \"" + rule.name + "\": " + out.failure;
     return out;
   }
+  const State seen = state;
   for (const EventAction& action : actions) {
     if (const auto* set = std::get_if<SetState>(&action)) {
-      set->set(system_, state);
+      set->set(system_, seen, state);
       out.change = std::max(out.change, EventOutcome::Change::jump);
       add_words(out.did, "set " + set->name);
     } else if (const auto* stop = std::get_if<StopRun>(&action)) {

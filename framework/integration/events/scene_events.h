@@ -18,7 +18,7 @@ struct StopRun {
 /// A change of the state: a number of the scene's own gets a value.
 struct SetState {
   std::string name;
-  std::function<void(const System&, State&)> set;
+  std::function<void(const System&, const State& seen, State&)> set;
 };
 enum class Record { state, row };
 using EventAction = std::variant<SwitchOver, SetState, StopRun, Record>;

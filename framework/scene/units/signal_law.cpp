@@ -37,11 +37,11 @@ SignalTable periodic_table(Samples samples, bool linear, SignalFormula over) {
   constexpr std::size_t many = 30;
   const double begin = samples.t.front(), period = samples.t.back() - begin;
   if (linear) return {Polyline(std::move(samples)), std::move(over), begin, period};
-  const std::size_t n = samples.t.size() - 1, turns = (many + n - 1) / n;
+  const std::size_t n = samples.t.size() - 1, rounds = (many + n - 1) / n;
   Samples around;
-  for (std::size_t k = 0; k <= 2 * turns; ++k)
-    for (std::size_t i = 0; i < n + (k == 2 * turns ? 1 : 0); ++i) {
-      around.t.push_back(samples.t[i] + (static_cast<double>(k) - static_cast<double>(turns)) * period);
+  for (std::size_t k = 0; k <= 2 * rounds; ++k)
+    for (std::size_t i = 0; i < n + (k == 2 * rounds ? 1 : 0); ++i) {
+      around.t.push_back(samples.t[i] + (static_cast<double>(k) - static_cast<double>(rounds)) * period);
       around.value.push_back(samples.value[i]);
     }
   return {Spline(std::move(around)), std::move(over), begin, period};

@@ -45,8 +45,8 @@ class SignalWordsOf {
     wrench(name, true, false);
   }
   void twist(const std::string& name, const PointRef& a, const PointRef& b) {
-    put(name + ".angle", What::twist, dimension::angle, a, b);
-    put(name + ".speed", What::twist_rate, dimension::angular_speed, a, b);
+    put(name + ".angle", What::relative_angle, dimension::angle, a, b);
+    put(name + ".speed", What::relative_speed, dimension::angular_speed, a, b);
   }
   void line(const std::string& name, const PointRef& a, const PointRef& b) {
     put(name + ".length", What::length, dimension::length, a, b);
@@ -94,8 +94,8 @@ class SignalWordsOf {
     if (const auto* m = std::get_if<SceneMaxwell>(&l.what)) line(l.name, m->a, m->b);
     const auto* torsion = std::get_if<SceneTorsionSpring>(&l.what);
     if (torsion) {
-      put(l.name + ".angle", What::twist, dimension::angle, torsion->a, torsion->b);
-      put(l.name + ".rate", What::twist_rate, dimension::angular_speed, torsion->a, torsion->b);
+      put(l.name + ".angle", What::relative_angle, dimension::angle, torsion->a, torsion->b);
+      put(l.name + ".rate", What::relative_speed, dimension::angular_speed, torsion->a, torsion->b);
     }
     const bool turns = torsion || std::holds_alternative<SceneTorque>(l.what);
     wrench(l.name, !turns, turns);

@@ -24,12 +24,12 @@ struct SignalWord {
     uy,  ///< displacement of a point of a flexible body in its axes [m]
     length,
     length_rate,  ///< between a and b [m], [m/s]
-    twist,
-    twist_rate,  ///< direction of b less that of a [rad], [rad/s]
-    travel,      ///< of b along a's direction [m]
-    state,       ///< `index` among the scene's
-    output,      ///< likewise
-    column,      ///< of trajectory.csv: what the accelerations decide
+    relative_angle,
+    relative_speed,  ///< direction of b less that of a [rad], [rad/s]
+    travel,          ///< of b along a's direction [m]
+    state,           ///< `index` among the scene's
+    output,          ///< likewise
+    column,          ///< of trajectory.csv: what the accelerations decide
   };
   What what;
   Dimension dimension;

@@ -27,7 +27,11 @@ const Yaml* item_of(const Yaml& map, std::string_view key) {
 
 bool repeats(const Yaml& entry) { return entry.kind == Yaml::Kind::map && item_of(entry, "repeat"); }
 
-bool says_ground(const Yaml& yaml) { return yaml.text == "ground" || std::ranges::any_of(yaml.items, says_ground); }
+/// By its name, or as the frame that a joint has where it names none.
+bool says_ground(const Yaml& yaml) {
+  const bool frame = yaml.key == "screw" || yaml.key == "cam" || yaml.key == "differential";
+  return frame || yaml.text == "ground" || std::ranges::any_of(yaml.items, says_ground);
+}
 
 /// What belongs to the scene as a whole; all other groups of the top hold parts by name.
 bool is_of_the_whole(std::string_view section) {

@@ -236,6 +236,9 @@ void place_body(Spot body, const Placing& placing) {
 
 void mirror_joint(const Spot& joint) {
   std::vector<std::string> known{"clearance", "friction", "engaged"};
+  if (joint.has("differential") && !joint.at("differential").yaml.items.empty() &&
+      joint.at("differential").yaml.items.front().kind == Yaml::Kind::map)
+    cannot_mirror(joint.at("differential").node, "write this joint into the scene for each side");
   for (const JointWord& word : joint_words()) {
     const bool is_it = joint.has(word.word);
     known.emplace_back(word.word);

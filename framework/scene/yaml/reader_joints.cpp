@@ -147,7 +147,11 @@ void read_points(const Node& node, const JointWord& word, SceneJoint& joint) {
   if (points.size() > 3) node.fail("is " + node.shown() + "; write " + remedy);
   joint.a = read_point_ref(points[0]);
   joint.b = read_point_ref(points[1]);
-  if (points.size() == 3) joint.c = read_point_ref(points[2]);
+  if (points.size() == 3) {
+    joint.c = read_point_ref(points[2]);
+  } else if (const PartName own = resolved(node.source(), node.yaml().scope, {"ground", ""}); !own.point.empty()) {
+    joint.c = PointRef{own.part, own.point, node.place()};  // of an instance that is turned
+  }
 }
 
 SceneJointFriction read_joint_friction(const Node& node, const SceneJoint& joint, bool has_clearance) {
