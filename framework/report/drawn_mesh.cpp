@@ -52,7 +52,7 @@ std::vector<int> first_in_square(const Eigen::Matrix2Xd& x, double width) {
 
 std::size_t distinct(std::vector<int> x) {
   std::ranges::sort(x);
-  return static_cast<std::size_t>(std::ranges::unique(x).begin() - x.begin());
+  return static_cast<std::size_t>(std::unique(x.begin(), x.end()) - x.begin());
 }
 
 std::vector<std::array<int, 2>> rim_of(const std::vector<Corners>& triangles) {

@@ -105,8 +105,7 @@ class ExtremeRows {
         row.clear();
       }
     std::ranges::sort(out, {}, [](const Row& r) { return r[0]; });
-    const auto doubles = std::ranges::unique(out, {}, [](const Row& r) { return r[0]; });
-    out.erase(doubles.begin(), doubles.end());
+    out.erase(std::unique(out.begin(), out.end(), [](const Row& a, const Row& b) { return a[0] == b[0]; }), out.end());
     return out;
   }
 
