@@ -78,7 +78,7 @@ inline SignalFunction blend(std::size_t n, double by) {
 }
 // ẋ = −3 x + y/2 + blend, of the first two numbers and the others.
 inline SignalFunction decay(std::size_t n) {
-  return [n, rest = blend(n - 2, 2)](double t, const double* in, double* slope) {
+  return [rest = blend(n - 2, 2)](double t, const double* in, double* slope) {
     if (slope) slope[0] = -3, slope[1] = 0.5;
     return -3 * in[0] + 0.5 * in[1] + rest(t, in + 2, slope ? slope + 2 : nullptr);
   };
