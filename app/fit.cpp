@@ -1,10 +1,7 @@
 // pintle fit: parameters that reach a goal.
 #include "framework/study/fit/fit.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <map>
 #include <thread>
@@ -17,23 +14,6 @@ namespace pintle::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// On a terminal a line that is written over.
-class FitProgress {
- public:
-  explicit FitProgress(bool quiet) : on_(!quiet && ::isatty(STDERR_FILENO)) { heed_signals(); }
-  ~FitProgress() {
-    if (shown_) std::cerr << "\r\033[K" << std::flush;
-  }
-  FitProgress(const FitProgress&) = delete;
-  bool operator()(std::size_t done, std::size_t most) {
-    if (on_) shown_ = true, std::cerr << "\r  " << done << " cases of at most " << most << "\033[K" << std::flush;
-    return !asked_to_stop();
-  }
-
- private:
-  bool on_, shown_ = false;
-};
 
 std::string methods_text(const FitPlan& plan) {
   std::string out;
@@ -113,8 +93,11 @@ int fit(const Options& options) {
   FitEnd end;
   now_doing("searching");
   {
-    FitProgress progress(options.quiet || options.json);
-    settings.progress = [&](std::size_t done, std::size_t most) { return progress(done, most); };
+    StatusLine line(options.quiet || options.json);
+    settings.progress = [&](std::size_t done, std::size_t most) {
+      if (line.due()) line.show(std::to_string(done) + " cases of at most " + std::to_string(most));
+      return !asked_to_stop();
+    };
     end = run_fit(plan, out, settings);
   }
   for (const std::string& note : end.notes) std::cerr << "note: " << note << "\n";

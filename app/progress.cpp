@@ -8,6 +8,7 @@
 #include <cstring>
 #include <iomanip>
 #include <iostream>
+#include <sstream>
 #include <new>
 
 #include "meshes/limits.h"
@@ -143,19 +144,24 @@ void results_are_in(const std::string& folder) {
 
 const char* where_results_are() { return !kept.empty() && ::access(kept.c_str(), F_OK) == 0 ? kept_note.c_str() : ""; }
 
-Progress::Progress(double until, bool quiet) : until_(until), on_(!quiet && ::isatty(STDERR_FILENO)) { heed_signals(); }
+StatusLine::StatusLine(bool quiet) : on_(!quiet && ::isatty(STDERR_FILENO)) { heed_signals(); }
 
-Progress::~Progress() {
+StatusLine::~StatusLine() {
   if (shown_) std::cerr << "\r\033[K" << std::flush;
 }
 
+bool StatusLine::due() const { return on_ && std::chrono::steady_clock::now() - last_ > std::chrono::milliseconds(200); }
+
+void StatusLine::show(const std::string& text) {
+  std::cerr << "\r  " << text << "\033[K" << std::flush;
+  last_ = std::chrono::steady_clock::now(), shown_ = true;
+}
+
 bool Progress::operator()(double t) {
-  const auto now = std::chrono::steady_clock::now();
-  if (on_ && now - last_ > std::chrono::milliseconds(200)) {
-    last_ = now;
-    shown_ = true;
-    std::cerr << "\r  " << std::fixed << std::setprecision(1) << 100 * t / until_ << " %  t = " << std::defaultfloat << std::setprecision(6)
-              << t << " s\033[K" << std::flush;
+  if (line_.due()) {
+    std::ostringstream s;
+    s << std::fixed << std::setprecision(1) << 100 * t / until_ << " %  t = " << std::defaultfloat << std::setprecision(6) << t << " s";
+    line_.show(s.str());
   }
   return !asked_to_stop();
 }

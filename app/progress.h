@@ -35,19 +35,31 @@ void results_are_in(const std::string& folder);
 /// "; what was computed is in …", if it is there.
 const char* where_results_are();
 
-/// A line on the terminal that says how far a run is; nothing if stderr is not one. From the first one made on,
-/// Ctrl-C and a request to terminate ask the run to stop instead of ending the program.
+/// A line of stderr that says how far a long command is, written over some times a second and gone at its end; nothing if it is to
+/// be quiet or stderr is no terminal. From the first one made on, Ctrl-C and a request to terminate ask to stop instead of ending
+/// the program.
+class StatusLine {
+ public:
+  explicit StatusLine(bool quiet);
+  ~StatusLine();
+  StatusLine(const StatusLine&) = delete;
+  bool due() const;  ///< there is a line, and it has stood for a fifth of a second
+  void show(const std::string& text);
+
+ private:
+  bool on_, shown_ = false;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Of a run, by the time that it has reached.
 class Progress {
  public:
-  Progress(double until, bool quiet);
-  ~Progress();
-  Progress(const Progress&) = delete;
+  Progress(double until, bool quiet) : until_(until), line_(quiet) {}
   bool operator()(double t);  ///< @returns false: the user wants to stop
 
  private:
   double until_;
-  bool on_, shown_ = false;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  StatusLine line_;
 };
 
 }  // namespace pintle::app

@@ -49,21 +49,14 @@ std::string line(const SweepCount& c) {
   return s.str();
 }
 
-/// On a terminal a line that is written over; else a line every half minute.
+/// A line on the terminal; where there is none, a line every half minute.
 class SweepProgress {
  public:
-  explicit SweepProgress(bool quiet) : quiet_(quiet), terminal_(::isatty(STDERR_FILENO)) { heed_signals(); }
-  ~SweepProgress() {
-    if (shown_) std::cerr << "\r\033[K" << std::flush;
-  }
-  SweepProgress(const SweepProgress&) = delete;
+  explicit SweepProgress(bool quiet) : logs_(!quiet && !::isatty(STDERR_FILENO)), line_(quiet) {}
   bool operator()(const SweepCount& count) {
+    if (line_.due()) line_.show(line(count));
     const auto now = std::chrono::steady_clock::now();
-    if (!quiet_ && terminal_ && now - last_ > std::chrono::milliseconds(200)) {
-      last_ = now, shown_ = true;
-      std::cerr << "\r  " << line(count) << "\033[K" << std::flush;
-    }
-    if (!quiet_ && !terminal_ && now - last_ > std::chrono::seconds(30)) {
+    if (logs_ && now - last_ > std::chrono::seconds(30)) {
       last_ = now;
       std::cerr << line(count) << std::endl;
     }
@@ -71,7 +64,8 @@ class SweepProgress {
   }
 
  private:
-  bool quiet_, terminal_, shown_ = false;
+  bool logs_;
+  StatusLine line_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 

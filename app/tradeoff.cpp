@@ -1,10 +1,7 @@
 // pintle tradeoff: what accuracy costs, for one scene and the quantities that matter to its user.
 #include "framework/study/tradeoff/tradeoff.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -94,26 +91,6 @@ Asked understood(const Options& options) {
   return asked;
 }
 
-/// On a terminal, a line that says what goes on.
-class Telling {
- public:
-  explicit Telling(bool quiet) : on_(!quiet && ::isatty(STDERR_FILENO)) { heed_signals(); }
-  ~Telling() {
-    if (shown_) std::cerr << "\r\033[K" << std::flush;
-  }
-  Telling(const Telling&) = delete;
-  void operator()(const std::string& what, double share) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!on_ || (shown_ && now - last_ < std::chrono::milliseconds(200))) return;
-    last_ = now, shown_ = true;
-    std::cerr << "\r  " << what << " " << std::lround(100 * std::min(share, 1.0)) << " %\033[K" << std::flush;
-  }
-
- private:
-  bool on_, shown_ = false;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
 }  // namespace
 
 int tradeoff(const Options& options) {
@@ -127,9 +104,11 @@ int tradeoff(const Options& options) {
   now_doing("running the settings");
   TradeReport report;
   {
-    Telling telling(options.quiet || options.json);
+    StatusLine line(options.quiet || options.json);
     TradeListener listener;
-    listener.progress = [&](const std::string& what, double share) { telling(what, share); };
+    listener.progress = [&](const std::string& what, double share) {
+      if (line.due()) line.show(what + " " + std::to_string(std::lround(100 * std::min(share, 1.0))) + " %");
+    };
     listener.go_on = [] { return !asked_to_stop(); };
     const CaseRunner run = [&](const Overrides& set, const std::vector<Measure>& measures, const CaseLimits& limits) {
       try {

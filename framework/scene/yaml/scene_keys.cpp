@@ -44,6 +44,7 @@ const std::vector<Key> gonthier_keys{
     {"dwell time", required, "2 s"},  {"viscous"}};
 const std::vector<Key> curve_keys{{"coefficient", required, "0.1"}, {"v1"}};
 const std::vector<Key> peak_keys{{"coefficient", required, "0.1"}, {"static"}, {"v0"}, {"v1"}};
+const std::vector<Key> material_keys{{"young", required, "207 GPa"}, {"poisson", required, "0.3"}};
 const std::vector<std::string> hysteresis_factors{
     "hunt-crossley", "herbert-mcwhannell", "lee-wang", "lankarani-nikravesh", "gonthier", "zhiying-qishao", "flores", "hu-guo", "exact"};
 const std::vector<Key> arc_keys{{"arc", required, "20 mm"}};
@@ -77,10 +78,30 @@ std::vector<Key> joint_keys() {
   return keys;
 }
 
-}  // namespace
+/// Of a law of normal force; in the bearing of a joint with keys of its own.
+std::vector<Key> normal_law_keys(const std::vector<Key>& of_bearings) {
+  std::vector<Key> keys{{"restitution"}, {"young"},    {"poisson"},        {"stiffness"},
+                        {"damping"},     {"exponent"}, {"slowest impact"}, {"approach speed", optional, "", {"onset", "largest"}},
+                        {"second"},      {"length"},   {"layer"},          {"hysteresis", optional, "", hysteresis_factors},
+                        {"points"},      {"file"},     {"depth unit"},     {"force unit"}};
+  keys.insert(keys.end(), of_bearings.begin(), of_bearings.end());
+  return keys;
+}
 
-std::span<const KeyTable> key_tables() {
-  static const std::vector<KeyTable> all{
+/// What clearances and contacts say alike of their laws.
+void add_contact_laws(const std::string& path, std::vector<KeyTable>& tables) {
+  tables.push_back({path + ".normal.*.second", material_keys});
+  tables.push_back({path + ".friction", friction_laws});
+  tables.push_back({path + ".friction.threlfall", curve_keys});
+  tables.push_back({path + ".friction.tanh", curve_keys});
+  tables.push_back({path + ".friction.bengisu-akay", peak_keys});
+  tables.push_back({path + ".friction.coulomb", coulomb_keys});
+  tables.push_back({path + ".friction.lugre", lugre_keys});
+  tables.push_back({path + ".friction.gonthier", gonthier_keys});
+}
+
+std::vector<KeyTable> scene_tables() {
+  std::vector<KeyTable> all{
       {"", {{"title"},     {"include"}, {"assemblies"}, {"instances"}, {"gravity"},  {"parameters"},
             {"materials"}, {"ground"},  {"bodies"},     {"joints"},    {"contacts"}, {"drivers"},
             {"forces"},    {"states"},  {"outputs"},    {"events"},    {"static"},   {"start", optional, "", {"equilibrium"}},
@@ -233,36 +254,10 @@ std::span<const KeyTable> key_tables() {
         {"damping"},
         {"friction"}}},
       {"joints.*.clearance.arc", {{"middle", required, "-90 deg"}, {"extent", required, "200 deg"}, {"wall"}, {"edge"}}},
-      {"joints.*.clearance.normal.*",
-       {{"restitution"},
-        {"young"},
-        {"poisson"},
-        {"stiffness"},
-        {"exponent"},
-        {"radii", optional, "", {"internal", "external"}},
-        {"damping"},
-        {"slowest impact"},
-        {"approach speed", optional, "", {"onset", "largest"}},
-        {"journal"},
-        {"second"},
-        {"length"},
-        {"layer"},
-        {"hysteresis", optional, "", hysteresis_factors},
-        {"points"},
-        {"file"},
-        {"depth unit"},
-        {"force unit"}}},
-      {"joints.*.clearance.normal.*.second", {{"young", required, "207 GPa"}, {"poisson", required, "0.3"}}},
-      {"joints.*.clearance.normal.*.journal", {{"young", required, "207 GPa"}, {"poisson", required, "0.3"}}},
-      {"joints.*.clearance.friction", friction_laws},
+      {"joints.*.clearance.normal.*", normal_law_keys({{"radii", optional, "", {"internal", "external"}}, {"journal"}})},
+      {"joints.*.clearance.normal.*.journal", material_keys},
       {"joints.*.clearance.friction.ambrosio",
        {{"coefficient", required, "0.1"}, {"v0"}, {"v1"}, {"sliding", optional, "", {"material", "geometric"}}}},
-      {"joints.*.clearance.friction.threlfall", curve_keys},
-      {"joints.*.clearance.friction.tanh", curve_keys},
-      {"joints.*.clearance.friction.bengisu-akay", peak_keys},
-      {"joints.*.clearance.friction.coulomb", coulomb_keys},
-      {"joints.*.clearance.friction.lugre", lugre_keys},
-      {"joints.*.clearance.friction.gonthier", gonthier_keys},
       {"contacts.*",
        {{"between", required, "[cam.rim, follower.roller]"},
         {"model", optional, "", {"contact", "impact"}},
@@ -273,32 +268,8 @@ std::span<const KeyTable> key_tables() {
         {"friction"},
         {"repeat"},
         engaged_key}},
-      {"contacts.*.normal.*",
-       {{"restitution"},
-        {"young"},
-        {"poisson"},
-        {"stiffness"},
-        {"damping"},
-        {"exponent"},
-        {"slowest impact"},
-        {"approach speed", optional, "", {"onset", "largest"}},
-        {"second"},
-        {"length"},
-        {"layer"},
-        {"hysteresis", optional, "", hysteresis_factors},
-        {"points"},
-        {"file"},
-        {"depth unit"},
-        {"force unit"}}},
-      {"contacts.*.normal.*.second", {{"young", required, "207 GPa"}, {"poisson", required, "0.3"}}},
-      {"contacts.*.friction", friction_laws},
+      {"contacts.*.normal.*", normal_law_keys({})},
       {"contacts.*.friction.ambrosio", {{"coefficient", required, "0.1"}, {"v0"}, {"v1"}}},
-      {"contacts.*.friction.threlfall", curve_keys},
-      {"contacts.*.friction.tanh", curve_keys},
-      {"contacts.*.friction.bengisu-akay", peak_keys},
-      {"contacts.*.friction.coulomb", coulomb_keys},
-      {"contacts.*.friction.lugre", lugre_keys},
-      {"contacts.*.friction.gonthier", gonthier_keys},
       {"drivers.*", {{"angle"}, {"distance"}, {"law", required, "150 rad/s*t"}, {"repeat"}, engaged_key}},
       {"drivers.*.law",
        {{"table", required, "motion.csv"}, {"interpolation", optional, "", {"spline", "linear"}}, {"time unit"}, {"value unit"}}},
@@ -352,6 +323,14 @@ std::span<const KeyTable> key_tables() {
       {"run.method.generalized-alpha", {{"rho", required, "0.8"}}},
       {"run.onset", {{"cut", required, "1e-8 m"}}},
       {"output", {{"every"}, {"states"}, {"frames"}, {"exaggerate"}, {"deformation", optional, "", {"auto"}}, {"points"}, {"stress"}}}};
+  for (const char* path : {"joints.*.clearance", "contacts.*"}) add_contact_laws(path, all);
+  return all;
+}
+
+}  // namespace
+
+std::span<const KeyTable> key_tables() {
+  static const std::vector<KeyTable> all = scene_tables();
   return all;
 }
 
