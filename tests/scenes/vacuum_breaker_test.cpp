@@ -1,6 +1,7 @@
 // examples/vacuum_breaker.yaml against an integration of its two masses from event to event.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -143,6 +144,22 @@ TEST(VacuumBreaker, OpensClosesAndBounces) {
   }
   EXPECT_NEAR(seen.back().t, hand.bounces.back().t, 1e-8);
   EXPECT_TRUE(std::isnan(w.run.impacts.back().end)) << "the contacts stay closed";
+}
+
+// examples/breaker.yaml, the smaller one: an arm on a torsion spring, from 0 with its rest at 60 deg, to a bumper at 40 deg.
+TEST(Breaker, ReachesItsBumperInClosedForm) {
+  const Whole w = run(read_scene(PINTLE_SOURCE_DIR "/examples/breaker.yaml"));
+  expect_sound(w);
+  const double rate = std::sqrt(50 / 0.01), reached = 10e-3 + std::acos(1.0 / 3) / rate,
+               speed = 1.0471975511965976 * rate * std::sqrt(8) / 3;
+  ASSERT_EQ(w.run.happenings.size(), 4u);
+  EXPECT_NEAR(w.run.happenings[1].t, reached, 1e-9);
+  const auto t = w.column("t [s]"), arm = w.column("arm.speed [rad/s]"), angle = w.column("arm.angle [rad]");
+  const auto row = static_cast<std::size_t>(std::find(t.begin(), t.end(), w.run.happenings[1].t) - t.begin());
+  ASSERT_LT(row, t.size());
+  EXPECT_NEAR(arm[row], speed, 1e-6 * speed);
+  EXPECT_NEAR(arm.back(), 0, 1e-9) << "the catch holds it";
+  EXPECT_NEAR(angle.back(), 0.6981317007977318, 1e-9);
 }
 
 }  // namespace
