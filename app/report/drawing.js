@@ -118,7 +118,7 @@ function drawSupport(stage, at, size) {
 
 // Bodies
 
-const bodyColour = (stage, b) => stage.colours.bodies[b % stage.colours.bodies.length];
+const bodyColour = (stage, b) => stage.motion.model.bodies[b]?.colour ?? stage.colours.bodies[b % stage.colours.bodies.length];
 
 function drawBody(stage, body, b) {
   const pose = stage.now[b];
@@ -265,7 +265,7 @@ function drawSpring(stage, spring) {
 // Paths, forces, words
 
 function drawPath(stage, path, i) {
-  const colour = bodyColour(stage, i + 3);
+  const colour = stage.colours.bodies[(i + 3) % stage.colours.bodies.length];
   const every = Math.max(1, Math.floor(path.t.length / 1500));
   const points = [];
   const done = [];

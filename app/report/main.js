@@ -2,7 +2,7 @@
 
 // The page put together.
 
-/// Columns that a first look should show: what happens in clearances and contacts, else joint forces, and how the mechanism moves.
+/// Columns that a first look should show: the scene's own outputs, what happens in clearances and contacts, else joint forces, and how the mechanism moves.
 function firstPlots(model, table) {
   const known = (names) => names.filter((name) => table.columns.has(name));
   const spans = new Map();  // the widest of each unit: what is far below it is rounding
@@ -16,6 +16,8 @@ function firstPlots(model, table) {
     return most - least > 1e-9 * spans.get(unit);
   };
   const out = [];
+  const outputs = known(model.outputs).filter(varies).slice(0, 2);
+  if (outputs.length > 0) out.push({names: outputs});
   const [clearance] = model.contacts.filter((c) => c.radius);
   const contacts = model.contacts.map(({name}) => name);
   const normal = known(contacts.map((name) => `${name}.normal`)).filter(varies).slice(0, 4);

@@ -219,6 +219,11 @@ std::string stiffening_warning(const std::string& body, Stiffening now, const Fr
 
 std::string deflection_warning(const std::string& body, double deflection, double slope, const std::string& when) {
   if (!(deflection > large_deflection || slope > large_slope)) return "";
+  constexpr double straight = 1e-3;  // a slope so small beside the deflection: it is drawn out or pressed, and stays straight
+  if (slope > 0 && slope < straight * deflection)
+    return "\"" + body + "\" is drawn out or pressed by " + percent(deflection) +
+           " of its size, where deformation is taken as small (up to " + percent(large_deflection) +
+           "): right for a straight spring, whose force goes with its length, not for a solid bar";
   return "\"" + body + "\" " + when + " by " + percent(deflection) + " of its size, its slope " + number_text(slope) +
          " rad, within one frame, where deformation is taken as small (up to " + percent(large_deflection) + " and " +
          number_text(large_slope) + " rad); cut a beam into pieces";

@@ -75,6 +75,10 @@ Json profiles_json(const Model& model, int body) {
   return out;
 }
 
+std::string css(const Rgb& rgb) {
+  return "rgb(" + std::to_string(rgb[0]) + ", " + std::to_string(rgb[1]) + ", " + std::to_string(rgb[2]) + ")";
+}
+
 Json bodies_json(const Model& model, const Drafting& drafting, std::size_t mesh_bytes) {
   Json out = Json::array();
   auto flexible = model.drawings.begin();
@@ -86,6 +90,7 @@ Json bodies_json(const Model& model, const Drafting& drafting, std::size_t mesh_
              {"outline", flat(drafting.links[b])},
              {"profiles", profiles_json(model, static_cast<int>(b))},
              {"modes", body.modes()}};
+    if (b < drafting.colours.size() && drafting.colours[b]) one["colour"] = css(*drafting.colours[b]);
     if (body.flex && flexible != model.drawings.end()) one["mesh"] = mesh_json(*flexible++, share);
     out.push_back(std::move(one));
   }
@@ -155,9 +160,10 @@ Json forces_json(const System& system) {
 
 Json drawn_model_json(const Scene& scene, const Model& model, std::size_t mesh_bytes) {
   const Drafting drafting(scene, model);
-  Json markers = Json::array(), points = Json::array();
+  Json markers = Json::array(), points = Json::array(), outputs = Json::array();
   for (const Marker& m : model.system.markers) markers.push_back(marker_json(m));
   for (const RecordedPoint& p : model.points) points.push_back(p.name);
+  for (const SceneOutput& o : scene.outputs) outputs.push_back(o.name);
   return {{"length", model.system.length},
           {"pin", drafting.pin},
           {"exaggeration", drafting.exaggeration},
@@ -168,7 +174,8 @@ Json drawn_model_json(const Scene& scene, const Model& model, std::size_t mesh_b
           {"joints", joints_json(model.system)},
           {"contacts", contacts_json(model.system)},
           {"forces", forces_json(model.system)},
-          {"points", points}};
+          {"points", points},
+          {"outputs", outputs}};
 }
 
 std::vector<std::string> needed_columns(const Model& model) {

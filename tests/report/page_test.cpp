@@ -72,6 +72,15 @@ TEST(Page, EveryNumberOfTheTablesIsInIt) {
   }
 }
 
+TEST(Page, HasTheColoursAndTheOutputsOfTheScene) {
+  const Folder folder;
+  write_run(folder.path(),
+            read_scene_text(pendulum + "outputs: {height: 1 m + rod.y}\n", "pendulum.yaml", {{"bodies.rod.colour", "steelblue"}}));
+  const Json data = data_of(report_page(folder.path()));
+  EXPECT_EQ(data["model"]["bodies"][0]["colour"], "rgb(70, 130, 180)");
+  EXPECT_EQ(data["model"]["outputs"], Json::array({"height"}));
+}
+
 /// Names in a scene are letters and digits, but titles are free, and so are the files of a folder that a stranger has sent.
 TEST(Page, NothingOfTheResultsIsTakenForHtml) {
   const Folder folder;
