@@ -19,6 +19,7 @@
 #include "framework/build/events.h"
 #include "framework/build/joints.h"
 #include "framework/build/laws.h"
+#include "framework/build/loads.h"
 #include "framework/build/markers.h"
 #include "framework/build/play.h"
 #include "framework/build/shape_warnings.h"
@@ -230,54 +231,7 @@ class Builder {
 
   void add(const SceneLoad& l) {
     unique(l.name, "force", l.place);
-    auto& forces = model_.system.forces;
-    model_.order.loads.push_back(static_cast<int>(forces.size()));
-    if (const auto* f = std::get_if<SceneForce>(&l.what)) {
-      if (markers_.body(f->at) == ground) wrong(f->at.place, "a force on the ground moves nothing; name a body's point");
-      const int b = markers_.marker(f->at, f->follows ? Holds::direction : Holds::point), a = markers_.marker({"ground", "", f->at.place});
-      if (f->x.signals.empty() && f->y.signals.empty())
-        forces.push_back(PointForce{a, b, f->x.at, f->y.at, f->follows});
-      else
-        size(f->follows ? SizedForce::follows : SizedForce::world, a, b, l, f->x, &f->y);
-    } else if (const auto* q = std::get_if<SceneTorque>(&l.what)) {
-      markers_.two_bodies(q->a, q->b, l.place);
-      const int a = markers_.marker(q->a, Holds::direction);
-      const int b = markers_.marker(q->b, Holds::direction);
-      if (q->law.signals.empty())
-        forces.push_back(Torque{a, b, q->law.at});
-      else
-        size(SizedForce::couple, a, b, l, q->law);
-    } else if (const auto* s = std::get_if<SceneSpring>(&l.what)) {
-      markers_.two_bodies(s->a, s->b, l.place);
-      const int a = markers_.marker(s->a);
-      const int b = markers_.marker(s->b);
-      if (s->law)
-        size(SizedForce::pull, a, b, l, *s->law);
-      else
-        forces.push_back(Spring{a, b, s->stiffness, s->damping, s->free_length});
-    } else if (const auto* r = std::get_if<SceneTorsionSpring>(&l.what)) {
-      markers_.two_bodies(r->a, r->b, l.place);
-      const int a = markers_.marker(r->a, Holds::direction);
-      const int b = markers_.marker(r->b, Holds::direction);
-      if (r->law)
-        size(SizedForce::restoring, a, b, l, *r->law);
-      else
-        forces.push_back(TorsionSpring{a, b, r->stiffness, r->damping, r->free_angle});
-    } else if (const auto* belt = std::get_if<SceneBelt>(&l.what)) {
-      return add(*belt, l);
-    } else {
-      const auto& m = std::get<SceneMaxwell>(l.what);
-      markers_.two_bodies(m.a, m.b, l.place);
-      const int a = markers_.marker(m.a);
-      forces.push_back(Maxwell{a, markers_.marker(m.b), m.stiffness, m.damping});
-    }
-    model_.system.force_names.push_back(l.name);
-  }
-
-  /// A force that signals size.
-  void size(SizedForce::Way way, int a, int b, const SceneLoad& load, const Law& law, const Law* other = nullptr) {
-    const int size = signals_.begin(law, load.place);
-    model_.system.forces.push_back(SizedForce{way, a, b, size, other ? signals_.begin(*other, load.place) : -1});
+    add_load(scene_, l, markers_, signals_, model_);
   }
 
   void add(const SceneState& s) {
@@ -288,14 +242,6 @@ class Builder {
   void add(const SceneOutput& o) {
     unique(o.name, "output", o.place);
     model_.outputs.push_back(written_output(scene_, o, model_, signals_));
-  }
-
-  void add(const SceneBelt& belt, const SceneLoad& l) {
-    int span = 0;
-    for (const BeltSpan& s : spans_of(scene_, l, belt, markers_)) {
-      model_.system.forces.push_back(s);
-      model_.system.force_names.push_back(l.name + " " + std::to_string(++span));
-    }
   }
 
   void validate_starts() {

@@ -40,6 +40,20 @@ class Draw {
 inline Jet sine(double t) { return {0.7 + 0.3 * std::sin(2 * t), 0.6 * std::cos(2 * t), -1.2 * std::sin(2 * t)}; }
 inline Jet steady(double) { return {-1.3, 0, 0}; }
 
+/// A marker in the middle of a body, pose and rates [m, m, rad].
+inline MarkerMotion moving(const Eigen::Vector3d& p, const Eigen::Vector3d& p_rate) {
+  MarkerMotion m;
+  m.r = p.head<2>();
+  m.d.setZero();
+  m.angle = p[2];
+  m.u = {std::cos(p[2]), std::sin(p[2])};
+  m.v = p_rate.head<2>();
+  m.w = p_rate[2];
+  return m;
+}
+/// About the world's origin.
+inline double moment(const Eigen::Vector3d& p, const Wrench& wrench) { return cross(p.head<2>(), wrench.head<2>()) + wrench[2]; }
+
 /// What carries a marker. A stiffening body has displacements of second order.
 enum class Carrier { rigid, flexible, stiffening, fixed };
 

@@ -248,61 +248,6 @@ Wrench reaction(const System& system, const Equations& eq, std::size_t joint, st
   return -eq.L[at(system.end_begin[joint]) + end].topRows(m).transpose() * eq.lambda.segment(row, m);
 }
 
-void add_wrench(const System& system, const Equations& eq, int marker, const Wrench& w, VectorXd& v) {
-  const int body = system.markers[at(marker)].body;
-  if (body == ground) return;
-  const Vector2d& d = eq.motion[at(marker)].d;
-  v[3 * body] += w[0];
-  v[3 * body + 1] += w[1];
-  v[3 * body + 2] += w[2] + d.x() * w[1] - d.y() * w[0];
-  const Eigen::Matrix2Xd& flex = eq.motion[at(marker)].flex;
-  if (const Index n = flex.cols(); n > 0) {
-    const Eigen::RowVectorXd& slope = system.markers[at(marker)].slope;
-    v.segment(system.eta_begin[at(body)], n) += (w[0] * flex.row(0) + w[1] * flex.row(1) + w[2] * slope).transpose();
-  }
-}
-
-namespace {
-
-// Of rigid bodies; flexible ones have more to do (add_forces).
-void add_weight(const System& system, Equations& eq) {
-  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
-    if (eq.flexible_of[b] >= 0) continue;
-    const auto i = static_cast<Index>(3 * b);
-    eq.f[i] = system.bodies[b].m * system.gravity.x();
-    eq.f[i + 1] = system.bodies[b].m * system.gravity.y();
-  }
-}
-
-}  // namespace
-
-void apply_forces(const System& system, const State& state, Equations& eq) {
-  eq.f.setZero();
-  if (has_gravity(system)) add_weight(system, eq);
-  for (FlexibleInertia& body : eq.flexible) add_forces(system, state.y, body, eq.f);
-  const double* x = state.y.data() + system.x_begin();
-  if (!system.laws.empty()) evaluate_laws(system, state.t, x, eq);
-  for (std::size_t i = 0; i < system.forces.size(); ++i) {
-    if (is_released(system, Switch::force, static_cast<int>(i), state.y)) {
-      eq.force[i] = {};
-      continue;
-    }
-    const int ma = marker_a(system.forces[i]), mb = marker_b(system.forces[i]);
-    eq.force[i] = evaluate(system.forces[i], eq.motion[at(ma)], eq.motion[at(mb)], state.t, x + system.force_x[i], eq.laws.data());
-    add_wrench(system, eq, ma, eq.force[i].on_a, eq.f);
-    add_wrench(system, eq, mb, eq.force[i].on_b, eq.f);
-  }
-  if (!eq.friction.empty()) add_joint_friction(system, state, eq);
-  for (std::size_t i = 0; i < system.contacts.size(); ++i) {
-    const ContactPair& pair = system.contacts[i];
-    eq.contact[i] = evaluate(pair, eq.motion[at(pair.a)], eq.motion[at(pair.b)], state.impact_rate[i],
-                             state.friction.empty() ? DryFriction{} : state.friction[i], x + system.contact_x[i]);
-    if (eq.contact[i].normal.force == 0 && eq.contact[i].friction == 0) continue;
-    add_wrench(system, eq, pair.a, eq.contact[i].on_a, eq.f);
-    add_wrench(system, eq, pair.b, eq.contact[i].on_b, eq.f);
-  }
-}
-
 void acceleration_side(const Equations& eq, VectorXd& gamma) {
   for (Index row = 0; row < gamma.size(); ++row) {
     const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
@@ -326,57 +271,6 @@ void accelerate(const System& system, const State& state, Equations& eq) {
   ++eq.evaluations;
   if (eq.schur.lost() > 0) eq.regular = agree(system, eq) && follow_bifurcation_branch(system, state, eq);
   if (!state.friction.empty() && eq.regular) eq.regular = hold_sticking(system, state, eq);
-}
-
-const std::array<double, most_internal>& internal_rates(const Equations& eq, const InternalStates& of) {
-  const std::size_t k = at(of.index);
-  return of.owner == InternalStates::contact    ? eq.contact[k].x_rate
-         : of.owner == InternalStates::friction ? eq.friction[k].x_rate
-                                                : eq.force[k].x_rate;
-}
-
-void fill_derivative(const System& system, const VectorXd& y, const Equations& eq, VectorXd& dy) {
-  const Index n = system.n();
-  dy.head(n) = y.segment(n, n);
-  dy.segment(n, n) = eq.a;
-  for (const InternalStates& owner : system.internal)
-    std::copy_n(internal_rates(eq, owner).begin(), owner.n, dy.data() + system.x_begin() + owner.begin);
-  for (std::size_t i = 0; i < system.states.size(); ++i)
-    dy[system.x_begin() + system.own_x + static_cast<Index>(i)] = eq.laws[at(system.states[i].rate)];
-  for (Index i = 0; i < system.n_z(); ++i) {
-    const Integral& z = system.integrals[static_cast<std::size_t>(i)];
-    const std::size_t k = at(z.index);
-    double rate = 0;
-    switch (z.account) {
-      case Account::hysteresis:
-        rate = eq.contact[k].normal.dissipation;
-        for (int p = 1; p < system.contacts[k].pairs; ++p) rate += eq.contact[k + at(p)].normal.dissipation;
-        break;
-      case Account::friction:
-        rate = eq.contact[k].friction_loss;
-        for (int p = 1; p < system.contacts[k].pairs; ++p) rate += eq.contact[k + at(p)].friction_loss;
-        break;
-      case Account::joint_friction: rate = eq.friction[k].sticks ? 0 : -eq.friction[k].force * eq.friction[k].slip; break;
-      case Account::damper: rate = eq.force[k].dissipation; break;
-      case Account::load: rate = eq.force[k].input; break;
-      case Account::driver: rate = eq.lambda[system.row_begin[k]] * eq.rows[k].Ct[0]; break;
-      case Account::damping: rate = damping_loss(system, y, z.index); break;
-      case Account::switching:
-      case Account::scheme: break;  // no rate: booked event by event, step by step
-    }
-    dy[system.z_begin() + i] = rate;
-  }
-  if (!system.switches.empty()) dy.tail(system.n_y() - system.switch_begin()).setZero();
-}
-
-ContactEffect clearance_effect(const System& system, const Equations& eq, std::size_t c) {
-  ContactEffect out = eq.contact[c];
-  if (!is_held(system.contacts[c])) return out;
-  const double N = eq.lambda[system.row_begin[at(system.contacts[c].link)]];
-  out.normal.force = N;
-  out.on_a << -N * out.gap.n, 0;
-  out.on_b << N * out.gap.n, 0;
-  return out;
 }
 
 bool evaluate(const System& system, const State& state, Equations& eq, VectorXd& dy) {

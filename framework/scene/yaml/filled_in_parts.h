@@ -14,9 +14,15 @@ using Json = nlohmann::ordered_json;
 void append(Json& object, const std::string& name, Json value);
 
 Json json(const Pair&);
+std::string json(const PointRef&);  ///< "crank.A"
+Json ends(const PointRef& a, const PointRef& b);
 Json json(const SceneMaterial&);  ///< as an entry of `materials`
 Json json(const SceneElastic&);   ///< the body but for points and pose
 Json json(const SceneStatic&);
 Json json(const SceneEvent&);
+Json json(const SceneContact&);
+Json json(const SceneClearance&);
+Json json(const ScenePlay&);
+Json json(const SceneFriction&, bool in_clearance);
 
 }  // namespace pintle

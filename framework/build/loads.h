@@ -1,0 +1,14 @@
+#pragma once
+
+#include "framework/build/markers.h"
+#include "framework/build/signals.h"
+#include "framework/mechanism/model.h"
+#include "framework/scene/scene.h"
+
+namespace pintle {
+
+/// The forces that a load of the scene is: one, of an elastic belt one for each span.
+/// @throws SceneError  it acts on nothing that moves, or its ends are on one body
+void add_load(const Scene&, const SceneLoad&, Markers&, SignalMaker&, Model&);
+
+}  // namespace pintle
