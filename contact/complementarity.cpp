@@ -16,17 +16,16 @@ namespace {
 // w = q + M z + d z₀, d > 0, as a tableau [basic | w z z₀ | rhs] that is pivoted; the variables are numbered w: 0 … n − 1, z: n … 2n − 1, z₀: 2n.
 class Lemke {
  public:
-  Lemke(const MatrixXd& M, const VectorXd& q, const VectorXd& d)
-      : n_(q.size()), table_(n_, 2 * n_ + 2), most_(q.cwiseAbs().maxCoeff()), basic_(static_cast<std::size_t>(n_)) {
+  enum class Ties { largest_pivot, ordered };  ///< exact where there are few; without circles where there are many
+  Lemke(const MatrixXd& M, const VectorXd& q, const VectorXd& d, Ties ties)
+      : n_(q.size()), table_(n_, 2 * n_ + 2), most_(q.cwiseAbs().maxCoeff()), basic_(static_cast<std::size_t>(n_)), ties_(ties) {
     table_ << MatrixXd::Identity(n_, n_), -M, -d, q;
     for (Index i = 0; i < n_; ++i) basic(i) = i;
   }
 
   std::optional<VectorXd> solve() {
-    Index row;
     if (table_.col(rhs()).minCoeff() >= 0) return VectorXd(VectorXd::Zero(n_));
-    table_.col(rhs()).cwiseQuotient(-table_.col(z0())).minCoeff(&row);
-    Index enters = z0();
+    Index row = first(), enters = z0();
     for (Index pivots = 0; pivots < 50 * (n_ + 1); ++pivots) {
       const Index leaves = basic(row);
       pivot(row, enters);
@@ -44,32 +43,52 @@ class Lemke {
   Index rhs() const { return 2 * n_ + 1; }
   Index& basic(Index row) { return basic_[static_cast<std::size_t>(row)]; }
 
+  // What is left of a difference of like numbers is rounding, and none: it would else break ties of degenerate problems by chance.
   void pivot(Index row, Index enters) {
+    constexpr double rounding = 4e-15;
     table_.row(row) /= table_(row, enters);
     for (Index i = 0; i < n_; ++i) {
-      if (i == row || table_(i, enters) == 0) continue;
-      table_.row(i) -= table_(i, enters) * table_.row(row).eval();
+      const double times = table_(i, enters);
+      if (i == row || times == 0) continue;
+      const auto terms = (times * table_.row(row)).eval();
+      const auto left = (table_.row(i) - terms).eval();
+      table_.row(i) = (left.array().abs() > rounding * terms.array().abs()).select(left, 0);
       table_(i, enters) = 0;
     }
     basic(row) = enters;
   }
 
-  // The row that comes to 0 first as the variable grows; of several z₀'s, else that of the largest pivot.
+  // The row that has come to 0 last when z₀ has grown so far that all are there; of several the first, as below.
+  Index first() {
+    constexpr double tie = 1e-12;
+    const VectorXd ratio = table_.col(rhs()).cwiseQuotient(-table_.col(z0()));
+    const double least = ratio.minCoeff();
+    Index row = n_ - 1;
+    while (ratio[row] > (1 - tie) * least) --row;
+    return row;
+  }
+
+  // The row that comes to 0 first as the variable grows; of several z₀'s, else that of the largest pivot, or the first as their rows of
+  // the inverse of the basis are ordered, by which pivots cannot go round in circles [CottlePangStone1992, 4.9].
   std::optional<Index> blocking(Index enters) {
-    constexpr double rounding = 1e-12, tie = 1e-12;
-    const double size = table_.col(enters).cwiseAbs().maxCoeff();
+    constexpr double rounding = 1e-12;
+    const double size = std::max(table_.col(enters).cwiseAbs().maxCoeff(), 1.0);
     std::optional<Index> best;
-    double least = std::numeric_limits<double>::infinity();
-    for (Index i = 0; i < n_; ++i) {
-      const double slope = table_(i, enters);
-      if (!(slope > rounding * std::max(size, 1.0))) continue;
-      const double ratio = std::max(table_(i, rhs()), 0.0) / slope;
-      const double near = tie * (std::abs(least) + std::abs(ratio));
-      const bool same = best && std::abs(ratio - least) <= near;
-      const bool better = !best || (same ? basic(*best) != z0() && (basic(i) == z0() || slope > table_(*best, enters)) : ratio < least);
-      if (better) best = i, least = same ? std::min(least, ratio) : ratio;
-    }
+    for (Index i = 0; i < n_; ++i)
+      if (table_(i, enters) > rounding * size && (!best || comes_before(i, *best, enters))) best = i;
     return best;
+  }
+
+  bool comes_before(Index i, Index best, Index enters) {
+    constexpr double tie = 1e-12;
+    const auto order = [&](double a, double b) { return std::abs(a - b) <= tie * (std::abs(a) + std::abs(b)) ? 0 : a < b ? -1 : 1; };
+    const double slope = table_(i, enters), slope_best = table_(best, enters);
+    if (const int o = order(std::max(table_(i, rhs()), 0.0) / slope, std::max(table_(best, rhs()), 0.0) / slope_best); o != 0) return o < 0;
+    if (basic(i) == z0() || basic(best) == z0()) return basic(i) == z0();
+    if (ties_ == Ties::largest_pivot) return slope > slope_best;
+    for (Index j = 0; j < n_; ++j)
+      if (const int o = order(table_(i, j) / slope, table_(best, j) / slope_best); o != 0) return o < 0;
+    return false;
   }
 
   // But for rounding z₀ is 0, as where forces have to balance and cannot in all digits.
@@ -91,19 +110,32 @@ class Lemke {
   MatrixXd table_;
   double most_;               ///< of q
   std::vector<Index> basic_;  ///< variable of each row
+  Ties ties_;
 };
+
+// Of all that pivots find, what is no solution: they lose digits, and what is left at a ray need be none.
+bool solves(const MatrixXd& M, const VectorXd& q, const VectorXd& z) {
+  constexpr double enough = 1e-8, rounding = 1e-11;
+  if (!z.allFinite()) return false;
+  const VectorXd w = M * z + q;
+  const double none = enough * q.cwiseAbs().maxCoeff() + rounding * (M.cwiseAbs() * z).maxCoeff();
+  for (Index i = 0; i < q.size(); ++i)
+    if (w[i] < -none || (z[i] > 0 && w[i] > none)) return false;
+  return true;
+}
 
 }  // namespace
 
-// Where several variables come to 0 at once, as redundant contacts of bodies at rest have it, pivots may go round in circles. Those of
-// another d do so elsewhere.
+// Where several variables come to 0 at once, as redundant contacts of bodies at rest have it, pivots may go round in circles: ordered ties
+// do not, but may take small pivots. Those of another d go another way.
 std::optional<VectorXd> solve_complementarity(const MatrixXd& M, const VectorXd& q) {
   constexpr double golden = 0.6180339887498949;
-  constexpr int ways = 8;
+  constexpr int ways = 4;
   if (q.size() == 0) return q;
   VectorXd d = VectorXd::Ones(q.size());
   for (int way = 0; way < ways; ++way) {
-    if (const auto z = Lemke(M, q, d).solve()) return z;
+    for (const Lemke::Ties ties : {Lemke::Ties::largest_pivot, Lemke::Ties::ordered})
+      if (const auto z = Lemke(M, q, d, ties).solve(); z && solves(M, q, *z)) return z;
     for (Index i = 0; i < d.size(); ++i) {
       const double x = golden * (static_cast<double>(i) + 1) * (way + 1);
       d[i] = 0.5 + x - std::floor(x);
@@ -114,8 +146,10 @@ std::optional<VectorXd> solve_complementarity(const MatrixXd& M, const VectorXd&
 
 // T = T⁺ − T⁻. Unknown z = (N, T⁺, T⁻, u) against (g, u + slip, u − slip, μ(N + N₀) − T⁺ − T⁻), u the speed of a slip, each over the
 // root of its own W. Without what slides zᵀM z = xᵀW x + uᵀμN ≥ 0, so that Lemke's method finds the impulses of an impact
-// [AnitescuPotra1997, theorem 1].
+// [AnitescuPotra1997, theorem 1]. Where more contacts are closed than bodies can tell apart, rounding may leave the problem without a
+// solution, as rows of discs that fill a box from wall to wall; if each contact gives way a little it has one.
 std::optional<VectorXd> unilateral_forces(std::span<const UnilateralContact> contacts, const MatrixXd& W, const VectorXd& c) {
+  constexpr double give = 1e-10, within = 1e-3;  // of each contact's own; of the rates: what forces beyond that hold is nothing real
   const auto n = static_cast<Index>(contacts.size());
   const auto m = static_cast<Index>(std::ranges::count_if(contacts, [](const UnilateralContact& k) { return k.tangent >= 0; }));
   const Index size = n + 3 * m;
@@ -154,8 +188,14 @@ std::optional<VectorXd> unilateral_forces(std::span<const UnilateralContact> con
   }
   const double most = q.cwiseProduct(unit).cwiseAbs().maxCoeff();
   if (!(most > 0)) return VectorXd(x0);
-  const auto z = solve_complementarity(unit.asDiagonal() * M * unit.asDiagonal(), q.cwiseProduct(unit) / most);
-  if (!z) return std::nullopt;
+  MatrixXd scaled = unit.asDiagonal() * M * unit.asDiagonal();
+  const VectorXd scaled_q = q.cwiseProduct(unit) / most;
+  auto z = solve_complementarity(scaled, scaled_q);
+  if (!z) {
+    scaled.diagonal().head(n + 2 * m).array() += give;
+    z = solve_complementarity(scaled, scaled_q);
+  }
+  if (!z || z->maxCoeff() * give > within) return std::nullopt;
   return VectorXd(X * (most * unit.cwiseProduct(*z)) + x0);
 }
 

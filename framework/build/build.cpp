@@ -70,8 +70,7 @@ class Builder {
     model_.system.length = size();
     signals_.finish();
     add_events(scene_, model_, signals_);
-    for (ContactPair& pair : model_.system.contacts)
-      if (is_rigid(pair)) pair.slack = touching_part * model_.system.length;
+    allow_rounding(model_.system);
     for (const SceneJoint& j : scene_.joints)
       if (const std::string warning = j.clearance ? rounding_warning(scene_, j, model_.system.length) : ""; !warning.empty())
         model_.warnings.push_back(warning);

@@ -268,4 +268,16 @@ BuiltContact build_pairs(const Scene& scene, const SceneContact& c, const Profil
   return out;
 }
 
+void allow_rounding(System& system) {
+  constexpr double flush = 1e-9;
+  for (ContactPair& pair : system.contacts) {
+    if (!is_rigid(pair)) continue;
+    pair.slack = touching_part * system.length;
+    const std::array<const Piece*, 2> pieces{&pair.gap.a, &pair.gap.b};
+    for (std::size_t side = 0; pair.profiles && side < 4; ++side)
+      if (const Piece& piece = *pieces[side / 2]; piece.straight && std::isfinite(piece.half) && pair.beyond[side] < 0)
+        pair.extent[side] += flush * system.length / piece.half;
+  }
+}
+
 }  // namespace pintle

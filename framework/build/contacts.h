@@ -32,4 +32,8 @@ BuiltContact build_contact(const Scene&, const SceneContact&, const Profile& a, 
 /// @throws SceneError  no two pieces that could touch
 BuiltContact build_pairs(const Scene&, const SceneContact& c, const Profile& a, const Profile& b, const ContactPair& like, int first);
 
+/// Of rigid contacts: what rounding leaves of a gap that is closed, and of a corner at the end of what it stands on, as where boxes are
+/// stacked flush; it stays there. Once the mechanism's length is known.
+void allow_rounding(System&);
+
 }  // namespace pintle

@@ -115,6 +115,26 @@ bool expect_forces(const Problem& p) {
   return true;
 }
 
+// A row of discs that fills a box from wall to wall has one contact more than speeds. Pressed down by the wall's own rounding it has a
+// solution but for the last digits.
+TEST(UnilateralForces, OfRowsThatFillABoxAreFoundButForRounding) {
+  for (const Index discs : {1, 2, 4, 7, 12})
+    for (const double off : {0.0, 1e-13, -1e-13}) {
+      MatrixXd J = MatrixXd::Zero(discs, discs + 1);  // opening speeds of the left wall, of the gaps between, of the right wall
+      for (Index i = 0; i < discs; ++i) J(i, i) = 1, J(i, i + 1) = -1;
+      const VectorXd pushed = VectorXd::LinSpaced(discs, 1, -2);
+      Problem p;
+      p.W = J.transpose() * J;
+      p.c = J.transpose() * pushed;
+      p.c[discs] += off;
+      for (int k = 0; k <= discs; ++k) p.contacts.push_back({.normal = k});
+      const auto x = unilateral_forces(p.contacts, p.W, p.c);
+      ASSERT_TRUE(x) << discs << ", " << off;
+      EXPECT_GE(x->minCoeff(), 0);
+      EXPECT_LT((p.W * *x + p.c).cwiseAbs().maxCoeff(), 1e-8) << discs << ", " << off;  // none can move
+    }
+}
+
 TEST(UnilateralForces, WithoutFrictionAreFoundAlways) {
   Draw draw(3);
   for (int k = 0; k < 600; ++k) {

@@ -186,6 +186,10 @@ std::optional<std::vector<Blow>> strike(const System& system, std::span<const in
   if (by_poisson && std::ranges::any_of(e, [](double each) { return each > 0; }))  // what was closed gives its impulse back as well
     for (std::size_t i = 0; i < e.size(); ++i) e[i] = system.contacts[at(closed.contact[i])].rigid->restitution;
   auto x = by_poisson ? poisson(closed, e, W, before) : newton_impulses(system, closed, e, W, before, before);
+  if (!x) {  // bodies wedged between others cannot all part as e says
+    std::ranges::fill(e, 0.0);
+    x = newton_impulses(system, closed, e, W, before, before);
+  }
   if (!x) return std::nullopt;
   const std::vector<bool> parts = parting({system, closed, W, before, acceleration}, e, rounding * largest(before), *x);
   speeds += eq.sticking.a * *x;

@@ -15,7 +15,7 @@ VectorXd share_out(const MatrixXd& W, const VectorXd& rhs, const VectorXd& capac
   constexpr double least = 1e-9;
   const Index m = rhs.size();
   if (m == 0) return rhs;
-  if (m == 1) return W(0, 0) > 0 ? VectorXd(rhs / W(0, 0)) : VectorXd(VectorXd::Zero(1));
+  if (m == 1) return W(0, 0) == 0 ? VectorXd(VectorXd::Zero(1)) : VectorXd(rhs / W(0, 0));  // below 0 where friction jams
   const double most = capacity.maxCoeff();
   const VectorXd weight = most > 0 ? VectorXd(capacity.cwiseMax(least * most).cwiseSqrt()) : VectorXd(VectorXd::Ones(m));
   // The rows that count are those of W between unit slips; among their solutions the least.

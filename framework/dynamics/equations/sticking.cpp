@@ -187,10 +187,6 @@ VectorXd capacity(const System& system, const Equations& eq, const Places& of) {
   return out;
 }
 
-}  // namespace
-
-namespace {
-
 // The rigid contacts among what holds, by their places there.
 std::vector<UnilateralContact> rigid_among(const System& system, const Sticking& s, const Places& hold) {
   std::vector<UnilateralContact> out;
@@ -200,6 +196,31 @@ std::vector<UnilateralContact> rigid_among(const System& system, const Sticking&
     out.push_back({.normal = static_cast<int>(i)});
     if (i + 1 < hold.size() && s.of[place(hold[i + 1])].at == k)
       out.back().tangent = static_cast<int>(i + 1), out.back().mu = dry_law(system, k)->mu_static;
+  }
+  return out;
+}
+
+// What slides in a rigid contact rubs as its own normal force presses it, T = c N: what 1 N of that does, with its friction.
+struct Coupled {
+  MatrixXd W, lambda, by_friction;     ///< the last: of the multipliers, what its friction does alone
+  Places normal, friction, of_joints;  ///< columns of such contacts, and of what slides in joints
+  VectorXd c;
+};
+Coupled couple(const System& system, const State& state, const Equations& eq, const FrictionResponse& by) {
+  Coupled out{by.W, by.lambda, {}, {}, {}, {}, {}};
+  for (const Index i : those(eq.sticking, false))
+    if (of_contact(system, eq.sticking.of[place(i)].at))
+      out.friction.push_back(i), out.normal.push_back(i - 1);
+    else
+      out.of_joints.push_back(i);
+  out.c.resize(static_cast<Index>(out.friction.size()));
+  out.by_friction.resize(by.lambda.rows(), out.c.size());
+  for (Index i = 0; i < out.c.size(); ++i) {
+    const Index N = out.normal[place(i)], T = out.friction[place(i)];
+    out.c[i] = sliding_force(system, state, eq, eq.sticking.of[place(T)].at, 1);
+    out.W.col(N) += out.c[i] * by.W.col(T);
+    out.lambda.col(N) += out.c[i] * by.lambda.col(T);
+    out.by_friction.col(i) = by.lambda.col(T);
   }
   return out;
 }
@@ -220,22 +241,24 @@ VectorXd friction_change(const System& system, const State& state, const Equatio
   constexpr int most = 30;
   constexpr double enough = 1e-13, little = 1e-6;
   const Sticking& s = eq.sticking;
-  const Places hold = those(s, true), slide = those(s, false);
-  const MatrixXd W_hold = part(by.W, hold, hold), W_slide = part(by.W, hold, slide);
+  const Coupled with = couple(system, state, eq, by);
+  const Places hold = those(s, true), &slide = with.of_joints;
+  const MatrixXd W_hold = part(with.W, hold, hold), W_slide = part(by.W, hold, slide);
+  const VectorXd off = with.c.cwiseProduct(part(before, with.normal)) - part(before, with.friction);  // as they press now
   const VectorXd holds = capacity(system, eq, hold), held = shares == Shares::all ? part(before, hold) : VectorXd::Zero(W_hold.rows()),
-                 asked = W_hold * held + part(slips, hold);
+                 asked = W_hold * held + part(slips, hold) - part(by.W, hold, with.friction) * off,
+                 lambda_off = lambda + with.by_friction * off;
   const std::vector<UnilateralContact> rigid = rigid_among(system, s, hold);
   const double one = rigid.empty() ? one_give : one_force;
   VectorXd change = VectorXd::Zero(before.size()), loads(static_cast<Index>(slide.size()));
   const auto missed = [&](const VectorXd& sliding) {  // a change of what slides
     put(sliding, slide, change);
     put(share_out(W_hold, asked - W_slide * sliding, holds, one, rigid) - held, hold, change);
-    const VectorXd now = lambda + by.lambda * change;
+    const VectorXd now = lambda_off + with.lambda * change;
     VectorXd out = part(before, slide) + sliding;
     for (Index i = 0; i < out.size(); ++i) {
-      const Index column = slide[place(i)];
-      const std::size_t k = s.of[place(column)].at;
-      loads[i] = of_contact(system, k) ? before[column - 1] + change[column - 1] : load_of(system, eq, joint_friction(system, k), now);
+      const std::size_t k = s.of[place(slide[place(i)])].at;
+      loads[i] = load_of(system, eq, joint_friction(system, k), now);
       if (state.friction[k].direction != DryFriction::undecided || !dry_law(system, k))
         out[i] -= sliding_force(system, state, eq, k, loads[i]);
     }
@@ -251,14 +274,11 @@ VectorXd friction_change(const System& system, const State& state, const Equatio
     if (i + 1 == most) return VectorXd::Constant(before.size(), std::numeric_limits<double>::quiet_NaN());
     MatrixXd slope(sliding.size(), sliding.size());
     const double h = little * scale;
-    for (Index j = 0; j < sliding.size(); ++j) {
-      VectorXd moved = sliding;
-      moved[j] += h;
-      slope.col(j) = (missed(moved) - left) / h;
-    }
+    for (Index j = 0; j < sliding.size(); ++j) slope.col(j) = (missed(sliding + h * VectorXd::Unit(sliding.size(), j)) - left) / h;
     sliding -= slope.partialPivLu().solve(left);
     left = missed(sliding);
   }
+  put(with.c.cwiseProduct(part(change, with.normal)) + off, with.friction, change);
   return change;
 }
 

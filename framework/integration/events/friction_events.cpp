@@ -93,6 +93,19 @@ Guard FrictionEvents::guard(int event, const State& state, const Equations& eq) 
   return guard(event, state, friction_now(system_, eq, place(event)));
 }
 
+namespace {
+
+constexpr double part_of_most = 1e-9;  // of the greatest force of closed rigid contacts: less is none
+
+double most_pressed(const System& system, const State& state) {
+  double out = 0;
+  for (std::size_t c = 0; c < system.contacts.size(); ++c)
+    if (is_rigid(system.contacts[c]) && state.impact_rate[c] > 0) out = std::max(out, std::abs(state.friction[c].load));
+  return out;
+}
+
+}  // namespace
+
 // Sliding ends a little past 0, so that it can begin at 0. What holds is measured by what can be held.
 Guard FrictionEvents::guard(int event, const State& state, const FrictionNow& now) const {
   const DryFriction& dry = state.friction[place(event)];
@@ -100,6 +113,7 @@ Guard FrictionEvents::guard(int event, const State& state, const FrictionNow& no
   if (of_sliding(event)) return {undecided || dry.direction == 0 ? 1.0 : dry.direction * now.slip + 2 * still(event)};
   if (undecided || dry.direction != 0) return {undecided ? 1.0 : -1.0};
   const double force = std::abs(dry.force), limit = now.holds;
+  if (force > limit && of_rigid(place(event)) && limit <= part_of_most * most_pressed(system_, state)) return {-1.0};  // of rounding both
   return {force <= limit ? (limit > 0 ? force / limit : 0) - 1 : std::min(force / std::max(limit, 1e-300), 1e300) - 1};
 }
 
