@@ -62,8 +62,6 @@ Asked understood(const Options& options) {
   const Overrides set = overrides(options);
   if (is_study(options.scene)) {
     StudyFile file = read_study(options.scene);
-    if (file.study.scene.question.analysis != Analysis::run)
-      file.root().at("analysis").fail("tradeoff weighs the time of runs against their accuracy; leave it out, or use sweep");
     if (!file.study.scene.situations.empty()) file.root().at("situations").fail("is of sweep, fit and sensitivity; leave it out here");
     require_measures(file);
     file.study.scene.common.insert(file.study.scene.common.end(), set.begin(), set.end());

@@ -216,7 +216,7 @@ Scene case_scene(const CaseSource& source, const Overrides& overrides) {
   all.insert(all.end(), overrides.begin(), overrides.end());
   Scene scene = read_scene_text(source.text, source.file.string(), all, source.file.parent_path());
   const Question& q = source.question;
-  if (over_time(q) || (q.analysis == Analysis::linearize && q.at && !q.equilibrium)) require_run(scene);
+  if (needs_run(q)) require_run(scene);
   switch (q.analysis) {
     case Analysis::modes: return scene;
     case Analysis::kinematics: return ready_for_kinematics(std::move(scene));

@@ -200,6 +200,37 @@ TEST(Tradeoff, OfAPendulumTheReferenceAndEveryErrorAreHonestAgainstTheClosedForm
   EXPECT_EQ(usable, 10);
 }
 
+// The third natural frequency of a clamped ruler by its number of elements, cubic ones: (7.8547574/L)² √(EI/ρA)/2π.
+TEST(Tradeoff, OfModesTheModelAloneErrsAndTheReferenceIsTheClosedForm) {
+  CaseSource source{"ruler.yaml",
+                    R"yaml(
+materials: {steel: {young: 207 GPa, poisson: 0.3, density: 7850 kg/m^3}}
+bodies:
+  ruler:
+    beam: {from: root, to: tip, section: {rectangle: [1 mm, 25 mm]}, material: steel, elements: 20, theory: euler}
+    points: {root: [0, 0], tip: [300 mm, 0]}
+    supports: {root: fixed}
+)yaml",
+                    {}};
+  source.question.analysis = Analysis::modes;
+  std::vector<Measure> third{{"third", "frequency of mode 3"}};
+  third.front().question = source.question;
+  TradePlan plan;
+  plan.integrates = false, plan.error = 1e-3, plan.repeats = 1;
+  plan.axes = {axis("elements", "bodies.ruler.beam.elements", {"2", "4", "8"})};
+  const TradeReport r = run_tradeoff(plan, third, runner(source));
+  ASSERT_EQ(r.reference.trouble, "");
+  const double h = 1e-3, exact = std::pow(7.854757438 / 0.3, 2) * std::sqrt(207e9 * h * h / 12 / 7850) / (2 * M_PI);
+  EXPECT_NEAR(r.reference.of[0].value, exact, std::max(r.reference.of[0].error, 1e-8 * exact));
+  EXPECT_NEAR(r.reference.of[0].order, 4, 0.2) << "of the frequency in the size of cubic elements";
+  for (const TradePoint& p : r.points) {
+    ASSERT_TRUE(p.usable) << p.reason;
+    EXPECT_NEAR(p.errors[0], std::abs(p.values[0] / exact - 1), 2 * r.warning() + 1e-8);
+  }
+  ASSERT_TRUE(r.recommended);
+  EXPECT_LE(r.points[*r.recommended].claimed(), plan.error);
+}
+
 TEST(Tradeoff, ADoublePendulumIsFoundChaoticAfterAWhileAndRegularBefore) {
   const CaseSource source{"double.yaml",
                           R"(

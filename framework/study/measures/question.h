@@ -17,5 +17,7 @@ struct Question {
 constexpr bool of_modes(const Question& q) { return q.analysis == Analysis::linearize || q.analysis == Analysis::modes; }
 /// It follows the scene's `run` over time.
 constexpr bool over_time(const Question& q) { return !of_modes(q) && q.analysis != Analysis::statics; }
+/// It needs the scene's `run`, and so has its tolerance.
+constexpr bool needs_run(const Question& q) { return over_time(q) || (q.analysis == Analysis::linearize && q.at && !q.equilibrium); }
 
 }  // namespace pintle

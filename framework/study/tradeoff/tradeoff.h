@@ -34,6 +34,7 @@ struct TradePlan {
   double budget = 0;        ///< of computing [s]; 0: every combination runs
   int ensemble = 12;        ///< runs of each setting where a quantity is chaotic
   double tolerance = 1e-8;  ///< of the scene as it stands
+  bool integrates = true;   ///< false: no run is needed for what is asked, so there are no tolerances and no motions that part
   std::vector<FidelityAxis> axes;
   Overrides reference = {};  ///< over those of the finest values
   bool suggested = false;    ///< axes that nobody named: suggested_plan

@@ -104,6 +104,7 @@ TradePlan read_tradeoff(const StudyFile& study) {
     for (const Node& set : node.at("reference").entries("what the reference sets: {run.tolerance: 1e-12}"))
       plan.reference.emplace_back(set.name(), override_text(entry(entry(tree, "reference"), set.name())));
   plan.tolerance = common_scene(study.study.scene).run.tolerance;
+  plan.integrates = needs_run(study.study.scene.question);
   validate_settings(study, plan);
   validate_measures(study.study.scene, plan, study.study.measures);
   return plan;

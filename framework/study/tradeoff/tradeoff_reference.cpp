@@ -40,10 +40,13 @@ class Search {
         if (axis.numerical && set.first != "run.method" && set.first != "run.tolerance" && set.first != "run.constraints" &&
             set.first != "run.onset")
           base_.push_back(set);
-    base_.insert(base_.end(), {{"run.method", "auto"}, {"run.constraints", "projection"}});
+    if (plan_.integrates) base_.insert(base_.end(), {{"run.method", "auto"}, {"run.constraints", "projection"}});
     base_.insert(base_.end(), plan_.reference.begin(), plan_.reference.end());
     out_.of.resize(n_);
-    climb_tolerances();
+    if (plan_.integrates)
+      climb_tolerances();
+    else
+      take_finest();
     if (!out_.trouble.empty()) return std::move(out_);
     for (std::size_t k = 0; k < tolerances_; ++k) out_.seconds = std::max(out_.seconds, out_.levels[k].seconds);
     for (std::size_t q = 0; q < n_; ++q) validate_tolerances(q);
@@ -155,6 +158,14 @@ class Search {
     if (!out_.levels.empty()) out_.set = out_.levels.back().set;
   }
 
+  /// Of what needs no run: nothing but the model errs.
+  void take_finest() {
+    if (level("the finest model of the study", base_))
+      tolerances_ = 1, out_.set = base_;
+    else
+      out_.trouble = why_;
+  }
+
   bool parts() const {
     const auto &a = runs_[runs_.size() - 2], &b = runs_.back();
     return a && b && parting(*a, *b).chaotic();
@@ -168,7 +179,7 @@ class Search {
     r.scale = scale(q);
     r.error = std::max(l.error, 1e-14 * r.scale);
     r.ratio = l.ratio;
-    r.converged = l.falling || l.rounding || l.error <= 1e-2 * target() * r.scale;
+    r.converged = l.falling || l.rounding || l.error <= 1e-2 * target() * r.scale || !plan_.integrates;
   }
 
   static bool steady(const Ladder& l, double scale) {
@@ -240,6 +251,7 @@ class Search {
   /// Elements, modes and the like of the finest model, doubled twice, and more often as long as what is asked is not known.
   void refine_model() {
     const double tolerance = tolerance_of(plan_, out_.set);
+    const auto computed = [&](const Overrides& set) { return plan_.integrates ? with_tolerance(set, tolerance) : set; };
     if (std::ranges::all_of(out_.of, &QuantityReference::chaotic)) {
       model_words_ = chaotic_model;
       return;
@@ -266,7 +278,7 @@ class Search {
         if (k == 1) compare_coarser();
         break;
       }
-      if (!level(printed("finer model, %d times", 1 << k), with_tolerance(*finer, tolerance))) {
+      if (!level(printed("finer model, %d times", 1 << k), computed(*finer))) {
         model_words_ = "the model cannot be refined further (" + why_ + ")";
         if (k == 1) compare_coarser();
         break;
@@ -339,9 +351,10 @@ class Search {
     }
     std::string fell;
     for (const double d : ladder_[q].differences) fell += (fell.empty() ? "" : ", ") + printed("%.1e", d / r.scale);
-    s = printed("%zu tolerances from %.0e to %.0e change it %sby %s of its value", tolerances_,
-                tolerance_of(plan_, out_.levels.front().set), tolerance_of(plan_, out_.levels[tolerances_ - 1].set),
-                tolerances_ > judged_tolerances ? "in the end " : "", fell.c_str());
+    s = plan_.integrates ? printed("%zu tolerances from %.0e to %.0e change it %sby %s of its value", tolerances_,
+                                   tolerance_of(plan_, out_.levels.front().set), tolerance_of(plan_, out_.levels[tolerances_ - 1].set),
+                                   tolerances_ > judged_tolerances ? "in the end " : "", fell.c_str())
+                         : "it needs no run, so the model alone errs";
     if (r.ratio > 0) s += printed(", falling %.1f times a decade", r.ratio);
     if (refinements_ > 0)
       s += r.order > 0 ? printed("; %zu refinements of the model show order %.1f", refinements_, r.order)

@@ -304,7 +304,7 @@ class Trade {
   // --- times -----------------------------------------------------------------------------------------------------
 
   /// Rounds over all settings, so that what disturbs the machine for a while disturbs all alike. Timed runs measure
-  /// nothing: they make the outputs that the scene itself asks for.
+  /// nothing: they make the outputs that the scene itself asks for. What needs no run is done for its measures alone.
   void time_all() {
     std::vector<std::size_t> who, beaten;
     for (std::size_t i = 0; i < points().size(); ++i)
@@ -326,7 +326,7 @@ class Trade {
 
   void time_once(TradePoint& p) {
     if (out_.stopped || p.time > left(0.95)) return;
-    const Outcome o = run(p.set, {}, {});
+    const Outcome o = run(p.set, out_.plan.integrates ? std::vector<Measure>{} : measures_, {});
     if (o.status != "finished") return;
     p.times.push_back(o.build_seconds + o.run_seconds);
     p.build = p.times.size() == 1 ? o.build_seconds : std::min(p.build, o.build_seconds);
@@ -339,6 +339,10 @@ class Trade {
   void tell_model_apart() {
     const TradePlan& plan = out_.plan;
     if (std::ranges::all_of(plan.axes, [](const FidelityAxis& a) { return a.numerical || a.values.size() < 2; })) return;
+    if (!plan.integrates) {
+      for (TradePoint& p : points()) p.model = p.errors;
+      return;
+    }
     std::map<At, std::vector<std::size_t>> models;
     for (std::size_t i = 1; i < points().size(); ++i) {
       At key;

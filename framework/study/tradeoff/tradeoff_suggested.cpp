@@ -2,6 +2,7 @@
 #include <charconv>
 
 #include "framework/build/build.h"
+#include "framework/scene/error.h"
 #include "framework/scene/yaml/include.h"
 #include "framework/scene/yaml/instances.h"
 #include "framework/scene/yaml/keys.h"
@@ -86,7 +87,6 @@ FidelityAxis modes_axis(const Yaml& scene, const std::string& body, int shapes) 
 
 TradePlan suggested_plan(const CaseSource& source) {
   const Scene scene = common_scene(source);
-  require_run(scene);
   const Model model = build(scene);
   Yaml tree = parse_yaml(source.text, source.file.string());
   Source files{source.file.string(), {}, source.file.parent_path()};
@@ -98,14 +98,21 @@ TradePlan suggested_plan(const CaseSource& source) {
   plan.tolerance = scene.run.tolerance;
   plan.budget = 60;
   plan.suggested = true;
-  plan.axes.push_back(listed_axis("tolerance", "run.tolerance", {"1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9"}));
-  plan.axes.push_back(listed_axis("scheme", "run.method", {"dopri5", "verner87", "generalized-alpha"}));
+  plan.integrates = needs_run(source.question);
+  if (plan.integrates) {
+    plan.axes.push_back(listed_axis("tolerance", "run.tolerance", {"1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9"}));
+    plan.axes.push_back(listed_axis("scheme", "run.method", {"dopri5", "verner87", "generalized-alpha"}));
+  }
   const std::vector<std::string> models = clearance_models();
   for (const SceneJoint& joint : scene.joints)
     if (joint.clearance && !is_open(joint) && models.size() > 1)
       plan.axes.push_back(listed_axis(joint.name, "joints." + joint.name + ".clearance.model", models));
   for (const FlexibleReport& r : model.flexible)
     if (entry(entry(entry(&tree, "bodies"), r.body), "modes")) plan.axes.push_back(modes_axis(tree, r.body, static_cast<int>(r.shapes)));
+  if (plan.axes.empty())
+    throw SceneError(scene.file, {0, "bodies"},
+                     "nothing of fidelity is known to vary here; write a study with tradeoff: {axes: {elements: "
+                     "{bodies.NAME.beam.elements: [2, 4, 8]}}}");
   return plan;
 }
 
