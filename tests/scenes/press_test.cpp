@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "tests/scenes/hand_models.h"
 #include "tests/scenes/text_runs.h"
@@ -103,7 +104,10 @@ TEST(KnucklePress, MakesItsStroke) {
     if (whole > 0) break;
   }
   EXPECT_NEAR(slowest * 30 / pi, 81.9, 0.05);
-  ASSERT_EQ(w.run.happenings.size(), 5u);
+  // Held by its brake the slide moves by rounding, beside a flywheel that turns: that is no way down.
+  std::vector<std::string> names;
+  for (const Happening& happened : w.run.happenings) names.push_back(happened.event);
+  ASSERT_EQ(names, (std::vector<std::string>{"stroke", "down", "down", "top", "ready"}));
   EXPECT_NEAR(w.run.happenings[3].t, now, near);
   EXPECT_NEAR(w.ledger("brake.lost to engaging [J]"), at(3 * pi).inertia * x[1] * x[1] / 2, near * work);
 

@@ -38,12 +38,20 @@ Guard SceneEvents::all_of(int event, const State& state) const {
   return least;
 }
 
+// A comparison is as large as it has been, or as it would change if all were as fast as the fastest: else it would be measured by rounding
+// where what it asks for stands still.
 void SceneEvents::see(const State& state) {
+  faster_ = state;
+  const Eigen::Index n = system_.n();
+  const double fastest = n > 0 ? state.y.segment(n, n).cwiseQuotient(system_.scale.head(n)).lpNorm<Eigen::Infinity>() : 0;
+  for (Eigen::Index i = 0; i < n; ++i)  // unevenly, so that differences of two speeds do not vanish
+    faster_.y[n + i] += fastest * system_.scale[i] * (1 + 0.5 * std::sin(static_cast<double>(i)));
   for (std::size_t event = 0; event < rules_.size(); ++event)
     for (std::size_t k = 0; k < rules_[event].when.size(); ++k) {
-      const double now = std::abs(rules_[event].when[k](system_, state).value);
+      const double now = rules_[event].when[k](system_, state).value, change = rules_[event].when[k](system_, faster_).value - now;
       double& size = size_[first_[event] + k];
-      if (std::isfinite(now)) size = std::max(size, now);
+      for (const double x : {now, change})
+        if (std::isfinite(x)) size = std::max(size, std::abs(x));
     }
 }
 
@@ -83,6 +91,15 @@ void SceneEvents::start(Step& step) {
   see(step.to.state);
   for (int event = 0; event < size(); ++event)
     if (all_of(event, step.to.state).value > 0 && !rules_[at(event)].from_start) waits_[at(event)] = Waits::for_false;
+}
+
+// What stands at zero and does not rise there, such as the speed of what is held, has to rise by more than rounding can.
+void SceneEvents::begin_step(const State& from) {
+  for (int event = 0; event < size(); ++event) {
+    if (waits_[at(event)] != Waits::for_true) continue;
+    const Guard now = all_of(event, from);
+    if (std::abs(now.value) <= guard_near && !(now.rate > 0)) shift_[at(event)] = -2 * guard_near;
+  }
 }
 
 void SceneEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard>, const DenseOutput&) { see(step.to.state); }

@@ -47,6 +47,7 @@ class SceneEvents final : public EventGroup {
   std::optional<double> positive_inside(int event, const Step&, const DenseOutput&) const override;
   bool met(int event, const Guard&) const override;
   void start(Step&) override;
+  void begin_step(const State& from) override;
   void follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) override;
   EventOutcome act(int event, Step&, const Guard&) override;
   void save(Writer&) const override;
@@ -62,6 +63,7 @@ class SceneEvents final : public EventGroup {
 
   const System& system_;
   std::vector<SceneEventRule> rules_;
+  State faster_;  ///< workspace: what was seen, with all as fast as the fastest
   std::vector<Waits> waits_;
   std::vector<std::size_t> first_;  ///< place in `size_` of each event's first comparison
   std::vector<double> size_;        ///< of each comparison so far, the largest, by which it is measured
