@@ -43,24 +43,48 @@ TEST(RigidHeap, DominoesFallAndRestOnEachOther) {
   EXPECT_NEAR(w.last("d4.y [m]"), 0.004, 1e-12);
 }
 
-// None goes into another, nor through a wall.
-TEST(RigidHeap, DiscsHeapUpInABin) {
-  const double r = 0.05;
+struct Heap {
+  int discs;
+  double restitution, friction, until;
+};
+void PrintTo(const Heap& h, std::ostream* out) {
+  *out << h.discs << " discs, restitution " << h.restitution << ", friction " << h.friction;
+}
+
+std::string laws(double restitution, double friction) {
+  return ", model: impact, restitution: " + number(restitution) +
+         (friction > 0 ? ", friction: {coulomb: {coefficient: " + number(friction) + "}}}\n" : "}\n");
+}
+
+// The bin is as wide as four discs, which wedge themselves in it side by side.
+std::string in_a_bin(const Heap& h) {
   std::string bodies = "bodies:\n", contacts = "contacts:\n";
-  const std::string laws = ", model: impact, restitution: 0.3, friction: {coulomb: {coefficient: 0.3}}}\n";
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < h.discs; ++i) {
     const std::string n = std::to_string(i);
     bodies += "  b" + n + ": {rigid: {mass: 1, inertia: 1e-3}, profiles: {o: {disc: [0, 0], radius: 0.05}}, pose: {at: [" +
               number(-0.12 + 0.12 * (i % 3) + 0.01 * (i / 3)) + ", " + number(0.07 + 0.11 * (i / 3)) + "]}}\n";
-    contacts += "  w" + n + ": {between: [b" + n + ".o, ground.bin]" + laws;
+    contacts += "  w" + n + ": {between: [b" + n + ".o, ground.bin]" + laws(h.restitution, h.friction);
     for (int j = 0; j < i; ++j)
-      contacts += "  c" + n + std::to_string(j) + ": {between: [b" + n + ".o, b" + std::to_string(j) + ".o]" + laws;
+      contacts += "  c" + n + "_" + std::to_string(j) + ": {between: [b" + n + ".o, b" + std::to_string(j) + ".o]" +
+                  laws(h.restitution, h.friction);
   }
-  const Whole w =
-      run("gravity: [0, -9.81]\nground: {profiles: {bin: {path: [[-0.2, 1], [-0.2, 0], [0.2, 0], [0.2, 1]], material: right}}}\n" + bodies +
-          contacts + "run: {until: 1.5}\noutput: {every: 5 ms, frames: 0}\n");
+  return "gravity: [0, -9.81]\nground: {profiles: {bin: {path: [[-0.2, 3], [-0.2, 0], [0.2, 0], [0.2, 3]], material: right}}}\n" + bodies +
+         contacts + "run: {until: " + number(h.until) + "}\noutput: {every: 5 ms, frames: 0}\n";
+}
+
+class RigidHeaps : public testing::TestWithParam<Heap> {};
+INSTANTIATE_TEST_SUITE_P(All, RigidHeaps,
+                         testing::Values(Heap{3, 0.3, 0.3, 1.5}, Heap{4, 0.3, 0.3, 1.5}, Heap{5, 0.3, 0.3, 1.5}, Heap{6, 0.3, 0.3, 1.5},
+                                         Heap{7, 0.3, 0.3, 0.8}, Heap{8, 0.3, 0.3, 0.5}, Heap{12, 0.3, 0.3, 0.3}, Heap{15, 0, 0.3, 0.25},
+                                         Heap{4, 0.3, 0, 1.5}, Heap{6, 0.3, 0, 0.8}, Heap{4, 0, 0.3, 1.5}, Heap{9, 0, 0.3, 0.9}));
+
+// None goes into another, nor through a wall, and nothing is gained.
+TEST_P(RigidHeaps, OfDiscsFillABin) {
+  const double r = 0.05;
+  const int discs = GetParam().discs;
+  const Whole w = run(in_a_bin(GetParam()));
   expect_sound(w);
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < discs; ++i) {
     const auto x = w.column("b" + std::to_string(i) + ".x [m]"), y = w.column("b" + std::to_string(i) + ".y [m]");
     for (std::size_t row = 0; row < x.size(); ++row) {
       EXPECT_GT(y[row], r - 1e-9) << i;
@@ -71,6 +95,46 @@ TEST(RigidHeap, DiscsHeapUpInABin) {
       for (std::size_t row = 0; row < x.size(); ++row)
         EXPECT_GT(std::hypot(x[row] - x_j[row], y[row] - y_j[row]), 2 * r - 1e-9) << i << " " << j;
     }
+  }
+}
+
+struct Boxes {
+  int high, wide;
+  double apart;
+};
+void PrintTo(const Boxes& b, std::ostream* out) { *out << b.high << " high, " << b.wide << " wide, " << b.apart << " m apart"; }
+
+class RigidBoxes : public testing::TestWithParam<Boxes> {};
+INSTANTIATE_TEST_SUITE_P(All, RigidBoxes,
+                         testing::Values(Boxes{1, 2, 0.01}, Boxes{1, 2, 0}, Boxes{1, 3, 0}, Boxes{2, 1, 0}, Boxes{3, 1, 0}, Boxes{4, 1, 0},
+                                         Boxes{2, 2, 0.01}, Boxes{2, 2, 0}));
+
+// Corner on corner and side on side: they stand for ever as they are put, and the floor bears them all.
+TEST_P(RigidBoxes, StandInRowsAndColumns) {
+  const double w = 0.1, h = 0.05, m = 1;
+  const auto [high, wide, apart] = GetParam();
+  for (const double friction : {0.0, 0.5}) {
+    SCOPED_TRACE(friction);
+    std::string bodies = "bodies:\n", contacts = "contacts:\n";
+    for (int i = 0; i < high * wide; ++i) {
+      const std::string n = std::to_string(i);
+      bodies += "  b" + n + ": {rigid: {mass: 1, inertia: " + number(m * (w * w + h * h) / 12) +
+                "}, profiles: {o: {path: [[-0.05, -0.025], [0.05, -0.025], [0.05, 0.025], [-0.05, 0.025]], closed: true}}, pose: {at: [" +
+                number((w + apart) * (i / high)) + ", " + number(h / 2 + h * (i % high)) + "]}}\n";
+      contacts += "  w" + n + ": {between: [b" + n + ".o, ground.floor]" + laws(0, friction);
+      for (int j = 0; j < i; ++j)
+        contacts += "  c" + n + "_" + std::to_string(j) + ": {between: [b" + n + ".o, b" + std::to_string(j) + ".o]" + laws(0, friction);
+    }
+    const Whole run_of = run(floor_under() + bodies + contacts + "run: {until: 1}\noutput: {every: 0.1, frames: 0}\n");
+    expect_sound(run_of, 1e-9);
+    double borne = 0;
+    for (int i = 0; i < high * wide; ++i) {
+      const std::string n = std::to_string(i);
+      EXPECT_NEAR(run_of.last("b" + n + ".x [m]"), (w + apart) * (i / high), 1e-9) << i;
+      EXPECT_NEAR(run_of.last("b" + n + ".y [m]"), h / 2 + h * (i % high), 1e-9) << i;
+      borne += run_of.last("w" + n + ".normal [N]");
+    }
+    EXPECT_NEAR(borne, high * wide * m * g, 1e-8);
   }
 }
 

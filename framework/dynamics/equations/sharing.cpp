@@ -20,7 +20,7 @@ VectorXd share_out(const MatrixXd& W, const VectorXd& rhs, const VectorXd& capac
   const VectorXd weight = most > 0 ? VectorXd(capacity.cwiseMax(least * most).cwiseSqrt()) : VectorXd(VectorXd::Ones(m));
   // The rows that count are those of W between unit slips; among their solutions the least.
   const VectorXd unit = W.diagonal().cwiseAbs().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
-  const Eigen::JacobiSVD<MatrixXd> svd(unit.asDiagonal() * W * unit.asDiagonal(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::BDCSVD<MatrixXd> svd(unit.asDiagonal() * W * unit.asDiagonal(), Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Index rank = (svd.singularValues().array() > one * svd.singularValues()[0]).count();
   const MatrixXd rows = svd.singularValues().head(rank).asDiagonal() * svd.matrixV().leftCols(rank).transpose() *
                         unit.cwiseInverse().cwiseProduct(weight).asDiagonal();

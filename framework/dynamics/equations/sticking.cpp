@@ -284,16 +284,26 @@ VectorXd friction_change(const System& system, const State& state, const Equatio
 
 namespace {
 
-// What balanced forces of rigid contacts leave in the last digits is none: a body at rest would else be followed as if it moved.
-void add_accelerations(const VectorXd& change, const VectorXd& before, Equations& eq) {
-  constexpr double rounding = 1e-14;
-  const Sticking& s = eq.sticking;
-  if (std::ranges::find(s.of, true, &Sticking::Column::normal) == s.of.end()) {
-    eq.a += s.a * change;
-    return;
+// Of each force the greatest of all that press on each other with it: of that, solving for them at once loses the last digits.
+VectorXd greatest_together(const MatrixXd& W, VectorXd force) {
+  constexpr double coupled = 1e-12;
+  const VectorXd own = W.diagonal().cwiseAbs().cwiseSqrt();
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (Index j = 0; j < force.size(); ++j)
+      for (Index i = 0; i < force.size(); ++i)
+        if (force[i] < force[j] && std::abs(W(i, j)) > coupled * own[i] * own[j]) force[i] = force[j], grows = true;
   }
-  const VectorXd terms = s.a.cwiseAbs() * (before.cwiseAbs() + change.cwiseAbs());
+  return force;
+}
+
+// What balanced forces of rigid contacts leave in the last digits is none: a body at rest would else be followed as if it moved.
+void add_accelerations(const VectorXd& change, const VectorXd& before, const MatrixXd& W, Equations& eq) {
+  const Sticking& s = eq.sticking;
   eq.a += s.a * change;
+  if (std::ranges::find(s.of, true, &Sticking::Column::normal) == s.of.end()) return;
+  const double rounding = 2e-15 * (5 + static_cast<double>(count(s)));  // of sums of so many terms
+  const VectorXd terms = s.a.cwiseAbs() * greatest_together(W, before.cwiseAbs() + change.cwiseAbs());
   eq.a = (eq.a.array().abs() > rounding * terms.array()).select(eq.a, 0);
 }
 
@@ -309,7 +319,7 @@ bool hold_sticking(const System& system, const State& state, Equations& eq) {
   const VectorXd change =
       friction_change(system, state, eq, {W, s.lambda}, Shares::all, -sticking_accelerations(system, eq), eq.lambda, before);
   if (!change.allFinite()) return false;
-  add_accelerations(change, before, eq);
+  add_accelerations(change, before, W, eq);
   eq.lambda += s.lambda * change;
   eq.f += s.J * change;
   for (Index i = 0; i < count(s); ++i) {

@@ -198,8 +198,8 @@ int parts_to_look_at(const System& system, int contact, const Step& step) {
   double speed = 0, near = -std::numeric_limits<double>::infinity();
   for (const State* state : {&step.from.state, &step.to.state}) {
     const Gap gap = facing(system, pair, *state).gap;
-    speed = std::max(speed, std::hypot(gap.rate, gap.sideways));
-    near = std::max(near, gap.depth);
+    speed = std::max({speed, std::hypot(gap.rate, gap.sideways), std::abs(margin_of(system, contact, *state).rate)});
+    near = std::max(near, onset_of(system, contact, *state).value);
   }
   if (near < -faster * speed * step.h) return 0;
   double size = std::min(system.length, pair.deepest);
