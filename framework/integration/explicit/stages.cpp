@@ -170,8 +170,10 @@ void Stages::refine_cubics(const System& system, const Step& step, State& out) c
 }
 
 double Stages::stiffness(const System& system, const Step& step) const {
-  const std::size_t inner = k_.size() - (tableau_.closes ? 2 : 1);
-  if (tableau_.c[inner] != 1) return 0;
+  const std::size_t last = k_.size() - (tableau_.closes ? 2 : 1);
+  std::size_t inner = last;  // the last that stands at the step's end
+  while (inner > 0 && tableau_.c[inner] != 1) --inner;
+  if (inner == 0) return 0;
   const auto apart = [&](const Eigen::VectorXd& u, const Eigen::VectorXd& v) {
     double sum = 0;
     for (Index i = 0; i < 2 * system.n(); ++i) sum += std::pow((u[i] - v[i]) / system.scale[i % system.n()], 2);
@@ -179,8 +181,14 @@ double Stages::stiffness(const System& system, const Step& step) const {
       sum += std::pow((u[system.x_begin() + i] - v[system.x_begin() + i]) / (system.x_scale[i] > 0 ? system.x_scale[i] : system.length), 2);
     return std::sqrt(sum);
   };
-  const double moved = apart(step.to.state.y, stage_.y);
-  return moved > 0 ? step.h * apart(step.to.dy, k_[inner]) / moved : 0;
+  const auto ratio = [&](const Eigen::VectorXd& stage) {
+    const double moved = apart(step.to.state.y, stage);
+    return moved > 0 ? step.h * apart(step.to.dy, k_[inner]) / moved : 0;
+  };
+  if (inner == last) return ratio(stage_.y);
+  Eigen::VectorXd earlier = step.from.state.y;
+  add_combination(step.h, tableau_.a[inner], k_, earlier);
+  return ratio(earlier);
 }
 
 }  // namespace pintle
