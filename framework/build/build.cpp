@@ -69,7 +69,6 @@ class Builder {
     settle_start(scene_, model_);
     model_.system.length = size();
     signals_.finish();
-    add_events(scene_, model_, signals_);
     for (ContactPair& pair : model_.system.contacts)
       if (is_rigid(pair)) pair.slack = touching_part * model_.system.length;
     for (const SceneJoint& j : scene_.joints)
@@ -81,6 +80,7 @@ class Builder {
       model_.warnings.push_back(std::move(warning));
     scheme();
     for (const SceneOutput& o : scene_.outputs) add(o);
+    add_events(scene_, model_, signals_);
     return std::move(model_);
   }
 

@@ -18,7 +18,11 @@ constexpr double guard_rounding = 1e-15, guard_near = 1e-12;  // of the largest 
 }  // namespace
 
 SceneEvents::SceneEvents(const System& system, std::vector<SceneEventRule> rules)
-    : system_(system), rules_(std::move(rules)), waits_(rules_.size(), Waits::for_true), shift_(rules_.size(), 0) {
+    : system_(system),
+      rules_(std::move(rules)),
+      waits_(rules_.size(), Waits::for_true),
+      unsound_(rules_.size(), -1),
+      shift_(rules_.size(), 0) {
   for (const SceneEventRule& rule : rules_) {
     first_.push_back(size_.size());
     size_.resize(size_.size() + rule.when.size(), 0);
@@ -39,12 +43,16 @@ Guard SceneEvents::all_of(int event, const State& state) const {
 }
 
 void SceneEvents::see(const State& state) {
-  for (std::size_t event = 0; event < rules_.size(); ++event)
+  for (std::size_t event = 0; event < rules_.size(); ++event) {
+    unsound_[event] = -1;
+    if (waits_[event] == Waits::no_more) continue;
     for (std::size_t k = 0; k < rules_[event].when.size(); ++k) {
       const double now = std::abs(rules_[event].when[k](system_, state).value);
       double& size = size_[first_[event] + k];
       if (std::isfinite(now)) size = std::max(size, now);
+      if (std::isnan(now)) unsound_[event] = static_cast<int>(k);
     }
+  }
 }
 
 WatchedGuard SceneEvents::watch(int event) const {
@@ -54,6 +62,7 @@ WatchedGuard SceneEvents::watch(int event) const {
 }
 
 Guard SceneEvents::guard(int event, const State& state) const {
+  if (unsound_[at(event)] >= 0) return {waits_[at(event)] == Waits::for_true ? 1.0 : -1.0};  // which leads to `act`, where it is named
   Guard now = all_of(event, state);
   now.value += shift_[at(event)];
   return now;
@@ -124,6 +133,13 @@ bool SceneEvents::switches_all(const std::vector<EventAction>& actions, State& s
 
 EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
   const SceneEventRule& rule = rules_[at(event)];
+  if (const int k = unsound_[at(event)]; k >= 0) {
+    EventOutcome none;
+    const std::string seen = at(k) < rule.seen.size() ? rule.seen[at(k)](system_, step.to.state) : "";
+    none.failure = "the condition of the event " + quoted(rule.name) + " is not a finite number at t = " + number_text(step.to.state.t, 9) +
+                   " s" + seen;
+    return none;
+  }
   const bool becomes_true = waits_[at(event)] == Waits::for_true;
   const std::vector<EventAction>& actions = becomes_true ? rule.actions : rule.otherwise;
   waits_[at(event)] = !becomes_true ? Waits::for_true : rule.once ? Waits::no_more : Waits::for_false;

@@ -27,6 +27,7 @@ using EventAction = std::variant<SwitchOver, SetState, StopRun, Record>;
 struct SceneEventRule {
   std::string name;
   std::vector<std::function<Guard(const System&, const State&)>> when;
+  std::vector<std::function<std::string(const System&, const State&)>> seen = {};  ///< what each of them sees, in words
   std::vector<EventAction> actions;
   std::vector<EventAction> otherwise = {};  ///< when they no longer are
   bool once = false;
@@ -65,6 +66,7 @@ class SceneEvents final : public EventGroup {
   std::vector<Waits> waits_;
   std::vector<std::size_t> first_;  ///< place in `size_` of each event's first comparison
   std::vector<double> size_;        ///< of each comparison so far, the largest, by which it is measured
+  std::vector<int> unsound_;        ///< of each event, the comparison that was no number at the end of the last step; −1
   std::vector<double> shift_;       ///< of each guard since it was last passed: so it is not passed again where it stands
   std::unique_ptr<Equations> eq_;   ///< from the first switching on
 };
