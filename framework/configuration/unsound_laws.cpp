@@ -6,6 +6,7 @@
 
 #include "framework/common/index.h"
 #include "framework/common/text.h"
+#include "framework/dynamics/equations/equations.h"
 #include "framework/dynamics/model/signal_values.h"
 #include "framework/mechanism/trajectory.h"
 #include "framework/scene/units/signal_law.h"
@@ -111,10 +112,16 @@ std::string explain_signals(const Scene& scene, const Model& model, const State&
   constexpr double ahead = 1e-9;  // of the run: where it would be next
   const std::string here = LawsAt(scene, model, start, now).found;
   if (!here.empty()) return here;
+  const System& system = model.system;
   State next = now;
   const double dt = ahead * scene.run.until;
   next.t += dt;
-  next.y.head(model.system.n()) += dt * now.y.segment(model.system.n(), model.system.n());
+  Equations eq(system);
+  Eigen::VectorXd dy(system.n_y());
+  if (evaluate(system, now, eq, dy) && dy.head(system.z_begin()).allFinite())
+    next.y.head(system.z_begin()) += dt * dy.head(system.z_begin());
+  else
+    next.y.head(system.n()) += dt * now.y.segment(system.n(), system.n());
   return LawsAt(scene, model, start, next).found;
 }
 

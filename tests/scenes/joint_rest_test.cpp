@@ -6,6 +6,7 @@
 
 #include "framework/analysis/linearize/linearize.h"
 #include "framework/build/build.h"
+#include "framework/common/dense.h"
 #include "framework/configuration/equilibrium.h"
 #include "framework/dynamics/model/signal_values.h"
 #include "tests/refusal.h"

@@ -90,11 +90,31 @@ bool SceneEvents::met(int, const Guard& guard) const { return std::abs(guard.val
 
 void SceneEvents::start(Step& step) {
   see(step.to.state);
+  unsound_at_ = step.to.state;
   for (int event = 0; event < size(); ++event)
     if (all_of(event, step.to.state).value > 0 && !rules_[at(event)].from_start) waits_[at(event)] = Waits::for_false;
 }
 
-void SceneEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard>, const DenseOutput&) { see(step.to.state); }
+bool SceneEvents::is_unsound(int event, const State& state) const {
+  return std::isnan(rules_[at(event)].when[at(unsound_[at(event)])](system_, state).value);
+}
+
+void SceneEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard>, const DenseOutput& motion) {
+  see(step.to.state);
+  const auto first = std::ranges::find_if(unsound_, [](int k) { return k >= 0; });
+  if (first == unsound_.end()) return;
+  constexpr int halvings = 60;
+  const int event = static_cast<int>(first - unsound_.begin());
+  unsound_at_ = step.to.state;
+  double sound = step.from.state.t;
+  for (int i = 0; i < halvings && sound < unsound_at_.t; ++i) {
+    const State between = motion.at(sound + (unsound_at_.t - sound) / 2);
+    if (is_unsound(event, between))
+      unsound_at_ = between;
+    else
+      sound = between.t;
+  }
+}
 
 namespace {
 
@@ -135,9 +155,9 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
   const SceneEventRule& rule = rules_[at(event)];
   if (const int k = unsound_[at(event)]; k >= 0) {
     EventOutcome none;
-    const std::string seen = at(k) < rule.seen.size() ? rule.seen[at(k)](system_, step.to.state) : "";
-    none.failure = "the condition of the event " + quoted(rule.name) + " is not a finite number at t = " + number_text(step.to.state.t, 9) +
-                   " s" + seen;
+    const std::string seen = at(k) < rule.seen.size() ? rule.seen[at(k)](system_, unsound_at_) : "";
+    none.failure =
+        "the condition of the event " + quoted(rule.name) + " is not a finite number at t = " + number_text(unsound_at_.t, 9) + " s" + seen;
     return none;
   }
   const bool becomes_true = waits_[at(event)] == Waits::for_true;
