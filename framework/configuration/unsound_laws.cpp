@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "framework/common/index.h"
 #include "framework/common/text.h"
@@ -18,6 +19,13 @@ namespace {
 std::string place_of_law(const Scene& scene, const Place& place) {
   const std::string file = place.file.empty() ? scene.file : place.file;
   return " (" + file + (place.line > 0 ? ":" + std::to_string(place.line) : "") + ")";
+}
+
+// A table by its file: its whole text, which starts {"table": "map.csv", is too long.
+std::string shown(const Law& law) {
+  constexpr std::string_view table = "{\"table\": \"";
+  if (!law.text.starts_with(table)) return "law " + law.text;
+  return "law by the table " + law.text.substr(table.size(), law.text.find('"', table.size()) - table.size());
 }
 
 std::string seen(const Law& law, const std::vector<double>& in) {
@@ -58,7 +66,7 @@ class LawsAt {
     for (const int k : of.in) in.push_back(signal_at(system_, system_.signals[at(k)], now_.y));
     const std::string steep_over = std::isfinite(value) && !grown ? infinite_slope(from, of, in) : "";
     if (std::isfinite(value) && !grown && steep_over.empty()) return;
-    found = "the law " + from.text + " of " + quoted(name) + place_of_law(scene_, place) + " " +
+    found = "the " + shown(from) + " of " + quoted(name) + place_of_law(scene_, place) + " " +
             (grown                ? "has come to " + number_text(value)
              : steep_over.empty() ? "is not a finite number"
                                   : "has no finite slope over " + steep_over) +

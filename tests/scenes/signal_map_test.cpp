@@ -97,6 +97,16 @@ TEST(SignalMap, HoldsItsBorderWhereItIsToldTo) {
   EXPECT_EQ(table_of_four(7, 9).value, 5);
 }
 
+// What run.json holds of a scene reads as the scene does.
+TEST(SignalMap, IsReadBackFromTheScenesOwnWords) {
+  const Folder folder(grid);
+  for (const std::string& of : {table, std::string("{table: map.csv, over: [rotor.speed, throttle*t/(1 s)], outside: hold}")}) {
+    const Scene s = read_scene_text(text(of), (folder.path / "scene.yaml").string(), {}, folder.path);
+    const Scene again = read_scene_text(s.filled_in, (folder.path / "scene.yaml").string(), {}, folder.path);
+    EXPECT_EQ(again.filled_in, s.filled_in);
+  }
+}
+
 TEST(SignalMap, EndsTheRunByNameWhereItIsLeft) {
   const Folder folder(grid);
   const auto ran = [&](const std::string& of_table) {
@@ -105,7 +115,7 @@ TEST(SignalMap, EndsTheRunByNameWhereItIsLeft) {
   };
   const auto left = ran(table);
   EXPECT_EQ(left.run.status, Status::failed);
-  pintle_test::expect_says(left.run.reason, {"\"engine\"", "rotor.speed = ", "314.2", "outside: hold"});
+  pintle_test::expect_says(left.run.reason, {"\"engine\"", "by the table map.csv", "rotor.speed = ", "314.159265", "outside: hold"});
   const auto held = ran("{table: map.csv, over: [rotor.speed, throttle], over unit: [rpm, 1], outside: hold}");
   ASSERT_EQ(held.run.status, Status::finished) << held.run.reason;
   EXPECT_NEAR(held.last("rotor.speed [rad/s]"), 81 / 0.15, 1e-3);  // -15 + (90 − 45) … at 0.9: 45 + 0.8·45

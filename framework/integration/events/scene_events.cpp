@@ -100,9 +100,11 @@ bool SceneEvents::is_unsound(int event, const State& state) const {
 }
 
 void SceneEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard>, const DenseOutput& motion) {
+  const auto is_one = [](int k) { return k >= 0; };
+  const bool known = std::ranges::any_of(unsound_, is_one);
   see(step.to.state);
-  const auto first = std::ranges::find_if(unsound_, [](int k) { return k >= 0; });
-  if (first == unsound_.end()) return;
+  const auto first = std::ranges::find_if(unsound_, is_one);
+  if (known || first == unsound_.end()) return;
   constexpr int halvings = 60;
   const int event = static_cast<int>(first - unsound_.begin());
   unsound_at_ = step.to.state;

@@ -45,8 +45,8 @@ double no_number(std::size_t inputs, double* slope) {
 }
 
 std::string told_beyond(const Ends& ends, double x) {
-  return "it is read at " + number_text(x) + " SI, outside its table, which goes from " + number_text(ends[0]) + " to " +
-         number_text(ends[1]);
+  return "it is read at " + number_text(x, 9) + ", and goes from " + number_text(ends[0], 9) + " to " + number_text(ends[1], 9) +
+         " (in SI)";
 }
 
 }  // namespace

@@ -86,9 +86,9 @@ std::string signal_table_text(const Node& node, const std::vector<TableAxis>& ax
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(17);
-  out << "{\"table\": " << json_quoted(node.at("table").file("")) << ", \"interpolation\": \"" << interpolation
-      << "\", \"over\": " << listed([](const TableAxis& axis) { return json_quoted(axis.text); })
-      << ", \"periodic\": " << (periodic ? "true" : "false");
+  out << "{\"table\": " << json_quoted(node.at("table").file(""))
+      << ", \"over\": " << listed([](const TableAxis& axis) { return json_quoted(axis.text); });
+  if (axes.size() == 1) out << ", \"interpolation\": \"" << interpolation << "\", \"periodic\": " << (periodic ? "true" : "false");
   if (std::ranges::any_of(axes, [](const TableAxis& axis) { return axis.unit != 1; })) out << ", \"over unit\": " << listed(json_unit);
   if (!periodic) out << ", \"outside\": \"" << (outside == Outside::holds ? "hold" : "refuse") << "\"";
   if (value_unit != 1) out << ", \"value unit\": \"" << value_unit << " " << value_si << "\"";
