@@ -113,6 +113,8 @@ TEST(JointRest, IsWhereALinearisationAndARunBegin) {
   ASSERT_EQ(roots.size(), 3);
   for (const std::complex<double>& s : roots)
     EXPECT_LT(std::abs(s * s * s + 4.0 * s * s + (40 - weight * std::sin(target)) * s + 15.0), 1e-7);
+  ASSERT_EQ(lin.space.inputs, std::vector<std::string>{"servo.torque [N m]"});  // on 1 kg m²
+  EXPECT_LT((lin.space.B - Eigen::Vector3d(0, 1, 0)).norm(), 1e-9);
   const pintle_scenes::Whole w = pintle_scenes::run(text + "start: equilibrium\n");
   ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
   for (const double angle : w.column("arm.angle [rad]")) EXPECT_NEAR(angle, target, 1e-9);
