@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 std::string plural(int n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
 
 std::string stability_text(const Stability& s) {
-  if (!s.judged) return "not judged: too many coordinates";
+  if (!s.judged) return "not judged: " + s.why_not;
   if (s.freedoms == 0) return "held in every direction by joints and drivers";
   const auto bodies = [&](int begin, int count) {
     std::vector<std::string> seen;

@@ -69,7 +69,6 @@ class Builder {
     settle_start(scene_, model_);
     model_.system.length = size();
     signals_.finish();
-    add_events(scene_, model_, signals_);
     allow_rounding(model_.system);
     for (const SceneJoint& j : scene_.joints)
       if (const std::string warning = j.clearance ? rounding_warning(scene_, j, model_.system.length) : ""; !warning.empty())
@@ -80,6 +79,7 @@ class Builder {
       model_.warnings.push_back(std::move(warning));
     scheme();
     for (const SceneOutput& o : scene_.outputs) add(o);
+    add_events(scene_, model_, signals_);
     return std::move(model_);
   }
 

@@ -8,9 +8,9 @@
 
 #include "framework/common/index.h"
 #include "framework/common/text.h"
-#include "framework/dynamics/equations/internal.h"
-#include "framework/dynamics/equations/laws.h"
-#include "framework/dynamics/newton/kkt.h"
+#include "framework/configuration/own_rest.h"
+#include "framework/configuration/unsound_laws.h"
+#include "framework/dynamics/equations/energy.h"
 #include "framework/integration/events/impact_log.h"
 
 namespace pintle {
@@ -19,110 +19,6 @@ namespace {
 
 using Eigen::VectorXd;
 using Index = Eigen::Index;
-
-/// Drivers held where their laws are at t.
-void hold_drivers(const System& from, double t, System& held) {
-  for (std::size_t k = 0; k < from.joints.size(); ++k)
-    if (const TimeLaw* law = driver_law(from.joints[k]))
-      *driver_law(held.joints[k]) = [x = (*law)(t).value](double) { return Jet{x, 0, 0}; };
-}
-
-bool has_potential(const System& system) {
-  return std::none_of(system.forces.begin(), system.forces.end(),
-                      [](const Force& f) { return turns_with_b(f) || std::holds_alternative<SizedForce>(f); });
-}
-
-/// What is asked of a mechanism at rest in a pose: the forces out of balance, the potential energy.
-class Rest {
- public:
-  Rest(const System& system, double t)
-      : held(system), eq(held), tangent(held), kkt(held, eq, tangent), values(tangent.places().size()), t_(t) {
-    hold_drivers(system, t, held);
-    double span = 0;
-    std::vector<double> reach(system.bodies.size(), 0.0);
-    for (const Marker& m : system.markers)
-      if (m.body != ground) reach[at(m.body)] = std::max(reach[at(m.body)], m.x_BP.norm());
-    for (double r : reach) span += 2 * r;
-    span_ = std::max(span / system.length, 1.0);
-  }
-
-  /// Brings the pose onto the joints and evaluates everything there.
-  /// @returns false if it cannot be, or only by a leap
-  bool settle(State& state, double farthest) {
-    const VectorXd before = state.y.head(held.n());
-    state.t = t_;
-    stop(state);
-    state.impact_rate.resize(held.contacts.size());
-    if (!project(held, t_, state.y, eq) || !(size(state.y.head(held.n()) - before) <= farthest)) return false;
-    stop(state);
-    for (std::size_t c = 0; c < held.contacts.size(); ++c) {
-      const ContactPair& pair = held.contacts[c];
-      state.impact_rate[c] = !pair.profiles || onset_of(held, static_cast<int>(c), state).value > 0 ? pair.slowest_impact : 0;
-    }
-    speed(held, t_, state.y, eq);
-    follow_internal_states(held, eq, state, internal_at_rest, nullptr, state.y.data() + held.x_begin());
-    accelerate(held, state, eq);
-    out_of_balance = eq.f;
-    add_reaction(eq, -eq.lambda, out_of_balance);
-    potential = potential_of(state, magnitude_);
-    return eq.a.allFinite() && std::isfinite(potential);
-  }
-
-  /// Largest coordinate of a displacement, over the mechanism's extent, angles as they are.
-  double size(const VectorXd& d) const {
-    double out = 0;
-    for (Index i = 0; i < d.size(); ++i) {
-      const bool place = i < held.n_rigid() && i % 3 < 2;
-      out = std::max(out, std::abs(d[i]) / (held.scale[i] * (place ? span_ : 1)));
-    }
-    return out;
-  }
-  /// Greatest force or couple left over the greatest at work.
-  double residual() const {
-    const double worst = out_of_balance.cwiseProduct(held.scale).lpNorm<Eigen::Infinity>(), most = at_work();
-    return worst == 0 ? 0 : worst / std::max(most, 1e-300);
-  }
-  /// The same at the metric of M⁻¹: what the flow lowers.
-  double unrest() const { return std::sqrt(std::max(out_of_balance.dot(eq.a), 0.0)); }
-  double rounding() const { return 1e-14 * magnitude_; }  ///< of the potential energy
-
-  System held;  ///< the mechanism with its drivers held
-  Equations eq;
-  Tangent tangent;
-  Kkt kkt;
-  std::vector<double> values;
-  VectorXd out_of_balance;
-  double potential = 0;
-
- private:
-  void stop(State& state) const { state.y.segment(held.n(), held.switch_begin() - held.n()).setZero(); }
-  double potential_of(const State& state, double& magnitude) const {
-    const Energies e = energies(held, state, eq);
-    double sum = e.gravity + e.springs + e.contacts + e.strain;
-    magnitude = std::abs(e.gravity) + e.springs + e.contacts + e.strain;
-    for (const Force& f : held.forces) {
-      double work = 0;
-      if (const auto* force = std::get_if<PointForce>(&f); force && !force->follows)
-        work = eq.motion[at(force->b)].r.dot(Eigen::Vector2d(force->x(t_).value, force->y(t_).value));
-      else if (const auto* torque = std::get_if<Torque>(&f))
-        work = torque->law(t_).value * (eq.motion[at(torque->b)].angle - eq.motion[at(torque->a)].angle);
-      sum -= work;
-      magnitude += std::abs(work);
-    }
-    return sum;
-  }
-  double at_work() const {
-    double most = 0;
-    for (const Body& b : held.bodies) most = std::max(most, b.m * held.gravity.norm() * held.length);
-    const auto see = [&](const Wrench& w) { most = std::max({most, w.head<2>().norm() * held.length, std::abs(w[2])}); };
-    for (const ForceEffect& f : eq.force) see(f.on_b);
-    for (const ContactEffect& c : eq.contact) see(c.on_a);
-    if (eq.lambda.size() > 0) most = std::max(most, eq.lambda.cwiseQuotient(held.row_scale).lpNorm<Eigen::Infinity>());
-    return most;
-  }
-
-  double t_, span_ = 1, magnitude_ = 0;
-};
 
 /// Step by step from the start to the equilibrium, or to where it ends.
 class Search {
@@ -315,6 +211,64 @@ void search(Rest& rest, Search& way, Equilibrium& out) {
   }
 }
 
+std::string why_no_pose(const Scene& scene, const Model& model, const State& start) {
+  const std::string unsound = explain_signals(scene, model, start, start);
+  return !unsound.empty()
+             ? unsound
+             : "the pose to start from is singular, or its forces are beyond what a double holds (check stiffnesses, lengths and loads)";
+}
+
+void finish(const Scene& scene, const Model& model, Rest& rest, const RestingStates& states, const State& last, Equilibrium& out) {
+  const System& system = model.system;
+  out.lambda = rest.eq.lambda;
+  out.state = last;
+  rest.eq.a.setZero();
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    const double depth = is_held(system.contacts[c]) ? 0 : rest.eq.contact[c].gap.depth;
+    out.state.impact_rate[c] = depth > 0 ? latched_at(system, system.contacts[c], depth) : 0;
+  }
+  if (const std::string moving = moving_state(system, states, last, out.warnings); !moving.empty() && out.found)
+    out.found = false, out.reason = moving;
+  warn(model, rest.eq, out);
+  record(model, out.state, rest.eq, out.table);
+  warn_of_outputs(scene, model, out.state, out.table, out.warnings);
+  if (!out.found)
+    if (const std::string unsound = explain_signals(scene, model, last, last); !unsound.empty()) out.reason += "; " + unsound;
+}
+
+/// Where the own states do not follow from each pose. @returns false where they do
+bool rests_together(const Scene& scene, const Model& model, const RestingStates& states, double time, VectorXd own_start,
+                    Equilibrium& out) {
+  const System& system = model.system;
+  KeptStates all{{}, std::make_shared<VectorXd>(std::move(own_start))};
+  for (std::size_t i = 0; i < system.states.size(); ++i) all.which.push_back(static_cast<int>(i));
+  Rest rest(system, time, all);
+  State state = out.state;
+  if (!rest.settle(state, 1)) {
+    out.reason = why_no_pose(scene, model, state);
+    return true;
+  }
+  if (follow_the_pose(system, states, rest, time)) return false;
+  const JointRest joint = find_joint_rest(system, rest, *all.at, states, state);
+  out.found = joint.found;
+  out.iterations = joint.iterations;
+  out.residual = rest.residual();
+  out.method = "Newton's method for the pose and the scene's own states together";
+  out.stability.why_not = "own states decide with the forces whether it stays there: pintle linearize --equilibrium tells";
+  if (!joint.undetermined.empty())
+    out.warnings.push_back(
+        "of the states " + names(joint.undetermined) +
+        " only some together follow from the rest: other values would do as well; those nearest to their starts were taken");
+  if (!out.found)
+    out.reason = !joint.reason.empty()
+                     ? joint.reason
+                     : "no equilibrium was found: after " + std::to_string(out.iterations) + " iterations " + number_text(out.residual) +
+                           " of the greatest force is still out of balance; start nearer to it " +
+                           "(`start`, `pose`, the states' `start`), or check the gains";
+  finish(scene, model, rest, states, state, out);
+  return true;
+}
+
 }  // namespace
 
 Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assembly& assembly, double time) {
@@ -334,17 +288,12 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
                  " asks for what the links cannot reach there, or passes a singular pose; name an earlier time with --at";
     return out;
   }
-  Rest rest(system, time);
+  const RestingStates states = resting_states(system);
+  VectorXd own = out.state.y.segment(system.x_begin() + system.own_x, static_cast<Index>(system.states.size()));
+  if (!states.sought.empty() && rests_together(scene, model, states, time, own, out)) return out;
+  Rest rest(system, time, {states.kept, std::make_shared<VectorXd>(own)});
   if (!rest.settle(out.state, 1)) {
-    out.reason = "the pose to start from is singular, or its forces are beyond what a double holds (check stiffnesses, lengths and loads)";
-    return out;
-  }
-  if (const std::vector<int> restless = restless_states(system, rest.eq, time); !restless.empty()) {
-    std::vector<std::string> states;
-    for (const int i : restless) states.push_back(system.states[at(i)].name);
-    out.reason = "the state " + names(states) +
-                 " has no rest of its own: its rate does not depend on it, as that of an integral, so that any value of it would do; leave "
-                 "it out of the forces here, or let its rate fall with it";
+    out.reason = why_no_pose(scene, model, out.state);
     return out;
   }
   Search way(rest, out.state);
@@ -371,15 +320,7 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
     out.reason = "no equilibrium was found: after " + std::to_string(out.iterations) + " iterations " + number_text(out.residual) +
                  " of the greatest force is still out of balance, most at " + names(restless(rest.held, rest.eq.a)) +
                  "; start nearer to it (`start`, `pose`), or check the stiffnesses";
-  out.lambda = rest.eq.lambda;
-  out.state = last;
-  rest.eq.a.setZero();
-  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
-    const double depth = is_held(system.contacts[c]) ? 0 : rest.eq.contact[c].gap.depth;
-    out.state.impact_rate[c] = depth > 0 ? latched_at(system, system.contacts[c], depth) : 0;
-  }
-  warn(model, rest.eq, out);
-  record(model, out.state, rest.eq, out.table);
+  finish(scene, model, rest, states, last, out);
   return out;
 }
 

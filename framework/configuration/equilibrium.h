@@ -12,7 +12,8 @@ namespace pintle {
 /// How a mechanism at rest answers to a small push: the eigenvalues of its stiffness K = ∂r/∂q reduced to
 /// the ways that the joints leave open, ZᵀKZ with the columns of Z a basis of the null space of Cq.
 struct Stability {
-  bool judged = false;              ///< false: more coordinates than are judged
+  bool judged = false;  ///< false: more coordinates than are judged, or why_not
+  std::string why_not = "too many coordinates";
   int freedoms = 0;                 ///< columns of Z
   int unstable = 0;                 ///< eigenvalues below zero: directions in which it falls away
   int neutral = 0;                  ///< eigenvalues that are zero to rounding: directions in which it stays where it is put

@@ -4,8 +4,7 @@
 
 #include "framework/common/dense.h"
 #include "framework/configuration/equilibrium.h"
-#include "framework/dynamics/equations/tangent.h"
-#include "framework/dynamics/equations/jacobian.h"
+#include "framework/configuration/rest.h"
 
 namespace pintle {
 
@@ -16,19 +15,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int most_dense = 1200;  // dense beyond this takes minutes
-
-// Columns: scaled displacements that violate no row.
-MatrixXd open_directions(const System& system, const Equations& eq) {
-  if (system.n_rows() == 0) return MatrixXd::Identity(system.n(), system.n());
-  const MatrixXd rows = system.row_scale.asDiagonal() * dense_jacobian(system, eq) * system.scale.asDiagonal();
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(rows.transpose());
-  qr.setThreshold(1e-9);
-  const Index open = system.n() - qr.rank();
-  MatrixXd Z = MatrixXd::Zero(system.n(), open);
-  if (open == 0) return Z;
-  Z.bottomRows(open).setIdentity();
-  return qr.householderQ() * Z;
-}
 
 std::string most_moved(const System& system, const VectorXd& scaled) {
   double most = -1;

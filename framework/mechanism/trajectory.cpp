@@ -257,12 +257,7 @@ void append_outputs(const Model& model, const State& state, std::size_t row, std
   const std::size_t first = data.size();
   std::array<double, most_law_inputs> in;
   for (const WrittenOutput& o : model.outputs) {
-    for (std::size_t k = 0; k < o.in.size(); ++k) {
-      const WrittenOutput::Input& input = o.in[k];
-      in[k] = input.from == WrittenOutput::Input::signal   ? signal_at(model.system, model.system.signals[at(input.index)], state.y)
-              : input.from == WrittenOutput::Input::column ? data[row + at(input.index)]
-                                                           : data[first + at(input.index)];
-    }
+    for (std::size_t k = 0; k < o.in.size(); ++k) in[k] = input_value(model, o.in[k], state, data.data() + row, data.data() + first);
     data.push_back(o.of(state.t, in.data(), nullptr));
   }
 }
@@ -370,6 +365,16 @@ void record(const Model& model, const State& state, const Equations& eq, Table& 
   const std::size_t row = t.data.size();
   trajectory_columns(model, ValueRow<Now>{{state, eq}, t.data});
   append_outputs(model, state, row, t.data);
+}
+
+double input_value(const Model& model, const WrittenOutput::Input& input, const State& state, const double* columns,
+                   const double* outputs) {
+  switch (input.from) {
+    case WrittenOutput::Input::signal: return signal_at(model.system, model.system.signals[at(input.index)], state.y);
+    case WrittenOutput::Input::column: return columns[input.index];
+    case WrittenOutput::Input::output: return outputs[input.index];
+  }
+  return 0;
 }
 
 Table ledger_table(const System& system) {

@@ -14,6 +14,9 @@ namespace pintle {
 Table trajectory_table(const Model&);
 void record(const Model&, const State&, const Equations&, Table& trajectory);
 
+/// What an output's input is, of a state whose row of columns and outputs is known.
+double input_value(const Model&, const WrittenOutput::Input&, const State&, const double* columns, const double* outputs);
+
 /// Energies, and each integral of the ledger.
 Table ledger_table(const System&);
 void record_ledger(const System&, const State&, const Energies&, double unexplained, Table& ledger);

@@ -7,7 +7,9 @@
 
 #include "framework/analysis/kinematics/kinematics.h"
 #include "framework/analysis/simulate/end_short.h"
+#include "framework/common/text.h"
 #include "framework/common/worse.h"
+#include "framework/configuration/unsound_laws.h"
 #include "framework/dynamics/newton/kkt.h"
 #include "framework/scene/error.h"
 #include "framework/scene/units/table.h"
@@ -35,7 +37,7 @@ class Forces {
     f_.setZero();
     add_mass_times(system_, eq, eq.a, f_);
     eq.lambda = motion_.rows().reactions(system_, eq.f - f_);
-    return true;
+    return eq.lambda.allFinite();
   }
   DrivenMotion& motion() { return motion_; }
 
@@ -119,6 +121,9 @@ void solve_by_algebra(const Scene& scene, const Model& model, const Assembly& as
   Forces forces(model.system, assembly.start);
   follow(
       scene, model, forces.motion(), [&](double t) { return forces.advance(t); }, listeners, run);
+  if (run.status == Status::failed && run.reason.empty())
+    run.reason = "t = " + number_text(forces.motion().state().t, 9) + " s: the forces there are no finite numbers; " +
+                 explain_signals(scene, model, assembly.start, forces.motion().state());
   const auto begin = clock::now();
   if (run.t_end > 0 && !ended_short(run)) out.drivers = find_efforts(model, assembly, run.trajectory.rows() - 1, run.t_end);
   run.seconds += std::chrono::duration<double>(clock::now() - begin).count();

@@ -4,11 +4,13 @@
 #include <chrono>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "framework/analysis/simulate/end_short.h"
 #include "framework/common/dense.h"
 #include "framework/common/text.h"
 #include "framework/common/worse.h"
+#include "framework/configuration/unsound_laws.h"
 #include "framework/scene/error.h"
 
 namespace pintle {
@@ -215,7 +217,10 @@ void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const s
       going = advance(t);
       if (!going) break;
       reached = t;
-      if (o < outputs.size() && outputs[o] == t) record(told, motion.state(), motion.equations(), run.trajectory), ++o;
+      if (o < outputs.size() && outputs[o] == t) {
+        record(told, motion.state(), motion.equations(), run.trajectory), ++o;
+        warn_of_outputs(scene, told, motion.state(), run.trajectory, run.warnings);
+      }
       if (f < frames.size() && frames[f] == t) {
         const auto before = clock::now();
         listeners.frame(motion.state(), motion.equations()), ++f;
@@ -236,10 +241,37 @@ void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const s
   run.seconds = std::chrono::duration<double>(clock::now() - begin - drawing).count();
 }
 
+namespace {
+
+// Outputs whose columns are all among those that are told, read where these stand.
+void keep_outputs_of(const Model& model, Model& told) {
+  const std::vector<WrittenOutput> all = std::exchange(told.outputs, {});
+  const std::vector<std::string> were = trajectory_table(model).header, are = trajectory_table(told).header;
+  std::vector<int> now(all.size(), -1);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    WrittenOutput output = all[k];
+    bool told_of = true;
+    for (WrittenOutput::Input& input : output.in) {
+      if (input.from == WrittenOutput::Input::output) input.index = now[static_cast<std::size_t>(input.index)];
+      if (input.from == WrittenOutput::Input::column) {
+        const auto found = std::ranges::find(are, were[static_cast<std::size_t>(input.index)]);
+        input.index = found == are.end() ? -1 : static_cast<int>(found - are.begin());
+      }
+      told_of = told_of && input.index >= 0;
+    }
+    if (!told_of) continue;
+    now[k] = static_cast<int>(told.outputs.size());
+    told.outputs.push_back(std::move(output));
+  }
+}
+
+}  // namespace
+
 Run kinematics(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners) {
   require_driven(scene, model, assembly);
   Model told = model;  // what is written: no forces
   told.system.joints.clear(), told.system.forces.clear(), told.system.contacts.clear(), told.stresses.clear();
+  keep_outputs_of(model, told);
   Run run;
   run.warnings = model.warnings;
   if (!model.system.contacts.empty())

@@ -11,6 +11,7 @@
 #include "framework/analysis/linearize/steady_axes.h"
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
+#include "framework/configuration/unsound_laws.h"
 #include "framework/configuration/assemble.h"
 #include "framework/integration/integrator.h"
 #include "framework/scene/error.h"
@@ -250,6 +251,8 @@ Linearization linearize(const Scene& scene, const Model& model, const State& giv
     throw SceneError(scene.file, {},
                      "a linearisation is dense and meant for up to " + std::to_string(most_linearized) + " coordinates, this scene has " +
                          std::to_string(system.n()) + "; keep fewer modes, cut beams into fewer pieces, or linearize a part of it");
+  if (const std::string unsound = explain_signals(scene, model, state, state); !unsound.empty())
+    throw AssemblyError(scene.file, {}, unsound);
   const MotionAt here(system, state);
   if (!here.regular)
     throw AssemblyError(scene.file, {},

@@ -1,5 +1,7 @@
 #include "framework/analysis/linearize/state_space.h"
 
+#include <array>
+
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
 #include "framework/mechanism/trajectory.h"
@@ -21,6 +23,16 @@ MatrixXd load_inputs(const System& system, const Equations& eq, std::vector<std:
     if (a >= 0) add_wrench(system, eq, a, -on_b, v);
     names.push_back(name);
   };
+  const auto add_sized = [&](const std::string& name, const SizedForce& f) {  // its law becomes law + u
+    constexpr std::array<std::array<const char*, 2>, 5> words{
+        {{".fx [N]", ".fy [N]"}, {".along [N]", ".across [N]"}, {".torque [N m]", ""}, {".pull [N]", ""}, {".restoring torque [N m]", ""}}};
+    for (const bool other : {false, true}) {
+      if (other && f.other < 0) continue;
+      const UnitWrenches unit = unit_wrenches(f, other, eq.motion[at(f.a)], eq.motion[at(f.b)]);
+      add(name + words[at(f.way)][other ? 1 : 0], -1, f.b, unit.on_b);
+      if (f.way > SizedForce::follows) add_wrench(system, eq, f.a, unit.on_a, columns.back());
+    }
+  };
   for (std::size_t k = 0; k < system.forces.size(); ++k) {
     const std::string& name = system.force_names[k];
     if (const auto* f = std::get_if<PointForce>(&system.forces[k])) {
@@ -29,6 +41,8 @@ MatrixXd load_inputs(const System& system, const Equations& eq, std::vector<std:
       add(name + (f->follows ? ".across [N]" : ".fy [N]"), -1, f->b, {-x.y(), x.x(), 0});
     } else if (const auto* q = std::get_if<Torque>(&system.forces[k])) {
       add(name + ".torque [N m]", q->a, q->b, {0, 0, 1});
+    } else if (const auto* sized = std::get_if<SizedForce>(&system.forces[k])) {
+      add_sized(name, *sized);
     }
   }
   MatrixXd out(system.n(), static_cast<Index>(columns.size()));

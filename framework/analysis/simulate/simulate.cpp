@@ -10,10 +10,10 @@
 #include "framework/analysis/simulate/end_short.h"
 #include "framework/analysis/simulate/deflection_monitor.h"
 #include "framework/analysis/simulate/explain_failure.h"
-#include "framework/analysis/simulate/explain_signals.h"
 #include "framework/analysis/simulate/run_warnings.h"
 #include "framework/analysis/simulate/slow_contact.h"
 #include "framework/common/worse.h"
+#include "framework/configuration/unsound_laws.h"
 #include "framework/integration/integrator.h"
 
 namespace pintle {
@@ -227,6 +227,7 @@ class Simulation {
 
   void add_row(const State& state) {
     record(model_, state, integrator_.sampled(), run_.trajectory);
+    warn_of_outputs(scene_, model_, state, run_.trajectory, run_.warnings);
     record_ledger(system_, state, run_.last, run_.unexplained, run_.ledger);
     figures_.see();
     last_row_ = state.t;

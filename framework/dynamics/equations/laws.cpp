@@ -92,17 +92,6 @@ void filter_own_states(const System& system, const State& state, Equations& eq, 
   own = with.change;
 }
 
-std::vector<int> restless_states(const System& system, Equations& eq, double t) {
-  std::vector<int> out;
-  if (system.states.empty()) return out;
-  law_slopes(system, eq, t, eq.own.slopes);
-  own_slopes(system, eq.own.slopes, eq.own.A);
-  for (Index i = 0; i < eq.own.A.rows(); ++i)
-    if (eq.own.A.row(i).isZero(0)) out.push_back(static_cast<int>(i));
-  if (out.empty() && Eigen::FullPivLU<MatrixXd>(eq.own.A).rank() < eq.own.A.rows()) out.push_back(0);
-  return out;
-}
-
 LawTangent::LawTangent(const System& system)
     : slopes_(MatrixXd::Zero(static_cast<Index>(system.laws.size()), static_cast<Index>(system.signals.size()))),
       row_(VectorXd::Zero(system.laws.empty() ? 0 : system.n())),

@@ -18,9 +18,6 @@ void law_slopes(const System&, const Equations&, double t, Eigen::MatrixXd& slop
 /// Own states as internal.h has those of owners: x = base + weight g solved for; (1 − weight g_x)⁻¹ v. Both in eq's own scratch.
 void follow_own_states(const System&, Equations&, double t, double weight, const double* base, double* x);
 void filter_own_states(const System&, const State&, Equations&, double weight, double* v);
-/// Those that have no rest of their own: nothing that they do changes how fast they or others change.
-std::vector<int> restless_states(const System&, Equations&, double t);
-
 /// What the laws add to the tangent: −Σ d (F_σ ∂σ/∂q)ᵀ and so in s, d being what a unit of the force does; where own states follow the
 /// motion, F_σ + F_x (1/weight − g_x)⁻¹ g_σ stands for F_σ.
 class LawTangent {

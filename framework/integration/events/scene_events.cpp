@@ -18,7 +18,11 @@ constexpr double guard_rounding = 1e-15, guard_near = 1e-12;  // of the largest 
 }  // namespace
 
 SceneEvents::SceneEvents(const System& system, std::vector<SceneEventRule> rules)
-    : system_(system), rules_(std::move(rules)), waits_(rules_.size(), Waits::for_true), shift_(rules_.size(), 0) {
+    : system_(system),
+      rules_(std::move(rules)),
+      waits_(rules_.size(), Waits::for_true),
+      unsound_(rules_.size(), -1),
+      shift_(rules_.size(), 0) {
   for (const SceneEventRule& rule : rules_) {
     first_.push_back(size_.size());
     size_.resize(size_.size() + rule.when.size(), 0);
@@ -46,13 +50,17 @@ void SceneEvents::see(const State& state) {
   const double fastest = n > 0 ? state.y.segment(n, n).cwiseQuotient(system_.scale.head(n)).lpNorm<Eigen::Infinity>() : 0;
   for (Eigen::Index i = 0; i < n; ++i)  // unevenly, so that differences of two speeds do not vanish
     faster_.y[n + i] += fastest * system_.scale[i] * (1 + 0.5 * std::sin(static_cast<double>(i)));
-  for (std::size_t event = 0; event < rules_.size(); ++event)
+  for (std::size_t event = 0; event < rules_.size(); ++event) {
+    unsound_[event] = -1;
+    if (waits_[event] == Waits::no_more) continue;
     for (std::size_t k = 0; k < rules_[event].when.size(); ++k) {
       const double now = rules_[event].when[k](system_, state).value, change = rules_[event].when[k](system_, faster_).value - now;
       double& size = size_[first_[event] + k];
       for (const double x : {now, change})
         if (std::isfinite(x)) size = std::max(size, std::abs(x));
+      if (std::isnan(now)) unsound_[event] = static_cast<int>(k);
     }
+  }
 }
 
 WatchedGuard SceneEvents::watch(int event) const {
@@ -62,6 +70,7 @@ WatchedGuard SceneEvents::watch(int event) const {
 }
 
 Guard SceneEvents::guard(int event, const State& state) const {
+  if (unsound_[at(event)] >= 0) return {waits_[at(event)] == Waits::for_true ? 1.0 : -1.0};  // which leads to `act`, where it is named
   Guard now = all_of(event, state);
   now.value += shift_[at(event)];
   return now;
@@ -89,6 +98,7 @@ bool SceneEvents::met(int, const Guard& guard) const { return std::abs(guard.val
 
 void SceneEvents::start(Step& step) {
   see(step.to.state);
+  unsound_at_ = step.to.state;
   for (int event = 0; event < size(); ++event)
     if (all_of(event, step.to.state).value > 0 && !rules_[at(event)].from_start) waits_[at(event)] = Waits::for_false;
 }
@@ -102,7 +112,28 @@ void SceneEvents::begin_step(const State& from) {
   }
 }
 
-void SceneEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard>, const DenseOutput&) { see(step.to.state); }
+bool SceneEvents::is_unsound(int event, const State& state) const {
+  return std::isnan(rules_[at(event)].when[at(unsound_[at(event)])](system_, state).value);
+}
+
+void SceneEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard>, const DenseOutput& motion) {
+  const auto is_one = [](int k) { return k >= 0; };
+  const bool known = std::ranges::any_of(unsound_, is_one);
+  see(step.to.state);
+  const auto first = std::ranges::find_if(unsound_, is_one);
+  if (known || first == unsound_.end()) return;
+  constexpr int halvings = 60;
+  const int event = static_cast<int>(first - unsound_.begin());
+  unsound_at_ = step.to.state;
+  double sound = step.from.state.t;
+  for (int i = 0; i < halvings && sound < unsound_at_.t; ++i) {
+    const State between = motion.at(sound + (unsound_at_.t - sound) / 2);
+    if (is_unsound(event, between))
+      unsound_at_ = between;
+    else
+      sound = between.t;
+  }
+}
 
 namespace {
 
@@ -141,6 +172,13 @@ bool SceneEvents::switches_all(const std::vector<EventAction>& actions, State& s
 
 EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
   const SceneEventRule& rule = rules_[at(event)];
+  if (const int k = unsound_[at(event)]; k >= 0) {
+    EventOutcome none;
+    const std::string seen = at(k) < rule.seen.size() ? rule.seen[at(k)](system_, unsound_at_) : "";
+    none.failure =
+        "the condition of the event " + quoted(rule.name) + " is not a finite number at t = " + number_text(unsound_at_.t, 9) + " s" + seen;
+    return none;
+  }
   const bool becomes_true = waits_[at(event)] == Waits::for_true;
   const std::vector<EventAction>& actions = becomes_true ? rule.actions : rule.otherwise;
   waits_[at(event)] = !becomes_true ? Waits::for_true : rule.once ? Waits::no_more : Waits::for_false;

@@ -27,6 +27,7 @@ using EventAction = std::variant<SwitchOver, SetState, StopRun, Record>;
 struct SceneEventRule {
   std::string name;
   std::vector<std::function<Guard(const System&, const State&)>> when;
+  std::vector<std::function<std::string(const System&, const State&)>> seen = {};  ///< what each of them sees, in words
   std::vector<EventAction> actions;
   std::vector<EventAction> otherwise = {};  ///< when they no longer are
   bool once = false;
@@ -59,6 +60,7 @@ class SceneEvents final : public EventGroup {
   enum class Waits : unsigned char { for_true, for_false, no_more };
   Guard all_of(int event, const State&) const;
   void see(const State&);
+  bool is_unsound(int event, const State&) const;
   bool switches_all(const std::vector<EventAction>&, State&, EventOutcome&);
 
   const System& system_;
@@ -67,6 +69,8 @@ class SceneEvents final : public EventGroup {
   std::vector<Waits> waits_;
   std::vector<std::size_t> first_;  ///< place in `size_` of each event's first comparison
   std::vector<double> size_;        ///< of each comparison so far, the largest, by which it is measured
+  std::vector<int> unsound_;        ///< of each event, the comparison that was no number at the end of the last step; −1 …
+  State unsound_at_;                ///< … and where the first of them became none
   std::vector<double> shift_;       ///< of each guard since it was last passed: so it is not passed again where it stands
   std::unique_ptr<Equations> eq_;   ///< from the first switching on
 };

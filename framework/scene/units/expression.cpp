@@ -16,14 +16,18 @@ namespace {
   if (is_function(name)) throw ExpressionError("the function " + name + " needs its parentheses");
   if (const std::string_view remedy = instead_of(name); !remedy.empty())
     throw ExpressionError("it contains " + name + ": " + std::string(remedy));
-  std::vector<std::string> known{std::string(vocabulary.variable), "pi"};
+  std::vector<std::string> known{std::string(vocabulary.variable), "pi"}, all;  // which may be listed; and units and signals besides
   for (const auto& [parameter, value] : vocabulary.parameters) known.push_back(parameter);
-  for (const Unit& u : units()) known.emplace_back(u.name);
-  std::vector<std::string> all = known;
   if (vocabulary.signals)
-    for (const auto& [signal, what] : *vocabulary.signals) all.push_back(signal);
+    for (const auto& [signal, what] : *vocabulary.signals) (signal.find('.') == std::string::npos ? known : all).push_back(signal);
+  all.insert(all.end(), known.begin(), known.end());
+  const std::size_t without_units = all.size();
+  for (const Unit& u : units()) all.emplace_back(u.name);
+  const std::string near = nearest(name, all);
+  const bool is_unit = !near.empty() && std::find(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(without_units), near) ==
+                                            all.begin() + static_cast<std::ptrdiff_t>(without_units);
   throw ExpressionError("\"" + name + "\" is neither a parameter nor a unit" + (vocabulary.signals ? " nor a signal." : ".") +
-                        did_you_mean(name, nearest(name, all).empty() ? known : all));
+                        (is_unit && vocabulary.signals ? " Did you mean the unit \"" + near + "\"?" : did_you_mean(name, near.empty() ? known : all)));
 }
 
 int value_of(const Word& word, const Vocabulary& known, Formula& formula) {

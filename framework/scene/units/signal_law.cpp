@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+
+#include "framework/common/text.h"
 
 namespace pintle {
 
@@ -23,13 +26,66 @@ double SignalFormula::operator()(double t, const double* in, double* slope) cons
   return program({t, 0, 0}, jets.data()).value;
 }
 
+namespace {
+
+using Ends = std::array<double, 2>;
+Ends ends_of_table(const SignalTable& of) {
+  return std::visit([](const auto& table) { return Ends{table.samples().t.front(), table.samples().t.back()}; }, of.table);
+}
+Ends ends_of_numbers(const std::vector<double>& x) { return {x.front(), x.back()}; }
+// A rounding beyond an end is not beyond it.
+bool is_beyond(const Ends& ends, double x) {
+  const double rounding = 1e-12 * std::max(std::abs(ends[0]), std::abs(ends[1]));
+  return !(x >= ends[0] - rounding && x <= ends[1] + rounding);
+}
+
+double no_number(std::size_t inputs, double* slope) {
+  if (slope) std::fill_n(slope, inputs, std::numeric_limits<double>::quiet_NaN());
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string told_beyond(const Ends& ends, double x) {
+  return "it is read at " + number_text(x, 9) + ", and goes from " + number_text(ends[0], 9) + " to " + number_text(ends[1], 9) +
+         " (in SI)";
+}
+
+}  // namespace
+
 double SignalTable::operator()(double t, const double* in, double* slope) const {
   double x = over(t, in, slope);
   if (period > 0) x = begin + (x - begin) - period * std::floor((x - begin) / period);
+  if (outside == Outside::refused && is_beyond(ends_of_table(*this), x)) return no_number(over.inputs, slope);
   const Jet f = std::visit([x](const auto& samples) { return samples(x); }, table);
   if (slope)
     for (std::size_t i = 0; i < over.inputs; ++i) slope[i] *= f.rate;
   return f.value;
+}
+
+double SignalMap::operator()(double t, const double* in, double* slope) const {
+  std::array<double, most_signals> by_b{};
+  const std::size_t inputs = std::max(over[0].inputs, over[1].inputs);
+  if (slope) std::fill_n(slope, inputs, 0.0);
+  const double a = over[0](t, in, slope), b = over[1](t, in, slope ? by_b.data() : nullptr);
+  if (outside == Outside::refused && (is_beyond(ends_of_numbers(table.grid().a), a) || is_beyond(ends_of_numbers(table.grid().b), b)))
+    return no_number(inputs, slope);
+  const Bilinear::Value f = table(a, b);
+  if (slope)
+    for (std::size_t i = 0; i < inputs; ++i) slope[i] = f.by_a * slope[i] + f.by_b * by_b[i];
+  return f.value;
+}
+
+std::string beyond_its_table(const SignalFunction& law, double t, const double* in) {
+  if (const auto* one = law.target<SignalTable>()) {
+    const double x = one->over(t, in, nullptr);
+    if (one->outside == Outside::refused && is_beyond(ends_of_table(*one), x)) return told_beyond(ends_of_table(*one), x);
+  } else if (const auto* two = law.target<SignalMap>()) {
+    for (const std::size_t k : {0, 1}) {
+      const double x = two->over[k](t, in, nullptr);
+      const Ends ends = ends_of_numbers(k == 0 ? two->table.grid().a : two->table.grid().b);
+      if (two->outside == Outside::refused && is_beyond(ends, x)) return told_beyond(ends, x);
+    }
+  }
+  return "";
 }
 
 // What the ends of a spline do dies away by 0.27 a sample: after so many before and behind, below the last digit.

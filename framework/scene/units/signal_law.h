@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <variant>
 
+#include "framework/common/signal_function.h"
 #include "framework/scene/units/formula.h"
 #include "framework/scene/units/table.h"
 
@@ -20,13 +23,28 @@ struct SignalFormula {
   std::size_t inputs = 0;  ///< how many it has
 };
 
+/// What a table is outside its samples: the value at its end, or no number, which ends the run with the law's name.
+enum class Outside { holds, refused };
+
 /// A table over a formula: of f(x(in)) the derivatives are f′ ∂x/∂in.
 struct SignalTable {
   std::variant<Spline, Polyline> table;
   SignalFormula over;
-  double begin = 0, period = 0;  ///< what the samples span, where it comes again and again; period 0: it holds the values at its ends
+  double begin = 0, period = 0;  ///< what the samples span, where it comes again and again; period 0: it has ends
+  Outside outside = Outside::holds;
   double operator()(double t, const double* in, double* slope) const;
 };
+
+/// A table over two formulas of the same inputs, bilinear between its values.
+struct SignalMap {
+  Bilinear table;
+  std::array<SignalFormula, 2> over;
+  Outside outside = Outside::refused;
+  double operator()(double t, const double* in, double* slope) const;
+};
+
+/// Where a law that is a table ends, if `in` lies outside a table that refuses: "outside its table, which ends at …"; else empty.
+std::string beyond_its_table(const SignalFunction&, double t, const double* in);
 
 /// Samples that span one period, as a table that comes again and again.
 /// @pre the first value is the last

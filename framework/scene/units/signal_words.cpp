@@ -41,9 +41,11 @@ class SignalWordsOf {
     column(name + ".depth", dimension::length);
     for (const char* speed : {".rate", ".sliding"}) column(name + speed, dimension::speed);
     column(name + ".normal", dimension::force);
-    if (rubs) column(name + ".friction", dimension::force);
+    if (rubs) column(name + ".friction", dimension::force), bristles(name);
+    column(name + ".pressure", dimension::stress), column(name + ".half angle", dimension::angle);
     wrench(name, true, false);
   }
+  void bristles(const std::string& name) { column(name + ".bristle", dimension::length), column(name + ".dwell", dimension::number); }
   void twist(const std::string& name, const PointRef& a, const PointRef& b) {
     put(name + ".angle", What::relative_angle, dimension::angle, a, b);
     put(name + ".speed", What::relative_speed, dimension::angular_speed, a, b);
@@ -74,6 +76,10 @@ class SignalWordsOf {
       if (!bends) continue;
       put(name + ".ux", What::ux, dimension::length, at);
       put(name + ".uy", What::uy, dimension::length, at);
+      column(name + ".turn", dimension::angle);
+      for (const char* force : {".N", ".V"}) column(name + force, dimension::force);
+      column(name + ".M", dimension::torque);
+      for (const char* stress : {".stress", ".sx", ".sy", ".txy", ".von Mises"}) column(name + stress, dimension::stress);
     }
   }
   void add(const SceneJoint& j) {
@@ -81,7 +87,10 @@ class SignalWordsOf {
     if (j.kind == JointKind::prismatic || j.kind == JointKind::slot) put(j.name + ".travel", What::travel, dimension::length, j.a, j.b);
     if (j.clearance || j.play) return contact(j.name, true);
     wrench(j.name, true, true);
+    if (j.coupling || j.kind == JointKind::differential) column(j.name + ".force", dimension::force);
+    if (j.kind == JointKind::rolling) column(j.name + ".normal", dimension::force);
     if (!j.friction) return;
+    bristles(j.name);
     column(j.name + ".sliding", dimension::speed);
     for (const char* force : {".load", ".friction"}) column(j.name + force, dimension::force);
   }
@@ -97,6 +106,14 @@ class SignalWordsOf {
       put(l.name + ".angle", What::relative_angle, dimension::angle, torsion->a, torsion->b);
       put(l.name + ".rate", What::relative_speed, dimension::angular_speed, torsion->a, torsion->b);
     }
+    if (const auto* belt = std::get_if<SceneBelt>(&l.what)) {
+      for (std::size_t i = 1; i <= belt->pulleys.size(); ++i) {
+        const std::string span = l.name + " " + std::to_string(i);
+        wrench(span, true, true), column(span + ".tension", dimension::force);
+      }
+      return;
+    }
+    if (std::holds_alternative<SceneMaxwell>(l.what)) column(l.name + ".damper length", dimension::length);
     const bool turns = torsion || std::holds_alternative<SceneTorque>(l.what);
     wrench(l.name, !turns, turns);
   }

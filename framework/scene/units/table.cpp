@@ -7,7 +7,9 @@
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
+#include "framework/common/text.h"
 #include "framework/scene/error.h"
 #include "framework/scene/text_file.h"
 
@@ -142,16 +144,89 @@ std::vector<double> curvatures(const std::vector<double>& t, const std::vector<d
 
 namespace {
 
-Samples read_lines(const std::filesystem::path& file, SampleReader reader, double first_unit, double value_unit, const std::string& key) {
+template <class Line>
+void each_line(const std::filesystem::path& file, const std::string& key, Line line) {
   const std::string text = read_text_file(file, most_bytes, key);
   std::size_t begin = 0;
   while (begin < text.size()) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    reader.line(std::string_view(text).substr(begin, end - begin), first_unit, value_unit);
+    line(std::string_view(text).substr(begin, end - begin));
     begin = end + 1;
   }
+}
+
+Samples read_lines(const std::filesystem::path& file, SampleReader reader, double first_unit, double value_unit, const std::string& key) {
+  each_line(file, key, [&](std::string_view line) { reader.line(line, first_unit, value_unit); });
   return reader.samples();
 }
+
+class GridReader {
+ public:
+  GridReader(std::string file, std::string key, const std::array<double, 3>& units, const std::array<std::string, 2>& names)
+      : file_(std::move(file)), key_(std::move(key)), units_(units), names_(names) {}
+
+  void line(std::string_view text) {
+    ++line_;
+    if (line_ == 1 && text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // byte-order mark
+    const auto words = columns(text.substr(0, text.find('#')));
+    if (words.empty()) return;
+    if (!seen_first_) return first(words);
+    if (corner_ && words.size() == head_.size()) head_.erase(head_.begin());  // a number in the corner says nothing
+    corner_ = false;
+    if (words.size() != head_.size() + 1)
+      fail("holds " + counted(words.size(), "number") + "; write " + std::to_string(head_.size() + 1) + ": one of " + names_[0] +
+           ", then a value for each of the " + std::to_string(head_.size()) + " of " + names_[1] + " in the first line");
+    append(grid_.a, words[0], units_[0], names_[0]);
+    for (std::size_t i = 1; i < words.size(); ++i) grid_.value.push_back(finite(words[i]) * units_[2]);
+  }
+  Grid grid() {
+    for (const auto& word : head_) {
+      const int last = std::exchange(line_, first_line_);
+      append(grid_.b, word, units_[1], names_[1]);
+      line_ = last;
+    }
+    line_ = 0;
+    if (grid_.a.size() < 2 || grid_.b.size() < 2)
+      fail("holds a grid of " + std::to_string(grid_.a.size()) + " by " + std::to_string(grid_.b.size()) + "; it needs two lines for " +
+           names_[0] + " and two columns for " + names_[1] + " at the least");
+    return std::move(grid_);
+  }
+
+ private:
+  static std::string counted(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
+  [[noreturn]] void fail(const std::string& message) const { throw SceneError(file_, {line_, key_}, message); }
+
+  void first(const std::vector<std::string_view>& words) {
+    seen_first_ = true, first_line_ = line_;
+    std::size_t begin = 0;
+    while (begin < words.size() && !number(words[begin])) ++begin;
+    corner_ = begin == 0;
+    for (; begin < words.size(); ++begin) head_.emplace_back(words[begin]);
+    if (head_.empty()) fail("its first line holds no numbers; write those of " + names_[1] + " there, behind a word");
+  }
+  double finite(std::string_view word) const {
+    const std::optional<double> value = number(word);
+    if (!value)
+      fail((grid_.value.empty() ? std::string("a column") : quoted(std::string(word))) +
+           " is not a number; write one, like 0.25 or 2.5e-1");
+    if (!std::isfinite(*value)) fail("the value " + std::string(word) + " is not finite; correct it");
+    return *value;
+  }
+  void append(std::vector<double>& to, std::string_view word, double unit, const std::string& name) const {
+    const double x = finite(word) * unit;
+    if (!to.empty() && !(x > to.back()))
+      fail(name + " " + std::string(word) + " does not come after the one before; numbers of " + name + " must increase");
+    to.push_back(x);
+  }
+
+  std::string file_, key_;
+  std::array<double, 3> units_;
+  std::array<std::string, 2> names_;
+  int line_ = 0, first_line_ = 0;
+  bool seen_first_ = false, corner_ = false;  ///< the first line may begin with a number that is none of b
+  std::vector<std::string> head_;
+  Grid grid_;
+};
 
 }  // namespace
 
@@ -165,6 +240,27 @@ std::vector<std::array<double, 2>> read_pairs(const std::filesystem::path& file,
   std::vector<std::array<double, 2>> out;
   for (std::size_t i = 0; i < samples.t.size(); ++i) out.push_back({samples.t[i], samples.value[i]});
   return out;
+}
+
+Grid read_grid(const std::filesystem::path& file, const std::array<double, 3>& units, const std::string& key,
+               const std::array<std::string, 2>& names) {
+  GridReader reader(file.string(), key, units, names);
+  each_line(file, key, [&](std::string_view line) { reader.line(line); });
+  return reader.grid();
+}
+
+Bilinear::Value Bilinear::operator()(double a, double b) const {
+  const auto cell = [](const std::vector<double>& x, double at) {
+    return at >= x.back() ? x.size() - 2 : at <= x.front() ? 0 : interval(x, at);
+  };
+  const auto inside = [](const std::vector<double>& x, double at) { return at >= x.front() && at <= x.back(); };
+  const std::size_t i = cell(grid_.a, a), j = cell(grid_.b, b), n = grid_.b.size();
+  const double ha = grid_.a[i + 1] - grid_.a[i], hb = grid_.b[j + 1] - grid_.b[j];
+  const double u = std::clamp((a - grid_.a[i]) / ha, 0.0, 1.0), v = std::clamp((b - grid_.b[j]) / hb, 0.0, 1.0);
+  const double* z = grid_.value.data() + i * n + j;
+  const double low = z[0] + v * (z[1] - z[0]), high = z[n] + v * (z[n + 1] - z[n]);
+  const double left = z[0] + u * (z[n] - z[0]), right = z[1] + u * (z[n + 1] - z[1]);
+  return {low + u * (high - low), inside(grid_.a, a) ? (high - low) / ha : 0, inside(grid_.b, b) ? (right - left) / hb : 0};
 }
 
 Spline::Spline(Samples samples) : samples_(std::move(samples)), curvature_(curvatures(samples_.t, samples_.value)) {}

@@ -26,6 +26,33 @@ Samples read_samples(const std::filesystem::path&, double time_unit = 1, double 
 /// @param unit  factor to SI   @param key  as above   @throws SceneError  likewise
 std::vector<std::array<double, 2>> read_pairs(const std::filesystem::path&, double unit, const std::string& key);
 
+/// Values over two numbers; at least two of each, strictly increasing, all finite.
+struct Grid {
+  std::vector<double> a, b;
+  std::vector<double> value;  ///< a by a: value[i*b.size() + j]
+};
+
+/// Reads a grid: the first line the numbers of b, behind a word or nothing; each further line a number of a and its values.
+/// Separators and comments as above.
+/// @param units  factors to SI of a, b and the values   @param names  what a and b are, for messages
+/// @throws SceneError  naming file, line and remedy
+Grid read_grid(const std::filesystem::path&, const std::array<double, 3>& units, const std::string& key,
+               const std::array<std::string, 2>& names);
+
+/// Bilinear between the values of a grid; outside it holds those at its border.
+class Bilinear {
+ public:
+  explicit Bilinear(Grid grid) : grid_(std::move(grid)) {}
+  struct Value {
+    double value, by_a, by_b;
+  };
+  Value operator()(double a, double b) const;
+  const Grid& grid() const { return grid_; }
+
+ private:
+  Grid grid_;
+};
+
 /// Cubic spline through samples, two continuous derivatives; a cubic is met exactly (not-a-knot
 /// ends; two samples give a line, three a parabola). Outside the samples it holds the end value.
 class Spline {

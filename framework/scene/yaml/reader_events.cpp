@@ -3,6 +3,7 @@
 #include "framework/common/nearest.h"
 #include "framework/scene/units/guard.h"
 #include "framework/scene/units/signal_law.h"
+#include "framework/scene/units/signal_words.h"
 #include "framework/scene/yaml/reader_parts.h"
 
 namespace pintle {
@@ -105,9 +106,9 @@ SceneEvent read_event(const Node& node, const Scene& scene, const SignalNames& n
 
 void read_events(const Node& root, Scene& scene) {
   if (!root.has("events")) return;
-  ActingSignals signals(scene);
+  const SignalNames names = signal_names(signal_words(scene), SignalUse::written);
   for (const Node& node : root.at("events").entries("names and events: {trip: {when: crank.angle > 30 deg, do: {release: latch pin}}}"))
-    scene.events.push_back(read_event(node, scene, signals.names()));
+    scene.events.push_back(read_event(node, scene, names));
 }
 
 bool read_engaged(const Node& node) { return !node.has("engaged") || node.at("engaged").yes(); }

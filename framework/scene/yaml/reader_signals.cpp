@@ -38,15 +38,59 @@ std::string json_quoted(const std::string& s) {
   return out + '"';
 }
 
-// As `filled_in` turns it back into keys.
-std::string signal_table_text(const Node& node, bool linear, bool periodic, double over_unit, const std::string& over_si, double value_unit,
-                              const std::string& value_si) {
+// What a table is read at: an expression, and what its column of the table is measured in.
+struct TableAxis {
+  MeasuredLaw law;
+  std::string text;
+  double unit = 1;
+};
+
+double unit_of(const Node& node, const Dimension& expected) {
+  try {
+    const Quantity unit = read_quantity(node.text("a unit such as rpm or mm"));
+    if (!same(unit.dimension, expected) || (bare(unit.dimension) && !bare(expected)))
+      node.fail(node.shown() + " measures " + describe(unit.dimension) + "; expected a unit of " + describe(expected));
+    return unit.value;
+  } catch (const ExpressionError&) {
+    node.fail(node.shown() + " is not a unit; write one such as rpm or mm");
+  }
+}
+
+TableAxis read_axis(const Node& over, const Node* unit, ActingSignals& signals) {
+  TableAxis out;
+  out.text = over.expression("a signal such as ram.y");
+  try {
+    out.law = read_measured_law(out.text, over.source().parameters, signals.names());
+  } catch (const ExpressionError& error) {
+    over.fail(error.what());
+  }
+  if (unit) out.unit = unit_of(*unit, out.law.dimension);
+  return out;
+}
+
+std::string json_unit(const TableAxis& axis) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(17);
-  out << "{\"table\": " << json_quoted(node.at("table").file("")) << ", \"interpolation\": \"" << (linear ? "linear" : "spline")
-      << "\", \"over\": " << json_quoted(node.at("over").expression("")) << ", \"periodic\": " << (periodic ? "true" : "false");
-  if (over_unit != 1) out << ", \"over unit\": \"" << over_unit << " " << over_si << "\"";
+  out << axis.unit << " " << si_unit(axis.law.dimension);
+  return json_quoted(axis.unit == 1 && si_unit(axis.law.dimension).empty() ? "1" : out.str());
+}
+
+// As `filled_in` turns it back into keys.
+std::string signal_table_text(const Node& node, const std::vector<TableAxis>& axes, const char* interpolation, bool periodic,
+                              Outside outside, double value_unit, const std::string& value_si) {
+  const auto listed = [&](const auto& word) {
+    if (axes.size() == 1) return word(axes[0]);
+    return "[" + word(axes[0]) + ", " + word(axes[1]) + "]";
+  };
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(17);
+  out << "{\"table\": " << json_quoted(node.at("table").file(""))
+      << ", \"over\": " << listed([](const TableAxis& axis) { return json_quoted(axis.text); });
+  if (axes.size() == 1) out << ", \"interpolation\": \"" << interpolation << "\", \"periodic\": " << (periodic ? "true" : "false");
+  if (std::ranges::any_of(axes, [](const TableAxis& axis) { return axis.unit != 1; })) out << ", \"over unit\": " << listed(json_unit);
+  if (!periodic) out << ", \"outside\": \"" << (outside == Outside::holds ? "hold" : "refuse") << "\"";
   if (value_unit != 1) out << ", \"value unit\": \"" << value_unit << " " << value_si << "\"";
   out << "}";
   return out.str();
@@ -61,33 +105,78 @@ void must_close(const Node& node, const Samples& samples) {
             " does not end with the value that it begins with; let its last row be the first one a period later");
 }
 
+Outside read_outside(const Node& node, std::string_view keys, Outside otherwise) {
+  if (!node.has("outside")) return otherwise;
+  return node.at("outside").one_of(choices(keys, "outside")) == "hold" ? Outside::holds : Outside::refused;
+}
+
+// The same formula, input i of which is called to[i] now.
+SignalFormula renumbered(const Law& law, const std::vector<int>& to) {
+  if (law.constant) return SignalFormula(Program{{{Op::constant, law.at(0).value}}});
+  Program program = law.signals.empty() ? *law.at.target<Program>() : law.of_signals.target<SignalFormula>()->program;
+  for (Program::Instruction& i : program.code)
+    if (i.op == Op::input) i.value = to[static_cast<std::size_t>(i.value)];
+  return SignalFormula(std::move(program));
+}
+
+Law read_signal_map(const Node& node, std::string_view keys, const Dimension& expected, const std::filesystem::path& folder,
+                    ActingSignals& signals) {
+  for (const char* key : {"interpolation", "periodic"})
+    if (node.has(key)) node.at(key).fail("belongs to a table over one number; a table over two is bilinear: leave it out");
+  const std::vector<Node> over = node.at("over").items(2, "an expression, or two for a table over both: [engine.speed, throttle]");
+  std::vector<Node> units;
+  if (node.has("over unit")) units = node.at("over unit").items(2, "a unit for each: [rpm, 1]");
+  std::vector<TableAxis> axes;
+  for (std::size_t k = 0; k < 2; ++k) axes.push_back(read_axis(over[k], units.empty() ? nullptr : &units[k], signals));
+  Law out{{}, "", false};
+  std::vector<SignalFormula> formulas;
+  for (const TableAxis& axis : axes) {
+    std::vector<int> at;
+    for (const std::string& name : axis.law.law.signals) {
+      auto known = std::ranges::find(out.signals, name);
+      at.push_back(static_cast<int>(known - out.signals.begin()));
+      if (known == out.signals.end()) out.signals.push_back(name);
+    }
+    out.uses_time = out.uses_time || axis.law.law.uses_time || (axis.law.law.signals.empty() && !axis.law.law.constant);
+    formulas.push_back(renumbered(axis.law.law, at));
+  }
+  if (out.signals.empty()) node.at("over").fail("names no signal; write one such as crank.speed in one of its expressions");
+  if (out.signals.size() > most_signals) node.at("over").fail("names more than " + std::to_string(most_signals) + " signals");
+  const double value_unit = unit_factor(node, "value unit", expected);
+  const Outside outside = read_outside(node, keys, Outside::refused);
+  Grid grid = read_grid(table_file(node, folder), {axes[0].unit, axes[1].unit, value_unit}, node.place().key, {axes[0].text, axes[1].text});
+  out.text = signal_table_text(node, axes, "linear", false, outside, value_unit, si_unit(expected));
+  out.of_signals = SignalMap{Bilinear(std::move(grid)), {formulas[0], formulas[1]}, outside};
+  return out;
+}
+
 Law read_signal_table(const Node& node, std::string_view keys, const Dimension& expected, const std::filesystem::path& folder,
                       ActingSignals& signals) {
   if (node.has("time unit")) node.at("time unit").fail("belongs to a table over t; of a table over signals write `over unit`");
   const Node over = node.at("over");
-  MeasuredLaw x;
-  try {
-    x = read_measured_law(over.expression("a signal such as ram.y"), node.source().parameters, signals.names());
-  } catch (const ExpressionError& error) {
-    over.fail(error.what());
-  }
-  if (x.law.signals.empty()) over.fail(over.shown() + " names no signal; write one such as ram.y, or leave `over` out for a table over t");
+  if (over.is_list()) return read_signal_map(node, keys, expected, folder, signals);
+  std::vector<Node> unit;
+  if (node.has("over unit")) unit.push_back(node.at("over unit"));
+  const TableAxis x = read_axis(over, unit.empty() ? nullptr : unit.data(), signals);
+  if (x.law.law.signals.empty())
+    over.fail(over.shown() + " names no signal; write one such as ram.y, or leave `over` out for a table over t");
   const bool linear = node.has("interpolation") && node.at("interpolation").one_of(choices(keys, "interpolation")) == "linear";
   const bool periodic = node.has("periodic") && node.at("periodic").yes();
-  const double over_unit = unit_factor(node, "over unit", x.dimension), value_unit = unit_factor(node, "value unit", expected);
-  Samples samples = read_samples(table_file(node, folder), over_unit, value_unit, node.place().key, "x");
-  const SignalFormula& formula = *x.law.of_signals.target<SignalFormula>();
-  const std::string text = signal_table_text(node, linear, periodic, over_unit, si_unit(x.dimension), value_unit, si_unit(expected));
-  Law out{{}, text, false};
-  out.signals = x.law.signals;
-  out.uses_time = x.law.uses_time;
+  if (periodic && node.has("outside")) node.at("outside").fail("a periodic table has no outside; leave it out");
+  const Outside outside = read_outside(node, keys, Outside::holds);
+  const double value_unit = unit_factor(node, "value unit", expected);
+  Samples samples = read_samples(table_file(node, folder), x.unit, value_unit, node.place().key, "x");
+  const SignalFormula& formula = *x.law.law.of_signals.target<SignalFormula>();
+  Law out{{}, signal_table_text(node, {x}, linear ? "linear" : "spline", periodic, outside, value_unit, si_unit(expected)), false};
+  out.signals = x.law.law.signals;
+  out.uses_time = x.law.law.uses_time;
   if (periodic) {
     must_close(node, samples);
     out.of_signals = periodic_table(std::move(samples), linear, formula);
   } else if (linear) {
-    out.of_signals = SignalTable{Polyline(std::move(samples)), formula};
+    out.of_signals = SignalTable{.table = Polyline(std::move(samples)), .over = formula, .outside = outside};
   } else {
-    out.of_signals = SignalTable{Spline(std::move(samples)), formula};
+    out.of_signals = SignalTable{.table = Spline(std::move(samples)), .over = formula, .outside = outside};
   }
   return out;
 }
@@ -115,7 +204,7 @@ Law read_load_law(const Node& node, std::string_view keys, const Dimension& expe
   if (node.is_map()) {
     check_keys(node, keys);
     if (node.has("over")) return read_signal_table(node, keys, expected, folder, signals);
-    for (const char* key : {"over unit", "periodic"})
+    for (const char* key : {"over unit", "periodic", "outside"})
       if (node.has(key)) node.at(key).fail("belongs to a table over signals; add over: crank.angle, or leave it out");
   } else if (node.is_scalar() && may_name_signals(node.yaml().text, signals.scene())) {
     Law law = read_acting_law(node, expected, signals.names());

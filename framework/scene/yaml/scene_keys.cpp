@@ -57,6 +57,7 @@ const std::vector<Key> load_table_keys{{"table", required, "torque.csv"},
                                        {"interpolation", optional, "", {"spline", "linear"}},
                                        {"over"},
                                        {"over unit"},
+                                       {"outside", optional, "", {"hold", "refuse"}},
                                        {"periodic", optional, "", {"true", "false"}},
                                        {"time unit"},
                                        {"value unit"}};

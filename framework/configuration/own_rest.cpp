@@ -1,0 +1,256 @@
+#include "framework/configuration/own_rest.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/common/dense.h"
+#include "framework/common/index.h"
+#include "framework/common/text.h"
+#include "framework/dynamics/equations/laws.h"
+#include "framework/dynamics/model/signal_values.h"
+
+namespace pintle {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int most_together = 1200;  // unknowns of a dense matrix; more take minutes
+
+bool is_place(const MotionSignal& signal) {
+  using Kind = MotionSignal::Kind;
+  switch (signal.kind) {
+    case Kind::vx:
+    case Kind::vy:
+    case Kind::speed:
+    case Kind::length_rate:
+    case Kind::relative_speed:
+    case Kind::state: return false;
+    default: return true;
+  }
+}
+
+bool sees_a_place(const System& system, int law) {
+  return std::ranges::any_of(system.laws[at(law)].in, [&](int k) { return is_place(system.signals[at(k)]); });
+}
+bool sees_state(const System& system, int law, int state) {
+  return std::ranges::any_of(system.laws[at(law)].in,
+                             [&](int k) { return system.signals[at(k)].kind == MotionSignal::state && system.signals[at(k)].a == state; });
+}
+bool sizes_a_force(const System& system, int state) {
+  return std::ranges::any_of(system.forces, [&](const Force& f) {
+    const auto* force = std::get_if<SizedForce>(&f);
+    return force &&
+           ((force->size >= 0 && sees_state(system, force->size, state)) || (force->other >= 0 && sees_state(system, force->other, state)));
+  });
+}
+
+std::string list_of_states(const System& system, const std::vector<int>& which) {
+  std::string out;
+  for (const int i : which) out += (out.empty() ? "" : ", ") + quoted(system.states[at(i)].name);
+  return out;
+}
+
+std::string with_rate_unit(double rate, const OwnState& state) {
+  const std::string unit = state.unit.empty() ? "1/s" : state.unit + "/s";
+  return number_text(rate, 6) + " " + unit;
+}
+
+/// The equations f − Cqᵀλ = 0 along the open directions, g = 0, over their sizes, and their derivatives in scaled unknowns.
+class TogetherAtRest {
+ public:
+  TogetherAtRest(const System& system, Rest& rest, VectorXd& own, const RestingStates& states)
+      : system_(system), rest_(rest), own_(own), sought_(states.sought), tangent_(system) {}
+
+  void look(const State& state) {
+    const System& held = rest_.held;
+    open = open_directions(held, rest_.eq);
+    const Index n = open.cols(), m = static_cast<Index>(sought_.size());
+    rest_.tangent.evaluate(held, state, rest_.eq, VectorXd::Zero(held.n()), rest_.eq.lambda,
+                           {.q = 1, .s = 0, .a = 0, .x = internal_at_rest}, rest_.values);
+    const MatrixXd K = dense(held, rest_.tangent, rest_.values);
+    const Tangent::Internal by = tangent_.internal(system_, state, rest_.eq);
+    const MatrixXd moves = held.scale.asDiagonal() * open;
+    slope.resize(n + m, n + m);
+    left.resize(n + m);
+    slope.topLeftCorner(n, n) = -moves.transpose() * K * moves;
+    left.head(n) = moves.transpose() * rest_.out_of_balance;
+    for (Index i = 0; i < m; ++i) {
+      const int which = sought_[at(i)];
+      const Index x = system_.own_x + which;
+      slope.col(n + i).head(n) = system_.states[at(which)].scale * (moves.transpose() * by.f_x.col(x));
+      slope.row(n + i).head(n) = by.g_q.row(x) * moves;
+      for (Index j = 0; j < m; ++j)
+        slope(n + i, n + j) = by.g_x(x, system_.own_x + sought_[at(j)]) * system_.states[at(sought_[at(j)])].scale;
+      left[n + i] = law_at(system_, system_.laws[at(system_.states[at(which)].rate)], state.t, state.y);
+    }
+    weigh(n, m);
+  }
+
+  /// Along a step of the scaled unknowns. @returns false if the pose cannot be had
+  bool go(const VectorXd& step, State& state) {
+    const Index n = open.cols();
+    state.y.head(rest_.held.n()) += rest_.held.scale.cwiseProduct(open * step.head(n));
+    for (Index i = 0; i < step.size() - n; ++i) own_[sought_[at(i)]] += system_.states[at(sought_[at(i)])].scale * step[n + i];
+    return rest_.settle(state, 1);
+  }
+
+  double worst_rate() const { return left.tail(static_cast<Index>(sought_.size())).lpNorm<Eigen::Infinity>(); }
+  int fastest() const {
+    Index which = 0;
+    left.tail(static_cast<Index>(sought_.size())).cwiseAbs().maxCoeff(&which);
+    return sought_[at(which)];
+  }
+
+  MatrixXd open, slope;
+  VectorXd left;
+
+ private:
+  // Forces by the greatest that works at the start, rates by how they answer to the unknowns there.
+  void weigh(Index n, Index m) {
+    if (weight_.size() == 0) {
+      weight_ = VectorXd::Ones(m);
+      for (Index i = 0; i < m; ++i)
+        if (const double size = slope.row(n + i).cwiseAbs().maxCoeff(); size > 0) weight_[i] = 1 / size;
+      const double size = std::max(rest_.at_work(), slope.topLeftCorner(n, n).cwiseAbs().maxCoeff());
+      force_ = size > 0 ? 1 / size : 1;
+    }
+    slope.topRows(n) *= force_, left.head(n) *= force_;
+    slope.bottomRows(m) = weight_.asDiagonal() * slope.bottomRows(m);
+    left.tail(m) = weight_.cwiseProduct(left.tail(m));
+  }
+
+  const System& system_;
+  Rest& rest_;
+  VectorXd& own_;
+  const std::vector<int>& sought_;
+  Tangent tangent_;
+  VectorXd weight_;
+  double force_ = 1;
+};
+
+// The least x of slope x = −left, its growth held by `damping`.
+VectorXd damped_step(const TogetherAtRest& now, double damping) {
+  const Index n = now.left.size();
+  MatrixXd A(2 * n, n);
+  A << now.slope, std::sqrt(damping) * MatrixXd::Identity(n, n);
+  VectorXd right = VectorXd::Zero(2 * n);
+  right.head(n) = -now.left;
+  return Eigen::ColPivHouseholderQR<MatrixXd>(A).solve(right);
+}
+
+// States that a direction in which nothing changes moves.
+std::vector<std::string> undetermined_states(const System& system, const TogetherAtRest& now, const std::vector<int>& sought) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(MatrixXd(now.slope.transpose() * now.slope));
+  constexpr double zero = 1e-14, moves = 1e-3;  // of squares; of a unit direction
+  const Index n = now.open.cols();
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < sought.size(); ++i) {
+    double moved = 0;
+    for (Index k = 0; k < modes.eigenvalues().size(); ++k)
+      if (modes.eigenvalues()[k] <= zero * modes.eigenvalues().maxCoeff())
+        moved = std::max(moved, std::abs(modes.eigenvectors()(n + static_cast<Index>(i), k)));
+    if (moved > moves) out.push_back(system.states[at(sought[i])].name);
+  }
+  return out;
+}
+
+}  // namespace
+
+RestingStates resting_states(const System& system) {
+  const int n = static_cast<int>(system.states.size());
+  std::vector<bool> kept(at(n), false);
+  const auto can_rest = [&](int i) {
+    const int rate = system.states[at(i)].rate;
+    bool sees = sees_a_place(system, rate), acts = sizes_a_force(system, i);
+    for (int j = 0; j < n; ++j) {
+      if (kept[at(j)]) continue;
+      sees = sees || sees_state(system, rate, j);
+      acts = acts || sees_state(system, system.states[at(j)].rate, i);
+    }
+    return sees && acts;
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (int i = 0; i < n; ++i)
+      if (!kept[at(i)] && !can_rest(i)) kept[at(i)] = changed = true;
+  }
+  RestingStates out;
+  for (int i = 0; i < n; ++i) (kept[at(i)] ? out.kept : out.sought).push_back(i);
+  return out;
+}
+
+bool follow_the_pose(const System& system, const RestingStates& states, const Rest& rest, double t) {
+  const auto m = static_cast<Index>(states.sought.size());
+  if (m == 0) return true;
+  MatrixXd slopes = MatrixXd::Zero(static_cast<Index>(system.laws.size()), static_cast<Index>(system.signals.size())), g_x(m, m);
+  law_slopes(system, rest.eq, t, slopes);
+  for (Index i = 0; i < m; ++i)
+    for (Index j = 0; j < m; ++j) {
+      g_x(i, j) = 0;
+      for (std::size_t k = 0; k < system.signals.size(); ++k)
+        if (system.signals[k].kind == MotionSignal::state && system.signals[k].a == states.sought[at(j)])
+          g_x(i, j) += slopes(system.states[at(states.sought[at(i)])].rate, static_cast<Index>(k));
+    }
+  return Eigen::FullPivLU<MatrixXd>(g_x).rank() == m;
+}
+
+JointRest find_joint_rest(const System& system, Rest& rest, VectorXd& own, const RestingStates& states, State& state) {
+  constexpr double balanced = 1e-13, nearly = 1e-7, still = 1e-9, most_damped = 1e12;
+  constexpr int most = 500;
+  JointRest out;
+  if (system.n() + static_cast<int>(states.sought.size()) > most_together) {
+    out.reason = "the states " + list_of_states(system, states.sought) + " rest only together with the pose, and more than " +
+                 std::to_string(most_together) + " coordinates are not solved so; let their rates fall with them, or take fewer modes";
+    return out;
+  }
+  TogetherAtRest now(system, rest, own, states);
+  now.look(state);
+  double damping = 1e-6;
+  for (; out.iterations < most && damping < most_damped && now.left.lpNorm<Eigen::Infinity>() > balanced; ++out.iterations) {
+    State trial = state;
+    const VectorXd own_before = own;
+    TogetherAtRest then = now;
+    if (now.go(damped_step(now, damping), trial)) {
+      then.look(trial);
+      if (then.left.allFinite() && then.left.norm() < now.left.norm()) {
+        now.left = then.left, now.slope = then.slope, now.open = then.open;
+        state = trial;
+        damping = std::max(damping / 10, 1e-20);
+        continue;
+      }
+    }
+    own = own_before;
+    damping *= 10;
+  }
+  rest.settle(state, 1);
+  out.found = rest.residual() <= nearly && now.worst_rate() <= still;
+  if (out.found) out.undetermined = undetermined_states(system, now, states.sought);
+  if (!out.found && now.worst_rate() > still) {
+    const OwnState& moving = system.states[at(now.fastest())];
+    out.reason = "the state " + quoted(moving.name) + " comes to no rest: where the forces are best balanced its rate is still " +
+                 with_rate_unit(law_at(system, system.laws[at(moving.rate)], state.t, state.y), moving) +
+                 ", and nothing that it acts on brings it to 0; a limit may stand in the way (saturate, if), or start nearer to the rest";
+  }
+  return out;
+}
+
+std::string moving_state(const System& system, const RestingStates& states, const State& state, std::vector<std::string>& notes) {
+  constexpr double still = 1e-9;  // of its scale, a second
+  for (const int i : states.kept) {
+    const OwnState& own = system.states[at(i)];
+    const SignalLaw& law = system.laws[at(own.rate)];
+    const double rate = law_at(system, law, state.t, state.y);
+    if (!(std::abs(rate) <= still * own.scale))
+      return "the state " + quoted(own.name) + " never rests: its rate there is " + with_rate_unit(rate, own) +
+             ", and nothing that it changes could bring that to 0; leave it out here, or let its rate fall with it";
+    if (!law.in.empty())
+      notes.push_back("the state " + quoted(own.name) + " is kept as it starts, " + number_text(own.start, 6) +
+                      (own.unit.empty() ? "" : " " + own.unit) + ": any value of it would rest there");
+  }
+  return "";
+}
+
+}  // namespace pintle

@@ -1,0 +1,136 @@
+#include "framework/configuration/unsound_laws.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "framework/common/index.h"
+#include "framework/common/text.h"
+#include "framework/dynamics/equations/equations.h"
+#include "framework/dynamics/model/signal_values.h"
+#include "framework/mechanism/trajectory.h"
+#include "framework/scene/units/signal_law.h"
+
+namespace pintle {
+
+namespace {
+
+std::string place_of_law(const Scene& scene, const Place& place) {
+  const std::string file = place.file.empty() ? scene.file : place.file;
+  return " (" + file + (place.line > 0 ? ":" + std::to_string(place.line) : "") + ")";
+}
+
+// A table by its file: its whole text, which starts {"table": "map.csv", is too long.
+std::string shown(const Law& law) {
+  constexpr std::string_view table = "{\"table\": \"";
+  if (!law.text.starts_with(table)) return "law " + law.text;
+  return "law by the table " + law.text.substr(table.size(), law.text.find('"', table.size()) - table.size());
+}
+
+std::string seen(const Law& law, const std::vector<double>& in) {
+  std::string out;
+  for (std::size_t k = 0; k < in.size(); ++k) out += (k == 0 ? ", where " : ", ") + law.signals[k] + " = " + number_text(in[k]);
+  return out;
+}
+
+class LawsAt {
+ public:
+  LawsAt(const Scene& scene, const Model& model, const State& start, const State& now)
+      : scene_(scene), system_(model.system), start_(start), now_(now) {
+    for (std::size_t i = 0; i < scene.loads.size() && i < model.order.loads.size(); ++i) {
+      const SceneLoad& load = scene.loads[i];
+      const auto* sized = std::get_if<SizedForce>(&system_.forces[at(model.order.loads[i])]);
+      if (!sized) continue;
+      const auto* force = std::get_if<SceneForce>(&load.what);
+      const auto* torque = std::get_if<SceneTorque>(&load.what);
+      const auto* spring = std::get_if<SceneSpring>(&load.what);
+      const auto* torsion = std::get_if<SceneTorsionSpring>(&load.what);
+      const Law& law = force ? force->x : torque ? torque->law : spring ? *spring->law : *torsion->law;
+      judge(load.name, load.place, law, sized->size);
+      if (force) judge(load.name, load.place, force->y, sized->other);
+    }
+    for (std::size_t i = 0; i < scene.states.size() && i < system_.states.size(); ++i)
+      judge(scene.states[i].name, scene.states[i].place, scene.states[i].rate, system_.states[i].rate);
+  }
+  std::string found;
+
+ private:
+  void judge(const std::string& name, const Place& place, const Law& from, int law) {
+    constexpr double steep = 1e6;
+    if (!found.empty() || law < 0) return;
+    const SignalLaw& of = system_.laws[at(law)];
+    const double value = law_at(system_, of, now_.t, now_.y), before = law_at(system_, of, start_.t, start_.y);
+    const bool grown = std::isfinite(value) && std::abs(value) > steep * std::abs(before) && before != 0;
+    std::vector<double> in;
+    for (const int k : of.in) in.push_back(signal_at(system_, system_.signals[at(k)], now_.y));
+    const std::string steep_over = std::isfinite(value) && !grown ? infinite_slope(from, of, in) : "";
+    if (std::isfinite(value) && !grown && steep_over.empty()) return;
+    found = "the " + shown(from) + " of " + quoted(name) + place_of_law(scene_, place) + " " +
+            (grown                ? "has come to " + number_text(value)
+             : steep_over.empty() ? "is not a finite number"
+                                  : "has no finite slope over " + steep_over) +
+            " at t = " + number_text(now_.t, 9) + " s" +
+            (grown ? seen(from, in) + ": it seems to grow beyond all bounds; keep it finite, for example with max(…)"
+                   : seen_by_law(from, of.of, now_.t, in));
+  }
+  std::string infinite_slope(const Law& from, const SignalLaw& of, const std::vector<double>& in) const {
+    std::array<double, most_law_inputs> slope{};
+    of.of(now_.t, in.data(), slope.data());
+    for (std::size_t k = 0; k < in.size(); ++k)
+      if (!std::isfinite(slope[k])) return from.signals[k];
+    return "";
+  }
+
+  const Scene& scene_;
+  const System& system_;
+  const State &start_, &now_;
+};
+
+}  // namespace
+
+std::string seen_by_law(const Law& law, const SignalFunction& of, double t, const std::vector<double>& in) {
+  const std::string beyond = beyond_its_table(of, t, in.data());
+  return seen(law, in) + (beyond.empty() ? ": keep it finite, for example with max(…) under a division or a root"
+                                         : ": " + beyond + "; lengthen the table, or write outside: hold");
+}
+
+void warn_of_outputs(const Scene& scene, const Model& model, const State& state, const Table& trajectory,
+                     std::vector<std::string>& warnings) {
+  const std::size_t n = model.outputs.size();
+  if (n == 0 || trajectory.rows() == 0) return;
+  const double* row = trajectory.data.data() + trajectory.data.size() - trajectory.columns();
+  const double* outputs = row + trajectory.columns() - n;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (std::isfinite(outputs[k])) continue;
+    const WrittenOutput& o = model.outputs[k];
+    const auto from = std::ranges::find(scene.outputs, o.name, &SceneOutput::name);
+    if (from == scene.outputs.end()) continue;
+    const std::string subject = "the output " + quoted(o.name) + place_of_law(scene, from->place);
+    if (std::ranges::any_of(warnings, [&](const std::string& w) { return w.starts_with(subject); })) continue;
+    std::vector<double> in;
+    for (const WrittenOutput::Input& input : o.in) in.push_back(input_value(model, input, state, row, outputs));
+    warnings.push_back(subject + " is not a finite number at t = " + number_text(state.t, 9) + " s" +
+                       seen_by_law(from->law, o.of, state.t, in) + "; its column is empty there");
+  }
+}
+
+std::string explain_signals(const Scene& scene, const Model& model, const State& start, const State& now) {
+  if (model.system.laws.empty() || now.y.size() != model.system.n_y()) return "";
+  constexpr double ahead = 1e-9;  // of the run: where it would be next
+  const std::string here = LawsAt(scene, model, start, now).found;
+  if (!here.empty()) return here;
+  const System& system = model.system;
+  State next = now;
+  const double dt = ahead * scene.run.until;
+  next.t += dt;
+  Equations eq(system);
+  Eigen::VectorXd dy(system.n_y());
+  if (evaluate(system, now, eq, dy) && dy.head(system.z_begin()).allFinite())
+    next.y.head(system.z_begin()) += dt * dy.head(system.z_begin());
+  else
+    next.y.head(system.n()) += dt * now.y.segment(system.n(), system.n());
+  return LawsAt(scene, model, start, next).found;
+}
+
+}  // namespace pintle

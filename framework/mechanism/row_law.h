@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+
+#include "framework/dynamics/equations/equations.h"
+#include "framework/mechanism/trajectory.h"
+
+namespace pintle {
+
+/// A law that names columns of trajectory.csv or outputs: in any state worked out from the row that would be written of it, for which
+/// the equations of motion are solved. What it is copied to has scratch of its own.
+class RowLaw {
+ public:
+  /// @param of  complete before the first call
+  RowLaw(std::shared_ptr<const Model> of, WrittenOutput law) : of_(std::move(of)), law_(std::move(law)) {}
+  RowLaw(const RowLaw& other) : of_(other.of_), law_(other.law_) {}
+  RowLaw& operator=(const RowLaw&) = delete;
+
+  /// NaN where there are no accelerations.
+  double operator()(const State&) const;
+  std::vector<double> inputs(const State&) const;
+  const SignalFunction& function() const { return law_.of; }
+
+ private:
+  struct Work {
+    explicit Work(const System& system) : eq(system), dy(system.n_y()) {}
+    Equations eq;
+    Eigen::VectorXd dy;
+    Table row;
+  };
+  std::shared_ptr<const Model> of_;
+  WrittenOutput law_;
+  mutable std::unique_ptr<Work> work_;  ///< from the first call on
+};
+
+}  // namespace pintle
