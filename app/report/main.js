@@ -13,7 +13,7 @@ function firstPlots(model, table) {
   const varies = (name) => {
     const {unit, y} = table.columns.get(name);
     const [least, most] = rangeOf(y);
-    return most - least > 1e-9 * spans.get(unit);
+    return most - least > 1e-9 * Math.max(spans.get(unit), Math.abs(least), Math.abs(most));
   };
   const out = [];
   const outputs = known(model.outputs).filter(varies).slice(0, 2);
