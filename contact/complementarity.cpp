@@ -115,10 +115,10 @@ class Lemke {
 
 // Of all that pivots find, what is no solution: they lose digits, and what is left at a ray need be none.
 bool solves(const MatrixXd& M, const VectorXd& q, const VectorXd& z) {
-  constexpr double enough = 1e-8, rounding = 1e-11;
+  constexpr double enough = 1e-8;
   if (!z.allFinite()) return false;
   const VectorXd w = M * z + q;
-  const double none = enough * q.cwiseAbs().maxCoeff() + rounding * (M.cwiseAbs() * z).maxCoeff();
+  const double none = enough * q.cwiseAbs().maxCoeff();
   for (Index i = 0; i < q.size(); ++i)
     if (w[i] < -none || (z[i] > 0 && w[i] > none)) return false;
   return true;
@@ -149,7 +149,7 @@ std::optional<VectorXd> solve_complementarity(const MatrixXd& M, const VectorXd&
 // [AnitescuPotra1997, theorem 1]. Where more contacts are closed than bodies can tell apart, rounding may leave the problem without a
 // solution, as rows of discs that fill a box from wall to wall; if each contact gives way a little it has one.
 std::optional<VectorXd> unilateral_forces(std::span<const UnilateralContact> contacts, const MatrixXd& W, const VectorXd& c) {
-  constexpr double give = 1e-10, within = 1e-3;  // of each contact's own; of the rates: what forces beyond that hold is nothing real
+  constexpr double give = 1e-10, within = 1e-9;  // of each contact's own; of the rates: forces that need more hold what is no rounding
   const auto n = static_cast<Index>(contacts.size());
   const auto m = static_cast<Index>(std::ranges::count_if(contacts, [](const UnilateralContact& k) { return k.tangent >= 0; }));
   const Index size = n + 3 * m;
@@ -194,8 +194,8 @@ std::optional<VectorXd> unilateral_forces(std::span<const UnilateralContact> con
   if (!z) {
     scaled.diagonal().head(n + 2 * m).array() += give;
     z = solve_complementarity(scaled, scaled_q);
+    if (!z || z->maxCoeff() * give > within) return std::nullopt;
   }
-  if (!z || z->maxCoeff() * give > within) return std::nullopt;
   return VectorXd(X * (most * unit.cwiseProduct(*z)) + x0);
 }
 
