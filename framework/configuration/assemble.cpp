@@ -15,6 +15,7 @@
 #include "framework/configuration/equilibrium.h"
 #include "framework/configuration/ideal_pin.h"
 #include "framework/configuration/least_step.h"
+#include "framework/configuration/named_place.h"
 #include "framework/configuration/overlap.h"
 #include "framework/configuration/row_space.h"
 #include "framework/dynamics/equations/internal.h"
@@ -29,25 +30,6 @@ namespace {
 using Eigen::VectorXd;
 using Index = Eigen::Index;
 using Sparse = Eigen::SparseMatrix<double>;
-
-/// Where the scene says something of this name.
-Place place_of(const Scene& scene, const std::string& name) {
-  for (const SceneJoint& j : scene.joints)
-    if (j.name == name) return j.place;
-  for (const SceneDriver& d : scene.drivers)
-    if (d.name == name) return d.place;
-  for (const StartBody& s : scene.start_bodies)
-    if (s.body == name) return s.place;
-  for (const SceneContact& c : scene.contacts)
-    if (c.name == name) return c.place;
-  return {};
-}
-/// The same, naming the thing itself where the scene was not read from a file.
-Place named_place(const Scene& scene, const std::string& name) {
-  Place place = place_of(scene, name);
-  if (place.key.empty()) place.key = "\"" + name + "\"";
-  return place;
-}
 
 /// Rough pose, angles and spins that the scene pins in place (their W is 0), and its pins of origins.
 struct Rough {

@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "framework/configuration/named_place.h"
 #include "framework/configuration/row_space.h"
 #include "framework/dynamics/model/marker_motion.h"
 #include "framework/integration/events/impact_log.h"
