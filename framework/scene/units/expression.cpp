@@ -26,8 +26,9 @@ namespace {
   const std::string near = nearest(name, all);
   const bool is_unit = !near.empty() && std::find(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(without_units), near) ==
                                             all.begin() + static_cast<std::ptrdiff_t>(without_units);
-  throw ExpressionError("\"" + name + "\" is neither a parameter nor a unit" + (vocabulary.signals ? " nor a signal." : ".") +
-                        (is_unit && vocabulary.signals ? " Did you mean the unit \"" + near + "\"?" : did_you_mean(name, near.empty() ? known : all)));
+  throw ExpressionError(
+      "\"" + name + "\" is neither a parameter nor a unit" + (vocabulary.signals ? " nor a signal." : ".") +
+      (is_unit && vocabulary.signals ? " Did you mean the unit \"" + near + "\"?" : did_you_mean(name, near.empty() ? known : all)));
 }
 
 int value_of(const Word& word, const Vocabulary& known, Formula& formula) {
