@@ -17,8 +17,14 @@ namespace {
 class Lemke {
  public:
   enum class Ties { largest_pivot, ordered };  ///< exact where there are few; without circles where there are many
-  Lemke(const MatrixXd& M, const VectorXd& q, const VectorXd& d, Ties ties)
-      : n_(q.size()), table_(n_, 2 * n_ + 2), most_(q.cwiseAbs().maxCoeff()), basic_(static_cast<std::size_t>(n_)), ties_(ties) {
+  /// @param least_pivot  less of a column's greatest is rounding
+  Lemke(const MatrixXd& M, const VectorXd& q, const VectorXd& d, Ties ties, double least_pivot)
+      : n_(q.size()),
+        table_(n_, 2 * n_ + 2),
+        most_(q.cwiseAbs().maxCoeff()),
+        basic_(static_cast<std::size_t>(n_)),
+        ties_(ties),
+        least_pivot_(least_pivot) {
     table_ << MatrixXd::Identity(n_, n_), -M, -d, q;
     for (Index i = 0; i < n_; ++i) basic(i) = i;
   }
@@ -71,11 +77,10 @@ class Lemke {
   // The row that comes to 0 first as the variable grows; of several z₀'s, else that of the largest pivot, or the first as their rows of
   // the inverse of the basis are ordered, by which pivots cannot go round in circles [CottlePangStone1992, 4.9].
   std::optional<Index> blocking(Index enters) {
-    constexpr double rounding = 1e-12;
     const double size = std::max(table_.col(enters).cwiseAbs().maxCoeff(), 1.0);
     std::optional<Index> best;
     for (Index i = 0; i < n_; ++i)
-      if (table_(i, enters) > rounding * size && (!best || comes_before(i, *best, enters))) best = i;
+      if (table_(i, enters) > least_pivot_ * size && (!best || comes_before(i, *best, enters))) best = i;
     return best;
   }
 
@@ -111,6 +116,7 @@ class Lemke {
   double most_;               ///< of q
   std::vector<Index> basic_;  ///< variable of each row
   Ties ties_;
+  double least_pivot_;
 };
 
 // Of all that pivots find, what is no solution: they lose digits, and what is left at a ray need be none.
@@ -130,12 +136,13 @@ bool solves(const MatrixXd& M, const VectorXd& q, const VectorXd& z) {
 // do not, but may take small pivots. Those of another d go another way.
 std::optional<VectorXd> solve_complementarity(const MatrixXd& M, const VectorXd& q) {
   constexpr double golden = 0.6180339887498949;
-  constexpr int ways = 4;
+  constexpr int ways = 6;
   if (q.size() == 0) return q;
   VectorXd d = VectorXd::Ones(q.size());
   for (int way = 0; way < ways; ++way) {
+    const double least_pivot = way < ways / 2 ? 1e-12 : 1e-15;  // the latter where bodies are wedged at an angle of the root of it
     for (const Lemke::Ties ties : {Lemke::Ties::largest_pivot, Lemke::Ties::ordered})
-      if (const auto z = Lemke(M, q, d, ties).solve(); z && solves(M, q, *z)) return z;
+      if (const auto z = Lemke(M, q, d, ties, least_pivot).solve(); z && solves(M, q, *z)) return z;
     for (Index i = 0; i < d.size(); ++i) {
       const double x = golden * (static_cast<double>(i) + 1) * (way + 1);
       d[i] = 0.5 + x - std::floor(x);

@@ -141,7 +141,6 @@ bool Integrator::step_to(double left) {
     } else if (const double error = worse(1e-10, norm_.of(step_, traits.follows_impacts)); !(error <= 1)) {
       control_.rejected(h, error, traits.order, least_part());
     } else {
-      if (getenv("DBG")) fprintf(stderr, "step t=%.15g h=%g err %g\n", step_.from.state.t, h, error);
       control_.accepted(now, error, traits);
       return true;
     }
@@ -197,7 +196,6 @@ bool Integrator::end_at_first_event(std::optional<EventInStep>& event) {
 // At an event the motion starts from where it has come to, with steps as they were when it last was in the same mode.
 bool Integrator::act_on(const EventInStep& event, double wish) {
   ++counts_.events;
-  if (getenv("DBG")) fprintf(stderr, "event %s t=%.15g h=%g\n", events_.name(event).c_str(), step_.to.state.t, step_.h);
   step_.y_before = step_.to.state.y;
   const EventOutcome outcome = events_.act(event, step_, wish);
   if (!outcome.failure.empty()) return stop(outcome.failure, step_.to.state.t);

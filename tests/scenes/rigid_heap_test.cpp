@@ -56,27 +56,28 @@ std::string laws(double restitution, double friction) {
          (friction > 0 ? ", friction: {coulomb: {coefficient: " + number(friction) + "}}}\n" : "}\n");
 }
 
-// The bin is as wide as four discs, which wedge themselves in it side by side.
+// The bin is wider than four discs by 1 mm.
 std::string in_a_bin(const Heap& h) {
   std::string bodies = "bodies:\n", contacts = "contacts:\n";
   for (int i = 0; i < h.discs; ++i) {
     const std::string n = std::to_string(i);
     bodies += "  b" + n + ": {rigid: {mass: 1, inertia: 1e-3}, profiles: {o: {disc: [0, 0], radius: 0.05}}, pose: {at: [" +
-              number(-0.12 + 0.12 * (i % 3) + 0.01 * (i / 3)) + ", " + number(0.07 + 0.11 * (i / 3)) + "]}}\n";
+              number(-0.12 + 0.12 * (i % 3) + 0.01 * (i / 3 % 3)) + ", " + number(0.07 + 0.11 * (i / 3)) + "]}}\n";
     contacts += "  w" + n + ": {between: [b" + n + ".o, ground.bin]" + laws(h.restitution, h.friction);
     for (int j = 0; j < i; ++j)
       contacts += "  c" + n + "_" + std::to_string(j) + ": {between: [b" + n + ".o, b" + std::to_string(j) + ".o]" +
                   laws(h.restitution, h.friction);
   }
-  return "gravity: [0, -9.81]\nground: {profiles: {bin: {path: [[-0.2, 3], [-0.2, 0], [0.2, 0], [0.2, 3]], material: right}}}\n" + bodies +
-         contacts + "run: {until: " + number(h.until) + "}\noutput: {every: 5 ms, frames: 0}\n";
+  return "gravity: [0, -9.81]\nground: {profiles: {bin: {path: [[-0.2005, 3], [-0.2005, 0], [0.2005, 0], [0.2005, 3]], material: "
+         "right}}}\n" +
+         bodies + contacts + "run: {until: " + number(h.until) + "}\noutput: {every: 5 ms, frames: 0}\n";
 }
 
 class RigidHeaps : public testing::TestWithParam<Heap> {};
 INSTANTIATE_TEST_SUITE_P(All, RigidHeaps,
                          testing::Values(Heap{3, 0.3, 0.3, 1.5}, Heap{4, 0.3, 0.3, 1.5}, Heap{5, 0.3, 0.3, 1.5}, Heap{6, 0.3, 0.3, 1.5},
                                          Heap{7, 0.3, 0.3, 0.8}, Heap{8, 0.3, 0.3, 0.5}, Heap{12, 0.3, 0.3, 0.3}, Heap{15, 0, 0.3, 0.25},
-                                         Heap{4, 0.3, 0, 1.5}, Heap{6, 0.3, 0, 0.8}, Heap{4, 0, 0.3, 1.5}, Heap{9, 0, 0.3, 0.9}));
+                                         Heap{4, 0.3, 0, 1.5}, Heap{6, 0.3, 0, 0.8}, Heap{4, 0, 0.3, 1.5}, Heap{9, 0, 0.3, 0.4}));
 
 // None goes into another, nor through a wall, and nothing is gained.
 TEST_P(RigidHeaps, OfDiscsFillABin) {
@@ -88,7 +89,7 @@ TEST_P(RigidHeaps, OfDiscsFillABin) {
     const auto x = w.column("b" + std::to_string(i) + ".x [m]"), y = w.column("b" + std::to_string(i) + ".y [m]");
     for (std::size_t row = 0; row < x.size(); ++row) {
       EXPECT_GT(y[row], r - 1e-9) << i;
-      EXPECT_LT(std::abs(x[row]), 0.2 - r + 1e-9) << i;
+      EXPECT_LT(std::abs(x[row]), 0.2005 - r + 1e-9) << i;
     }
     for (int j = 0; j < i; ++j) {
       const auto x_j = w.column("b" + std::to_string(j) + ".x [m]"), y_j = w.column("b" + std::to_string(j) + ".y [m]");
@@ -106,8 +107,8 @@ void PrintTo(const Boxes& b, std::ostream* out) { *out << b.high << " high, " <<
 
 class RigidBoxes : public testing::TestWithParam<Boxes> {};
 INSTANTIATE_TEST_SUITE_P(All, RigidBoxes,
-                         testing::Values(Boxes{1, 2, 0.01}, Boxes{1, 2, 0}, Boxes{1, 3, 0}, Boxes{2, 1, 0}, Boxes{3, 1, 0}, Boxes{4, 1, 0},
-                                         Boxes{2, 2, 0.01}, Boxes{2, 2, 0}));
+                         testing::Values(Boxes{1, 2, 0.01}, Boxes{1, 2, 0}, Boxes{1, 3, 0}, Boxes{2, 1, 0}, Boxes{3, 1, 0}, Boxes{5, 1, 0},
+                                         Boxes{10, 1, 0}, Boxes{2, 2, 0.01}, Boxes{2, 2, 0}));
 
 // Corner on corner and side on side: they stand for ever as they are put, and the floor bears them all.
 TEST_P(RigidBoxes, StandInRowsAndColumns) {
@@ -135,6 +136,43 @@ TEST_P(RigidBoxes, StandInRowsAndColumns) {
       borne += run_of.last("w" + n + ".normal [N]");
     }
     EXPECT_NEAR(borne, high * wide * m * g, 1e-8);
+  }
+}
+
+// Rows of discs, each in the hollows of the row below. One disc on two: these hold only by friction of tan 15° or more at it and at the
+// floor, for the force through both points of contact goes along the line between them.
+std::string triangle(int rows, double friction) {
+  const double r = 0.05;
+  std::string bodies = "bodies:\n", contacts = "contacts:\n";
+  int k = 0;
+  for (int row = 0; row < rows; ++row)
+    for (int i = 0; i < rows - row; ++i, ++k) {
+      const std::string n = std::to_string(k);
+      bodies += "  b" + n + ": {rigid: {mass: 1, inertia: 1.25e-3}, profiles: {o: {disc: [0, 0], radius: 0.05}}, pose: {at: [" +
+                number(r * (2 * i + row)) + ", " + number(r + std::sqrt(3.0) * r * row) + "]}}\n";
+      contacts += "  w" + n + ": {between: [b" + n + ".o, ground.floor]" + laws(0, friction);
+      for (int j = 0; j < k; ++j)
+        contacts += "  c" + n + "_" + std::to_string(j) + ": {between: [b" + n + ".o, b" + std::to_string(j) + ".o]" + laws(0, friction);
+    }
+  return floor_under() + bodies + contacts + "run: {until: 0.3}\noutput: {every: 0.1, frames: 0}\n";
+}
+
+TEST(RigidHeap, ATriangleOfDiscsStandsWhereFrictionHoldsIt) {
+  for (const int rows : {2, 3, 4}) {
+    SCOPED_TRACE(rows);
+    const Whole w = run(triangle(rows, 0.5));
+    expect_sound(w, 1e-9);
+    double borne = 0;
+    for (int k = 0; k < rows * (rows + 1) / 2; ++k) borne += w.last("w" + std::to_string(k) + ".normal [N]");
+    EXPECT_NEAR(borne, rows * (rows + 1) / 2 * g, 1e-8);
+    EXPECT_NEAR(w.last("b" + std::to_string(rows * (rows + 1) / 2 - 1) + ".y [m]"), 0.05 + std::sqrt(3.0) * 0.05 * (rows - 1), 1e-10);
+  }
+  for (const double part : {0.99, 1.01}) {
+    SCOPED_TRACE(part);
+    const Whole w = run(triangle(2, part * std::tan(std::acos(-1.0) / 12)));
+    expect_sound(w, 1e-9);
+    const double fallen = 0.05 + std::sqrt(3.0) * 0.05 - w.last("b2.y [m]");
+    EXPECT_EQ(fallen > 1e-6, part < 1) << fallen;
   }
 }
 

@@ -288,10 +288,6 @@ bool decide_rigid(const System& system, State& state, Equations& eq) {
   VectorXd c = sticking_accelerations(system, eq);
   let_others_hold(system, state, eq, W, c);
   const auto x = unilateral_forces(closed.unknowns, W, c);
-  if (getenv("DBG")) {
-    fprintf(stderr, " decide %s t=%g\n", x ? "ok" : "NONE", state.t);
-    for (size_t i = 0; i < closed.contact.size(); ++i) { auto& k = closed.unknowns[i]; fprintf(stderr, "   %s c_N %g", system.contact_names[at(closed.contact[i])].c_str(), c[k.normal]); if (x) { fprintf(stderr, " N %g rate %g", (*x)[k.normal], (W.row(k.normal)*(*x))(0)+c[k.normal]); if (k.tangent>=0) fprintf(stderr, " T %g rate %g", (*x)[k.tangent], (W.row(k.tangent)*(*x))(0)+c[k.tangent]); else if (k.sliding>=0) fprintf(stderr, " slides %g", k.direction);} fprintf(stderr, "\n"); }
-  }
   if (!x) return false;
   const std::vector<Doing> now = doings(closed, W, c, *x);
   for (std::size_t i = 0; i < now.size(); ++i) {

@@ -227,9 +227,12 @@ EventOutcome ContactEvents::strike(std::vector<int> touching, Step& step) {
     if (is_rigid(system_.contacts[at(c)]) && std::ranges::find(touching, c) == touching.end() && touches(c, state)) touching.push_back(c);
   State after = state;
   const std::optional<std::vector<Blow>> blows = pintle::strike(system_, touching, after, *eq_);
-  if (getenv("DBG")) { fprintf(stderr, "strike t=%.12g\n", state.t); for (int c : touching) { auto& q=system_.contacts[at(c)]; const Guard g=gap_of(system_,c,state); const Margin m=margin_of(system_,c,state); fprintf(stderr, "  %d %s a(%g,%g s%d h%g) b(%g,%g s%d h%g) depth %g rate %g margin %g side %d\n", c, system_.contact_names[at(c)].c_str(), q.gap.a.centre.x(), q.gap.a.centre.y(), q.gap.a.straight, q.gap.a.half, q.gap.b.centre.x(), q.gap.b.centre.y(), q.gap.b.straight, q.gap.b.half, g.value, g.rate, m.value, m.side);} if (blows) for (auto& b:*blows) fprintf(stderr,"   blow %d approach %g sep %g imp %g\n", b.contact,b.approach,b.separation,b.impulse); }
   if (!blows)
-    return {.failure = name(touching.front()) + ": no impulses stop the bodies that meet here; give the contact a law with a stiffness"};
+    return {
+        .failure =
+            name(touching.front()) +
+            ": no impulses stop the bodies that meet here, which may be wedged between others without play; leave them some, or give the "
+            "contact a law with a stiffness"};
   for (const Blow& blow : *blows)
     if (!log_.touching(blow.contact) && (blow.impulse > 0 || blow.separation == 0))
       log_.begin(blow.contact, step, gap_of(system_, blow.contact, state), state.t, std::max(0.0, blow.approach));
@@ -270,7 +273,6 @@ int next(const System& system, const ImpactLog& log, int contact, const State& s
 }  // namespace
 
 EventOutcome ContactEvents::leave(int contact, Step& step) {
-  if (getenv("DBG")) fprintf(stderr,"leave %d t=%.12g margin %g\n", contact, step.to.state.t, margin_of(system_,contact,step.to.state).value);
   const int to = next(system_, log_, contact, step.to.state);
   if (to < 0 || log_.touching(to)) {  // what it has stored is lost with it
     const ContactPair& pair = system_.contacts[at(contact)];

@@ -195,14 +195,18 @@ Guard onset_of(const System& system, int contact, const State& state) {
 int parts_to_look_at(const System& system, int contact, const Step& step) {
   constexpr double faster = 2, least = 16, most = 4096;
   const ContactPair& pair = system.contacts[at(contact)];
-  double speed = 0, rate = 0, near = -std::numeric_limits<double>::infinity();
+  double speed = 0, rate = 0, near = -std::numeric_limits<double>::infinity(), onset = near;
   for (const State* state : {&step.from.state, &step.to.state}) {
     const Gap gap = facing(system, pair, *state).gap;
     speed = std::max(speed, std::hypot(gap.rate, gap.sideways));
-    rate = std::max(rate, std::abs(margin_of(system, contact, *state).rate));
-    near = std::max(near, onset_of(system, contact, *state).value);
+    near = std::max(near, gap.depth);
   }
-  if (near < -faster * std::max(speed, rate) * step.h) return 0;
+  if (near < -faster * speed * step.h) return 0;
+  for (const State* state : {&step.from.state, &step.to.state}) {
+    rate = std::max({rate, speed, std::abs(margin_of(system, contact, *state).rate)});
+    onset = std::max(onset, onset_of(system, contact, *state).value);
+  }
+  if (onset < -faster * rate * step.h) return 0;
   double size = std::min(system.length, pair.deepest);
   for (const Piece* piece : {&pair.gap.a, &pair.gap.b}) {
     const double length = piece->straight || piece->curve ? piece->half : std::abs(piece->radius) * std::min(piece->half, 1.0);
