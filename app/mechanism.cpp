@@ -194,7 +194,7 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
     rows.emplace_back("contacts at " + s.contact_names[c], contacts_text(s.contacts[c], static_cast<int>(c), run.impacts));
   }
   add_happenings(run, rows);
-  if (!run.switched.empty()) rows.emplace_back("method", name(model.scheme) + ", then " + run.switched);
+  rows.emplace_back("method", model.scheme.reason + (run.switched.empty() ? "" : "; then " + run.switched));
   rows.emplace_back("steps", std::to_string(run.counts.steps) + " (" + std::to_string(run.counts.rejected) + " rejected), " +
                                  std::to_string(run.counts.evaluations) + " evaluations in " + number(run.seconds, 3) + " s");
   rows.emplace_back("constraints held to",

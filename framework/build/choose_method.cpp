@@ -104,24 +104,55 @@ class Parts {
         if (l < 0) continue;
         const SignalLaw& law = system_.laws[at(l)];
         for (std::size_t i = 0; i < law.in.size(); ++i) in[i] = signal_at(system_, system_.signals[at(law.in[i])], y);
-        law.of(0, in.data(), slope.data());
+        push(*force, law.of(0, in.data(), slope.data()));
         for (std::size_t i = 0; i < law.in.size(); ++i)
           see(*force, system_.signals[at(law.in[i])], std::abs(slope[i]), system_.force_names[k]);
       }
     }
-    for (const OwnState& state : system_.states) {
-      const SignalLaw& law = system_.laws[at(state.rate)];
+    see_states(y);
+  }
+  RateSpectrum found;
+  double pushed = 0;  ///< √(acceleration/length) by the laws of forces where the scene starts [rad/s]
+
+ private:
+  // How the scene's own states follow each other, the motion held: the fastest of their exponential rates.
+  void see_states(const Eigen::VectorXd& y) {
+    std::array<double, most_law_inputs> in, slope{};
+    const auto n = static_cast<Eigen::Index>(system_.states.size());
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n, n);
+    for (Eigen::Index row = 0; row < n; ++row) {
+      const SignalLaw& law = system_.laws[at(system_.states[at(row)].rate)];
       for (std::size_t i = 0; i < law.in.size(); ++i) in[i] = signal_at(system_, system_.signals[at(law.in[i])], y);
       law.of(0, in.data(), slope.data());
       for (std::size_t i = 0; i < law.in.size(); ++i)
-        if (const MotionSignal& signal = system_.signals[at(law.in[i])];
-            signal.kind == MotionSignal::state && system_.states[at(signal.a)].name == state.name && std::isfinite(slope[i]))
-          see({0, std::abs(slope[i]), "the state \"" + state.name + "\""});
+        if (const MotionSignal& signal = system_.signals[at(law.in[i])]; signal.kind == MotionSignal::state && std::isfinite(slope[i]))
+          J(row, signal.a) += slope[i];
+    }
+    if (n == 0) return;
+    Eigen::Index own, fastest;
+    const double decay = J.diagonal().cwiseAbs().maxCoeff(&own), rate = spectral_radius(J, fastest);
+    constexpr double known = 0.1;  // of the rate, whatever the units
+    const bool alone = rate <= (1 + known) * decay;
+    see({alone ? 0 : rate, decay, "the state \"" + system_.states[at(alone ? own : fastest)].name + "\""});
+  }
+  // ‖A^m‖^(1/m) with m = 2^10, whatever the units of the states: within a few per cent. @param row  that grows most
+  static double spectral_radius(Eigen::MatrixXd power, Eigen::Index& row) {
+    double log = 0, part = 1;
+    for (int squarings = 0;; ++squarings) {
+      const double size = power.cwiseAbs().rowwise().sum().maxCoeff(&row);
+      if (!(size > 0)) return 0;
+      log += part * std::log(size);
+      if (squarings == 10) return std::exp(log);
+      power = (power * power / (size * size)).eval();
+      part /= 2;
     }
   }
-  RateSpectrum found;
-
- private:
+  void push(const SizedForce& force, double size) {
+    const bool couple = force.way == SizedForce::couple || force.way == SizedForce::restoring;
+    const Mobility a = mobility(system_, force.a), b = mobility(system_, force.b);
+    const double turning = std::abs(size) * (couple ? a.couple + b.couple : (a.force + b.force) / system_.length);
+    if (std::isfinite(turning)) pushed = std::max(pushed, std::sqrt(turning));
+  }
   // The signal moves by what the force does to it, at the most.
   void see(const SizedForce& force, const MotionSignal& signal, double slope, const std::string& name) {
     using Kind = MotionSignal::Kind;
@@ -185,6 +216,40 @@ double motion_of(const Scene& scene, const System& system) {
   return motion;
 }
 
+/// What forces by laws of time make of a mechanism at rest, and how fast they change: √(acceleration/length), and rate over size in
+/// the mean of their squares.
+double pushed_by_laws_of_time(const Scene& scene, const System& system) {
+  constexpr int samples = 64;
+  double fastest = 0;
+  const auto see = [&](const TimeLaw& law, double turned) {
+    double most = 0, sizes = 0, rates = 0;
+    for (int i = 0; i <= samples; ++i) {
+      const Jet jet = law(scene.run.until * i / samples);
+      most = std::max(most, std::abs(jet.value)), sizes += jet.value * jet.value, rates += jet.rate * jet.rate;
+    }
+    for (const double found : {std::sqrt(most * turned), sizes > 0 ? std::sqrt(rates / sizes) : 0})
+      if (std::isfinite(found)) fastest = std::max(fastest, found);
+  };
+  for (const Force& force : system.forces) {
+    const Mobility a = mobility(system, marker_a(force)), b = mobility(system, marker_b(force));
+    if (const auto* point = std::get_if<PointForce>(&force))
+      for (const TimeLaw* law : {&point->x, &point->y}) see(*law, b.force / system.length);
+    if (const auto* torque = std::get_if<Torque>(&force)) see(torque->law, a.couple + b.couple);
+  }
+  return fastest;
+}
+
+/// How fast what nothing drives moves: as it is pushed, as what swings through the whole run, and not less than the run lets see.
+double undriven_motion(const Scene& scene, const System& system, const RateSpectrum& s, double pushed) {
+  double swing = 0;
+  for (const RateSpectrum::Part& p : s.parts) {
+    const bool rings = p.rate > 0 && p.decay < 2 * p.rate && p.decay * scene.run.until < 2 * std::log(1 / scene.run.tolerance);
+    if (rings) swing = swing > 0 ? std::min(swing, p.rate) : p.rate;
+  }
+  const double seen = scene.run.until > 0 ? 1 / scene.run.until : 0;
+  return std::max({seen, swing, pushed, pushed_by_laws_of_time(scene, system)});
+}
+
 Constraints constraints_of(const Scene& scene, bool is_explicit) {
   const std::string& c = scene.run.constraints;
   if (c == "partitioning" && !is_explicit)
@@ -202,8 +267,9 @@ bool has_rigid_contacts(const System& system) {
   return std::ranges::any_of(system.contacts, [](const ContactPair& c) { return is_rigid(c); });
 }
 
-void choose(const Scene& scene, const System& system, Scheme& scheme) {
-  const RateSpectrum s = spectrum(scene, system);
+std::string damped_text(const RateSpectrum& s) { return s.most_damped.what + " (" + short_number(s.most_damped.decay) + " 1/s)"; }
+
+void choose(const Scene& scene, const System& system, const RateSpectrum& s, Scheme& scheme) {
   const Demand d = demand(s, scene.run.tolerance);
   const double needed = std::max(d.stability, d.accuracy);
   const bool rigid = has_rigid_contacts(system);
@@ -214,8 +280,8 @@ void choose(const Scene& scene, const System& system, Scheme& scheme) {
   why = name(scheme) + ", chosen because Dormand and Prince's pair needs about " + short_number(needed) + " steps a second";
   if (d.stability > d.accuracy) {
     const bool by_decay = s.most_damped.decay / decay_reached > s.fastest.rate / rate_reached;
-    why += ", which stability asks for because of " + (by_decay ? s.most_damped.what + " (" + short_number(s.most_damped.decay) + " 1/s)"
-                                                                : s.fastest.what + " (" + short_number(s.fastest.rate) + " rad/s)");
+    why += ", which stability asks for because of " +
+           (by_decay ? damped_text(s) : s.fastest.what + " (" + short_number(s.fastest.rate) + " rad/s)");
   } else {
     why += " for its accuracy";
   }
@@ -239,12 +305,7 @@ RateSpectrum spectrum(const Scene& scene, const System& system) {
   RateSpectrum s = std::move(parts.found);
   s.motion = motion;
   s.until = scene.run.until;
-  if (motion > 0) return s;
-  for (const RateSpectrum::Part& p : s.parts)
-    if (p.rate > 0) s.motion = s.motion > 0 ? std::min(s.motion, p.rate) : p.rate;
-  if (s.motion > 0) return s;
-  for (const RateSpectrum::Part& p : s.parts)  // nothing swings: what a motor or a state runs up by
-    if (p.decay > 0) s.motion = s.motion > 0 ? std::min(s.motion, p.decay) : p.decay;
+  if (!(motion > 0)) s.motion = undriven_motion(scene, system, s, parts.pushed);
   return s;
 }
 
@@ -287,9 +348,11 @@ void require_rigid(const Scene& scene, const System& system) {
 
 void choose_method(const Scene& scene, const System& system, Scheme& scheme) {
   const RunOptions& run = scene.run;
+  const RateSpectrum s = spectrum(scene, system);
   scheme.rho = run.rho;
+  if (s.most_damped.decay > 0) scheme.stiff = damped_text(s);
   if (run.method == "auto") {
-    choose(scene, system, scheme);
+    choose(scene, system, s, scheme);
   } else {
     scheme.tableau = find_tableau(run.method);
     if (!scheme.tableau && run.method != "generalized-alpha" && run.method != "moreau") {

@@ -16,7 +16,7 @@ struct RateSpectrum {
     double decay = 0;       ///< of its speed by its damper, 2ζω of a mode [1/s]
     std::string what = {};  ///< for messages
   };
-  double motion = 0;          ///< start spins, drivers' rates, √(g/length) [rad/s]; if none, the slowest part's own
+  double motion = 0;          ///< start spins, drivers' rates, √(g/length) [rad/s]; if none, how what swings, or is pushed, moves
   double until = 0;           ///< length of the run [s]
   Part fastest, most_damped;  ///< of springs and modes
   std::vector<Part> parts;    ///< springs, modes, contacts

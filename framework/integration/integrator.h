@@ -45,8 +45,9 @@ class Integrator {
   Counts counts() const;
   double worst_position() const { return worst_position_; }  ///< largest scaled |C| at a step's end
   double worst_velocity() const { return worst_velocity_; }
-  bool implicit() const { return stepper_->traits().implicit; }     ///< now
-  const std::string& switched() const { return switching_.why(); }  ///< when and why another method took over in the run; else empty
+  bool implicit() const { return stepper_->traits().implicit; }         ///< now
+  double held_by_stability() const { return switching_.held_share(); }  ///< part of the explicit steps
+  const std::string& switched() const { return switching_.why(); }      ///< when and why another method took over in the run; else empty
 
   /// Everything the following steps depend on, and the impacts and counts so far, as they are to the bit.
   /// For this System, scheme and program only.

@@ -44,6 +44,7 @@ struct Scheme {
   double switch_below = 0;  ///< an explicit step that stability, not accuracy, holds below this gives way to
                             ///< generalised-α [s]; 0: never
   std::string reason = {};  ///< why this scheme, in words
+  std::string stiff = {};   ///< what decays fastest, in words
   /// Each makes a group of events for one integrator, beside those of the contacts.
   std::vector<std::function<std::unique_ptr<EventGroup>(const System&)>> events = {};
 };

@@ -14,8 +14,10 @@ bool Switching::falls_back(const Stepper& stepper, const Scheme& scheme, double 
 }
 
 bool Switching::held_by_stability(const Stepper& stepper, const Scheme& scheme, const Step& step) {
-  constexpr int many = 30;
-  if (!(scheme.switch_below > 0) || stepper.traits().implicit) return false;
+  constexpr int many = 30, seldom = 16;
+  if (stepper.traits().implicit) return false;
+  if (!(step.h < scheme.switch_below) && ++steps_ % seldom == 0) ++looked_at_, at_limit_ += stepper.at_stability_limit(step);
+  if (!(scheme.switch_below > 0)) return false;
   const bool held = step.h < scheme.switch_below && stepper.at_stability_limit(step);
   held_ = held ? held_ + 1 : std::max(0, held_ - 2);
   if (held_ < many) return false;

@@ -281,6 +281,61 @@ TEST(Auto, SpectrumOfOneBodyOnASpringIsItsFrequency) {
   EXPECT_EQ(found.motion, 2);  // nothing else moves it
 }
 
+// Nothing that decays fast says how fast the motion is that is to be followed: one rod, pushed from rest, each stiff in its own way.
+pintle::Scene pushed_rod(const std::string& what) {
+  return pintle::read_scene_text(
+      "ground: {points: {G: [0.1, 0.5]}}\nbodies: {rod: {rigid: {mass: 0.5, inertia: 0.01}, points: {O: [-0.2, 0], P: [0.2, 0]}},\n"
+      "  twin: {rigid: {mass: 0.5, inertia: 0.01}, points: {P: [0.3, 0]}, pose: {at: [0.2, 0]}}}\n"
+      "joints: {hinge: {revolute: [ground, rod.O]}, axle: {revolute: [rod.P, twin]}}\n" +
+          what + "\nrun: {until: 0.2}\noutput: {frames: 0, every: 0.1}\n",
+      "scene.yaml");
+}
+const std::vector<std::string> stiff_parts{
+    "states: {lag: {rate: \"(sin(3*t) - lag)/(1 us)\"}}\nforces: {push: {torque: 1 N m*lag, on: rod}}",
+    "states: {p: {rate: \"1e6*(sin(3*t) - q)\"}, q: {rate: 1e6*(p - q)}}\nforces: {push: {torque: 1 N m*q, on: rod}}",
+    "forces: {push: {torque: 1, on: rod}, d: {spring: [ground.G, rod.P], damping: 1e6}}",
+    "forces: {push: {torque: 1, on: rod}, d: {spring: [ground.G, twin.P], stiffness: 1e4, damping: 1e6, free length: 0.5}}",
+    "forces: {push: {torque: 1, on: rod}, d: {torsion spring: [rod, twin], damping: 1e4}}",
+    "forces: {push: {torque: 1, on: rod}, d: {torque: -1e4 N m s/rad*twin.speed, on: twin}}",
+    "forces: {push: {torque: 1, on: rod}, d: {spring: [ground.G, twin.P], law: 1e6 N s/m*d.rate}}",
+    "forces: {push: {torque: 1, on: rod}, d: {belt: [rod.O, twin], radii: [0.05, 0.05], stiffness: 1e4, damping: 1e5, pretension: 1}}",
+};
+
+TEST(Auto, NeedsFewStepsWhateverDecaysFastAndNamesIt) {
+  for (const std::string& part : stiff_parts) {
+    const Whole w = run(pushed_rod(part));
+    EXPECT_EQ(w.run.status, pintle::Status::finished) << part << w.run.reason;
+    EXPECT_EQ(w.model.scheme.tableau, nullptr) << part;
+    EXPECT_LT(w.run.counts.steps, 5000) << part;  // of 2e5 that stability would ask for of a pair
+    EXPECT_NE(w.model.scheme.reason.find("1/s"), std::string::npos) << w.model.scheme.reason;
+  }
+}
+
+TEST(Auto, SeesNoHurryInStatesThatFollowEachOtherSlowly) {  // fast by the units of their numbers alone: eigenvalues ±1i
+  const pintle::Scene s = pushed_rod("states: {p: {rate: 1e9*q}, q: {rate: -1e-9*p}}\nforces: {push: {torque: 1, on: rod}}");
+  const pintle::RateSpectrum found = pintle::spectrum(s, pintle::build(s).system);
+  EXPECT_NEAR(found.fastest.rate, 1, 0.05);
+  EXPECT_EQ(found.most_damped.decay, 0);
+}
+
+TEST(Method, WarnsWhereStabilityHoldsItsStepsAndNotOtherwise) {
+  const auto warned = [](const char* damping, const char* method, const std::string& more = "") {
+    pintle::Scene s =
+        pushed_rod("forces: {push: {torque: 1, on: rod}, d: {spring: [ground.G, rod.P], damping: " + std::string(damping) + "}}");
+    s.run.method = method, s.run.tolerance = 1e-6;
+    if (!more.empty()) s.run.constraints = more;
+    std::string all;
+    for (const std::string& w : run(s).run.warnings) all += w;
+    return all;
+  };
+  for (const char* method : {"dopri5", "rkf45", "verner87"}) {
+    pintle_test::expect_says(warned("1e5", method), {"stability, not accuracy", "the spring \"d\"", "take method: auto"});
+    EXPECT_EQ(warned("2", method), "") << method;
+  }
+  pintle_test::expect_says(warned("1e5", "dopri5", "partitioning"), {"leave out constraints: partitioning"});
+  EXPECT_EQ(warned("1e5", "generalized-alpha"), "");
+}
+
 TEST(Auto, ChoosesTheSameForTheSameSceneAndRunsToItsEnd) {
   const Whole a = run(sprung(1e14, 1e6)), b = run(sprung(1e14, 1e6));
   ASSERT_EQ(a.run.status, pintle::Status::finished) << a.run.reason;

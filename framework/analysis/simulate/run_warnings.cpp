@@ -1,6 +1,7 @@
 #include "framework/analysis/simulate/run_warnings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <sstream>
 #include <variant>
@@ -66,6 +67,19 @@ void warn_of_lifting(const System& system, Run& run) {
                            number_text(-*std::ranges::min_element(normal), 3) + " N, in " + std::to_string(pulls) + " of " +
                            std::to_string(normal.size()) + " outputs: it would lift off there; a contact lets it");
   }
+}
+
+void warn_of_stiffness(const Scene& scene, const Model& model, double share, Run& run) {
+  constexpr double most = 0.5;
+  if (!(share > most)) return;
+  const bool rigid = std::ranges::any_of(model.system.contacts, [](const ContactPair& c) { return is_rigid(c); });
+  const std::string remedy = rigid                                     ? "soften or damp less what is so fast, or give the contacts a law"
+                             : scene.run.constraints == "partitioning" ? "leave out constraints: partitioning, and take method: auto"
+                             : scene.run.method != "auto"              ? "take method: auto, or generalized-alpha"
+                                                                       : "take method: generalized-alpha";
+  const std::string& fast = model.scheme.stiff;
+  run.warnings.push_back("stability, not accuracy, held " + number_text(std::round(100 * share)) + " % of the explicit steps" +
+                         (fast.empty() ? "" : "; what decays fastest is " + fast) + ": " + remedy);
 }
 
 }  // namespace pintle

@@ -13,5 +13,7 @@ void warn_of_gap(const System&, const Model&, const SavedState& from, Run&);
 void warn_of_pushing(const System&, Run&);
 /// A disc that rolls is held in contact, whether it presses or not.
 void warn_of_lifting(const System&, Run&);
+/// Explicit steps that stability held, not accuracy, and what would do with fewer. @param share  of the steps
+void warn_of_stiffness(const Scene&, const Model&, double share, Run&);
 
 }  // namespace pintle

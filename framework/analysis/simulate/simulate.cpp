@@ -134,6 +134,7 @@ class Simulation {
     warn_of_depth(system_, run_);
     warn_of_pushing(system_, run_);
     warn_of_lifting(system_, run_);
+    warn_of_stiffness(scene_, model_, integrator_.held_by_stability(), run_);
     slow_.warn(system_, run_.energy_in_play, run_.warnings);
     monitor_.warn(run_.warnings);
     run_.counts = integrator_.counts();

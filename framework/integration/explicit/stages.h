@@ -42,8 +42,8 @@ class Stages {
   double closest() const { return least_; }
   /// A stage of the last attempt stood in or near a singular pose, or bodies have very unlike inertias.
   bool weak() const { return weak_; }
-  /// h times the fastest rate that the last attempt met, by the change from its last inner stage to its end
-  /// [HairerWanner1996, IV.2]; 0 unless both stand at one instant.
+  /// h times the fastest rate that the last attempt met, by the change from its last inner stage at the end's instant to that end
+  /// [HairerWanner1996, IV.2]; 0 of a pair without such a stage.
   double stiffness(const System&, const Step&) const;
   /// What the next steps depend on besides the nodes.
   template <class A>
