@@ -107,17 +107,13 @@ class Settling {
       rod->length += open(made) + rod->length;
       if (!(rod->length > 0)) wrong(j.place, "length must stay above 0; at the start present is " + length(rod->length - j.length));
     } else if (auto* gear = std::get_if<Gear>(&made)) {
-      fit(j, *gear);
-      gear->phase += open(made);
+      mesh(j, made, *gear, 0);
     } else if (auto* disc = std::get_if<RollsOnDisc>(&made)) {
-      fit(j, *disc);
-      disc->phase += open(made, 1);
+      mesh(j, made, *disc, 1);
     } else if (auto* rack = std::get_if<Rack>(&made)) {
-      fit(j, *rack);
-      rack->phase += open(made);
+      mesh(j, made, *rack, 0);
     } else if (auto* wheel = std::get_if<RollsOnLine>(&made)) {
-      fit(j, *wheel);
-      wheel->phase += open(made, 1);
+      mesh(j, made, *wheel, 1);
     } else if (auto* related = std::get_if<Relation>(&made)) {
       if (related->curve && !std::isfinite(open(made)))
         wrong(j.place, "its table does not cover the cam's angle at the start, " + angle(input(*related)) +
@@ -135,13 +131,15 @@ class Settling {
       return Jet{present + jet.value, jet.rate, jet.accel};
     };
   }
+  /// Pulleys of one belt lie in one plane. Each span begins at one of them.
+  void keep_apart(const SceneLoad& l, const BeltSpan& one, const BeltSpan& other) const {
+    const double apart = (motion_[at(one.a)].r - motion_[at(other.a)].r).norm(), a = std::abs(one.radius_a), b = std::abs(other.radius_a);
+    if (!(apart > a + b)) overlap(l.place, apart, a, b);
+  }
   /// Constant per span: stiffness over its length.
-  void settle(const SceneLoad& l, const SceneBelt& belt, BeltSpan& span) const {
+  void settle(const SceneBelt& belt, BeltSpan& span) const {
     const MarkerMotion &a = motion_[at(span.a)], &b = motion_[at(span.b)];
     const double delta = span.radius_b - span.radius_a, apart = (b.r - a.r).norm();
-    if (!(apart > std::abs(delta)))
-      wrong(l.place, "two of its pulleys are " + length(apart) + " apart at the start, and between radii of " + length(span.radius_a) +
-                         " and " + length(span.radius_b) + " a span needs more than " + length(std::abs(delta)));
     const double span_length = std::sqrt(apart * apart - delta * delta);
     span.turn = std::atan2(b.r.y() - a.r.y(), b.r.x() - a.r.x()) - std::atan2(delta, span_length);
     span.k = belt.stiffness / span_length;
@@ -151,6 +149,16 @@ class Settling {
 
  private:
   [[noreturn]] void wrong(const Place& place, const std::string& message) const { throw SceneError(scene_.file, place, message); }
+  /// What does not slip is the row `row` of the joint.
+  template <class Wheels>
+  void mesh(const SceneJoint& j, const Joint& made, Wheels& wheels, int row) const {
+    fit(j, wheels);
+    wheels.phase += open(made, row);
+  }
+  [[noreturn]] void overlap(const Place& place, double apart, double a, double b) const {
+    wrong(place, "two of its pulleys are " + length(apart) + " apart at the start, but radii of " + length(a) + " and " + length(b) +
+                     " ask for more than " + length(a + b) + "; correct radii or points");
+  }
   static std::string length(double x) { return number_text(1e3 * x, 7) + " mm"; }
   static std::string angle(double x) { return number_text(x * 180 / std::numbers::pi, 7) + " deg"; }
 
@@ -171,10 +179,7 @@ class Settling {
     const double apart = (motion_[at(gear.b)].r - motion_[at(gear.a)].r).norm(), sum = std::abs(gear.radius_a + gear.radius_b);
     const double a = gear.radius_a, b = std::abs(gear.radius_b);
     if (j.kind == JointKind::belt) {
-      const double least = gear.radius_b > 0 ? a + b : std::abs(a - b);
-      if (!(apart > least))
-        wrong(j.place, "the pulleys are " + length(apart) + " apart at the start; a " + (gear.radius_b > 0 ? "crossed" : "open") +
-                           " belt on radii of " + length(a) + " and " + length(b) + " needs more than " + length(least));
+      if (!(apart > a + b)) overlap(j.place, apart, a, b);
       return;
     }
     if (!(sum > 0))
@@ -280,10 +285,14 @@ void settle_start(const Scene& scene, Model& model) {
   const System rest = without(system, open);
   const Settling start(scene, rest, closed_pose(scene, rest, model.bent));
   each([&](const auto& named, int joint) { start.settle(named, system.joints[at(joint)]); });
-  for (std::size_t i = 0; i < scene.loads.size(); ++i)
-    if (const auto* belt = std::get_if<SceneBelt>(&scene.loads[i].what))
-      for (std::size_t k = 0; k < belt->pulleys.size(); ++k)
-        start.settle(scene.loads[i], *belt, std::get<BeltSpan>(system.forces[at(model.order.loads[i]) + k]));
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    const auto* belt = std::get_if<SceneBelt>(&scene.loads[i].what);
+    const auto span = [&](std::size_t k) -> BeltSpan& { return std::get<BeltSpan>(system.forces[at(model.order.loads[i]) + k]); };
+    for (std::size_t k = 0; belt && k < belt->pulleys.size(); ++k) {
+      for (std::size_t other = 0; other < k; ++other) start.keep_apart(scene.loads[i], span(k), span(other));
+    }
+    for (std::size_t k = 0; belt && k < belt->pulleys.size(); ++k) start.settle(*belt, span(k));
+  }
 }
 
 }  // namespace pintle

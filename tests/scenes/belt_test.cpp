@@ -111,6 +111,8 @@ TEST(BeltInput, IsRefusedWithTheRemedy) {
     expect_refused([&] { build(read_scene(PINTLE_SOURCE_DIR "/examples/belt_drive.yaml", {{"forces.belt", belt}})); }, parts);
   };
   refused("{belt: [motor, drum], radii: [0.1, 0.25], stiffness: 20 kN, crossed: true}", {"forces.belt", "300 mm apart", "350 mm"});
+  refused("{belt: [motor, drum], radii: [0.1, 0.25], stiffness: 20 kN}", {"forces.belt", "300 mm apart", "350 mm"});
+  refused("{belt: [motor, drum], radii: [0.1, -0.1], stiffness: 20 kN, crossed: true}", {"forces.belt.radii", "leave out crossed"});
   refused("{belt: [motor, drum], radii: [0.1], stiffness: 20 kN}", {"forces.belt.radii", "each of the 2 pulleys"});
   refused("{belt: [motor, drum], radii: [0.1, 0], stiffness: 20 kN}", {"must not be 0"});
   refused("{belt: [motor, drum], radii: [0.1, 0.1]}", {"stiffness"});

@@ -231,14 +231,44 @@ TEST(GearInput, IsRefusedWithTheRemedy) {
   refused("{gear: [a, b], radii: [0.1, 0.2]}", 0.1, {"100 mm apart", "inside: true"});
   refused("{gear: [a, b], radii: [0.1, 0.2], inside: true}", 0.3, {"leave out inside"});
   refused("{gear: [a, b], radii: [0.1, 0]}", 0.3, {"joints.pair.radii", "must be greater than 0"});
+  refused("{gear: [a, b], teeth: [30.5, 61]}", 0.3, {"s.yaml:8", "joints.pair.teeth", "30.5", "whole", "radii"});
+  refused("{gear: [a, b], teeth: [20, -40]}", 0.3, {"joints.pair.teeth", "must be greater than 0"});
+  refused("{belt: [a, b], radii: [0.1, 0.25]}", 0.3, {"joints.pair", "300 mm apart", "350 mm"});
+  refused("{belt: [a, b], radii: [-0.1, 0.1], crossed: true}", 0.3, {"joints.pair.radii", "must be greater than 0"});
+  refused("{rack: [a, b], radius: -0.2}", 0.3, {"joints.pair.radius"});
+  refused("{rolling: [a, b], radius: 0}", 0.3, {"joints.pair.radius"});
+  refused("{differential: [{angle: [ground, a]}, {angle: [a, ground], ratio: 2}]}", 0.3, {"joints.pair.differential", "ratios"});
   refused("{gear: [a, b]}", 0.3, {"lacks a required key", "radii", "teeth"});
   refused("{gear: [a, b], radii: [0.1, 0.2], teeth: [1, 2]}", 0.3, {"teeth", "keep one of them"});
   refused("{gear: [a, b], radii: [0.1, 0.2], clearance: {gap: 1}}", 0.3, {"clearance", "does not belong to gear"});
   refused("{gear: [a, b], radii: [0.1, 0.2], friction: {}}", 0.3, {"friction", "does not belong to gear"});
-  refused("{belt: [a, b], radii: [0.1, 0.2], crossed: true}", 0.25, {"250 mm", "crossed", "300 mm"});
+  refused("{belt: [a, b], radii: [0.1, 0.2], crossed: true}", 0.25, {"250 mm", "300 mm"});
   refused("{rack: [a, b], radius: 0.2}", 0.3, {"joints.pair", "0 mm off the line", "200 mm"});
   refused("{rolling: [a, b], radius: 0.2, inside: true}", 0.3, {"inside", "radii"});
   refused("{gear: [a, a], radii: [0.1, 0.2]}", 0.3, {"both ends are on \"a\""});
+}
+
+// Trains that ask two ratios of one pair of wheels, and are driven: what contradicts what is named, at speeds and at accelerations.
+TEST(GearInput, NamesTheCouplingsOfATrainThatContradictsItself) {
+  const std::string triangle =
+      "ground: {points: {B: [0.2, 0], C: [0.1, 0.17320508075688773]}}\nbodies:\n  a: {rigid: {mass: 1, inertia: 1e-3}}\n"
+      "  b: {rigid: {mass: 1, inertia: 1e-3}, pose: {at: [0.2, 0]}}\n"
+      "  c: {rigid: {mass: 1, inertia: 1e-3}, pose: {at: [0.1, 0.17320508075688773]}}\njoints:\n"
+      "  A: {revolute: [ground, a]}\n  B: {revolute: [ground.B, b]}\n  C: {revolute: [ground.C, c]}\n"
+      "  ab: {gear: [a, b], radii: [0.1, 0.1]}\n  bc: {gear: [b, c], radii: [0.1, 0.1]}\n  ca: {gear: [c, a], radii: [0.1, 0.1]}\n";
+  const std::string twice = two_wheels("{gear: [a, b], radii: [0.1, 0.2]}") + "  loop: {belt: [a, b], radii: [0.1, 0.1]}\n";
+  const auto said = [](const std::string& text) {
+    try {
+      return run(text).run.reason;
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+  };
+  for (const char* law : {"2*t", "2*t^2"}) {
+    const std::string motor = "drivers: {motor: {angle: [ground, a], law: " + std::string(law) + "}}\n" + rest;
+    pintle_test::expect_says(said(triangle + motor), {"ab", "bc", "ca", "motor", "leave"});
+    pintle_test::expect_says(said(twice + motor), {"pair", "loop", "motor", "leave"});
+  }
 }
 
 }  // namespace

@@ -106,7 +106,9 @@ TEST(Cam, InputIsRefusedWithTheRemedy) {
   refused("{cam: [cam, valve], lift: {table: part.csv, angle unit: deg, value unit: mm}}", {"joints.lobe", "does not cover", "0 deg"});
   refused("{cam: [cam, valve], lift: 5 deg*sin(angle)}", {"joints.lobe.lift", "expected a length"});
   refused("{cam: [cam, valve], lift: 5 mm*sin(angel)}", {"angel", "angle"});
-  refused("{cam: [cam, valve], lift: 5 mm*abs(sin(angle))}", {"joints.lobe.lift", "struck", "step"});
+  for (const char* curve : {"5 mm*abs(sin(angle))", "5 mm*abs(angle)", "5 mm*max(angle, 0)", "5 mm*abs(angle - 2*pi)",
+                            "5 mm*abs(angle + 2*pi)", "5 mm*abs(angle - pi)", "5 mm*if(angle < 0, 1, 2)"})
+    refused("{cam: [cam, valve], lift: \"" + std::string(curve) + "\"}", {"joints.lobe.lift", "struck", "step"});
   refused("{cam: [cam, valve], lift: 5 mm*tan(angle/2)}", {"joints.lobe.lift", "not finite"});
   refused("{cam: [cam, valve]}", {"lift", "swing"});
   // What leaves its table while it runs says so, and does not go on.

@@ -53,7 +53,11 @@ void read_wheels(const Node& node, const JointWord& word, SceneCoupling& out) {
     if (node.has("inside")) node.at("inside").fail("belongs to two discs, with radii; a disc on a line has radius alone");
   }
   if (radii) out.radii = read_two(node.at("radii"), dimension::length, "[20 mm, 60 mm]");
-  if (teeth) out.teeth = read_two(node.at("teeth"), dimension::number, "[20, 60]");
+  if (teeth) {
+    out.teeth = read_two(node.at("teeth"), dimension::number, "[20, 60]");
+    for (const double n : out.teeth)
+      if (n != std::round(n)) node.at("teeth").fail("holds " + number_text(n) + ", but teeth are whole; write the pitch circles' radii");
+  }
   if (line || radii || teeth) return;
   node.fail(std::string("lacks a required key; add for example ") + (kind == "rack"   ? "radius: 20 mm"
                                                                      : kind == "gear" ? "radii: [20 mm, 60 mm], or teeth: [20, 60]"
@@ -94,6 +98,16 @@ struct Bounded {
   }
 };
 
+/// A curve whose angle is counted from `zero` on, and clockwise or not.
+Law from_zero(Law law, double zero, bool clockwise) {
+  if (zero == 0 && !clockwise) return law;
+  law.at = [of = law.at, zero, sign = clockwise ? -1.0 : 1.0](double angle) {
+    const Jet jet = of(sign * (angle - zero));
+    return Jet{jet.value, sign * jet.rate, jet.accel};
+  };
+  return law;
+}
+
 Law read_curve_table(const Node& node, const Dimension& expected, const std::string& keys) {
   check_keys(node, keys);
   const std::string file = node.at("table").file("the name of a file beside the scene");
@@ -108,14 +122,28 @@ Law read_curve_table(const Node& node, const Dimension& expected, const std::str
   Json text = {{"table", file}};
   if (angle_unit != 1) text["angle unit"] = Json(angle_unit).dump() + " rad";
   if (value_unit != 1) text["value unit"] = Json(value_unit).dump() + " " + si_unit(expected);
+  const double zero = node.has("zero") ? node.at("zero").quantity(dimension::angle) : 0;
+  const bool clockwise = node.has("clockwise") && node.at("clockwise").yes();
+  if (zero != 0) text["zero"] = Json(zero).dump() + " rad";
+  if (clockwise) text["clockwise"] = true;
   const auto [least, most] = std::ranges::minmax_element(samples.value);
   constexpr double turn_known = 1e-6, level = 1e-9;
   const bool turns = std::abs(samples.t.back() - samples.t.front() - full_turn) < turn_known;
-  if (!turns) return {Bounded{Spline(samples)}, text.dump(), false};
+  if (!turns) return from_zero({Bounded{Spline(samples)}, text.dump(), false}, zero, clockwise);
   if (!(std::abs(samples.value.back() - samples.value.front()) <= level * (*most - *least)))
     node.fail("the table " + file + " spans a whole turn but does not end where it begins: " + number_text(samples.value.front()) +
               " and " + number_text(samples.value.back()) + "; let the last value be the first");
-  return {periodic(samples), text.dump(), false};
+  return from_zero({periodic(samples), text.dump(), false}, zero, clockwise);
+}
+
+/// A curve has other values or slopes on both sides of an angle; one that ends there has none.
+bool jumps_at(const TimeLaw& curve, double angle) {
+  constexpr double near = 1e-7, smooth = 1e-3;
+  const Jet before = curve(angle - near), after = curve(angle + near);
+  const double bend = 4 * near * std::max(std::abs(before.accel), std::abs(after.accel));
+  const double rate = std::max(std::abs(before.rate), std::abs(after.rate));
+  const bool turns = std::abs(after.rate - before.rate) > smooth * rate + bend;
+  return turns || std::abs(after.value - before.value) > 4 * near * rate + near * bend;
 }
 
 Law read_cam_curve(const Node& node, const Dimension& expected, const std::string& keys) {
@@ -131,12 +159,16 @@ Law read_cam_curve(const Node& node, const Dimension& expected, const std::strin
   const auto not_finite = [&](double angle) {
     node.fail(node.shown() + " is not finite at " + number_text(angle) + " rad; it must be, with two derivatives");
   };
+  const auto kinked = [&](double angle) {
+    node.fail(node.shown() + " jumps, or its slope does, at " + number_text(angle) +
+              " rad: the follower would be struck; write step(angle, …) instead of if, min, max or abs");
+  };
   if (!std::isnan(scale.not_finite)) not_finite(scale.not_finite);
   if (const auto pole = pole_of(law.at, full_turn, true)) not_finite(*pole);
   for (const LawBreak& b : scale.breaks)
-    if (value_jumps(b) || speed_jumps(b, scale.fastest))
-      node.fail(node.shown() + " jumps, or its slope does, at " + number_text(b.after) +
-                " rad: the follower would be struck; write step(angle, …) instead of if, min, max or abs");
+    if (value_jumps(b) || speed_jumps(b, scale.fastest)) kinked(b.after);
+  for (const double end : {-full_turn, 0.0, full_turn})  // a cam turns on there
+    if (jumps_at(law.at, end)) kinked(end);
   return law;
 }
 
@@ -163,6 +195,18 @@ Law read_after_present(const Node& node, const Dimension& expected, double until
   return law;
 }
 
+namespace {
+
+bool measures_the_same(const SceneTerm& one, const SceneTerm& other) {
+  const auto same = [&](const PointRef& p, const PointRef& q) {
+    return p.body == q.body && (one.kind == SceneTerm::angle || p.point == q.point);
+  };
+  const bool either_way = one.kind != SceneTerm::displacement && same(one.a, other.b) && same(one.b, other.a);
+  return one.kind == other.kind && ((same(one.a, other.a) && same(one.b, other.b)) || either_way);
+}
+
+}  // namespace
+
 bool read_terms(const Node& list, SceneJoint& joint) {
   constexpr std::size_t most = 3;
   if (!list.is_list() || list.yaml().items.empty() || list.yaml().items.front().kind != Yaml::Kind::map) return false;
@@ -182,6 +226,8 @@ bool read_terms(const Node& list, SceneJoint& joint) {
     if (&node == &terms.front()) sum = of;
     if (node.has("ratio")) term.ratio = node.at("ratio").quantity(product(sum, power(of, -1)));
     if (term.ratio == 0) node.at("ratio").fail("must not be 0; leave the term out");
+    for (const SceneTerm& other : out.terms)
+      if (&other != &term && measures_the_same(other, term)) node.at(kind).fail("is measured by another term too; add their ratios");
   }
   joint.a = out.terms.front().a, joint.b = out.terms.front().b;
   return true;

@@ -84,6 +84,8 @@ SceneBelt read_belt(const Node& node) {
   if (node.has("crossed") && node.at("crossed").yes()) {
     if (pulleys.size() > 2)
       node.at("crossed").fail("belongs to two pulleys; of more, give those a radius below 0 that it goes round the other way");
+    if (out.radii[0] < 0 || out.radii[1] < 0)
+      node.at("radii").fail("has one below 0, which says already which way the belt goes round; leave out crossed, or the sign");
     out.radii[1] = -out.radii[1];
   }
   out.stiffness = node.at("stiffness").quantity(dimension::force, rule::positive);
