@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 
-#include "framework/common/text.h"
-#include "framework/scene/joint_words.h"
+#include "framework/scene/yaml/placing_parts.h"
 
 namespace pintle {
+
+using namespace placing_parts;
 
 Pair Placing::turn() const {
   const double quarters = angle / (std::numbers::pi / 2), whole = std::round(quarters);
@@ -32,60 +33,6 @@ Placing operator*(const Placing& outer, const Placing& inner) {
 }
 
 namespace {
-
-/// A value that can be changed, and what reads it.
-struct Spot {
-  Yaml& yaml;
-  Node node;
-
-  bool has(std::string_view key) const { return node.has(key); }
-  Spot at(std::string_view key) const { return {*std::ranges::find(yaml.items, key, &Yaml::key), node.at(key)}; }
-  std::vector<Spot> list(const char* remedy) const {
-    std::vector<Spot> out;
-    const std::vector<Node> nodes = node.list(0, remedy);
-    for (std::size_t i = 0; i < nodes.size(); ++i) out.push_back({yaml.items[i], nodes[i]});
-    return out;
-  }
-  std::vector<Spot> entries(const char* remedy) const {
-    std::vector<Spot> out;
-    const std::vector<Node> nodes = node.entries(remedy);
-    for (std::size_t i = 0; i < nodes.size(); ++i) out.push_back({yaml.items[i], nodes[i]});
-    return out;
-  }
-};
-
-Yaml scalar_like(const Yaml& like, const std::string& key, const std::string& text) {
-  return {Yaml::Kind::scalar, like.line, key, text, {}, like.file, like.scope};
-}
-Yaml number_like(const Yaml& like, const std::string& key, double value) {
-  std::string text;
-  append_number(text, value);
-  return scalar_like(like, key, text);
-}
-Yaml pair_like(const Yaml& like, const std::string& key, const Pair& p) {
-  Yaml out{Yaml::Kind::list, like.line, key, {}, {}, like.file, like.scope};
-  out.items = {number_like(like, "", p[0]), number_like(like, "", p[1])};
-  return out;
-}
-Yaml angle_like(const Yaml& like, const std::string& key, double value) {
-  Yaml out = number_like(like, key, value);
-  out.text += " rad";
-  return out;
-}
-void set_angle(const Spot& spot, double value) { spot.yaml = angle_like(spot.yaml, spot.yaml.key, value); }
-void set(const Spot& spot, double value) { spot.yaml = number_like(spot.yaml, spot.yaml.key, value); }
-void set(const Spot& spot, const Pair& p) { spot.yaml = pair_like(spot.yaml, spot.yaml.key, p); }
-void set_text(const Spot& spot, const std::string& text) { spot.yaml.text = text; }
-
-void put(Yaml& map, Yaml entry) {
-  const auto there = std::ranges::find(map.items, entry.key, &Yaml::key);
-  if (there == map.items.end())
-    map.items.push_back(std::move(entry));
-  else
-    *there = std::move(entry);
-}
-
-[[noreturn]] void cannot_mirror(const Node& node, const std::string& remedy) { node.fail("cannot be mirrored; " + remedy); }
 
 /// Of axes whose y axis is drawn on the other side.
 Pair flipped(const Pair& p) { return {p[0], -p[1]}; }
@@ -146,19 +93,6 @@ void place_profile(const Spot& profile, const PlacesOf& places) {
     place_origin(profile, "about", places);
   }
   if (mirrored && surface) swap_side(profile);
-}
-
-void negate(const Spot& owner, std::string_view key, const Dimension& of) {
-  if (!owner.has(key)) return;
-  const double opposite = -owner.at(key).node.quantity(of);
-  of.angle == 1 && of.time == 0 ? set_angle(owner.at(key), opposite) : set(owner.at(key), opposite);
-}
-
-/// A law of time, or a table, with its sign changed.
-void negate_law(const Spot& law, const char* unit) {
-  if (!law.node.is_map()) return set_text(law, "-(" + law.node.text("a law of time") + ")");
-  const std::string of = law.has("value unit") ? law.at("value unit").node.text("a unit") : unit;
-  put(law.yaml, scalar_like(law.yaml, "value unit", "-1*(" + of + ")"));
 }
 
 void place_point(const Spot& point, const PlacesOf& places, const Placing& placing) {
@@ -234,67 +168,6 @@ void place_body(Spot body, const Placing& placing) {
   put(body.yaml, std::move(pose));
 }
 
-void mirror_joint(const Spot& joint) {
-  std::vector<std::string> known{"clearance", "friction", "engaged"};
-  if (joint.has("differential") && !joint.at("differential").yaml.items.empty() &&
-      joint.at("differential").yaml.items.front().kind == Yaml::Kind::map)
-    cannot_mirror(joint.at("differential").node, "write this joint into the scene for each side");
-  for (const JointWord& word : joint_words()) {
-    const bool is_it = joint.has(word.word);
-    known.emplace_back(word.word);
-    for (const JointNumber& number : word.numbers) {
-      known.emplace_back(number.key);
-      if (is_it && number.of == JointNumber::angle) negate(joint, number.key, dimension::angle);
-    }
-  }
-  for (const Node& entry : joint.node.entries("keys and values"))
-    if (std::ranges::find(known, entry.name()) == known.end()) cannot_mirror(entry, "write this joint into the scene for each side");
-  if (joint.has("clearance") && joint.at("clearance").has("arc")) negate(joint.at("clearance").at("arc"), "middle", dimension::angle);
-}
-
-void mirror_driver(const Spot& driver) {
-  if (driver.has("angle") && driver.has("law")) negate_law(driver.at("law"), "rad");
-}
-
-/// Components in axes that are turned and mirrored.
-void place_components(const Spot& force, const Placing& placing) {
-  const std::vector<Spot> two = force.list("two components [x, y]");
-  if (two.size() != 2) return;  // told by the reader
-  const auto [c, s] = placing.turn();
-  if (c != 0 && s != 0) {
-    for (const Spot& part : two)
-      if (part.node.is_map()) part.node.fail("is a table, which cannot be turned; add follows: true, or write it as an expression");
-    const std::string x = two[0].node.text("a force"), y = two[1].node.text("a force");
-    const auto times = [](double factor, const std::string& of) {
-      std::string text = "(";
-      append_number(text, factor);
-      return text + ")*(" + of + ")";
-    };
-    set_text(two[0], times(c, x) + " + " + times(-s * placing.sign(), y));
-    set_text(two[1], times(s, x) + " + " + times(c * placing.sign(), y));
-    return;
-  }
-  const std::array<double, 2> signs = c != 0 ? std::array{c, c * placing.sign()} : std::array{s, -s * placing.sign()};
-  for (std::size_t i = 0; i < 2; ++i)
-    if (signs[i] < 0) negate_law(two[i], "N");
-  if (c == 0) std::swap(two[0].yaml, two[1].yaml);
-}
-
-void place_force(const Spot& force, const Placing& placing) {
-  if (force.has("force")) {
-    const bool follows = force.has("follows") && force.at("follows").node.yes();
-    place_components(force.at("force"), follows ? Placing{{0, 0}, 0, placing.mirrored} : placing);
-  }
-  if (!placing.mirrored) return;
-  static const std::vector<std::string> known{"force",      "at",      "follows",   "torque",  "on",          "from",
-                                              "spring",     "maxwell", "stiffness", "damping", "free length", "torsion spring",
-                                              "free angle", "law",     "engaged"};
-  for (const Node& entry : force.node.entries("keys and values"))
-    if (std::ranges::find(known, entry.name()) == known.end()) cannot_mirror(entry, "write this force into the scene for each side");
-  if (force.has("torque")) negate_law(force.at("torque"), "N*m");
-  negate(force, "free angle", dimension::angle);
-}
-
 /// x and y, or one of them where the other has no part in it.
 void place_plane(Spot start, const char* both, const char* x, const char* y, const Dimension& of, const Placing& placing) {
   const auto placed = [&](const Pair& p) { return of.time == 0 ? placing.point(p) : placing.vector(p); };
@@ -340,8 +213,8 @@ void place(Yaml& entry, const std::string& section, const std::string& path, con
   if (section == "bodies") return place_body(spot, placing);
   if (section == "start") return place_start(spot, placing);
   if (section == "forces") return place_force(spot, placing);
+  if (section == "joints") return place_joint(spot, placing);
   if (!placing.mirrored || section == "contacts" || section == "materials") return;
-  if (section == "joints") return mirror_joint(spot);
   if (section == "drivers") return mirror_driver(spot);
   cannot_mirror(spot.node, "write it into the scene");
 }

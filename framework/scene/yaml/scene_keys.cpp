@@ -59,7 +59,8 @@ const std::vector<Key> load_table_keys{{"table", required, "torque.csv"},
                                        {"periodic", optional, "", {"true", "false"}},
                                        {"time unit"},
                                        {"value unit"}};
-const std::vector<Key> curve_table_keys{{"table", required, "cam.csv"}, {"angle unit"}, {"value unit"}};
+const std::vector<Key> curve_table_keys{
+    {"table", required, "cam.csv"}, {"angle unit"}, {"value unit"}, {"zero"}, {"clockwise", optional, "", {"false", "true"}}};
 constexpr const char* two_eyes = "[{bore: 10 mm, outer: 20 mm}, {bore: 10 mm, outer: 20 mm}]";
 
 std::vector<Key> joint_keys() {
