@@ -76,7 +76,9 @@ assemblies:
                            entry("it", kind.joints) + "}\n    forces: {turn: {torque: 0.3, on: a}, spin: {torque: 0.01, on: w}, " +
                            entry("belt", kind.forces) + "}\n    drivers: {" + entry("motor", kind.drivers) + "}\ninstances: {i: {of: it, " +
                            words + "}}\nrun: {until: 0.3, method: dopri5, tolerance: 1e-10}\noutput: {frames: 0, every: 0.1}\n";
-  return run(pintle::read_scene_text(text, "scene.yaml", {}, testing::TempDir()));
+  const pintle::Scene scene = pintle::read_scene_text(text, "scene.yaml", {}, testing::TempDir());
+  EXPECT_EQ(pintle::read_scene_text(scene.filled_in, "kept.json", {}, testing::TempDir()).filled_in, scene.filled_in);
+  return run(scene);
 }
 
 class CouplingInInstances : public testing::TestWithParam<Kind> {
