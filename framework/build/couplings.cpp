@@ -137,7 +137,7 @@ class Settling {
     if (!(apart > a + b)) overlap(l.place, apart, a, b);
   }
   /// Constant per span: stiffness over its length.
-  void settle(const SceneLoad& l, const SceneBelt& belt, BeltSpan& span) const {
+  void settle(const SceneBelt& belt, BeltSpan& span) const {
     const MarkerMotion &a = motion_[at(span.a)], &b = motion_[at(span.b)];
     const double delta = span.radius_b - span.radius_a, apart = (b.r - a.r).norm();
     const double span_length = std::sqrt(apart * apart - delta * delta);
@@ -291,7 +291,7 @@ void settle_start(const Scene& scene, Model& model) {
     for (std::size_t k = 0; belt && k < belt->pulleys.size(); ++k) {
       for (std::size_t other = 0; other < k; ++other) start.keep_apart(scene.loads[i], span(k), span(other));
     }
-    for (std::size_t k = 0; belt && k < belt->pulleys.size(); ++k) start.settle(scene.loads[i], *belt, span(k));
+    for (std::size_t k = 0; belt && k < belt->pulleys.size(); ++k) start.settle(*belt, span(k));
   }
 }
 

@@ -50,7 +50,7 @@ const std::vector<Kind> kinds{
     {"CamThatSwings", "{cam: [a, b], swing: 0.3*sin(angle + 0.4)}"},
     {"CamByATable", "{cam: [a, s, ground.G], lift: {table: instances_coupling.csv, angle unit: deg, value unit: mm}}"},
     {"CamByATableFromAnAngle",
-     "{cam: [a, b], swing: {table: instances_coupling.csv, angle unit: deg, value unit: 0.02, zero: 25 deg, clockwise: true}}"},
+     "{cam: [a, b], swing: {table: instances_coupling.csv, angle unit: deg, value unit: 0.02 rad, zero: 25 deg, clockwise: true}}"},
     {"Shafts", "{differential: [a, b], ratio: 2}"},
     {"AngleAndDisplacement", "{differential: [{angle: [ground, a]}, {displacement: [ground.G, s], ratio: 30}]}"},
     {"DistanceAndAngle", "{differential: [{distance: [ground.B, s]}, {angle: [ground, a], ratio: 0.02}]}"},
@@ -58,7 +58,7 @@ const std::vector<Kind> kinds{
     {"CrossedElasticBelt", "", "{belt: [a, b], radii: [0.1, 0.15], crossed: true, stiffness: 2 kN, damping: 5 N s, pretension: 50 N}"},
     {"AngleDriver", "", "", "{angle: [ground, b], law: 20*t^2}"},
     {"AngleDriverFromPresent", "", "", "{angle: [a, b], law: present + 20*t^2}"},
-    {"DistanceDriverFromPresent", "", "", "{distance: [ground.O, s], law: present + 0.5*t^2}"},
+    {"DistanceDriverFromPresent", "", "", "{distance: [ground.B, s], law: present + 0.5 m/s^2*t^2}"},
 };
 
 Whole run_placed(const Kind& kind, const std::string& words) {
@@ -76,7 +76,9 @@ assemblies:
                            entry("it", kind.joints) + "}\n    forces: {turn: {torque: 0.3, on: a}, spin: {torque: 0.01, on: w}, " +
                            entry("belt", kind.forces) + "}\n    drivers: {" + entry("motor", kind.drivers) + "}\ninstances: {i: {of: it, " +
                            words + "}}\nrun: {until: 0.3, method: dopri5, tolerance: 1e-10}\noutput: {frames: 0, every: 0.1}\n";
-  return run(pintle::read_scene_text(text, "scene.yaml", {}, testing::TempDir()));
+  const pintle::Scene scene = pintle::read_scene_text(text, "scene.yaml", {}, testing::TempDir());
+  EXPECT_EQ(pintle::read_scene_text(scene.filled_in, "kept.json", {}, testing::TempDir()).filled_in, scene.filled_in);
+  return run(scene);
 }
 
 class CouplingInInstances : public testing::TestWithParam<Kind> {

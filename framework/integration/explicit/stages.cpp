@@ -174,21 +174,20 @@ double Stages::stiffness(const System& system, const Step& step) const {
   std::size_t inner = last;  // the last that stands at the step's end
   while (inner > 0 && tableau_.c[inner] != 1) --inner;
   if (inner == 0) return 0;
-  const auto apart = [&](const Eigen::VectorXd& u, const Eigen::VectorXd& v) {
-    double sum = 0;
-    for (Index i = 0; i < 2 * system.n(); ++i) sum += std::pow((u[i] - v[i]) / system.scale[i % system.n()], 2);
-    for (Index i = 0; i < system.n_x(); ++i)
-      sum += std::pow((u[system.x_begin() + i] - v[system.x_begin() + i]) / (system.x_scale[i] > 0 ? system.x_scale[i] : system.length), 2);
-    return std::sqrt(sum);
+  const auto stage = [&](Index i) {
+    if (inner == last) return stage_.y[i];
+    double change = 0;
+    for (std::size_t j = 0; j < tableau_.a[inner].size(); ++j) change += tableau_.a[inner][j] * k_[j][i];
+    return step.from.state.y[i] + step.h * change;
   };
-  const auto ratio = [&](const Eigen::VectorXd& stage) {
-    const double moved = apart(step.to.state.y, stage);
-    return moved > 0 ? step.h * apart(step.to.dy, k_[inner]) / moved : 0;
+  double moved = 0, changed = 0;
+  const auto see = [&](Index i, double scale) {
+    moved += std::pow((step.to.state.y[i] - stage(i)) / scale, 2);
+    changed += std::pow((step.to.dy[i] - k_[inner][i]) / scale, 2);
   };
-  if (inner == last) return ratio(stage_.y);
-  Eigen::VectorXd earlier = step.from.state.y;
-  add_combination(step.h, tableau_.a[inner], k_, earlier);
-  return ratio(earlier);
+  for (Index i = 0; i < 2 * system.n(); ++i) see(i, system.scale[i % system.n()]);
+  for (Index i = 0; i < system.n_x(); ++i) see(system.x_begin() + i, system.x_scale[i] > 0 ? system.x_scale[i] : system.length);
+  return moved > 0 ? step.h * std::sqrt(changed / moved) : 0;
 }
 
 }  // namespace pintle
