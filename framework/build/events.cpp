@@ -14,6 +14,9 @@
 #include "framework/common/text.h"
 #include "framework/integration/events/scene_events.h"
 #include "framework/scene/error.h"
+#include "framework/scene/units/guard.h"
+#include "framework/scene/units/sided_formula.h"
+#include "framework/scene/units/signal_law.h"
 
 namespace pintle {
 
@@ -96,6 +99,18 @@ std::vector<EventAction> actions_of(const Scene& scene, const SceneEvent& event,
   return out;
 }
 
+// The condition's comparisons; none of one that does not change.
+std::vector<Comparison> comparisons_of(const SceneEvent& event) {
+  if (event.guard.constant) return {};
+  const auto* of_time = event.guard.at.target<Program>();
+  return comparisons(of_time ? *of_time : event.guard.of_signals.target<SignalFormula>()->program);
+}
+
+Known known_of_condition(const SceneEvent& event, double until) {
+  if (event.guard.constant) return event.guard.at(0).value != 0 ? Known::always : Known::never;
+  return known_of(comparisons_of(event), until);
+}
+
 // Where what is known beforehand says that an event never does anything, or always.
 void warn_of_events(const Scene& scene, Model& model) {
   std::set<std::string> released, engaged;
@@ -111,11 +126,16 @@ void warn_of_events(const Scene& scene, Model& model) {
       model.warnings.push_back(
           quoted(name) + " is engaged from the start, and no event releases it: to engage it does nothing; write engaged: false there");
   }
-  for (const SceneEvent& event : scene.events)
-    if (event.guard.constant)
-      model.warnings.push_back("the event " + quoted(event.name) +
-                               (event.guard.at(0).value != 0 ? " comes at the start and never again" : " never comes") +
-                               ": its condition " + event.guard.text + " does not change");
+  for (const SceneEvent& event : scene.events) {
+    const Known known = known_of_condition(event, scene.has_run ? scene.run.until : std::numeric_limits<double>::infinity());
+    if (known == Known::open) continue;
+    model.warnings.push_back("the event " + quoted(event.name) +
+                             (known == Known::always ? " comes at the start and never again" : " never comes") + ": its condition " +
+                             event.guard.text +
+                             (event.guard.constant     ? " does not change"
+                              : known == Known::always ? " is always true"
+                                                       : " is never true"));
+  }
 }
 
 using GuardFunction = std::function<Guard(const System&, const State&)>;
@@ -130,6 +150,14 @@ double rate_of(const System& system, const MotionSignal& signal, const State& st
   return slope.pose_a.head<2>().dot(a.v) + slope.pose_a[2] * a.w + slope.pose_b.head<2>().dot(b.v) + slope.pose_b[2] * b.w;
 }
 
+using Inputs = std::array<double, most_law_inputs>;
+
+Inputs inputs_of(const System& system, const SignalLaw& law, const State& state) {
+  Inputs in{};
+  for (std::size_t k = 0; k < law.in.size(); ++k) in[k] = signal_at(system, system.signals[at(law.in[k])], state.y);
+  return in;
+}
+
 GuardFunction guard_of(const Law& law, const Place& place, SignalMaker& signals) {
   if (law.signals.empty())
     return [at = law.at](const System&, const State& state) {
@@ -137,8 +165,8 @@ GuardFunction guard_of(const Law& law, const Place& place, SignalMaker& signals)
       return Guard{now.value, now.rate};
     };
   return [of = signals.law(law, place), changes_by_itself = law.uses_time](const System& system, const State& state) {
-    std::array<double, most_law_inputs> in, slope;
-    for (std::size_t k = 0; k < of.in.size(); ++k) in[k] = signal_at(system, system.signals[at(of.in[k])], state.y);
+    Inputs slope{};
+    const Inputs in = inputs_of(system, of, state);
     Guard out{of.of(state.t, in.data(), slope.data())};
     if (changes_by_itself) return out;
     out.rate = 0;
@@ -146,6 +174,36 @@ GuardFunction guard_of(const Law& law, const Place& place, SignalMaker& signals)
       if (slope[k] != 0) out.rate += slope[k] * rate_of(system, system.signals[at(of.in[k])], state);
     return out;
   };
+}
+
+SceneComparison comparison_of(const Law& law, const Comparison& from, const Place& place, SignalMaker& signals) {
+  SceneComparison out{.difference = guard_of(law, place, signals), .size = {}, .at_zero = from.at_zero};
+  if (law.signals.empty()) {
+    out.size = [size = from.size](const System&, const State& state) { return size(state.t).value; };
+    return out;
+  }
+  const SignalLaw of = signals.law(law, place);
+  out.size = [of, size = SignalFormula(from.size)](const System& system, const State& state) {
+    return size(state.t, inputs_of(system, of, state).data(), nullptr);
+  };
+  const SidedProgram sides(from.difference);
+  if (sides.switches() == 0) return out;
+  out.bends = [of, sides, inputs = SignalFormula(from.difference).inputs](const System& system, const State& state,
+                                                                          std::vector<double>& bends) {
+    std::vector<int> found(at(sides.switches()));
+    std::vector<double> left(found.size());
+    sides.value(state.t, inputs_of(system, of, state).data(), inputs, nullptr, {nullptr, found.data(), left.data()});
+    for (std::size_t k = 0; k < left.size(); ++k) bends.push_back(found[k] * left[k]);
+  };
+  return out;
+}
+
+std::vector<SceneComparison> condition_of(const SceneEvent& event, SignalMaker& signals) {
+  if (event.guard.constant) return {{guard_of(event.when[0], event.place, signals), [](const System&, const State&) { return 1.0; }}};
+  const std::vector<Comparison> from = comparisons_of(event);
+  std::vector<SceneComparison> out;
+  for (std::size_t k = 0; k < from.size(); ++k) out.push_back(comparison_of(event.when[k], from[k], event.place, signals));
+  return out;
 }
 
 }  // namespace
@@ -170,14 +228,12 @@ void add_events(const Scene& scene, Model& model, SignalMaker& signals) {
   if (scene.events.empty()) return;
   std::vector<SceneEventRule> rules;
   for (const SceneEvent& event : scene.events) {
-    SceneEventRule rule{.name = event.name,
-                        .when = {},
-                        .actions = actions_of(scene, event, event.then, model, signals),
-                        .otherwise = actions_of(scene, event, event.otherwise, model, signals),
-                        .once = event.once,
-                        .from_start = event.from_start};
-    for (const Law& law : event.when) rule.when.push_back(guard_of(law, event.place, signals));
-    rules.push_back(std::move(rule));
+    rules.push_back({.name = event.name,
+                     .when = condition_of(event, signals),
+                     .actions = actions_of(scene, event, event.then, model, signals),
+                     .otherwise = actions_of(scene, event, event.otherwise, model, signals),
+                     .once = event.once,
+                     .from_start = event.from_start});
   }
   model.scheme.events.push_back([rules](const System& system) { return std::make_unique<SceneEvents>(system, rules); });
 }
