@@ -237,6 +237,8 @@ class Simulation {
   }
 
   void save() {
+    if (saved_ == integrator_.state().t) return;
+    saved_ = integrator_.state().t;
     listen([&] { listeners_.state({integrator_.state().t, integrator_.save(), run_.first, run_.energy_in_play, run_.worst_unexplained}); });
   }
 
@@ -296,6 +298,7 @@ class Simulation {
   Integrator integrator_;
   State sampled_;
   double last_row_ = 0, asked_ = 0;  ///< times of the last row and of the output last asked for [s]
+  double saved_ = -1;                ///< time of the last state saved [s]
   DeflectionMonitor monitor_;
   RowFigures figures_;
   SlowContacts slow_;
