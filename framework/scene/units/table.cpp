@@ -183,7 +183,7 @@ Jet Spline::operator()(double t) const {
 std::optional<Swing> worst_swing(const Spline& spline) {
   constexpr double noticed = 0.01;
   constexpr int looks = 16;
-  const auto& [t, y] = spline.samples();
+  const std::vector<double>&t = spline.samples().t, &y = spline.samples().value;
   const auto [least, most] = std::ranges::minmax(y);
   const auto rise = [&](std::size_t i) { return y[i + 1] - y[i]; };
   Swing worst{0, 0, noticed * (most - least)};
