@@ -181,7 +181,8 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
   for (std::size_t i = 0; i < run.integrals.size(); ++i) {
     const Integral& integral = s.integrals[i];
     const double booked = run.integrals[i];
-    if (integral.account == Account::scheme && booked == 0) continue;  // it might have become implicit, and did not
+    const bool may_be_none = integral.account == Account::scheme || integral.account == Account::switching;
+    if (may_be_none && booked == 0) continue;  // it might have become implicit, or switched, and did not
     rows.emplace_back("  " + integral_name(s, integral), number(booked) + " J");
   }
   for (std::size_t c = 0; c < s.contacts.size(); ++c) {
@@ -204,8 +205,10 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
   print_rows(std::cout, rows);
   for (const std::string& w : run.warnings) std::cout << "  warning: " << w << "\n";
   std::cout << "  " << status_text(run.status) << (run.reason.empty() ? "" : ": " + run.reason) << "\n";
-  std::cout << "  unexplained energy: " << number(run.unexplained, 3) << " J, "
-            << number(run.energy_in_play > 0 ? std::abs(run.unexplained) / run.energy_in_play : 0, 3) << " of the energy in play\n";
+  const bool judged = run.status == Status::finished || run.status == Status::ledger_over_bound;
+  std::cout << "  unexplained energy" << (judged ? "" : " so far") << ": " << number(run.unexplained, 3) << " J, "
+            << number(run.energy_in_play > 0 ? std::abs(run.unexplained) / run.energy_in_play : 0, 3) << " of the energy in play"
+            << (judged ? "" : "; not judged, as the run has not finished") << "\n";
 }
 
 Scene runnable(const Options& options) {

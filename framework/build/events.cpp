@@ -16,6 +16,9 @@
 #include "framework/integration/events/scene_events.h"
 #include "framework/mechanism/row_law.h"
 #include "framework/scene/error.h"
+#include "framework/scene/units/guard.h"
+#include "framework/scene/units/sided_formula.h"
+#include "framework/scene/units/signal_law.h"
 
 namespace pintle {
 
@@ -140,6 +143,18 @@ std::vector<EventAction> actions_of(const Scene& scene, const SceneEvent& event,
   return out;
 }
 
+// The condition's comparisons; none of one that does not change.
+std::vector<Comparison> comparisons_of(const SceneEvent& event) {
+  if (event.guard.constant) return {};
+  const auto* of_time = event.guard.at.target<Program>();
+  return comparisons(of_time ? *of_time : event.guard.of_signals.target<SignalFormula>()->program);
+}
+
+Known known_of_condition(const SceneEvent& event, double until) {
+  if (event.guard.constant) return event.guard.at(0).value != 0 ? Known::always : Known::never;
+  return known_of(comparisons_of(event), until);
+}
+
 // Where what is known beforehand says that an event never does anything, or always.
 void warn_of_events(const Scene& scene, Model& model) {
   std::set<std::string> released, engaged;
@@ -155,11 +170,16 @@ void warn_of_events(const Scene& scene, Model& model) {
       model.warnings.push_back(
           quoted(name) + " is engaged from the start, and no event releases it: to engage it does nothing; write engaged: false there");
   }
-  for (const SceneEvent& event : scene.events)
-    if (event.guard.constant)
-      model.warnings.push_back("the event " + quoted(event.name) +
-                               (event.guard.at(0).value != 0 ? " comes at the start and never again" : " never comes") +
-                               ": its condition " + event.guard.text + " does not change");
+  for (const SceneEvent& event : scene.events) {
+    const Known known = known_of_condition(event, scene.has_run ? scene.run.until : std::numeric_limits<double>::infinity());
+    if (known == Known::open) continue;
+    model.warnings.push_back("the event " + quoted(event.name) +
+                             (known == Known::always ? " comes at the start and never again" : " never comes") + ": its condition " +
+                             event.guard.text +
+                             (event.guard.constant     ? " does not change"
+                              : known == Known::always ? " is always true"
+                                                       : " is never true"));
+  }
 }
 
 // The rate of a signal that is one of places alone; NaN of others.
@@ -172,40 +192,96 @@ double rate_of(const System& system, const MotionSignal& signal, const State& st
   return slope.pose_a.head<2>().dot(a.v) + slope.pose_a[2] * a.w + slope.pose_b.head<2>().dot(b.v) + slope.pose_b[2] * b.w;
 }
 
-void add_guard(const SceneEvent& event, const Law& law, EventLaws& laws, SceneEventRule& rule) {
-  const auto seen_in = [told = laws.told(event), law](const SignalFunction& of, double t, const std::vector<double>& in) {
-    return told + seen_by_law(law, of, t, in);
+using Inputs = std::array<double, most_law_inputs>;
+
+Inputs inputs_of(const System& system, const SignalLaw& law, const State& state) {
+  Inputs in{};
+  for (std::size_t k = 0; k < law.in.size(); ++k) in[k] = signal_at(system, system.signals[at(law.in[k])], state.y);
+  return in;
+}
+
+// A comparison of t alone.
+SceneComparison of_time(const Law& law, const Comparison& from, const std::string& told) {
+  return {.difference =
+              [at = law.at](const System&, const State& state) {
+                const Jet now = at(state.t);
+                return Guard{now.value, now.rate};
+              },
+          .size = [size = from.size](const System&, const State& state) { return size(state.t).value; },
+          .at_zero = from.at_zero,
+          .seen = [law, told](const System&, const State& state) { return told + seen_by_law(law, {}, state.t, {}); }};
+}
+
+// Kinks and jumps of a comparison of inputs that `read` gives.
+template <class Read>
+void add_bends(const Comparison& from, const Read& read, SceneComparison& out) {
+  const SidedProgram sides(from.difference);
+  if (sides.switches() == 0) return;
+  out.bends = [sides, read, inputs = SignalFormula(from.difference).inputs](const System& system, const State& state,
+                                                                            std::vector<double>& bends) {
+    std::vector<int> found(at(sides.switches()));
+    std::vector<double> left(found.size());
+    sides.value(state.t, read(system, state).data(), inputs, nullptr, {nullptr, found.data(), left.data()});
+    for (std::size_t k = 0; k < left.size(); ++k) bends.push_back(found[k] * left[k]);
   };
-  if (law.signals.empty()) {
-    rule.when.push_back([at = law.at](const System&, const State& state) {
-      const Jet now = at(state.t);
-      return Guard{now.value, now.rate};
-    });
-    rule.seen.push_back([seen_in](const System&, const State& state) { return seen_in({}, state.t, {}); });
-    return;
-  }
-  if (laws.names_columns(law)) {
-    const RowLaw of = laws.of_a_row(law, event);
-    rule.when.push_back([of](const System&, const State& state) { return Guard{of(state)}; });
-    rule.seen.push_back([of, seen_in](const System&, const State& state) { return seen_in(of.function(), state.t, of.inputs(state)); });
-    return;
-  }
+}
+
+// What a comparison is measured by, where it bends, and what it compares, in words.
+template <class Read>
+void add_reading(const Law& law, const Comparison& from, const std::string& told, const Read& read, SceneComparison& out) {
+  out.at_zero = from.at_zero;
+  out.size = [read, size = SignalFormula(from.size)](const System& system, const State& state) {
+    return size(state.t, read(system, state).data(), nullptr);
+  };
+  add_bends(from, read, out);
+  out.seen = [read, law, told](const System& system, const State& state) {
+    const auto in = read(system, state);
+    return told + seen_by_law(law, law.of_signals, state.t, {in.begin(), in.begin() + static_cast<std::ptrdiff_t>(law.signals.size())});
+  };
+}
+
+SceneComparison of_a_row(const Law& law, const Comparison& from, const SceneEvent& event, EventLaws& laws) {
+  const RowLaw of = laws.of_a_row(law, event);
+  SceneComparison out{.difference = [of](const System&, const State& state) { return Guard{of(state)}; }, .size = {}};
+  out.of_a_row = true;
+  add_reading(
+      law, from, laws.told(event), [of](const System&, const State& state) { return of.inputs(state); }, out);
+  return out;
+}
+
+SceneComparison of_motion(const Law& law, const Comparison& from, const SceneEvent& event, EventLaws& laws) {
   const SignalLaw of = laws.of_motion(law, event.place);
-  rule.when.push_back([of, changes_by_itself = law.uses_time](const System& system, const State& state) {
-    std::array<double, most_law_inputs> in, slope;
-    for (std::size_t k = 0; k < of.in.size(); ++k) in[k] = signal_at(system, system.signals[at(of.in[k])], state.y);
-    Guard out{of.of(state.t, in.data(), slope.data())};
-    if (changes_by_itself) return out;
-    out.rate = 0;
-    for (std::size_t k = 0; k < of.in.size(); ++k)
-      if (slope[k] != 0) out.rate += slope[k] * rate_of(system, system.signals[at(of.in[k])], state);
-    return out;
-  });
-  rule.seen.push_back([of, seen_in](const System& system, const State& state) {
-    std::vector<double> in;
-    for (const int k : of.in) in.push_back(signal_at(system, system.signals[at(k)], state.y));
-    return seen_in(of.of, state.t, in);
-  });
+  const auto read = [of](const System& system, const State& state) { return inputs_of(system, of, state); };
+  SceneComparison out{.difference =
+                          [of, changes_by_itself = law.uses_time](const System& system, const State& state) {
+                            Inputs slope{};
+                            const Inputs in = inputs_of(system, of, state);
+                            Guard now{of.of(state.t, in.data(), slope.data())};
+                            if (changes_by_itself) return now;
+                            now.rate = 0;
+                            for (std::size_t k = 0; k < of.in.size(); ++k)
+                              if (slope[k] != 0) now.rate += slope[k] * rate_of(system, system.signals[at(of.in[k])], state);
+                            return now;
+                          },
+                      .size = {}};
+  add_reading(law, from, laws.told(event), read, out);
+  return out;
+}
+
+std::vector<SceneComparison> condition_of(const SceneEvent& event, EventLaws& laws) {
+  if (event.guard.constant) {
+    const double holds = event.when[0].at(0).value;
+    return {{[holds](const System&, const State&) { return Guard{holds, 0}; }, [](const System&, const State&) { return 1.0; }}};
+  }
+  const std::vector<Comparison> from = comparisons_of(event);
+  std::vector<SceneComparison> out;
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    const Law& law = event.when[k];
+    out.push_back(law.signals.empty()       ? of_time(law, from[k], laws.told(event))
+                  : laws.names_columns(law) ? of_a_row(law, from[k], event, laws)
+                                            : of_motion(law, from[k], event, laws));
+  }
+  return out;
 }
 
 }  // namespace
@@ -231,14 +307,12 @@ void add_events(const Scene& scene, Model& model, SignalMaker& signals) {
   std::vector<SceneEventRule> rules;
   EventLaws laws(scene, model, signals);
   for (const SceneEvent& event : scene.events) {
-    SceneEventRule rule{.name = event.name,
-                        .when = {},
-                        .actions = actions_of(scene, event, event.then, model, laws),
-                        .otherwise = actions_of(scene, event, event.otherwise, model, laws),
-                        .once = event.once,
-                        .from_start = event.from_start};
-    for (const Law& law : event.when) add_guard(event, law, laws, rule);
-    rules.push_back(std::move(rule));
+    rules.push_back({.name = event.name,
+                     .when = condition_of(event, laws),
+                     .actions = actions_of(scene, event, event.then, model, laws),
+                     .otherwise = actions_of(scene, event, event.otherwise, model, laws),
+                     .once = event.once,
+                     .from_start = event.from_start});
   }
   laws.finish();
   model.scheme.events.push_back([rules](const System& system) { return std::make_unique<SceneEvents>(system, rules); });

@@ -8,6 +8,8 @@
 #include "framework/scene/error.h"
 #include "framework/scene/units/law_pole.h"
 #include "framework/scene/units/law_scale.h"
+#include "framework/scene/units/program_parts.h"
+#include "framework/scene/units/signal_law.h"
 
 namespace pintle {
 
@@ -62,6 +64,46 @@ void each_law(const Scene& scene, F f) {
   for (const SceneEvent& e : scene.events)  // so that no step passes one that comes and goes
     for (const Law& law : e.when)
       if (law.at) f(law, e.name, e.place, static_cast<const SceneDriver*>(nullptr));
+}
+
+const Program* formula_of(const Law& law) {
+  if (const auto* program = law.at.target<Program>()) return program;
+  if (const auto* formula = law.of_signals.target<SignalFormula>()) return &formula->program;
+  if (const auto* table = law.of_signals.target<SignalTable>()) return &table->over.program;
+  return nullptr;
+}
+
+/// Calls f(law of time) for what t alone switches inside laws of signals.
+template <class F>
+void each_switch_of_time(const Scene& scene, F f) {
+  const auto see = [&](const Law& law) {
+    if (const Program* program = formula_of(law); program && law.uses_time)
+      for (Program& one : switches_of_time(*program)) f(TimeLaw(std::move(one)));
+  };
+  for (const SceneLoad& l : scene.loads) {
+    if (const auto* force = std::get_if<SceneForce>(&l.what)) see(force->x), see(force->y);
+    if (const auto* torque = std::get_if<SceneTorque>(&l.what)) see(torque->law);
+    if (const auto* spring = std::get_if<SceneSpring>(&l.what); spring && spring->law) see(*spring->law);
+    if (const auto* torsion = std::get_if<SceneTorsionSpring>(&l.what); torsion && torsion->law) see(*torsion->law);
+  }
+  for (const SceneState& s : scene.states) see(s.rate);
+  for (const SceneEvent& e : scene.events)
+    for (const Law& law : e.when) see(law);
+}
+
+/// Where a comparison of t alone, given as a difference, comes to zero: steps end there, to the last digit.
+void end_at_zeros(const TimeLaw& difference, double until, std::vector<LawChange>& changes) {
+  const auto* program = difference.target<Program>();
+  if (!program) return;
+  Program above = *program;
+  above.code.push_back({Op::constant, 0});
+  above.code.push_back({Op::greater});
+  for (const LawBreak& b : scale_of(above, until).breaks) {
+    const bool rises = difference(b.after).value > 0;
+    double t = b.before;
+    while (t < b.after && (rises ? difference(t).value < 0 : difference(t).value > 0)) t = std::nextafter(t, b.after);
+    changes.push_back({t, t, false});
+  }
 }
 
 /// Of a law of signals that names t too nothing is known of when it acts.
@@ -129,6 +171,15 @@ void follow_laws(const Scene& scene, Scheme& scheme) {
     scheme.bends.push_back(bends_of(law.at, scale.pieces));
     if (scale.pieces.size() > 1) scheme.pieces.push_back(std::move(scale.pieces));
   });
+  each_switch_of_time(scene, [&](const TimeLaw& law) {
+    LawScale scale = scale_of(law, run.until);
+    for (const LawBreak& b : scale.breaks) scheme.changes.push_back({b.before, b.after, value_jumps(b)});
+    scheme.bends.push_back(bends_of(law, scale.pieces));
+    if (scale.pieces.size() > 1) scheme.pieces.push_back(std::move(scale.pieces));
+  });
+  for (const SceneEvent& e : scene.events)
+    for (const Law& law : e.when)
+      if (law.at) end_at_zeros(law.at, run.until, scheme.changes);
   order(scheme.changes);
   known = known && !uses_time_beside_signals(scene);
   if (!known && run.max_step <= 0) scheme.max_step = run.until / steps_through_laws;

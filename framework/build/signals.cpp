@@ -6,6 +6,8 @@
 #include "framework/common/text.h"
 #include "framework/mechanism/trajectory.h"
 #include "framework/scene/error.h"
+#include "framework/scene/units/sided_formula.h"
+#include "framework/scene/units/signal_law.h"
 
 namespace pintle {
 
@@ -27,8 +29,28 @@ int SignalMaker::begin(const Law& law, const Place& place) {
   return static_cast<int>(laws.size()) - 1;
 }
 
+// Said once of each table.
+void SignalMaker::warn_of_swing(const Law& law, const Place& place) {
+  const auto* table = law.of_signals.target<SignalTable>();
+  const auto* spline = table ? std::get_if<Spline>(&table->table) : nullptr;
+  const std::optional<Swing> swing = spline ? worst_swing(*spline) : std::nullopt;
+  if (!swing) return;
+  const std::string where = (place.file.empty() ? scene_.file : place.file) + ":" + std::to_string(place.line) + ": " + place.key;
+  model_.warnings.push_back(where + ": the spline of its table " + law.text + " swings beyond its samples between " +
+                            number_text(swing->begin, 6) + " and " + number_text(swing->end, 6) + " by " + number_text(swing->by, 3) +
+                            " (SI units): take interpolation: linear, or more samples where the values turn");
+}
+
 void SignalMaker::finish() {
-  for (const Begun& begun : begun_) model_.system.laws[begun.law] = law(*begun.from, begun.place);
+  int sides = 0;
+  for (const Begun& begun : begun_) {
+    SignalLaw made = law(*begun.from, begun.place);
+    made.sided = sided(made.of);
+    made.first_side = sides;
+    if (made.sided) sides += made.sided->switches();
+    model_.system.laws[begun.law] = std::move(made);
+    warn_of_swing(*begun.from, begun.place);
+  }
 }
 
 SignalLaw SignalMaker::law(const Law& from, const Place& place) {

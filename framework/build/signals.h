@@ -28,6 +28,7 @@ class SignalMaker {
  private:
   MotionSignal made(const SignalWord&);
   int frame(const PointRef& body);
+  void warn_of_swing(const Law&, const Place&);
   int add(const Marker&);
   [[noreturn]] void wrong(const Place&, const std::string& message) const;
 

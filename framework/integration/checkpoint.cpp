@@ -63,6 +63,7 @@ void Integrator::load(const std::string& saved) {
   step_.error.setZero(system_.n_y());
   dense_ = step_.to.state;
   const long evaluations = eq_.evaluations, factorizations = eq_.factorizations;
+  hold_laws();
   stepper_->evaluate_end(step_, eq_);
   eq_.evaluations = evaluations, eq_.factorizations = factorizations;
 }

@@ -19,13 +19,19 @@ using Index = Eigen::Index;
 
 namespace {
 
-Events events_of(const System& system, const Scheme& scheme, ContactEvents*& contacts) {
+Events events_of(const System& system, const Scheme& scheme, ContactEvents*& contacts, LawEvents*& laws) {
   std::vector<std::unique_ptr<EventGroup>> groups;
   auto of_contacts = std::make_unique<ContactEvents>(system, scheme);
   contacts = of_contacts.get();
   groups.push_back(std::move(of_contacts));
   if (dry_states(system) > 0 && scheme.fixed_step == 0) groups.push_back(std::make_unique<FrictionEvents>(system, scheme));
   for (const auto& make : scheme.events) groups.push_back(make(system));
+  laws = nullptr;
+  if (LawEvents::has_any(system) && scheme.fixed_step == 0) {
+    auto of_laws = std::make_unique<LawEvents>(system);
+    laws = of_laws.get();
+    groups.push_back(std::move(of_laws));
+  }
   return Events(std::move(groups));
 }
 
@@ -38,7 +44,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
       stepper_(make_stepper(name(scheme), system, scheme, eq_)),
       norm_(system, scheme.tolerance),
       control_(scheme.max_step),
-      events_(events_of(system, scheme, contacts_)),
+      events_(events_of(system, scheme, contacts_, laws_)),
       turn_ahead_(system) {
   if (start.y.size() != system.n_y())  // of another model, whose ledger may have other rows
     throw std::invalid_argument("a start of " + std::to_string(start.y.size()) + " numbers for a system of " +
@@ -57,6 +63,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
     return;
   }
   events_.start(step_);
+  hold_laws();
   stepper_->project(step_.to, eq_);
   step_.from = step_.to;
 }
@@ -75,8 +82,7 @@ bool Integrator::advance(double until) {
   if (!events_.empty() && !end_at_first_event(event)) return false;
   ++counts_.steps;
   events_.follow(step_, motion());
-  if (!events_.count(step_, event.has_value()))
-    return stop(events_.name(*event) + ": its events come again and again without time passing");
+  if (!events_.count(step_, event, wish)) return stop(events_.again_and_again(), step_.to.state.t);
   if (event && !act_on(*event, wish)) return false;
   stepper_->accept(eq_);
   look_at_end();
@@ -202,6 +208,8 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   if (!outcome.did.empty()) happenings_.push_back({step_.to.state.t, events_.name(event), outcome.did});
   row_ = outcome.row, save_ = outcome.save;
   ended_ = outcome.end;
+  if (laws_ && outcome.change >= EventOutcome::Change::jump) laws_->settle(step_.to.state);
+  hold_laws();
   if (outcome.change == EventOutcome::Change::nothing && step_.h > 0) {
     control_.wish_for(std::max(control_.wish(), wish));
     return true;
@@ -214,6 +222,10 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   if (outcome.change == EventOutcome::Change::rows) eq_.permanent = 0;
   if (step_.struck) step_.dy_before = step_.to.dy;
   return stepper_->project(step_.to, eq_) || stop("singular pose at an event of " + events_.name(event));
+}
+
+void Integrator::hold_laws() {
+  if (laws_) eq_.law_sides = laws_->sides();
 }
 
 void Integrator::look_at_end() {

@@ -10,6 +10,7 @@
 #include "framework/integration/error_norm.h"
 #include "framework/integration/events/contact_events.h"
 #include "framework/integration/events/events.h"
+#include "framework/integration/events/law_events.h"
 #include "framework/integration/scheme.h"
 #include "framework/integration/step_control.h"
 #include "framework/integration/stepper.h"
@@ -70,6 +71,7 @@ class Integrator {
   bool step_to(double left);
   bool end_at_first_event(std::optional<EventInStep>&);
   bool act_on(const EventInStep&, double wish);
+  void hold_laws();
   void look_at_end();
   bool switch_method();
   bool sees_ends_alone() const;
@@ -89,6 +91,7 @@ class Integrator {
   StepControl control_;
   Switching switching_;
   ContactEvents* contacts_;  ///< among the events
+  LawEvents* laws_;          ///< likewise; nullptr: no law has sides
   Events events_;
   TurnAhead turn_ahead_;
   std::unique_ptr<Equations> sampled_;  ///< from the first sample on

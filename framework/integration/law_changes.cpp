@@ -18,12 +18,18 @@ double end_within_bend(const std::vector<LawBend>& bends, double t) {
   return t + (1 + rest) * longest < bend->end ? t + longest : bend->end;
 }
 
+// The first that is more than roundings ahead: an event there may have been met a digit before it.
+auto next_change(const Scheme& scheme, double t) {
+  constexpr double roundings = 1e-15;
+  return std::upper_bound(scheme.changes.begin(), scheme.changes.end(), t + roundings * std::abs(t),
+                          [](double x, const LawChange& c) { return x < c.before; });
+}
+
 }  // namespace
 
 double law_end(const Scheme& scheme, double t, bool sees_ends_alone) {
   double ahead = std::numeric_limits<double>::infinity();
-  const auto change =
-      std::upper_bound(scheme.changes.begin(), scheme.changes.end(), t, [](double x, const LawChange& c) { return x < c.before; });
+  const auto change = next_change(scheme, t);
   if (change != scheme.changes.end()) ahead = change->before;
   for (const std::vector<double>& ends : scheme.pieces)
     if (const auto end = std::upper_bound(ends.begin(), ends.end(), t); end != ends.end() && end + 1 != ends.end())
@@ -34,8 +40,7 @@ double law_end(const Scheme& scheme, double t, bool sees_ends_alone) {
 }
 
 const LawChange* change_at(const Scheme& scheme, double t) {
-  const auto next =
-      std::upper_bound(scheme.changes.begin(), scheme.changes.end(), t, [](double x, const LawChange& c) { return x < c.before; });
+  const auto next = next_change(scheme, t);
   return next == scheme.changes.begin() || t >= (next - 1)->after ? nullptr : &*(next - 1);
 }
 

@@ -139,6 +139,32 @@ TEST(EventRefusal, NamesWhatIsWrongInTheScene) {
                                 {said});
 }
 
+struct Foreseen {
+  const char *when, *said;
+};
+TEST(EventWarning, SaysWhatCanNeverOrMustAlwaysBe) {
+  for (const auto& [when, said] : {
+           Foreseen{"ball.y > 2 m && ball.y < 1 m", "never comes"},
+           Foreseen{"ball.y > 1 m && ball.x > 0 m && ball.y <= 1 m", "never comes"},
+           Foreseen{"abs(ball.y) < 0 m", "never comes"},
+           Foreseen{"t > 2 s", "never comes"},
+           Foreseen{"t < 0 s", "never comes"},
+           Foreseen{"sin(ball.angle) > 1.5", "never comes"},
+           Foreseen{"t >= 0 s", "comes at the start and never again"},
+           Foreseen{"abs(ball.y) >= 0 m", "comes at the start and never again"},
+           Foreseen{"min(ball.y, 1 m) > 2 m", "never comes"},
+           Foreseen{"ball.y > 1 m && ball.y < 2 m", ""},
+           Foreseen{"ball.y >= 1 m && ball.y <= 1 m", ""},
+           Foreseen{"t > 0.1 s && t < 0.2 s", ""},
+       }) {
+    const Model model = build(read_scene_text(disc("events: {e: {when: \"" + std::string(when) + "\", do: {row: true}}}"), "scene.yaml"));
+    std::string all;
+    for (const std::string& warning : model.warnings) all += warning + "\n";
+    const std::string expected = "the event \"e\" " + std::string(said);
+    EXPECT_EQ(all.find(*said ? expected : "the event") != std::string::npos, *said != 0) << when << ": " << all;
+  }
+}
+
 TEST(EventWarning, SaysWhatNeverComesAndWhatNeverActs) {
   const Whole w =
       run(disc("joints: {pin: {revolute: [ground.G, ball.C], engaged: false}}\nevents: {never: {when: 1 > 2, do: {stop: so}}}"));

@@ -155,7 +155,7 @@ class Sum : public ValueWriter<Sum> {
   }
   /// By its values where all its signals are 0, 1, 2 …, at the times of a law of time.
   void add(const SignalLaw& law) {
-    const auto& [of, in] = law;
+    const auto& [of, in, sided, first_side] = law;  // the sides are those of the same function
     add(in);
     std::array<double, most_law_inputs> at;
     for (int i = 0; i < 32; ++i) {

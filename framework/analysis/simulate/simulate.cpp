@@ -9,6 +9,7 @@
 #include "framework/analysis/simulate/energy_balance.h"
 #include "framework/analysis/simulate/end_short.h"
 #include "framework/analysis/simulate/deflection_monitor.h"
+#include "framework/analysis/simulate/explain_cams.h"
 #include "framework/analysis/simulate/explain_failure.h"
 #include "framework/analysis/simulate/run_warnings.h"
 #include "framework/analysis/simulate/slow_contact.h"
@@ -239,6 +240,8 @@ class Simulation {
   }
 
   void save() {
+    if (saved_ == integrator_.state().t) return;
+    saved_ = integrator_.state().t;
     listen([&] { listeners_.state({integrator_.state().t, integrator_.save(), run_.first, run_.energy_in_play, run_.worst_unexplained}); });
   }
 
@@ -261,7 +264,8 @@ class Simulation {
     if (!reason.empty()) {
       std::string why;
       for (const State& tried : {integrator_.last().to.state, integrator_.state()})
-        if (why.empty()) why = explain_signals(scene_, model_, start_, tried);
+        if (why.empty()) why = explain_cams(scene_, model_, tried);
+      if (why.empty()) why = explain_signals(scene_, model_, start_, tried);
       if (why.empty()) why = explain_failure(scene_, system_, integrator_);
       if (why.empty()) why = monitor_.worst_warning();
       if (!why.empty()) reason += "; " + why;
@@ -298,6 +302,7 @@ class Simulation {
   Integrator integrator_;
   State sampled_;
   double last_row_ = 0, asked_ = 0;  ///< times of the last row and of the output last asked for [s]
+  double saved_ = -1;                ///< time of the last state saved [s]
   DeflectionMonitor monitor_;
   RowFigures figures_;
   SlowContacts slow_;

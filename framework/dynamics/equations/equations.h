@@ -84,6 +84,7 @@ struct Equations {
   std::vector<ContactEffect> contact;
   std::vector<ForceEffect> force;
   std::vector<double> signals, laws;  ///< values of the system's
+  std::vector<int> law_sides;         ///< on which laws are held; empty: each takes the one that it finds
   OwnScratch own;
   std::vector<JointFrictionEffect> friction;  ///< in joints
   Sticking sticking;

@@ -20,6 +20,11 @@ MovingPoint point_b(const MotionSignal& signal, const Equations& eq) {
   return moving_point(eq.motion[at(of_two(signal.kind) ? signal.b : signal.a)]);
 }
 
+double sized_by(const SignalLaw& law, const Equations& eq, double t, const double* in, double* slope) {
+  const bool held = law.sided && !eq.law_sides.empty();
+  return held ? law.sided->value(t, in, slope, eq.law_sides.data() + law.first_side) : law.of(t, in, slope);
+}
+
 // g_x from the laws' slopes, as columns of own states.
 void own_slopes(const System& system, const MatrixXd& slopes, MatrixXd& g_x) {
   g_x.setZero();
@@ -42,7 +47,7 @@ void evaluate_laws(const System& system, double t, const double* x, Equations& e
   for (std::size_t l = 0; l < system.laws.size(); ++l) {
     const SignalLaw& law = system.laws[l];
     for (std::size_t i = 0; i < law.in.size(); ++i) in[i] = eq.signals[at(law.in[i])];
-    eq.laws[l] = law.of(t, in.data(), nullptr);
+    eq.laws[l] = sized_by(law, eq, t, in.data(), nullptr);
   }
 }
 
@@ -52,7 +57,7 @@ void law_slopes(const System& system, const Equations& eq, double t, MatrixXd& s
   for (std::size_t l = 0; l < system.laws.size(); ++l) {
     const SignalLaw& law = system.laws[l];
     for (std::size_t i = 0; i < law.in.size(); ++i) in[i] = eq.signals[at(law.in[i])];
-    law.of(t, in.data(), slope.data());
+    sized_by(law, eq, t, in.data(), slope.data());
     for (std::size_t i = 0; i < law.in.size(); ++i) slopes(static_cast<Index>(l), law.in[i]) += slope[i];
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 
 #include "contact/gap.h"
 #include "eigen_layout.h"
+#include "framework/common/sided_law.h"
 #include "framework/common/signal_function.h"
 
 /// Numbers of the motion, laws of them, and the numbers of the scene's own that change at such laws. Theory: docs/theory/signals.md.
@@ -55,6 +57,8 @@ inline constexpr std::size_t most_law_inputs = 32;
 struct SignalLaw {
   SignalFunction of;
   std::vector<int> in;
+  std::shared_ptr<const SidedLaw> sided = nullptr;  ///< the same by sides; none where it is smooth …
+  int first_side = 0;                               ///< … else where its switches begin among those of all laws
 };
 
 /// A number of the scene's own: ẋ = the law.

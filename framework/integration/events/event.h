@@ -74,6 +74,8 @@ class EventGroup {
   virtual int size() const = 0;
   /// For messages: contact "pin".
   virtual std::string name(int event) const = 0;
+  /// What to do where its events come again and again without time passing, also where a little passes; empty: none of them may.
+  virtual std::string remedy() const { return {}; }
 
   /// Asked as a step begins: modes change in `act` only.
   virtual WatchedGuard watch(int event) const = 0;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "framework/common/text.h"
 #include "framework/integration/events/roots.h"
 
 namespace pintle {
@@ -25,7 +26,7 @@ Events::Events(std::vector<std::unique_ptr<EventGroup>> groups) : groups_(std::m
     begin_.push_back(places_.size());
   }
   watched_.resize(places_.size()), from_.resize(places_.size()), to_.resize(places_.size());
-  spent_.assign(places_.size(), 0);
+  spent_.assign(places_.size(), 0), crowded_ = spent_;
 }
 
 void Events::start(Step& step) {
@@ -145,21 +146,45 @@ Events::Ending Events::end_at(const EventInStep& event, Stepper& stepper, const 
     return Ending::there;
   }
   constexpr double last_digits = 4.5e-16;  // two of the clock's: between them zero cannot be met more nearly
-  double t_before = t0;
+  double t_before = t0, low = t0, high = turned(to_[event.at], event.watch).value > 0 ? t1 : std::numeric_limits<double>::infinity();
   Guard now = from_[event.at];
+  constexpr double dense_part = 1e-9;              // of the step: as well as dense output is searched
   const int most = std::isnan(now.rate) ? 12 : 6;  // by secants, or by Newton's method
   for (int i = 0; i < most && t > t0; ++i) {
-    if (!stepper.attempt(t - t0, norm, step, eq)) return Ending::impossible;
+    if (!stepper.attempt(t - t0, norm, step, eq)) {
+      step.h = h;
+      return event.watch.level ? Ending::missed : Ending::impossible;
+    }
     const Guard before = std::exchange(now, guard(event.at, step.to.state));
-    if (group(event.at).met(places_[event.at].event, now)) return Ending::there;
+    if (group(event.at).met(places_[event.at].event, now)) {
+      if (!event.watch.level || norm.of(step, stepper.traits().follows_impacts) <= 1) return Ending::there;
+      step.h = h;
+      return Ending::missed;  // the longer step had not seen what this one sees
+    }
+    (turned(now, event.watch).value > 0 ? high : low) = t;
     const double rate = std::isnan(now.rate) ? (now.value - before.value) / (t - t_before) : now.rate;
-    const double next = std::clamp(t - now.value / rate, t0, t1);
+    double next = std::clamp(t - now.value / rate, t0, t1);
+    if (event.watch.level && !(rate != 0)) next = std::min(t + std::ldexp(dense_part * h, 4 * i), t1);  // it may jump just ahead
     if (std::abs(next - t) <= last_digits * std::abs(t1)) return Ending::there;
     t_before = std::exchange(t, next);
   }
   if (t > t0 && std::abs(now.value) <= event.watch.zero) return Ending::there;
+  if (event.watch.level && std::isfinite(high)) return bisect(event, low < high ? low : t0, high, stepper, norm, step, eq);
   step.h = h;
   return Ending::missed;
+}
+
+// Where a guard jumps, between two digits of the clock.
+Events::Ending Events::bisect(const EventInStep& event, double low, double high, Stepper& stepper, const ErrorNorm& norm, Step& step,
+                              Equations& eq) {
+  const double t0 = step.from.state.t;
+  while (true) {
+    const double t = low + (high - low) / 2;
+    const bool last = !(t > low && t < high);
+    if (!stepper.attempt((last ? high : t) - t0, norm, step, eq)) return Ending::impossible;
+    if (last) return Ending::there;
+    (turned(guard(event.at, step.to.state), event.watch).value > 0 ? high : low) = t;
+  }
 }
 
 void Events::follow(Step& step, const DenseOutput& motion) {
@@ -169,16 +194,38 @@ void Events::follow(Step& step, const DenseOutput& motion) {
   }
 }
 
-bool Events::count(const Step& step, bool ended_by_event) {
-  here_ = !ended_by_event ? 0 : step.h > 0 ? 1 : here_ + 1;
-  return here_ <= 100 + 2 * static_cast<int>(places_.size());
+bool Events::count(const Step& step, const std::optional<EventInStep>& event, double wish) {
+  constexpr double hardly = 1e-6;  // of a step
+  const int most = 100 + 2 * static_cast<int>(places_.size());
+  const bool crowds = event && step.h <= hardly * wish && (step.h == 0 || !group(event->at).remedy().empty());
+  if (!crowds) crowd_ = 0, std::ranges::fill(crowded_, 0);
+  if (event) ++crowd_, crowded_[event->at] = 1;
+  here_ = !event ? 0 : step.h > 0 ? 1 : here_ + 1;
+  return here_ <= most && crowd_ <= most;
+}
+
+std::string Events::again_and_again() const {
+  constexpr std::size_t named = 4;
+  std::vector<std::string> names;
+  std::string remedy;
+  for (std::size_t k = 0; k < places_.size(); ++k)
+    if (crowded_[k]) {
+      const std::string name = group(k).name(places_[k].event);
+      names.push_back(name.find('"') == std::string::npos ? "the event " + quoted(name) : name);
+      if (remedy.empty()) remedy = group(k).remedy();
+    }
+  std::string out;
+  for (std::size_t k = 0; k < std::min(named, names.size()); ++k) out += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
+  if (names.size() > named) out += " and " + std::to_string(names.size() - named) + " more";
+  return out + (names.size() > 1 ? ": their" : ": its") + " events come again and again without time passing" +
+         (remedy.empty() ? "" : "; " + remedy);
 }
 
 EventOutcome Events::act(const EventInStep& event, Step& step, double wish) {
   Wishes& wishes = wishes_[places_[event.at].group];
   (event.watch.direction == Direction::rising ? wishes.of_rising : wishes.of_falling) = wish;
   const EventOutcome out = group(event.at).act(places_[event.at].event, step, to_[event.at]);
-  spent_[event.at] = ask(event.at).direction == event.watch.direction;
+  spent_[event.at] = !event.watch.level && ask(event.at).direction == event.watch.direction;  // of levels groups keep account themselves
   return out;
 }
 
@@ -192,7 +239,8 @@ void Events::forget_wishes() {
 }
 
 const char* Events::fault() const {
-  if (to_.size() != places_.size() || spent_.size() != places_.size()) return "it is of another system, or has numbers that are none";
+  if (to_.size() != places_.size() || spent_.size() != places_.size() || crowded_.size() != places_.size())
+    return "it is of another system, or has numbers that are none";
   for (const auto& g : groups_)
     if (const char* fault = g->fault()) return fault;
   return nullptr;

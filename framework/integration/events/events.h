@@ -48,14 +48,17 @@ class Events {
   /// The end is as events have left it, for the next step to begin there; else its guards are looked at again.
   void keep_end() { known_ = true; }
   void forget_end() { known_ = false; }
-  /// Counts events at one instant. @returns false where they come again and again
-  bool count(const Step&, bool ended_by_event);
+  /// Counts events at one instant, and those that let next to no time pass between them. @param wish  the step's length had no event
+  /// been near [s]   @returns false where they come again and again
+  bool count(const Step&, const std::optional<EventInStep>&, double wish);
+  /// Which do, and what to do about it.
+  std::string again_and_again() const;
 
   std::string name(const EventInStep& e) const { return group(e.at).name(places_[e.at].event); }
   const char* fault() const;
   template <class A>
   void archive(A& x) {
-    x(PINTLE_MEMBERS(to_, known_, spent_, here_));
+    x(PINTLE_MEMBERS(to_, known_, spent_, here_, crowd_, crowded_));
     for (auto& w : wishes_) x(PINTLE_MEMBERS(w.of_rising, w.of_falling));
     for (auto& g : groups_) {
       if constexpr (A::loading)
@@ -78,17 +81,20 @@ class Events {
   WatchedGuard ask(std::size_t at) const { return group(at).watch(places_[at].event); }
   Guard guard(std::size_t at, const State& state) const { return group(at).guard(places_[at].event, state); }
   std::optional<EventInStep> passed_by_end(const Step&) const;
+  Ending bisect(const EventInStep&, double low, double high, Stepper&, const ErrorNorm&, Step&, Equations&);
   std::optional<double> passage(std::size_t at, const Step&, const DenseOutput&) const;
 
   std::vector<std::unique_ptr<EventGroup>> groups_;
   std::vector<std::size_t> begin_;  ///< first place of each group; one past
   std::vector<Place> places_;
-  std::vector<WatchedGuard> watched_;  ///< in the present step
-  std::vector<Guard> from_, to_;       ///< at the step's start and end
-  bool known_ = false;                 ///< `to_` is of the state that the next step starts from
-  std::vector<unsigned char> spent_;   ///< an event has acted and its guard has not come back since
-  std::vector<Wishes> wishes_;         ///< of each group
-  int here_ = 0;                       ///< events at the present instant
+  std::vector<WatchedGuard> watched_;   ///< in the present step
+  std::vector<Guard> from_, to_;        ///< at the step's start and end
+  bool known_ = false;                  ///< `to_` is of the state that the next step starts from
+  std::vector<unsigned char> spent_;    ///< an event has acted and its guard has not come back since
+  std::vector<Wishes> wishes_;          ///< of each group
+  int here_ = 0;                        ///< events at the present instant
+  int crowd_ = 0;                       ///< events between which hardly any time has passed …
+  std::vector<unsigned char> crowded_;  ///< … which these are
 };
 
 }  // namespace pintle

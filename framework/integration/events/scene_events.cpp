@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "framework/common/archive.h"
 #include "framework/common/index.h"
@@ -34,7 +35,7 @@ Guard SceneEvents::all_of(int event, const State& state) const {
   Guard least{std::numeric_limits<double>::infinity()};
   const auto& when = rules_[at(event)].when;
   for (std::size_t k = 0; k < when.size(); ++k) {
-    Guard now = when[k](system_, state);
+    Guard now = when[k].difference(system_, state);
     if (std::isnan(now.value)) return now;
     if (const double size = size_[first_[at(event)] + k]; size > 0) now.value /= size, now.rate /= size;
     if (now.value < least.value) least = now;
@@ -42,25 +43,57 @@ Guard SceneEvents::all_of(int event, const State& state) const {
   return least;
 }
 
-// A comparison is as large as it has been, or as it would change if all were as fast as the fastest: else it would be measured by rounding
-// where what it asks for stands still.
+void SceneEvents::look(int event, const State& state, std::vector<double>& out) const {
+  const auto& when = rules_[at(event)].when;
+  for (std::size_t k = 0; k < when.size(); ++k) {
+    const double size = size_[first_[at(event)] + k];
+    out.push_back(when[k].difference(system_, state).value / (size > 0 ? size : 1));
+  }
+}
+
+// As it is written, but that what is nearer to equal than this is equal.
+bool SceneEvents::holds(int event, const State& state) const {
+  std::vector<double> now;
+  look(event, state, now);
+  for (std::size_t k = 0; k < now.size(); ++k)
+    if (!(rules_[at(event)].when[k].at_zero ? now[k] >= -guard_near : now[k] > guard_near)) return false;
+  return true;
+}
+
+// By what the motion starts with.
+bool SceneEvents::rises(int event, const Instant& from) const {
+  constexpr double dt = 1e-5;
+  const Eigen::Index n = system_.n();
+  State next = from.state;
+  next.t += dt;
+  next.y += dt * from.dy;
+  next.y.head(n) += dt * dt / 2 * from.dy.segment(n, n);
+  return all_of(event, next).value > std::max(guard_near, all_of(event, from.state).value);
+}
+
+// A comparison is as large as what it compares has been, or would be if all moved as fast as the fastest: else it would be measured by
+// rounding where what it asks for stands still.
 void SceneEvents::see(const State& state) {
   faster_ = state;
   const Eigen::Index n = system_.n();
   const double fastest = n > 0 ? state.y.segment(n, n).cwiseQuotient(system_.scale.head(n)).lpNorm<Eigen::Infinity>() : 0;
   for (Eigen::Index i = 0; i < n; ++i)  // unevenly, so that differences of two speeds do not vanish
-    faster_.y[n + i] += fastest * system_.scale[i] * (1 + 0.5 * std::sin(static_cast<double>(i)));
-  for (std::size_t event = 0; event < rules_.size(); ++event) {
-    unsound_[event] = -1;
-    if (waits_[event] == Waits::no_more) continue;
-    for (std::size_t k = 0; k < rules_[event].when.size(); ++k) {
-      const double now = rules_[event].when[k](system_, state).value, change = rules_[event].when[k](system_, faster_).value - now;
-      double& size = size_[first_[event] + k];
-      for (const double x : {now, change})
-        if (std::isfinite(x)) size = std::max(size, std::abs(x));
-      if (std::isnan(now)) unsound_[event] = static_cast<int>(k);
+    faster_.y[n + i] += fastest * system_.scale[i] * (1 + 0.5 * static_cast<double>(i) / static_cast<double>(n));
+  for (int event = 0; event < size(); ++event) {
+    unsound_[at(event)] = -1;
+    if (waits_[at(event)] == Waits::no_more) continue;
+    for (std::size_t k = 0; k < rules_[at(event)].when.size(); ++k) {
+      const SceneComparison& one = rules_[at(event)].when[k];
+      double& size = size_[first_[at(event)] + k];
+      for (const State* now : {&state, &std::as_const(faster_)})
+        if (const double x = now == &faster_ && one.of_a_row ? 0 : one.size(system_, *now); std::isfinite(x)) size = std::max(size, x);
+      if (std::isnan(one.difference(system_, state).value)) unsound_[at(event)] = static_cast<int>(k);
     }
   }
+}
+
+std::string SceneEvents::remedy() const {
+  return "what they do undoes what they wait for: let them come at two levels apart (a hysteresis), or once: true";
 }
 
 WatchedGuard SceneEvents::watch(int event) const {
@@ -76,20 +109,46 @@ Guard SceneEvents::guard(int event, const State& state) const {
   return now;
 }
 
-// Parts of the step are looked at, and where the guard bends towards zero between three of them.
+// Parts of the step are looked at, and in each the zeros of every comparison, of what bends it, and of touches between three looks:
+// between two of these nothing turns true or false.
 std::optional<double> SceneEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
   constexpr int parts = 8;
+  constexpr double fine = 1e-12;
   if (waits_[at(event)] == Waits::no_more) return std::nullopt;
-  const double sign = waits_[at(event)] == Waits::for_true ? -1 : 1;
-  const auto value = [&](double t) { return sign * guard(event, motion.at(t)).value; };  // below zero where it comes
-  std::array<double, 3> t{}, f{};
+  const double sign = waits_[at(event)] == Waits::for_true ? 1 : -1;
+  const auto comes = [&](double t) { return sign * guard(event, motion.at(t)).value > 0; };
+  const auto looked = [&](double t) {
+    std::vector<double> out;
+    const State& now = motion.at(t);
+    look(event, now, out);
+    for (const SceneComparison& one : rules_[at(event)].when)
+      if (one.bends) one.bends(system_, now, out);
+    out.push_back(guard(event, now).value);
+    return out;
+  };
+  std::array<std::vector<double>, 3> f;
+  std::array<double, 3> t{};
+  std::vector<double> zeros;
   for (int i = 0; i <= parts; ++i) {
-    const double now = step.from.state.t + step.h * (i == 0 ? 1e-9 : static_cast<double>(i) / parts);
-    std::rotate(t.begin(), t.begin() + 1, t.end()), std::rotate(f.begin(), f.begin() + 1, f.end());
-    t[2] = now, f[2] = value(now);
-    if (f[2] < 0) return i == 0 ? std::nullopt : std::optional(now);
-    if (i >= 2 && f[1] <= f[0] && f[1] <= f[2])
-      if (const auto inside = below_zero_near(value, t, f)) return inside;
+    t = {t[1], t[2], step.from.state.t + step.h * (i == 0 ? 1e-9 : static_cast<double>(i) / parts)};
+    std::rotate(f.begin(), f.begin() + 1, f.end());
+    f[2] = looked(t[2]);
+    if (sign * f[2].back() > 0 && i == 0) return std::nullopt;
+    for (std::size_t k = 0; i > 0 && k < f[2].size(); ++k) {
+      const double up = f[1][k] < f[2][k] ? 1 : -1, near = f[1][k] > 0 ? 1 : -1;
+      if (f[1][k] * f[2][k] < 0)
+        zeros.push_back(crossing([&](double when) { return Guard{up * looked(when)[k]}; }, t[1], t[2], fine * step.h));
+      if (i < 2 || f[0][k] * f[2][k] <= 0 || near * f[1][k] > near * f[0][k] || near * f[1][k] > near * f[2][k]) continue;
+      const auto of_k = [&](double when) { return near * looked(when)[k]; };
+      if (const auto touch = below_zero_near(of_k, t, {near * f[0][k], near * f[1][k], near * f[2][k]})) zeros.push_back(*touch);
+    }
+    zeros.push_back(t[2]);
+  }
+  std::ranges::sort(zeros);
+  for (std::size_t i = 0; i < zeros.size(); ++i) {
+    if (i > 0 && zeros.size() > parts + 1u)
+      if (const double middle = zeros[i - 1] + (zeros[i] - zeros[i - 1]) / 2; comes(middle)) return middle;
+    if (comes(zeros[i])) return zeros[i];
   }
   return std::nullopt;
 }
@@ -99,8 +158,16 @@ bool SceneEvents::met(int, const Guard& guard) const { return std::abs(guard.val
 void SceneEvents::start(Step& step) {
   see(step.to.state);
   unsound_at_ = step.to.state;
-  for (int event = 0; event < size(); ++event)
-    if (all_of(event, step.to.state).value > 0 && !rules_[at(event)].from_start) waits_[at(event)] = Waits::for_false;
+  for (int event = 0; event < size(); ++event) {
+    const double now = all_of(event, step.to.state).value;
+    const bool on_level = std::abs(now) <= guard_near, is_true = on_level ? holds(event, step.to.state) : now > 0;
+    if (rules_[at(event)].from_start) {
+      if (on_level && is_true) shift_[at(event)] = 2 * guard_near - now;
+    } else if (is_true || (on_level && rises(event, step.to))) {
+      waits_[at(event)] = Waits::for_false;
+      if (on_level) shift_[at(event)] = 2 * guard_near;
+    }
+  }
 }
 
 // What stands at zero and does not rise there, such as the speed of what is held, has to rise by more than rounding can.
@@ -113,15 +180,13 @@ void SceneEvents::begin_step(const State& from) {
 }
 
 bool SceneEvents::is_unsound(int event, const State& state) const {
-  return std::isnan(rules_[at(event)].when[at(unsound_[at(event)])](system_, state).value);
+  return std::isnan(rules_[at(event)].when[at(unsound_[at(event)])].difference(system_, state).value);
 }
 
-void SceneEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard>, const DenseOutput& motion) {
-  const auto is_one = [](int k) { return k >= 0; };
-  const bool known = std::ranges::any_of(unsound_, is_one);
-  see(step.to.state);
-  const auto first = std::ranges::find_if(unsound_, is_one);
-  if (known || first == unsound_.end()) return;
+// Of the first that was a number until this step, where it ceases to be one.
+void SceneEvents::find_unsound(const Step& step, const DenseOutput& motion) {
+  const auto first = std::ranges::find_if(unsound_, [](int k) { return k >= 0; });
+  if (first == unsound_.end()) return;
   constexpr int halvings = 60;
   const int event = static_cast<int>(first - unsound_.begin());
   unsound_at_ = step.to.state;
@@ -132,6 +197,43 @@ void SceneEvents::follow(Step& step, std::span<const Guard>, std::span<const Gua
       unsound_at_ = between;
     else
       sound = between.t;
+  }
+}
+
+// What has gone well past zero is at zero when it comes there again.
+void SceneEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard>, const DenseOutput& motion) {
+  const bool known = std::ranges::any_of(unsound_, [](int k) { return k >= 0; });
+  see(step.to.state);
+  if (!known) find_unsound(step, motion);
+  for (int event = 0; event < size(); ++event)
+    if (waits_[at(event)] == Waits::for_true && shift_[at(event)] != 0 && all_of(event, step.to.state).value < -2 * guard_near)
+      shift_[at(event)] = 0;
+}
+
+// Others that come down to the level at which one acts are no longer true there, and may become so as soon as the motion turns back.
+void SceneEvents::rearm_beside(int event, const Step& step) {
+  for (int other = 0; other < size(); ++other) {
+    if (other == event || waits_[at(other)] != Waits::for_false) continue;
+    const double now = all_of(other, step.to.state).value;
+    const double before = step.h > 0 ? all_of(other, step.from.state).value : now;
+    if (!(std::abs(now) <= 4 * guard_near && before - now > guard_near)) continue;
+    if (rules_[at(other)].otherwise.empty())
+      waits_[at(other)] = Waits::for_true, shift_[at(other)] = -2 * guard_near;
+    else
+      shift_[at(other)] = -2 * guard_near - now;  // it acts at this instant
+  }
+}
+
+// A state that jumps may come to stand exactly where two numbers are equal.
+void SceneEvents::decide_on_level(const std::vector<double>& before, const State& state) {
+  for (int event = 0; event < size(); ++event) {
+    const double now = all_of(event, state).value;
+    if (now == before[at(event)] || !(std::abs(now) <= guard_near) || waits_[at(event)] == Waits::no_more) continue;
+    const bool is_true = holds(event, state);
+    if (is_true == (waits_[at(event)] == Waits::for_true))
+      shift_[at(event)] = (is_true ? 2 : -2) * guard_near - now;
+    else
+      shift_[at(event)] = is_true ? 2 * guard_near : 0;
   }
 }
 
@@ -174,9 +276,9 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
   const SceneEventRule& rule = rules_[at(event)];
   if (const int k = unsound_[at(event)]; k >= 0) {
     EventOutcome none;
-    const std::string seen = at(k) < rule.seen.size() ? rule.seen[at(k)](system_, unsound_at_) : "";
-    none.failure =
-        "the condition of the event " + quoted(rule.name) + " is not a finite number at t = " + number_text(unsound_at_.t, 9) + " s" + seen;
+    const auto& seen = rule.when[at(k)].seen;
+    none.failure = "the condition of the event " + quoted(rule.name) + " is not a finite number at t = " + number_text(unsound_at_.t, 9) +
+                   " s" + (seen ? seen(system_, unsound_at_) : "");
     return none;
   }
   const bool becomes_true = waits_[at(event)] == Waits::for_true;
@@ -184,8 +286,11 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
   waits_[at(event)] = !becomes_true ? Waits::for_true : rule.once ? Waits::no_more : Waits::for_false;
   EventOutcome out{.change = EventOutcome::Change::nothing};
   State& state = step.to.state;
-  const double now = all_of(event, state).value;  // zero, but for what the clock's last digit leaves
-  shift_[at(event)] = becomes_true ? std::max(2 * guard_near, -2 * now) : std::min(0.0, -2 * now);
+  std::vector<double> before;
+  for (int other = 0; other < size(); ++other) before.push_back(all_of(other, state).value);
+  const double now = before[at(event)];  // zero, but for what the clock's last digit leaves
+  shift_[at(event)] = becomes_true ? std::max(2 * guard_near, -2 * now) : now > -guard_near ? -2 * guard_near - now : 0;
+  rearm_beside(event, step);
   if (!switches_all(actions, state, out)) {
     out.failure = "the event \"" + rule.name + "\": " + out.failure;
     return out;
@@ -204,6 +309,7 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
       add_words(out.did, *record == Record::state ? "saved the state" : "wrote a row");
     }
   }
+  decide_on_level(before, state);
   return out;
 }
 

@@ -23,15 +23,25 @@ struct SetState {
 enum class Record { state, row };
 using EventAction = std::variant<SwitchOver, SetState, StopRun, Record>;
 
-/// An event as the scene describes it: it comes when all of its guards have become positive, and acts once, or each time that they do.
+/// One comparison of an event's condition: what is greater less what is less, above zero where it holds.
+struct SceneComparison {
+  std::function<Guard(const System&, const State&)> difference;
+  std::function<double(const System&, const State&)> size;  ///< of what is compared: what the difference is small against
+  bool at_zero = false;                                     ///< holds where both are equal
+  /// Appends numbers at whose zeros the difference has a kink or jumps; empty: it has none.
+  std::function<void(const System&, const State&, std::vector<double>&)> bends = {};
+  std::function<std::string(const System&, const State&)> seen = {};  ///< what it compares there, in words
+  bool of_a_row = false;                                              ///< reads what the equations of motion are solved for
+};
+
+/// An event as the scene describes it: it comes when all of its comparisons have become true, and acts once, or each time that they do.
 struct SceneEventRule {
   std::string name;
-  std::vector<std::function<Guard(const System&, const State&)>> when;
-  std::vector<std::function<std::string(const System&, const State&)>> seen = {};  ///< what each of them sees, in words
+  std::vector<SceneComparison> when;
   std::vector<EventAction> actions;
   std::vector<EventAction> otherwise = {};  ///< when they no longer are
   bool once = false;
-  bool from_start = true;  ///< where they are positive at the start, it acts there
+  bool from_start = true;  ///< where they are true at the start, it acts there
 };
 
 /// The events of a scene, in their order. At one instant they come after those of contacts and of friction.
@@ -42,6 +52,7 @@ class SceneEvents final : public EventGroup {
   int order() const override { return 2; }
   int size() const override { return static_cast<int>(rules_.size()); }
   std::string name(int event) const override { return rules_[static_cast<std::size_t>(event)].name; }
+  std::string remedy() const override;
   WatchedGuard watch(int event) const override;
   Guard guard(int event, const State&) const override;
   Guard guard(int event, const State& state, const Equations&) const override { return guard(event, state); }
@@ -59,19 +70,26 @@ class SceneEvents final : public EventGroup {
   /// What an event is waiting for: to become true or, having acted, false; or nothing any more.
   enum class Waits : unsigned char { for_true, for_false, no_more };
   Guard all_of(int event, const State&) const;
+  /// Each comparison over its size.
+  void look(int event, const State&, std::vector<double>& out) const;
+  bool holds(int event, const State&) const;
+  bool rises(int event, const Instant&) const;
   void see(const State&);
   bool is_unsound(int event, const State&) const;
+  void find_unsound(const Step&, const DenseOutput&);
+  void rearm_beside(int event, const Step&);
+  void decide_on_level(const std::vector<double>& before, const State&);
   bool switches_all(const std::vector<EventAction>&, State&, EventOutcome&);
 
   const System& system_;
   std::vector<SceneEventRule> rules_;
-  State faster_;  ///< workspace: what was seen, with all as fast as the fastest
   std::vector<Waits> waits_;
   std::vector<std::size_t> first_;  ///< place in `size_` of each event's first comparison
   std::vector<double> size_;        ///< of each comparison so far, the largest, by which it is measured
   std::vector<int> unsound_;        ///< of each event, the comparison that was no number at the end of the last step; −1 …
   State unsound_at_;                ///< … and where the first of them became none
-  std::vector<double> shift_;       ///< of each guard since it was last passed: so it is not passed again where it stands
+  State faster_;                    ///< workspace: what was seen, with all as fast as the fastest
+  std::vector<double> shift_;       ///< of each guard since it was last passed, or stood at zero: so it comes once where it stands
   std::unique_ptr<Equations> eq_;   ///< from the first switching on
 };
 

@@ -5,16 +5,11 @@
 #include <cmath>
 
 #include "framework/scene/units/jet.h"
+#include "framework/scene/units/program_parts.h"
 
 namespace pintle {
 
 namespace {
-
-int operands(Op op) {
-  if (op <= Op::input) return 0;
-  if (op <= Op::smooth) return 1;
-  return op < Op::choose ? 2 : 3;
-}
 
 const char* word_for(Op op) {
   switch (op) {
@@ -63,7 +58,7 @@ Jet Program::operator()(const Jet& t, const Jet* inputs) const {
   std::array<Jet, most_stacked> stack;
   std::size_t top = 0;  // one past the last operand
   for (const Instruction& i : code) {
-    switch (operands(i.op)) {
+    switch (operand_count(i.op)) {
       case 0:
         stack[top++] = i.op == Op::time ? t : i.op == Op::input ? inputs[static_cast<std::size_t>(i.value)] : Jet{i.value, 0, 0};
         break;

@@ -1,23 +1,32 @@
 #include "framework/scene/units/guard.h"
 
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "framework/scene/units/machine.h"
+#include "framework/scene/units/program_parts.h"
+
 namespace pintle {
 
 namespace {
 
 constexpr const char* how_to_write_one = "; write a comparison such as crank.angle > 30 deg, or several joined by &&";
 
-int operand_count(Op op) {
-  if (op < Op::negate) return 0;
-  return op <= Op::smooth ? 1 : op < Op::choose ? 2 : 3;
+// |a| + |b| of a + b or a − b, and so of these.
+void add_size(const Program& program, std::size_t last, Program& out) {
+  const Op op = program.code[last].op;
+  if (op == Op::add || op == Op::subtract) {
+    add_size(program, begin_of(program, last - 1) - 1, out);
+    add_size(program, last - 1, out);
+    out.code.push_back({Op::add});
+    return;
+  }
+  for (const Program::Instruction& one : part(program, begin_of(program, last), last + 1).code) out.code.push_back(one);
+  out.code.push_back({Op::abs});
 }
 
-// Where the operand begins that ends with this instruction.
-std::size_t begin_of(const Program& program, std::size_t last) {
-  for (int wanted = operand_count(program.code[last].op); wanted > 0; --wanted) last = begin_of(program, last - 1);
-  return last;
-}
-
-void split(const Program& program, std::size_t last, std::vector<Program>& out) {
+void split(const Program& program, std::size_t last, std::vector<Comparison>& out) {
   const Op op = program.code[last].op;
   const std::size_t begin = begin_of(program, last);
   const bool falls = op == Op::less || op == Op::at_most, rises = op == Op::greater || op == Op::at_least;
@@ -31,19 +40,68 @@ void split(const Program& program, std::size_t last, std::vector<Program>& out) 
     split(program, last - 1, out);
     return;
   }
-  const auto part = [&](std::size_t from, std::size_t to) {
-    return std::vector(program.code.begin() + static_cast<std::ptrdiff_t>(from), program.code.begin() + static_cast<std::ptrdiff_t>(to));
-  };
-  Program difference{falls ? part(second, last) : part(begin, second)};
-  for (const Program::Instruction& one : falls ? part(begin, second) : part(second, last)) difference.code.push_back(one);
+  Program difference = falls ? part(program, second, last) : part(program, begin, second);
+  for (const Program::Instruction& one : (falls ? part(program, begin, second) : part(program, second, last)).code)
+    difference.code.push_back(one);
   difference.code.push_back({Op::subtract});
-  out.push_back(std::move(difference));
+  Program size;
+  add_size(difference, difference.code.size() - 1, size);
+  out.push_back({std::move(difference), std::move(size), op == Op::at_most || op == Op::at_least});
+}
+
+// All values of a difference.
+Range range_of(const Program& program, double until) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  std::array<RangeJet, Program::most_stacked> stack;
+  std::size_t top = 0;
+  for (const auto& [op, value] : program.code) {
+    top -= static_cast<std::size_t>(operand_count(op));
+    RangeJet* const x = stack.data() + top++;
+    switch (operand_count(op)) {
+      case 0:
+        if (op == Op::input)
+          *x = {{-infinite, infinite}, {-infinite, infinite}};
+        else
+          *x = op == Op::time ? time_from(0, until) : RangeJet{{value, value}, {0, 0}};
+        break;
+      case 1: *x = apply(op, x[0]); break;
+      case 2: *x = apply(op, x[0], x[1]); break;
+      default: *x = choose(x[0], x[1], x[2]);
+    }
+  }
+  return stack[0].value;
+}
+
+bool same(const Program& a, const Program& b) {
+  return std::ranges::equal(a.code, b.code, [](const auto& x, const auto& y) { return x.op == y.op && x.value == y.value; });
+}
+
+// a is A − low, b is high − A, and high is not above low.
+bool contradict(const Comparison& a, const Comparison& b) {
+  const Program &of_a = a.difference, &of_b = b.difference;
+  const std::size_t n = of_a.code.size();
+  if (n != of_b.code.size() || n < 3 || of_a.code[n - 2].op != Op::constant || of_b.code.front().op != Op::constant) return false;
+  const double low = of_a.code[n - 2].value, high = of_b.code.front().value;
+  const bool empty = low > high || (low == high && !(a.at_zero && b.at_zero));
+  return empty && same(part(of_a, 0, n - 2), part(of_b, 1, n - 1)) && begin_of(of_a, n - 3) == 0;
 }
 
 }  // namespace
 
-std::vector<Program> comparisons(const Program& program) {
-  std::vector<Program> out;
+Known known_of(const std::vector<Comparison>& all, double until) {
+  bool always = true;
+  for (const Comparison& one : all) {
+    const Range range = range_of(one.difference, until);
+    if (range.hi < 0 || (range.hi == 0 && !one.at_zero)) return Known::never;
+    always = always && (range.lo > 0 || (range.lo == 0 && one.at_zero));
+    for (const Comparison& other : all)
+      if (contradict(one, other)) return Known::never;
+  }
+  return always ? Known::always : Known::open;
+}
+
+std::vector<Comparison> comparisons(const Program& program) {
+  std::vector<Comparison> out;
   split(program, program.code.size() - 1, out);
   return out;
 }

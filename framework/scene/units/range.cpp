@@ -120,6 +120,10 @@ RangeJet lesser(const RangeJet& a, const RangeJet& b) {
   return {{std::min(a.value.lo, b.value.lo), std::min(a.value.hi, b.value.hi)}, hull(a.rate, b.rate)};
 }
 RangeJet negated(const RangeJet& x) { return {-x.value, -x.rate}; }
+RangeJet magnitude(const RangeJet& x) {
+  const Range& v = x.value;
+  return {{std::max({0.0, v.lo, -v.hi}), std::max(-v.lo, v.hi)}, negated(lesser(x, negated(x))).rate};
+}
 
 }  // namespace
 
@@ -149,7 +153,7 @@ RangeJet apply(Op op, const RangeJet& x) {
     }
     case Op::exp: return exponential(x);
     case Op::log: return logarithm(x);
-    case Op::abs: return negated(lesser(x, negated(x)));
+    case Op::abs: return magnitude(x);
     case Op::smooth: return smooth(x);
     default: return {all, all};
   }

@@ -276,6 +276,25 @@ Jet Spline::operator()(double t) const {
           (yb - ya) / h + ((1 - 3 * a * a) * ma + (3 * b * b - 1) * mb) * h / 6, a * ma + b * mb};
 }
 
+std::optional<Swing> worst_swing(const Spline& spline) {
+  constexpr double noticed = 0.01;
+  constexpr int looks = 16;
+  const std::vector<double>&t = spline.samples().t, &y = spline.samples().value;
+  const auto [least, most] = std::ranges::minmax(y);
+  const auto rise = [&](std::size_t i) { return y[i + 1] - y[i]; };
+  Swing worst{0, 0, noticed * (most - least)};
+  for (std::size_t i = 0; i + 1 < t.size(); ++i) {
+    if (i > 0 && rise(i - 1) * rise(i) < 0) continue;  // a summit of the samples may have its own between them
+    if (i + 2 < t.size() && rise(i) * rise(i + 1) < 0) continue;
+    const auto [low, high] = std::minmax(y[i], y[i + 1]);
+    for (int k = 1; k < looks; ++k) {
+      const double x = t[i] + (t[i + 1] - t[i]) * k / looks, now = spline(x).value, by = std::max(low - now, now - high);
+      if (by > worst.by) worst = {t[i], t[i + 1], by};
+    }
+  }
+  return worst.end > worst.begin ? std::optional(worst) : std::nullopt;
+}
+
 Jet Polyline::operator()(double t) const {
   if (const auto held = held_end(samples_, t)) return *held;
   const std::size_t i = interval(samples_.t, t);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,14 @@ class Spline {
   Samples samples_;
   std::vector<double> curvature_;  ///< second derivative at each sample
 };
+
+/// Where a spline goes beyond the two samples beside it though the samples there rise, fall or stay: it swings.
+struct Swing {
+  double begin, end;  ///< between these two
+  double by;          ///< so far beyond, at the most of all
+};
+/// The worst of more than a hundredth of the samples' range.
+std::optional<Swing> worst_swing(const Spline&);
 
 /// Straight lines between samples; the rate jumps at each. Outside it holds the end value.
 class Polyline {

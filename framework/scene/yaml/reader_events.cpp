@@ -2,6 +2,7 @@
 
 #include "framework/common/nearest.h"
 #include "framework/scene/units/guard.h"
+#include "framework/scene/units/program_parts.h"
 #include "framework/scene/units/signal_law.h"
 #include "framework/scene/units/signal_words.h"
 #include "framework/scene/yaml/reader_parts.h"
@@ -66,12 +67,10 @@ std::vector<Law> read_comparisons(const Node& node, const Law& condition) {
     return {{[holds](double) { return Jet{holds - 0.5, 0, 0}; }, condition.text, true}};
   }
   std::vector<Law> out;
-  const auto names = [](const Program& program, Op what) {
-    return std::ranges::any_of(program.code, [what](const Program::Instruction& i) { return i.op == what; });
-  };
   try {
     const auto* of_time = condition.at.target<Program>();
-    for (Program& one : comparisons(of_time ? *of_time : condition.of_signals.target<SignalFormula>()->program)) {
+    for (Comparison& comparison : comparisons(of_time ? *of_time : condition.of_signals.target<SignalFormula>()->program)) {
+      Program& one = comparison.difference;
       Law law{.at = {}, .text = condition.text, .constant = false, .uses_time = names(one, Op::time)};
       if (names(one, Op::input))
         law.of_signals = SignalFormula(std::move(one)), law.signals = condition.signals;

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "framework/mechanism/model.h"
+#include "framework/scene/scene.h"
+
+namespace pintle {
+
+/// Which cam has come to an end of its table in a state, so that the next step would leave it; empty: none.
+std::string explain_cams(const Scene&, const Model&, const State&);
+
+}  // namespace pintle

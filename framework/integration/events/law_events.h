@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "framework/integration/events/event.h"
+
+namespace pintle {
+
+/// Where laws of signals change their course: comparisons, kinks and tables' marks, as SidedLaw has them. Laws are held on their sides
+/// within a step, which ends where the first of them comes to the end of its side. Two events: of what is exact, and of the rest.
+class LawEvents final : public EventGroup {
+ public:
+  explicit LawEvents(const System&);
+  /// Does any law have sides?
+  static bool has_any(const System&);
+
+  /// For Equations: on which the laws are held.
+  const std::vector<int>& sides() const { return sides_; }
+  /// Where the state has jumped, sides are found anew.
+  void settle(const State&);
+
+  int order() const override { return 3; }
+  int size() const override { return 2; }
+  std::string name(int event) const override;
+  std::string remedy() const override;
+  WatchedGuard watch(int event) const override;
+  Guard guard(int event, const State&) const override;
+  Guard guard(int event, const State& state, const Equations&) const override { return guard(event, state); }
+  std::optional<double> positive_inside(int event, const Step&, const DenseOutput&) const override;
+  bool met(int event, const Guard&) const override;
+  void start(Step&) override;
+  void follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) override;
+  EventOutcome act(int event, Step&, const Guard&) override;
+  void save(Writer&) const override;
+  void load(Reader&) override;
+  const char* fault() const override;
+
+ private:
+  struct Sided {
+    std::size_t law;
+    int first, end;  ///< of its switches among all
+  };
+  std::vector<double> signals_of(const SignalLaw&, const State&) const;
+  /// Above 0 where a switch is past the end of its side, over the largest that it was.
+  std::vector<double> past(const State&) const;
+  double value(const Sided&, const State&) const;
+  void see(const State&);
+
+  const System& system_;
+  std::vector<Sided> laws_;
+  std::vector<unsigned char> exact_;       ///< of each switch
+  std::vector<int> sides_;                 ///< of each switch
+  std::vector<double> size_, lag_, most_;  ///< of each switch its largest, and by how much it is held back since it came here; values
+  bool any_exact_ = false, any_not_ = false;
+  int last_ = 0;  ///< law that switched last
+};
+
+}  // namespace pintle

@@ -1,0 +1,139 @@
+// Events at their level: which side a state is on that stands there, what undoes itself there, and what comes at the start.
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "framework/build/build.h"
+#include "tests/scenes/text_runs.h"
+
+namespace pintle_scenes::event_level_test {
+namespace {
+
+using namespace pintle;
+
+const Method methods[] = {{"dopri5", "dopri5", 1e-8, 0},
+                          {"rkf45", "rkf45", 1e-8, 0},
+                          {"verner87", "verner87", 1e-8, 0},
+                          {"implicit", "generalized-alpha", 1e-6, 0}};
+class Level : public testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(Events, Level, testing::ValuesIn(methods), name_of);
+
+std::string pushed(const std::string& events) {
+  return R"yaml(
+bodies: {b: {rigid: {mass: 1 kg, inertia: 1 kg m^2}}}
+states: {F: {rate: 0/(1 s), start: 2}}
+forces: {push: {force: ["F*1 N", 0], at: b}}
+start: {b: {x: 0, vx: 0 m/s}}
+run: {until: 3 s}
+events: {)yaml" +
+         events + "}\n";
+}
+
+void expect_failed(const Whole& w, std::initializer_list<const char*> parts) {
+  EXPECT_EQ(w.run.status, Status::failed);
+  for (const char* part : parts) EXPECT_NE(w.run.reason.find(part), std::string::npos) << w.run.reason;
+  EXPECT_LT(w.run.happenings.size(), 1000u);
+}
+
+TEST_P(Level, OfTwoThatUndoEachOtherEndsByName) {
+  const Whole w = run(pushed("up: {when: b.vx > 1 m/s, do: {set: {F: -2}}}, down: {when: b.vx < 1 m/s, do: {set: {F: 2}}}"), GetParam());
+  expect_failed(w, {"t = 0.5 s", "up", "down", "again and again without time passing", "two levels apart"});
+}
+TEST_P(Level, OfOneWithElseEndsByName) {
+  const Whole w = run(pushed("up: {when: b.vx > 1 m/s, do: {set: {F: -2}}, else: {set: {F: 2}}}"), GetParam());
+  expect_failed(w, {"t = 0.5 s", "up", "again and again without time passing", "two levels apart"});
+}
+TEST_P(Level, OfTwoWithAHysteresisGoesOn) {
+  const Whole w =
+      run(pushed("up: {when: b.vx > 1 m/s, do: {set: {F: -2}}}, down: {when: b.vx < 0.93 m/s, from start: false, do: {set: {F: 2}}}"),
+          GetParam());
+  expect_sound(w);
+  EXPECT_EQ(w.run.happenings.size(), 72u) << "the first after 0.5 s, then one each 0.035 s";
+}
+// What one does where another stops being true comes at the same instant, once.
+TEST_P(Level, IsLeftByOneWhereAnotherComes) {
+  const Whole w =
+      run(pushed("up: {when: b.vx > 1 m/s, do: {row: true}}, low: {when: b.vx < 1 m/s, do: {row: true}, else: {set: {F: 0}}}"), GetParam());
+  expect_sound(w);
+  ASSERT_EQ(w.run.happenings.size(), 3u);
+  EXPECT_EQ(w.run.happenings[1].t, w.run.happenings[2].t);
+  EXPECT_NEAR(w.last("b.vx [m/s]"), 1, 1e-11);
+}
+// A bounce whose time dies out, by states alone.
+TEST_P(Level, ThatIsMetAfterShorterAndShorterTimesEndsByName) {
+  const Whole w = run(R"yaml(
+bodies: {b: {rigid: {mass: 1 kg, inertia: 1 kg m^2}}}
+states: {v: {rate: -10/(1 s), start: 0}, h: {rate: v/(1 s), start: 1}}
+run: {until: 10 s}
+events: {bounce: {when: h < 0, do: {set: {v: -0.5*v, h: 0}}}}
+)yaml",
+                      GetParam());
+  expect_failed(w, {"bounce", "again and again without time passing"});
+}
+
+struct AtEqual {
+  const char* when;
+  bool from_start;
+  double comes;  // [s]; below 0: never
+};
+
+// x = 0 and n = 2 at the start, where x rises and n stays.
+TEST_P(Level, ThatIsTrueWhereBothAreEqualComesThere) {
+  for (const auto& [when, from_start, comes] : {
+           AtEqual{"n >= 2", true, 0},
+           AtEqual{"n <= 2", true, 0},
+           AtEqual{"n > 2", true, 0.4},
+           AtEqual{"n < 2", true, -1},
+           AtEqual{"n >= 2", false, -1},
+           AtEqual{"n <= 2", false, -1},
+           AtEqual{"n >= 3", true, 0.4},
+           AtEqual{"n > 3", true, -1},
+           AtEqual{"3 <= n", true, 0.4},
+           AtEqual{"b.x > 0 m", true, 0},
+           AtEqual{"b.x >= 0 m", true, 0},
+           AtEqual{"b.x <= 0 m", true, 0},
+           AtEqual{"b.x < 0 m", true, -1},
+           AtEqual{"b.x > 0 m", false, -1},
+           AtEqual{"b.x >= 0 m", false, -1},
+           AtEqual{"b.x < 0 m", false, -1},
+           AtEqual{"b.angle >= 30 deg && n >= 3", true, 0.4},
+           AtEqual{"b.angle <= 30 deg", true, 0},
+           AtEqual{"b.angle > 30 deg", true, -1},
+       }) {
+    const std::string from = from_start ? "" : "from start: false, ";
+    const Whole w = run(R"yaml(
+bodies: {b: {rigid: {mass: 1 kg, inertia: 1 kg m^2}}}
+states: {n: {rate: 0/(1 s), start: 2}}
+start: {b: {x: 0, vx: 10 m/s, angle: 30 deg}}
+run: {until: 1 s}
+events: {raise: {when: t > 0.4 s, once: true, do: {set: {n: 3}}}, e: {when: ")yaml" +
+                            std::string(when) + "\", " + from + "do: {row: true}}}\n",
+                        GetParam());
+    ASSERT_EQ(w.run.status, Status::finished) << when << ": " << w.run.reason;
+    const auto come = std::ranges::find(w.run.happenings, std::string("e"), &Happening::event);
+    EXPECT_EQ(come == w.run.happenings.end(), comes < 0) << when << from;
+    if (comes >= 0 && come != w.run.happenings.end()) {
+      EXPECT_NEAR(come->t, comes, 1e-12) << when << from;
+    }
+    EXPECT_EQ(w.run.happenings.size(), comes < 0 ? 1u : 2u) << when << from;
+  }
+}
+
+TEST(EventLevel, SavesOneStateWhereTheRunEnds) {
+  Scene s = read_scene_text(pushed("end: {when: t > 0.5 s, do: {save: true, stop: enough}}"), "scene.yaml");
+  for (const int states : {0, 3}) {
+    s.output.states = states > 0 ? 0.25 : 0;
+    const Model model = build(s);
+    std::vector<double> saved;
+    Listeners listeners;
+    listeners.state = [&](const SavedState& state) { saved.push_back(state.t); };
+    simulate(s, model, assemble(s, model), listeners);
+    std::ranges::sort(saved);
+    EXPECT_EQ(std::ranges::adjacent_find(saved), saved.end()) << saved.size() << " states";
+    EXPECT_EQ(saved.back(), 0.5);
+  }
+}
+
+}  // namespace
+}  // namespace pintle_scenes::event_level_test
