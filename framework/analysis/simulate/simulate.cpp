@@ -264,8 +264,8 @@ class Simulation {
     if (!reason.empty()) {
       std::string why;
       for (const State& tried : {integrator_.last().to.state, integrator_.state()})
-        if (why.empty()) why = explain_cams(scene_, model_, tried);
-      if (why.empty()) why = explain_signals(scene_, model_, start_, tried);
+        for (const std::string& found : {explain_cams(scene_, model_, tried), explain_signals(scene_, model_, start_, tried)})
+          if (why.empty()) why = found;
       if (why.empty()) why = explain_failure(scene_, system_, integrator_);
       if (why.empty()) why = monitor_.worst_warning();
       if (!why.empty()) reason += "; " + why;
