@@ -17,7 +17,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Index = Eigen::Index;
-using Sparse = Eigen::SparseMatrix<double>;
+using SparseRows = Eigen::SparseMatrix<double>;
 
 int joint_of(const System& system, int row) {
   const auto next = std::upper_bound(system.row_begin.begin(), system.row_begin.end(), row);
@@ -31,7 +31,7 @@ std::optional<VectorXd> moved(const System& system, double t, const VectorXd& y,
   constexpr double far = 1e-2;  // of the mechanism, and radians
   Equations eq(system);
   const VectorXd W = system.scale.cwiseAbs2();
-  const auto held = [&](const VectorXd& at_y, Sparse* J) {
+  const auto held = [&](const VectorXd& at_y, SparseRows* J) {
     pose(system, t, at_y, eq);
     VectorXd C = eq.C.cwiseProduct(system.row_scale);
     std::vector<Eigen::Triplet<double>> entries;
@@ -47,7 +47,7 @@ std::optional<VectorXd> moved(const System& system, double t, const VectorXd& y,
     }
     return C;
   };
-  Sparse J;
+  SparseRows J;
   held(y, &J);
   VectorXd way = y.segment(system.n(), system.n());                 // along a branch, where the pose is singular
   for (Index i = 0; i < way.size() && attempt < along_speeds; ++i)  // any direction that no symmetry shares

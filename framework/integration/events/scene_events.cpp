@@ -173,7 +173,7 @@ void SceneEvents::start(Step& step) {
 // What stands at zero and does not rise there, such as the speed of what is held, has to rise by more than rounding can.
 void SceneEvents::begin_step(const State& from) {
   for (int event = 0; event < size(); ++event) {
-    if (waits_[at(event)] != Waits::for_true) continue;
+    if (waits_[at(event)] != Waits::for_true || shift_[at(event)] != 0) continue;
     const Guard now = all_of(event, from);
     if (std::abs(now.value) <= guard_near && !(now.rate > 0)) shift_[at(event)] = -2 * guard_near;
   }
