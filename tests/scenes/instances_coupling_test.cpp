@@ -48,6 +48,8 @@ const std::vector<Kind> kinds{
     {"CamOnTheGround", "{cam: [a, s], lift: 10 mm*sin(angle + 0.5)}"},
     {"CamOnABody", "{cam: [a, b, s], swing: 0.3*sin(angle + 0.4)}"},
     {"CamThatSwings", "{cam: [a, b], swing: 0.3*sin(angle + 0.4)}"},
+    {"CamOfPowers", "{cam: [a, s, ground.G], lift: 20 mm*angle + 6 mm*angle^2}"},
+    {"CamThatSwingsByPowers", "{cam: [a, b], swing: 0.2*angle + 0.1*angle^2 - 0.05*angle^3}"},
     {"CamByATable", "{cam: [a, s, ground.G], lift: {table: instances_coupling.csv, angle unit: deg, value unit: mm}}"},
     {"CamByATableFromAnAngle",
      "{cam: [a, b], swing: {table: instances_coupling.csv, angle unit: deg, value unit: 0.02 rad, zero: 25 deg, clockwise: true}}"},

@@ -52,7 +52,7 @@ void place_cam(const Spot& joint, const Placing& placing) {
     std::string from;
     append_number(from, turned);
     set_text(curve, substituted(curve.node.text("an expression in angle"), "angle",
-                                std::string(placing.mirrored ? "(-1)*" : "") + "(angle - (" + from + " rad))"));
+                                placing.mirrored ? "((-1)*(angle - (" + from + " rad)))" : "(angle - (" + from + " rad))"));
   }
   if (key == std::string("swing") && placing.mirrored) negate_law(joint.at(key), "rad");
 }
