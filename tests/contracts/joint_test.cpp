@@ -39,16 +39,6 @@ constexpr double step = 1e-5;
 constexpr double independent = 0.02;
 constexpr int draws = 200;
 
-MarkerMotion moving(const Vector3d& p, const Vector3d& p_rate) {
-  MarkerMotion m;
-  m.r = p.head<2>();
-  m.d.setZero();
-  m.angle = p[2];
-  m.u = {std::cos(p[2]), std::sin(p[2])};
-  m.v = p_rate.head<2>();
-  m.w = p_rate[2];
-  return m;
-}
 double largest(const VectorXd& x) { return x.size() == 0 ? 0 : x.lpNorm<Eigen::Infinity>(); }
 
 /// Poses or rates of a joint's markers, or what follows from them, one an end.

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "framework/build/build.h"
-#include "framework/integration/integrator.h"
 #include "tests/refusal.h"
+#include "tests/scenes/restart_runs.h"
 #include "tests/scenes/text_runs.h"
 
 namespace pintle_scenes::event_run_test {
@@ -50,24 +50,7 @@ const Method methods[] = {{"dopri5", "dopri5", 1e-6, 0},
 class EventRun : public testing::TestWithParam<Method> {};
 INSTANTIATE_TEST_SUITE_P(Methods, EventRun, testing::ValuesIn(methods), name_of);
 
-TEST_P(EventRun, GoesOnFromAnyStepToTheLastBit) {
-  const Scene s = by(GetParam());
-  const Model model = build(s);
-  const State start = assemble(s, model).start;
-  Integrator run(model.system, model.scheme, start);
-  std::vector<std::string> saved{run.save()};
-  while (run.state().t < s.run.until) {
-    ASSERT_TRUE(run.advance(s.run.until)) << run.failure();
-    saved.push_back(run.save());
-  }
-  ASSERT_GE(run.happenings().size(), 6u) << "few events, no exam";
-  for (std::size_t k = 0; k < saved.size(); k += saved.size() / 12) {
-    Integrator next(model.system, model.scheme, start);
-    next.load(saved[k]);
-    while (next.state().t < s.run.until) ASSERT_TRUE(next.advance(s.run.until)) << next.failure();
-    ASSERT_EQ(next.save(), saved.back()) << "from step " << k;
-  }
-}
+TEST_P(EventRun, GoesOnFromAnyStepToTheLastBit) { expect_same_end_from_steps(by(GetParam()), 37, 6); }
 
 TEST_P(EventRun, MovesTheSameWhateverIsWrittenOut) {
   Scene s = by(GetParam());

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "framework/build/build.h"
-#include "framework/integration/integrator.h"
+#include "tests/scenes/restart_runs.h"
 #include "tests/scenes/text_runs.h"
 
 namespace pintle_scenes::law_switch_test {
@@ -123,24 +123,7 @@ Scene busy_by(const Method& method) {
   return s;
 }
 
-TEST_P(LawSwitchRun, GoesOnFromAnyStepToTheLastBit) {
-  const Scene s = busy_by(GetParam());
-  const Model model = build(s);
-  const State start = assemble(s, model).start;
-  Integrator run(model.system, model.scheme, start);
-  std::vector<std::string> saved{run.save()};
-  while (run.state().t < s.run.until) {
-    ASSERT_TRUE(run.advance(s.run.until)) << run.failure();
-    saved.push_back(run.save());
-  }
-  ASSERT_GE(run.counts().events, 20) << "few switches, no exam";
-  for (std::size_t k = 0; k < saved.size(); k += 7) {
-    Integrator next(model.system, model.scheme, start);
-    next.load(saved[k]);
-    while (next.state().t < s.run.until) ASSERT_TRUE(next.advance(s.run.until)) << next.failure();
-    ASSERT_EQ(next.save(), saved.back()) << "from step " << k;
-  }
-}
+TEST_P(LawSwitchRun, GoesOnFromAnyStepToTheLastBit) { expect_same_end_from_steps(busy_by(GetParam()), 7, 20); }
 
 TEST_P(LawSwitchRun, MovesTheSameWhateverIsWrittenOut) {
   Scene s = busy_by(GetParam());
