@@ -17,7 +17,10 @@
 #include "framework/output/results_directory.h"
 #include "framework/plots/plot.h"
 #include "framework/plots/terminal_plot.h"
+#include "framework/report/description.h"
 #include "framework/report/sheets.h"
+#include "framework/scene/units/signal_words.h"
+#include "framework/scene/yaml/reader.h"
 
 namespace pintle::app {
 
@@ -42,6 +45,37 @@ std::vector<fs::path> tables_in(const fs::path& directory) {
   return out;
 }
 
+/// Signals of the scene that a run is of; none where it cannot be read any more.
+std::vector<std::string> signals_of(const fs::path& directory) {
+  std::vector<std::string> out;
+  try {
+    const std::optional<Description> run = description(directory, "run");
+    if (!run) return out;
+    const std::string file = run->json.value("file", std::string());
+    for (const auto& [name, word] : signal_words(read_scene_text(run->json["scene"].dump(), file, {}, fs::path(file).parent_path())))
+      if (word.what != SignalWord::column) out.push_back(name);
+  } catch (const std::runtime_error&) {
+  } catch (const nlohmann::json::exception&) {
+  }
+  return out;
+}
+
+[[noreturn]] void refuse_column(const fs::path& directory, const std::string& name, const std::vector<std::string>& known) {
+  const std::vector<std::string> signals = signals_of(directory);
+  std::vector<std::string> all = known;
+  all.insert(all.end(), signals.begin(), signals.end());
+  const bool is_signal = std::ranges::find(signals, name) != signals.end();
+  const std::string near = is_signal ? name : nearest(name, all);
+  std::string message = directory.string() + ": has no column " + pintle::quoted(name);
+  if (near.empty()) throw ResultsError(message + "; the first line of trajectory.csv and of ledger.csv names them all");
+  if (!is_signal) message += "; did you mean " + pintle::quoted(near) + "?";
+  if (std::ranges::find(known, near) != known.end()) throw ResultsError(message);
+  std::string label = near;
+  std::ranges::replace(label, '.', ' ');
+  throw ResultsError(message + (is_signal ? ", which is" : " That is") + " a signal of its scene; to have it written add `outputs: {" +
+                     label + ": " + near + "}` to the scene and run it again");
+}
+
 /// The table that has a column of this name, with its unit or without.
 fs::path table_with(const std::vector<fs::path>& tables, std::string& name) {
   std::vector<std::string> known;
@@ -54,10 +88,7 @@ fs::path table_with(const std::vector<fs::path>& tables, std::string& name) {
       return table;
     }
   }
-  const std::string near = nearest(name, known);
-  throw ResultsError(tables.front().parent_path().string() + ": has no column " + pintle::quoted(name) +
-                     (near.empty() ? "; the first line of trajectory.csv and of ledger.csv names them all"
-                                   : "; did you mean " + pintle::quoted(near) + "?"));
+  refuse_column(tables.front().parent_path(), name, known);
 }
 
 /// @param evenly  at evenly spaced rows, so that columns share their times; else with the extremes of every stretch

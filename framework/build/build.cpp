@@ -11,6 +11,7 @@
 #include "framework/bodies/elastic_parts.h"
 #include "framework/bodies/mesh_file_warnings.h"
 #include "framework/bodies/mechanism_body.h"
+#include "framework/build/backlash.h"
 #include "framework/build/clearance.h"
 #include "framework/build/contacts.h"
 #include "framework/build/choose_method.h"
@@ -149,9 +150,13 @@ class Builder {
   /// The contact that it is, and the joint that it would be.
   void add_play(const SceneJoint& j, int& order) {
     const Joint ideal = joint_of(scene_, j, markers_);
-    const std::array<Profile, 2> profiles = profiles_of(scene_, j);
     order = static_cast<int>(model_.system.contacts.size());
-    add(contact_with_play(j), profiles[0], profiles[1], {markers_.marker(j.a, Holds::direction), markers_.marker(j.b, Holds::direction)});
+    if (is_coupling(j)) {
+      add(build_flanks(scene_, j, ideal), j.name);
+    } else {
+      const std::array<Profile, 2> profiles = profiles_of(scene_, j);
+      add(contact_with_play(j), profiles[0], profiles[1], {markers_.marker(j.a, Holds::direction), markers_.marker(j.b, Holds::direction)});
+    }
     if (j.kind == JointKind::distance && j.play->only != ScenePlay::both) return;  // a rope may start slack
     model_.system.loose.push_back(ideal);
     model_.system.loose_names.push_back(j.name);
@@ -313,7 +318,10 @@ class Builder {
     for (const Marker& m : model_.system.markers) length = std::max(length, m.x_BP.norm());
     for (const Joint& j : model_.system.joints) length = std::max(length, size_of(j));
     for (const ContactPair& c : model_.system.contacts)
-      if (!c.profiles || c.journal) length = std::max(length, bearing_radius(c.gap));
+      if (c.flank)
+        for (const double radius : pitch_radii(*c.flank)) length = std::max(length, std::abs(radius));
+      else if (!c.profiles || c.journal)
+        length = std::max(length, bearing_radius(c.gap));
     for (const DrawnProfile& p : model_.profiles)
       if (p.body != ground || length == 0)
         for (const Vector2d& x : p.points) length = std::max(length, x.norm());

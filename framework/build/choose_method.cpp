@@ -78,7 +78,7 @@ class Parts {
     if (is_held(pair) || pair.pair > 0) return;
     found.struck = true;
     if (is_rigid(pair)) return;
-    const double w = mobility(system_, pair.a).force + mobility(system_, pair.b).force;
+    const double w = mobility(system_, pair.a).force + mobility(system_, pair.b).force + tooth_mobility(system_, pair);
     const double speed = std::max(motion * system_.length * 1e-2, pair.slowest_impact), depth = depth_reached(pair.normal, w, speed);
     if (depth > 0) found.parts.push_back({speed / depth, viscous_damping(pair.normal) * w, "contact at \"" + name + "\""});
     if (depth > 0 && found.parts.back().decay > found.most_damped.decay) found.most_damped = found.parts.back();

@@ -84,26 +84,6 @@ bool may_touch(const Piece& a, const Piece& b) {
   return !a.straight && !b.straight && a.radius + b.radius < 0;
 }
 
-// Its laws; pieces are left to fill in.
-ContactPair laws_of(const Scene& scene, const SceneContact& c, const Profile& a, const Profile& b) {
-  ContactPair pair{};
-  pair.profiles = true;
-  pair.slowest_impact = c.normal.slowest_impact;
-  pair.follows = c.normal.follows;
-  if (c.impact)
-    pair.rigid = rigid_impact(scene, *c.impact, c.place);
-  else if (c.normal.law == "spring-damper")
-    pair.normal = ImpactLaw{.k = *c.normal.stiffness, .n = 1, .chi = 0, .d = c.normal.damping};
-  else if (is_of_cylinders(c.normal))
-    pair.normal = normal_law(scene, c.normal, 0, radii_of(scene, c, a, b)),
-    pair.pressure = pressure_of(scene, c.normal, radii_of(scene, c, a, b));
-  else
-    pair.normal = normal_law(scene, c.normal, c.normal.law == "table" ? 0 : stiffness_of(scene, c, a, b), {});
-  if (c.friction && rubs(*c.friction)) pair.friction = friction_law(scene, *c.friction);
-  if (c.impact && c.friction) check_rigid_friction(scene, *c.friction);
-  return pair;
-}
-
 // The pairs of pieces that may touch, each as `like`; what lies beyond their ends by number among them.
 std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c, const Profile& a, const Profile& b,
                                        const ContactPair& like) {
@@ -176,7 +156,28 @@ double too_hollow(const Profile& a, const Profile& b) {
   return out;
 }
 
-std::string contact_text(const ContactPair& pair, std::size_t pairs) {
+}  // namespace
+
+ContactPair laws_of(const Scene& scene, const SceneContact& c, const Profile& a, const Profile& b) {
+  ContactPair pair{};
+  pair.profiles = true;
+  pair.slowest_impact = c.normal.slowest_impact;
+  pair.follows = c.normal.follows;
+  if (c.impact)
+    pair.rigid = rigid_impact(scene, *c.impact, c.place);
+  else if (c.normal.law == "spring-damper")
+    pair.normal = ImpactLaw{.k = *c.normal.stiffness, .n = 1, .chi = 0, .d = c.normal.damping};
+  else if (is_of_cylinders(c.normal))
+    pair.normal = normal_law(scene, c.normal, 0, radii_of(scene, c, a, b)),
+    pair.pressure = pressure_of(scene, c.normal, radii_of(scene, c, a, b));
+  else
+    pair.normal = normal_law(scene, c.normal, c.normal.law == "table" ? 0 : stiffness_of(scene, c, a, b), {});
+  if (c.friction && rubs(*c.friction)) pair.friction = friction_law(scene, *c.friction);
+  if (c.impact && c.friction) check_rigid_friction(scene, *c.friction);
+  return pair;
+}
+
+std::string laws_text(const ContactPair& pair) {
   std::ostringstream s;
   if (is_rigid(pair))
     s << impact_text(*pair.rigid);
@@ -186,11 +187,9 @@ std::string contact_text(const ContactPair& pair, std::size_t pairs) {
     s << ", damping " << viscous_damping(pair.normal) << " N s/m";
   else if (!is_rigid(pair))
     s << ", restitution delivered " << restitution_of(pair.normal, 1);
-  s << friction_text(pair) << "; " << pairs << (pairs == 1 ? " pair" : " pairs") << " of pieces";
+  s << friction_text(pair);
   return s.str();
 }
-
-}  // namespace
 
 Profile profile_of(const Scene& scene, const Markers& markers, const PointRef& ref) {
   const std::vector<SceneProfile>& profiles = profiles_of(scene, ref);
@@ -264,7 +263,8 @@ BuiltContact build_pairs(const Scene& scene, const SceneContact& c, const Profil
   for (ContactPair& pair : out.pairs)
     for (int& other : pair.beyond)
       if (other >= 0) other += first;
-  out.words = contact_text(like, out.pairs.size());
+  const std::size_t n = out.pairs.size();
+  out.words = laws_text(like) + "; " + std::to_string(n) + (n == 1 ? " pair" : " pairs") + " of pieces";
   return out;
 }
 

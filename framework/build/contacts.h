@@ -22,6 +22,12 @@ struct BuiltContact {
   std::string words;               ///< "stiffness 1e9 N/m^1.5, restitution delivered 0.8, no friction; 8 pairs of pieces"
   std::string warning;             ///< what makes it doubtful; empty: nothing
 };
+/// The laws of a contact, in a pair of which pieces and markers are left to fill in.
+/// @throws SceneError  laws that cannot be; elasticity where a profile has no one radius
+ContactPair laws_of(const Scene&, const SceneContact&, const Profile& a, const Profile& b);
+/// "stiffness 1e9 N/m^1.5, restitution delivered 0.8, no friction"
+std::string laws_text(const ContactPair&);
+
 /// @param markers  that carry the two profiles   @param first  index that its first pair will have in System::contacts
 /// @throws SceneError  laws that cannot be; elasticity where a profile has no one radius; bodies that a weld holds together; no two
 /// pieces that could touch

@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "framework/build/backlash.h"
 #include "framework/common/index.h"
 #include "framework/common/text.h"
 #include "framework/configuration/assemble.h"
@@ -215,7 +216,10 @@ class Settling {
   std::vector<MarkerMotion> motion_;
 };
 
-/// What places the bodies, without some of the joints: neither forces nor what they depend on.
+/// A loose joint that is a coupling: teeth with backlash.
+bool meshes(const Joint& loose) { return std::holds_alternative<Gear>(loose) || std::holds_alternative<Rack>(loose); }
+
+/// What places the bodies, without some of the joints and all loose couplings: neither forces nor what they depend on.
 System without(const System& system, const std::vector<int>& joints) {
   System rest;
   rest.gravity = system.gravity;
@@ -224,8 +228,8 @@ System without(const System& system, const std::vector<int>& joints) {
   rest.markers = system.markers;
   rest.contacts = system.contacts;
   rest.contact_names = system.contact_names;
-  rest.loose = system.loose;
-  rest.loose_names = system.loose_names;
+  for (std::size_t k = 0; k < system.loose.size(); ++k)
+    if (!meshes(system.loose[k])) rest.loose.push_back(system.loose[k]), rest.loose_names.push_back(system.loose_names[k]);
   const auto before = [&](int joint) { return static_cast<int>(std::ranges::count_if(joints, [&](int k) { return k < joint; })); };
   for (ContactPair& pair : rest.contacts)
     if (pair.link >= 0) pair.link -= before(pair.link);
@@ -275,16 +279,23 @@ void settle_start(const Scene& scene, Model& model) {
   std::vector<int> open;
   const auto each = [&](auto settle) {
     for (std::size_t i = 0; i < scene.joints.size(); ++i)
-      if (const SceneJoint& j = scene.joints[i]; is_coupling(j) || j.from_present) settle(j, model.order.joints[i]);
+      if (const SceneJoint& j = scene.joints[i]; !j.play && (is_coupling(j) || j.from_present)) settle(j, model.order.joints[i]);
     for (std::size_t i = 0; i < scene.drivers.size(); ++i)
       if (scene.drivers[i].from_present) settle(scene.drivers[i], model.order.drivers[i]);
   };
   each([&](const auto&, int joint) { open.push_back(joint); });
   const bool belts = std::ranges::any_of(scene.loads, [](const SceneLoad& l) { return std::holds_alternative<SceneBelt>(l.what); });
-  if (open.empty() && !belts) return;
+  if (open.empty() && !belts && std::ranges::none_of(system.loose, meshes)) return;
   const System rest = without(system, open);
   const Settling start(scene, rest, closed_pose(scene, rest, model.bent));
   each([&](const auto& named, int joint) { start.settle(named, system.joints[at(joint)]); });
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    const SceneJoint& j = scene.joints[i];
+    if (!j.play || !is_coupling(j)) continue;
+    Joint& ideal = system.loose[at(std::ranges::find(system.loose_names, j.name) - system.loose_names.begin())];
+    start.settle(j, ideal);
+    settle_flanks(scene, j, ideal, at(model.order.joints[i]), system);
+  }
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const auto* belt = std::get_if<SceneBelt>(&scene.loads[i].what);
     const auto span = [&](std::size_t k) -> BeltSpan& { return std::get<BeltSpan>(system.forces[at(model.order.loads[i]) + k]); };

@@ -104,7 +104,7 @@ std::array<Profile, 2> profiles_of(const Scene& scene, const SceneJoint& j) {
     const double width = 2 * (play.pin_radius + play.gap);
     return {play.travel ? slot(width, *play.travel) : walls(width), circle({0, 0}, play.pin_radius)};
   }
-  if (j.kind != JointKind::distance) wrong("only revolute, prismatic, slot and distance joints take a clearance");
+  if (j.kind != JointKind::distance) wrong("only revolute, prismatic, slot, distance, gear and rack joints take a clearance");
   if (!(play.gap < j.length)) wrong("gap must be less than the length");
   Profile end;
   add(end, {});

@@ -170,6 +170,14 @@ void draw_wheels(const System& system, const Equations& eq, Drawing& out) {
     };
     std::visit(wheels, system.joints[k]);
   }
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    const ContactPair& pair = system.contacts[c];
+    if (!pair.flank || pair.pair > 0) continue;
+    const int owner = bodies + static_cast<int>(system.joints.size() + c);
+    const std::array<double, 2> radius = pitch_radii(*pair.flank);
+    if (radius[0] != 0) draw_wheel(eq.motion[at(pair.a)], radius[0], Part::joint, owner, out);
+    draw_wheel(eq.motion[at(pair.b)], radius[1], Part::joint, owner, out);
+  }
   for (const Force& force : system.forces)
     if (const auto* span = std::get_if<BeltSpan>(&force)) {
       const MarkerMotion &a = eq.motion[at(span->a)], &b = eq.motion[at(span->b)];

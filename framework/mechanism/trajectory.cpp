@@ -146,6 +146,7 @@ struct ProfileContact {
   Gap gap;
   Eigen::Vector2d at{0, 0};
   double normal = 0, friction = 0, pressed = 0;
+  double teeth = 0, travel = 0;  ///< of flanks: force on the rim of a counter-clockwise [N]; how far it has moved in its play [m]
   Wrench on_a = Wrench::Zero(), on_b = Wrench::Zero();
 };
 ProfileContact profile_contact(const System& system, std::size_t first, const Equations& eq) {
@@ -157,7 +158,11 @@ ProfileContact profile_contact(const System& system, std::size_t first, const Eq
     out.normal += effect.normal.force, out.friction += effect.friction, out.on_a += effect.on_a, out.on_b += effect.on_b;
     out.pressed = std::max(out.pressed, effect.normal.force);
     const MovingPoint a = moving_point(eq.motion[at(pair.a)]), b = moving_point(eq.motion[at(pair.b)]);
-    const Gap gap = evaluate(pair.gap, a, b);
+    const Gap gap = gap_between(pair, a, b);
+    if (pair.flank) {
+      const double along = pair.flank->side * std::cos(pair.flank->angle);
+      out.teeth -= along * effect.normal.force, out.travel += (gap.depth + pair.flank->half) / (2 * along);
+    }
     const double near = std::min({gap.depth, pair.deepest - gap.depth, margin(pair, gap, a, b).value});
     if (near > nearest)
       nearest = near, out.gap = gap,
@@ -192,6 +197,8 @@ void profile_columns(const System& system, std::size_t first, Out& out) {
       [&](const Now& now) { return pair.journal ? contact(now).on_a : contact(now).on_b; }, out);
   pressure_columns(
       name, pair.pressure, [&](const Now& now) { return contact(now).pressed; }, out);
+  if (pair.flank)
+    out(name, {{".force", "N"}, {".travel", "m"}}, [&](const Now& now) { return std::array{contact(now).teeth, contact(now).travel}; });
 }
 
 // Of a contact, the states of the owner's pairs that is pressed most; they are as many, one after another.

@@ -123,7 +123,7 @@ struct SceneJoint {
   double ratio = 1;                         ///< differential: turns of a against the cage for one of b's the other way
   std::optional<SceneClearance> clearance;  ///< revolute only
   Place place;
-  std::optional<ScenePlay> play = {};               ///< prismatic, slot and distance only
+  std::optional<ScenePlay> play = {};               ///< prismatic, slot, distance, gear and rack only
   std::optional<SceneJointFriction> friction = {};  ///< revolute, prismatic and slot, without clearance
   bool engaged = true;                              ///< at the start
   bool from_present = false;                        ///< `length` is added to that at the start, as the rest is assembled

@@ -92,12 +92,14 @@ struct SceneClearance {
 /// As a scene file calls it.
 const char* model_name(ClearanceModel);
 
-/// Play in a prismatic, slot or distance joint.
+/// Play in a prismatic, slot or distance joint, or between the teeth of a gear or rack.
 struct ScenePlay {
   double gap = 0;                     ///< of a block or pin in the middle, to either wall; of a rod to either side of its length [m]
   double length = 0, height = 0;      ///< of the block in a prismatic joint, along and across the guide [m]
   double round = 0;                   ///< radius of its corners [m]
   double pin_radius = 0;              ///< of a slot's pin [m]
+  double backlash = 0;                ///< of teeth, along the pitch circle [m]
+  double pressure_angle = 0;          ///< of their flanks [rad]
   std::optional<double> travel = {};  ///< of the pin from end to end of its slot, a in the middle; unset: no ends [m]
   enum Only { both, pull, push } only = both;  ///< a rod that only pulls: a rope
   SceneNormal normal = {};

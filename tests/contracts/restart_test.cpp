@@ -65,6 +65,7 @@ void goes_on_from_any_step(const Case& k, double until) {
 
 TEST(Restart, FromAnyStepGoesOnBitForBitThroughImpacts) { goes_on_from_any_step(loose_crank(), 1); }
 TEST(Restart, FromAnyStepGoesOnBitForBitFromPieceToPiece) { goes_on_from_any_step(of_example("box_and_ramp.yaml"), 100); }
+TEST(Restart, FromAnyStepGoesOnBitForBitFromFlankToFlank) { goes_on_from_any_step(of_example("gear_backlash.yaml"), 100); }
 TEST(Restart, FromAnyStepGoesOnBitForBitThroughStickAndSlip) { goes_on_from_any_step(of_example("stick_slip.yaml"), 100); }
 
 // What `method: auto` takes may change with the length of the run and the rows asked for, which a restart may change.

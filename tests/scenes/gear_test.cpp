@@ -240,7 +240,7 @@ TEST(GearInput, IsRefusedWithTheRemedy) {
   refused("{differential: [{angle: [ground, a]}, {angle: [a, ground], ratio: 2}]}", 0.3, {"joints.pair.differential", "ratios"});
   refused("{gear: [a, b]}", 0.3, {"lacks a required key", "radii", "teeth"});
   refused("{gear: [a, b], radii: [0.1, 0.2], teeth: [1, 2]}", 0.3, {"teeth", "keep one of them"});
-  refused("{gear: [a, b], radii: [0.1, 0.2], clearance: {gap: 1}}", 0.3, {"clearance", "does not belong to gear"});
+  refused("{gear: [a, b], radii: [0.1, 0.2], clearance: {gap: 1}}", 0.3, {"clearance", "does not belong to the clearance of a gear"});
   refused("{gear: [a, b], radii: [0.1, 0.2], friction: {}}", 0.3, {"friction", "does not belong to gear"});
   refused("{belt: [a, b], radii: [0.1, 0.2], crossed: true}", 0.25, {"250 mm", "300 mm"});
   refused("{rack: [a, b], radius: 0.2}", 0.3, {"joints.pair", "0 mm off the line", "200 mm"});

@@ -31,6 +31,7 @@ struct Kind {
 };
 void PrintTo(const Kind& k, std::ostream* out) { *out << k.name; }
 
+const std::string teeth = "{flores: {restitution: 0.5, stiffness: 1e7}}";
 // A wheel a at O, a wheel b 0.3 m from it, a slide s on a slanted line 0.1 m from O, and a disc w that nothing holds.
 const std::vector<Kind> kinds{
     {"Gear", "{gear: [a, b], radii: [0.1, 0.2]}"},
@@ -39,6 +40,9 @@ const std::vector<Kind> kinds{
     {"Belt", "{belt: [a, b], radii: [0.1, 0.15]}"},
     {"CrossedBelt", "{belt: [a, b], radii: [0.1, 0.15], crossed: true}"},
     {"Rack", "{rack: [s, a], radius: 0.1}"},
+    {"GearWithBacklash", "{gear: [a, b], radii: [0.1, 0.2], clearance: {backlash: 5 mm, pressure angle: 20 deg, normal: " + teeth + "}}"},
+    {"RingWithBacklash", "{gear: [a, b], radii: [0.2, 0.5], inside: true, clearance: {backlash: 5 mm, normal: " + teeth + "}}"},
+    {"RackWithBacklash", "{rack: [s, a], radius: 0.1, clearance: {backlash: 5 mm, pressure angle: 20 deg, normal: " + teeth + "}}"},
     {"RollsOnALine", "{rolling: [ground.G, w], radius: 0.05}"},
     {"RollsOnADisc", "{rolling: [ground.O, w], radii: [0.03, 0.02]}"},
     {"RollsInADisc", "{rolling: [ground.O, w], radii: [0.09, 0.04], inside: true}"},

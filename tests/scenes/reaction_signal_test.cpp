@@ -85,7 +85,7 @@ run: {until: 6 s, method: dopri5}
 // What trajectory.csv calls a column an output may name, of the column's dimension.
 TEST(Reactions, EveryColumnIsAWordOfItsUnit) {
   for (const char* name : {"belt_drive", "planetary_gearbox", "slider_crank_clearance", "drum_brake", "jamming_drawer", "stage_microslip",
-                           "cam_roller", "excavator", "pid_arm", "release_hook", "gearbox"}) {
+                           "cam_roller", "excavator", "pid_arm", "release_hook", "gearbox", "gear_backlash"}) {
     const Scene s = read_scene(std::string(PINTLE_SOURCE_DIR) + "/examples/" + name + ".yaml");
     const auto words = signal_words(s);
     for (const std::string& column : trajectory_table(build(s)).header) {

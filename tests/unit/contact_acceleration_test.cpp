@@ -71,6 +71,34 @@ TEST_P(ContactAcceleration, IsTheRateOfItsSpeeds) {
   EXPECT_GT(seen, 10);
 }
 
+// Teeth have no slip, and a depth anywhere.
+class ContactAccelerationOfTeeth : public ContactAcceleration {};
+TEST_F(ContactAccelerationOfTeeth, IsTheRateOfTheirSpeed) {
+  constexpr double h = 1e-6;
+  for (const Flank::Teeth& teeth : {Flank::Teeth(RollsOnDisc{{0, 1, 0.3, 0.5}}), Flank::Teeth(RollsOnDisc{{0, 1, 0.3, -0.7}}),
+                                    Flank::Teeth(RollsOnDisc{{0, 1, 0.7, -0.3}}), Flank::Teeth(RollsOnLine{{0, 1, -0.3}})})
+    for (int draw = 0; draw < 40; ++draw) {
+      ContactPair pair{};
+      pair.profiles = true;
+      pair.flank = Flank{teeth, draw % 2 == 0 ? 1.0 : -1.0, 0.01, draw % 4 < 2 ? 0 : 0.35};
+      const MarkerMotion a = any(), b = any();
+      if ((b.r - a.r).norm() < 0.3) continue;
+      const Gap gap = gap_between(pair, at(a, 0), at(b, 0)), after = gap_between(pair, at(a, h), at(b, h)),
+                before = gap_between(pair, at(a, -h), at(b, -h));
+      const double closes = (after.depth - before.depth) / (2 * h), opens = -(after.rate - before.rate) / (2 * h);
+      if (std::abs(closes) < 100) {  // else the line of centres has gone round
+        EXPECT_NEAR(gap.rate, closes, 1e-5 * (1 + std::abs(closes))) << draw;
+      }
+      EXPECT_NEAR(opening_acceleration(pair, gap, a, b), opens, 1e-5 * (1 + std::abs(opens))) << draw;
+      const std::array<Wrench, 2> unit = unit_normal(pair, gap);
+      const double power = unit[0].dot(Wrench(a.v.x(), a.v.y(), a.w)) + unit[1].dot(Wrench(b.v.x(), b.v.y(), b.w));
+      EXPECT_NEAR(power, -gap.rate, 1e-13 * (1 + std::abs(gap.rate))) << draw;
+      EXPECT_NEAR((unit[0] + unit[1]).head<2>().norm(), 0, 1e-14) << draw;
+      EXPECT_NEAR(cross(a.r, Vector2d(unit[0].head<2>())) + unit[0][2] + cross(b.r, Vector2d(unit[1].head<2>())) + unit[1][2], 0, 1e-13)
+          << draw;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Every, ContactAcceleration,
                          testing::Values(Kind{"DiscDisc", disc, disc}, Kind{"DiscHole", disc, hole}, Kind{"DiscLine", disc, flat},
                                          Kind{"LineDisc", flat, disc}, Kind{"CurveDisc", egg, disc}, Kind{"DiscCurve", disc, egg},

@@ -193,4 +193,22 @@ TEST(ExitCodes, AFitOrSensitivityThatCanMeasureNothingIsFour) {
   }
 }
 
+// --- a plot of what is no column: a signal of the scene is told how it becomes one, another name is corrected ---
+
+TEST(Plot, OfASignalThatIsNoColumnSaysHowToHaveItWritten) {
+  const Folder folder;
+  folder.write("scene.yaml", started_four_bar + "forces: {coil: {spring: [ground.O, crank.A], stiffness: 10, free length: 1}}\n");
+  const auto act = [&](const Words& words) {
+    Words command{"/usr/bin/env", "-C", folder.path().string(), PINTLE_PROGRAM};
+    command.insert(command.end(), words.begin(), words.end());
+    return run(folder.path() / "log", command);
+  };
+  ASSERT_EQ(act({"run", "-q", "scene.yaml", "--out", "r"}).code, 0);
+  const auto complaint = [&](const char* column) { return act({"plot", "r", column}).complained; };
+  EXPECT_TRUE(holds(complaint("coil.length"), "has no column \"coil.length\", which is a signal of its scene")) << complaint("coil.length");
+  EXPECT_TRUE(holds(complaint("coil.length"), "add `outputs: {coil length: coil.length}` to the scene"));
+  EXPECT_TRUE(holds(complaint("coil.lenght"), "did you mean \"coil.length\"? That is a signal of its scene"));
+  EXPECT_TRUE(holds(complaint("crank.anlge"), "did you mean \"crank.angle\"?") && !holds(complaint("crank.anlge"), "signal"));
+}
+
 }  // namespace

@@ -55,6 +55,14 @@ inline ContactPair profiles(const Piece& a, const Piece& b) {
   pair.profiles = pair.follows = true;
   return pair;
 }
+// Teeth that press far into each other, wherever they are drawn.
+inline ContactPair teeth(const Flank::Teeth& of, double side, double angle) {
+  ContactPair pair = contact(0);
+  pair.normal = ImpactLaw{50, 1.5, 0.2};
+  pair.profiles = pair.follows = true;
+  pair.flank = Flank{of, side, -12, angle};
+  return pair;
+}
 // Of bristles as long as the states drawn, bent by the speeds drawn.
 inline const LuGre lugre{.mu = 0.3, .mu_static = 0.4, .stribeck = 5, .stiffness = 0.8, .damping = 0.3, .viscous = 0.05, .damping_speed = 6};
 inline const Gonthier gonthier{.mu = 0.9, .mu_static = 1.2, .stribeck = 5, .stiffness = 0.8, .damping = 0.3, .viscous = 0.05, .dwell = 0.7};
@@ -167,6 +175,12 @@ inline const std::vector<Kind> kinds{
     {"CurveOnCurve", {}, {}, {profiles(egg, other_egg)}},
     {"CurveOnLine", {}, {}, {profiles(egg, flat)}},
     {"LineOnCurve", {}, {}, {profiles(flat, egg)}},
+    {"Teeth", {}, {}, {teeth(RollsOnDisc{{0, 1, 0.3, 0.5, 0.1}}, 1, 0)}},
+    {"SlantedTeeth", {}, {}, {teeth(RollsOnDisc{{0, 1, 0.3, 0.5, 0.1}}, -1, 0.35)}},
+    {"TeethInARing", {}, {}, {teeth(RollsOnDisc{{0, 1, 0.3, -0.7, 0.1}}, 1, 0.35)}},
+    {"TeethOfARing", {}, {}, {teeth(RollsOnDisc{{0, 1, 0.7, -0.3, 0.1}}, -1, 0.35)}},
+    {"TeethOfARack", {}, {}, {teeth(RollsOnLine{{0, 1, 0.3, 0.1}}, 1, 0.35)}},
+    {"TeethOfARackOnTheRight", {}, {}, {teeth(RollsOnLine{{0, 1, -0.3, 0.1}}, -1, 0.35)}},
     {"Several",
      {Slot{0, 1}, Revolute{1, 0}},
      {Spring{1, 0, 40, 3, 0.5}, Maxwell{1, 0, 60, 5}, TorsionSpring{0, 1, 25, 2, -0.8}, PointForce{1, 0, sine, steady, true}}},

@@ -63,6 +63,7 @@ State make_state(const System& system, Draw& draw, Equations& eq) {
   while (off_a_curve(system, eq)) s = random_state(system, draw, eq);
   if (system.contacts.empty()) return s;
   s.impact_rate = {draw.within(0.5, 4)};
+  if (system.contacts[0].flank) return s;
   if (dry_states(system) > 0) s.friction = {{std::floor(draw.within(-1, 2)), draw.within(-90, 90)}};  // slides either way, or sticks
   const double angle = draw.within(-M_PI, M_PI);
   const Vector2d wanted = (clearance + depth) * Vector2d(std::cos(angle), std::sin(angle));

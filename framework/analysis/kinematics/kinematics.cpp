@@ -169,6 +169,7 @@ void require_driven(const Scene& scene, const Model& model, const Assembly& asse
   std::vector<std::string> loose;
   const auto clearances = static_cast<std::size_t>(n_clearances(system));
   for (std::size_t c = 0; c < clearances; ++c) loose.push_back(system.contact_names[c]);
+  if (open > 0) loose.insert(loose.end(), system.loose_names.begin(), system.loose_names.end());
   Place place = scene.drivers.empty() ? Place{} : scene.drivers.front().place;
   place.key = "drivers";
   if (!loose.empty())

@@ -56,9 +56,14 @@ class Sum : public ValueWriter<Sum> {
   }
   void add(const ContactPair& p) {
     const auto& [a, b, gap, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid, slack,
-                 pressure, journal] = p;
+                 pressure, journal, flank] = p;
     add(a, b, gap.a, gap.b, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid,
         slack);
+    if (flank) add(*flank);
+  }
+  void add(const Flank& flank) {
+    const auto& [teeth, side, half, angle] = flank;
+    add(teeth, side, half, angle);
   }
   void add(const Piece& piece) {
     const auto& [radius, centre, normal, half, straight, curve] = piece;

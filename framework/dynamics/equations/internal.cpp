@@ -42,7 +42,7 @@ class OwnMotion {
     } else if (of.owner == InternalStates::contact) {
       const ContactPair& pair = system.contacts[k];
       law_ = &*pair.friction, open_ = !(state.impact_rate[k] > 0);
-      if (!open_) slip_ = sliding_speed(pair, evaluate(pair.gap, moving_point(a_), moving_point(b_)));
+      if (!open_) slip_ = sliding_speed(pair, gap_between(pair, moving_point(a_), moving_point(b_)));
     }
     open_ = open_ || has_released_owner(system, of, state.y);
   }

@@ -11,6 +11,9 @@ MovingPoint moving_point(const MarkerMotion& m) { return {m.r, m.v, m.w, m.angle
 
 double contact_size(const ContactPair& pair, double mechanism) {
   double out = mechanism;
+  if (pair.flank)
+    for (const double radius : pitch_radii(*pair.flank))
+      if (radius != 0) out = std::min(out, std::abs(radius));
   for (const Piece* piece : {&pair.gap.a, &pair.gap.b})
     if (const double radius = least_radius(*piece); radius > 0) out = std::min(out, radius);
   return out;
@@ -18,6 +21,7 @@ double contact_size(const ContactPair& pair, double mechanism) {
 
 double fine_length(const ContactPair& pair, double mechanism) {
   constexpr double part = 1e-2;
+  if (pair.flank) return pair.flank->half;
   return pair.gap.hollow() ? pair.gap.clearance() : part * contact_size(pair, mechanism);
 }
 
@@ -82,7 +86,7 @@ ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& a, const Mar
                        const double* x) {
   ContactEffect out;
   if (pair.profiles && impact_rate <= 0) return out;
-  out.gap = evaluate(pair.gap, moving_point(a), moving_point(b));
+  out.gap = gap_between(pair, moving_point(a), moving_point(b));
   if (impact_rate <= 0 || is_held(pair)) return out;
   const double slip = sliding_speed(pair, out.gap);
   if (is_rigid(pair)) {
@@ -156,6 +160,7 @@ double slip_acceleration(const ContactPair& pair, const Gap& gap, const MarkerMo
 
 // d/dt of −n·v − s w, w the spin of the straight piece, s = e·Zn; the touched points of curves move along them besides.
 double opening_acceleration(const ContactPair& pair, const Gap& gap, const MarkerMotion& a, const MarkerMotion& b) {
+  if (pair.flank) return of_markers(unit_normal(pair, gap), a, b) - closing_acceleration(*pair.flank, moving_point(a), moving_point(b));
   const double sideways = speed_of_middles(gap, a, b).dot(perp(gap.n));
   const double spin = pair.gap.a.straight ? a.w : pair.gap.b.straight ? b.w : 0;
   const double out = of_markers(unit_normal(pair, gap), a, b) - inwards(gap, a, b).dot(gap.n) - gap.turning * sideways -
@@ -264,6 +269,7 @@ void move_to_carriers(const std::array<Vector2d, 2>& arm, const std::array<doubl
 
 WrenchTangent wrench_tangent(const ContactPair& pair, const ContactEffect& now, const MarkerMotion& a, const MarkerMotion& b) {
   if (now.normal.force == 0) return WrenchTangent(2);
+  if (pair.flank) return wrench_tangent(*pair.flank, now.normal, moving_point(a), moving_point(b));
   const Gap& gap = now.gap;
   WrenchTangent out = at_middles(pair, now, rows_of(pair, gap, speed_of_middles(gap, a, b), a.w, b.w));
   if (pair.profiles) move_to_carriers({gap.arm_a, gap.arm_b}, {a.w, b.w}, now.on_a.head<2>(), out);

@@ -9,6 +9,7 @@
 #include "contact/gap.h"
 #include "contact/pressure.h"
 #include "framework/common/members.h"
+#include "framework/dynamics/model/flank.h"
 #include "framework/dynamics/model/internal_states.h"
 #include "framework/dynamics/model/marker.h"
 #include "framework/dynamics/model/wrench_tangent.h"
@@ -26,7 +27,7 @@ struct RigidImpact {
 };
 
 /// Two pieces of surface that may touch at one point: a journal a in a bearing b, which is a clearance joint, or pieces of two
-/// profiles. By its model a contact without constraint rows, or, of a clearance joint with `link`, a massless link between the two
+/// profiles; or the flanks of teeth with backlash. By its model a contact without constraint rows, or, of a clearance joint with `link`, a massless link between the two
 /// centres, one row that some joint of the system holds.
 struct ContactPair {
   int a, b;  ///< markers that carry the pieces: of a clearance joint at the two centres
@@ -49,6 +50,7 @@ struct ContactPair {
   double slack = 0;                             ///< … and an overlap up to this is a touch [m]
   std::optional<PressureTheory> pressure = {};  ///< of cylinders under a law of theirs
   bool journal = false;                         ///< of profiles: a is the journal of an open bearing b
+  std::optional<Flank> flank = {};              ///< then the pieces are nothing
 };
 
 /// What a rigid contact, or one or a joint of dry friction, is doing, and what the accelerations have decided of its force.
@@ -83,12 +85,15 @@ inline bool is_held(const ContactPair& pair) { return pair.link >= 0; }
 inline constexpr double touching_part = 1e-13;
 inline bool is_rigid(const ContactPair& pair) { return pair.rigid.has_value(); }
 
-/// The smallest radius of its pieces, the mechanism's length between a corner and a line [m].
+/// The smallest radius of its pieces, of teeth of their pitch circles, the mechanism's length between a corner and a line [m].
 double contact_size(const ContactPair&, double mechanism);
-/// The length that its depth is judged against: the clearance round a piece in a hollow one, else a hundredth of their size [m].
+/// The length that its depth is judged against: the clearance round a piece in a hollow one, half the backlash of teeth, else a hundredth of their size [m].
 double fine_length(const ContactPair&, double mechanism);
 
 MovingPoint moving_point(const MarkerMotion&);
+inline Gap gap_between(const ContactPair& pair, const MovingPoint& a, const MovingPoint& b) {
+  return pair.flank ? evaluate(*pair.flank, a, b) : evaluate(pair.gap, a, b);
+}
 
 /// @param impact_rate  latched approach speed [m/s]; 0 while open: then only the gap is found, of profiles not even that
 /// @param dry  read where friction is Coulomb's, and of a rigid contact for its normal force

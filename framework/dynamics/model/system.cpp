@@ -136,12 +136,22 @@ std::size_t dry_states(const System& system) {
   return any ? system.contacts.size() + system.frictions.size() : 0;
 }
 
+double tooth_mobility(const System& system, const ContactPair& pair) {
+  if (!pair.flank) return 0;
+  const std::array<double, 2> radius = pitch_radii(*pair.flank);
+  double out = 0;
+  for (const auto& [marker, r] : {std::pair(pair.a, radius[0]), std::pair(pair.b, radius[1])})
+    if (const int body = system.markers[static_cast<std::size_t>(marker)].body; body != ground)
+      out += r * r / system.bodies[static_cast<std::size_t>(body)].J;
+  return out;
+}
+
 double lightness(const System& system, const ContactPair& pair) {
   double out = 0;
   for (const int marker : {pair.a, pair.b})
     if (const int body = system.markers[static_cast<std::size_t>(marker)].body; body != ground)
       out += 1 / system.bodies[static_cast<std::size_t>(body)].m;
-  return out;
+  return out + tooth_mobility(system, pair);
 }
 
 double latched_at(const System& system, const ContactPair& pair, double depth) {

@@ -102,7 +102,9 @@ std::string owner_name(const System&, const InternalStates&);
 /// Joint k is the massless link of a clearance joint.
 bool is_link(const System&, int joint);
 
-/// Sum of 1/m of the bodies that meet in a contact [1/kg].
+/// Σ r²/J of bodies whose teeth meet: what a unit force at both pitch circles speeds up by turning them; else 0 [1/kg].
+double tooth_mobility(const System&, const ContactPair&);
+/// Sum of 1/m of the bodies that meet in a contact, of teeth with what turning adds [1/kg].
 double lightness(const System&, const ContactPair&);
 /// The approach speed latched where surfaces overlap of which no impact is known: of that which would have come so deep [m/s].
 double latched_at(const System&, const ContactPair&, double depth);

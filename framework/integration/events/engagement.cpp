@@ -88,9 +88,10 @@ std::string too_deep(const System& system, const Switch& s, const State& state) 
   for (int c = s.index; c < s.index + system.contacts[at(s.index)].pairs; ++c) {
     if (!(onset_of(system, c, state).value > 0)) continue;
     const double depth = gap_of(system, c, state).value;
-    if (depth > too_far_in * contact_size(system.contacts[at(c)], system.length))
-      return "cannot be engaged: its surfaces overlap by " + number_text(depth, 6) +
-             " m there, more than a tenth of their smallest radius; engage it while they are apart";
+    const ContactPair& pair = system.contacts[at(c)];
+    if (pair.flank ? depth > pair.flank->half : depth > too_far_in * contact_size(pair, system.length))
+      return "cannot be engaged: its surfaces overlap by " + number_text(depth, 6) + " m there, more than " +
+             (pair.flank ? "half the backlash of its teeth" : "a tenth of their smallest radius") + "; engage it while they are apart";
   }
   return "";
 }

@@ -136,7 +136,7 @@ struct Facing {
 };
 Facing facing(const System& system, const ContactPair& pair, const State& state) {
   const MovingPoint a = moving_point(system, pair.a, state.y), b = moving_point(system, pair.b, state.y);
-  Facing out{a, b, evaluate(pair.gap, a, b)};
+  Facing out{a, b, gap_between(pair, a, b)};
   out.gap.depth -= pair.slack;
   return out;
 }

@@ -85,9 +85,10 @@ class SignalWordsOf {
   void add(const SceneJoint& j) {
     twist(j.name, j.a, j.b);
     if (j.kind == JointKind::prismatic || j.kind == JointKind::slot) put(j.name + ".travel", What::travel, dimension::length, j.a, j.b);
+    if (j.coupling || j.kind == JointKind::differential) column(j.name + ".force", dimension::force);
+    if (j.coupling && j.play) column(j.name + ".travel", dimension::length);
     if (j.clearance || j.play) return contact(j.name, true);
     wrench(j.name, true, true);
-    if (j.coupling || j.kind == JointKind::differential) column(j.name + ".force", dimension::force);
     if (j.kind == JointKind::rolling) column(j.name + ".normal", dimension::force);
     if (!j.friction) return;
     bristles(j.name);

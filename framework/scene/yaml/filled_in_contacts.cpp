@@ -126,6 +126,7 @@ Json json(const ScenePlay& play) {
     if (value > 0) out[key] = value;
   };
   put("gap", play.gap), put("length", play.length), put("height", play.height), put("round", play.round);
+  put("backlash", play.backlash), put("pressure angle", play.pressure_angle);
   put("pin radius", play.pin_radius), put("travel", play.travel.value_or(0));
   if (play.only != ScenePlay::both) out["only"] = play.only == ScenePlay::pull ? "pull" : "push";
   if (play.friction) out["friction"] = json(*play.friction, false);

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <numbers>
 #include <tuple>
 
+#include "framework/common/text.h"
 #include "framework/scene/joint_words.h"
 #include "framework/scene/yaml/reader_parts.h"
 
@@ -55,6 +57,8 @@ const std::vector<ClearanceKeys>& clearance_keys() {
       {JointKind::prismatic, {{"gap", "0.1 mm"}, {"length", "60 mm"}, {"height", "20 mm"}}, {"round"}},
       {JointKind::slot, {{"gap", "0.1 mm"}, {"pin radius", "5 mm"}}, {"travel"}},
       {JointKind::distance, {}, {"gap", "only"}},
+      {JointKind::gear, {{"backlash", "0.1 mm"}}, {"pressure angle"}},
+      {JointKind::rack, {{"backlash", "0.1 mm"}}, {"pressure angle"}},
   };
   return all;
 }
@@ -69,6 +73,21 @@ void check_clearance(const Node& node, const SceneJoint& joint) {
   }
   for (const auto& [key, example] : keys.needs)
     if (!node.has(key)) node.fail("lacks a required key; add for example " + key + ": " + example);
+}
+
+void read_backlash(const Node& node, const SceneJoint& joint, ScenePlay& play) {
+  constexpr double most = std::numbers::pi / 4;
+  const Node backlash = node.at("backlash");
+  play.backlash = backlash.quantity(dimension::length, rule::positive);
+  const SceneCoupling& wheels = *joint.coupling;
+  const double least = wheels.radius > 0 ? wheels.radius : std::min(wheels.radii[0], wheels.radii[1]);
+  if (least > 0 && play.backlash >= least)
+    backlash.fail(backlash.shown() + " must be less than the radius " + number_text(1e3 * least) +
+                  " mm: teeth are smaller than their wheel");
+  if (!node.has("pressure angle")) return;
+  play.pressure_angle = node.at("pressure angle").quantity(dimension::angle, rule::positive);
+  if (play.pressure_angle >= most)
+    node.at("pressure angle").fail(node.at("pressure angle").shown() + " must be less than 45 deg; 20 deg is usual");
 }
 
 ScenePlay read_play(const Node& node, const SceneJoint& joint) {
@@ -87,8 +106,11 @@ ScenePlay read_play(const Node& node, const SceneJoint& joint) {
     node.fail("lacks a required key; add for example gap: 1 mm, or only: pull for a rope");
   if (play.gap >= joint.length && joint.kind == JointKind::distance)
     node.at("gap").fail(node.at("gap").shown() + " must be less than the length of the joint");
-  if (node.has("friction") && joint.kind == JointKind::distance)
-    node.at("friction").fail("does not belong to the clearance of a distance joint; leave it out");
+  if (node.has("backlash")) read_backlash(node, joint, play);
+  if (node.has("friction") && !word_of(joint).friction)
+    node.at("friction")
+        .fail(std::string("does not belong to the clearance of a ") + word_of(joint).word + " joint, where " +
+              (word_of(joint).turns ? "pitch circles roll without slip" : "a rod meets no wall") + "; leave it out");
   read_laws(node, "joints.*.clearance", play.normal, play.impact, play.friction);
   return play;
 }

@@ -247,6 +247,8 @@ std::vector<KeyTable> scene_tables() {
         {"pin radius"},
         {"travel"},
         {"only", optional, "", {"pull", "push"}},
+        {"backlash"},
+        {"pressure angle"},
         {"model", optional, "", {"contact", "massless link", "spring-damper", "impact"}},
         {"restitution"},
         {"tangential restitution"},

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "framework/build/contacts.h"
+#include "framework/dynamics/model/joints.h"
+
+namespace pintle {
+
+/// The two flanks of a gear or rack with backlash, not yet settled.
+/// @param ideal  the joint that it would be without   @throws SceneError  laws or a backlash that cannot be
+BuiltContact build_flanks(const Scene&, const SceneJoint&, const Joint& ideal);
+
+/// Gives flanks what the start has made of the ideal joint.
+/// @param first  the first of the two in the system
+/// @throws SceneError  backlash as wide as a tooth and its gap
+void settle_flanks(const Scene&, const SceneJoint&, const Joint& ideal, std::size_t first, System&);
+
+}  // namespace pintle
