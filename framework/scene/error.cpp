@@ -6,10 +6,13 @@
 namespace pintle {
 
 namespace {
+std::string file_of(const std::string& file, const Place& place) {
+  return !place.file.empty() ? place.file : file.empty() ? "scene" : file;
+}
 std::string sentence(const std::string& file, const Place& place, const std::string& message) {
   std::ostringstream s;
   s.imbue(std::locale::classic());
-  s << (!place.file.empty() ? place.file : file.empty() ? "scene" : file);
+  s << file_of(file, place);
   if (place.line > 0) s << ':' << place.line;
   if (!place.key.empty()) s << (place.line == set_by_override ? ": --set " : ": ") << place.key;
   s << ": " << message;
@@ -18,9 +21,9 @@ std::string sentence(const std::string& file, const Place& place, const std::str
 }  // namespace
 
 SceneError::SceneError(const std::string& file, const Place& place, const std::string& message)
-    : std::runtime_error(sentence(file, place, message)) {}
+    : std::runtime_error(sentence(file, place, message)), file(file_of(file, place)), message(message), place(place) {}
 
 AssemblyError::AssemblyError(const std::string& file, const Place& place, const std::string& message)
-    : std::runtime_error(sentence(file, place, message)) {}
+    : std::runtime_error(sentence(file, place, message)), file(file_of(file, place)), message(message), place(place) {}
 
 }  // namespace pintle
