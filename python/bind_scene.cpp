@@ -1,4 +1,5 @@
 // Scenes: read from text, made ready for a question.
+#include "files/trust.h"
 #include "framework/analysis/cost/cost_estimate.h"
 #include "framework/bodies/segments.h"
 #include "framework/build/build.h"
@@ -56,6 +57,16 @@ std::string check(const SceneSource& source) {
   return check_json(scene, model, assembly, estimate_cost(scene, model, assembly));
 }
 
+void trust(const std::vector<std::string>& folders, bool geo) {
+  Trust out;
+  out.geo = geo;
+  for (const std::string& folder : folders) {
+    if (!std::filesystem::is_directory(folder)) throw SceneError(folder + ": there is no such folder; name one that is there");
+    out.folders.emplace_back(folder);
+  }
+  set_trust(std::move(out));
+}
+
 }  // namespace
 
 std::shared_ptr<const Prepared> prepared(const SceneSource& source, Question question) {
@@ -83,6 +94,7 @@ void bind_scene(py::module_& m) {
       .def_property_readonly("parameters", [](const SceneSource& s) { return s.scene.parameters; })
       .def_property_readonly("warnings", [](const SceneSource& s) { return s.scene.warnings; })
       .def_property_readonly("filled_in", [](const SceneSource& s) { return s.scene.filled_in; });
+  m.def("trust", &trust);
 }
 
 }  // namespace pintle::python

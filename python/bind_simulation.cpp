@@ -12,14 +12,19 @@ class ByHand {
       : of_(std::move(p)), run_(std::make_unique<Simulation>(of_->scene, of_->model, of_->assembly, listeners())) {}
 
   bool advance(double t) {
-    const bool on = [&] {
+    Simulation& simulation = under_way();
+    bool on = false;
+    try {
       const py::gil_scoped_release free;
-      return under_way().advance(t);
-    }();
+      on = simulation.advance(t);
+    } catch (...) {  // of a Python function, in the midst of a step
+      run_.reset();
+      throw;
+    }
     watch_.raise();
     return on;
   }
-  double time() const { return run_ ? run_->time() : found_->run.t_end; }
+  double time() const { return run_ || !found_ ? under_way().time() : found_->run->t_end; }
   void set(int state, double value) { under_way().set(state, value); }
   std::vector<double> now() { return under_way().now(); }
   std::vector<std::string> header() const { return trajectory_table(of_->model).header; }
@@ -29,8 +34,8 @@ class ByHand {
     return out;
   }
   std::shared_ptr<RunResult> finish() {
-    if (run_) {
-      found_ = std::make_shared<RunResult>(RunResult{of_, run_->finish()});
+    if (!found_) {
+      found_ = std::make_shared<RunResult>(RunResult{of_, std::make_shared<Run>(under_way().finish())});
       run_.reset();
     }
     return found_;
@@ -43,7 +48,7 @@ class ByHand {
     return out;
   }
   Simulation& under_way() const {
-    if (!run_) throw std::runtime_error("the simulation has been finished; make another one");
+    if (!run_) throw std::runtime_error("the simulation has ended; make another one");
     return *run_;
   }
 

@@ -25,10 +25,12 @@ py::tuple sweep(const std::string& study, const std::string& folder, const Overr
   return py::make_tuple(csv, json);
 }
 
-/// (fit.csv, fit.json, whether the goal is met, the best point as overrides, its measures by name)
+/// (fit.csv, fit.json, whether the goal is met, the scene's file, its overrides for the best point, this by name, its measures by name);
+/// no file if no point was found
 py::tuple fit(const std::string& study, const std::string& folder, const Overrides& set, int threads) {
   Watch watch;
   std::string csv, json;
+  std::optional<std::string> file;
   bool met = false;
   std::vector<std::tuple<std::string, double>> point, measures;
   Overrides best;
@@ -42,14 +44,15 @@ py::tuple fit(const std::string& study, const std::string& folder, const Overrid
     csv = fit_csv(plan, end), json = fit_json(plan, end);
     if (end.best) {
       const Trying& t = end.tried[*end.best];
-      met = end.meets(plan), best = best_point(plan, end);
+      met = end.meets(plan), file = plan.source.file.string(), best = plan.source.common;
+      for (auto& [name, value] : best_point(plan, end)) best.emplace_back(name, value);
       for (std::size_t j = 0; j < plan.variables.size(); ++j) point.emplace_back(variable_header(plan.variables[j]), variable_value(t, j));
       const std::vector<double> values = measured_values(plan, t);
       for (std::size_t k = 0; k < values.size(); ++k) measures.emplace_back(measured_header(plan, end, k), values[k]);
     }
   }
   watch.raise();
-  return py::make_tuple(csv, json, met, best, point, measures);
+  return py::make_tuple(csv, json, met, file, best, point, measures);
 }
 
 }  // namespace

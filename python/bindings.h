@@ -48,10 +48,11 @@ enum class Question { run, kinematics, statics, small_motion };
 /// @throws SceneError, AssemblyError
 std::shared_ptr<const Prepared> prepared(const SceneSource&, Question);
 
-/// What a run, a driven motion or an inverse problem has found. Arrays in Python are its own memory.
+/// What a run or a driven motion has found, or the motion of an inverse problem. Arrays in Python are its own memory.
 struct RunResult {
   std::shared_ptr<const Prepared> of;
-  Run run;
+  std::shared_ptr<const Run> run;
+  bool driven = false;  ///< by kinematics
 };
 
 /// Lets Ctrl-C and other signals through while C++ computes without the interpreter, some times a second.

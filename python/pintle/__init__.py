@@ -16,12 +16,12 @@
 from ._core import version as __version__
 from .errors import AssemblyError, Error, ModelWarning, RunError, SceneError
 from .results import BodyModes, Effort, Event, Impact, InverseResult, LinearMode, Modes, Rest, Result, Simulation, SmallMotion
-from .scene import Scene, load, parse
+from .scene import Scene, load, parse, trust
 from .studies import FitResult, SweepResult, fit, sweep
 from .tables import Table
 
 __all__ = [
     "AssemblyError", "BodyModes", "Effort", "Error", "Event", "FitResult", "Impact", "InverseResult", "LinearMode", "ModelWarning",
     "Modes", "Rest", "Result", "RunError", "Scene", "SceneError", "Simulation", "SmallMotion", "SweepResult", "Table", "fit", "load",
-    "parse", "sweep",
+    "parse", "sweep", "trust",
 ]

@@ -3,11 +3,13 @@
 import html
 import json
 import tempfile
+import warnings
 from pathlib import Path
 from typing import NamedTuple
 
 from . import _core
-from .tables import Columns, Table, split
+from .errors import ModelWarning, RunError
+from .tables import Columns, Table
 
 
 class Impact(NamedTuple):
@@ -79,14 +81,17 @@ class Result(Table):
 
     @property
     def info(self):
-        """What run.json holds."""
+        """What run.json, or that of another question, holds."""
         return json.loads(self._core.info)
 
     def write(self, directory):
-        """Leaves trajectory.csv, ledger.csv, events.csv and run.json in a new folder."""
+        """Leaves the files of `pintle run`, or of another question, in a new folder."""
         if Path(directory).exists():
             raise FileExistsError(f"{directory} is there already; name another folder, or remove it")
-        self._core.write(str(directory))
+        self._write(str(directory))
+
+    def _write(self, directory):
+        self._core.write(directory)
 
     def report(self, file):
         """Writes one page for a browser: motion, plots, impacts, ledger."""
@@ -115,6 +120,20 @@ class Result(Table):
         return f"<table><caption>{html.escape(self._core.title or 'run')}</caption>{rows}</table>"
 
 
+def warn(texts, level=3):
+    """By the code that called what calls this; `level` as warnings has it."""
+    for text in texts:
+        warnings.warn(text, ModelWarning, stacklevel=level)
+
+
+def judged(result, check):
+    """Raises RunError of a run that failed; warns of what is doubtful."""
+    if check and result.status in ("failed", "out of memory"):
+        raise RunError(f"{result.status}: {result.reason}", result)
+    warn(([result.reason] if result.status == "ledger over its bound" else []) + result.warnings, 4)
+    return result
+
+
 class Effort(NamedTuple):
     """What a driver must do: torque or thrust over time."""
 
@@ -130,8 +149,17 @@ class InverseResult(Result):
 
     def __init__(self, core):
         super().__init__(core.run)
+        self._inverse = core
         self.how = core.how
         self.efforts = {effort.driver: effort for effort in (Effort(*one) for one in core.efforts)}
+
+    @property
+    def info(self):
+        """What inverse.json holds."""
+        return json.loads(self._inverse.info)
+
+    def _write(self, directory):
+        self._inverse.write(directory)
 
 
 class Rest(Table):
@@ -273,9 +301,9 @@ class Simulation:
         self._row = None
         self._core.set(self._states[name][0], float(value))
 
-    def result(self):
+    def result(self, check=True):
         """Ends the run and gives what it found."""
-        return Result(self._core.finish())
+        return judged(Result(self._core.finish()), check)
 
     def __repr__(self):
         return f"<simulation at t = {self.t:.6g} s>"

@@ -2,11 +2,10 @@
 
 import json
 import os
-import warnings
 
 from . import _core
-from .errors import ModelWarning, RunError
-from .results import InverseResult, Modes, Rest, Result, Simulation, SmallMotion
+from .errors import RunError
+from .results import InverseResult, Modes, Rest, Result, Simulation, SmallMotion, judged, warn
 
 
 def _plain(value):
@@ -61,22 +60,22 @@ class Scene:
 
     def run(self, check=True):
         """Runs the scene. `check`: a run that fails raises RunError, which keeps what was computed."""
-        return self._judged(_found(Result, _core.run, self._core), check)
+        return judged(_found(Result, _core.run, self._core), check)
 
     def kinematics(self, check=True):
         """The motion that drivers impose."""
-        return self._judged(_found(Result, _core.kinematics, self._core), check)
+        return judged(_found(Result, _core.kinematics, self._core), check)
 
     def inverse(self, check=True):
         """The efforts of drivers and the forces in joints."""
-        return self._judged(_found(InverseResult, _core.inverse, self._core), check)
+        return judged(_found(InverseResult, _core.inverse, self._core), check)
 
     def statics(self, at=0.0):
         """Where the mechanism rests, drivers and loads as they are at a time [s]."""
         core = _core.statics(self._core, at)
         if not core.found:
             raise RunError(f"no equilibrium: {core.reason}")
-        _warn(core.warnings)
+        warn(core.warnings)
         return Rest(core)
 
     def linearize(self, at=None, at_rest=False):
@@ -87,7 +86,7 @@ class Scene:
             raise RunError(str(error)) from None
         if core.trouble:
             raise RunError(core.trouble)
-        _warn(core.warnings)
+        warn(core.warnings)
         return SmallMotion(core)
 
     def modes(self, body="", count=6):
@@ -97,14 +96,6 @@ class Scene:
     def simulation(self):
         """A run by hand."""
         return Simulation(_core.Simulation(self._core))
-
-    @staticmethod
-    def _judged(result, check):
-        if check and result.status in ("failed", "out of memory"):
-            raise RunError(f"{result.status}: {result.reason}", result)
-        said = [result.reason] if result.status == "ledger over its bound" else []
-        _warn(said + result.warnings, 4)
-        return result
 
     def __repr__(self):
         return f"<scene {self.title or self._core.name}>"
@@ -120,11 +111,6 @@ def _found(kind, analyse, core):
         raise
 
 
-def _warn(texts, level=3):
-    for text in texts:
-        warnings.warn(text, ModelWarning, stacklevel=level)
-
-
 def load(file, set=None):
     """A scene file. `set`: {name: value} of parameters, or of any keys by their paths."""
     return Scene(_core.Scene.of_file(os.fspath(file), overrides(set)))
@@ -136,3 +122,9 @@ def parse(scene, set=None, folder="."):
         return Scene(_core.Scene.of_text(scene, "scene", os.fspath(folder), overrides(set)))
     text = json.dumps(scene, default=_plain, ensure_ascii=False, indent=1)
     return Scene(_core.Scene.of_text(text, "scene", os.fspath(folder), overrides(set)))
+
+
+def trust(folders=(), geo=False):
+    """From now on scenes may read files in these folders, beside their own, and, with `geo`, drawings may do all that they ask for,
+    shell commands included (SECURITY.md)."""
+    _core.trust([os.fspath(folder) for folder in folders], geo)

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy
 
 from . import _core
-from .scene import load, overrides
+from .scene import Scene, overrides
 from .tables import Table, split
 
 
@@ -53,14 +53,14 @@ class SweepResult(Table):
 class FitResult(Table):
     """A row for each case that was tried."""
 
-    def __init__(self, text, info, met, best, point, measures, scene):
+    def __init__(self, text, info, met, file, best, point, measures):
         table, self.words = _table(text)
         super().__init__([f"{n} [{table.unit(n)}]" if table.unit(n) else n for n in table.names], table.data)
         self.info = json.loads(info)
-        self.met, self.best = met, dict(best)
+        self.met = met
         self.point = {split(name)[0]: value for name, value in point}
         self.measures = {split(name)[0]: value for name, value in measures}
-        self.scene = scene
+        self.scene = None if file is None else Scene(_core.Scene.of_file(file, best))
 
 
 def sweep(study, out=None, set=None, threads=None):
@@ -72,6 +72,4 @@ def sweep(study, out=None, set=None, threads=None):
 def fit(study, out=None, set=None, threads=None):
     """Finds parameters that reach a study's goal; `scene` of the result is the scene with them, None if no point was found."""
     with _folder(out) as folder:
-        found = _core.fit(os.fspath(study), str(folder), overrides(set), _threads(threads))
-        fitted = folder / "fitted.yaml"
-        return FitResult(*found, load(fitted) if fitted.exists() else None)
+        return FitResult(*_core.fit(os.fspath(study), str(folder), overrides(set), _threads(threads)))

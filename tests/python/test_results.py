@@ -156,6 +156,27 @@ class Questions(unittest.TestCase):
         self.assertEqual(effort.unit, "N m")
         numpy.testing.assert_allclose(effort.value, 2 * 9.81 * 0.5 * numpy.cos(3 * effort.t), atol=1e-8)
 
+    def test_each_question_writes_its_files(self):
+        quick_return = pintle.load(examples / "kinematics_quick_return.yaml").kinematics()
+        self.assertEqual(quick_return.info["model"]["bodies"], 4)
+        four_bar = pintle.load(examples / "inverse_four_bar.yaml").inverse()
+        self.assertIn("motor", str(four_bar.info))
+        with tempfile.TemporaryDirectory() as place:
+            quick_return.write(Path(place) / "kinematics")
+            four_bar.write(Path(place) / "inverse")
+            found = sorted(str(file.relative_to(place)) for file in Path(place).rglob("*.*"))
+        for file in ("kinematics/kinematics.json", "kinematics/trajectory.csv", "inverse/inverse.json", "inverse/motor.csv"):
+            self.assertIn(file, found)
+
+    def test_check_says_what_a_scene_holds(self):
+        self.assertEqual(pintle.parse(pendulum).check()["model"]["mobility"], 1)
+
+    def test_a_fit_gives_the_scene_that_meets_the_goal(self):
+        fit = pintle.fit(examples / "studies" / "fit_frequency.yaml")
+        stiffness = fit.point["forces.rubber at rest.stiffness"]
+        self.assertAlmostEqual(stiffness, 63250, delta=10)  # by hand, in its file
+        self.assertAlmostEqual(fit.scene.linearize(at_rest=True).modes[1].frequency, 12, delta=2e-4)
+
     def test_modes_of_a_cantilever(self):
         modes = pintle.load(examples / "modes_beam.yaml").modes(count=2)
         self.assertEqual(len(modes.frequencies), 2)

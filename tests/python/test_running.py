@@ -1,11 +1,14 @@
 """Threads, signals, memory."""
 
 import gc
+import json
 import os
 import signal
+import tempfile
 import threading
 import time
 import unittest
+from pathlib import Path
 
 import numpy
 import pintle
@@ -78,7 +81,7 @@ class Signals(unittest.TestCase):
             long_run.run()
         self.assertEqual(caught.exception.result.status, "interrupted")
 
-    def test_a_simulation_by_hand_goes_on_after_ctrl_c(self):
+    def test_a_simulation_by_hand_keeps_what_was_computed(self):
         simulation = long_run.simulation()
         self.interrupt_soon()
         with self.assertRaises(KeyboardInterrupt):
@@ -86,6 +89,20 @@ class Signals(unittest.TestCase):
         reached = simulation.t
         self.assertTrue(0 < reached < 1e5)
         self.assertGreater(len(simulation.result()), 1)
+
+
+    def test_a_sweep_stops_and_keeps_its_journal(self):
+        study = {
+            "scene": str(examples / "slider_crank_clearance.yaml"), "set": {"run.until": "2 s", "output.every": "1 ms"},
+            "measure": {"contacts": "impacts at gudgeon pin"}, "sweep": {"grid": {"clearance": ["0.1 mm", "0.2 mm", "0.3 mm"]}},
+        }
+        with tempfile.TemporaryDirectory() as place:
+            file, out = Path(place) / "study.yaml", Path(place) / "out"
+            file.write_text(json.dumps(study))
+            self.interrupt_soon()
+            with self.assertRaises(KeyboardInterrupt):
+                pintle.sweep(file, out=out, threads=1)
+            self.assertTrue((out / "journal-0.txt").exists())
 
 
 def resident():

@@ -104,8 +104,18 @@ class ByHand(unittest.TestCase):
         result = simulation.result()
         self.assertEqual(result.t[-1], 0.123)
         self.assertEqual(result.status, "interrupted")
-        with self.assertRaisesRegex(RuntimeError, "finished"):
+        self.assertEqual(simulation.t, 0.123)
+        with self.assertRaisesRegex(RuntimeError, "has ended"):
             simulation.advance(0.2)
+
+    def test_a_simulation_that_fails_says_why(self):
+        simulation = pintle.parse(arm).simulation()
+        simulation.advance(0.1)
+        simulation["torque"] = math.nan
+        self.assertFalse(simulation.advance(0.2))
+        with self.assertRaises(pintle.RunError) as caught:
+            simulation.result()
+        self.assertEqual(caught.exception.result.t[-1], 0.1)
 
     def test_what_cannot_be_set_or_read(self):
         simulation = pintle.parse(arm).simulation()
@@ -156,6 +166,12 @@ class Functions(unittest.TestCase):
 
         with self.assertRaises(ZeroDivisionError):
             pintle.parse(arm).with_law("servo", wrong, of=["arm.angle"]).run()
+        simulation = pintle.parse(arm).with_law("servo", lambda t, speed: 1 / (t < 0.1), of=["t", "arm.speed"]).simulation()
+        with self.assertRaises(ZeroDivisionError):
+            while simulation.advance(simulation.t + 0.01):
+                pass
+        with self.assertRaisesRegex(RuntimeError, "has ended"):
+            simulation.result()
         with self.assertRaises(pintle.SceneError) as caught:
             pintle.parse(arm).with_law("servos", self.law, of=["arm.angle", "arm.speed"])
         self.assertIn("servo", caught.exception.message)
