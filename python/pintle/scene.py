@@ -8,7 +8,7 @@ from .errors import RunError
 from .results import InverseResult, Modes, Rest, Result, Simulation, SmallMotion, judged, warn
 
 
-def _plain(value):
+def plain(value):
     """Of NumPy, as JSON has it."""
     for convert in ("tolist", "__fspath__"):
         if hasattr(value, convert):
@@ -20,7 +20,7 @@ def overrides(values):
     """{name: value} as pairs of texts."""
     texts = {}
     for name, value in (values or {}).items():
-        texts[name] = value if isinstance(value, str) else json.dumps(value, default=_plain, ensure_ascii=False)
+        texts[name] = value if isinstance(value, str) else json.dumps(value, default=plain, ensure_ascii=False)
     return list(texts.items())
 
 
@@ -120,7 +120,7 @@ def parse(scene, set=None, folder="."):
     """A scene as YAML text, or as a dict of what a scene file holds; files that it names are sought from `folder`."""
     if isinstance(scene, str):
         return Scene(_core.Scene.of_text(scene, "scene", os.fspath(folder), overrides(set)))
-    text = json.dumps(scene, default=_plain, ensure_ascii=False, indent=1)
+    text = json.dumps(scene, default=plain, ensure_ascii=False, indent=1)
     return Scene(_core.Scene.of_text(text, "scene", os.fspath(folder), overrides(set)))
 
 

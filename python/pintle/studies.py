@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy
 
 from . import _core
-from .scene import Scene, overrides
+from .scene import Scene, overrides, plain
 from .tables import Table, split
 
 
@@ -33,12 +33,16 @@ def _table(text):
 
 
 @contextmanager
-def _folder(out):
-    if out is not None:
-        yield Path(out)
-        return
+def _files(study, out):
+    """The study's file and the folder of its results. A dict is written down, its scene being sought from here."""
     with tempfile.TemporaryDirectory() as place:
-        yield Path(place) / "study"
+        if isinstance(study, dict):
+            file = Path(place) / "study.yaml"
+            scene = {"scene": str(Path(study["scene"]).resolve())} if "scene" in study else {}
+            file.write_text(json.dumps({**study, **scene}, default=plain, ensure_ascii=False), encoding="utf-8")
+        else:
+            file = study
+        yield os.fspath(file), str(Path(place) / "out" if out is None else out)
 
 
 class SweepResult(Table):
@@ -64,12 +68,12 @@ class FitResult(Table):
 
 
 def sweep(study, out=None, set=None, threads=None):
-    """Runs the cases of a study. `out`: the folder that it leaves its files in, and goes on from; without it nothing is kept."""
-    with _folder(out) as folder:
-        return SweepResult(*_core.sweep(os.fspath(study), str(folder), overrides(set), _threads(threads)))
+    """Runs the cases of a study, a file or a dict of what it holds. `out`: the folder that it leaves its files in, and goes on from; without it nothing is kept."""
+    with _files(study, out) as (file, folder):
+        return SweepResult(*_core.sweep(file, folder, overrides(set), _threads(threads)))
 
 
 def fit(study, out=None, set=None, threads=None):
-    """Finds parameters that reach a study's goal; `scene` of the result is the scene with them, None if no point was found."""
-    with _folder(out) as folder:
-        return FitResult(*_core.fit(os.fspath(study), str(folder), overrides(set), _threads(threads)))
+    """Finds parameters that reach the goal of a study, a file or a dict; `scene` of the result is the scene with them, None if no point was found."""
+    with _files(study, out) as (file, folder):
+        return FitResult(*_core.fit(file, folder, overrides(set), _threads(threads)))

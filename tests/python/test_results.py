@@ -171,6 +171,19 @@ class Questions(unittest.TestCase):
     def test_check_says_what_a_scene_holds(self):
         self.assertEqual(pintle.parse(pendulum).check()["model"]["mobility"], 1)
 
+    def test_a_sweep_of_a_dict_is_as_many_runs(self):
+        scene = examples / "slider_crank_clearance.yaml"
+        clearances = numpy.array([1e-5, 2e-5])
+        sweep = pintle.sweep({
+            "scene": str(scene), "set": {"run.until": "2 ms"}, "measure": {"peak": "peak force at gudgeon pin"},
+            "sweep": {"grid": {"clearance": [f"{c} m" for c in clearances]}},
+        })
+        self.assertEqual(sweep.words["status"], ["finished", "finished"])
+        self.assertEqual(sweep.unit("peak"), "N")
+        for clearance, peak in zip(clearances, sweep["peak"]):
+            run = pintle.load(scene, {"run.until": "2 ms", "clearance": clearance}).run()
+            self.assertEqual(peak, max(i.peak_force for i in run.impacts))
+
     def test_a_fit_gives_the_scene_that_meets_the_goal(self):
         fit = pintle.fit(examples / "studies" / "fit_frequency.yaml")
         stiffness = fit.point["forces.rubber at rest.stiffness"]
