@@ -20,10 +20,10 @@ std::string sentence(const std::string& file, const Place& place, const std::str
 }
 }  // namespace
 
-SceneError::SceneError(const std::string& file, const Place& place, const std::string& message)
-    : std::runtime_error(sentence(file, place, message)), file(file_of(file, place)), message(message), place(place) {}
+SceneError::SceneError(const std::string& in, const Place& where, const std::string& text)
+    : std::runtime_error(sentence(in, where, text)), file(file_of(in, where)), message(text), place(where) {}
 
-AssemblyError::AssemblyError(const std::string& file, const Place& place, const std::string& message)
-    : std::runtime_error(sentence(file, place, message)), file(file_of(file, place)), message(message), place(place) {}
+AssemblyError::AssemblyError(const std::string& in, const Place& where, const std::string& text)
+    : std::runtime_error(sentence(in, where, text)), file(file_of(in, where)), message(text), place(where) {}
 
 }  // namespace pintle
