@@ -224,6 +224,21 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   return stepper_->project(step_.to, eq_) || stop("singular pose at an event of " + events_.name(event));
 }
 
+bool Integrator::change(const std::function<void(State&)>& act) {
+  if (!failure_.empty() || !ended_.empty()) return false;
+  step_.y_before = step_.to.state.y;
+  act(step_.to.state);
+  if (laws_) laws_->settle(step_.to.state);
+  hold_laws();
+  control_.forget_errors();
+  events_.forget_end();
+  step_.struck = true;
+  step_.dy_before = step_.to.dy;
+  if (!stepper_->project(step_.to, eq_)) return stop("singular pose where its state was changed", step_.to.state.t);
+  look_at_end();
+  return true;
+}
+
 void Integrator::hold_laws() {
   if (laws_) eq_.law_sides = laws_->sides();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,8 @@ class Integrator {
 
   /// One step towards `until`, ending there at the latest. @returns false when it cannot; see failure(), or need not; see ended()
   bool advance(double until);
+  /// Between steps: the state is changed here, as by an event. @returns false when it cannot go on from there; see failure()
+  bool change(const std::function<void(State&)>& act);
   /// Dense output inside the last step or at its end, fully evaluated in `sampled()`. Of an explicit step it is brought
   /// onto the constraints, of an implicit one, whose a and λ are the scheme's, it is not. Changes nothing of the steps and
   /// depends on the last one alone, not on what was sampled before. @returns false if it cannot be projected

@@ -6,10 +6,13 @@
 namespace pintle {
 
 namespace {
+std::string file_of(const std::string& file, const Place& place) {
+  return !place.file.empty() ? place.file : file.empty() ? "scene" : file;
+}
 std::string sentence(const std::string& file, const Place& place, const std::string& message) {
   std::ostringstream s;
   s.imbue(std::locale::classic());
-  s << (!place.file.empty() ? place.file : file.empty() ? "scene" : file);
+  s << file_of(file, place);
   if (place.line > 0) s << ':' << place.line;
   if (!place.key.empty()) s << (place.line == set_by_override ? ": --set " : ": ") << place.key;
   s << ": " << message;
@@ -17,10 +20,10 @@ std::string sentence(const std::string& file, const Place& place, const std::str
 }
 }  // namespace
 
-SceneError::SceneError(const std::string& file, const Place& place, const std::string& message)
-    : std::runtime_error(sentence(file, place, message)) {}
+SceneError::SceneError(const std::string& in, const Place& where, const std::string& text)
+    : std::runtime_error(sentence(in, where, text)), file(file_of(in, where)), message(text), place(where) {}
 
-AssemblyError::AssemblyError(const std::string& file, const Place& place, const std::string& message)
-    : std::runtime_error(sentence(file, place, message)) {}
+AssemblyError::AssemblyError(const std::string& in, const Place& where, const std::string& text)
+    : std::runtime_error(sentence(in, where, text)), file(file_of(in, where)), message(text), place(where) {}
 
 }  // namespace pintle

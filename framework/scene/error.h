@@ -12,12 +12,16 @@ namespace pintle {
 struct SceneError : std::runtime_error {
   using std::runtime_error::runtime_error;
   SceneError(const std::string& file, const Place& place, const std::string& message);
+  std::string file = {}, message = {};  ///< the parts of what(); empty where it is of no place
+  Place place = {};
 };
 
 /// The mechanism cannot be put together at t = 0, or holds a joint twice: names the joint, what
 /// remains open and what to do, in the form of a SceneError.
 struct AssemblyError : std::runtime_error {
   AssemblyError(const std::string& file, const Place& place, const std::string& message);
+  std::string file, message;  ///< the parts of what()
+  Place place;
 };
 
 }  // namespace pintle

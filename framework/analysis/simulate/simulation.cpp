@@ -1,0 +1,279 @@
+#include "framework/analysis/simulate/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "framework/analysis/simulate/end_short.h"
+#include "framework/analysis/simulate/energy_balance.h"
+#include "framework/analysis/simulate/explain_cams.h"
+#include "framework/analysis/simulate/explain_failure.h"
+#include "framework/analysis/simulate/run_warnings.h"
+#include "framework/common/worse.h"
+#include "framework/configuration/unsound_laws.h"
+#include "framework/dynamics/model/signal_values.h"
+
+namespace pintle {
+
+Clock::Clock(double interval, double until) : interval_(interval), until_(until) {
+  if (interval > 0) last_ = static_cast<long>(std::ceil(until / interval - 1e-9));
+}
+
+void Clock::pass(double t) {
+  while (due(t)) tick();
+}
+
+RowFigures::RowFigures(const System& system, Run& run)
+    : run_(run), first_integral_(first_integral(system)), n_z_(static_cast<std::size_t>(system.n_z())) {
+  run.links.resize(system.contacts.size());
+  run.greatest_integrals.assign(n_z_, 0);
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    if (!is_held(system.contacts[c])) continue;
+    const auto& header = run.trajectory.header;
+    normal_.emplace_back(c, std::ranges::find(header, system.contact_names[c] + ".normal [N]") - header.begin());
+  }
+}
+
+void RowFigures::see() {
+  const auto books = run_.ledger.data.end() - static_cast<std::ptrdiff_t>(run_.ledger.columns() - first_integral_);
+  run_.integrals.assign(books, books + static_cast<std::ptrdiff_t>(n_z_));
+  for (std::size_t i = 0; i < n_z_; ++i) run_.greatest_integrals[i] = worse(run_.greatest_integrals[i], std::abs(run_.integrals[i]));
+  for (const auto& [c, column] : normal_) {
+    const double N = *(run_.trajectory.data.end() - static_cast<std::ptrdiff_t>(run_.trajectory.columns()) + column);
+    Run::LinkForce& force = run_.links[c];
+    force.least = std::min(force.least, N), force.greatest = std::max(force.greatest, N);
+    force.pushing += N < 0, ++force.rows;
+  }
+}
+
+namespace {
+
+/// Energy that can be held against: the largest stored so far, and all that came in or went.
+double in_play(const Energies& e, const Energies& first) {
+  return std::abs(e.kinetic) + std::abs(e.gravity - first.gravity) + e.springs + e.contacts + e.strain + std::abs(e.lost) +
+         std::abs(e.input);
+}
+
+/// What rounding may leave in the books of a mechanism that hardly moves: places known to a part of its length and of their
+/// distance from the world's origin, angles to that part, under weights and forces, and speeds to the former over the run.
+double rounding_energy(const System& system, const State& state, const Equations& eq, double until) {
+  constexpr double part = 1e-12, of_distance = 1e-13;
+  const double place = part * system.length, speed = place / until;
+  double sum = 0;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const double distance = state.y.segment<2>(3 * static_cast<Eigen::Index>(b)).norm();
+    sum += system.bodies[b].m * ((place + of_distance * distance) * system.gravity.norm() + speed * speed);
+  }
+  for (const ForceEffect& force : eq.force) sum += force.on_b.head<2>().norm() * place + std::abs(force.on_b[2]) * part;
+  return sum;
+}
+
+bool all_finite(const Energies& e) { return std::isfinite(e.stored()) && std::isfinite(e.lost) && std::isfinite(e.input); }
+
+Run begun(const Model& model, const Assembly& assembly) {
+  Run run;
+  run.warnings = model.warnings;
+  for (std::string& w : warnings_of(model, assembly)) run.warnings.push_back(std::move(w));
+  run.trajectory = trajectory_table(model);
+  run.ledger = ledger_table(model.system);
+  return run;
+}
+
+}  // namespace
+
+/// What listeners take is not time of computing.
+template <class Act>
+void Simulation::listen(Act act) {
+  const auto before = Wall::now();
+  act();
+  spent_listening_ += Wall::now() - before;
+}
+
+Simulation::Simulation(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners, const SavedState* from)
+    : scene_(scene),
+      model_(model),
+      system_(model.system),
+      listeners_(listeners),
+      run_(begun(model, assembly)),
+      outputs_(scene.output.every > 0 ? scene.output.every : scene.run.until / 1000, scene.run.until),
+      states_(listeners.state ? scene.output.states : 0, scene.run.until),
+      frames_(scene.output.frames > 1 && listeners.frame ? scene.run.until / (scene.output.frames - 1) : 0, scene.run.until),
+      start_(assembly.start),
+      integrator_(system_, model.scheme, assembly.start),
+      monitor_(model),
+      figures_(system_, run_),
+      slow_(system_),
+      from_(from) {
+  if (from) go_on(*from);
+  states_.pass(integrator_.state().t);
+  countable_ = all_finite(energies(system_, integrator_.state(), integrator_.equations()));
+  going_ = integrator_.failure().empty() && countable_;
+}
+
+void Simulation::go_on(const SavedState& from) {
+  last_row_ = from.t;
+  integrator_.load(from.memory);
+  run_.first = from.first, started_ = true;
+  run_.energy_in_play = from.energy_in_play;
+  run_.worst_unexplained = from.worst_unexplained;
+  outputs_.pass(from.t);
+  frames_.pass(from.t);
+}
+
+bool Simulation::advance(double t) {
+  const double until = std::min(t, scene_.run.until);
+  guarded(run_, last_row_, [&] {
+    if (going_ && !opened_) going_ = report();
+    opened_ = true;
+    while (goes_on() && integrator_.state().t < until) going_ = step(until);
+  });
+  return goes_on() && integrator_.state().t < scene_.run.until;
+}
+
+void Simulation::set(int state, double value) {
+  if (!goes_on()) return;
+  going_ = integrator_.change([&](State& s) { s.y[own_state(system_, state)] = value; });
+}
+
+std::vector<double> Simulation::now() {
+  Table row{run_.trajectory.header, {}};
+  if (integrator_.sample(integrator_.state().t, sampled_)) record(model_, sampled_, integrator_.sampled(), row);
+  return std::move(row.data);
+}
+
+Run Simulation::finish() {
+  if (!going_ && !ended_short(run_)) explain();
+  if (goes_on() && integrator_.state().t < scene_.run.until) end(Status::interrupted, "left before its end");
+  guarded(run_, last_row_, [&] { add_last(); });
+  run_.t_end = ended_short(run_) ? last_row_ : integrator_.state().t;  // a step may have been cut short
+  if (run_.reason.empty()) run_.reason = integrator_.ended();
+  run_.impacts = integrator_.impacts();
+  run_.happenings = integrator_.happenings();
+  if (from_) warn_of_gap(system_, model_, *from_, run_);
+  warn_of_depth(system_, run_);
+  warn_of_pushing(system_, run_);
+  warn_of_lifting(system_, run_);
+  warn_of_stiffness(scene_, model_, integrator_.held_by_stability(), run_);
+  slow_.warn(system_, run_.energy_in_play, run_.warnings);
+  monitor_.warn(run_.warnings);
+  run_.counts = integrator_.counts();
+  run_.switched = integrator_.switched();
+  run_.worst_position = integrator_.worst_position();
+  run_.worst_velocity = integrator_.worst_velocity();
+  run_.seconds = std::chrono::duration<double>(Wall::now() - begin_ - spent_listening_).count();
+  check_energy_balance(scene_, model_, integrator_.implicit(),
+                       rounding_energy(system_, integrator_.state(), integrator_.equations(), scene_.run.until), run_);
+  return std::move(run_);
+}
+
+/// One step and what is due by its end. @returns false if the run cannot go on
+bool Simulation::step(double until) {
+  if (listeners_.progress && integrator_.counts().steps % 64 == 0 && !listeners_.progress(integrator_.state().t)) {
+    end(Status::interrupted, "stopped by the user");
+    return true;
+  }
+  if (!integrator_.advance(until)) return false;
+  if (!system_.contacts.empty()) slow_.see(system_, integrator_.last(), integrator_.equations());
+  if (!report()) return false;
+  if (integrator_.asks_for_row()) add_row_here();
+  if (integrator_.asks_for_save() && listeners_.state) save();
+  if (const std::string beyond = monitor_.beyond_limits(); !beyond.empty()) {
+    end(Status::failed, beyond);
+  } else if (states_.due(integrator_.state().t)) {
+    states_.pass(integrator_.state().t);
+    save();
+  }
+  return true;
+}
+
+/// Everything due up to the present step's end. @returns false if an output cannot be evaluated
+bool Simulation::report() {
+  while (outputs_.due(integrator_.state().t)) {
+    if (!integrator_.sample(asked_ = outputs_.next(), sampled_)) return false;
+    book(sampled_);
+    monitor_.see(sampled_, integrator_.sampled());
+    add_row(sampled_);
+    outputs_.tick();
+  }
+  while (frames_.due(integrator_.state().t)) {
+    if (!integrator_.sample(asked_ = frames_.next(), sampled_)) return false;
+    listen([&] { listeners_.frame(sampled_, integrator_.sampled()); });
+    frames_.tick();
+  }
+  return true;
+}
+
+/// What an event asks for: the state that it has left.
+void Simulation::add_row_here() {
+  if (integrator_.state().t <= last_row_ && last_row_ > 0) return;
+  if (!integrator_.sample(integrator_.state().t, sampled_)) return;
+  book(sampled_);
+  add_row(sampled_);
+}
+
+/// Energies of a sampled state, and how well they balance.
+void Simulation::book(const State& state) {
+  const Energies e = energies(system_, state, integrator_.sampled());
+  if (!started_) run_.first = e, started_ = true;
+  run_.energy_in_play = worse(run_.energy_in_play, in_play(e, run_.first));
+  run_.last = e;
+  run_.unexplained = e.balance() - run_.first.balance();
+  const double worst = std::abs(run_.worst_unexplained), now = std::abs(run_.unexplained);
+  if (!std::isnan(worst) && !(now <= worst)) run_.worst_unexplained = run_.unexplained;
+}
+
+void Simulation::add_row(const State& state) {
+  record(model_, state, integrator_.sampled(), run_.trajectory);
+  warn_of_outputs(scene_, model_, state, run_.trajectory, run_.warnings);
+  record_ledger(system_, state, run_.last, run_.unexplained, run_.ledger);
+  figures_.see();
+  last_row_ = state.t;
+  if (!listeners_.rows) return;
+  listen([&] {
+    listeners_.rows(run_.trajectory, run_.ledger, integrator_.impacts());
+    run_.trajectory.data.clear(), run_.ledger.data.clear();
+  });
+}
+
+void Simulation::save() {
+  if (saved_ == integrator_.state().t) return;
+  saved_ = integrator_.state().t;
+  listen([&] { listeners_.state({integrator_.state().t, integrator_.save(), run_.first, run_.energy_in_play, run_.worst_unexplained}); });
+}
+
+/// Where a run ends early it has a last row too, so that its figures and its books are of one moment.
+void Simulation::add_last() {
+  if (started_ && !ended_short(run_)) {
+    integrator_.sample(integrator_.state().t, sampled_);
+    book(integrator_.state());
+    const Equations& eq = integrator_.sampled();
+    const bool early = run_.status != Status::finished || !integrator_.ended().empty();
+    if (early && integrator_.state().t > last_row_ && eq.a.allFinite() && eq.lambda.allFinite()) add_row(integrator_.state());
+  }
+  if (listeners_.state && !ended_short(run_)) save();
+}
+
+/// Why a run could not go on.
+void Simulation::explain() {
+  end(Status::failed, integrator_.failure());
+  std::string& reason = run_.reason;
+  if (!reason.empty()) {
+    std::string why;
+    for (const State& tried : {integrator_.last().to.state, integrator_.state()})
+      for (const std::string& found : {explain_cams(scene_, model_, tried), explain_signals(scene_, model_, start_, tried)})
+        if (why.empty()) why = found;
+    if (why.empty()) why = explain_failure(scene_, system_, integrator_);
+    if (why.empty()) why = monitor_.worst_warning();
+    if (!why.empty()) reason += "; " + why;
+  } else if (!countable_) {
+    reason = "the energy at the start is beyond what a double holds; check masses, speeds and units";
+  } else {
+    std::ostringstream s;
+    s << "t = " << asked_
+      << " s: the output there cannot be evaluated (a singular pose, or numbers beyond what a double holds: check masses, stiffnesses "
+         "and speeds)";
+    reason = s.str();
+  }
+}
+
+}  // namespace pintle

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/analysis/simulate/deflection_monitor.h"
+#include "framework/analysis/simulate/simulate.h"
+#include "framework/analysis/simulate/slow_contact.h"
+#include "framework/integration/integrator.h"
+
+namespace pintle {
+
+/// Times k·interval, k = 0, 1, …, the last one `until` itself; none if interval is 0.
+class Clock {
+ public:
+  Clock(double interval, double until);
+  bool due(double t) const { return k_ <= last_ && next() <= t; }
+  double next() const { return k_ >= last_ ? until_ : static_cast<double>(k_) * interval_; }
+  void tick() { ++k_; }
+  void pass(double t);
+
+ private:
+  double interval_, until_;
+  long k_ = 0, last_ = -1;
+};
+
+/// What is kept of the last row of each table, whoever takes the rows.
+class RowFigures {
+ public:
+  RowFigures(const System&, Run&);
+  void see();
+
+ private:
+  Run& run_;
+  std::size_t first_integral_, n_z_;
+  std::vector<std::pair<std::size_t, std::ptrdiff_t>> normal_;  ///< contact, column
+};
+
+/// A run under way, which may be stopped at any time, read there, given new values of the scene's own states, and led on. With one call of
+/// `advance`, to the scene's end, it is what `simulate` does.
+class Simulation {
+ public:
+  /// @pre all of them but the listeners outlive it
+  Simulation(const Scene&, const Model&, const Assembly&, const Listeners& = {}, const SavedState* from = nullptr);
+  Simulation(const Simulation&) = delete;
+
+  /// On to time t, where a step ends, or to what ends the run before it. @returns false once the run is over
+  bool advance(double t);
+  double time() const { return integrator_.state().t; }
+  /// An own state of the scene, by its index in System::states, has this value from now on, as if an event had set it.
+  void set(int state, double value);
+  /// What trajectory.csv would have of now, in the order of its header. @returns no numbers where they cannot be evaluated
+  std::vector<double> now();
+  /// Ends the run here, with a last row. It is of no use afterwards.
+  Run finish();
+
+ private:
+  using Wall = std::chrono::steady_clock;
+
+  void go_on(const SavedState&);
+  bool goes_on() const { return going_ && run_.status == Status::finished && integrator_.ended().empty(); }
+  bool step(double until);
+  bool report();
+  void add_row_here();
+  void book(const State&);
+  void add_row(const State&);
+  void save();
+  void add_last();
+  void explain();
+  void end(Status status, const std::string& reason) { run_.status = status, run_.reason = reason; }
+  template <class Act>
+  void listen(Act);
+
+  const Scene& scene_;
+  const Model& model_;
+  const System& system_;
+  const Listeners listeners_;
+  Run run_;
+  Clock outputs_, states_, frames_;
+  Wall::time_point begin_ = Wall::now();
+  Wall::duration spent_listening_{};
+  const State& start_;
+  Integrator integrator_;
+  State sampled_;
+  double last_row_ = 0, asked_ = 0;  ///< times of the last row and of the output last asked for [s]
+  double saved_ = -1;                ///< time of the last state saved [s]
+  DeflectionMonitor monitor_;
+  RowFigures figures_;
+  SlowContacts slow_;
+  const SavedState* from_;
+  bool started_ = false;                ///< the books are open
+  bool opened_ = false, going_ = true;  ///< the start has been reported; steps succeed
+  bool countable_;                      ///< the energy at the start is a number
+};
+
+}  // namespace pintle

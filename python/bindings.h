@@ -1,0 +1,102 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/analysis/simulate/simulate.h"
+#include "framework/bodies/body_store.h"
+#include "framework/scene/yaml/reader.h"
+
+/// The Python module over the C++ API: each file binds what one group of questions needs. What Python says to users, names and tables,
+/// stands in pintle/*.py.
+namespace pintle::python {
+
+namespace py = pybind11;
+
+/// A Python function in the place of a law of the scene.
+struct FunctionLaw {
+  std::string owner;               ///< a load, a state or an output
+  std::vector<std::string> of;     ///< signals, and "t"
+  std::shared_ptr<py::object> is;  ///< freed with the interpreter held
+};
+
+/// A scene as it was written, and as it was read.
+struct SceneSource {
+  std::string text, name;
+  std::filesystem::path folder;
+  Overrides set;
+  std::vector<FunctionLaw> functions;
+  std::shared_ptr<BodyStore> bodies;  ///< shared with the scenes that are made from this one
+  Scene scene;
+};
+
+/// A scene made ready for a question; what results are told by.
+struct Prepared {
+  Scene scene;
+  Model model;
+  Assembly assembly;
+};
+enum class Question { run, kinematics, statics, small_motion };
+/// @throws SceneError, AssemblyError
+std::shared_ptr<const Prepared> prepared(const SceneSource&, Question);
+
+/// What a run or a driven motion has found, or the motion of an inverse problem. Arrays in Python are its own memory.
+struct RunResult {
+  std::shared_ptr<const Prepared> of;
+  std::shared_ptr<const Run> run;
+  bool driven = false;  ///< by kinematics
+};
+
+/// Lets Ctrl-C and other signals through while C++ computes without the interpreter, some times a second.
+class Watch {
+ public:
+  /// As a listener of a run. @returns false: a signal's handler has raised an exception
+  bool operator()(double = 0);
+  /// Raises what the handler raised; with `result`, if there is one, as its attribute.
+  void raise(py::object result = py::none());
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  std::optional<py::error_already_set> raised_;
+};
+
+/// Numbers of C++ as an array that owns none of them and keeps `owner` alive; not to be written to.
+template <class T>
+py::array numbers(const T* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides, py::handle owner) {
+  py::array out(py::dtype::of<T>(), std::move(shape), std::move(strides), data, owner);
+  out.attr("setflags")(py::arg("write") = false);
+  return out;
+}
+template <class Matrix>
+py::array matrix(const Matrix& m, py::handle owner) {
+  using T = typename Matrix::Scalar;
+  constexpr py::ssize_t size = sizeof(T);
+  return numbers<T>(m.data(), {m.rows(), m.cols()}, {size * m.rowStride(), size * m.colStride()}, owner);
+}
+template <class Vector>
+py::array vector(const Vector& v, py::handle owner) {
+  using T = typename Vector::value_type;
+  return numbers<T>(v.data(), {static_cast<py::ssize_t>(v.size())}, {sizeof(T)}, owner);
+}
+/// (header, rows × columns)
+py::tuple table(const Table&, py::handle owner);
+
+/// Puts Python functions in the place of laws. @throws SceneError  there is nothing of that name that has a law
+void put_functions(Scene&, const std::vector<FunctionLaw>&);
+
+void bind_errors(py::module_&);
+void bind_scene(py::module_&);
+void bind_run(py::module_&);
+void bind_questions(py::module_&);
+void bind_simulation(py::module_&);
+void bind_studies(py::module_&);
+
+}  // namespace pintle::python

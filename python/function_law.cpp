@@ -1,0 +1,108 @@
+// Python functions as laws of the scene.
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "framework/common/nearest.h"
+#include "python/bindings.h"
+
+namespace pintle::python {
+
+namespace {
+
+/// What a Python function gives, one number or, of a force, one of two. Called with the interpreter held, from whichever thread runs.
+class Called {
+ public:
+  Called(const FunctionLaw& law, int component) : is_(law.is), component_(component) {
+    for (const std::string& name : law.of) times_.push_back(name == "t");
+  }
+  double operator()(double t, const double* in) const {
+    const py::gil_scoped_acquire held;
+    py::tuple arguments(times_.size());
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < times_.size(); ++i) arguments[i] = times_[i] ? t : in[next++];
+    const py::object out = (*is_)(*arguments);
+    return (component_ < 0 ? out : py::object(out[py::int_(component_)])).cast<double>();
+  }
+
+ private:
+  std::shared_ptr<py::object> is_;
+  int component_;                 ///< −1: it gives one number
+  std::vector<bool> times_ = {};  ///< which arguments are the time
+};
+
+/// Central differences at the cube root of rounding; below `least` in size an argument is stepped as if it had that.
+double step_of(double x) {
+  constexpr double part = 6e-6, least = 1e-3;
+  return part * std::max(std::abs(x), least);
+}
+
+SignalFunction of_signals(const FunctionLaw& law, int component) {
+  const auto n = static_cast<std::size_t>(std::ranges::count_if(law.of, [](const std::string& name) { return name != "t"; }));
+  return [called = Called(law, component), n](double t, const double* in, double* slope) {
+    if (slope) {
+      std::vector<double> x(in, in + n);
+      for (std::size_t i = 0; i < n; ++i) {
+        const double h = step_of(in[i]);
+        x[i] = in[i] + h;
+        const double above = called(t, x.data());
+        x[i] = in[i] - h;
+        slope[i] = (above - called(t, x.data())) / (2 * h);
+        x[i] = in[i];
+      }
+    }
+    return called(t, in);
+  };
+}
+
+Law law_of(const FunctionLaw& function, int component = -1) {
+  Law law;
+  law.text = "by the Python function " + py::str(py::getattr(*function.is, "__name__", *function.is)).cast<std::string>();
+  law.constant = false;
+  for (const std::string& name : function.of)
+    if (name == "t")
+      law.uses_time = true;
+    else
+      law.signals.push_back(name);
+  if (law.signals.empty())
+    law.at = [called = Called(function, component)](double t) { return Jet{called(t, nullptr)}; };
+  else
+    law.of_signals = of_signals(function, component);
+  return law;
+}
+
+void put(SceneLoad& load, const FunctionLaw& function, const std::string& file) {
+  if (auto* force = std::get_if<SceneForce>(&load.what)) {
+    force->x = law_of(function, 0), force->y = law_of(function, 1);
+  } else if (auto* torque = std::get_if<SceneTorque>(&load.what)) {
+    torque->law = law_of(function);
+  } else if (auto* spring = std::get_if<SceneSpring>(&load.what)) {
+    spring->law = law_of(function);
+  } else if (auto* torsion = std::get_if<SceneTorsionSpring>(&load.what)) {
+    torsion->law = law_of(function);
+  } else {
+    throw SceneError(file, load.place, "has no law that a function could give; take a force, a torque, a spring or a torsion spring");
+  }
+}
+
+}  // namespace
+
+void put_functions(Scene& scene, const std::vector<FunctionLaw>& functions) {
+  for (const FunctionLaw& function : functions) {
+    std::vector<std::string> known;
+    bool found = false;
+    const auto see = [&](auto& all, const auto& act) {
+      for (auto& one : all) {
+        known.push_back(one.name);
+        if (one.name == function.owner) act(one), found = true;
+      }
+    };
+    see(scene.loads, [&](SceneLoad& load) { put(load, function, scene.file); });
+    see(scene.states, [&](SceneState& state) { state.rate = law_of(function); });
+    see(scene.outputs, [&](SceneOutput& output) { output.law = law_of(function); });
+    if (!found)
+      throw SceneError(scene.file, {0, function.owner}, "is no force, state or output of the scene." + did_you_mean(function.owner, known));
+  }
+}
+
+}  // namespace pintle::python

@@ -1,0 +1,309 @@
+"""What analyses have found."""
+
+import html
+import json
+import tempfile
+import warnings
+from pathlib import Path
+from typing import NamedTuple
+
+from . import _core
+from .errors import ModelWarning, RunError
+from .tables import Columns, Table
+
+
+class Impact(NamedTuple):
+    """One contact from touch to parting; NaN where it goes on. SI units."""
+
+    contact: str
+    begin: float
+    end: float
+    approach: float
+    separation: float
+    deepest: float
+    peak_force: float
+    lost: float
+    impulse: float
+
+
+class Event(NamedTuple):
+    """What an event of the scene has done."""
+
+    event: str
+    t: float
+    did: str
+
+
+class Result(Table):
+    """A motion: `result["crank.angle"]` is a column of its trajectory."""
+
+    def __init__(self, core):
+        super().__init__(*core.trajectory)
+        self._core = core
+
+    @property
+    def t(self):
+        return self.data[:, 0]
+
+    @property
+    def ledger(self):
+        """Where the energy is and where it went."""
+        return Table(*self._core.ledger)
+
+    @property
+    def impacts(self):
+        return [Impact(*one) for one in self._core.impacts]
+
+    @property
+    def events(self):
+        return [Event(*one) for one in self._core.events]
+
+    @property
+    def status(self):
+        return self._core.status
+
+    @property
+    def reason(self):
+        return self._core.reason
+
+    @property
+    def warnings(self):
+        return self._core.warnings
+
+    @property
+    def steps(self):
+        return self._core.steps
+
+    @property
+    def unexplained(self):
+        """Energy that the ledger leaves unexplained at the end [J]."""
+        return self._core.unexplained
+
+    @property
+    def info(self):
+        """What run.json, or that of another question, holds."""
+        return json.loads(self._core.info)
+
+    def write(self, directory):
+        """Leaves the files of `pintle run`, or of another question, in a new folder."""
+        if Path(directory).exists():
+            raise FileExistsError(f"{directory} is there already; name another folder, or remove it")
+        self._write(str(directory))
+
+    def _write(self, directory):
+        self._core.write(directory)
+
+    def report(self, file):
+        """Writes one page for a browser: motion, plots, impacts, ledger."""
+        with tempfile.TemporaryDirectory() as place:
+            folder = Path(place) / "run"
+            self.write(folder)
+            Path(file).write_text(_core.report(str(folder)), encoding="utf-8")
+
+    def _rows(self):
+        core = self._core
+        share = abs(core.unexplained) / core.energy_in_play if core.energy_in_play > 0 else 0
+        yield "status", core.status + (f": {core.reason}" if core.reason else "")
+        yield "time reached", f"{core.end:.6g} s, {len(self)} rows, {core.steps} steps"
+        if len(self.ledger):
+            yield "unexplained energy", f"{core.unexplained:.3g} J, {share:.3g} of the energy in play"
+        if core.impacts:
+            yield "contacts", f"{len(core.impacts)}, peak force {max(i.peak_force for i in self.impacts):.4g} N"
+        for warning in core.warnings:
+            yield "warning", warning
+
+    def __repr__(self):
+        return "\n".join([self._core.title or "run"] + [f"  {name:<20}{text}" for name, text in self._rows()])
+
+    def _repr_html_(self):
+        rows = "".join(f"<tr><td>{name}</td><td>{html.escape(text)}</td></tr>" for name, text in self._rows())
+        return f"<table><caption>{html.escape(self._core.title or 'run')}</caption>{rows}</table>"
+
+
+def warn(texts, level=3):
+    """By the code that called what calls this; `level` as warnings has it."""
+    for text in texts:
+        warnings.warn(text, ModelWarning, stacklevel=level)
+
+
+def judged(result, check):
+    """Raises RunError of a run that failed; warns of what is doubtful."""
+    if check and result.status in ("failed", "out of memory"):
+        raise RunError(f"{result.status}: {result.reason}", result)
+    warn(([result.reason] if result.status == "ledger over its bound" else []) + result.warnings, 4)
+    return result
+
+
+class Effort(NamedTuple):
+    """What a driver must do: torque or thrust over time."""
+
+    driver: str
+    unit: str
+    t: object
+    value: object
+    error: float
+
+
+class InverseResult(Result):
+    """A driven motion with the efforts of its drivers."""
+
+    def __init__(self, core):
+        super().__init__(core.run)
+        self._inverse = core
+        self.how = core.how
+        self.efforts = {effort.driver: effort for effort in (Effort(*one) for one in core.efforts)}
+
+    @property
+    def info(self):
+        """What inverse.json holds."""
+        return json.loads(self._inverse.info)
+
+    def _write(self, directory):
+        self._inverse.write(directory)
+
+
+class Rest(Table):
+    """Where a mechanism rests: `rest["spring.length"]` is one number."""
+
+    def __init__(self, core):
+        super().__init__(*core.table)
+        self._core = core
+
+    def __getitem__(self, name):
+        return float(super().__getitem__(name)[0])
+
+    @property
+    def stable(self):
+        """None if that was not judged."""
+        return core.unstable == 0 and core.neutral == 0 if (core := self._core).judged else None
+
+    @property
+    def unstable(self):
+        """Directions in which it falls away."""
+        return self._core.unstable
+
+    @property
+    def neutral(self):
+        """Directions in which it stays where it is put."""
+        return self._core.neutral
+
+    @property
+    def warnings(self):
+        return self._core.warnings
+
+    @property
+    def info(self):
+        """What statics.json holds."""
+        return json.loads(self._core.info)
+
+    def __repr__(self):
+        return "at rest: " + self._core.method
+
+
+class LinearMode(NamedTuple):
+    """A solution shape·exp(root t) of the small motion."""
+
+    kind: str
+    frequency: float  # [Hz]
+    natural: float  # |root|/2π [Hz]
+    damping: float
+    root: complex
+    carrier: str
+    share: float
+    shape: object
+
+
+class SmallMotion:
+    """x' = A x + B u, y = C x + D u about a state, and the modes of it."""
+
+    def __init__(self, core):
+        self._core = core
+        self.A, self.B, self.C, self.D = core.A, core.B, core.C, core.D
+        self.states, self.inputs, self.outputs = core.states, core.inputs, core.outputs
+        self.coordinates = core.coordinates
+        self.modes = [LinearMode(*one) for one in core.modes]
+        self.t, self.notes, self.warnings = core.time, core.notes, core.warnings
+
+    @property
+    def info(self):
+        """What linearized.json holds."""
+        return json.loads(self._core.info)
+
+    def __repr__(self):
+        return "\n".join(
+            [f"{len(self.states)} states, {len(self.inputs)} inputs, {len(self.outputs)} outputs"]
+            + [f"  {m.frequency:.9g} Hz, damping {m.damping:.4g}: {m.carrier}" for m in self.modes]
+        )
+
+
+class BodyModes(NamedTuple):
+    """Modes of one body: frequencies [Hz], damping ratios, effective masses along x, y and in rotation, nodal shapes."""
+
+    title: str
+    frequencies: object
+    damping: object
+    mass: object
+    shapes: object
+
+
+class Modes:
+    """`natural` as the body is held; `reduced` what a mechanism gets, if the body says `modes`."""
+
+    def __init__(self, core):
+        self.body, self.rigid, self.mass = core.body, core.rigid, core.mass
+        self.natural = BodyModes(*core.natural)
+        self.reduced = BodyModes(*core.reduced) if core.reduced else None
+
+    @property
+    def frequencies(self):
+        return self.natural.frequencies
+
+    def __repr__(self):
+        return f"{self.body}: " + ", ".join(f"{f:.6g}" for f in self.frequencies) + " Hz"
+
+
+class Simulation:
+    """A run by hand: on to a time, read columns, set states of the scene, and on.
+
+    Set the inputs of a controller as states whose rate is 0."""
+
+    def __init__(self, core):
+        self._core = core
+        self._columns = Columns(core.header)
+        self._states = {name: (place, unit) for place, (name, unit) in enumerate(core.states)}
+        self._row = None
+
+    @property
+    def t(self):
+        return self._core.time
+
+    @property
+    def names(self):
+        return list(self._columns.names)
+
+    def unit(self, name):
+        return self._columns.units[self._columns.place(name)]
+
+    def advance(self, t):
+        """On to time t, through all events before it. False once the run is over."""
+        self._row = None
+        return self._core.advance(t)
+
+    def __getitem__(self, name):
+        if self._row is None:
+            self._row = self._core.now()
+        return self._row[self._columns.place(name)]
+
+    def __setitem__(self, name, value):
+        if name not in self._states:
+            known = ", ".join(self._states) or "the scene has none"
+            raise KeyError(f'"{name}" is no state of the scene; states: {known}')
+        self._row = None
+        self._core.set(self._states[name][0], float(value))
+
+    def result(self, check=True):
+        """Ends the run and gives what it found."""
+        return judged(Result(self._core.finish()), check)
+
+    def __repr__(self):
+        return f"<simulation at t = {self.t:.6g} s>"

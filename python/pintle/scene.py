@@ -1,0 +1,130 @@
+"""Scenes and the questions that can be asked of them."""
+
+import json
+import os
+
+from . import _core
+from .errors import RunError
+from .results import InverseResult, Modes, Rest, Result, Simulation, SmallMotion, judged, warn
+
+
+def plain(value):
+    """Of NumPy, as JSON has it."""
+    for convert in ("tolist", "__fspath__"):
+        if hasattr(value, convert):
+            return getattr(value, convert)()
+    raise TypeError(f"{value!r} cannot stand in a scene")
+
+
+def overrides(values):
+    """{name: value} as pairs of texts."""
+    texts = {}
+    for name, value in (values or {}).items():
+        texts[name] = value if isinstance(value, str) else json.dumps(value, default=plain, ensure_ascii=False)
+    return list(texts.items())
+
+
+class Scene:
+    """A mechanism as it is written. It never changes: `set` and `with_law` give another one."""
+
+    def __init__(self, core):
+        self._core = core
+
+    @property
+    def title(self):
+        return self._core.title
+
+    @property
+    def parameters(self):
+        """By name, in SI."""
+        return dict(self._core.parameters)
+
+    def as_dict(self):
+        """The scene as it was read, with every default."""
+        return json.loads(self._core.filled_in)
+
+    def set(self, values):
+        """The scene with parameters, or any keys by their paths, changed: {"clearance": "0.1 mm", "run.tolerance": 1e-6}."""
+        return Scene(self._core.set(overrides(values)))
+
+    def with_law(self, name, function, of):
+        """The scene with the law of a force, a state or an output given by a Python function.
+
+        `of` names what it is called with, signals and "t"; all in SI. A force returns its x and y. Implicit methods, `statics` and
+        `linearize` find its derivatives by differences."""
+        return Scene(self._core.with_law(name, function, list(of)))
+
+    def check(self):
+        """What `pintle check --json` says of the scene."""
+        return json.loads(self._core.check())
+
+    def run(self, check=True):
+        """Runs the scene. `check`: a run that fails raises RunError, which keeps what was computed."""
+        return judged(_found(Result, _core.run, self._core), check)
+
+    def kinematics(self, check=True):
+        """The motion that drivers impose."""
+        return judged(_found(Result, _core.kinematics, self._core), check)
+
+    def inverse(self, check=True):
+        """The efforts of drivers and the forces in joints."""
+        return judged(_found(InverseResult, _core.inverse, self._core), check)
+
+    def statics(self, at=0.0):
+        """Where the mechanism rests, drivers and loads as they are at a time [s]."""
+        core = _core.statics(self._core, at)
+        if not core.found:
+            raise RunError(f"no equilibrium: {core.reason}")
+        warn(core.warnings)
+        return Rest(core)
+
+    def linearize(self, at=None, at_rest=False):
+        """The small motion about the start, about the run's state at a time [s], or about where the mechanism rests."""
+        try:
+            core = _core.linearize(self._core, at, at_rest)
+        except RuntimeError as error:
+            raise RunError(str(error)) from None
+        if core.trouble:
+            raise RunError(core.trouble)
+        warn(core.warnings)
+        return SmallMotion(core)
+
+    def modes(self, body="", count=6):
+        """Natural modes of one body of elements; its name may be left out where there is one alone."""
+        return Modes(_core.modes(self._core, body, count))
+
+    def simulation(self):
+        """A run by hand."""
+        return Simulation(_core.Simulation(self._core))
+
+    def __repr__(self):
+        return f"<scene {self.title or self._core.name}>"
+
+
+def _found(kind, analyse, core):
+    """What an analysis found; where Ctrl-C or a signal's handler stopped it, the exception's `result` is what was computed."""
+    try:
+        return kind(analyse(core))
+    except BaseException as stop:
+        if hasattr(stop, "result"):
+            stop.result = kind(stop.result)
+        raise
+
+
+def load(file, set=None):
+    """A scene file. `set`: {name: value} of parameters, or of any keys by their paths."""
+    return Scene(_core.Scene.of_file(os.fspath(file), overrides(set)))
+
+
+def parse(scene, set=None, folder="."):
+    """A scene as YAML text, or as a dict of what a scene file holds; files that it names are sought from `folder`."""
+    if isinstance(scene, str):
+        return Scene(_core.Scene.of_text(scene, "scene", os.fspath(folder), overrides(set)))
+    text = json.dumps(scene, default=plain, ensure_ascii=False, indent=1)
+    return Scene(_core.Scene.of_text(text, "scene", os.fspath(folder), overrides(set)))
+
+
+def trust(folders=(), geo=False):
+    """From now on scenes may read files in these folders, beside their own, and, with `geo`, drawings may do all that they ask for,
+    shell commands included (SECURITY.md)."""
+    _core.trust([os.fspath(folder) for folder in folders], geo)

@@ -1,0 +1,141 @@
+"""Threads, signals, memory."""
+
+import gc
+import json
+import os
+import signal
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+import numpy
+import pintle
+from common import examples, pendulum
+
+long_run = pintle.parse(pendulum).set({"run.until": "1e5 s", "output.every": "1 s"})
+
+
+class Threads(unittest.TestCase):
+    def test_python_goes_on_while_a_run_computes(self):
+        counted, going = [0], [True]
+
+        def count():
+            while going[0]:
+                counted[0] += 1
+                time.sleep(1e-4)
+
+        thread = threading.Thread(target=count)
+        thread.start()
+        before, begin = counted[0], time.perf_counter()
+        pintle.parse(pendulum).set({"run.until": "20 s"}).run()
+        during, seconds = counted[0] - before, time.perf_counter() - begin
+        going[0] = False
+        thread.join()
+        self.assertGreater(during, 2, f"in {seconds} s")  # held, it would count nothing
+
+    def test_runs_in_threads_are_the_same_to_the_bit(self):
+        scene = pintle.load(examples / "slider_crank_clearance.yaml").set({"run.until": "5 ms"})
+        expected, found = scene.run().data, {}
+
+        def run(k):
+            found[k] = scene.run().data
+
+        threads = [threading.Thread(target=run, args=(k,)) for k in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for data in found.values():
+            numpy.testing.assert_array_equal(data, expected)
+        self.assertEqual(len(found), 4)
+
+
+class Signals(unittest.TestCase):
+    def interrupt_soon(self, number=signal.SIGINT):
+        timer = threading.Timer(0.3, os.kill, (os.getpid(), number))
+        timer.start()
+        self.addCleanup(timer.join)
+
+    def test_ctrl_c_ends_a_run_and_keeps_what_was_computed(self):
+        self.interrupt_soon()
+        with self.assertRaises(KeyboardInterrupt) as caught:
+            long_run.run()
+        result = caught.exception.result
+        self.assertEqual(result.status, "interrupted")
+        self.assertTrue(0 < result.t[-1] < 1e5)
+        self.assertEqual(len(result["rod.angle"]), len(result.t))
+
+    def test_what_another_handler_raises_comes_through(self):
+        class Enough(Exception):
+            pass
+
+        def handler(number, frame):
+            raise Enough
+
+        before = signal.signal(signal.SIGUSR1, handler)
+        self.addCleanup(signal.signal, signal.SIGUSR1, before)
+        self.interrupt_soon(signal.SIGUSR1)
+        with self.assertRaises(Enough) as caught:
+            long_run.run()
+        self.assertEqual(caught.exception.result.status, "interrupted")
+
+    def test_a_simulation_by_hand_keeps_what_was_computed(self):
+        simulation = long_run.simulation()
+        self.interrupt_soon()
+        with self.assertRaises(KeyboardInterrupt):
+            simulation.advance(1e5)
+        reached = simulation.t
+        self.assertTrue(0 < reached < 1e5)
+        self.assertGreater(len(simulation.result()), 1)
+
+
+    def test_a_sweep_stops_and_keeps_its_journal(self):
+        study = {
+            "scene": str(examples / "slider_crank_clearance.yaml"), "set": {"run.until": "2 s", "output.every": "1 ms"},
+            "measure": {"contacts": "impacts at gudgeon pin"}, "sweep": {"grid": {"clearance": ["0.1 mm", "0.2 mm", "0.3 mm"]}},
+        }
+        with tempfile.TemporaryDirectory() as place:
+            file, out = Path(place) / "study.yaml", Path(place) / "out"
+            file.write_text(json.dumps(study))
+            self.interrupt_soon()
+            with self.assertRaises(KeyboardInterrupt):
+                pintle.sweep(file, out=out, threads=1)
+            self.assertTrue((out / "journal-0.txt").exists())
+
+
+def resident():
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+class Memory(unittest.TestCase):
+    def test_a_thousand_runs_do_not_grow(self):
+        scene = pintle.parse(pendulum).set({"run.until": "10 ms"})
+        law = pintle.parse(pendulum.replace("start:", "forces: {push: {torque: 0 N m, on: rod}}\nstart:")).set({"run.until": "1 ms"})
+
+        def once(k):
+            result = scene.set({"run.tolerance": 1e-8 + 1e-12 * k}).run()
+            column = result["rod.angle"]
+            self.assertEqual(len(column), 1001)
+            law.with_law("push", lambda angle: -angle, of=["rod.angle"]).run()
+            try:
+                scene.set({"nothing": 1})
+            except pintle.SceneError:
+                pass
+
+        for k in range(200):
+            once(k)
+        gc.collect()
+        before, objects = resident(), len(gc.get_objects())
+        for k in range(1000):
+            once(k)
+        gc.collect()
+        one_run = scene.run().data.nbytes
+        self.assertLess(resident() - before, 50 * one_run, "one run in twenty would have stayed")
+        self.assertLess(len(gc.get_objects()) - objects, 500)
+
+
+if __name__ == "__main__":
+    unittest.main()
