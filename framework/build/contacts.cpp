@@ -248,7 +248,7 @@ BuiltContact build_contact(const Scene& scene, const SceneContact& c, const Prof
          "other profile a smaller radius";
     out.warning = s.str();
   }
-  if (has_sharp_corners(a) && has_sharp_corners(b))
+  if (!c.impact && has_sharp_corners(a) && has_sharp_corners(b))
     out.warning =
         quoted(c.name) +
         ": both profiles have sharp corners; nothing holds two of these that meet point to point, and energy comes from nothing there; "

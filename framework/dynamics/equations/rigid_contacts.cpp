@@ -6,6 +6,7 @@
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
 #include "framework/common/worse.h"
+#include "framework/dynamics/equations/islands.h"
 #include "framework/dynamics/equations/sticking.h"
 
 namespace pintle {
@@ -137,13 +138,18 @@ Closed closed_contacts(const System& system, const State& state, const Equations
 
 std::optional<VectorXd> newton_impulses(const System& system, const Closed& closed, std::span<const double> e, const MatrixXd& W,
                                         const VectorXd& before, const VectorXd& free) {
+  constexpr double rounding = 1e-10;  // of the speeds that meet
+  const double still = rounding * largest(before) + largest(free - before);
   VectorXd c = free;
+  std::vector<int> slipping;
   for (std::size_t i = 0; i < e.size(); ++i) {
     const UnilateralContact& k = closed.unknowns[i];
     c[k.normal] += e[i] * std::min(before[k.normal], 0.0);
-    if (k.tangent >= 0) c[k.tangent] += system.contacts[at(closed.contact[i])].rigid->tangential * before[k.tangent];
+    if (k.tangent < 0) continue;
+    c[k.tangent] += system.contacts[at(closed.contact[i])].rigid->tangential * before[k.tangent];
+    if (std::abs(before[k.tangent]) > still) slipping.push_back(k.tangent);
   }
-  return unilateral_forces(closed.unknowns, W, c);
+  return contact_forces(closed.unknowns, W, c, slipping);
 }
 
 void book_impulses(const System& system, const Closed& closed, const VectorXd& x, const VectorXd& mean, State& state) {
@@ -287,7 +293,7 @@ bool decide_rigid(const System& system, State& state, Equations& eq) {
   MatrixXd W = respond_to_sticking(system, eq);
   VectorXd c = sticking_accelerations(system, eq);
   let_others_hold(system, state, eq, W, c);
-  const auto x = unilateral_forces(closed.unknowns, W, c);
+  const auto x = contact_forces(closed.unknowns, W, c);
   if (!x) return false;
   const std::vector<Doing> now = doings(closed, W, c, *x);
   for (std::size_t i = 0; i < now.size(); ++i) {

@@ -8,7 +8,6 @@
 #include "framework/dynamics/equations/energy.h"
 #include "framework/dynamics/equations/rigid_contacts.h"
 #include "framework/dynamics/equations/sticking.h"
-#include "framework/integration/events/impact_log.h"
 
 namespace pintle {
 
@@ -16,7 +15,9 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 MoreauJean::MoreauJean(const System& system, double step)
-    : system_(system), traits_{.order = 2, .implicit = false, .follows_impacts = false, .ends_evaluated = true, .fixed_step = step} {}
+    : system_(system),
+      traits_{.order = 2, .implicit = false, .follows_impacts = false, .ends_evaluated = true, .fixed_step = step},
+      contacts_(system) {}
 
 bool MoreauJean::evaluate_node(Instant& node, Equations& eq) {
   if (!pintle::project(system_, node.state.t, node.state.y, eq)) return false;
@@ -41,6 +42,11 @@ bool MoreauJean::attempt(double h, const ErrorNorm&, Step& step, Equations& eq) 
   middle_ = from;
   middle_.t = from.t + h / 2;
   middle_.y.head(n) += h / 2 * from.y.segment(n, n);
+  contacts_.look(middle_, h);
+  if (const int c = contacts_.passed_through(); c >= 0) {
+    trouble_ = "in one step bodies go right through each other at \"" + system_.contact_names[at(c)] + "\"; take a shorter step";
+    return false;
+  }
   std::ranges::fill(middle_.impact_rate, 0.0);
   std::ranges::fill(middle_.friction, DryFriction{});
   pose(system_, middle_.t, middle_.y, eq);
@@ -68,13 +74,12 @@ bool MoreauJean::attempt(double h, const ErrorNorm&, Step& step, Equations& eq) 
   return step.to.dy.allFinite();
 }
 
-// Impulses of the contacts that overlap in the middle.
+// Impulses of the contacts that are closed in the middle.
 bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, State& to, Equations& eq) {
   std::ranges::fill(to.impact_rate, 0.0);
   std::ranges::fill(to.friction, DryFriction{});
   for (std::size_t c = 0; c < system_.contacts.size(); ++c)
-    if (onset_of(system_, static_cast<int>(c), middle_).value > 0)
-      middle_.impact_rate[c] = system_.contacts[c].slowest_impact, middle_.friction[c].direction = 0;
+    if (contacts_.closed(c)) middle_.impact_rate[c] = system_.contacts[c].slowest_impact, middle_.friction[c].direction = 0;
   evaluate_held(system_, middle_, eq);
   if (eq.sticking.of.empty()) return true;
 
@@ -83,7 +88,11 @@ bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, Sta
   for (const int c : closed.contact) e.push_back(system_.contacts[at(c)].rigid->restitution);
   const Eigen::MatrixXd W = respond_to_sticking(system_, eq);
   const VectorXd before = eq.sticking.J.transpose() * from.y.segment(system_.n(), system_.n()), free = eq.sticking.J.transpose() * speeds;
-  const auto x = newton_impulses(system_, closed, e, W, before, free);
+  auto x = newton_impulses(system_, closed, e, W, before, free);
+  if (!x) {  // bodies wedged between others cannot all part as e says
+    std::ranges::fill(e, 0.0);
+    x = newton_impulses(system_, closed, e, W, before, free);
+  }
   if (!x) {
     trouble_ = "no impulses stop the bodies that meet at \"" + system_.contact_names[at(closed.contact.front())] +
                "\": a driver or too many contacts may press them together; give contacts a law with a stiffness";
@@ -143,7 +152,13 @@ void MoreauJean::evaluate_end(const Step& step, Equations& eq) {
   evaluate_node(end, eq);
 }
 
-void MoreauJean::save(Writer& out) const { out.whole(balance_); }
-void MoreauJean::load(Reader& in) { in.whole(balance_); }
+void MoreauJean::save(Writer& out) const {
+  out.whole(balance_);
+  out.whole(contacts_);
+}
+void MoreauJean::load(Reader& in) {
+  in.whole(balance_);
+  in.whole(contacts_);
+}
 
 }  // namespace pintle

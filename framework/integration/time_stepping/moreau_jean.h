@@ -1,6 +1,7 @@
 #pragma once
 
 #include "framework/integration/stepper.h"
+#include "framework/integration/time_stepping/middle_contacts.h"
 
 namespace pintle {
 
@@ -16,7 +17,7 @@ class MoreauJean final : public Stepper {
   const StepperTraits& traits() const override { return traits_; }
   bool project(Instant&, Equations&) override;
   bool attempt(double h, const ErrorNorm&, Step&, Equations&) override;
-  void accept(Equations&) override {}
+  void accept(Equations&) override { contacts_.keep(); }
   double first_step(const Instant&, const ErrorNorm&, double) const override { return traits_.fixed_step; }
   void interpolate(const Step&, double t, State& out) const override;
   bool sample(const Step&, double t, Equations&, State& out) override;
@@ -28,7 +29,7 @@ class MoreauJean final : public Stepper {
   int partitions() const override { return 0; }
   void save(Writer&) const override;
   void load(Reader&) override;
-  bool fits(const Instant&) const override { return true; }
+  bool fits(const Instant&) const override { return contacts_.fits(); }
   void evaluate_end(const Step&, Equations&) override;
 
  private:
@@ -40,6 +41,7 @@ class MoreauJean final : public Stepper {
   const System& system_;
   StepperTraits traits_;
   State middle_;
+  MiddleContacts contacts_;
   std::string trouble_;
   double balance_ = 0;  ///< of the books, which the integral of what the scheme loses keeps [J]
 };
