@@ -192,6 +192,12 @@ double rate_of(const System& system, const MotionSignal& signal, const State& st
   return slope.pose_a.head<2>().dot(a.v) + slope.pose_a[2] * a.w + slope.pose_b.head<2>().dot(b.v) + slope.pose_b[2] * b.w;
 }
 
+bool is_speed(const MotionSignal& signal) {
+  using enum MotionSignal::Kind;
+  constexpr std::array speeds{vx, vy, speed, length_rate, relative_speed};
+  return std::ranges::find(speeds, signal.kind) != speeds.end();
+}
+
 using Inputs = std::array<double, most_law_inputs>;
 
 Inputs inputs_of(const System& system, const SignalLaw& law, const State& state) {
@@ -203,38 +209,38 @@ Inputs inputs_of(const System& system, const SignalLaw& law, const State& state)
 // A comparison of t alone.
 SceneComparison of_time(const Law& law, const Comparison& from, const std::string& told) {
   return {.difference =
-              [at = law.at](const System&, const State& state) {
+              [at = law.at, size = from.size](const System&, const State& state, const Wanted& wanted) {
                 const Jet now = at(state.t);
+                if (wanted.size) *wanted.size = size(state.t).value;
                 return Guard{now.value, now.rate};
               },
-          .size = [size = from.size](const System&, const State& state) { return size(state.t).value; },
           .at_zero = from.at_zero,
           .seen = [law, told](const System&, const State& state) { return told + seen_by_law(law, {}, state.t, {}); }};
 }
 
-// Kinks and jumps of a comparison of inputs that `read` gives.
-template <class Read>
-void add_bends(const Comparison& from, const Read& read, SceneComparison& out) {
-  const SidedProgram sides(from.difference);
-  if (sides.switches() == 0) return;
-  out.bends = [sides, read, inputs = SignalFormula(from.difference).inputs](const System& system, const State& state,
-                                                                            std::vector<double>& bends) {
-    std::vector<int> found(at(sides.switches()));
+// What else is wanted of a comparison whose inputs are read.
+class Reading {
+ public:
+  explicit Reading(const Comparison& of) : size_(of.size), sides_(of.difference), inputs_(SignalFormula(of.difference).inputs) {}
+  void add(double t, const double* in, const Wanted& wanted) const {
+    if (wanted.size) *wanted.size = size_(t, in, nullptr);
+    if (!wanted.bends || sides_.switches() == 0) return;
+    std::vector<int> found(at(sides_.switches()));
     std::vector<double> left(found.size());
-    sides.value(state.t, read(system, state).data(), inputs, nullptr, {nullptr, found.data(), left.data()});
-    for (std::size_t k = 0; k < left.size(); ++k) bends.push_back(found[k] * left[k]);
-  };
-}
+    sides_.value(t, in, inputs_, nullptr, {nullptr, found.data(), left.data()});
+    for (std::size_t k = 0; k < left.size(); ++k) wanted.bends->push_back(found[k] * left[k]);
+  }
 
-// What a comparison is measured by, where it bends, and what it compares, in words.
+ private:
+  SignalFormula size_;
+  SidedProgram sides_;
+  std::size_t inputs_;
+};
+
+// "crank.angle = 1 rad, t = 2 s", of the inputs that `read` gives.
 template <class Read>
-void add_reading(const Law& law, const Comparison& from, const std::string& told, const Read& read, SceneComparison& out) {
-  out.at_zero = from.at_zero;
-  out.size = [read, size = SignalFormula(from.size)](const System& system, const State& state) {
-    return size(state.t, read(system, state).data(), nullptr);
-  };
-  add_bends(from, read, out);
-  out.seen = [read, law, told](const System& system, const State& state) {
+std::function<std::string(const System&, const State&)> seen_by(const Law& law, const std::string& told, const Read& read) {
+  return [read, law, told](const System& system, const State& state) {
     const auto in = read(system, state);
     return told + seen_by_law(law, law.of_signals, state.t, {in.begin(), in.begin() + static_cast<std::ptrdiff_t>(law.signals.size())});
   };
@@ -242,36 +248,45 @@ void add_reading(const Law& law, const Comparison& from, const std::string& told
 
 SceneComparison of_a_row(const Law& law, const Comparison& from, const SceneEvent& event, EventLaws& laws) {
   const RowLaw of = laws.of_a_row(law, event);
-  SceneComparison out{.difference = [of](const System&, const State& state) { return Guard{of(state)}; }, .size = {}};
-  out.of_a_row = true;
-  add_reading(
-      law, from, laws.told(event), [of](const System&, const State& state) { return of.inputs(state); }, out);
-  return out;
+  return {.difference =
+              [of, more = Reading(from)](const System&, const State& state, const Wanted& wanted) {
+                const std::vector<double> in = of.inputs(state);
+                more.add(state.t, in.data(), wanted);
+                return Guard{of.function()(state.t, in.data(), nullptr)};
+              },
+          .at_zero = from.at_zero,
+          .seen = seen_by(law, laws.told(event), [of](const System&, const State& state) { return of.inputs(state); })};
 }
 
-SceneComparison of_motion(const Law& law, const Comparison& from, const SceneEvent& event, EventLaws& laws) {
+SceneComparison of_motion(const Law& law, const Comparison& from, const SceneEvent& event, const System& built, EventLaws& laws) {
   const SignalLaw of = laws.of_motion(law, event.place);
   const auto read = [of](const System& system, const State& state) { return inputs_of(system, of, state); };
-  SceneComparison out{.difference =
-                          [of, changes_by_itself = law.uses_time](const System& system, const State& state) {
-                            Inputs slope{};
-                            const Inputs in = inputs_of(system, of, state);
-                            Guard now{of.of(state.t, in.data(), slope.data())};
-                            if (changes_by_itself) return now;
-                            now.rate = 0;
-                            for (std::size_t k = 0; k < of.in.size(); ++k)
-                              if (slope[k] != 0) now.rate += slope[k] * rate_of(system, system.signals[at(of.in[k])], state);
-                            return now;
-                          },
-                      .size = {}};
-  add_reading(law, from, laws.told(event), read, out);
-  return out;
+  return {
+      .difference =
+          [of, more = Reading(from), changes_by_itself = law.uses_time](const System& system, const State& state, const Wanted& wanted) {
+            Inputs slope{};
+            const Inputs in = inputs_of(system, of, state);
+            more.add(state.t, in.data(), wanted);
+            const bool rate = wanted.rate && !changes_by_itself;
+            Guard now{of.of(state.t, in.data(), rate ? slope.data() : nullptr)};
+            if (!rate) return now;
+            now.rate = 0;
+            for (std::size_t k = 0; k < of.in.size(); ++k)
+              if (slope[k] != 0) now.rate += slope[k] * rate_of(system, system.signals[at(of.in[k])], state);
+            return now;
+          },
+      .at_zero = from.at_zero,
+      .of_speeds = std::ranges::any_of(of.in, [&](int k) { return is_speed(built.signals[at(k)]); }),
+      .seen = seen_by(law, laws.told(event), read)};
 }
 
-std::vector<SceneComparison> condition_of(const SceneEvent& event, EventLaws& laws) {
+std::vector<SceneComparison> condition_of(const SceneEvent& event, const System& system, EventLaws& laws) {
   if (event.guard.constant) {
     const double holds = event.when[0].at(0).value;
-    return {{[holds](const System&, const State&) { return Guard{holds, 0}; }, [](const System&, const State&) { return 1.0; }}};
+    return {{.difference = [holds](const System&, const State&, const Wanted& wanted) {
+      if (wanted.size) *wanted.size = 1;
+      return Guard{holds, 0};
+    }}};
   }
   const std::vector<Comparison> from = comparisons_of(event);
   std::vector<SceneComparison> out;
@@ -279,7 +294,7 @@ std::vector<SceneComparison> condition_of(const SceneEvent& event, EventLaws& la
     const Law& law = event.when[k];
     out.push_back(law.signals.empty()       ? of_time(law, from[k], laws.told(event))
                   : laws.names_columns(law) ? of_a_row(law, from[k], event, laws)
-                                            : of_motion(law, from[k], event, laws));
+                                            : of_motion(law, from[k], event, system, laws));
   }
   return out;
 }
@@ -308,7 +323,7 @@ void add_events(const Scene& scene, Model& model, SignalMaker& signals) {
   EventLaws laws(scene, model, signals);
   for (const SceneEvent& event : scene.events) {
     rules.push_back({.name = event.name,
-                     .when = condition_of(event, laws),
+                     .when = condition_of(event, model.system, laws),
                      .actions = actions_of(scene, event, event.then, model, laws),
                      .otherwise = actions_of(scene, event, event.otherwise, model, laws),
                      .once = event.once,

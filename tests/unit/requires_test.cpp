@@ -13,6 +13,7 @@
 #include "framework/build/build.h"
 #include "framework/integration/integrator.h"
 #include "framework/mechanism/drawing.h"
+#include "framework/mechanism/trajectory.h"
 #include "framework/scene/yaml/reader.h"
 #include "tests/unit/stepping.h"
 #include "tests/unit/worn_slider_crank.h"
@@ -251,6 +252,22 @@ TEST(Required, LawsOfDriversAndLoadsAreAskedWhereTheyAreAlone) {
   EXPECT_EQ(asked_in_ten_steps(), 0);
   scene.drivers = {{"motor", DriverKind::angle, {"ground", "", {}}, {"rod", "", {}}, law, {}}};
   EXPECT_GT(asked_in_ten_steps(), 60) << "position and speed of six evaluations a step";
+}
+
+// Looks at a condition are at eighths of a step, at its end for the guard and for sizes, and at its start.
+TEST(Required, AConditionIsReadOnceAtEachLook) {
+  const auto* row = entry_of(static_cast<void (*)(const Model&, const State&, const Equations&, Table&)>(record));
+  const Scene scene = read_scene_text(std::string(pendulum) + R"(
+events: {pulled: {when: hinge.fx^2 + abs(hinge.fy)*(1 N) > 1 kN^2, do: {row: true}}}
+)",
+                                      "step.yaml");
+  const Model model = build(scene);
+  Integrator run(model.system, model.scheme, assemble(scene, model).start);
+  EXPECT_TRUE(run.advance(1));
+  const std::optional<Stepped> step = stepped([&] { run.advance(1); }, {row});
+  if (!step) GTEST_SKIP() << cannot;
+  EXPECT_GE(step->entered[0], 2);
+  EXPECT_LE(step->entered[0], 8 + 1 + 2 + 1);
 }
 
 TEST(Required, FramesAreDrawnWhereTheSceneAsksForThemAlone) {

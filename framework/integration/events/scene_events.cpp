@@ -27,6 +27,7 @@ SceneEvents::SceneEvents(const System& system, std::vector<SceneEventRule> rules
   for (const SceneEventRule& rule : rules_) {
     first_.push_back(size_.size());
     size_.resize(size_.size() + rule.when.size(), 0);
+    for (const SceneComparison& one : rule.when) any_of_speeds_ = any_of_speeds_ || one.of_speeds;
   }
 }
 
@@ -35,7 +36,7 @@ Guard SceneEvents::all_of(int event, const State& state) const {
   Guard least{std::numeric_limits<double>::infinity()};
   const auto& when = rules_[at(event)].when;
   for (std::size_t k = 0; k < when.size(); ++k) {
-    Guard now = when[k].difference(system_, state);
+    Guard now = when[k].difference(system_, state, {.rate = true});
     if (std::isnan(now.value)) return now;
     if (const double size = size_[first_[at(event)] + k]; size > 0) now.value /= size, now.rate /= size;
     if (now.value < least.value) least = now;
@@ -43,12 +44,16 @@ Guard SceneEvents::all_of(int event, const State& state) const {
   return least;
 }
 
-void SceneEvents::look(int event, const State& state, std::vector<double>& out) const {
+double SceneEvents::look(int event, const State& state, std::vector<double>& out, bool with_bends) const {
   const auto& when = rules_[at(event)].when;
+  double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < when.size(); ++k) {
     const double size = size_[first_[at(event)] + k];
-    out.push_back(when[k].difference(system_, state).value / (size > 0 ? size : 1));
+    const double now = when[k].difference(system_, state, {.bends = with_bends ? &out : nullptr}).value / (size > 0 ? size : 1);
+    if (!(now >= least) && !std::isnan(least)) least = now;
+    out.push_back(now);
   }
+  return least;
 }
 
 // As it is written, but that what is nearer to equal than this is equal.
@@ -74,20 +79,24 @@ bool SceneEvents::rises(int event, const Instant& from) const {
 // A comparison is as large as what it compares has been, or would be if all moved as fast as the fastest: else it would be measured by
 // rounding where what it asks for stands still.
 void SceneEvents::see(const State& state) {
-  faster_ = state;
   const Eigen::Index n = system_.n();
-  const double fastest = n > 0 ? state.y.segment(n, n).cwiseQuotient(system_.scale.head(n)).lpNorm<Eigen::Infinity>() : 0;
-  for (Eigen::Index i = 0; i < n; ++i)  // unevenly, so that differences of two speeds do not vanish
-    faster_.y[n + i] += fastest * system_.scale[i] * (1 + 0.5 * static_cast<double>(i) / static_cast<double>(n));
+  if (any_of_speeds_ && n > 0) {
+    faster_ = state;
+    const double fastest = state.y.segment(n, n).cwiseQuotient(system_.scale.head(n)).lpNorm<Eigen::Infinity>();
+    for (Eigen::Index i = 0; i < n; ++i)  // unevenly, so that differences of two speeds do not vanish
+      faster_.y[n + i] += fastest * system_.scale[i] * (1 + 0.5 * static_cast<double>(i) / static_cast<double>(n));
+  }
   for (int event = 0; event < size(); ++event) {
     unsound_[at(event)] = -1;
     if (waits_[at(event)] == Waits::no_more) continue;
     for (std::size_t k = 0; k < rules_[at(event)].when.size(); ++k) {
       const SceneComparison& one = rules_[at(event)].when[k];
       double& size = size_[first_[at(event)] + k];
-      for (const State* now : {&state, &std::as_const(faster_)})
-        if (const double x = now == &faster_ && one.of_a_row ? 0 : one.size(system_, *now); std::isfinite(x)) size = std::max(size, x);
-      if (std::isnan(one.difference(system_, state).value)) unsound_[at(event)] = static_cast<int>(k);
+      double here = 0, faster = 0;
+      if (std::isnan(one.difference(system_, state, {.size = &here}).value)) unsound_[at(event)] = static_cast<int>(k);
+      if (one.of_speeds && n > 0) one.difference(system_, faster_, {.size = &faster});
+      for (const double x : {here, faster})
+        if (std::isfinite(x)) size = std::max(size, x);
     }
   }
 }
@@ -114,16 +123,13 @@ Guard SceneEvents::guard(int event, const State& state) const {
 std::optional<double> SceneEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
   constexpr int parts = 8;
   constexpr double fine = 1e-12;
-  if (waits_[at(event)] == Waits::no_more) return std::nullopt;
+  if (waits_[at(event)] == Waits::no_more || unsound_[at(event)] >= 0) return std::nullopt;
   const double sign = waits_[at(event)] == Waits::for_true ? 1 : -1;
   const auto comes = [&](double t) { return sign * guard(event, motion.at(t)).value > 0; };
   const auto looked = [&](double t) {
     std::vector<double> out;
-    const State& now = motion.at(t);
-    look(event, now, out);
-    for (const SceneComparison& one : rules_[at(event)].when)
-      if (one.bends) one.bends(system_, now, out);
-    out.push_back(guard(event, now).value);
+    const double least = look(event, motion.at(t), out, true);
+    out.push_back(least + shift_[at(event)]);
     return out;
   };
   std::array<std::vector<double>, 3> f;
@@ -180,7 +186,7 @@ void SceneEvents::begin_step(const State& from) {
 }
 
 bool SceneEvents::is_unsound(int event, const State& state) const {
-  return std::isnan(rules_[at(event)].when[at(unsound_[at(event)])].difference(system_, state).value);
+  return std::isnan(rules_[at(event)].when[at(unsound_[at(event)])].difference(system_, state, {}).value);
 }
 
 // Of the first that was a number until this step, where it ceases to be one.

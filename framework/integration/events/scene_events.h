@@ -23,15 +23,19 @@ struct SetState {
 enum class Record { state, row };
 using EventAction = std::variant<SwitchOver, SetState, StopRun, Record>;
 
+/// What is wanted of a comparison beside its difference, all of one reading of the state.
+struct Wanted {
+  bool rate = false;                     ///< of the difference, where it is known
+  double* size = nullptr;                ///< ← of what is compared: what the difference is small against
+  std::vector<double>* bends = nullptr;  ///< appended: numbers at whose zeros the difference has a kink or jumps
+};
+
 /// One comparison of an event's condition: what is greater less what is less, above zero where it holds.
 struct SceneComparison {
-  std::function<Guard(const System&, const State&)> difference;
-  std::function<double(const System&, const State&)> size;  ///< of what is compared: what the difference is small against
-  bool at_zero = false;                                     ///< holds where both are equal
-  /// Appends numbers at whose zeros the difference has a kink or jumps; empty: it has none.
-  std::function<void(const System&, const State&, std::vector<double>&)> bends = {};
+  std::function<Guard(const System&, const State&, const Wanted&)> difference;
+  bool at_zero = false;                                               ///< holds where both are equal
+  bool of_speeds = false;                                             ///< compares speeds of the motion, or what follows from these
   std::function<std::string(const System&, const State&)> seen = {};  ///< what it compares there, in words
-  bool of_a_row = false;                                              ///< reads what the equations of motion are solved for
 };
 
 /// An event as the scene describes it: it comes when all of its comparisons have become true, and acts once, or each time that they do.
@@ -70,8 +74,8 @@ class SceneEvents final : public EventGroup {
   /// What an event is waiting for: to become true or, having acted, false; or nothing any more.
   enum class Waits : unsigned char { for_true, for_false, no_more };
   Guard all_of(int event, const State&) const;
-  /// Each comparison over its size.
-  void look(int event, const State&, std::vector<double>& out) const;
+  /// Each comparison over its size; where wanted, what bends it too. @returns the least of them
+  double look(int event, const State&, std::vector<double>& out, bool with_bends = false) const;
   bool holds(int event, const State&) const;
   bool rises(int event, const Instant&) const;
   void see(const State&);
@@ -86,11 +90,12 @@ class SceneEvents final : public EventGroup {
   std::vector<Waits> waits_;
   std::vector<std::size_t> first_;  ///< place in `size_` of each event's first comparison
   std::vector<double> size_;        ///< of each comparison so far, the largest, by which it is measured
-  std::vector<int> unsound_;        ///< of each event, the comparison that was no number at the end of the last step; −1 …
-  State unsound_at_;                ///< … and where the first of them became none
-  State faster_;                    ///< workspace: what was seen, with all as fast as the fastest
-  std::vector<double> shift_;       ///< of each guard since it was last passed, or stood at zero: so it comes once where it stands
-  std::unique_ptr<Equations> eq_;   ///< from the first switching on
+  bool any_of_speeds_ = false;
+  std::vector<int> unsound_;       ///< of each event, the comparison that was no number at the end of the last step; −1 …
+  State unsound_at_;               ///< … and where the first of them became none
+  State faster_;                   ///< workspace: what was seen, with all as fast as the fastest
+  std::vector<double> shift_;      ///< of each guard since it was last passed, or stood at zero: so it comes once where it stands
+  std::unique_ptr<Equations> eq_;  ///< from the first switching on
 };
 
 }  // namespace pintle
