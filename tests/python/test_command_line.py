@@ -17,7 +17,7 @@ from common import examples, program
 
 nightly = os.environ.get("PINTLE_NIGHTLY") == "1"
 short_runs = """belt_drive box_and_ramp breaker cam_roller engine_single latch motor_flywheel pendulum pid_arm
-    planetary_gearbox ratchet shear_pin slider_crank_clearance stage_microslip stick_slip woodpecker""".split()
+    planetary_gearbox shear_pin slider_crank_clearance stage_microslip stick_slip woodpecker""".split()
 
 
 def numbers(file):
