@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include <Eigen/Eigenvalues>
+
 namespace pintle {
 
 using Eigen::Index;
@@ -121,12 +123,11 @@ class Lemke {
 
 // Of all that pivots find, what is no solution: they lose digits, and what is left at a ray need be none.
 bool solves(const MatrixXd& M, const VectorXd& q, const VectorXd& z) {
-  constexpr double enough = 1e-8;
+  constexpr double enough = 1e-8, rounding = 1e-13;
   if (!z.allFinite()) return false;
-  const VectorXd w = M * z + q;
-  const double none = enough * q.cwiseAbs().maxCoeff();
+  const VectorXd w = M * z + q, none = enough * q.cwiseAbs().maxCoeff() + (rounding * (M.cwiseAbs() * z)).array();
   for (Index i = 0; i < q.size(); ++i)
-    if (w[i] < -none || (z[i] > 0 && w[i] > none)) return false;
+    if (w[i] < -none[i] || (z[i] > 0 && w[i] > none[i])) return false;
   return true;
 }
 
@@ -151,12 +152,31 @@ std::optional<VectorXd> solve_complementarity(const MatrixXd& M, const VectorXd&
   return std::nullopt;
 }
 
+namespace {
+
+// W and c without the directions of forces that hardly move anything, as of a row of discs from wall to wall that is straight but for an
+// angle of 1e-5: of c = Jᵀ v and W = Jᵀ A J what a J without these has. @returns false where there are none
+bool leave_out_faint(MatrixXd& W, VectorXd& c) {
+  constexpr double faint = 1e-10;
+  const VectorXd unit = W.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(unit.asDiagonal() * W * unit.asDiagonal());
+  const Index left_out = (eigen.eigenvalues().array() <= faint * eigen.eigenvalues().maxCoeff()).count();
+  if (left_out == 0) return false;
+  const auto V = eigen.eigenvectors().rightCols(c.size() - left_out);
+  const VectorXd size = unit.cwiseInverse();
+  W = size.asDiagonal() * V * eigen.eigenvalues().tail(c.size() - left_out).asDiagonal() * V.transpose() * size.asDiagonal();
+  c = size.asDiagonal() * (V * (V.transpose() * unit.cwiseProduct(c)));
+  return true;
+}
+
 // T = T⁺ − T⁻. Unknown z = (N, T⁺, T⁻, u) against (g, u + slip, u − slip, μ(N + N₀) − T⁺ − T⁻), u the speed of a slip, each over the
 // root of its own W. Without what slides zᵀM z = xᵀW x + uᵀμN ≥ 0, so that Lemke's method finds the impulses of an impact
-// [AnitescuPotra1997, theorem 1]. Where more contacts are closed than bodies can tell apart, rounding may leave the problem without a
-// solution, as rows of discs that fill a box from wall to wall; if each contact gives way a little it has one.
-std::optional<VectorXd> unilateral_forces(std::span<const UnilateralContact> contacts, const MatrixXd& W, const VectorXd& c) {
-  constexpr double give = 1e-10, within = 1e-9;  // of each contact's own; of the rates: forces that need more hold what is no rounding
+// [AnitescuPotra1997, theorem 1].
+struct Unilateral {
+  VectorXd x;
+  double greatest;  ///< z, of what alone would stop the fastest of c
+};
+std::optional<Unilateral> solve_unilateral(std::span<const UnilateralContact> contacts, const MatrixXd& W, const VectorXd& c) {
   const auto n = static_cast<Index>(contacts.size());
   const auto m = static_cast<Index>(std::ranges::count_if(contacts, [](const UnilateralContact& k) { return k.tangent >= 0; }));
   const Index size = n + 3 * m;
@@ -194,16 +214,25 @@ std::optional<VectorXd> unilateral_forces(std::span<const UnilateralContact> con
     ++forth;
   }
   const double most = q.cwiseProduct(unit).cwiseAbs().maxCoeff();
-  if (!(most > 0)) return VectorXd(x0);
-  MatrixXd scaled = unit.asDiagonal() * M * unit.asDiagonal();
-  const VectorXd scaled_q = q.cwiseProduct(unit) / most;
-  auto z = solve_complementarity(scaled, scaled_q);
-  if (!z) {
-    scaled.diagonal().head(n + 2 * m).array() += give;
-    z = solve_complementarity(scaled, scaled_q);
-    if (!z || z->maxCoeff() * give > within) return std::nullopt;
-  }
-  return VectorXd(X * (most * unit.cwiseProduct(*z)) + x0);
+  if (!(most > 0)) return Unilateral{x0, 0};
+  const auto z = solve_complementarity(unit.asDiagonal() * M * unit.asDiagonal(), q.cwiseProduct(unit) / most);
+  if (!z) return std::nullopt;
+  return Unilateral{X * (most * unit.cwiseProduct(*z)) + x0, z->maxCoeff()};
+}
+
+}  // namespace
+
+// Where more contacts are closed than bodies can tell apart, or nearly so, rounding may leave the problem without a solution, or with one of
+// forces that are out of all proportion.
+std::optional<VectorXd> unilateral_forces(std::span<const UnilateralContact> contacts, const MatrixXd& W, const VectorXd& c) {
+  constexpr double great = 1e8;
+  const auto found = solve_unilateral(contacts, W, c);
+  if (found && found->greatest <= great) return found->x;
+  MatrixXd strong = W;
+  VectorXd of_these = c;
+  if (leave_out_faint(strong, of_these))
+    if (const auto without = solve_unilateral(contacts, strong, of_these)) return without->x;
+  return found ? std::optional(found->x) : std::nullopt;
 }
 
 // The conditions G x ≥ 0 of normal forces, and of friction a little within its limit, which is then not met.

@@ -7,6 +7,7 @@
 #include "framework/common/index.h"
 #include "framework/common/worse.h"
 #include "framework/dynamics/equations/islands.h"
+#include "framework/dynamics/equations/sharing.h"
 #include "framework/dynamics/equations/sticking.h"
 
 namespace pintle {
@@ -93,7 +94,8 @@ std::vector<bool> parting(const Meeting& m, std::span<const double> e, double sl
   for (std::size_t i = 0; i < e.size(); ++i) {
     const UnilateralContact& k = m.closed.unknowns[i];
     const bool opens = after[k.normal] > slow;
-    out.push_back(opens && (e[i] > 0 || shows(m.system.contacts[at(m.closed.contact[i])], after[k.normal], fall)));
+    const bool goes_on = m.acceleration[k.normal] > 0;  // though slow, as a disc that is lifted straight out of a row
+    out.push_back(opens && (e[i] > 0 || goes_on || shows(m.system.contacts[at(m.closed.contact[i])], after[k.normal], fall)));
     if (out.back()) continue;
     creeps = creeps || opens;
     stays.push_back(k.normal);
@@ -107,9 +109,7 @@ std::vector<bool> parting(const Meeting& m, std::span<const double> e, double sl
     left[i] = after[stays[at(i)]];
     for (Index j = 0; j < n; ++j) own(i, j) = m.W(stays[at(i)], stays[at(j)]);
   }
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_norm(n, n);
-  least_norm.compute(own);
-  const VectorXd stop = least_norm.solve(left);
+  const VectorXd stop = share_out(own, left, VectorXd::Ones(n), one_force);
   for (Index i = 0; i < n; ++i) x[stays[at(i)]] -= stop[i];
   return out;
 }

@@ -190,8 +190,19 @@ void FrictionEvents::pass_dead_centres(const Resting& resting, State& state) {
 
 namespace {
 
-// A closed rigid contact pulls, or sticks beyond what it can hold.
+// A closed rigid contact opens, though all of them together should hold it: as discs from wall to wall, one of which is thrown out of the row.
+bool opens(const System& system, const Equations& eq) {
+  constexpr double nearly = 1e-3;
+  const Eigen::VectorXd rate = sticking_accelerations(system, eq), by_forces = eq.sticking.J.transpose() * eq.a,
+                        terms = eq.sticking.J.cwiseAbs().transpose() * eq.a.cwiseAbs() + (rate - by_forces).cwiseAbs();
+  for (Eigen::Index i = 0; i < rate.size(); ++i)
+    if (eq.sticking.of[static_cast<std::size_t>(i)].normal && rate[i] > nearly * terms[i]) return true;
+  return false;
+}
+
+// A closed rigid contact opens or pulls, or sticks beyond what it can hold.
 bool overcharged(const System& system, const State& state, const Equations& eq) {
+  if (opens(system, eq)) return true;
   constexpr double little = 1e-9;
   double most = 0;
   for (std::size_t c = 0; c < system.contacts.size(); ++c)
