@@ -17,7 +17,7 @@ namespace {
 using Numbers = std::array<double, 2>;
 
 SignalFormula formula(std::vector<Program::Instruction> code) { return SignalFormula(Program{std::move(code)}); }
-const Program::Instruction p{Op::input, 0}, q{Op::input, 1}, one{Op::constant, 1};
+const Program::Instruction p{Op::input, 0}, q{Op::input, 1};
 const SignalFormula of_p = formula({p}), of_q = formula({q}), bent = formula({p, {Op::abs}, q, {Op::add}});
 const Samples peaks{{-4, -1, 0, 2, 4}, {1, -2, 5, 0, 3}}, round_trip{{0, 1, 2}, {1, 3, 1}};
 const Bilinear hills({{-4, -1, 2, 4}, {-4, 0.5, 4}, {1, 2, 9, -3, 5, 0, 4, 4, -6, 8, 1, 2}});

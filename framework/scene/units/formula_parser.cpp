@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "framework/common/nearest.h"
 #include "framework/scene/units/unit.h"
