@@ -87,6 +87,18 @@ CLI::Validator named() {
       "");
 }
 
+/// A file that is written in one way only, so that another ending would be a lie. @param ending  ".svg"   @param what  "a plot is SVG"
+CLI::Validator ends_in(const std::string& ending, const std::string& what) {
+  return CLI::Validator(
+      [ending, what](const std::string& path) {
+        const std::filesystem::path file = path;
+        std::filesystem::path other = file;
+        return file.extension() == ending ? std::string()
+                                          : "is " + path + ", but " + what + "; write " + other.replace_extension(ending).string();
+      },
+      "");
+}
+
 /// What sweeps and trade-offs share: a study, overrides, the way results go.
 void add_study_options(CLI::App& command, Options& options, const std::string& study, const std::string& all, const std::string& out) {
   command.add_option("study", options.scene, study)->required()->check(named())->type_name("FILE.yaml");
@@ -202,6 +214,7 @@ void add_report_options(CLI::App& command, Options& options) {
       ->type_name("DIR");
   command.add_option("-o,--out", options.out, "the page to write; one that is there is replaced (default: DIR/report.html)")
       ->check(named())
+      ->check(ends_in(".html", "a report is one page of HTML"))
       ->type_name("FILE.html");
   command.add_option("--size", options.megabytes, "how large the page may be, about, in MB (default 5)")
       ->type_name("MB")
@@ -221,6 +234,7 @@ void add_plot_options(CLI::App& command, Options& options) {
   command.add_option("--against", options.against, "the column along x (default: the time), e.g. \"gudgeon pin.ex\"")->type_name("COLUMN");
   command.add_option("-o,--out", options.out, "write a picture there; one that is there is replaced (default: to the terminal)")
       ->check(named())
+      ->check(ends_in(".svg", "a plot is written as SVG"))
       ->type_name("FILE.svg");
   command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
   command.footer("Exit codes: see pintle --help\n");

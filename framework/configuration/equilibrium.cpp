@@ -231,7 +231,7 @@ void finish(const Scene& scene, const Model& model, Rest& rest, const RestingSta
     out.found = false, out.reason = moving;
   warn(model, rest.eq, out);
   record(model, out.state, rest.eq, out.table);
-  warn_of_outputs(scene, model, out.state, out.table, out.warnings);
+  warn_of_signals(scene, model, out.state, out.table, out.warnings);
   if (!out.found)
     if (const std::string unsound = explain_signals(scene, model, last, last); !unsound.empty()) out.reason += "; " + unsound;
 }

@@ -34,31 +34,41 @@ std::string seen(const Law& law, const std::vector<double>& in) {
   return out;
 }
 
+// f(its owner's name and place, the law, its index in the system), of each law of signals.
+template <class F>
+void each_law(const Scene& scene, const Model& model, F f) {
+  const auto take = [&](const auto& owner, const Law& law, int index) {
+    if (index >= 0) f(owner.name, owner.place, law, index);
+  };
+  for (std::size_t i = 0; i < scene.loads.size() && i < model.order.loads.size(); ++i) {
+    const SceneLoad& load = scene.loads[i];
+    const auto* sized = std::get_if<SizedForce>(&model.system.forces[at(model.order.loads[i])]);
+    if (!sized) continue;
+    const auto* force = std::get_if<SceneForce>(&load.what);
+    const auto* torque = std::get_if<SceneTorque>(&load.what);
+    const auto* spring = std::get_if<SceneSpring>(&load.what);
+    const auto* torsion = std::get_if<SceneTorsionSpring>(&load.what);
+    const Law& law = force ? force->x : torque ? torque->law : spring ? *spring->law : *torsion->law;
+    take(load, law, sized->size);
+    if (force) take(load, force->y, sized->other);
+  }
+  for (std::size_t i = 0; i < scene.states.size() && i < model.system.states.size(); ++i)
+    take(scene.states[i], scene.states[i].rate, model.system.states[i].rate);
+}
+
 class LawsAt {
  public:
   LawsAt(const Scene& scene, const Model& model, const State& start, const State& now)
       : scene_(scene), system_(model.system), start_(start), now_(now) {
-    for (std::size_t i = 0; i < scene.loads.size() && i < model.order.loads.size(); ++i) {
-      const SceneLoad& load = scene.loads[i];
-      const auto* sized = std::get_if<SizedForce>(&system_.forces[at(model.order.loads[i])]);
-      if (!sized) continue;
-      const auto* force = std::get_if<SceneForce>(&load.what);
-      const auto* torque = std::get_if<SceneTorque>(&load.what);
-      const auto* spring = std::get_if<SceneSpring>(&load.what);
-      const auto* torsion = std::get_if<SceneTorsionSpring>(&load.what);
-      const Law& law = force ? force->x : torque ? torque->law : spring ? *spring->law : *torsion->law;
-      judge(load.name, load.place, law, sized->size);
-      if (force) judge(load.name, load.place, force->y, sized->other);
-    }
-    for (std::size_t i = 0; i < scene.states.size() && i < system_.states.size(); ++i)
-      judge(scene.states[i].name, scene.states[i].place, scene.states[i].rate, system_.states[i].rate);
+    each_law(scene, model,
+             [this](const std::string& name, const Place& place, const Law& from, int law) { judge(name, place, from, law); });
   }
   std::string found;
 
  private:
   void judge(const std::string& name, const Place& place, const Law& from, int law) {
     constexpr double steep = 1e6;
-    if (!found.empty() || law < 0) return;
+    if (!found.empty()) return;
     const SignalLaw& of = system_.laws[at(law)];
     const double value = law_at(system_, of, now_.t, now_.y), before = law_at(system_, of, start_.t, start_.y);
     const bool grown = std::isfinite(value) && std::abs(value) > steep * std::abs(before) && before != 0;
@@ -90,13 +100,38 @@ class LawsAt {
 }  // namespace
 
 std::string seen_by_law(const Law& law, const SignalFunction& of, double t, const std::vector<double>& in) {
-  const std::string beyond = beyond_its_table(of, t, in.data());
+  const std::string beyond = beyond_its_table(of, t, in.data(), Outside::refused);
   return seen(law, in) + (beyond.empty() ? ": keep it finite, for example with max(…) under a division or a root"
                                          : ": " + beyond + "; lengthen the table, or write outside: hold");
 }
 
-void warn_of_outputs(const Scene& scene, const Model& model, const State& state, const Table& trajectory,
+namespace {
+
+bool has_begun(const std::vector<std::string>& warnings, const std::string& with) {
+  return std::ranges::any_of(warnings, [&](const std::string& w) { return w.starts_with(with); });
+}
+
+void warn_of_tables(const Scene& scene, const Model& model, const State& state, std::vector<std::string>& warnings) {
+  const System& system = model.system;
+  if (system.laws.empty()) return;
+  each_law(scene, model, [&](const std::string& name, const Place& place, const Law& from, int index) {
+    const SignalLaw& law = system.laws[at(index)];
+    std::vector<double> in;
+    for (const int k : law.in) in.push_back(signal_at(system, system.signals[at(k)], state.y));
+    const std::string beyond = beyond_its_table(law.of, state.t, in.data(), Outside::holds_unasked);
+    if (beyond.empty()) return;
+    const std::string subject = "the " + shown(from) + " of " + quoted(name) + place_of_law(scene, place) + " is left";
+    if (has_begun(warnings, subject)) return;
+    warnings.push_back(subject + " at t = " + number_text(state.t, 6) + " s" + seen(from, in) + ": " + beyond +
+                       ", and holds the value at its end: lengthen the table, or write outside: hold or outside: refuse");
+  });
+}
+
+}  // namespace
+
+void warn_of_signals(const Scene& scene, const Model& model, const State& state, const Table& trajectory,
                      std::vector<std::string>& warnings) {
+  warn_of_tables(scene, model, state, warnings);
   const std::size_t n = model.outputs.size();
   if (n == 0 || trajectory.rows() == 0) return;
   const double* row = trajectory.data.data() + trajectory.data.size() - trajectory.columns();
@@ -107,7 +142,7 @@ void warn_of_outputs(const Scene& scene, const Model& model, const State& state,
     const auto from = std::ranges::find(scene.outputs, o.name, &SceneOutput::name);
     if (from == scene.outputs.end()) continue;
     const std::string subject = "the output " + quoted(o.name) + place_of_law(scene, from->place);
-    if (std::ranges::any_of(warnings, [&](const std::string& w) { return w.starts_with(subject); })) continue;
+    if (has_begun(warnings, subject)) continue;
     std::vector<double> in;
     for (const WrittenOutput::Input& input : o.in) in.push_back(input_value(model, input, state, row, outputs));
     warnings.push_back(subject + " is not a finite number at t = " + number_text(state.t, 9) + " s" +

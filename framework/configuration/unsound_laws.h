@@ -17,7 +17,8 @@ std::string explain_signals(const Scene&, const Model&, const State& start, cons
 /// What a law sees: ", where cart.x = -1, …: keep it finite, …".
 std::string seen_by_law(const Law&, const SignalFunction&, double t, const std::vector<double>& in);
 
-/// Warns, once each, of outputs that are no numbers in the last row of a table.
-void warn_of_outputs(const Scene&, const Model&, const State&, const Table& trajectory, std::vector<std::string>& warnings);
+/// Warns, once each, of outputs that are no numbers in the last row of a table, and of laws read beyond the ends of their tables, where the
+/// scene does not say that these are held.
+void warn_of_signals(const Scene&, const Model&, const State&, const Table& trajectory, std::vector<std::string>& warnings);
 
 }  // namespace pintle

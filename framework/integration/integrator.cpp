@@ -82,7 +82,7 @@ bool Integrator::advance(double until) {
   if (!events_.empty() && !end_at_first_event(event)) return false;
   ++counts_.steps;
   events_.follow(step_, motion());
-  if (!events_.count(step_, event, wish)) return stop(events_.again_and_again(), step_.to.state.t);
+  if (!events_.count(step_, event, motion(), wish)) return stop(events_.again_and_again(), step_.to.state.t);
   if (event && !act_on(*event, wish)) return false;
   stepper_->accept(eq_);
   look_at_end();

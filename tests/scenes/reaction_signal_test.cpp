@@ -174,6 +174,20 @@ TEST(LawsWithoutAValue, OfConditionsEndTheRun) {
   expect_says(w.run.reason, {"the event \"gone\"", "not a finite number at t = 0.2 s", "scene.yaml:5", "cart.x = -"});
 }
 
+// From 3 m on to 5 m, which one step of a body that flies freely passes.
+TEST(LawsWithoutAValue, OfConditionsInsideAStepEndTheRunToo) {
+  for (const std::string method : {"dopri5", "verner87", "generalized-alpha"})
+    for (const std::string x : {"cart.x", "out"}) {
+      std::string text =
+          "outputs: {out: cart.x}" +
+          cart("0 N", "events: {gone: {when: \"sqrt((" + x + " - 3 m)*(" + x + " - 5 m)) > 50 m\", do: {row: true}}}", "0 m, vx: 10 m/s");
+      text.replace(text.find("dopri5"), 6, method);
+      const Whole w = pintle_scenes::run(text);
+      EXPECT_EQ(w.run.status, Status::failed) << method;
+      expect_says(w.run.reason, {"the event \"gone\"", "not a finite number at t = 0.3", "scene.yaml:5", x + " = 3"});
+    }
+}
+
 TEST(UnknownNames, AreNotAnsweredWithUnits) {
   const std::string said = pintle_test::refusal_by([] { build(scene(cart("1 N*zzyzxqw", "states: {integral: {rate: 1}}"))); });
   expect_says(said, {"\"zzyzxqw\" is neither", "integral"});

@@ -121,6 +121,44 @@ TEST(SignalMap, EndsTheRunByNameWhereItIsLeft) {
   EXPECT_NEAR(held.last("rotor.speed [rad/s]"), 81 / 0.15, 1e-3);  // -15 + (90 − 45) … at 0.9: 45 + 0.8·45
 }
 
+// A body that flies freely along a table that ends at 2 m, by whatever method, however long its steps.
+class TableEnds : public testing::TestWithParam<const char*> {
+ protected:
+  pintle_scenes::Whole ran(const std::string& more, const std::string& until = "1 s") const {
+    const Folder folder("0, 0\n1, 5\n2, 7\n");
+    return pintle_scenes::run(
+        read_scene_text("bodies: {b: {rigid: {mass: 1 kg, inertia: 1}}}\nstart: {b: {x: 0.1 m, vx: 10 m/s}}\n"
+                        "forces: {push: {force: [{table: map.csv, over: b.x, over unit: m, value unit: 1e-9 N" +
+                            more + "}, 0], at: b}}\nrun: {until: " + until + ", method: " + GetParam() + "}\n",
+                        (folder.path / "scene.yaml").string(), {}, folder.path));
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Each, TableEnds, testing::Values("dopri5", "rkf45", "verner87", "generalized-alpha"),
+                         [](const auto& p) { return p.param[0] == 'g' ? "GeneralizedAlpha" : std::string(p.param); });
+
+TEST_P(TableEnds, EndTheRunByNameWhereTheyAreToldTo) {
+  for (const char* shape : {"linear", "spline"}) {
+    const auto w = ran(std::string(", outside: refuse, interpolation: ") + shape);
+    EXPECT_EQ(w.run.status, Status::failed);
+    pintle_test::expect_says(w.run.reason, {"t = 0.19 s", "\"push\"", "by the table map.csv", "b.x = 2", "outside: hold"});
+    EXPECT_EQ(ran(std::string(", outside: refuse, interpolation: ") + shape, "0.18 s").run.status, Status::finished);
+  }
+}
+TEST_P(TableEnds, AreWarnedOfOnceWhereNothingIsSaidOfThem) {
+  const auto about = [](const auto& w) {
+    std::vector<std::string> out;
+    for (const std::string& one : w.run.warnings)
+      if (one.find("map.csv") != std::string::npos) out.push_back(one);
+    return out;
+  };
+  const auto left = ran("");
+  ASSERT_EQ(left.run.status, Status::finished) << left.run.reason;
+  ASSERT_EQ(about(left).size(), 1u);
+  pintle_test::expect_says(about(left)[0], {"\"push\"", "scene.yaml:3", "b.x = 2", "from 0 to 2", "outside: hold", "outside: refuse"});
+  EXPECT_EQ(about(ran(", outside: hold")).size(), 0u);
+  EXPECT_EQ(about(ran("", "0.18 s")).size(), 0u);
+}
+
 TEST(BadSignalMap, IsRefusedWithPlaceAndRemedy) {
   using pintle_test::expect_says;
   expect_says(refusal("{table: map.csv, over: [rotor.speed, throttle, 1]}"),

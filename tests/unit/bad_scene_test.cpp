@@ -50,6 +50,22 @@ TEST(BadScene, ModelsOfAClearanceAreThree) {
   });
 }
 
+// The advice is such that who takes it gets on.
+TEST(BadScene, ASpringDamperIsAModelOfAClearanceNotALaw) {
+  const char* place = "scene.yaml:20: joints.pin.clearance.normal: ";
+  const std::string advice = "model: spring-damper, stiffness: 1e6 N/m, damping: 100 N s/m";
+  expect_refused({
+      {normal_law, "      normal: spring-damper\n", place, {advice}},
+      {normal_law, "      normal: {spring-damper: {stiffness: 1e6 N/m, damping: 100 N s/m}}\n", place, {advice}},
+      {normal_law, "      normal: {spring-damper: {restitution: 0.8}}\n", place, {advice}},
+  });
+  std::string taken = advice;
+  for (std::size_t at = 0; (at = taken.find(", ", at)) != std::string::npos;) taken.replace(at, 2, "\n      ");
+  std::string text = slider_crank;
+  text.replace(text.find(normal_law), std::string(normal_law).size(), "      " + taken + "\n");
+  EXPECT_EQ(refusal_of(text), "accepted");
+}
+
 TEST(BadScene, MissingKeyIsNamedWithAnExample) {
   expect_refused({
       {"until: 0.05 s, ", "", "scene.yaml:34: run: ", {"until: 0.1 s"}},

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/scene/units/expression.h"
@@ -50,6 +52,8 @@ double number(const std::string& text) { return read_quantity(text, dimension::n
 // From weak to strong; those in one row bind alike.
 const std::vector<std::vector<std::string>> rows{{"||"}, {"&&"}, {"<", "<=", ">", ">=", "==", "!="}, {"+", "-"}, {"*", "/"}, {"^"}};
 
+constexpr std::size_t comparisons = 2;  // which do not follow one another
+
 TEST(Grammar, StrongerOperatorTakesTheOperandBetweenTwo) {
   for (std::size_t weak = 0; weak < rows.size(); ++weak)
     for (std::size_t strong = weak + 1; strong < rows.size(); ++strong)
@@ -63,7 +67,10 @@ TEST(Grammar, StrongerOperatorTakesTheOperandBetweenTwo) {
 TEST(Grammar, OperatorsThatBindAlikeAreReadFromTheLeft) {
   for (std::size_t row = 0; row + 1 < rows.size(); ++row)
     for (const std::string& first : rows[row])
-      for (const std::string& second : rows[row]) EXPECT_EQ(read("a" + first + "b" + second + "c"), "((a" + first + "b)" + second + "c)");
+      for (const std::string& second : rows[row])
+        if (row != comparisons) {
+          EXPECT_EQ(read("a" + first + "b" + second + "c"), "((a" + first + "b)" + second + "c)");
+        }
 }
 
 TEST(Grammar, PowersAreReadFromTheRight) {
@@ -121,12 +128,24 @@ TEST(Grammar, FunctionsTakeWhatTheirArgumentsAre) {
   EXPECT_EQ(read("max(a, min(b, c), d)"), "max(max(a,min(b,c)),d)");
 }
 
-TEST(Grammar, ComparisonsAnswerOneOrZeroAndMayChain) {
+TEST(Grammar, ComparisonsAnswerOneOrZero) {
   EXPECT_EQ(number("1 < 2"), 1);
-  EXPECT_EQ(number("3 > 2 > 1"), 0);
-  EXPECT_EQ(number("1 < 2 == 1"), 1);
+  EXPECT_EQ(number("1 < 0.5 || 3 > 2 && 2 > 1"), 1);
   EXPECT_EQ(number("1 || 0 && 0"), 1);
   EXPECT_EQ(number("-1 && 2"), 1);
+}
+
+// In mathematics 0 < u < 1 asks for both; compared with 1 would be whether the first holds.
+TEST(Grammar, ComparisonsInARowAreRefusedWithTheRemedy) {
+  const std::array<std::string, 6> signs{"<", ">", "<=", ">=", "==", "!="};
+  for (const std::string& first : signs)
+    for (const std::string& second : signs)
+      for (const auto& [open, close] :
+           {std::pair{"1 + 0 ", ""}, std::pair{"2*(3 ", ")"}, std::pair{"if(3 ", ", 1, 2)"}, std::pair{"1 && 3 ", ""}})
+        EXPECT_NE(refusal(open + first + " 2 " + second + " 1" + close).find("join two by &&, as in 0 < u && u < 1"), std::string::npos)
+            << open << first << second;
+  EXPECT_EQ(number("(3 > 2) == 1"), 1);
+  EXPECT_EQ(number("(3 > 2) == (2 > 1)"), 1);
 }
 
 TEST(Grammar, NumbersAreDecimal) {

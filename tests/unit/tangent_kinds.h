@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/profile.h"
+#include "framework/scene/units/signal_law.h"
 #include "tests/contracts/moving_bodies.h"
 
 namespace pintle::tangent_test {
@@ -107,6 +108,18 @@ inline Kind sized(const char* name, SizedForce::Way way, bool states) {
   if (states) kind.laws.push_back({decay(6), {12, 13, 0, 7, 5, 8}}), kind.laws.push_back({decay(4), {13, 12, 3, 6}});
   return kind;
 }
+// By a table over an angle, or a map over an angle and a speed, whose samples lie far apart.
+inline Kind by_table(const char* name, bool map) {
+  using K = MotionSignal::Kind;
+  Kind kind{name, {}, {SizedForce{SizedForce::couple, 0, 1, 0, -1}}, {}, {{K::relative_angle, 0, 1}, {K::speed, 1}}};
+  const auto input = [](int k) { return SignalFormula(Program{{{Op::input, static_cast<double>(k)}}}); };
+  if (map)
+    kind.laws = {
+        {SignalMap{Bilinear({{-40, 0.31, 40}, {-60, -0.17, 60}, {3, -20, 8, 11, 6, -9, 2, 15, 30}}), {input(0), input(1)}}, {0, 1}}};
+  else
+    kind.laws = {{SignalTable{Spline({{-40, -3, 0.31, 4, 40}, {3, -20, 8, 11, 6}}), input(0)}, {0}}};
+  return kind;
+}
 inline const std::vector<Kind> kinds{
     {"Nothing"},
     {"Revolute", {Revolute{0, 1}}},
@@ -143,6 +156,8 @@ inline const std::vector<Kind> kinds{
     sized("SizedPull", SizedForce::pull, false),
     sized("SizedByStates", SizedForce::pull, true),
     sized("RestoringByStates", SizedForce::restoring, true),
+    by_table("SizedByATable", false),
+    by_table("SizedByAMap", true),
     {"BeltSpan", {}, {BeltSpan{0, 1, 0.1, -0.05, 40, 0, -6}}},
     {"DampedBeltSpan", {}, {BeltSpan{0, 1, 0.1, -0.05, 40, 3, -6, 1}}},
     {"Contact", {}, {}, {contact(0)}},

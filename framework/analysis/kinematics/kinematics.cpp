@@ -220,7 +220,7 @@ void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const s
       reached = t;
       if (o < outputs.size() && outputs[o] == t) {
         record(told, motion.state(), motion.equations(), run.trajectory), ++o;
-        warn_of_outputs(scene, told, motion.state(), run.trajectory, run.warnings);
+        warn_of_signals(scene, told, motion.state(), run.trajectory, run.warnings);
       }
       if (f < frames.size() && frames[f] == t) {
         const auto before = clock::now();

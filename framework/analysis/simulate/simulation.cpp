@@ -224,7 +224,7 @@ void Simulation::book(const State& state) {
 
 void Simulation::add_row(const State& state) {
   record(model_, state, integrator_.sampled(), run_.trajectory);
-  warn_of_outputs(scene_, model_, state, run_.trajectory, run_.warnings);
+  warn_of_signals(scene_, model_, state, run_.trajectory, run_.warnings);
   record_ledger(system_, state, run_.last, run_.unexplained, run_.ledger);
   figures_.see();
   last_row_ = state.t;

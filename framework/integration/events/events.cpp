@@ -165,7 +165,10 @@ Events::Ending Events::end_at(const EventInStep& event, Stepper& stepper, const 
     const double rate = std::isnan(now.rate) ? (now.value - before.value) / (t - t_before) : now.rate;
     double next = std::clamp(t - now.value / rate, t0, t1);
     if (event.watch.level && !(rate != 0)) next = std::min(t + std::ldexp(dense_part * h, 4 * i), t1);  // it may jump just ahead
-    if (std::abs(next - t) <= last_digits * std::abs(t1)) return Ending::there;
+    if (std::abs(next - t) <= last_digits * std::abs(t1)) {
+      if (event.watch.level && !(turned(now, event.watch).value > -event.watch.zero)) break;  // before a jump
+      return Ending::there;
+    }
     t_before = std::exchange(t, next);
   }
   if (t > t0 && std::abs(now.value) <= event.watch.zero) return Ending::there;
@@ -194,11 +197,12 @@ void Events::follow(Step& step, const DenseOutput& motion) {
   }
 }
 
-bool Events::count(const Step& step, const std::optional<EventInStep>& event, double wish) {
+bool Events::count(const Step& step, const std::optional<EventInStep>& event, const DenseOutput& motion, double wish) {
   constexpr double hardly = 1e-6;  // of a step
   const int most = 100 + 2 * static_cast<int>(places_.size());
   const bool crowds = event && step.h <= hardly * wish && (step.h == 0 || !group(event->at).remedy().empty());
-  if (!crowds) crowd_ = 0, std::ranges::fill(crowded_, 0);
+  if (event) still_ = group(event->at).hardly_left(places_[event->at].event, step, motion);
+  if (!crowds && !still_) crowd_ = 0, std::ranges::fill(crowded_, 0);
   if (event) ++crowd_, crowded_[event->at] = 1;
   here_ = !event ? 0 : step.h > 0 ? 1 : here_ + 1;
   return here_ <= most && crowd_ <= most;

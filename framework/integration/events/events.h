@@ -48,9 +48,9 @@ class Events {
   /// The end is as events have left it, for the next step to begin there; else its guards are looked at again.
   void keep_end() { known_ = true; }
   void forget_end() { known_ = false; }
-  /// Counts events at one instant, and those that let next to no time pass between them. @param wish  the step's length had no event
-  /// been near [s]   @returns false where they come again and again
-  bool count(const Step&, const std::optional<EventInStep>&, double wish);
+  /// Counts events at one instant, and those that let next to no time pass, or nothing move, between them. @param wish  the step's length
+  /// had no event been near [s]   @returns false where they come again and again
+  bool count(const Step&, const std::optional<EventInStep>&, const DenseOutput&, double wish);
   /// Which do, and what to do about it.
   std::string again_and_again() const;
 
@@ -58,7 +58,7 @@ class Events {
   const char* fault() const;
   template <class A>
   void archive(A& x) {
-    x(PINTLE_MEMBERS(to_, known_, spent_, here_, crowd_, crowded_));
+    x(PINTLE_MEMBERS(to_, known_, spent_, here_, still_, crowd_, crowded_));
     for (auto& w : wishes_) x(PINTLE_MEMBERS(w.of_rising, w.of_falling));
     for (auto& g : groups_) {
       if constexpr (A::loading)
@@ -90,10 +90,11 @@ class Events {
   std::vector<WatchedGuard> watched_;   ///< in the present step
   std::vector<Guard> from_, to_;        ///< at the step's start and end
   bool known_ = false;                  ///< `to_` is of the state that the next step starts from
+  bool still_ = false;                  ///< nothing has moved between the last two of the events counted
   std::vector<unsigned char> spent_;    ///< an event has acted and its guard has not come back since
   std::vector<Wishes> wishes_;          ///< of each group
   int here_ = 0;                        ///< events at the present instant
-  int crowd_ = 0;                       ///< events between which hardly any time has passed …
+  int crowd_ = 0;                       ///< events between which hardly any time has passed, or nothing moved …
   std::vector<unsigned char> crowded_;  ///< … which these are
 };
 

@@ -15,15 +15,12 @@ namespace pintle {
 namespace {
 
 constexpr double guard_rounding = 1e-15, guard_near = 1e-12;  // of the largest that it was: where it is met, and where it is zero
+constexpr double guard_still = 1e-10;                         // … and within which it has not moved
 
 }  // namespace
 
 SceneEvents::SceneEvents(const System& system, std::vector<SceneEventRule> rules)
-    : system_(system),
-      rules_(std::move(rules)),
-      waits_(rules_.size(), Waits::for_true),
-      unsound_(rules_.size(), -1),
-      shift_(rules_.size(), 0) {
+    : system_(system), rules_(std::move(rules)), waits_(rules_.size(), Waits::for_true), away_(rules_.size(), 0), shift_(rules_.size(), 0) {
   for (const SceneEventRule& rule : rules_) {
     first_.push_back(size_.size());
     size_.resize(size_.size() + rule.when.size(), 0);
@@ -87,13 +84,12 @@ void SceneEvents::see(const State& state) {
       faster_.y[n + i] += fastest * system_.scale[i] * (1 + 0.5 * static_cast<double>(i) / static_cast<double>(n));
   }
   for (int event = 0; event < size(); ++event) {
-    unsound_[at(event)] = -1;
     if (waits_[at(event)] == Waits::no_more) continue;
     for (std::size_t k = 0; k < rules_[at(event)].when.size(); ++k) {
       const SceneComparison& one = rules_[at(event)].when[k];
       double& size = size_[first_[at(event)] + k];
       double here = 0, faster = 0;
-      if (std::isnan(one.difference(system_, state, {.size = &here}).value)) unsound_[at(event)] = static_cast<int>(k);
+      one.difference(system_, state, {.size = &here});
       if (one.of_speeds && n > 0) one.difference(system_, faster_, {.size = &faster});
       for (const double x : {here, faster})
         if (std::isfinite(x)) size = std::max(size, x);
@@ -112,8 +108,8 @@ WatchedGuard SceneEvents::watch(int event) const {
 }
 
 Guard SceneEvents::guard(int event, const State& state) const {
-  if (unsound_[at(event)] >= 0) return {waits_[at(event)] == Waits::for_true ? 1.0 : -1.0};  // which leads to `act`, where it is named
   Guard now = all_of(event, state);
+  if (std::isnan(now.value)) return {waits_[at(event)] == Waits::for_true ? 1.0 : -1.0};  // which leads to `act`, where it is named
   now.value += shift_[at(event)];
   return now;
 }
@@ -123,9 +119,13 @@ Guard SceneEvents::guard(int event, const State& state) const {
 std::optional<double> SceneEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
   constexpr int parts = 8;
   constexpr double fine = 1e-12;
-  if (waits_[at(event)] == Waits::no_more || unsound_[at(event)] >= 0) return std::nullopt;
+  if (waits_[at(event)] == Waits::no_more) return std::nullopt;
   const double sign = waits_[at(event)] == Waits::for_true ? 1 : -1;
   const auto comes = [&](double t) { return sign * guard(event, motion.at(t)).value > 0; };
+  struct Moment {
+    double t;
+    std::optional<bool> comes = {};  ///< where it is known
+  };
   const auto looked = [&](double t) {
     std::vector<double> out;
     const double least = look(event, motion.at(t), out, true);
@@ -134,7 +134,7 @@ std::optional<double> SceneEvents::positive_inside(int event, const Step& step, 
   };
   std::array<std::vector<double>, 3> f;
   std::array<double, 3> t{};
-  std::vector<double> zeros;
+  std::vector<Moment> moments;
   for (int i = 0; i <= parts; ++i) {
     t = {t[1], t[2], step.from.state.t + step.h * (i == 0 ? 1e-9 : static_cast<double>(i) / parts)};
     std::rotate(f.begin(), f.begin() + 1, f.end());
@@ -143,27 +143,32 @@ std::optional<double> SceneEvents::positive_inside(int event, const Step& step, 
     for (std::size_t k = 0; i > 0 && k < f[2].size(); ++k) {
       const double up = f[1][k] < f[2][k] ? 1 : -1, near = f[1][k] > 0 ? 1 : -1;
       if (f[1][k] * f[2][k] < 0)
-        zeros.push_back(crossing([&](double when) { return Guard{up * looked(when)[k]}; }, t[1], t[2], fine * step.h));
+        moments.push_back({crossing([&](double when) { return Guard{up * looked(when)[k]}; }, t[1], t[2], fine * step.h)});
       if (i < 2 || f[0][k] * f[2][k] <= 0 || near * f[1][k] > near * f[0][k] || near * f[1][k] > near * f[2][k]) continue;
       const auto of_k = [&](double when) { return near * looked(when)[k]; };
-      if (const auto touch = below_zero_near(of_k, t, {near * f[0][k], near * f[1][k], near * f[2][k]})) zeros.push_back(*touch);
+      if (const auto touch = below_zero_near(of_k, t, {near * f[0][k], near * f[1][k], near * f[2][k]})) moments.push_back({*touch});
     }
-    zeros.push_back(t[2]);
+    moments.push_back({t[2], !(sign * f[2].back() <= 0)});  // NaN comes, to be named
   }
-  std::ranges::sort(zeros);
-  for (std::size_t i = 0; i < zeros.size(); ++i) {
-    if (i > 0 && zeros.size() > parts + 1u)
-      if (const double middle = zeros[i - 1] + (zeros[i] - zeros[i - 1]) / 2; comes(middle)) return middle;
-    if (comes(zeros[i])) return zeros[i];
+  std::ranges::sort(moments, {}, &Moment::t);
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    if (i > 0 && moments.size() > parts + 1u)
+      if (const double middle = moments[i - 1].t + (moments[i].t - moments[i - 1].t) / 2; comes(middle)) return middle;
+    if (moments[i].comes ? *moments[i].comes : comes(moments[i].t)) return moments[i].t;
   }
   return std::nullopt;
 }
 
 bool SceneEvents::met(int, const Guard& guard) const { return std::abs(guard.value) <= guard_rounding; }
 
+// At the ends of steps, and in the middle of the last, which may be all that lies between.
+bool SceneEvents::hardly_left(int event, const Step& step, const DenseOutput& motion) const {
+  if (away_[at(event)] > guard_still) return false;
+  return step.h == 0 || std::abs(guard(event, motion.at(step.from.state.t + step.h / 2)).value) <= guard_still;
+}
+
 void SceneEvents::start(Step& step) {
   see(step.to.state);
-  unsound_at_ = step.to.state;
   for (int event = 0; event < size(); ++event) {
     const double now = all_of(event, step.to.state).value;
     const bool on_level = std::abs(now) <= guard_near, is_true = on_level ? holds(event, step.to.state) : now > 0;
@@ -185,35 +190,14 @@ void SceneEvents::begin_step(const State& from) {
   }
 }
 
-bool SceneEvents::is_unsound(int event, const State& state) const {
-  return std::isnan(rules_[at(event)].when[at(unsound_[at(event)])].difference(system_, state, {}).value);
-}
-
-// Of the first that was a number until this step, where it ceases to be one.
-void SceneEvents::find_unsound(const Step& step, const DenseOutput& motion) {
-  const auto first = std::ranges::find_if(unsound_, [](int k) { return k >= 0; });
-  if (first == unsound_.end()) return;
-  constexpr int halvings = 60;
-  const int event = static_cast<int>(first - unsound_.begin());
-  unsound_at_ = step.to.state;
-  double sound = step.from.state.t;
-  for (int i = 0; i < halvings && sound < unsound_at_.t; ++i) {
-    const State between = motion.at(sound + (unsound_at_.t - sound) / 2);
-    if (is_unsound(event, between))
-      unsound_at_ = between;
-    else
-      sound = between.t;
-  }
-}
-
 // What has gone well past zero is at zero when it comes there again.
-void SceneEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard>, const DenseOutput& motion) {
-  const bool known = std::ranges::any_of(unsound_, [](int k) { return k >= 0; });
+void SceneEvents::follow(Step& step, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) {
   see(step.to.state);
-  if (!known) find_unsound(step, motion);
-  for (int event = 0; event < size(); ++event)
+  for (int event = 0; event < size(); ++event) {
+    for (const Guard& now : {from[at(event)], to[at(event)]}) away_[at(event)] = std::max(away_[at(event)], std::abs(now.value));
     if (waits_[at(event)] == Waits::for_true && shift_[at(event)] != 0 && all_of(event, step.to.state).value < -2 * guard_near)
       shift_[at(event)] = 0;
+  }
 }
 
 // Others that come down to the level at which one acts are no longer true there, and may become so as soon as the motion turns back.
@@ -280,13 +264,14 @@ bool SceneEvents::switches_all(const std::vector<EventAction>& actions, State& s
 
 EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
   const SceneEventRule& rule = rules_[at(event)];
-  if (const int k = unsound_[at(event)]; k >= 0) {
+  for (const SceneComparison& one : rule.when) {
+    if (!std::isnan(one.difference(system_, step.to.state, {}).value)) continue;
     EventOutcome none;
-    const auto& seen = rule.when[at(k)].seen;
-    none.failure = "the condition of the event " + quoted(rule.name) + " is not a finite number at t = " + number_text(unsound_at_.t, 9) +
-                   " s" + (seen ? seen(system_, unsound_at_) : "");
+    none.failure = "the condition of the event " + quoted(rule.name) + " is not a finite number at t = " + number_text(step.to.state.t, 9) +
+                   " s" + (one.seen ? one.seen(system_, step.to.state) : "");
     return none;
   }
+  away_[at(event)] = 0;
   const bool becomes_true = waits_[at(event)] == Waits::for_true;
   const std::vector<EventAction>& actions = becomes_true ? rule.actions : rule.otherwise;
   waits_[at(event)] = !becomes_true ? Waits::for_true : rule.once ? Waits::no_more : Waits::for_false;
@@ -322,17 +307,19 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
 void SceneEvents::save(Writer& out) const {
   out.whole(waits_);
   out.whole(size_);
+  out.whole(away_);
   out.whole(shift_);
 }
 void SceneEvents::load(Reader& in) {
   in.whole(waits_);
   in.whole(size_);
+  in.whole(away_);
   in.whole(shift_);
 }
 const char* SceneEvents::fault() const {
   const std::size_t comparisons = rules_.empty() ? 0 : first_.back() + rules_.back().when.size();
-  const bool sound = waits_.size() == rules_.size() && size_.size() == comparisons && shift_.size() == rules_.size() &&
-                     std::ranges::all_of(waits_, [](Waits w) { return w <= Waits::no_more; }) &&
+  const bool sound = waits_.size() == rules_.size() && size_.size() == comparisons && away_.size() == rules_.size() &&
+                     shift_.size() == rules_.size() && std::ranges::all_of(waits_, [](Waits w) { return w <= Waits::no_more; }) &&
                      std::ranges::all_of(size_, [](double x) { return std::isfinite(x) && x >= 0; }) &&
                      std::ranges::all_of(shift_, [](double x) { return std::isfinite(x); });
   return sound ? nullptr : "it is of another system, or has numbers that are none";

@@ -62,6 +62,7 @@ class SceneEvents final : public EventGroup {
   Guard guard(int event, const State& state, const Equations&) const override { return guard(event, state); }
   std::optional<double> positive_inside(int event, const Step&, const DenseOutput&) const override;
   bool met(int event, const Guard&) const override;
+  bool hardly_left(int event, const Step&, const DenseOutput&) const override;
   void start(Step&) override;
   void begin_step(const State& from) override;
   void follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) override;
@@ -79,8 +80,6 @@ class SceneEvents final : public EventGroup {
   bool holds(int event, const State&) const;
   bool rises(int event, const Instant&) const;
   void see(const State&);
-  bool is_unsound(int event, const State&) const;
-  void find_unsound(const Step&, const DenseOutput&);
   void rearm_beside(int event, const Step&);
   void decide_on_level(const std::vector<double>& before, const State&);
   bool switches_all(const std::vector<EventAction>&, State&, EventOutcome&);
@@ -91,9 +90,8 @@ class SceneEvents final : public EventGroup {
   std::vector<std::size_t> first_;  ///< place in `size_` of each event's first comparison
   std::vector<double> size_;        ///< of each comparison so far, the largest, by which it is measured
   bool any_of_speeds_ = false;
-  std::vector<int> unsound_;       ///< of each event, the comparison that was no number at the end of the last step; −1 …
-  State unsound_at_;               ///< … and where the first of them became none
   State faster_;                   ///< workspace: what was seen, with all as fast as the fastest
+  std::vector<double> away_;       ///< how far each guard has been from zero since its event came last
   std::vector<double> shift_;      ///< of each guard since it was last passed, or stood at zero: so it comes once where it stands
   std::unique_ptr<Equations> eq_;  ///< from the first switching on
 };

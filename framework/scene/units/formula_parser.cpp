@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "framework/common/nearest.h"
 #include "framework/scene/units/unit.h"
@@ -61,6 +62,7 @@ constexpr std::array<Function, 18> functions{{{"sin", Op::sin, 1, 1},
                                               {"deadband", Op::deadband, 2, 2},
                                               {"saturate", Op::saturate, 3, 3}}};
 
+constexpr bool compares(Op op) { return op >= Op::less && op <= Op::unequal; }
 bool adds(const Word& w) { return w.kind == Kind::sign && (w.text == "+" || w.text == "-"); }
 
 [[noreturn]] void fail(const Word& at, const std::string& what) { throw ExpressionError(what, at.at); }
@@ -115,10 +117,13 @@ class Parser {
   void expression(int least) {
     if (++depth_ > deepest) fail(words_[place_ - 1], "it nests too deeply: name parts of it in parameters");
     operand();
+    bool compared = false;
     while (next_is(Kind::sign)) {
       const auto o = std::ranges::find(operators, next().text, &Operator::sign);
       if (o == operators.end() || o->left < least) break;
       const Word& word = take();
+      if (compares(o->op) && std::exchange(compared, true))
+        fail(word, "a second comparison would compare whether the first holds, 1 or 0: join two by &&, as in 0 < u && u < 1");
       expression(o->right);
       steps_.push_back({&word, 2, o->op});
     }

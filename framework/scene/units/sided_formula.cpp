@@ -189,7 +189,10 @@ class SidedTable final : public SidedLaw {
     const double x = over_.value(t, in, table_.over.inputs, slope, {side});
     const auto [begin, end, shift] = exact_.bounds(side[over_.switches()]);
     const double edge = inside * (std::isfinite(end - begin) ? end - begin : 1), within = std::clamp(x, begin + edge, end - edge);
-    const Jet f = std::visit([at = within - shift](const auto& samples) { return samples(at); }, table_.table);
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const bool outside = !std::isfinite(end - begin) && table_.refuses(x);
+    const Jet f =
+        outside ? Jet{none, none, 0} : std::visit([at = within - shift](const auto& samples) { return samples(at); }, table_.table);
     for (std::size_t i = 0; slope && i < table_.over.inputs; ++i) slope[i] *= f.rate;
     return f.value + f.rate * (x - within);
   }
@@ -217,6 +220,59 @@ class SidedTable final : public SidedLaw {
   Marks exact_, pieces_;
 };
 
+/// Its switches: those of either formula, then the lines of the grid along either axis, where it has kinks.
+class SidedMap final : public SidedLaw {
+ public:
+  explicit SidedMap(const SignalMap& of)
+      : map_(of),
+        over_{SidedProgram(of.over[0].program), SidedProgram(of.over[1].program)},
+        lines_{Marks(of.table.grid().a, 0), Marks(of.table.grid().b, 0)},
+        second_(over_[0].switches()),
+        line_(second_ + over_[1].switches()) {}
+  int switches() const override { return line_ + 2; }
+  bool exact(int) const override { return true; }
+  double value(double t, const double* in, double* slope, const int* side) const override {
+    const std::size_t inputs = std::max(map_.over[0].inputs, map_.over[1].inputs);
+    std::array<double, most_signals> by_b{};
+    if (slope) std::fill_n(slope, inputs, 0.0);
+    const double a = over_[0].value(t, in, map_.over[0].inputs, slope, {side});
+    const double b = over_[1].value(t, in, map_.over[1].inputs, slope ? by_b.data() : nullptr, {side + second_});
+    const int i = side[line_], j = side[line_ + 1];
+    const auto inside = [](int k, const std::vector<double>& x) { return k >= 0 && k < static_cast<int>(x.size()) - 1; };
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const bool outside = (!inside(i, map_.table.grid().a) || !inside(j, map_.table.grid().b)) && map_.refuses(a, b);
+    const Bilinear::Value f = outside ? Bilinear::Value{none, none, none} : map_.table.on_cell(i, j, a, b);
+    for (std::size_t k = 0; slope && k < inputs; ++k) slope[k] = f.by_a * slope[k] + f.by_b * by_b[k];
+    return f.value;
+  }
+  void left(double t, const double* in, const int* side, double* left) const override {
+    for (std::size_t k = 0; k < 2; ++k) left[at_line(k)] = lines_[k].left(over(k, t, in, {side, nullptr, left}), side[at_line(k)]);
+  }
+  void find(double t, const double* in, int* side) const override {
+    for (std::size_t k = 0; k < 2; ++k) side[at_line(k)] = lines_[k].interval(over(k, t, in, {nullptr, side, nullptr}));
+  }
+  int beyond(int k, double t, const double* in, const int* side) const override {
+    if (k < line_) return -side[k];
+    const std::size_t axis = k == line_ ? 0 : 1;
+    return lines_[axis].beyond(over(axis, t, in, {side, nullptr, nullptr}), side[k]);
+  }
+
+ private:
+  std::size_t at_line(std::size_t axis) const { return static_cast<std::size_t>(line_) + axis; }
+  /// What an axis is read at; `of` is of all switches.
+  double over(std::size_t axis, double t, const double* in, SidedProgram::Sides of) const {
+    const int first = axis == 0 ? 0 : second_;
+    if (of.held) of.held += first;
+    if (of.found) of.found += first;
+    if (of.left) of.left += first;
+    return over_[axis].value(t, in, map_.over[axis].inputs, nullptr, of);
+  }
+  SignalMap map_;
+  std::array<SidedProgram, 2> over_;
+  std::array<Marks, 2> lines_;
+  int second_, line_;
+};
+
 }  // namespace
 
 std::shared_ptr<const SidedLaw> sided(const SignalFunction& of) {
@@ -225,6 +281,7 @@ std::shared_ptr<const SidedLaw> sided(const SignalFunction& of) {
     return out->switches() > 0 ? out : nullptr;
   }
   if (const auto* table = of.target<SignalTable>()) return std::make_shared<SidedTable>(*table);
+  if (const auto* map = of.target<SignalMap>()) return std::make_shared<SidedMap>(*map);
   return nullptr;
 }
 

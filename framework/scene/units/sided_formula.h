@@ -32,7 +32,7 @@ class SidedProgram {
   int switches_ = 0;
 };
 
-/// A law of signals by its sides, of a formula or a table over one; nullptr: it is smooth, or nothing is known of how it is made.
+/// A law of signals by its sides, of a formula, a table or a map over such; nullptr: it is smooth, or nothing is known of how it is made.
 std::shared_ptr<const SidedLaw> sided(const SignalFunction&);
 
 }  // namespace pintle

@@ -54,11 +54,17 @@ std::string told_beyond(const Ends& ends, double x) {
 double SignalTable::operator()(double t, const double* in, double* slope) const {
   double x = over(t, in, slope);
   if (period > 0) x = begin + (x - begin) - period * std::floor((x - begin) / period);
-  if (outside == Outside::refused && is_beyond(ends_of_table(*this), x)) return no_number(over.inputs, slope);
+  if (refuses(x)) return no_number(over.inputs, slope);
   const Jet f = std::visit([x](const auto& samples) { return samples(x); }, table);
   if (slope)
     for (std::size_t i = 0; i < over.inputs; ++i) slope[i] *= f.rate;
   return f.value;
+}
+
+bool SignalTable::refuses(double x) const { return outside == Outside::refused && is_beyond(ends_of_table(*this), x); }
+
+bool SignalMap::refuses(double a, double b) const {
+  return outside == Outside::refused && (is_beyond(ends_of_numbers(table.grid().a), a) || is_beyond(ends_of_numbers(table.grid().b), b));
 }
 
 double SignalMap::operator()(double t, const double* in, double* slope) const {
@@ -66,23 +72,22 @@ double SignalMap::operator()(double t, const double* in, double* slope) const {
   const std::size_t inputs = std::max(over[0].inputs, over[1].inputs);
   if (slope) std::fill_n(slope, inputs, 0.0);
   const double a = over[0](t, in, slope), b = over[1](t, in, slope ? by_b.data() : nullptr);
-  if (outside == Outside::refused && (is_beyond(ends_of_numbers(table.grid().a), a) || is_beyond(ends_of_numbers(table.grid().b), b)))
-    return no_number(inputs, slope);
+  if (refuses(a, b)) return no_number(inputs, slope);
   const Bilinear::Value f = table(a, b);
   if (slope)
     for (std::size_t i = 0; i < inputs; ++i) slope[i] = f.by_a * slope[i] + f.by_b * by_b[i];
   return f.value;
 }
 
-std::string beyond_its_table(const SignalFunction& law, double t, const double* in) {
+std::string beyond_its_table(const SignalFunction& law, double t, const double* in, Outside outside) {
   if (const auto* one = law.target<SignalTable>()) {
     const double x = one->over(t, in, nullptr);
-    if (one->outside == Outside::refused && is_beyond(ends_of_table(*one), x)) return told_beyond(ends_of_table(*one), x);
+    if (one->outside == outside && is_beyond(ends_of_table(*one), x)) return told_beyond(ends_of_table(*one), x);
   } else if (const auto* two = law.target<SignalMap>()) {
     for (const std::size_t k : {0, 1}) {
       const double x = two->over[k](t, in, nullptr);
       const Ends ends = ends_of_numbers(k == 0 ? two->table.grid().a : two->table.grid().b);
-      if (two->outside == Outside::refused && is_beyond(ends, x)) return told_beyond(ends, x);
+      if (two->outside == outside && is_beyond(ends, x)) return told_beyond(ends, x);
     }
   }
   return "";

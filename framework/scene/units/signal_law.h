@@ -23,8 +23,8 @@ struct SignalFormula {
   std::size_t inputs = 0;  ///< how many it has
 };
 
-/// What a table is outside its samples: the value at its end, or no number, which ends the run with the law's name.
-enum class Outside { holds, refused };
+/// What a table is outside its samples: the value at its end, as asked for or not; or no number, which ends the run with the law's name.
+enum class Outside { holds, holds_unasked, refused };
 
 /// A table over a formula: of f(x(in)) the derivatives are f′ ∂x/∂in.
 struct SignalTable {
@@ -33,6 +33,7 @@ struct SignalTable {
   double begin = 0, period = 0;  ///< what the samples span, where it comes again and again; period 0: it has ends
   Outside outside = Outside::holds;
   double operator()(double t, const double* in, double* slope) const;
+  bool refuses(double x) const;
 };
 
 /// A table over two formulas of the same inputs, bilinear between its values.
@@ -41,10 +42,11 @@ struct SignalMap {
   std::array<SignalFormula, 2> over;
   Outside outside = Outside::refused;
   double operator()(double t, const double* in, double* slope) const;
+  bool refuses(double a, double b) const;
 };
 
-/// Where a law that is a table ends, if `in` lies outside a table that refuses: "outside its table, which ends at …"; else empty.
-std::string beyond_its_table(const SignalFunction&, double t, const double* in);
+/// Where a law that is a table ends, if `in` lies outside a table that does so there: "it is read at …, and goes from …"; else empty.
+std::string beyond_its_table(const SignalFunction&, double t, const double* in, Outside);
 
 /// Samples that span one period, as a table that comes again and again.
 /// @pre the first value is the last

@@ -251,16 +251,30 @@ Grid read_grid(const std::filesystem::path& file, const std::array<double, 3>& u
 
 Bilinear::Value Bilinear::operator()(double a, double b) const {
   const auto cell = [](const std::vector<double>& x, double at) {
-    return at >= x.back() ? x.size() - 2 : at <= x.front() ? 0 : interval(x, at);
+    const int last = static_cast<int>(x.size()) - 1;
+    return at > x.back() ? last : at == x.back() ? last - 1 : at < x.front() ? -1 : static_cast<int>(interval(x, at));
   };
-  const auto inside = [](const std::vector<double>& x, double at) { return at >= x.front() && at <= x.back(); };
-  const std::size_t i = cell(grid_.a, a), j = cell(grid_.b, b), n = grid_.b.size();
-  const double ha = grid_.a[i + 1] - grid_.a[i], hb = grid_.b[j + 1] - grid_.b[j];
-  const double u = std::clamp((a - grid_.a[i]) / ha, 0.0, 1.0), v = std::clamp((b - grid_.b[j]) / hb, 0.0, 1.0);
-  const double* z = grid_.value.data() + i * n + j;
-  const double low = z[0] + v * (z[1] - z[0]), high = z[n] + v * (z[n + 1] - z[n]);
-  const double left = z[0] + u * (z[n] - z[0]), right = z[1] + u * (z[n + 1] - z[1]);
-  return {low + u * (high - low), inside(grid_.a, a) ? (high - low) / ha : 0, inside(grid_.b, b) ? (right - left) / hb : 0};
+  return on_cell(cell(grid_.a, a), cell(grid_.b, b), a, b);
+}
+
+Bilinear::Value Bilinear::on_cell(int i, int j, double a, double b) const {
+  struct Axis {
+    std::size_t cell;
+    double part, rate;
+  };
+  const auto axis = [](const std::vector<double>& x, int k, double at) -> Axis {
+    if (k < 0) return {0, 0, 0};
+    const auto cell = static_cast<std::size_t>(k);
+    if (cell + 1 >= x.size()) return {x.size() - 2, 1, 0};
+    const double h = x[cell + 1] - x[cell];
+    return {cell, (at - x[cell]) / h, 1 / h};
+  };
+  const Axis u = axis(grid_.a, i, a), v = axis(grid_.b, j, b);
+  const std::size_t n = grid_.b.size();
+  const double* z = grid_.value.data() + u.cell * n + v.cell;
+  const double low = z[0] + v.part * (z[1] - z[0]), high = z[n] + v.part * (z[n + 1] - z[n]);
+  const double left = z[0] + u.part * (z[n] - z[0]), right = z[1] + u.part * (z[n + 1] - z[1]);
+  return {low + u.part * (high - low), (high - low) * u.rate, (right - left) * v.rate};
 }
 
 Spline::Spline(Samples samples) : samples_(std::move(samples)), curvature_(curvatures(samples_.t, samples_.value)) {}

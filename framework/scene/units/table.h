@@ -48,6 +48,8 @@ class Bilinear {
     double value, by_a, by_b;
   };
   Value operator()(double a, double b) const;
+  /// On the cell that begins at the numbers i and j, and on past its ends; before the first and from the last on a border is held.
+  Value on_cell(int i, int j, double a, double b) const;
   const Grid& grid() const { return grid_; }
 
  private:

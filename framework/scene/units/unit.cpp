@@ -25,15 +25,17 @@ constexpr std::array known_units{Unit{"m", 1, d::length},         Unit{"km", 1e3
                                  Unit{"deg", pi / 180, d::angle}, Unit{"rev", 2 * pi, d::angle}, Unit{"rpm", pi / 30, d::angular_speed},
                                  Unit{"N", 1, d::force},          Unit{"mN", 1e-3, d::force},    Unit{"kN", 1e3, d::force},
                                  Unit{"MN", 1e6, d::force},       Unit{"Pa", 1, d::stress},      Unit{"kPa", 1e3, d::stress},
-                                 Unit{"MPa", 1e6, d::stress},     Unit{"GPa", 1e9, d::stress},   Unit{"J", 1, d::torque},
-                                 Unit{"mJ", 1e-3, d::torque},     Unit{"kJ", 1e3, d::torque},    Unit{"W", 1, power_of_work},
-                                 Unit{"kW", 1e3, power_of_work}};
+                                 Unit{"MPa", 1e6, d::stress},     Unit{"GPa", 1e9, d::stress},   Unit{"bar", 1e5, d::stress},
+                                 Unit{"J", 1, d::torque},         Unit{"mJ", 1e-3, d::torque},   Unit{"kJ", 1e3, d::torque},
+                                 Unit{"W", 1, power_of_work},     Unit{"kW", 1e3, power_of_work}};
 
 constexpr std::array turns{Unit{"Hz", 2 * pi, d::angular_speed}, Unit{"kHz", 2e3 * pi, d::angular_speed}};
 
 struct AbsentWord {
   std::string_view name, remedy;
 };
+constexpr const char* no_electricity =
+    "electrical units are not offered: take plain numbers, of A, V and Ohm; a motor's constant of 0.1 N m/A is 0.1 N m";
 constexpr std::array absent_words{AbsentWord{"Hz", "Hz counts turns, not radians: write 50*rev/s, 3000 rpm or 50/s, as you mean it"},
                                   AbsentWord{"kHz", "Hz counts turns, not radians: write 1000*rev/s or 1000/s, as you mean it"},
                                   AbsentWord{"min", "minutes are not offered: write 60 s"},
@@ -44,6 +46,12 @@ constexpr std::array absent_words{AbsentWord{"Hz", "Hz counts turns, not radians
                                   AbsentWord{"lbf", "pounds are not offered: write 4.4482216 N"},
                                   AbsentWord{"psi", "pounds are not offered: write 6894.7573 Pa"},
                                   AbsentWord{"ton", "write 1000 kg"},
+                                  AbsentWord{"A", no_electricity},
+                                  AbsentWord{"mA", no_electricity},
+                                  AbsentWord{"V", no_electricity},
+                                  AbsentWord{"mV", no_electricity},
+                                  AbsentWord{"Ohm", no_electricity},
+                                  AbsentWord{"ohm", no_electricity},
                                   AbsentWord{"Nm", "a product of units is written with a space: N m"},
                                   AbsentWord{"Nmm", "a product of units is written with a space: N mm"},
                                   AbsentWord{"kNm", "a product of units is written with a space: kN m"},

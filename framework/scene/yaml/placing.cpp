@@ -200,13 +200,16 @@ void place_start(const Spot& start, const Placing& placing) {
       set(point, flipped(point.node.pair(dimension::length)));
 }
 
+constexpr const char* signals_turn =
+    "the signals that it may name have other signs on the other side: write it into the scene for each side";
+
 }  // namespace
 
 void place(Yaml& entry, const std::string& section, const std::string& path, const Placing& placing, const Source& source) {
   const Spot spot{entry, {entry, source, {entry.line, path, source.file_of(entry.file)}, entry.key}};
   if (section == "ground.points") return place_ground_point(spot, placing);
   if (!spot.node.is_map()) {
-    if (placing.mirrored) cannot_mirror(spot.node, "write it into the scene");
+    if (placing.mirrored) cannot_mirror(spot.node, signals_turn);
     return;
   }
   if (section == "ground.profiles") return place_profile(spot, {placing, true});
@@ -216,7 +219,7 @@ void place(Yaml& entry, const std::string& section, const std::string& path, con
   if (section == "joints") return place_joint(spot, placing);
   if (!placing.mirrored || section == "contacts" || section == "materials") return;
   if (section == "drivers") return mirror_driver(spot);
-  cannot_mirror(spot.node, "write it into the scene");
+  cannot_mirror(spot.node, signals_turn);
 }
 
 }  // namespace pintle

@@ -195,6 +195,10 @@ void read_laws(const Node& node, std::string_view keys, SceneNormal& normal, std
 
 SceneNormal read_normal(const Node& node, std::string_view keys) {
   const char* remedy = "one law: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}";
+  if (keys.starts_with("joints") && (node.is_map() ? node.has(spring_damper) : node.is_scalar() && node.yaml().text == spring_damper))
+    node.fail(
+        "a spring-damper is a model of the clearance and no law of one: beside `radial` write model: spring-damper, stiffness: 1e6 N/m, "
+        "damping: 100 N s/m, and leave `normal` out");
   const auto laws = node.entries(remedy);
   if (laws.size() != 1) node.fail("names " + std::to_string(laws.size()) + " laws; write " + remedy);
   const Node& law = laws.front();

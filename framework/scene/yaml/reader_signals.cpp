@@ -90,7 +90,7 @@ std::string signal_table_text(const Node& node, const std::vector<TableAxis>& ax
       << ", \"over\": " << listed([](const TableAxis& axis) { return json_quoted(axis.text); });
   if (axes.size() == 1) out << ", \"interpolation\": \"" << interpolation << "\", \"periodic\": " << (periodic ? "true" : "false");
   if (std::ranges::any_of(axes, [](const TableAxis& axis) { return axis.unit != 1; })) out << ", \"over unit\": " << listed(json_unit);
-  if (!periodic) out << ", \"outside\": \"" << (outside == Outside::holds ? "hold" : "refuse") << "\"";
+  if (!periodic && outside != Outside::holds_unasked) out << ", \"outside\": \"" << (outside == Outside::holds ? "hold" : "refuse") << "\"";
   if (value_unit != 1) out << ", \"value unit\": \"" << value_unit << " " << value_si << "\"";
   out << "}";
   return out.str();
@@ -163,7 +163,7 @@ Law read_signal_table(const Node& node, std::string_view keys, const Dimension& 
   const bool linear = node.has("interpolation") && node.at("interpolation").one_of(choices(keys, "interpolation")) == "linear";
   const bool periodic = node.has("periodic") && node.at("periodic").yes();
   if (periodic && node.has("outside")) node.at("outside").fail("a periodic table has no outside; leave it out");
-  const Outside outside = read_outside(node, keys, Outside::holds);
+  const Outside outside = read_outside(node, keys, Outside::holds_unasked);
   const double value_unit = unit_factor(node, "value unit", expected);
   Samples samples = read_samples(table_file(node, folder), x.unit, value_unit, node.place().key, "x");
   const SignalFormula& formula = *x.law.law.of_signals.target<SignalFormula>();
