@@ -2,6 +2,7 @@
 
 import html
 import json
+import math
 import tempfile
 import warnings
 from pathlib import Path
@@ -272,6 +273,7 @@ class Simulation:
         self._columns = Columns(core.header)
         self._states = {name: (place, unit) for place, (name, unit) in enumerate(core.states)}
         self._row = None
+        self._over = False
 
     @property
     def t(self):
@@ -285,9 +287,12 @@ class Simulation:
         return self._columns.units[self._columns.place(name)]
 
     def advance(self, t):
-        """On to time t, through all events before it. False once the run is over."""
+        """On to time t [s], through all events before it. False once the run is over. ValueError where t is not ahead."""
+        if not t > self.t and not self._over:
+            raise ValueError(f"advance to {t} s: it must be after {self.t} s, where the simulation is")
         self._row = None
-        return self._core.advance(t)
+        self._over = not self._core.advance(t)
+        return not self._over
 
     def __getitem__(self, name):
         if self._row is None:
@@ -298,8 +303,11 @@ class Simulation:
         if name not in self._states:
             known = ", ".join(self._states) or "the scene has none"
             raise KeyError(f'"{name}" is no state of the scene; states: {known}')
+        value = float(value)
+        if not math.isfinite(value):
+            raise ValueError(f'"{name}" cannot be {value}: a state is a finite number')
         self._row = None
-        self._core.set(self._states[name][0], float(value))
+        self._core.set(self._states[name][0], value)
 
     def result(self, check=True):
         """Ends the run and gives what it found."""

@@ -52,7 +52,9 @@ class Scene:
 
         `of` names what it is called with, signals and "t"; all in SI. A force returns its x and y. Implicit methods, `statics` and
         `linearize` find its derivatives by differences."""
-        return Scene(self._core.with_law(name, function, list(of)))
+        if not callable(function):
+            raise TypeError(f"the law of {name!r} is to be a function, not {function!r}")
+        return Scene(self._core.with_law(name, function, [of] if isinstance(of, str) else list(of)))
 
     def check(self):
         """What `pintle check --json` says of the scene."""
@@ -127,4 +129,5 @@ def parse(scene, set=None, folder="."):
 def trust(folders=(), geo=False):
     """From now on scenes may read files in these folders, beside their own, and, with `geo`, drawings may do all that they ask for,
     shell commands included (SECURITY.md)."""
-    _core.trust([os.fspath(folder) for folder in folders], geo)
+    one = isinstance(folders, (str, os.PathLike))
+    _core.trust([os.fspath(folder) for folder in ([folders] if one else folders)], geo)

@@ -111,7 +111,7 @@ class ByHand(unittest.TestCase):
     def test_a_simulation_that_fails_says_why(self):
         simulation = pintle.parse(arm).simulation()
         simulation.advance(0.1)
-        simulation["torque"] = math.nan
+        simulation["torque"] = 1e308
         self.assertFalse(simulation.advance(0.2))
         with self.assertRaises(pintle.RunError) as caught:
             simulation.result()
@@ -124,6 +124,12 @@ class ByHand(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, "did you mean"):
             simulation["arm.angel"]
         self.assertEqual(simulation.unit("arm.angle"), "rad")
+        with self.assertRaisesRegex(ValueError, "finite"):
+            simulation["torque"] = math.nan
+        simulation.advance(0.1)
+        for t in (0.1, 0.05, -1, math.nan):
+            with self.assertRaisesRegex(ValueError, "after 0.1 s"):
+                simulation.advance(t)
 
 
 class Functions(unittest.TestCase):
@@ -157,7 +163,9 @@ class Functions(unittest.TestCase):
 
     def test_an_output_in_python(self):
         scene = pintle.parse(arm.replace("run: {", "outputs: {half: arm.angle}\nrun: {"))
-        result = scene.with_law("half", lambda angle: angle / 2, of=["arm.angle"]).run()
+        result = scene.with_law("half", lambda angle: angle / 2, of="arm.angle").run()
+        with self.assertRaisesRegex(TypeError, "function"):
+            scene.with_law("half", 0.5, of="arm.angle")
         numpy.testing.assert_array_equal(result["half"], result["arm.angle"] / 2)
 
     def test_an_error_in_a_function_is_raised_as_it_is(self):
