@@ -100,6 +100,45 @@ TEST_P(Pulse, OfAConditionMakesItsEventCome) {
   }
 }
 
+// What a condition compares may jump where no law of the motion does: an output, or a column. Nothing else in the step is passed over.
+TEST_P(Pulse, OfAnOutputThatJumpsIsLocatedToo) {
+  for (const char* output :
+       {"if(b.x > 1 m, 1, 0)", "sign(b.x - 1 m)", "if(b.x > 1 m, 2, 0) + b.x*0.1/(1 m)", "if(b.x > 1 m, 2, 0) - b.x*0.1/(1 m)"}) {
+    const Whole w = run(flight("outputs: {q: \"" + std::string(output) + "\"}\nevents: {e: {when: q > 0.5, do: {row: true}}}"), GetParam());
+    ASSERT_EQ(w.run.status, Status::finished) << output << ": " << w.run.reason;
+    ASSERT_EQ(w.run.happenings.size(), 1u) << output;
+    EXPECT_NEAR(w.run.happenings[0].t, 0.1, 1e-9) << output;
+  }
+}
+
+TEST_P(Pulse, OfAForceThatJumpsIsLocatedToo) {
+  const Whole w = run(flight("forces: {h: {force: [\"if(b.x > 1 m, 1 N, 0 N)\", 0], at: b}}\n"
+                             "events: {e: {when: h.fx > 0.5 N, do: {row: true}}}"),
+                      GetParam());
+  ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
+  ASSERT_EQ(w.run.happenings.size(), 1u);
+  EXPECT_NEAR(w.run.happenings[0].t, 0.1, 1e-9);
+  EXPECT_NEAR(w.last("b.vx [m/s]"), std::sqrt(100 + 2 * (w.last("b.x [m]") - 1)), GetParam().near * 10);
+}
+
+TEST_P(Pulse, OfAnOutputLeavesNoContactOut) {
+  const Whole w = run(R"yaml(
+gravity: [0, -9.81]
+ground: {profiles: {w: {path: [[-1 m, 0], [1 m, 0]], material: right}}}
+bodies: {s: {rigid: {mass: 1 kg, inertia: 0.01}, pose: {at: [0, 1 m]}, profiles: {o: {disc: [0, 0], radius: 0.1 m}}}}
+contacts: {c: {between: [s.o, ground.w], normal: {spring-damper: {stiffness: 1e6 N/m, damping: 10 N s/m}}}}
+outputs: {near: "if(s.y < 0.6 m, 1, 0)"}
+events: {e: {when: near > 0.5, do: {row: true}}}
+run: {until: 0.5 s}
+)yaml",
+                      GetParam());
+  ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
+  ASSERT_EQ(w.run.happenings.size(), 1u);
+  EXPECT_NEAR(w.run.happenings[0].t, std::sqrt(0.8 / 9.81), 1e-9);
+  ASSERT_EQ(w.run.impacts.size(), 1u);
+  EXPECT_NEAR(w.run.impacts[0].begin, std::sqrt(1.8 / 9.81), 1e-8);
+}
+
 // A cart between springs that act on one side alone, with a pulse, a dead band and a state that counts.
 const char* busy = R"yaml(
 bodies: {b: {rigid: {mass: 1 kg, inertia: 1 kg m^2}}}

@@ -165,6 +165,7 @@ Events::Ending Events::end_at(const EventInStep& event, Stepper& stepper, const 
     const double rate = std::isnan(now.rate) ? (now.value - before.value) / (t - t_before) : now.rate;
     double next = std::clamp(t - now.value / rate, t0, t1);
     if (event.watch.level && !(rate != 0)) next = std::min(t + std::ldexp(dense_part * h, 4 * i), t1);  // it may jump just ahead
+    if (event.watch.level && turned(now, event.watch).value > event.watch.zero && !(next < t)) break;   // it has jumped before
     if (std::abs(next - t) <= last_digits * std::abs(t1)) {
       if (event.watch.level && !(turned(now, event.watch).value > -event.watch.zero)) break;  // before a jump
       return Ending::there;
