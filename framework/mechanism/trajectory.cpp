@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -12,6 +11,7 @@
 #include "framework/common/index.h"
 #include "framework/dynamics/model/signal_values.h"
 #include "framework/mechanism/columns.h"
+#include "framework/mechanism/profile_contact.h"
 
 namespace pintle {
 
@@ -139,36 +139,6 @@ void contact_columns(const System& system, std::size_t k, Out& out) {
       system, system.contact_names[k], true, false, pair.a, [&](const Now& now) { return clearance_effect(system, now.eq, k).on_a; }, out);
   pressure_columns(
       system.contact_names[k], pair.pressure, [&](const Now& now) { return clearance_effect(system, now.eq, k).normal.force; }, out);
-}
-
-/// Of two profiles: where they touch or are nearest to that, of an open bearing the eccentricity; forces of all pairs, and the largest.
-struct ProfileContact {
-  Gap gap;
-  Eigen::Vector2d at{0, 0};
-  double normal = 0, friction = 0, pressed = 0;
-  double teeth = 0, travel = 0;  ///< of flanks: force on the rim of a counter-clockwise [N]; how far it has moved in its play [m]
-  Wrench on_a = Wrench::Zero(), on_b = Wrench::Zero();
-};
-ProfileContact profile_contact(const System& system, std::size_t first, const Equations& eq) {
-  ProfileContact out;
-  double nearest = -std::numeric_limits<double>::infinity();
-  for (std::size_t k = first; k < first + at(system.contacts[first].pairs); ++k) {
-    const ContactPair& pair = system.contacts[k];
-    const ContactEffect& effect = eq.contact[k];
-    out.normal += effect.normal.force, out.friction += effect.friction, out.on_a += effect.on_a, out.on_b += effect.on_b;
-    out.pressed = std::max(out.pressed, effect.normal.force);
-    const MovingPoint a = moving_point(eq.motion[at(pair.a)]), b = moving_point(eq.motion[at(pair.b)]);
-    const Gap gap = gap_between(pair, a, b);
-    if (pair.flank) {
-      const double along = pair.flank->side * std::cos(pair.flank->angle);
-      out.teeth -= along * effect.normal.force, out.travel += (gap.depth + pair.flank->half) / (2 * along);
-    }
-    const double near = std::min({gap.depth, pair.deepest - gap.depth, margin(pair, gap, a, b).value});
-    if (near > nearest)
-      nearest = near, out.gap = gap,
-      out.at = pair.journal ? Eigen::Vector2d(a.r - b.r) : touched(pair.gap.a, a.r + gap.arm_a, gap.n, gap.across);
-  }
-  return out;
 }
 
 template <class Out>

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "framework/build/build.h"
 #include "framework/configuration/equilibrium.h"
@@ -337,6 +339,43 @@ TEST(BadProfile, IsRefusedInOneLineWithKeyAndRemedy) {
   for (const Bad& bad : all) {
     SCOPED_TRACE(bad.to);
     pintle_test::expect_one_line(said(sound, bad.from, bad.to), bad.key, {bad.says});
+  }
+}
+
+// Two squares of 40 mm, from corner to side, turned and apart: the distance of two convex shapes is that of a corner of one from a side of
+// the other, by hand.
+TEST(ProfileContact, DepthIsTheDistanceOfSharpShapesThatAreApart) {
+  using Eigen::Vector2d;
+  const auto corners = [](double x, double y, double turn) {
+    std::vector<Vector2d> out;
+    for (const Vector2d& c : {Vector2d(-0.02, -0.02), Vector2d(0.02, -0.02), Vector2d(0.02, 0.02), Vector2d(-0.02, 0.02)})
+      out.emplace_back(x + std::cos(turn) * c.x() - std::sin(turn) * c.y(), y + std::sin(turn) * c.x() + std::cos(turn) * c.y());
+    return out;
+  };
+  const auto from_sides = [](const Vector2d& p, const std::vector<Vector2d>& of) {
+    double least = 1e9;
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      const Vector2d a = of[i], along = of[(i + 1) % of.size()] - a;
+      const double part = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+      least = std::min(least, (p - a - part * along).norm());
+    }
+    return least;
+  };
+  for (const auto& [x, y, turn] : {std::array{0.2, 0.0, 0.3}, std::array{0.06, 0.03, 0.0}, std::array{0.05, 0.055, 0.8},
+                                   std::array{-0.1, 0.2, 2.0}, std::array{0.041, 0.0, 0.0}, std::array{0.0, -0.3, 1.2}}) {
+    const auto one = corners(0, 0, 0), other = corners(x, y, turn);
+    double distance = 1e9;
+    for (const Vector2d& p : one) distance = std::min(distance, from_sides(p, other));
+    for (const Vector2d& p : other) distance = std::min(distance, from_sides(p, one));
+    const std::string box =
+        "{rigid: {mass: 1 kg, inertia: 1e-4}, profiles: {o: {closed: true, path: [[-2 cm, -2 cm], [2 cm, -2 cm], [2 cm, 2 cm], "
+        "[-2 cm, 2 cm]]}}}";
+    const Whole w =
+        run(scene("bodies: {a: " + box + ", b: " + box + "}\ncontacts: {c: {between: [a.o, b.o], model: impact, restitution: 0.5}}\n" +
+                  "start: {b: {x: " + std::to_string(x) + ", y: " + std::to_string(y) + ", angle: " + std::to_string(turn) +
+                  "}}\nrun: {until: 1 ms}\n"));
+    ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
+    EXPECT_NEAR(w.run.trajectory.column("c.depth [m]").front(), -distance, 1e-12) << x << " " << y << " " << turn;
   }
 }
 

@@ -1,0 +1,47 @@
+#include "framework/mechanism/profile_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "framework/common/index.h"
+#include "framework/dynamics/model/marker_motion.h"
+
+namespace pintle {
+
+namespace {
+
+/// What lies beside a piece, or behind it, does not overlap it: it is as far away as the piece's end.
+void as_far_as_the_end(double beside, double rate, Gap& gap) {
+  const double distance = std::hypot(gap.depth, beside);
+  if (distance > 0) gap.rate = -(gap.depth * gap.rate + beside * rate) / distance;
+  gap.depth = -distance;
+}
+}  // namespace
+
+ProfileContact profile_contact(const System& system, std::size_t first, const Equations& eq) {
+  ProfileContact out;
+  double nearest = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = first; k < first + at(system.contacts[first].pairs); ++k) {
+    const ContactPair& pair = system.contacts[k];
+    const ContactEffect& effect = eq.contact[k];
+    out.normal += effect.normal.force, out.friction += effect.friction, out.on_a += effect.on_a, out.on_b += effect.on_b;
+    out.pressed = std::max(out.pressed, effect.normal.force);
+    const MovingPoint a = moving_point(eq.motion[at(pair.a)]), b = moving_point(eq.motion[at(pair.b)]);
+    Gap gap = gap_between(pair, a, b);
+    if (pair.flank) {
+      const double along = pair.flank->side * std::cos(pair.flank->angle);
+      out.teeth -= along * effect.normal.force, out.travel += (gap.depth + pair.flank->half) / (2 * along);
+    }
+    const auto [inside, inside_rate, side] = margin(pair, gap, a, b);
+    if (!pair.journal && !pair.flank && std::min(inside, pair.deepest - gap.depth) < 0)
+      as_far_as_the_end(std::min(inside, 0.0), inside_rate, gap);
+    const double near = std::min({gap.depth, pair.deepest - gap.depth, inside});
+    if (near > nearest)
+      nearest = near, out.gap = gap,
+      out.at = pair.journal ? Eigen::Vector2d(a.r - b.r) : touched(pair.gap.a, a.r + gap.arm_a, gap.n, gap.across);
+  }
+  return out;
+}
+
+}  // namespace pintle

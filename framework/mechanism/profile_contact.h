@@ -1,0 +1,18 @@
+#pragma once
+
+#include "framework/dynamics/equations/equations.h"
+
+namespace pintle {
+
+/// Of two profiles: where they touch or are nearest to that, of an open bearing the eccentricity; forces of all pairs, and the largest.
+struct ProfileContact {
+  Gap gap;
+  Eigen::Vector2d at{0, 0};
+  double normal = 0, friction = 0, pressed = 0;
+  double teeth = 0, travel = 0;  ///< of flanks: force on the rim of a counter-clockwise [N]; how far it has moved in its play [m]
+  Wrench on_a = Wrench::Zero(), on_b = Wrench::Zero();
+};
+/// @param first  of its pairs
+ProfileContact profile_contact(const System&, std::size_t first, const Equations&);
+
+}  // namespace pintle
