@@ -13,7 +13,7 @@ namespace {
 /// What a Python function gives, one number or, of a force, one of two. Called with the interpreter held, from whichever thread runs.
 class Called {
  public:
-  Called(const FunctionLaw& law, int component) : is_(law.is), component_(component) {
+  Called(const FunctionLaw& law, int component) : is_(law.is), owner_(law.owner), component_(component) {
     for (const std::string& name : law.of) times_.push_back(name == "t");
   }
   double operator()(double t, const double* in) const {
@@ -21,12 +21,22 @@ class Called {
     py::tuple arguments(times_.size());
     std::size_t next = 0;
     for (std::size_t i = 0; i < times_.size(); ++i) arguments[i] = times_[i] ? t : in[next++];
-    const py::object out = (*is_)(*arguments);
-    return (component_ < 0 ? out : py::object(out[py::int_(component_)])).cast<double>();
+    return number((*is_)(*arguments));
   }
 
  private:
+  double number(const py::object& given) const {
+    try {
+      if (component_ < 0) return given.cast<double>();
+      if (py::isinstance<py::sequence>(given) && py::len(given) == 2) return py::object(given[py::int_(component_)]).cast<double>();
+    } catch (const py::cast_error&) {  // said below
+    }
+    throw py::type_error("the function in the place of the law of \"" + owner_ + "\" gave " + py::repr(given).cast<std::string>() +
+                         "; it is to give " + (component_ < 0 ? "a number" : "two numbers, the force along x and along y"));
+  }
+
   std::shared_ptr<py::object> is_;
+  std::string owner_;
   int component_;                 ///< −1: it gives one number
   std::vector<bool> times_ = {};  ///< which arguments are the time
 };

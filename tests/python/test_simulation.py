@@ -161,6 +161,15 @@ class Functions(unittest.TestCase):
         reaction = pulled["pivot.fx"] - scene.run()["pivot.fx"]
         numpy.testing.assert_allclose(reaction, -pulled.t, atol=1e-6)  # at the pivot it moves nothing
 
+    def test_what_a_function_gives_is_named_where_it_is_not_that(self):
+        pushed = arm.replace("servo: {torque: torque, on: arm}", "push: {force: [0 N, 0 N], at: arm.O}")
+        for given in (1.0, "ab", (1, 2, 3), None, ("a", "b")):
+            with self.assertRaisesRegex(TypeError, '"push" gave .*two numbers'):
+                pintle.parse(pushed).with_law("push", lambda t, speed: given, of=["t", "arm.speed"]).run()
+        for given in ("a", (1, 2), None):
+            with self.assertRaisesRegex(TypeError, '"servo" gave .*a number'):
+                pintle.parse(arm).with_law("servo", lambda t, speed: given, of=["t", "arm.speed"]).run()
+
     def test_an_output_in_python(self):
         scene = pintle.parse(arm.replace("run: {", "outputs: {half: arm.angle}\nrun: {"))
         result = scene.with_law("half", lambda angle: angle / 2, of="arm.angle").run()
