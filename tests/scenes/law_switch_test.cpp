@@ -208,6 +208,18 @@ TEST_P(Pulse, OfATableDoesItsWork) {
   EXPECT_NEAR(again.ledger("f.work in [J]"), 70, 100 * GetParam().near * 50) << "at 0, 2, … 12 m";
 }
 
+// A step ends at the mark, where the window begins.
+TEST_P(Pulse, OfAConditionAtAMarkOfATableIsFound) {
+  for (const char* window : {"b.x > 2 m && b.x < 2.00001 m", "b.x > 2.01 m && b.x < 2.0100001 m", "b.x >= 2 m && b.x <= 2.000001 m"}) {
+    const Whole w = run(with_file(over_x(", interpolation: linear, outside: hold") + "\nevents: {e: {when: \"" + std::string(window) +
+                                      "\", do: {row: true}, else: {row: true}}}\n",
+                                  "1 0\n2 0\n2.01 1\n2.02 0\n3 0\n"),
+                        GetParam());
+    ASSERT_EQ(w.run.status, Status::finished) << window << ": " << w.run.reason;
+    EXPECT_EQ(w.run.happenings.size(), 2u) << window;
+  }
+}
+
 TEST(SplineWarning, IsOfWhatSwingsBesideASuddenChangeAlone) {
   const auto warned = [](const std::string& samples, const std::string& more = "") {
     const Model model = build(with_file(over_x(more), samples));

@@ -139,7 +139,7 @@ std::optional<double> SceneEvents::positive_inside(int event, const Step& step, 
     t = {t[1], t[2], step.from.state.t + step.h * (i == 0 ? 1e-9 : static_cast<double>(i) / parts)};
     std::rotate(f.begin(), f.begin() + 1, f.end());
     f[2] = looked(t[2]);
-    if (sign * f[2].back() > 0 && i == 0) return std::nullopt;
+    if (sign * f[2].back() > 0 && i == 0) return t[2];
     for (std::size_t k = 0; i > 0 && k < f[2].size(); ++k) {
       const double up = f[1][k] < f[2][k] ? 1 : -1, near = f[1][k] > 0 ? 1 : -1;
       if (f[1][k] * f[2][k] < 0)
