@@ -164,8 +164,7 @@ class Parts {
                        signal.kind == Kind::relative_speed;
     const bool couple = force.way == SizedForce::couple || force.way == SizedForce::restoring;
     const double w = std::sqrt((couple ? of_force.couple : of_force.force) * (turns ? a.couple + b.couple : a.force + b.force));
-    const bool rate = signal.kind == Kind::vx || signal.kind == Kind::vy || signal.kind == Kind::speed ||
-                      signal.kind == Kind::length_rate || signal.kind == Kind::relative_speed;
+    const bool rate = is_speed(signal.kind);
     see({rate ? 0 : std::sqrt(slope * w), rate ? slope * w : 0, "the law of \"" + name + "\""});
   }
   /// y where the scene draws its bodies, at the speeds that it gives.

@@ -19,18 +19,7 @@ namespace {
 
 constexpr int most_together = 1200;  // unknowns of a dense matrix; more take minutes
 
-bool is_place(const MotionSignal& signal) {
-  using Kind = MotionSignal::Kind;
-  switch (signal.kind) {
-    case Kind::vx:
-    case Kind::vy:
-    case Kind::speed:
-    case Kind::length_rate:
-    case Kind::relative_speed:
-    case Kind::state: return false;
-    default: return true;
-  }
-}
+bool is_place(const MotionSignal& signal) { return signal.kind != MotionSignal::state && !is_speed(signal.kind); }
 
 bool sees_a_place(const System& system, int law) {
   return std::ranges::any_of(system.laws[at(law)].in, [&](int k) { return is_place(system.signals[at(k)]); });

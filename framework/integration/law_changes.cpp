@@ -45,11 +45,7 @@ const LawChange* change_at(const Scheme& scheme, double t) {
 }
 
 TurnAhead::TurnAhead(const System& system) {
-  for (const MotionSignal& signal : system.signals) {
-    const bool rate = signal.kind == MotionSignal::vx || signal.kind == MotionSignal::vy || signal.kind == MotionSignal::speed ||
-                      signal.kind == MotionSignal::length_rate || signal.kind == MotionSignal::relative_speed;
-    matters_ = matters_ || (!rate && signal.kind != MotionSignal::state);
-  }
+  for (const MotionSignal& signal : system.signals) matters_ = matters_ || (!is_speed(signal.kind) && signal.kind != MotionSignal::state);
   for (const Joint& joint : system.joints)
     if (const auto* relation = std::get_if<Relation>(&joint)) matters_ = matters_ || relation->curve;
 }

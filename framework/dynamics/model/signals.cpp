@@ -10,6 +10,9 @@ using Eigen::Vector2d;
 using Kind = MotionSignal::Kind;
 
 bool of_two(Kind kind) { return kind >= Kind::length && kind < Kind::state; }
+bool is_speed(Kind kind) {
+  return kind == Kind::vx || kind == Kind::vy || kind == Kind::speed || kind == Kind::length_rate || kind == Kind::relative_speed;
+}
 
 double signal_value(const MotionSignal& signal, const MovingPoint& a, const MovingPoint& b) {
   const auto value = [&] {

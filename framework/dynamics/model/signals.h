@@ -41,6 +41,8 @@ struct MotionSignal {
   auto operator<=>(const MotionSignal&) const = default;
 };
 bool of_two(MotionSignal::Kind);
+/// A speed of the motion, not a place or an own state.
+bool is_speed(MotionSignal::Kind);
 
 /// Its derivatives in the poses (r, angle) of its markers and in their rates.
 struct SignalSlope {
