@@ -192,12 +192,6 @@ double rate_of(const System& system, const MotionSignal& signal, const State& st
   return slope.pose_a.head<2>().dot(a.v) + slope.pose_a[2] * a.w + slope.pose_b.head<2>().dot(b.v) + slope.pose_b[2] * b.w;
 }
 
-bool is_speed(const MotionSignal& signal) {
-  using enum MotionSignal::Kind;
-  constexpr std::array speeds{vx, vy, speed, length_rate, relative_speed};
-  return std::ranges::find(speeds, signal.kind) != speeds.end();
-}
-
 using Inputs = std::array<double, most_law_inputs>;
 
 Inputs inputs_of(const System& system, const SignalLaw& law, const State& state) {
@@ -224,11 +218,11 @@ class Reading {
   explicit Reading(const Comparison& of) : size_(of.size), sides_(of.difference), inputs_(SignalFormula(of.difference).inputs) {}
   void add(double t, const double* in, const Wanted& wanted) const {
     if (wanted.size) *wanted.size = size_(t, in, nullptr);
-    if (!wanted.bends || sides_.switches() == 0) return;
+    if (!wanted.kinks || sides_.switches() == 0) return;
     std::vector<int> found(at(sides_.switches()));
     std::vector<double> left(found.size());
     sides_.value(t, in, inputs_, nullptr, {nullptr, found.data(), left.data()});
-    for (std::size_t k = 0; k < left.size(); ++k) wanted.bends->push_back(found[k] * left[k]);
+    for (std::size_t k = 0; k < left.size(); ++k) wanted.kinks->push_back(found[k] * left[k]);
   }
 
  private:
@@ -276,7 +270,7 @@ SceneComparison of_motion(const Law& law, const Comparison& from, const SceneEve
             return now;
           },
       .at_zero = from.at_zero,
-      .of_speeds = std::ranges::any_of(of.in, [&](int k) { return is_speed(built.signals[at(k)]); }),
+      .of_speeds = std::ranges::any_of(of.in, [&](int k) { return is_speed(built.signals[at(k)].kind); }),
       .seen = seen_by(law, laws.told(event), read)};
 }
 

@@ -41,12 +41,12 @@ Guard SceneEvents::all_of(int event, const State& state) const {
   return least;
 }
 
-double SceneEvents::look(int event, const State& state, std::vector<double>& out, bool with_bends) const {
+double SceneEvents::look(int event, const State& state, std::vector<double>& out, bool with_kinks) const {
   const auto& when = rules_[at(event)].when;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < when.size(); ++k) {
     const double size = size_[first_[at(event)] + k];
-    const double now = when[k].difference(system_, state, {.bends = with_bends ? &out : nullptr}).value / (size > 0 ? size : 1);
+    const double now = when[k].difference(system_, state, {.kinks = with_kinks ? &out : nullptr}).value / (size > 0 ? size : 1);
     if (!(now >= least) && !std::isnan(least)) least = now;
     out.push_back(now);
   }
@@ -114,7 +114,7 @@ Guard SceneEvents::guard(int event, const State& state) const {
   return now;
 }
 
-// Parts of the step are looked at, and in each the zeros of every comparison, of what bends it, and of touches between three looks:
+// Parts of the step are looked at, and in each the zeros of every comparison, of its kinks, and of touches between three looks:
 // between two of these nothing turns true or false.
 std::optional<double> SceneEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
   constexpr int parts = 8;

@@ -27,7 +27,7 @@ using EventAction = std::variant<SwitchOver, SetState, StopRun, Record>;
 struct Wanted {
   bool rate = false;                     ///< of the difference, where it is known
   double* size = nullptr;                ///< ← of what is compared: what the difference is small against
-  std::vector<double>* bends = nullptr;  ///< appended: numbers at whose zeros the difference has a kink or jumps
+  std::vector<double>* kinks = nullptr;  ///< appended: numbers at whose zeros the difference has a kink or jumps
 };
 
 /// One comparison of an event's condition: what is greater less what is less, above zero where it holds.
@@ -75,8 +75,8 @@ class SceneEvents final : public EventGroup {
   /// What an event is waiting for: to become true or, having acted, false; or nothing any more.
   enum class Waits : unsigned char { for_true, for_false, no_more };
   Guard all_of(int event, const State&) const;
-  /// Each comparison over its size; where wanted, what bends it too. @returns the least of them
-  double look(int event, const State&, std::vector<double>& out, bool with_bends = false) const;
+  /// Each comparison over its size; where wanted, its kinks too. @returns the least of them
+  double look(int event, const State&, std::vector<double>& out, bool with_kinks = false) const;
   bool holds(int event, const State&) const;
   bool rises(int event, const Instant&) const;
   void see(const State&);
