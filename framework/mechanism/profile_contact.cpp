@@ -17,6 +17,7 @@ void as_far_as_the_end(double beside, double rate, Gap& gap) {
   if (distance > 0) gap.rate = -(gap.depth * gap.rate + beside * rate) / distance;
   gap.depth = -distance;
 }
+
 }  // namespace
 
 ProfileContact profile_contact(const System& system, std::size_t first, const Equations& eq) {

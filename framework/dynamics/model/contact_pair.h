@@ -27,8 +27,8 @@ struct RigidImpact {
 };
 
 /// Two pieces of surface that may touch at one point: a journal a in a bearing b, which is a clearance joint, or pieces of two
-/// profiles; or the flanks of teeth with backlash. By its model a contact without constraint rows, or, of a clearance joint with `link`, a massless link between the two
-/// centres, one row that some joint of the system holds.
+/// profiles; or the flanks of teeth with backlash. By its model a contact without constraint rows, or, of a clearance joint with `link`, a
+/// massless link between the two centres, one row that some joint of the system holds.
 struct ContactPair {
   int a, b;  ///< markers that carry the pieces: of a clearance joint at the two centres
   PiecePair gap;
@@ -87,7 +87,8 @@ inline bool is_rigid(const ContactPair& pair) { return pair.rigid.has_value(); }
 
 /// The smallest radius of its pieces, of teeth of their pitch circles, the mechanism's length between a corner and a line [m].
 double contact_size(const ContactPair&, double mechanism);
-/// The length that its depth is judged against: the clearance round a piece in a hollow one, half the backlash of teeth, else a hundredth of their size [m].
+/// The length that its depth is judged against: the clearance round a piece in a hollow one, half the backlash of teeth, else a hundredth of
+/// their size [m].
 double fine_length(const ContactPair&, double mechanism);
 
 MovingPoint moving_point(const MarkerMotion&);
