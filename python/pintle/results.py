@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from . import _core
 from .errors import ModelWarning, RunError
-from .tables import Columns, Table
+from .tables import Headed, Table
 
 
 class Impact(NamedTuple):
@@ -263,14 +263,14 @@ class Modes:
         return f"{self.body}: " + ", ".join(f"{f:.6g}" for f in self.frequencies) + " Hz"
 
 
-class Simulation:
+class Simulation(Headed):
     """A run by hand: on to a time, read columns, set states of the scene, and on.
 
     Set the inputs of a controller as states whose rate is 0."""
 
     def __init__(self, core):
+        super().__init__(core.header)
         self._core = core
-        self._columns = Columns(core.header)
         self._states = {name: (place, unit) for place, (name, unit) in enumerate(core.states)}
         self._row = None
         self._over = False
@@ -278,13 +278,6 @@ class Simulation:
     @property
     def t(self):
         return self._core.time
-
-    @property
-    def names(self):
-        return list(self._columns.names)
-
-    def unit(self, name):
-        return self._columns.units[self._columns.place(name)]
 
     def advance(self, t):
         """On to time t [s], through all events before it. False once the run is over. ValueError where t is not ahead."""

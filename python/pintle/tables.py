@@ -35,12 +35,11 @@ class Columns:
         return places[0]
 
 
-class Table:
-    """Rows of numbers, a column each quantity; `table["crank.angle"]` is an array that shares the memory of the run."""
+class Headed:
+    """What has columns with names and units."""
 
-    def __init__(self, headings, data):
+    def __init__(self, headings):
         self._columns = Columns(headings)
-        self.data = data
 
     @property
     def names(self):
@@ -50,6 +49,14 @@ class Table:
     def unit(self, name):
         """Of a column; "" of a number."""
         return self._columns.units[self._columns.place(name)]
+
+
+class Table(Headed):
+    """Rows of numbers, a column each quantity; `table["crank.angle"]` is an array that shares the memory of the run."""
+
+    def __init__(self, headings, data):
+        super().__init__(headings)
+        self.data = data
 
     def __getitem__(self, name):
         return self.data[:, self._columns.place(name)]
