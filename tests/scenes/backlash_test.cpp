@@ -131,16 +131,21 @@ std::string pushed(const Pair& p, double sign) {
   return p.of_a[2] == 'v' ? "forces: {f: {force: [" + size + ", 0], at: a}}\n" : "forces: {f: {torque: " + size + ", on: a}}\n";
 }
 
-// b held, a pressed: off the ideal gear by half the backlash and what the flank gives; bearings carry the force of slanted teeth.
+// b held, a pressed, by a linear flank of 1e8 N/m.
+Equilibrium pressed(const Pair& p, double angle, double sign) {
+  const Scene s = ready_for_statics(read_scene_text(scene(p, "normal: {spring-damper: {stiffness: 1e8, damping: 100}}", angle) +
+                                                        pushed(p, sign) + "drivers: {brake: {angle: [ground, b], law: 0}}\n" + rest,
+                                                    "s.yaml"));
+  const Model model = build(s);
+  return find_equilibrium(s, model, assemble(s, model));
+}
+
+// Off the ideal gear by half the backlash and what the flank gives; bearings carry the force of slanted teeth.
 TEST_P(Backlash, AtRestIsOffByHalfAndWhatAFlankGives) {
   constexpr double k = 1e8;
   for (const double angle : {0.0, slant})
     for (const double sign : {1.0, -1.0}) {
-      const Scene s = ready_for_statics(read_scene_text(scene(pair_, "normal: {spring-damper: {stiffness: 1e8, damping: 100}}", angle) +
-                                                            pushed(pair_, sign) + "drivers: {brake: {angle: [ground, b], law: 0}}\n" + rest,
-                                                        "s.yaml"));
-      const Model model = build(s);
-      const Equilibrium at_rest = find_equilibrium(s, model, assemble(s, model));
+      const Equilibrium at_rest = pressed(pair_, angle, sign);
       ASSERT_TRUE(at_rest.found) << at_rest.reason;
       const auto value = [&](const std::string& column) { return at_rest.table.column(column).at(0); };
       const double normal = push / std::cos(angle), gives = normal / k / std::cos(angle);
@@ -163,11 +168,7 @@ TEST(BacklashOfAxles, GrowsAsTheyPart) {
   for (const double sign : {1.0, -1.0}) {
     Pair p = pairs[0];
     p.bodies = wheels(0.3 + more);
-    const Scene s = ready_for_statics(read_scene_text(scene(p, "normal: {spring-damper: {stiffness: 1e8, damping: 100}}", slant) +
-                                                          pushed(p, sign) + "drivers: {brake: {angle: [ground, b], law: 0}}\n" + rest,
-                                                      "s.yaml"));
-    const Model model = build(s);
-    const Equilibrium at_rest = find_equilibrium(s, model, assemble(s, model));
+    const Equilibrium at_rest = pressed(p, slant, sign);
     ASSERT_TRUE(at_rest.found) << at_rest.reason;
     travel[sign > 0] = at_rest.table.column("teeth.travel [m]").at(0);
   }
