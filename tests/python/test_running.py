@@ -19,21 +19,16 @@ long_run = pintle.parse(pendulum).set({"run.until": "1e5 s", "output.every": "1 
 
 class Threads(unittest.TestCase):
     def test_python_goes_on_while_a_run_computes(self):
-        counted, going = [0], [True]
+        def count_and_stop():
+            for _ in range(10):
+                time.sleep(1e-3)
+            os.kill(os.getpid(), signal.SIGINT)
 
-        def count():
-            while going[0]:
-                counted[0] += 1
-                time.sleep(1e-4)
-
-        thread = threading.Thread(target=count)
-        thread.start()
-        before, begin = counted[0], time.perf_counter()
-        pintle.parse(pendulum).set({"run.until": "20 s"}).run()
-        during, seconds = counted[0] - before, time.perf_counter() - begin
-        going[0] = False
+        thread = threading.Thread(target=count_and_stop)
+        with self.assertRaises(KeyboardInterrupt):  # held, the thread would wait for the end of the run, and none came
+            thread.start()
+            long_run.run()
         thread.join()
-        self.assertGreater(during, 2, f"in {seconds} s")  # held, it would count nothing
 
     def test_runs_in_threads_are_the_same_to_the_bit(self):
         scene = pintle.load(examples / "slider_crank_clearance.yaml").set({"run.until": "5 ms"})
@@ -53,18 +48,24 @@ class Threads(unittest.TestCase):
 
 
 class Signals(unittest.TestCase):
-    def interrupt_soon(self, number=signal.SIGINT):
-        timer = threading.Timer(0.3, os.kill, (os.getpid(), number))
-        timer.start()
-        self.addCleanup(timer.join)
+    def interrupted(self, call, raised=KeyboardInterrupt, number=signal.SIGINT, under_way=lambda stop: hasattr(stop, "result")):
+        """What `call` raises where a signal meets it under way; on a busy machine one may come before that."""
+        for wait in (0.3, 1, 3, 10):
+            timer = threading.Timer(wait, os.kill, (os.getpid(), number))
+            timer.start()
+            try:
+                call()
+            except raised as stop:
+                if under_way(stop):
+                    return stop
+            finally:
+                timer.join()
+        self.fail("no signal came while it was under way")
 
     def test_ctrl_c_ends_a_run_and_keeps_what_was_computed(self):
-        self.interrupt_soon()
-        with self.assertRaises(KeyboardInterrupt) as caught:
-            long_run.run()
-        result = caught.exception.result
+        result = self.interrupted(long_run.run, under_way=lambda stop: hasattr(stop, "result") and stop.result.t[-1] > 0).result
         self.assertEqual(result.status, "interrupted")
-        self.assertTrue(0 < result.t[-1] < 1e5)
+        self.assertLess(result.t[-1], 1e5)
         self.assertEqual(len(result["rod.angle"]), len(result.t))
 
     def test_what_another_handler_raises_comes_through(self):
@@ -76,20 +77,18 @@ class Signals(unittest.TestCase):
 
         before = signal.signal(signal.SIGUSR1, handler)
         self.addCleanup(signal.signal, signal.SIGUSR1, before)
-        self.interrupt_soon(signal.SIGUSR1)
-        with self.assertRaises(Enough) as caught:
-            long_run.run()
-        self.assertEqual(caught.exception.result.status, "interrupted")
+        self.assertEqual(self.interrupted(long_run.run, Enough, signal.SIGUSR1).result.status, "interrupted")
 
     def test_a_simulation_by_hand_keeps_what_was_computed(self):
-        simulation = long_run.simulation()
-        self.interrupt_soon()
-        with self.assertRaises(KeyboardInterrupt):
-            simulation.advance(1e5)
-        reached = simulation.t
-        self.assertTrue(0 < reached < 1e5)
-        self.assertGreater(len(simulation.result()), 1)
+        simulations = []
 
+        def go():
+            simulations.append(long_run.simulation())
+            simulations[-1].advance(1e5)
+
+        self.interrupted(go, under_way=lambda stop: simulations and simulations[-1].t > 0)
+        self.assertLess(simulations[-1].t, 1e5)
+        self.assertGreater(len(simulations[-1].result()), 1)
 
     def test_a_sweep_stops_and_keeps_its_journal(self):
         study = {
@@ -97,12 +96,14 @@ class Signals(unittest.TestCase):
             "measure": {"contacts": "impacts at gudgeon pin"}, "sweep": {"grid": {"clearance": ["0.1 mm", "0.2 mm", "0.3 mm"]}},
         }
         with tempfile.TemporaryDirectory() as place:
-            file, out = Path(place) / "study.yaml", Path(place) / "out"
+            file, outs = Path(place) / "study.yaml", []
             file.write_text(json.dumps(study))
-            self.interrupt_soon()
-            with self.assertRaises(KeyboardInterrupt):
-                pintle.sweep(file, out=out, threads=1)
-            self.assertTrue((out / "journal-0.txt").exists())
+
+            def go():
+                outs.append(Path(place) / f"out-{len(outs)}")
+                pintle.sweep(file, out=outs[-1], threads=1)
+
+            self.interrupted(go, under_way=lambda stop: (outs[-1] / "journal-0.txt").exists())
 
 
 def resident():
