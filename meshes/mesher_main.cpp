@@ -126,6 +126,11 @@ int serve() {
 
 }  // namespace pintle
 
+#if defined(__SANITIZE_ADDRESS__)
+// A crash ends the process by its signal; leaks are not looked for, since that takes a process, which is forbidden here.
+extern "C" const char* __asan_default_options() { return "handle_segv=0:detect_leaks=0"; }
+#endif
+
 int main() {
   std::setlocale(LC_ALL, "C.UTF-8");  // Gmsh asks for it too, when no file can be opened any more
   std::setlocale(LC_NUMERIC, "C");

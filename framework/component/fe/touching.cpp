@@ -30,6 +30,7 @@ MatrixXd motions_left(const FeModel& model, const Supports& supports) {
   const Eigen::JacobiSVD<MatrixXd> svd(held, Eigen::ComputeFullV);
   const VectorXd& size = svd.singularValues();
   const Index held_motions = (size.array() > 1e-7 * size[0]).count();
+  if (held_motions == 3) return MatrixXd(all.rows(), 0);
   MatrixXd left = all * svd.matrixV().rightCols(3 - held_motions);
   for (const int f : supports.freedoms) left.row(f).setZero();
   return left;

@@ -29,11 +29,9 @@ Eigen::Matrix3Xd effective_mass(const FeModel& model, const Sparse& M, const Mod
   const RigidInertia rigid = rigid_inertia(model, M);
   const Eigen::Vector2d centre = rigid.c / rigid.m;
   const Eigen::VectorXd about_centre = f.R + centre.y() * f.T.col(0) - centre.x() * f.T.col(1);
-  const Eigen::MatrixXd M_phi = M * modes.shapes;
-  Eigen::Matrix3Xd mass(3, modes.shapes.cols());
-  mass.topRows<2>() = (f.T.transpose() * M_phi).cwiseAbs2();
-  mass.row(2) = (about_centre.transpose() * M_phi).cwiseAbs2();
-  return mass;
+  Eigen::MatrixX3d motions(about_centre.size(), 3);
+  motions << f.T, about_centre;
+  return (motions.transpose() * (M * modes.shapes)).cwiseAbs2();
 }
 
 }  // namespace pintle

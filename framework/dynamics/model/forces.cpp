@@ -158,7 +158,7 @@ UnitWrenches unit_wrenches(const SizedForce& f, bool other, const MarkerMotion& 
     case SizedForce::restoring: out.on_a[2] = 1, out.on_b[2] = -1; break;
     case SizedForce::pull: {
       const Vector2d d = b.r - a.r;
-      if (const double length = d.norm(); length > 0) out.on_a << d / length, 0, out.on_b = -out.on_a;
+      if (const double length = d.norm(); length > 0) out.on_a.head<2>() = d / length, out.on_b = -out.on_a;
     }
   }
   return out;
