@@ -140,10 +140,12 @@ bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, Sta
 }
 
 // Bodies that overlap at the end of the step and stay, as an impact without restitution leaves them, go apart by the shortest way in the
-// metric of M, none into another that was closed. Wedged ones stay as they are.
+// metric of M, none into another that was closed: the impact has taken too much by what that lifts. Wedged ones stay as they are.
 bool MoreauJean::push_apart(Instant& end, Equations& eq) {
   constexpr int most = 3;
   State apart = end.state;
+  VectorXd worked = VectorXd::Zero(static_cast<Index>(system_.contacts.size()));  // by each contact, but for a factor
+  double balance = 0;
   bool pushed = false;
   for (int i = 0; i < most; ++i) {
     bool overlap = false;
@@ -156,6 +158,8 @@ bool MoreauJean::push_apart(Instant& end, Equations& eq) {
       apart.friction[c] = {};
     }
     if (!overlap) break;
+    if (!pushed) balance = energies(system_, end.state, eq).balance();
+    pushed = true;
     evaluate_held(system_, apart, eq);
     const Closed closed = closed_contacts(system_, apart, eq);
     const MatrixXd W = respond_to_sticking(system_, eq);
@@ -166,12 +170,20 @@ bool MoreauJean::push_apart(Instant& end, Equations& eq) {
     }
     const auto x = unilateral_forces(closed.unknowns, W, gaps);
     if (!x) break;
+    for (std::size_t k = 0; k < closed.contact.size(); ++k) {
+      const Index n = closed.unknowns[k].normal;
+      worked[closed.contact[k]] += std::max(-gaps[n], 0.0) * (*x)[n];
+    }
     apart.y.head(system_.n()) += eq.sticking.a * *x;
     if (!pintle::project(system_, apart.t, apart.y, eq)) return false;
-    pushed = true;
   }
   end.state.y = apart.y;
-  return !pushed || evaluate_node(end, eq);
+  if (!pushed || !evaluate_node(end, eq)) return !pushed;
+  if (!(worked.sum() > 0)) return true;
+  const double lifted = energies(system_, end.state, eq).balance() - balance;
+  for (std::size_t c = 0; c < system_.contacts.size(); ++c)
+    end.state.y[system_.z_begin() + system_.contact_z[c]] -= lifted * worked[static_cast<Index>(c)] / worked.sum();
+  return true;
 }
 
 // By the trapezoidal rule, but for what impulses have booked.
