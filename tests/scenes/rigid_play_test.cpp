@@ -86,10 +86,10 @@ TEST_P(RigidPlay, APinRollsInItsBearingUntilItRests) {
 
 // A rider hangs on a journal that turns slowly, ω. The contact climbs by rolling, ω r t = c φ + R ψ, and the rider leans by ψ = R sin φ/L
 // so that its weight stays below the contact; at tan φ = μ it begins to slip, and stays there. The damper holds it back by D ψ'/(m g L).
-TEST_P(RigidPlay, AJournalRollsUpToTheFrictionAngleAndSlips) {
+TEST(RigidPlayRun, AJournalRollsUpToTheFrictionAngleAndSlips) {
   const double friction = 0.35, c = 1e-3, R = 0.02, L = 0.2, m = 2, D = 1, omega = 2e-3, phi = std::atan(friction);
   const double slips = (c * phi + R * R * std::sin(phi) / L) / (omega * (R - c)), late = D / (m * g * L), every = 0.05;
-  const Whole w = run_it(
+  const Whole w = run(
       "gravity: [0, -9.81]\nbodies:\n  shaft: {rigid: {mass: 1, inertia: 1e-3}}\n  rider: {rigid: {mass: 2, inertia: 0.05}, points: {C: "
       "[0, "
       "0.2]}}\njoints:\n  axle: {revolute: [ground, shaft]}\n  eye: {revolute: [shaft, rider.C], clearance: {radial: 1 mm, bearing radius: "
