@@ -43,6 +43,20 @@ TEST_P(RigidContact, ABlockOnAGentleSlopeStaysForEver) {
   EXPECT_LT(w.run.counts.steps, 100);
 }
 
+// At the friction angle itself: a hundred-millionth of it less, and it stays for eleven days; as much more, and it slides.
+TEST(RigidFriction, ABlockStaysJustBelowTheFrictionAngleAndSlidesJustAbove) {
+  for (const double part : {1e-6, 1e-8}) {
+    SCOPED_TRACE(part);
+    const Whole stays = run(block(std::atan(mu) * (1 - part), 0, 1e6));
+    expect_sound(stays, 1e-12);
+    EXPECT_NEAR(stays.last("box.x [m]"), 0, 1e-12);
+    const double angle = std::atan(mu) * (1 + part), a = g * (std::sin(angle) - mu * std::cos(angle)), t = 100;
+    const Whole slides = run(block(angle, 0, t));
+    expect_sound(slides, 1e-12);
+    EXPECT_NEAR(slides.last("box.x [m]"), a * t * t / 2, 1e-15 / part * a * t * t);  // a is known to 1e-16 g
+  }
+}
+
 // It leaves more slowly than shows, and comes back before its gap opens.
 TEST_P(RigidContact, ABallThatLeavesASlightOverlapSlowlyDoesNotFallThrough) {
   for (const double speed : {1e-7, 1e-5, 1e-3}) {

@@ -84,6 +84,30 @@ TEST_P(RigidPlay, APinRollsInItsBearingUntilItRests) {
   EXPECT_GT(w.ledger("pin.lost to friction [J]"), 0);
 }
 
+// A rider hangs on a journal that turns slowly, ω. The contact climbs by rolling, ω r t = c φ + R ψ, and the rider leans by ψ = R sin φ/L
+// so that its weight stays below the contact; at tan φ = μ it begins to slip, and stays there. The damper holds it back by D ψ'/(m g L).
+TEST(RigidPlayRun, AJournalRollsUpToTheFrictionAngleAndSlips) {
+  const double friction = 0.35, c = 1e-3, R = 0.02, L = 0.2, m = 2, D = 1, omega = 2e-3, phi = std::atan(friction);
+  const double slips = (c * phi + R * R * std::sin(phi) / L) / (omega * (R - c)), late = D / (m * g * L), every = 0.05;
+  const Whole w = run(
+      "gravity: [0, -9.81]\nbodies:\n  shaft: {rigid: {mass: 1, inertia: 1e-3}}\n  rider: {rigid: {mass: 2, inertia: 0.05}, points: {C: "
+      "[0, "
+      "0.2]}}\njoints:\n  axle: {revolute: [ground, shaft]}\n  eye: {revolute: [shaft, rider.C], clearance: {radial: 1 mm, bearing radius: "
+      "20 mm, bearing: rider, model: impact, restitution: 0, friction: {coulomb: {coefficient: 0.35}}}}\n"
+      "drivers: {motor: {angle: [ground, shaft], law: 2 mrad/s*t}}\n"
+      "forces: {settle: {torsion spring: [ground, rider], damping: 1}}\n"
+      "start: {eye: {eccentricity: [0, 1 mm]}, rider: {angle: 0, speed: 0}}\n" +
+      run_for(40, every));
+  expect_sound(w);
+  const auto t = w.column("t [s]"), N = w.column("eye.normal [N]"), T = w.column("eye.friction [N]");
+  double holds = 0;  // the last time
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (std::abs(T[i]) < friction * N[i] * (1 - 1e-9)) holds = t[i];
+  EXPECT_NEAR(holds, slips, late + every);
+  EXPECT_NEAR(w.last("eye.ex [m]") / w.last("eye.ey [m]"), friction, 1e-9);
+  EXPECT_NEAR(std::hypot(N.back(), T.back()), m * g, 1e-9 * m * g);  // what bears the weight is upright
+}
+
 // ---- ropes, guides and slots --------------------------------------------------------------------
 
 TEST_P(RigidPlay, AWeightBouncesOnItsRopeAndThenHangs) {

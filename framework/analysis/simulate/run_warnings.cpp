@@ -19,7 +19,9 @@ void warn_of_depth(const System& system, Run& run) {
     force[first] = std::max(force[first], i.peak_force);
   }
   for (std::size_t c = 0; c < deepest.size(); ++c)
-    if (const ContactPair& pair = system.contacts[c]; deepest[c] > too_deep * contact_size(pair, system.length)) {
+    if (const ContactPair& pair = system.contacts[c]; is_rigid(pair)) {
+      continue;
+    } else if (deepest[c] > too_deep * contact_size(pair, system.length)) {
       std::ostringstream s;
       s.precision(3);
       s << "\"" << system.contact_names[c] << "\": the " << (pair.profiles ? "surfaces overlapped by " : "journal went ") << deepest[c]

@@ -95,6 +95,8 @@ void ImpactLog::follow(int c, const Step& step, const Guard& from, const Guard& 
   Impact& impact = impacts_[at(open_[at(c)])];
   const ContactPair& pair = system_.contacts[at(c)];
   if (is_rigid(pair)) {
+    if (const double overlap = gap_of(system_, c, step.to.state).value; overlap > pair.slack)
+      impact.deepest = std::max(impact.deepest, overlap);
     impact.peak_force = std::max(impact.peak_force, step.to.state.friction[at(c)].load);
     impact.lost = loss(c, step.to.state) - loss_at_begin_[at(c)];
     return;

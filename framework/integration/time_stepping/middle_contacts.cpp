@@ -21,21 +21,31 @@ bool is_same_corner(const Piece& a, const Piece& b) { return is_corner(a) && is_
 
 }  // namespace
 
-MiddleContacts::MiddleContacts(const System& system) : system_(system), before_(system.contacts.size(), 0), now_(before_) {}
+MiddleContacts::MiddleContacts(const System& system)
+    : system_(system), before_(system.contacts.size(), 0), now_(before_), goes_on_(before_) {}
 
-void MiddleContacts::look(const State& middle, double h) {
+void MiddleContacts::look(const State& from, const State& middle, double h) {
   passed_ = -1;
-  std::ranges::fill(now_, 0);
-  for (int c = 0; c < static_cast<int>(now_.size()); ++c) now_[at(c)] = look(c, middle, h);
+  for (int c = 0; c < static_cast<int>(now_.size()); ++c) {
+    goes_on_[at(c)] = continues(c, from);
+    now_[at(c)] = look(c, middle, h);
+  }
+}
+
+// It, or the pair from whose pieces it comes onto its own, was pressed in the step before.
+bool MiddleContacts::continues(int c, const State& from) const {
+  const auto pressed = [&](int contact) { return contact >= 0 && from.impact_rate[at(contact)] > 0; };
+  return pressed(c) || std::ranges::any_of(system_.contacts[at(c)].beyond, pressed);
 }
 
 bool MiddleContacts::look(int c, const State& middle, double h) {
   const ContactPair& pair = system_.contacts[at(c)];
   if (is_released(system_, Switch::contact, c, middle.y)) return false;
   const double touch = std::max(1e-9 * fine_length(pair, system_.length), pair.slack) + pair.slack, now = gap_of(system_, c, middle).value;
+  const auto inside = [&](const State& state) { return !pair.profiles || margin_of(system_, c, state).value >= 0; };
+  if (now <= 0 && goes_on_[at(c)]) return inside(middle);
   if (!(now > -touch)) return false;
   if (!pair.profiles) return true;
-  const auto inside = [&](const State& state) { return margin_of(system_, c, state).value >= 0; };
   if (now <= 0 || before_[at(c)]) return now < pair.deepest && inside(middle);
 
   const double before = gap_of(system_, c, earlier(system_, middle, h)).value;

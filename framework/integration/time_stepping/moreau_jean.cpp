@@ -2,22 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "framework/common/archive.h"
 #include "framework/common/index.h"
 #include "framework/dynamics/equations/energy.h"
 #include "framework/dynamics/equations/rigid_contacts.h"
 #include "framework/dynamics/equations/sticking.h"
+#include "framework/integration/events/impact_log.h"
 
 namespace pintle {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 MoreauJean::MoreauJean(const System& system, double step)
     : system_(system),
       traits_{.order = 2, .implicit = false, .follows_impacts = false, .ends_evaluated = true, .fixed_step = step},
-      contacts_(system) {}
+      contacts_(system),
+      given_(system.contacts.size(), 0.0),
+      given_now_(given_),
+      left_(given_) {}
 
 bool MoreauJean::evaluate_node(Instant& node, Equations& eq) {
   if (!pintle::project(system_, node.state.t, node.state.y, eq)) return false;
@@ -42,7 +48,7 @@ bool MoreauJean::attempt(double h, const ErrorNorm&, Step& step, Equations& eq) 
   middle_ = from;
   middle_.t = from.t + h / 2;
   middle_.y.head(n) += h / 2 * from.y.segment(n, n);
-  contacts_.look(middle_, h);
+  contacts_.look(from, middle_, h);
   if (const int c = contacts_.passed_through(); c >= 0) {
     trouble_ = "in one step bodies go right through each other at \"" + system_.contact_names[at(c)] + "\"; take a shorter step";
     return false;
@@ -68,14 +74,19 @@ bool MoreauJean::attempt(double h, const ErrorNorm&, Step& step, Equations& eq) 
   to.y.segment(n, n) = speeds;
   to.y.head(n) = middle_.y.head(n) + h / 2 * speeds;
   to.y.segment(system_.x_begin(), system_.n_x()) += h * step.from.dy.segment(system_.x_begin(), system_.n_x());
-  if (!to.y.allFinite() || !evaluate_node(step.to, eq)) return false;
+  if (!to.y.allFinite() || !evaluate_node(step.to, eq) || !push_apart(step.to, eq)) return false;
   book_rates(step);
   book_loss(to, eq);
   return step.to.dy.allFinite();
 }
 
-// Impulses of the contacts that are closed in the middle.
+// Impulses of the contacts that are closed in the middle: Newton's law for the opening speeds and slips at the start and at the end of the
+// step, which are those in the middle but for what J turns in half a step. Of a contact that goes on, what the step before has left of its gap,
+// by the third power of h, is given to the speed at the end, and is no approach in the step after.
 bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, State& to, Equations& eq) {
+  constexpr double rounding = 1e-10;  // of the speeds that meet
+  std::ranges::fill(given_now_, 0.0);
+  std::ranges::fill(left_, std::numeric_limits<double>::infinity());
   std::ranges::fill(to.impact_rate, 0.0);
   std::ranges::fill(to.friction, DryFriction{});
   for (std::size_t c = 0; c < system_.contacts.size(); ++c)
@@ -86,12 +97,24 @@ bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, Sta
   const Closed closed = closed_contacts(system_, middle_, eq);
   std::vector<double> e;
   for (const int c : closed.contact) e.push_back(system_.contacts[at(c)].rigid->restitution);
-  const Eigen::MatrixXd W = respond_to_sticking(system_, eq);
-  const VectorXd before = eq.sticking.J.transpose() * from.y.segment(system_.n(), system_.n()), free = eq.sticking.J.transpose() * speeds;
-  auto x = newton_impulses(system_, closed, e, W, before, free);
+  const MatrixXd W = respond_to_sticking(system_, eq);
+  const auto& J = eq.sticking.J;
+  const VectorXd turning = h / 2 * (sticking_accelerations(system_, eq) - J.transpose() * eq.a);
+  const VectorXd before = J.transpose() * from.y.segment(system_.n(), system_.n()) - turning, free = J.transpose() * speeds + turning;
+  VectorXd meeting = before, closing = free;
+  for (std::size_t i = 0; i < closed.unknowns.size(); ++i) {
+    const auto c = at(closed.contact[i]);
+    const int k = closed.unknowns[i].normal;
+    meeting[k] += given_[c];
+    if (!contacts_.goes_on(c)) continue;
+    const double most = std::abs(turning[k]);
+    given_now_[c] = std::clamp(-gap_of(system_, closed.contact[i], from).value / h, -most, most);
+    closing[k] += given_now_[c];
+  }
+  auto x = newton_impulses(system_, closed, e, W, meeting, closing);
   if (!x) {  // bodies wedged between others cannot all part as e says
     std::ranges::fill(e, 0.0);
-    x = newton_impulses(system_, closed, e, W, before, free);
+    x = newton_impulses(system_, closed, e, W, meeting, closing);
   }
   if (!x) {
     trouble_ = "no impulses stop the bodies that meet at \"" + system_.contact_names[at(closed.contact.front())] +
@@ -99,15 +122,67 @@ bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, Sta
     return false;
   }
   speeds += eq.sticking.a * *x;
-  book_impulses(system_, closed, *x, (before + free + W * *x) / 2, to);
+  const VectorXd after = free + W * *x;
+  book_impulses(system_, closed, *x, (before + after) / 2, to);
   book_driver_impulses(system_, eq, eq.sticking.lambda * *x, to);
   for (std::size_t i = 0; i < closed.unknowns.size(); ++i) {
     const UnilateralContact& k = closed.unknowns[i];
     const auto c = at(closed.contact[i]);
-    if (!((*x)[k.normal] > 0)) continue;
+    if (!((*x)[k.normal] > 0)) {
+      given_now_[c] = 0;
+      continue;
+    }
+    if (!(after[k.normal] > rounding * std::abs(before[k.normal]))) left_[c] = contacts_.goes_on(c) ? h * std::abs(turning[k.normal]) : 0;
     to.impact_rate[c] = std::max(-before[k.normal], system_.contacts[c].slowest_impact);
     to.friction[c] = {DryFriction::given, k.tangent >= 0 ? (*x)[k.tangent] / h : 0, (*x)[k.normal] / h};
   }
+  return true;
+}
+
+// Bodies that overlap at the end of the step and stay, as an impact without restitution leaves them, go apart by the shortest way in the
+// metric of M, none into another that was closed: the impact has taken too much by what that lifts. Wedged ones stay as they are.
+bool MoreauJean::push_apart(Instant& end, Equations& eq) {
+  constexpr int most = 3;
+  State apart = end.state;
+  VectorXd worked = VectorXd::Zero(static_cast<Index>(system_.contacts.size()));  // by each contact, but for a factor
+  double balance = 0;
+  bool pushed = false;
+  for (int i = 0; i < most; ++i) {
+    bool overlap = false;
+    for (std::size_t c = 0; c < system_.contacts.size(); ++c) {
+      const ContactPair& pair = system_.contacts[c];
+      const int k = static_cast<int>(c);
+      const bool closed = contacts_.closed(c) && (!pair.profiles || margin_of(system_, k, apart).value >= 0);
+      overlap = overlap || (closed && gap_of(system_, k, apart).value > std::max(pair.slack, left_[c]));
+      apart.impact_rate[c] = closed ? pair.slowest_impact : 0;
+      apart.friction[c] = {};
+    }
+    if (!overlap) break;
+    if (!pushed) balance = energies(system_, end.state, eq).balance();
+    pushed = true;
+    evaluate_held(system_, apart, eq);
+    const Closed closed = closed_contacts(system_, apart, eq);
+    const MatrixXd W = respond_to_sticking(system_, eq);
+    VectorXd gaps(W.cols());
+    for (std::size_t k = 0; k < closed.contact.size(); ++k) {
+      const double gap = -eq.contact[at(closed.contact[k])].gap.depth;
+      gaps[closed.unknowns[k].normal] = std::isfinite(left_[at(closed.contact[k])]) ? gap : std::max(gap, 0.0);
+    }
+    const auto x = unilateral_forces(closed.unknowns, W, gaps);
+    if (!x) break;
+    for (std::size_t k = 0; k < closed.contact.size(); ++k) {
+      const Index n = closed.unknowns[k].normal;
+      worked[closed.contact[k]] += std::max(-gaps[n], 0.0) * (*x)[n];
+    }
+    apart.y.head(system_.n()) += eq.sticking.a * *x;
+    if (!pintle::project(system_, apart.t, apart.y, eq)) return false;
+  }
+  end.state.y = apart.y;
+  if (!pushed || !evaluate_node(end, eq)) return !pushed;
+  if (!(worked.sum() > 0)) return true;
+  const double lifted = energies(system_, end.state, eq).balance() - balance;
+  for (std::size_t c = 0; c < system_.contacts.size(); ++c)
+    end.state.y[system_.z_begin() + system_.contact_z[c]] -= lifted * worked[static_cast<Index>(c)] / worked.sum();
   return true;
 }
 
@@ -155,10 +230,12 @@ void MoreauJean::evaluate_end(const Step& step, Equations& eq) {
 void MoreauJean::save(Writer& out) const {
   out.whole(balance_);
   out.whole(contacts_);
+  out.whole(given_);
 }
 void MoreauJean::load(Reader& in) {
   in.whole(balance_);
   in.whole(contacts_);
+  in.whole(given_);
 }
 
 }  // namespace pintle

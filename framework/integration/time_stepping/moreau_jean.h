@@ -17,7 +17,7 @@ class MoreauJean final : public Stepper {
   const StepperTraits& traits() const override { return traits_; }
   bool project(Instant&, Equations&) override;
   bool attempt(double h, const ErrorNorm&, Step&, Equations&) override;
-  void accept(Equations&) override { contacts_.keep(); }
+  void accept(Equations&) override { contacts_.keep(), given_ = given_now_; }
   double first_step(const Instant&, const ErrorNorm&, double) const override { return traits_.fixed_step; }
   void interpolate(const Step&, double t, State& out) const override;
   bool sample(const Step&, double t, Equations&, State& out) override;
@@ -29,12 +29,13 @@ class MoreauJean final : public Stepper {
   int partitions() const override { return 0; }
   void save(Writer&) const override;
   void load(Reader&) override;
-  bool fits(const Instant&) const override { return contacts_.fits(); }
+  bool fits(const Instant&) const override { return contacts_.fits() && given_.size() == given_now_.size(); }
   void evaluate_end(const Step&, Equations&) override;
 
  private:
   bool evaluate_node(Instant&, Equations&);
   bool put_impulses(double h, const State& from, Eigen::VectorXd& speeds, State& to, Equations&);
+  bool push_apart(Instant&, Equations&);
   void book_rates(Step&) const;
   void book_loss(State&, const Equations&) const;
 
@@ -43,7 +44,9 @@ class MoreauJean final : public Stepper {
   State middle_;
   MiddleContacts contacts_;
   std::string trouble_;
-  double balance_ = 0;  ///< of the books, which the integral of what the scheme loses keeps [J]
+  std::vector<double> given_, given_now_;  ///< closing speeds that contacts were given for their gaps, in the step before and in this [m/s]
+  std::vector<double> left_;               ///< the most that those that stay may overlap, for the next step's speeds to take back [m]
+  double balance_ = 0;                     ///< of the books, which the integral of what the scheme loses keeps [J]
 };
 
 }  // namespace pintle
