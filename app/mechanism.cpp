@@ -257,7 +257,7 @@ int check_kinematics(const Options& options, Scene scene, const std::vector<std:
 }  // namespace
 
 int check(const Options& options) {
-  const Scene scene = with_pieces(runnable(options));
+  Scene scene = with_pieces(runnable(options));
   if (const auto massless = massless_bodies(scene); !massless.empty()) return check_kinematics(options, scene, massless);
   const double begin = processor_time();
   Model model = build_with_preliminary_run(scene);
@@ -304,7 +304,7 @@ class Recording {
     return out;
   }
   void finish(const Run& run) {
-    if (writer_) writer_->finish();
+    if (writer_) writer_->finish(drawn_impacts(run.impacts));
     files_.finish(run.impacts);
     write_actions(directory_, scene_, run);
   }
@@ -351,7 +351,7 @@ std::optional<SavedState> saved_state(const Options& options, const Scene& scene
 
 int run(const Options& options) {
   now_doing("reading the scene");
-  const Scene scene = with_pieces(runnable(options));
+  Scene scene = with_pieces(runnable(options));
   const fs::path out = results_directory(options);
   require_place(out);
   now_doing("building the model");
