@@ -8,6 +8,7 @@
 
 #include "app/options.h"
 #include "app/cost_text.h"
+#include "app/frame_count.h"
 #include "app/progress.h"
 #include "app/report.h"
 #include "app/run_end.h"
@@ -258,9 +259,11 @@ int check_kinematics(const Options& options, Scene scene, const std::vector<std:
 
 int check(const Options& options) {
   Scene scene = with_pieces(runnable(options));
+  const FrameCount frames(scene);
   if (const auto massless = massless_bodies(scene); !massless.empty()) return check_kinematics(options, scene, massless);
   const double begin = processor_time();
   Model model = build_with_preliminary_run(scene);
+  frames.fit(model, scene);
   const double built = processor_time() - begin - (model.preliminary_run ? model.preliminary_run->seconds : 0);
   const Assembly assembly = assemble(scene, model);
   foresee_room(options, scene, model);
@@ -352,10 +355,12 @@ std::optional<SavedState> saved_state(const Options& options, const Scene& scene
 int run(const Options& options) {
   now_doing("reading the scene");
   Scene scene = with_pieces(runnable(options));
+  const FrameCount frames(scene);
   const fs::path out = results_directory(options);
   require_place(out);
   now_doing("building the model");
   Model model = build(scene);
+  frames.fit(model, scene);
   const Assembly assembly = assemble(scene, model);
   const std::optional<SavedState> from = saved_state(options, scene, model, assembly);
   for (std::string& warning : validate_room(out, room_needed(scene, model, from ? from->t : 0), room_at(out)))
