@@ -23,7 +23,7 @@ using Eigen::Vector2d;
 
 /// When a file that the scene may read from its folder was saved last.
 fs::file_time_type last_saved(const fs::path& scene) {
-  fs::file_time_type last{};
+  fs::file_time_type last = fs::file_time_type::min();
   std::error_code ignored;
   const fs::path folder = scene.has_parent_path() ? scene.parent_path() : fs::path(".");
   for (auto entry = fs::directory_iterator(folder, ignored); entry != fs::directory_iterator(); entry.increment(ignored)) {
@@ -131,8 +131,7 @@ void ViewSession::read_if_saved() {
 
 std::string ViewSession::drawing() const {
   Json out{{"version", version_}, {"file", scene_.filename().string()}, {"error", error_}};
-  if (assembled_)
-    for (auto& [key, value] : assembled_->json().items()) out[key] = std::move(value);
+  if (assembled_) out.update(assembled_->json());
   return out.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -26,6 +26,10 @@ System joints_alone(const System& system) {
   }
   out.joints.insert(out.joints.end(), system.loose.begin(), system.loose.end());
   out.joint_names.insert(out.joint_names.end(), system.loose_names.begin(), system.loose_names.end());
+  for (std::size_t c = 0; c < static_cast<std::size_t>(n_clearances(system)); ++c) {
+    out.joints.emplace_back(Revolute{system.contacts[c].a, system.contacts[c].b});
+    out.joint_names.push_back(system.contact_names[c]);
+  }
   out.frictions.clear(), out.forces.clear(), out.force_names.clear(), out.contacts.clear(), out.contact_names.clear();
   out.signals.clear(), out.laws.clear(), out.states.clear(), out.switches.clear(), out.loose.clear(), out.loose_names.clear();
   out.joint_switch.clear(), out.force_switch.clear(), out.contact_switch.clear();
@@ -94,7 +98,7 @@ bool MovedByHand::pull(int body, const Vector2d& point, const Vector2d& to) {
     step *= std::min(1.0, longest / std::max(step.cwiseQuotient(system_.scale).lpNorm<Eigen::Infinity>(), 1e-300));
     VectorXd q = q_ + step;
     if (close(q) && missing(q).norm() < d.norm()) {
-      const bool crawls = missing(q).norm() > (1 - 1e-6) * d.norm();
+      const bool crawls = missing(q).norm() > (1 - 1e-10) * d.norm();
       q_ = q, damping = std::max(damping / 10, 1e-9);
       if (crawls) break;
     } else {

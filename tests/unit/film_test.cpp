@@ -129,7 +129,7 @@ TEST_F(Film, IsNotThereWhereItsFolderIsNot) {
 }
 
 TEST_F(Film, StoppedByTheUserLeavesNothingAndEndsWithCodeSix) {
-  // A million and more would take minutes; it is stopped as soon as ffmpeg has begun its file.
+  // Fifty thousand pictures would take minutes; it is stopped as soon as ffmpeg has begun its file.
   const pid_t child =
       start(folder_.path() / "stopped", command({"film", "out", "long.mp4", "--size", "1600x1200", "--fps", "100", "--speed", "0.0002"}));
   using clock = std::chrono::steady_clock;

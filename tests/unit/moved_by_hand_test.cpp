@@ -65,6 +65,18 @@ TEST(MovedByHand, ACrankPulledFromAfarPointsAtIt) {
   EXPECT_NEAR(std::atan2(std::sin(h.hand.coordinates()[2]), std::cos(h.hand.coordinates()[2])), std::atan2(4, -3), 1e-3);
 }
 
+TEST(MovedByHand, JointsWithPlayAreClosed) {
+  std::string text = slider_crank;
+  const std::string pin = "{revolute: [rod.B, slider.P]}";
+  text.replace(text.find(pin), pin.size(),
+               "{revolute: [rod.B, slider.P], clearance: {radial: 0.1 mm, bearing radius: 10 mm, bearing: slider,\n"
+               "            normal: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}}}");
+  Hand h(text);
+  EXPECT_EQ(h.hand.mobility(), 1);
+  ASSERT_TRUE(h.hand.pull(0, {1, 0}, {0, 1}));
+  EXPECT_NEAR(h.hand.coordinates()[6], std::sqrt(8), 1e-7);
+}
+
 TEST(MovedByHand, DriversLetGo) {
   Hand h(std::string(slider_crank) + "drivers: {motor: {angle: [ground, crank], law: present + 1 rad/s*t}}\n");
   EXPECT_EQ(h.hand.mobility(), 1);
