@@ -1,3 +1,4 @@
+// The one file that includes cairo.
 #include "app/canvas.h"
 
 #include <algorithm>
@@ -5,13 +6,12 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
-#include <vtkMath.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
+#include <cairo.h>
+
+#include "framework/common/file.h"
 
 namespace pintle {
 
@@ -54,37 +54,121 @@ std::vector<int> first_at_same_place(const Eigen::Matrix2Xd& points) {
   return first;
 }
 
-}  // namespace
-
-Colour field_colour(double share) {
-  const double s = std::clamp(share, 0.0, 1.0);
-  Colour colour;
-  vtkMath::HSVToRGB(0.66 * (1 - s), 0.75 + 0.1 * s, 0.85 + 0.05 * s, &colour[0], &colour[1], &colour[2]);
-  return colour;
-}
-
-vtkIdType Canvas::corner(const Vector2d& at, const Colour& colour) {
-  const Colour byte = 255 * colour;
-  colours_->InsertNextTuple3(byte.x(), byte.y(), byte.z());
-  return points_->InsertNextPoint(at.x(), at.y(), layer_);
-}
-
-void Canvas::fill(const std::vector<Vector2d>& outline, const Colour& colour) {
-  shapes_->InsertNextCell(static_cast<int>(outline.size()));
-  for (const Vector2d& r : outline) shapes_->InsertCellPoint(corner(r, colour));
-}
-
-void Canvas::fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>& cells, const std::vector<Colour>& colours) {
-  const auto count = static_cast<std::size_t>(points.cols());
-  std::vector<vtkIdType> ids(count);
-  for (std::size_t i = 0; i < count; ++i) ids[i] = corner(points.col(static_cast<Eigen::Index>(i)), colours[colours.size() == 1 ? 0 : i]);
+template <class Draw>
+void for_each_triangle(const std::vector<Cells>& cells, const Draw& draw) {
   for (const Cells& block : cells)
     for (std::size_t c = 0; c < block.size(); ++c)
       for (const Triangle& t : triangles(block.shape)) {
         const int* node = &block.nodes[c * static_cast<std::size_t>(nodes_of(block.shape))];
-        shapes_->InsertNextCell(3);
-        for (const int k : t) shapes_->InsertCellPoint(ids[static_cast<std::size_t>(node[k])]);
+        draw({node[t[0]], node[t[1]], node[t[2]]});
       }
+}
+
+/// The bytes of a picture, rows from above.
+struct Pixels {
+  unsigned char* bytes;
+  int stride, width, height;
+
+  /// A triangle whose colour is linear between its corners: the pixels whose middle is in it.
+  void shade(const std::array<Vector2d, 3>& r, const std::array<Colour, 3>& colour) {
+    const Vector2d low = r[0].cwiseMin(r[1]).cwiseMin(r[2]), high = r[0].cwiseMax(r[1]).cwiseMax(r[2]), d1 = r[1] - r[0], d2 = r[2] - r[0];
+    const double area = d1.x() * d2.y() - d1.y() * d2.x();
+    if (area == 0 || !low.allFinite() || !high.allFinite()) return;
+    const auto pixel = [](double x, int most) { return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(most))); };
+    for (int y = pixel(low.y() - 0.5, height); y < pixel(high.y() + 1.5, height); ++y)
+      for (int x = pixel(low.x() - 0.5, width); x < pixel(high.x() + 1.5, width); ++x) {
+        const Vector2d d = Vector2d(x + 0.5, y + 0.5) - r[0];
+        const double b = (d.x() * d2.y() - d.y() * d2.x()) / area, c = (d1.x() * d.y() - d1.y() * d.x()) / area;
+        constexpr double edge = -1e-9;  // a pixel on a side belongs to both its triangles
+        if (b < edge || c < edge || b + c > 1 - edge) continue;
+        const Colour mixed = 255 * ((1 - b - c) * colour[0] + b * colour[1] + c * colour[2]);
+        unsigned char* at = bytes + static_cast<std::ptrdiff_t>(y) * stride + 4 * x;
+        for (int k = 0; k < 3; ++k) at[k] = static_cast<unsigned char>(std::clamp(mixed[2 - k], 0.0, 255.0));
+      }
+  }
+};
+
+}  // namespace
+
+Colour field_colour(double share) {
+  const double s = std::clamp(share, 0.0, 1.0), hue = 6 * 0.66 * (1 - s), saturation = 0.75 + 0.1 * s, value = 0.85 + 0.05 * s;
+  const auto channel = [&](double n) {
+    const double k = std::fmod(n + hue, 6);
+    return value - value * saturation * std::clamp(std::min(k, 4 - k), 0.0, 1.0);
+  };
+  return {channel(5), channel(3), channel(1)};
+}
+
+struct Canvas::Surface {
+  cairo_surface_t* image;
+  cairo_t* pen;
+  Surface(int width, int height) : image(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)), pen(cairo_create(image)) {}
+  ~Surface() {
+    cairo_destroy(pen);
+    cairo_surface_destroy(image);
+  }
+  Surface(const Surface&) = delete;
+};
+
+Canvas::Canvas(int width, int height) : width_(width), height_(height), surface_(std::make_unique<Surface>(width, height)) {
+  if (cairo_status(surface_->pen) != CAIRO_STATUS_SUCCESS)
+    throw std::runtime_error("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                             " pixels is too large to draw; make --size smaller");
+  cairo_t* pen = surface_->pen;
+  cairo_set_line_cap(pen, CAIRO_LINE_CAP_ROUND);
+  cairo_set_line_join(pen, CAIRO_LINE_JOIN_ROUND);
+  cairo_select_font_face(pen, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  constexpr double letters = 22;
+  cairo_set_font_size(pen, letters);
+  clear();
+}
+
+Canvas::~Canvas() = default;
+
+void Canvas::clear() {
+  paint({1, 1, 1});
+  cairo_paint(surface_->pen);
+}
+
+void Canvas::paint(const Colour& colour) { cairo_set_source_rgb(surface_->pen, colour.x(), colour.y(), colour.z()); }
+
+void Canvas::trace(const std::vector<Vector2d>& line, bool closed) {
+  constexpr double far = 1e5;  // cairo counts pixels in 24 bits
+  for (const Vector2d& r : line) {
+    const Vector2d at = r.cwiseMax(-far).cwiseMin(far);
+    cairo_line_to(surface_->pen, at.x(), height_ - at.y());
+  }
+  if (closed) cairo_close_path(surface_->pen);
+}
+
+void Canvas::fill(const std::vector<Vector2d>& outline, const Colour& colour) {
+  paint(colour);
+  trace(outline, true);
+  cairo_fill(surface_->pen);
+}
+
+void Canvas::fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>& cells, const Colour& colour) {
+  paint(colour);
+  for_each_triangle(cells, [&](const Triangle& t) {
+    cairo_new_sub_path(surface_->pen);
+    trace({points.col(t[0]), points.col(t[1]), points.col(t[2])}, true);
+  });
+  cairo_fill(surface_->pen);  // all at once: between triangles filled one by one the paper would show
+}
+
+void Canvas::fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>& cells, const std::vector<Colour>& colours) {
+  cairo_surface_flush(surface_->image);
+  Pixels pixels{cairo_image_surface_get_data(surface_->image), cairo_image_surface_get_stride(surface_->image), width_, height_};
+  for_each_triangle(cells, [&](const Triangle& t) {
+    std::array<Vector2d, 3> r;
+    std::array<Colour, 3> c;
+    for (std::size_t k = 0; k < 3; ++k) {
+      r[k] = {points(0, t[k]), height_ - points(1, t[k])};
+      c[k] = colours[static_cast<std::size_t>(t[k])];
+    }
+    pixels.shade(r, c);
+  });
+  cairo_surface_mark_dirty(surface_->image);
 }
 
 void Canvas::stroke_outline(const Eigen::Matrix2Xd& points, const std::vector<Cells>& cells, double width, const Colour& colour) {
@@ -105,23 +189,16 @@ void Canvas::stroke_outline(const Eigen::Matrix2Xd& points, const std::vector<Ce
 }
 
 void Canvas::stroke(const std::vector<Vector2d>& line, bool closed, double width, const Colour& colour) {
-  const std::size_t n = line.size();
-  for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
-    const Vector2d &a = line[i], &b = line[(i + 1) % n];
-    const Vector2d along = (b - a).normalized() * width / 2, across{-along.y(), along.x()};
-    if (a != b) fill({a - across, b - across, b + across, a + across}, colour);
-  }
-  for (const Vector2d& r : line) disc(r, width / 2, colour);
+  paint(colour);
+  cairo_set_line_width(surface_->pen, width);
+  trace(line, closed);
+  cairo_stroke(surface_->pen);
 }
 
 void Canvas::disc(const Vector2d& centre, double radius, const Colour& colour) {
-  std::vector<Vector2d> outline;
-  const int corners = 12 + static_cast<int>(radius);
-  for (int i = 0; i < corners; ++i) {
-    const double angle = 2 * std::numbers::pi * i / corners;
-    outline.push_back(centre + radius * Vector2d(std::cos(angle), std::sin(angle)));
-  }
-  fill(outline, colour);
+  paint(colour);
+  cairo_arc(surface_->pen, centre.x(), height_ - centre.y(), radius, 0, 2 * std::numbers::pi);
+  cairo_fill(surface_->pen);
 }
 
 void Canvas::arrow(const Vector2d& from, const Vector2d& to, double width, const Colour& colour) {
@@ -134,17 +211,47 @@ void Canvas::arrow(const Vector2d& from, const Vector2d& to, double width, const
   fill({to, neck + 0.42 * head * across, neck - 0.42 * head * across}, colour);
 }
 
-vtkSmartPointer<vtkActor> Canvas::actor() const {
-  vtkNew<vtkPolyData> shapes;
-  shapes->SetPoints(points_);
-  shapes->SetPolys(shapes_);
-  shapes->GetPointData()->SetScalars(colours_);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(shapes);
-  const auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  actor->GetProperty()->LightingOff();
-  return actor;
+void Canvas::turn(const Vector2d& centre, double radius, bool counter_clockwise, double width, const Colour& colour) {
+  constexpr int pieces = 36;
+  const double sense = counter_clockwise ? 1 : -1, begin = std::numbers::pi / 2 - sense * 0.25 * std::numbers::pi;
+  std::vector<Vector2d> line;
+  for (int i = 0; i <= pieces; ++i) {
+    const double angle = begin + sense * 1.4 * std::numbers::pi * i / pieces;
+    line.emplace_back(centre + radius * Vector2d(std::cos(angle), std::sin(angle)));
+  }
+  stroke(line, false, width, colour);
+  const Vector2d out = (line.back() - centre).normalized(), along = sense * Vector2d(-out.y(), out.x());
+  const double head = 4 * width;
+  fill({line.back() + head * along, line.back() + 0.45 * head * out, line.back() - 0.45 * head * out}, colour);
+}
+
+void Canvas::words(const std::string& text, double x, double y, Align align, const Colour& colour) {
+  paint(colour);
+  cairo_move_to(surface_->pen, align == Align::right ? x - width_of(text) : x, height_ - y);
+  cairo_show_text(surface_->pen, text.c_str());
+  cairo_new_path(surface_->pen);
+}
+
+double Canvas::width_of(const std::string& text) const {
+  cairo_text_extents_t size;
+  cairo_text_extents(surface_->pen, text.c_str(), &size);
+  return size.x_advance;
+}
+
+std::span<const unsigned char> Canvas::pixels() const {
+  cairo_surface_flush(surface_->image);  // rows of four bytes a pixel follow each other without a gap
+  return {cairo_image_surface_get_data(surface_->image), 4 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)};
+}
+
+void Canvas::write_png(const std::filesystem::path& file) const {
+  std::string png;
+  const auto append = [](void* to, const unsigned char* data, unsigned length) {
+    static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), length);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  if (cairo_surface_write_to_png_stream(surface_->image, append, &png) != CAIRO_STATUS_SUCCESS)
+    throw FileError(file, "the picture could not be encoded, for which there was not enough memory");
+  write_text(file, png);
 }
 
 }  // namespace pintle

@@ -1,13 +1,11 @@
 #pragma once
 
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
-#include <vtkActor.h>
-#include <vtkCellArray.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkSmartPointer.h>
-#include <vtkUnsignedCharArray.h>
 #include <Eigen/Core>
 
 #include "meshes/mesh.h"
@@ -20,15 +18,23 @@ using Eigen::Vector2d;
 /// From blue, the least, to red, the greatest. @param share  clamped to 0 … 1
 Colour field_colour(double share);
 
-/// Filled flat shapes in pixels, a layer above the other.
+enum class Align { left, right };
+
+/// A white picture to draw on, in pixels from its lower left corner; what is drawn later lies above. Drawn by cairo, which canvas.cpp
+/// alone knows; it needs no display.
 class Canvas {
  public:
-  Canvas() { colours_->SetNumberOfComponents(3); }
+  Canvas(int width, int height);
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+
+  void clear();
 
   void fill(const std::vector<Vector2d>& outline, const Colour& colour);
 
   /// Cells, those of second order in straight pieces.
-  /// @param colours  one for all, or one a point and linear between them
+  void fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>&, const Colour& colour);
+  /// @param colours  one a point and linear between them
   void fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>&, const std::vector<Colour>& colours);
 
   /// The sides that belong to one cell alone. Points that coincide count as one.
@@ -41,20 +47,25 @@ class Canvas {
 
   void arrow(const Vector2d& from, const Vector2d& to, double width, const Colour& colour);
 
-  /// What follows lies over what came before.
-  void next_layer() { layer_ += 1; }
+  /// Three quarters of a circle with a head, of a couple.
+  void turn(const Vector2d& centre, double radius, bool counter_clockwise, double width, const Colour& colour);
 
-  vtkSmartPointer<vtkActor> actor() const;
+  /// At the foot of its letters, to the right of x or to the left of it.
+  void words(const std::string& text, double x, double y, Align, const Colour& colour);
+  double width_of(const std::string& text) const;
 
-  double layer() const { return layer_; }
+  /// Blue, green, red and a byte of nothing for each pixel, rows from above.
+  std::span<const unsigned char> pixels() const;
+  /// @throws FileError
+  void write_png(const std::filesystem::path&) const;
 
  private:
-  vtkIdType corner(const Vector2d& at, const Colour& colour);
+  struct Surface;
+  void trace(const std::vector<Vector2d>& line, bool closed);
+  void paint(const Colour& colour);
 
-  double layer_ = 0;
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkCellArray> shapes_;
-  vtkNew<vtkUnsignedCharArray> colours_;  // one a point
+  int width_, height_;
+  std::unique_ptr<Surface> surface_;
 };
 
 }  // namespace pintle

@@ -13,7 +13,7 @@ constexpr const char* what_it_writes =
     "  actions.csv      what the events of the scene did, and when\n"
     "  events.csv       an impact a row: begin, end, speeds, deepest penetration, peak force, energy lost\n"
     "  run.json         the scene with every value filled in, status, counts, timings\n"
-    "  mechanism.pvd    the animation for ParaView, with frames/*.vtu, if the scene asks for frames\n"
+    "  mechanism.pvd    the animation for ParaView, with frames/*.vtu; mechanism.py shows it\n"
     "Exit codes: see pintle --help\n";
 
 constexpr const char* what_statics_writes =
@@ -244,6 +244,11 @@ void add_plot_options(CLI::App& command, Options& options) {
 
 void add_options(CLI::App& command, Options& options) {
   const std::string name = command.get_name();
+  if (name == "picture" || name == "film" || name == "view") {  // whose options the program that does it knows
+    command.prefix_command()->set_help_flag();
+    command.final_callback([&command, &options] { options.passed_on = command.remaining(); });
+    return;
+  }
   add_bounds(command, options);
   if (name == "report") return add_report_options(command, options);
   if (name == "plot") return add_plot_options(command, options);

@@ -113,7 +113,7 @@ int inverse(const Options& options) {
       watched(scene, model, writer, options, [&](const Listeners& listeners) { return inverse(scene, model, assembly, listeners); });
   if (found.run.status == Status::interrupted) found.run.reason = stopped_by();
   const auto write = [&] {
-    if (writer) writer->finish();
+    if (writer) writer->finish(drawn_impacts(found.run.impacts));
     write_inverse(results.path(), scene, model, assembly, found);
   };
   settle(results, found.run, write, [&] { write_text(results.path() / "inverse.json", inverse_json(scene, model, found)); });

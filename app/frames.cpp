@@ -28,31 +28,6 @@ using Eigen::Vector2d;
 
 namespace {
 
-struct Frame {
-  double t;
-  FrameFiles files;
-};
-
-/// What a collection lists, frame by frame: a part 0 begins one.
-std::vector<Frame> frames_of(const fs::path& pvd) {
-  if (!fs::is_regular_file(pvd)) throw std::runtime_error(pvd.string() + ": no such file");
-  const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
-  vtkXMLDataElement* list = root ? root->FindNestedElementWithName("Collection") : nullptr;
-  std::vector<Frame> frames;
-  for (int i = 0; list && i < list->GetNumberOfNestedElements(); ++i) {
-    vtkXMLDataElement* entry = list->GetNestedElement(i);
-    const char *t = entry->GetAttribute("timestep"), *part = entry->GetAttribute("part"), *file = entry->GetAttribute("file");
-    if (!t || !file) continue;
-    const fs::path path = pvd.parent_path() / file;
-    if (!part || std::atoi(part) == 0)
-      frames.push_back({std::atof(t), {path, {}}});
-    else if (!frames.empty())
-      frames.back().files.bodies.push_back(path);
-  }
-  if (frames.empty()) throw std::runtime_error(pvd.string() + ": lists no frames");
-  return frames;
-}
-
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const fs::path& file) {
   if (!fs::is_regular_file(file)) throw std::runtime_error(file.string() + ": no such file");
   vtkNew<vtkXMLUnstructuredGridReader> reader;
@@ -89,29 +64,56 @@ std::vector<Cells> cells_of(vtkUnstructuredGrid* grid, const fs::path& file) {
   return cells;
 }
 
-/// @param deformation  set to what the file says
-DrawnBody read_body(const fs::path& file, double& deformation) {
-  const auto grid = read_grid(file);
-  auto* name = vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("body"));
-  vtkDataArray* exaggeration = grid->GetFieldData()->GetArray("deformation exaggeration");
-  if (!name || name->GetNumberOfValues() == 0 || !exaggeration) not_ours(file);
-  deformation = exaggeration->GetTuple1(0);
-  DrawnBody body{name->GetValue(0), Eigen::Matrix2Xd(2, grid->GetNumberOfPoints()), cells_of(grid, file), {}};
+Field field_of(vtkDataArray* array) {
+  const int rows = array->GetNumberOfComponents() == 3 ? 2 : array->GetNumberOfComponents();
+  Field field{array->GetName(), Eigen::MatrixXd(rows, array->GetNumberOfTuples())};
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+    for (int k = 0; k < rows; ++k) field.values(k, i) = array->GetComponent(i, k);
+  return field;
+}
+
+DrawnBody body_of(vtkUnstructuredGrid* grid, const std::string& name, const fs::path& file) {
+  DrawnBody body{name, Eigen::Matrix2Xd(2, grid->GetNumberOfPoints()), cells_of(grid, file), {}};
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i) body.points.col(i) = Vector2d(grid->GetPoint(i)[0], grid->GetPoint(i)[1]);
-  for (int f = 0; f < grid->GetPointData()->GetNumberOfArrays(); ++f) {
-    vtkDataArray* array = grid->GetPointData()->GetArray(f);
-    if (!array) continue;
-    const int rows = array->GetNumberOfComponents() == 3 ? 2 : array->GetNumberOfComponents();
-    Field field{array->GetName(), Eigen::MatrixXd(rows, array->GetNumberOfTuples())};
-    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
-      for (int k = 0; k < rows; ++k) field.values(k, i) = array->GetComponent(i, k);
-    body.fields.push_back(std::move(field));
-  }
+  for (int f = 0; f < grid->GetPointData()->GetNumberOfArrays(); ++f)
+    if (vtkDataArray* array = grid->GetPointData()->GetArray(f)) body.fields.push_back(field_of(array));
   return body;
+}
+
+/// The deformation of a body, drawn `wanted` times as large in place of `drawn` times.
+void deform(DrawnBody& body, double drawn, double wanted) {
+  for (const Field& field : body.fields)
+    if (field.name == "displacement [m]") body.points += (wanted - drawn) * field.values;
+}
+
+void add_paths(vtkUnstructuredGrid* grid, Drawing& out) {
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c) {
+    grid->GetCellPoints(c, ids);
+    DrawnLine path{Part::trace, 0, false, {}};
+    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+      path.points.emplace_back(grid->GetPoint(ids->GetId(i))[0], grid->GetPoint(ids->GetId(i))[1]);
+    out.lines.push_back(std::move(path));
+  }
+}
+
+/// A flexible body, or the paths of points; impacts are not drawn.
+void add_other(const fs::path& file, std::optional<double> deformation, Drawing& out) {
+  const auto grid = read_grid(file);
+  vtkFieldData* facts = grid->GetFieldData();
+  auto* name = vtkStringArray::SafeDownCast(facts->GetAbstractArray("body"));
+  vtkDataArray* exaggeration = facts->GetArray("deformation exaggeration");
+  if (grid->GetCellData()->GetArray("part")) return add_paths(grid, out);
+  if (grid->GetPointData()->GetArray("peak force [N]")) return;
+  if (!name || name->GetNumberOfValues() == 0 || !exaggeration) not_ours(file);
+  out.deformation = exaggeration->GetTuple1(0);
+  out.bodies.push_back(body_of(grid, name->GetValue(0), file));
+  if (deformation) deform(out.bodies.back(), out.deformation, *deformation), out.deformation = *deformation;
 }
 
 Drawing read_lines(const fs::path& file) {
   const auto grid = read_grid(file);
+  vtkDataArray* couple = grid->GetPointData()->GetArray("couple [N m]");
   vtkDataArray* part = grid->GetCellData()->GetArray("part");
   vtkDataArray* owner = grid->GetCellData()->GetArray("owner");
   vtkDataArray* force = grid->GetPointData()->GetArray("force [N]");
@@ -119,9 +121,7 @@ Drawing read_lines(const fs::path& file) {
   auto* owners = vtkStringArray::SafeDownCast(facts->GetAbstractArray("owners"));
   vtkDataArray* time = facts->GetArray("TimeValue");
   vtkDataArray* exaggeration = facts->GetArray("clearance exaggeration");
-  if (!part || !owner || !force || !owners || !time || !exaggeration) {
-    not_ours(file);
-  }
+  if (!part || !owner || !force || !couple || !owners || !time || !exaggeration) not_ours(file);
   Drawing drawing;
   drawing.t = time->GetTuple1(0);
   drawing.exaggeration = exaggeration->GetTuple1(0);
@@ -138,15 +138,16 @@ Drawing read_lines(const fs::path& file) {
       return Vector2d(r[0], r[1]);
     };
     const int kind = static_cast<int>(part->GetTuple1(c)), who = static_cast<int>(owner->GetTuple1(c));
-    if (kind > static_cast<int>(Part::trace)) {
+    if (kind >= line_parts) {
       const double* f = force->GetTuple3(ids->GetId(0));
-      drawing.forces.push_back({point(0), {f[0], f[1]}, who});
+      drawing.forces.push_back({point(0), {f[0], f[1]}, who, static_cast<Giver>(kind - line_parts), couple->GetTuple1(ids->GetId(0))});
       continue;
     }
     DrawnLine line{static_cast<Part>(kind), who, false, {}};
     vtkIdType n = ids->GetNumberOfIds();
-    line.closed = n > 2 && ids->GetId(0) == ids->GetId(n - 1);
-    if (line.closed) --n;
+    const bool repeated = n > 2 && ids->GetId(0) == ids->GetId(n - 1);
+    line.closed = repeated || grid->GetCellType(c) == VTK_POLYGON;
+    if (repeated) --n;
     for (vtkIdType i = 0; i < n; ++i) line.points.push_back(point(i));
     drawing.lines.push_back(std::move(line));
   }
@@ -155,27 +156,56 @@ Drawing read_lines(const fs::path& file) {
 
 }  // namespace
 
-FrameFiles frame_files(const fs::path& directory, int frame, double at) {
+std::vector<FrameFiles> frames_of(const fs::path& directory) {
   const fs::path pvd = directory / "mechanism.pvd";
-  const std::vector<Frame> frames = frames_of(pvd);
-  const int count = static_cast<int>(frames.size());
-  int n = frame < 0 ? count + frame : frame;
-  if (!std::isnan(at)) {
-    const auto nearest = std::min_element(frames.begin(), frames.end(),
-                                          [&](const Frame& a, const Frame& b) { return std::abs(a.t - at) < std::abs(b.t - at); });
-    n = static_cast<int>(nearest - frames.begin());
+  if (!fs::is_directory(directory))
+    throw std::runtime_error(directory.string() + ": no such folder; name one that `pintle run` has written");
+  if (!fs::is_regular_file(pvd))
+    throw std::runtime_error(directory.string() + ": holds no frames (mechanism.pvd); run its scene again with --set output.frames=100");
+  const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
+  vtkXMLDataElement* list = root ? root->FindNestedElementWithName("Collection") : nullptr;
+  std::vector<FrameFiles> frames;
+  for (int i = 0; list && i < list->GetNumberOfNestedElements(); ++i) {  // a part 0 begins a frame
+    vtkXMLDataElement* entry = list->GetNestedElement(i);
+    const char *t = entry->GetAttribute("timestep"), *part = entry->GetAttribute("part"), *file = entry->GetAttribute("file");
+    if (!t || !file) continue;
+    const fs::path path = directory / file;
+    if (!part || std::atoi(part) == 0)
+      frames.push_back({std::atof(t), path, {}});
+    else if (!frames.empty())
+      frames.back().others.push_back(path);
   }
-  if (n < 0 || n >= count) {
-    throw std::runtime_error(pvd.string() + ": has " + std::to_string(count) + " frames, 0 to " + std::to_string(count - 1) +
-                             "; asked for " + std::to_string(frame));
-  }
-  return frames[static_cast<std::size_t>(n)].files;
+  if (frames.empty()) throw std::runtime_error(pvd.string() + ": lists no frames");
+  return frames;
 }
 
-Drawing read_frame(const FrameFiles& files) {
+Drawing read_frame(const FrameFiles& files, std::optional<double> deformation) {
   Drawing drawing = read_lines(files.lines);
-  for (const fs::path& file : files.bodies) drawing.bodies.push_back(read_body(file, drawing.deformation));
+  for (const fs::path& file : files.others) add_other(file, deformation, drawing);
   return drawing;
+}
+
+DrawnBody read_body(const fs::path& file) {
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  if (reader->CanReadFile(file.c_str()) == 0) throw std::runtime_error(file.string() + ": is not a .vtu file that can be read");
+  const auto grid = read_grid(file);
+  DrawnBody body = body_of(grid, file.stem().string(), file);
+  vtkNew<vtkIdList> ids;
+  for (int f = 0; f < grid->GetCellData()->GetNumberOfArrays(); ++f) {
+    vtkDataArray* array = grid->GetCellData()->GetArray(f);
+    if (!array) continue;
+    const Field of_cells = field_of(array);
+    Field mean{of_cells.name, Eigen::MatrixXd::Zero(of_cells.values.rows(), grid->GetNumberOfPoints())};
+    Eigen::RowVectorXd count = Eigen::RowVectorXd::Zero(grid->GetNumberOfPoints());
+    for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c) {
+      grid->GetCellPoints(c, ids);
+      for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
+        mean.values.col(ids->GetId(k)) += of_cells.values.col(c), count[ids->GetId(k)] += 1;
+    }
+    for (Eigen::Index i = 0; i < count.size(); ++i) mean.values.col(i) /= std::max(count[i], 1.0);
+    body.fields.push_back(std::move(mean));
+  }
+  return body;
 }
 
 }  // namespace pintle

@@ -66,7 +66,9 @@ void write_animations(const fs::path& out, const Scene& scene, const Model& mode
     for (int i = 0; i <= frames; ++i) {
       const State state = displaced(model, lin, lin.modes[static_cast<std::size_t>(k)], 2 * std::numbers::pi * i / frames);
       evaluate(model.system, state, eq, dy);
-      writer.add(draw(model, drafting, state, eq));
+      Drawing drawing = draw(model, drafting, state, eq);
+      drawing.forces.clear();  // those of a shape drawn large are none of the mechanism's
+      writer.add(drawing);
     }
     writer.finish();
   }

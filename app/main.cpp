@@ -37,6 +37,7 @@ constexpr const char* exit_codes =
     "  pintle check examples/slider_crank_clearance.yaml\n"
     "  pintle run examples/slider_crank_clearance.yaml --set clearance=0.1mm --out worn\n"
     "  pintle report worn        (worn/report.html, for any browser)\n"
+    "  pintle film worn worn.mp4\n"
     "  paraview worn/mechanism.pvd\n"
     "  pintle modes examples/modes_eye_bar.yaml --count 8\n";
 
@@ -69,6 +70,9 @@ int carry_out(int argc, char** argv) {
       {app.add_subcommand("tradeoff", "Measure error against time over settings of fidelity, and recommend one"), tradeoff},
       {app.add_subcommand("report", "Turn the results of a run into one page: motion, plots, impacts, ledger"), report},
       {app.add_subcommand("plot", "Plot columns of results in the terminal, or as an SVG picture"), plot},
+      {app.add_subcommand("film", "Make a film of a run: MP4, WebM or GIF"), film},
+      {app.add_subcommand("picture", "Draw a frame of a run, or a field of a body, as a picture"), picture},
+      {app.add_subcommand("view", "Show a scene in the browser as it is written, to be moved by hand"), view},
       {app.add_subcommand("modes", "Find the natural frequencies and mode shapes of one body of elements"), modes},
       {app.add_subcommand("static",
                           "Solve the static load case of one body of elements, or of some that touch (of a whole mechanism: statics)"),

@@ -8,6 +8,7 @@
 
 #include "app/options.h"
 #include "app/cost_text.h"
+#include "app/frame_count.h"
 #include "app/progress.h"
 #include "app/report.h"
 #include "app/run_end.h"
@@ -257,10 +258,12 @@ int check_kinematics(const Options& options, Scene scene, const std::vector<std:
 }  // namespace
 
 int check(const Options& options) {
-  const Scene scene = with_pieces(runnable(options));
+  Scene scene = with_pieces(runnable(options));
+  const FrameCount frames(scene);
   if (const auto massless = massless_bodies(scene); !massless.empty()) return check_kinematics(options, scene, massless);
   const double begin = processor_time();
   Model model = build_with_preliminary_run(scene);
+  frames.fit(model, scene);
   const double built = processor_time() - begin - (model.preliminary_run ? model.preliminary_run->seconds : 0);
   const Assembly assembly = assemble(scene, model);
   foresee_room(options, scene, model);
@@ -304,7 +307,7 @@ class Recording {
     return out;
   }
   void finish(const Run& run) {
-    if (writer_) writer_->finish();
+    if (writer_) writer_->finish(drawn_impacts(run.impacts));
     files_.finish(run.impacts);
     write_actions(directory_, scene_, run);
   }
@@ -351,11 +354,13 @@ std::optional<SavedState> saved_state(const Options& options, const Scene& scene
 
 int run(const Options& options) {
   now_doing("reading the scene");
-  const Scene scene = with_pieces(runnable(options));
+  Scene scene = with_pieces(runnable(options));
+  const FrameCount frames(scene);
   const fs::path out = results_directory(options);
   require_place(out);
   now_doing("building the model");
   Model model = build(scene);
+  frames.fit(model, scene);
   const Assembly assembly = assemble(scene, model);
   const std::optional<SavedState> from = saved_state(options, scene, model, assembly);
   for (std::string& warning : validate_room(out, room_needed(scene, model, from ? from->t : 0), room_at(out)))

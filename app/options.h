@@ -25,12 +25,13 @@ struct Options {
   std::string wanted_error, wanted_time, budget, markdown;
   int repeats = 0;  ///< 0: as the study says
   bool trust_geo = false;
-  std::vector<std::string> allowed;  ///< folders that scenes may read from
-  std::string mesh_time;             ///< of one body; empty: as the library says
-  double mesh_memory = 0;            ///< [GB]; 0: likewise
-  bool report = false;               ///< of a run: make a page of its results
-  std::string against;               ///< the column that plots have along x; empty: the time
-  double megabytes = 5;              ///< of that page, about
+  std::vector<std::string> allowed;    ///< folders that scenes may read from
+  std::string mesh_time;               ///< of one body; empty: as the library says
+  double mesh_memory = 0;              ///< [GB]; 0: likewise
+  bool report = false;                 ///< of a run: make a page of its results
+  std::string against;                 ///< the column that plots have along x; empty: the time
+  double megabytes = 5;                ///< of that page, about
+  std::vector<std::string> passed_on;  ///< to the program beside this one that does it
 };
 
 // One a command; each returns its exit code.
@@ -47,6 +48,9 @@ int sweep(const Options&);
 int tradeoff(const Options&);
 int report(const Options&);
 int plot(const Options&);
+int picture(const Options&);
+int film(const Options&);
+int view(const Options&);
 int fit(const Options&);
 int sensitivity(const Options&);
 

@@ -1,6 +1,9 @@
 # cmake -DOUT=FILE.cpp -DNAMES="style;script" -Dstyle="a.css;b.css" -Dscript="a.js;b.js" -P embed.cmake: writes the texts of files, one
-# after another, as std::string_view into namespace pintle::page_parts.
-set(text "#include \"framework/report/page_parts.h\"\n\nnamespace pintle::page_parts {\n\n")
+# after another, as std::string_view into namespace pintle::page_parts, declared in HEADER (framework/report/page_parts.h).
+if(NOT HEADER)
+  set(HEADER framework/report/page_parts.h)
+endif()
+set(text "#include \"${HEADER}\"\n\nnamespace pintle::page_parts {\n\n")
 foreach(name IN LISTS NAMES)
   set(bytes "")
   foreach(file IN LISTS ${name})

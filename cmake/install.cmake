@@ -22,4 +22,10 @@ install(FILES
 if(PROJECT_IS_TOP_LEVEL)
   set_target_properties(pintle_app PROPERTIES INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR}/pintle)  # the modules
   install(TARGETS pintle_app)
+  foreach(beside IN ITEMS pintle_picture pintle_view)
+    if(TARGET ${beside})
+      set_target_properties(${beside} PROPERTIES INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR}/pintle)
+      install(TARGETS ${beside})
+    endif()
+  endforeach()
 endif()

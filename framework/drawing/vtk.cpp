@@ -1,5 +1,6 @@
 #include "framework/drawing/vtk.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstdio>
@@ -8,6 +9,7 @@
 #include "framework/common/file.h"
 #include "framework/common/file_names.h"
 #include "framework/common/text.h"
+#include "framework/drawing/paraview_macro.h"
 #include "framework/drawing/vtk_encoder.h"
 #include "meshes/module.h"
 
@@ -56,7 +58,44 @@ struct FrameWriter::Bodies {
   void keep(const DrawnBody& body) { kept.push_back({body.name, names.add(body.name, "body"), {}}); }
 };
 
-FrameWriter::FrameWriter(fs::path directory) : directory_(std::move(directory)), bodies_(std::make_unique<Bodies>()) {
+struct FrameWriter::Paths {
+  std::vector<std::string> names, contacts;            ///< of what is followed, of what touches
+  std::vector<std::vector<Eigen::Vector2d>> followed;  ///< a path each
+  std::vector<std::vector<Eigen::Vector2d>> touching;  ///< likewise
+  std::vector<double> t;                               ///< of the frames [s]
+
+  void add(const Drawing& drawing) {
+    t.push_back(drawing.t);
+    lead_on(drawing.followed, names, followed);
+    lead_on(drawing.touching, contacts, touching);
+  }
+  Drawing drawing() const {
+    Drawing out;
+    out.owners = names;
+    for (std::size_t k = 0; k < followed.size(); ++k) out.lines.push_back({Part::trace, static_cast<int>(k), false, followed[k]});
+    return out;
+  }
+  /// Where a contact was, straight between two frames.
+  Eigen::Vector2d place(const DrawnImpact& impact) const {
+    const auto& path = touching[static_cast<std::size_t>(impact.place)];
+    const auto after = static_cast<std::size_t>(std::ranges::lower_bound(t, impact.t) - t.begin());
+    if (after == 0) return path.front();
+    if (after == t.size()) return path.back();
+    const double share = (impact.t - t[after - 1]) / (t[after] - t[after - 1]);
+    return path[after - 1] + share * (path[after] - path[after - 1]);
+  }
+
+ private:
+  static void lead_on(const std::vector<FollowedPoint>& now, std::vector<std::string>& names,
+                      std::vector<std::vector<Eigen::Vector2d>>& paths) {
+    paths.resize(now.size());
+    names.clear();
+    for (std::size_t k = 0; k < now.size(); ++k) paths[k].push_back(now[k].at), names.push_back(now[k].name);
+  }
+};
+
+FrameWriter::FrameWriter(fs::path directory)
+    : directory_(std::move(directory)), bodies_(std::make_unique<Bodies>()), paths_(std::make_unique<Paths>()) {
   std::error_code error;
   const fs::path frames = directory_ / "frames";
   fs::create_directories(frames, error);
@@ -71,6 +110,7 @@ void FrameWriter::add(const Drawing& drawing) {
   const std::string ending = number_text.data();
   write_vtu(directory_ / "frames" / ending, encoder().lines(drawing));
   files_.push_back({drawing.t, "frames/" + ending});
+  paths_->add(drawing);
 
   for (std::size_t b = 0; b < drawing.bodies.size(); ++b) {
     const DrawnBody& body = drawing.bodies[b];
@@ -83,6 +123,28 @@ void FrameWriter::add(const Drawing& drawing) {
   }
 }
 
-void FrameWriter::finish() { write_collection(directory_ / "mechanism.pvd", files_); }
+void FrameWriter::write_whole_run(const std::string& name, const std::string& vtu) {
+  const std::string file = "frames/" + bodies_->names.add(name, name) + ".vtu";
+  write_vtu(directory_ / file, vtu);
+  int part = 0;
+  for (const CollectedFile& f : files_) part = std::max(part, f.part + 1);
+  for (const double t : paths_->t) files_.push_back({t, file, part});
+}
+
+void FrameWriter::finish(const std::vector<DrawnImpact>& impacts) {
+  if (!paths_->followed.empty()) write_whole_run("paths", encoder().lines(paths_->drawing()));
+  if (!impacts.empty() && !paths_->touching.empty()) {
+    Eigen::Matrix2Xd at(2, static_cast<Eigen::Index>(impacts.size()));
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < impacts.size(); ++k) {
+      at.col(static_cast<Eigen::Index>(k)) = paths_->place(impacts[k]);
+      names.push_back(paths_->contacts[static_cast<std::size_t>(impacts[k].place)]);
+    }
+    write_whole_run("impacts", encoder().impacts(at, impacts, names));
+  }
+  std::ranges::stable_sort(files_, {}, &CollectedFile::t);
+  write_collection(directory_ / "mechanism.pvd", files_);
+  write_text(directory_ / "mechanism.py", paraview_macro);
+}
 
 }  // namespace pintle

@@ -37,8 +37,11 @@ void write_collection(const std::filesystem::path&, const std::vector<CollectedF
 /// Red, green, blue.
 using Rgb = std::array<unsigned char, 3>;
 
-/// What kind of thing a drawn line is; written as the cell field `part` and named in field data.
-enum class Part { link, joint, journal, bearing, spring, guide, trace };
+/// What kind of thing a drawn line is; written as the cell field `part` and named in field data. A trace is the path of a point, hatch the ground.
+enum class Part { link, joint, journal, bearing, spring, guide, trace, cylinder, hatch };
+inline constexpr int line_parts = static_cast<int>(Part::hatch) + 1;
+/// What gives a drawn force; in `part` after the lines.
+enum class Giver { joint, contact, spring, load };
 
 /// A line of a frame, world axes [m]. One point alone is drawn as a vertex, none as nothing.
 struct DrawnLine {
@@ -47,10 +50,22 @@ struct DrawnLine {
   bool closed = false;  ///< the last point is joined to the first, which is not repeated
   std::vector<Eigen::Vector2d> points;
 };
-/// A force drawn as a vector at a point, world axes.
+/// A force drawn as a vector at a point, world axes, and the couple that goes with it.
 struct DrawnForce {
   Eigen::Vector2d at, force;  ///< [m], [N]
   int owner = 0;              ///< index into Drawing::owners
+  Giver giver = Giver::contact;
+  double couple = 0;  ///< counter-clockwise [N m]
+};
+/// A point that is followed from frame to frame: its path is drawn.
+struct FollowedPoint {
+  std::string name;
+  Eigen::Vector2d at;  ///< world axes [m]
+};
+/// Surfaces that met, at a place between two frames.
+struct DrawnImpact {
+  int place;  ///< index into Drawing::touching
+  double t, approach, peak_force;
 };
 
 /// A flexible body of a frame: its grid as it is drawn, with fields on its points.
@@ -66,25 +81,30 @@ struct Drawing {
   double t = 0;                             ///< [s]
   double exaggeration = 1;                  ///< drawn clearance over true clearance
   double deformation = 1;                   ///< drawn deformation of the flexible bodies over the true one
-  std::vector<std::string> owners;          ///< names of bodies, joints and contacts; the same in each frame
+  std::vector<std::string> owners;          ///< names of bodies, joints, contacts and forces, the ground; the same in each frame
   std::vector<std::optional<Rgb>> colours;  ///< of the first owners, the bodies; empty where no body has one
   std::vector<DrawnLine> lines;
   std::vector<DrawnForce> forces;
-  std::vector<DrawnBody> bodies;  ///< flexible ones; the same, with the same cells, in each frame
+  std::vector<DrawnBody> bodies;        ///< flexible ones; the same, with the same cells, in each frame
+  std::vector<FollowedPoint> followed;  ///< the same points in each frame
+  std::vector<FollowedPoint> touching;  ///< where contacts touch, or would: the same contacts in each frame
 };
 
 /// Writes `frames/NNNNN.vtu` (the lines of a drawing), `frames/BODY_NNNNN.vtu` (a flexible body of
-/// it) and `mechanism.pvd` (their times) under a directory; ParaView opens the last. VTK is loaded
+/// it), `frames/paths.vtu` and `frames/impacts.vtu` (of the whole run), `mechanism.pvd` (their times) and `mechanism.py`
+/// (what shows them) under a directory; ParaView opens the last two. VTK is loaded
 /// when the first grid is written (meshes/module.h); only vtk_encoder.cpp knows it.
 ///
-/// The lines are an unstructured grid, z = 0: a polyline for each line, then a vertex for each
-/// force; part 0 of the collection.
+/// The lines are an unstructured grid, z = 0: a polygon for each closed line of a link or cylinder, a polyline for each other line, then a
+/// vertex for each force; part 0 of the collection.
 ///
 /// | field                    | on     | what                                                     |
 /// |--------------------------|--------|----------------------------------------------------------|
-/// | `part`                   | cells  | the Part as a number, one past the last Part for a force |
+/// | `part`                   | cells  | the Part as a number, for a force its Giver after these  |
 /// | `owner`                  | cells  | index into `owners`                                      |
+/// | `name`                   | cells  | the owner's name                                         |
 /// | `force [N]`              | points | vector; zero except at a force's vertex                  |
+/// | `couple [N m]`           | points | likewise, a number                                       |
 /// | `parts`, `owners`        | frame  | the names of the two numberings                          |
 /// | `colours`                | frame  | #rrggbb of the owners that the scene gives one, if any   |
 /// | `colour`                 | cells  | the same in red, green, blue, 0 to 255; grey for others  |
@@ -101,6 +121,9 @@ struct Drawing {
 /// | `TimeValue`                | frame  | t [s]                                 |
 /// | `deformation exaggeration` | frame  | drawn deformation over the true one   |
 ///
+/// Paths join what the frames followed; their cells carry `name`. Impacts are vertices with `name`, `time [s]`, `approach speed [m/s]` and
+/// `peak force [N]`, between the places that the frames before and after have. Both are listed with every frame, after the bodies.
+///
 /// BODY is the name made one of a file (file_names.h). Every file appears whole or not at all.
 /// @throws std::runtime_error  naming the path that cannot be written
 class FrameWriter {
@@ -109,14 +132,19 @@ class FrameWriter {
   explicit FrameWriter(std::filesystem::path directory);
   ~FrameWriter();
   void add(const Drawing& drawing);
-  void finish();  ///< writes mechanism.pvd; what was added before is kept even if never called
+  /// Writes mechanism.pvd, mechanism.py, paths and impacts; the frames are kept even if it is never called.
+  void finish(const std::vector<DrawnImpact>& = {});
 
  private:
   struct Bodies;  ///< what of the bodies is the same in each frame
+  struct Paths;   ///< what was followed so far
+  void write_whole_run(const std::string& name, const std::string& vtu);
+
   std::filesystem::path directory_;
   int frames_ = 0;
   std::vector<CollectedFile> files_;
   std::unique_ptr<Bodies> bodies_;
+  std::unique_ptr<Paths> paths_;
 };
 
 }  // namespace pintle

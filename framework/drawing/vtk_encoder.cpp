@@ -23,9 +23,9 @@ namespace pintle {
 
 namespace {
 
-constexpr std::array part_names{"link", "joint", "journal", "bearing", "spring", "guide", "trace", "force"};
-constexpr int force_part = static_cast<int>(Part::trace) + 1;
-static_assert(part_names.size() == force_part + 1);
+constexpr std::array part_names{"link",     "joint", "journal",  "bearing",       "spring",       "guide", "trace",
+                                "cylinder", "hatch", "reaction", "contact force", "spring force", "load"};
+static_assert(part_names.size() == line_parts + static_cast<int>(Giver::load) + 1);
 
 template <class Names>
 vtkNew<vtkStringArray> strings(const char* name, const Names& values) {
@@ -65,20 +65,31 @@ vtkNew<vtkUnsignedCharArray> cell_colours(const Drawing& drawing, vtkIntArray* o
   return array;
 }
 
+/// What is filled is a polygon, other lines are polylines.
+int cell_type(const DrawnLine& line) {
+  if (line.points.size() == 1) return VTK_VERTEX;
+  const bool solid = line.part == Part::link || line.part == Part::cylinder;
+  return line.closed && solid && line.points.size() > 2 ? VTK_POLYGON : VTK_POLY_LINE;
+}
+
 vtkNew<vtkUnstructuredGrid> lines_of(const Drawing& drawing) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  vtkNew<vtkDoubleArray> force;
+  vtkNew<vtkDoubleArray> force, couple;
   force->SetName("force [N]");
   force->SetNumberOfComponents(3);
+  couple->SetName("couple [N m]");
   vtkNew<vtkIntArray> part, owner;
   part->SetName("part");
   owner->SetName("owner");
+  vtkNew<vtkStringArray> name;
+  name->SetName("name");
 
   vtkNew<vtkUnstructuredGrid> grid;
   grid->AllocateExact(static_cast<vtkIdType>(drawing.lines.size() + drawing.forces.size()), 2);
-  const auto add_point = [&](const Eigen::Vector2d& at, const Eigen::Vector2d& f) {
+  const auto add_point = [&](const Eigen::Vector2d& at, const Eigen::Vector2d& f, double turning) {
     force->InsertNextTuple3(f.x(), f.y(), 0);
+    couple->InsertNextValue(turning);
     return points->InsertNextPoint(at.x(), at.y(), 0);
   };
   const auto add_cell = [&](int type, const std::vector<vtkIdType>& ids, int p, int o) {
@@ -86,25 +97,28 @@ vtkNew<vtkUnstructuredGrid> lines_of(const Drawing& drawing) {
     grid->InsertNextCell(type, static_cast<vtkIdType>(ids.size()), ids.data());
     part->InsertNextValue(p);
     owner->InsertNextValue(o);
+    name->InsertNextValue(drawing.owners[static_cast<std::size_t>(o)]);
   };
 
   std::vector<vtkIdType> ids;
   for (const DrawnLine& line : drawing.lines) {
     ids.clear();
-    for (const auto& r : line.points) ids.push_back(add_point(r, Eigen::Vector2d::Zero()));
+    for (const auto& r : line.points) ids.push_back(add_point(r, Eigen::Vector2d::Zero(), 0));
     if (ids.empty()) continue;
-    const int type = ids.size() == 1 ? VTK_VERTEX : VTK_POLY_LINE;
-    if (line.closed && ids.size() > 2) ids.push_back(ids.front());
+    const int type = cell_type(line);
+    if (line.closed && type == VTK_POLY_LINE && ids.size() > 2) ids.push_back(ids.front());
     add_cell(type, ids, static_cast<int>(line.part), line.owner);
   }
   for (const DrawnForce& f : drawing.forces) {
-    add_cell(VTK_VERTEX, {add_point(f.at, f.force)}, force_part, f.owner);
+    add_cell(VTK_VERTEX, {add_point(f.at, f.force, f.couple)}, line_parts + static_cast<int>(f.giver), f.owner);
   }
 
   grid->SetPoints(points);
   grid->GetPointData()->AddArray(force);
+  grid->GetPointData()->AddArray(couple);
   grid->GetCellData()->AddArray(part);
   grid->GetCellData()->AddArray(owner);
+  grid->GetCellData()->AddArray(name);
   if (!drawing.colours.empty()) {
     grid->GetCellData()->AddArray(cell_colours(drawing, owner));
     grid->GetFieldData()->AddArray(strings("colours", colour_words(drawing)));
@@ -187,6 +201,26 @@ void set_cells(vtkUnstructuredGrid* grid, const std::vector<Cells>& blocks) {
 
 std::string encode_lines(const Drawing& drawing) { return text_of(lines_of(drawing), Packing::small); }
 
+std::string encode_impacts(const Eigen::Matrix2Xd& at, const std::vector<DrawnImpact>& impacts, const std::vector<std::string>& names) {
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points_at(at));
+  grid->AllocateExact(at.cols(), 1);
+  vtkNew<vtkDoubleArray> t, approach, force;
+  t->SetName("time [s]");
+  approach->SetName("approach speed [m/s]");
+  force->SetName("peak force [N]");
+  for (std::size_t k = 0; k < impacts.size(); ++k) {
+    const auto point = static_cast<vtkIdType>(k);
+    grid->InsertNextCell(VTK_VERTEX, 1, &point);
+    t->InsertNextValue(impacts[k].t);
+    approach->InsertNextValue(impacts[k].approach);
+    force->InsertNextValue(impacts[k].peak_force);
+  }
+  for (vtkDoubleArray* const array : {t.Get(), approach.Get(), force.Get()}) grid->GetPointData()->AddArray(array);
+  grid->GetCellData()->AddArray(strings("name", names));
+  return text_of(grid, Packing::small);
+}
+
 std::string encode_grid(const Eigen::Matrix2Xd& at, const std::vector<Cells>& cells, const std::vector<Field>& on_points,
                         const std::vector<Field>& on_cells, double t) {
   vtkNew<vtkUnstructuredGrid> grid;
@@ -217,7 +251,7 @@ std::string encode_body(const DrawnBody& body, double t, double deformation, std
 }  // namespace
 
 extern "C" [[gnu::visibility("default")]] const VtkEncoder* pintle_vtk() {
-  static constexpr VtkEncoder table{PINTLE_VERSION, encode_lines, encode_grid, encode_body};
+  static constexpr VtkEncoder table{PINTLE_VERSION, encode_lines, encode_impacts, encode_grid, encode_body};
   return &table;
 }
 

@@ -13,6 +13,8 @@ namespace pintle {
 struct VtkEncoder {
   const char* version;
   std::string (*lines)(const Drawing&);
+  /// A vertex for each impact, at its point.
+  std::string (*impacts)(const Eigen::Matrix2Xd& points, const std::vector<DrawnImpact>&, const std::vector<std::string>& names);
   std::string (*grid)(const Eigen::Matrix2Xd& points, const std::vector<Cells>&, const std::vector<Field>& on_points,
                       const std::vector<Field>& on_cells, double t);
   /// @param cells  of the body as VTK keeps them: made if there is nothing yet, for the frames that follow

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "framework/common/index.h"
+#include "framework/mechanism/drawn_symbols.h"
 #include "framework/scene/colour.h"
 
 namespace pintle {
@@ -57,16 +58,6 @@ std::vector<Vector2d> block(double half_length, double half_width) {
   return {{-half_length, -half_width}, {half_length, -half_width}, {half_length, half_width}, {-half_length, half_width}};
 }
 
-std::vector<Vector2d> coil(const Vector2d& a, const Vector2d& b, double width) {
-  constexpr int turns = 12;
-  const Vector2d d = b - a;
-  const Vector2d side = d.norm() > 0 ? Vector2d(width * perp(d.normalized())) : Vector2d(0, 0);
-  std::vector<Vector2d> out{a};
-  for (int i = 1; i < turns; ++i) out.emplace_back(a + d * i / turns + (i == 1 || i == turns - 1 ? 0 : i % 2 ? 1 : -1) * side);
-  out.push_back(b);
-  return out;
-}
-
 }  // namespace
 
 Drafting::Drafting(const Scene& scene, const Model& model) {
@@ -108,7 +99,8 @@ Drafting::Drafting(const Scene& scene, const Model& model) {
   }
   for (const auto& name : system.joint_names) owners.push_back(name);
   for (const auto& name : system.contact_names) owners.push_back(name);
-  if (std::ranges::any_of(model.profiles, [](const DrawnProfile& p) { return p.body == ground; })) owners.emplace_back("ground");
+  for (const auto& name : system.force_names) owners.push_back(name);
+  owners.emplace_back("ground");
   if (scene.output.exaggerate > 0)
     exaggeration = scene.output.exaggerate;
   else
@@ -131,7 +123,7 @@ void draw_clearances(const System& system, const Drafting& drafting, const Equat
     out.lines.push_back(
         {Part::journal, owner, true,
          circle(center + s * now.gap.e, std::max(bearing_radius(pair.gap) - s * pair.gap.clearance(), 0.05 * bearing_radius(pair.gap)))});
-    out.forces.push_back({center + bearing_radius(pair.gap) * now.gap.n, now.on_b.head<2>(), owner});
+    out.forces.push_back({center + bearing_radius(pair.gap) * now.gap.n, now.on_b.head<2>(), owner, Giver::contact});
   }
 }
 
@@ -178,12 +170,12 @@ void draw_wheels(const System& system, const Equations& eq, Drawing& out) {
     if (radius[0] != 0) draw_wheel(eq.motion[at(pair.a)], radius[0], Part::joint, owner, out);
     draw_wheel(eq.motion[at(pair.b)], radius[1], Part::joint, owner, out);
   }
-  for (const Force& force : system.forces)
-    if (const auto* span = std::get_if<BeltSpan>(&force)) {
+  for (std::size_t f = 0; f < system.forces.size(); ++f)
+    if (const auto* span = std::get_if<BeltSpan>(&system.forces[f])) {
       const MarkerMotion &a = eq.motion[at(span->a)], &b = eq.motion[at(span->b)];
-      const int body = std::max(system.markers[at(span->b)].body, 0);
-      draw_wheel(b, span->radius_b, Part::spring, body, out);
-      draw_span(a, b, span->radius_a, span->radius_b, Part::spring, body, out);
+      const int owner = FirstOwners(system).force + static_cast<int>(f);
+      draw_wheel(b, span->radius_b, Part::spring, owner, out);
+      draw_span(a, b, span->radius_a, span->radius_b, Part::spring, owner, out);
     }
 }
 
@@ -203,7 +195,8 @@ void draw_profiles(const Model& model, const Equations& eq, Drawing& out) {
     if (now.normal.force == 0) continue;
     const ContactPair& pair = system.contacts[c];
     const Vector2d middle = eq.motion[at(pair.b)].r + now.gap.arm_b;
-    out.forces.push_back({touched(pair.gap.b, middle, -now.gap.n, now.gap.across), now.on_b.head<2>(), first + static_cast<int>(c)});
+    out.forces.push_back(
+        {touched(pair.gap.b, middle, -now.gap.n, now.gap.across), now.on_b.head<2>(), first + static_cast<int>(c), Giver::contact});
   }
 }
 
@@ -253,15 +246,20 @@ Drawing draw(const Model& model, const Drafting& drafting, const State& state, c
       case JointSymbol::rod: out.lines.push_back({Part::joint, bodies + joint, false, {a.r, b.r}}); break;
     }
   }
+  draw_ground(model, drafting, eq, out);
   draw_wheels(system, eq, out);
   draw_clearances(system, drafting, eq, out);
+  draw_bars(model, eq, out);
   draw_profiles(model, eq, out);
-  for (std::size_t f = 0; f < system.forces.size(); ++f)
-    if (std::holds_alternative<Spring>(system.forces[f]) || std::holds_alternative<Maxwell>(system.forces[f])) {
-      const Vector2d a = eq.motion[at(marker_a(system.forces[f]))].r, b = eq.motion[at(marker_b(system.forces[f]))].r;
-      const int body = system.markers[at(marker_b(system.forces[f]))].body;
-      out.lines.push_back({Part::spring, body == ground ? 0 : body, false, coil(a, b, drafting.pin)});
-    }
+  draw_actuators(system, drafting, eq, out);
+  draw_reactions_and_loads(system, eq, out);
+  follow_points(model, state, eq, out);
+  return out;
+}
+
+std::vector<DrawnImpact> drawn_impacts(const std::vector<Impact>& impacts) {
+  std::vector<DrawnImpact> out;
+  for (const Impact& i : impacts) out.push_back({i.contact, i.begin, i.approach, i.peak_force});
   return out;
 }
 

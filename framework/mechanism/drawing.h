@@ -1,6 +1,7 @@
 #pragma once
 
 #include "framework/drawing/vtk.h"
+#include "framework/integration/events/impact.h"
 #include "framework/mechanism/model.h"
 
 namespace pintle {
@@ -8,7 +9,7 @@ namespace pintle {
 /// What does not change between frames: outlines in body axes, the exaggeration of clearances.
 struct Drafting {
   Drafting(const Scene&, const Model&);
-  std::vector<std::string> owners;                  ///< bodies, joints, contacts
+  std::vector<std::string> owners;                  ///< as in Drawing
   std::vector<std::optional<Rgb>> colours = {};     ///< as in Drawing
   std::vector<std::vector<Eigen::Vector2d>> links;  ///< closed outlines, body axes
   double pin = 0;                                   ///< radius of a joint's circle [m]
@@ -16,8 +17,10 @@ struct Drafting {
   double deformation = 1;                           ///< of flexible bodies
 };
 
-/// The mechanism at an instant: links, joints, journal and bearing circles, springs, contact forces.
+/// The mechanism at an instant: links, joints, the ground, journal and bearing circles, springs, cylinders, all forces.
 /// @pre eq was evaluated at `state`
 Drawing draw(const Model&, const Drafting&, const State&, const Equations&);
+
+std::vector<DrawnImpact> drawn_impacts(const std::vector<Impact>&);
 
 }  // namespace pintle

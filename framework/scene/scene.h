@@ -273,7 +273,7 @@ struct RunOptions {
 struct OutputOptions {
   double every = 0;              ///< output interval [s]; 0: a thousandth of the run
   double states = 0;             ///< interval of saved states [s]; 0: the last alone
-  int frames = 0;                ///< animation frames; 0: none
+  int frames = 0;                ///< animation frames; 0: none; -1: as many as the command thinks fit
   double exaggerate = 0;         ///< drawn clearance times this; 0: chosen so that the gap can be seen
   double deformation = 1;        ///< drawn deformation times this; 0: chosen so that it can be seen
   std::vector<PointRef> points;  ///< whose motion, and on flexible bodies displacement, is recorded

@@ -24,9 +24,9 @@ Words run_command(const fs::path& scene, const fs::path& out, Words more = {}) {
   return command;
 }
 /// 1 ms of the example.
-const Words shortly{"--set", "run.until=1 ms", "--set", "output.frames=null"};
+const Words shortly{"--set", "run.until=1 ms", "--set", "output.frames=0"};
 /// Much longer than any test waits.
-const Words for_long{"--set", "run.until=4000 s",  "--set", "output.frames=null",
+const Words for_long{"--set", "run.until=4000 s",  "--set", "output.frames=0",
                      "--set", "output.every=1 ms", "--set", "run.max steps=2000000000"};
 
 bool whole_rows(const std::string& text) { return !text.empty() && text.back() == '\n'; }
@@ -110,7 +110,7 @@ TEST(Ending, ALimitOnTheSizeOfFilesEndsTheRunInOrder) {
   const Folder folder;
   const fs::path log = folder.path() / "log", out = folder.path() / "out";
   const Ended end = run(log, {"/bin/bash", "-c", "ulimit -f 400; exec \"$@\"", "bash", PINTLE_PROGRAM, "run", example, "-o", out.string(),
-                              "--set", "run.until=9 ms", "--set", "output.every=3 us", "--set", "output.frames=null"});
+                              "--set", "run.until=9 ms", "--set", "output.every=3 us", "--set", "output.frames=0"});
   EXPECT_EQ(end.signal, 0) << "SIGXFSZ";
   EXPECT_EQ(end.code, 1) << end.complained;
   EXPECT_NE(end.complained.find("ulimit -f"), std::string::npos) << end.complained;
@@ -143,7 +143,7 @@ TEST(Ending, ADiskThatFillsKeepsItsRowsAndStatesAndSaysWhere) {
   const Ended end = run(log, {"/usr/bin/unshare", "-rm", "/bin/bash", "-c",
                               mount + " && { \"$@\"; code=$?; cp -r '" + disk.string() + "' '" + kept.string() + "'; exit $code; }", "bash",
                               PINTLE_PROGRAM, "run", example, "-o", (disk / "out").string(), "--set", "run.until=9 ms", "--set",
-                              "output.every=3 us", "--set", "output.states=100 us", "--set", "output.frames=null"});
+                              "output.every=3 us", "--set", "output.states=100 us", "--set", "output.frames=0"});
   EXPECT_EQ(end.code, 1) << end.complained;
   EXPECT_NE(end.complained.find((disk / "out.part-").string()), std::string::npos) << end.complained;
   EXPECT_NE(end.complained.find("make room"), std::string::npos) << end.complained;
@@ -175,7 +175,7 @@ TEST(Ending, AReaderThatGoesAwayIsAnErrorAndNoSignal) {
   const fs::path log = folder.path() / "log", out = folder.path() / "out";
   const Ended end =
       run(log, {"/bin/bash", "-c", "(sleep 0.1; \"$@\"; echo $? > " + (folder.path() / "code").string() + ") | true", "bash",
-                PINTLE_PROGRAM, "run", example, "-o", out.string(), "--set", "run.until=1 ms", "--set", "output.frames=null"});
+                PINTLE_PROGRAM, "run", example, "-o", out.string(), "--set", "run.until=1 ms", "--set", "output.frames=0"});
   EXPECT_EQ(contents(folder.path() / "code"), "1\n");
   EXPECT_NE(end.complained.find("standard output"), std::string::npos) << end.complained;
   EXPECT_TRUE(fs::exists(out / "run.json"));
@@ -189,7 +189,7 @@ TEST(Ending, MemoryThatRowsWouldFillDoesNotGrowWithThem) {
   // 3·10⁵ rows of 57 numbers: 140 MB as numbers, as much again as text.
   const Ended end = run(folder.path() / "log", {"/bin/bash", "-c", "ulimit -v 400000; exec \"$@\"", "bash", PINTLE_PROGRAM, "run", example,
                                                 "-o", (folder.path() / "out").string(), "--set", "run.until=3 ms", "--set",
-                                                "output.every=10 ns", "--set", "output.frames=null"});
+                                                "output.every=10 ns", "--set", "output.frames=0"});
   EXPECT_EQ(end.code, 0) << end.complained;
 }
 

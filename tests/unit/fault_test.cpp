@@ -49,7 +49,7 @@ class Faults : public testing::Test {
                         "--set",
                         "output.every=3 us",
                         "--set",
-                        "output.frames=null",
+                        "output.frames=0",
                         "--set",
                         "output.states=1 ms",
                         "-o",

@@ -107,6 +107,7 @@ const std::vector<Layer> layers{
     {"framework/report/",
      {"framework/common/", "framework/scene/", "framework/bodies/", "framework/drawing/", "framework/mechanism/", "framework/build/"}},
 
+    {"app/view/", {"framework/", "app/options.h", "app/progress.h"}},
     {"app/", {"files/", "elements/", "contact/", "meshes/", "framework/"}},
     {"examples/", {"elements/", "contact/", "meshes/", "framework/"}},
     {"tests/oracles/", {}},
@@ -121,9 +122,9 @@ struct Foreign {
   Paths may;
 };
 const std::vector<Foreign> foreign{
-    {"vtk",
-     {"framework/drawing/vtk_encoder.cpp", "app/picture.cpp", "app/png.cpp", "app/canvas.h", "app/canvas.cpp", "app/field_picture.cpp",
-      "app/frames.cpp", "tests/unit/vtk_test.cpp"}},
+    {"vtk", {"framework/drawing/vtk_encoder.cpp", "app/picture.cpp", "app/frames.cpp", "tests/unit/vtk_test.cpp"}},
+    {"cairo", {"app/canvas.cpp"}},
+    {"httplib", {"app/view/server.cpp"}},
     {"yaml-cpp/", {"framework/scene/", "tests/"}},
     {"cholmod", {"framework/dynamics/solvers/sparse_ldl.cpp", "framework/component/"}},
     {"SuiteSparse_config", {"framework/common/suitesparse_memory.cpp"}},

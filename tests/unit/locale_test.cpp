@@ -98,7 +98,7 @@ TEST(Room, SizesAreSaidInThreeDigitsAndTheirUnit) {
 // What is said to be needed at least is never more than what is written.
 TEST(Room, TheLeastIsABoundFromBelow) {
   const Scene scene =
-      read_scene(PINTLE_SOURCE_DIR "/examples/slider_crank_clearance.yaml", {{"run.until", "1 ms"}, {"output.frames", "null"}});
+      read_scene(PINTLE_SOURCE_DIR "/examples/slider_crank_clearance.yaml", {{"run.until", "1 ms"}, {"output.frames", "0"}});
   const Model model = build(scene);
   const auto run = simulate(scene, model, assemble(scene, model));
   const RoomNeeded needed = room_needed(scene, model);

@@ -21,7 +21,7 @@ using namespace pintle_test;
 const std::string started_four_bar = four_bar + R"(start: {crank: {angle: 10 deg, speed: 10 rad/s}}
 run: {until: 1e-6}
 )";
-constexpr std::string_view every_step = "output: {every: 1e-6}\n";
+constexpr std::string_view every_step = "output: {every: 1e-6, frames: 0}\n";
 constexpr std::string_view two_frames = "output: {every: 1e-6, frames: 2}\n";
 constexpr std::string_view meshed = R"(
 bodies:
@@ -31,7 +31,7 @@ bodies:
     points: {O: {hole: eye 1, coupling: rigid}}
 joints: {bearing: {revolute: [ground, arm.O]}}
 run: {until: 1e-6}
-output: {every: 1e-6}
+output: {every: 1e-6, frames: 0}
 )";
 
 /// A folder of its own with a scene in it, gone afterwards.

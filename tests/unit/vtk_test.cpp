@@ -52,7 +52,7 @@ Drawing drawing(double t) {
              {Part::link, 1, false, {{1, 0}, {3, 0.125}}},
              {Part::joint, 2, true, {{3, 0.125}}},
              {Part::trace, 2, false, {}}};
-  d.forces = {{{3, 0.125}, {-40, 1e3}, 2}};
+  d.forces = {{{3, 0.125}, {-40, 1e3}, 2, Giver::contact, -3}};
   return d;
 }
 
@@ -139,15 +139,17 @@ TEST(Frame, HasACellForEachLineAndForceAndAPointForEachCorner) {
   const auto grid = written(drawing(0));
   EXPECT_EQ(grid->GetNumberOfPoints(), 3 + 2 + 1 + 1);
   ASSERT_EQ(grid->GetNumberOfCells(), 4);
-  EXPECT_EQ(grid->GetCellType(0), VTK_POLY_LINE);
+  EXPECT_EQ(grid->GetCellType(0), VTK_POLYGON);  // a link, which ParaView fills
   EXPECT_EQ(grid->GetCellType(1), VTK_POLY_LINE);
   EXPECT_EQ(grid->GetCellType(2), VTK_VERTEX);
   EXPECT_EQ(grid->GetCellType(3), VTK_VERTEX);
   EXPECT_EQ(grid->GetPoint(4)[1], 0.125);
 }
 
-TEST(Frame, ClosedLineEndsWhereItBegan) {
-  const auto grid = written(drawing(0));
+TEST(Frame, ClosedLineThatIsNoLinkEndsWhereItBegan) {
+  Drawing d = drawing(0);
+  d.lines[0].part = Part::bearing;
+  const auto grid = written(d);
   vtkCell* triangle = grid->GetCell(0);
   ASSERT_EQ(triangle->GetNumberOfPoints(), 4);
   EXPECT_EQ(triangle->GetPointId(3), triangle->GetPointId(0));
@@ -156,10 +158,15 @@ TEST(Frame, ClosedLineEndsWhereItBegan) {
 
 TEST(Frame, CarriesPartsAndOwnersWithTheirNames) {
   const auto grid = written(drawing(0));
-  EXPECT_EQ(cell_field(grid, "part"), (std::vector<double>{0, 0, 1, 7}));
+  EXPECT_EQ(cell_field(grid, "part"), (std::vector<double>{0, 0, 1, 10}));
   EXPECT_EQ(cell_field(grid, "owner"), (std::vector<double>{0, 1, 2, 2}));
   EXPECT_EQ(names(grid, "owners"), drawing(0).owners);
-  EXPECT_EQ(names(grid, "parts"), (std::vector<std::string>{"link", "joint", "journal", "bearing", "spring", "guide", "trace", "force"}));
+  EXPECT_EQ(names(grid, "parts"), (std::vector<std::string>{"link", "joint", "journal", "bearing", "spring", "guide", "trace", "cylinder",
+                                                            "hatch", "reaction", "contact force", "spring force", "load"}));
+  auto* name = vtkStringArray::SafeDownCast(grid->GetCellData()->GetAbstractArray("name"));
+  ASSERT_TRUE(name);
+  EXPECT_EQ(name->GetValue(1), "coupler");
+  EXPECT_EQ(name->GetValue(3), "gudgeon pin");
 }
 
 TEST(Frame, CarriesForcesAsVectorsAndZeroElsewhere) {
@@ -170,6 +177,7 @@ TEST(Frame, CarriesForcesAsVectorsAndZeroElsewhere) {
   EXPECT_EQ(force->GetComponent(6, 0), -40);
   EXPECT_EQ(force->GetComponent(6, 1), 1e3);
   for (int i = 0; i < 6; ++i) EXPECT_EQ(force->GetComponent(i, 1), 0);
+  EXPECT_EQ(grid->GetPointData()->GetArray("couple [N m]")->GetTuple1(6), -3);
 }
 
 TEST(Frame, CarriesItsTimeAndTheExaggerationOfTheClearance) {
@@ -299,6 +307,33 @@ TEST(FlexibleFrame, HasAFileOfItsOwnWhateverItsBodyIsCalled) {
   }
 }
 
+TEST(FrameWriter, ListsPathsAndImpactsOfTheWholeRunWithEveryFrame) {
+  const Folder folder;
+  FrameWriter writer(folder.path);
+  for (int k = 0; k < 3; ++k) {
+    Drawing d = flexible(k, {"plate"});
+    d.followed = {{"coupler.M", {k, k * k}}};
+    d.touching = {{"stop", {0, 0}}, {"gudgeon pin", {10 * k, 1}}};
+    writer.add(d);
+  }
+  writer.finish({{1, 1.25, 0.5, 800}, {0, 2, 0.1, 3}});
+  const std::vector<Listed> files = listed(folder.path / "mechanism.pvd");
+  ASSERT_EQ(files.size(), 12U);
+  EXPECT_EQ(files[6], (Listed{1, 2, "frames/paths.vtu"}));
+  EXPECT_EQ(files[7], (Listed{1, 3, "frames/impacts.vtu"}));
+
+  const auto paths = read(folder.path / "frames/paths.vtu");
+  ASSERT_EQ(paths->GetNumberOfCells(), 1);
+  ASSERT_EQ(paths->GetNumberOfPoints(), 3);
+  EXPECT_EQ(paths->GetPoint(2)[1], 4);
+  const auto impacts = read(folder.path / "frames/impacts.vtu");
+  ASSERT_EQ(impacts->GetNumberOfPoints(), 2);
+  EXPECT_EQ(impacts->GetPoint(0)[0], 12.5);  // a quarter of the way from frame 1 to frame 2
+  EXPECT_EQ(impacts->GetPointData()->GetArray("peak force [N]")->GetTuple1(0), 800);
+  EXPECT_EQ(impacts->GetPointData()->GetArray("time [s]")->GetTuple1(1), 2);
+  EXPECT_EQ(vtkStringArray::SafeDownCast(impacts->GetCellData()->GetAbstractArray("name"))->GetValue(0), "gudgeon pin");
+}
+
 TEST(FrameWriter, LeavesNothingHalfWritten) {
   const Folder folder;
   FrameWriter writer(folder.path);
@@ -307,7 +342,7 @@ TEST(FrameWriter, LeavesNothingHalfWritten) {
   for (const auto& entry : fs::recursive_directory_iterator(folder.path)) {
     if (entry.is_directory()) continue;
     const auto kind = entry.path().extension();
-    EXPECT_TRUE(kind == ".vtu" || kind == ".pvd") << entry.path();
+    EXPECT_TRUE(kind == ".vtu" || kind == ".pvd" || kind == ".py") << entry.path();
   }
 }
 

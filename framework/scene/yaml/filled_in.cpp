@@ -228,7 +228,8 @@ Json json(const RunOptions& run) {
 }
 
 Json json(const OutputOptions& output, const Scene& scene) {
-  Json out = {{"frames", output.frames}};
+  Json out = {{"frames", "auto"}};
+  if (output.frames >= 0) out["frames"] = output.frames;
   if (output.every > 0)
     out["every"] = output.every;
   else if (scene.has_run)

@@ -191,6 +191,15 @@ double read_deformation(const Node& node) {
   return node.quantity(dimension::number, rule::positive);
 }
 
+constexpr int frames_left_open = -1;
+
+int read_frames(const Node& node) {
+  if (node.is_scalar() && node.text("auto or a number") == "auto") return frames_left_open;
+  const long frames = node.count(0);
+  if (frames > 1'000'000) node.fail("is more than a million; ask for fewer");
+  return static_cast<int>(frames);
+}
+
 void read_constraints(const Node& node, RunOptions& run) {
   if (node.is_scalar() && node.text("projection or partitioning") == "index 3")
     node.fail(
@@ -231,6 +240,7 @@ void read_run(const Node& root, Scene& scene) {
 }
 
 void read_output(const Node& root, Scene& scene) {
+  scene.output.frames = frames_left_open;
   if (!root.has("output")) return;
   const Node node = root.at("output");
   check_keys(node, "output");
@@ -242,11 +252,7 @@ void read_output(const Node& root, Scene& scene) {
   read_optional(node, "states", dimension::time, rule::positive, output.states);
   if (scene.has_run && output.states > 0 && scene.run.until / output.states > 1e5)
     node.at("states").fail(node.at("states").shown() + " asks for more than a hundred thousand files; make it longer");
-  if (node.has("frames")) {
-    const long frames = node.at("frames").count(0);
-    if (frames > 1'000'000) node.at("frames").fail("is more than a million; ask for fewer");
-    output.frames = static_cast<int>(frames);
-  }
+  if (node.has("frames")) output.frames = read_frames(node.at("frames"));
   read_optional(node, "exaggerate", dimension::number, rule::positive, output.exaggerate);
   if (node.has("deformation")) output.deformation = read_deformation(node.at("deformation"));
   if (node.has("points")) output.points = read_output_points(node.at("points"), scene);

@@ -1,0 +1,273 @@
+#include "app/frame_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "app/quantity.h"
+
+namespace pintle {
+
+namespace {
+
+const Colour ink{0.16, 0.18, 0.22}, white{1, 1, 1};
+constexpr int side = 36, line_height = 34, field_row = 48;  // [px]
+
+/// Okabe and Ito's colours, which the colour-blind tell apart, less the yellow, which white swallows.
+const std::array<Colour, 6> palette{Colour{0.00, 0.45, 0.70}, Colour{0.84, 0.37, 0.00}, Colour{0.00, 0.62, 0.45},
+                                    Colour{0.80, 0.47, 0.65}, Colour{0.34, 0.71, 0.91}, Colour{0.90, 0.62, 0.00}};
+
+struct Arrows {
+  const char* name;
+  Colour colour;
+};
+/// By Giver.
+const std::array<Arrows, 4> arrows{Arrows{"joint", {0.36, 0.38, 0.46}}, Arrows{"contact", {0.80, 0.16, 0.14}},
+                                   Arrows{"spring", {0.45, 0.35, 0.10}}, Arrows{"load", {0.50, 0.18, 0.62}}};
+
+Colour mix(const Colour& a, const Colour& b, double share_of_b) { return a + share_of_b * (b - a); }
+
+int owner_of(const Drawing& drawing, const DrawnBody& body) {
+  return static_cast<int>(std::find(drawing.owners.begin(), drawing.owners.end(), body.name) - drawing.owners.begin());
+}
+
+/// A colour for each owner that has a link or is flexible, in the order of the owners.
+std::map<int, Colour> body_colours(const Drawing& drawing) {
+  std::map<int, Colour> colours;
+  for (const DrawnLine& line : drawing.lines)
+    if (line.part == Part::link) colours[line.owner] = ink;
+  for (const DrawnBody& body : drawing.bodies) colours[owner_of(drawing, body)] = ink;
+  std::size_t n = 0;
+  for (auto& [owner, colour] : colours) {
+    const auto o = static_cast<std::size_t>(owner);
+    const auto own = o < drawing.colours.size() ? drawing.colours[o] : std::nullopt;
+    colour = own ? Colour((*own)[0] / 255.0, (*own)[1] / 255.0, (*own)[2] / 255.0) : palette[n++ % palette.size()];
+  }
+  return colours;
+}
+
+}  // namespace
+
+// Where things go ---------------------------------------------------------------------------------
+
+FramePicture::FramePicture(const PictureStyle& style, const Survey& survey, const Drawing& first)
+    : style_(style),
+      world_(survey.world()),
+      usual_force_(style.forces ? survey.usual_force() : 0),
+      largest_couple_(style.forces ? survey.largest_couple() : 0),
+      range_(survey.range()),
+      width_(style.width) {
+  constexpr int least = 200, most = 8000;
+  if (width_ < least || width_ > most || (style.height != 0 && (style.height < least || style.height > most)))
+    throw std::runtime_error("--size: a picture is from 200 to 8000 pixels wide and high");
+  if (style.even) width_ -= width_ % 2;
+  colours_ = body_colours(first);
+  name_bodies(first);
+  fit();
+  canvas_ = std::make_unique<Canvas>(width_, height_);
+}
+
+/// Names from the right, in as many rows as they need beside the time, three at most.
+void FramePicture::name_bodies(const Drawing& drawing) {
+  const Canvas measure(1, 1);
+  constexpr int most_rows = 3, disc = 24, gap = 20;
+  const double left = side + measure.width_of("t = 888.888 ms") + 2 * gap, right = width_ - side;
+  std::vector<Label> row;
+  double x = left;
+  int rows = 0;
+  const auto end_row = [&] {  // flush right
+    for (Label& label : row) label.x += right - (x - gap), label.row = rows, labels_.push_back(label);
+    row.clear(), x = left, ++rows;
+  };
+  for (const auto& [owner, colour] : colours_) {
+    const double wide = disc + measure.width_of(drawing.owners.at(static_cast<std::size_t>(owner)));
+    if (!row.empty() && x + wide > right) end_row();
+    if (rows == most_rows) {
+      unnamed_ = static_cast<int>(colours_.size() - labels_.size());
+      break;
+    }
+    row.push_back({owner, x, 0});
+    x += wide + gap;
+  }
+  if (!row.empty()) end_row();
+  top_ = 42 + line_height * std::max(rows, 1);
+  bottom_ = 84 + (style_.field.empty() ? 0 : field_row);
+}
+
+/// Chooses the scale, and the height where it is free, so that the world fills the picture.
+void FramePicture::fit() {
+  const int margins = bottom_ + top_, inner = width_ - 2 * side;
+  const double size = std::max(world_.sizes().maxCoeff(), 1e-9), room = usual_force_ > 0 ? 0.08 : 0.03;  // arrows may end outside
+  world_.min().array() -= room * size;
+  world_.max().array() += room * size;
+  const Vector2d sizes = world_.sizes();
+  height_ = style_.height;
+  if (height_ == 0) {
+    const double asked = sizes.y() / sizes.x() * inner + margins;
+    height_ = static_cast<int>(std::clamp(asked, 0.3 * width_, 0.8 * width_));
+  }
+  if (style_.even) height_ -= height_ % 2;
+  scale_ = std::min(inner / sizes.x(), (height_ - margins) / sizes.y());
+  if (!(scale_ > 0)) throw std::runtime_error("--size: is too low to draw in");
+}
+
+Vector2d FramePicture::place(const Vector2d& world) const {
+  return Vector2d(width_ / 2.0, bottom_ + (height_ - bottom_ - top_) / 2.0) + scale_ * (world - world_.center());
+}
+
+double FramePicture::arrow_pixels() const { return 0.16 * std::min(width_, height_); }
+
+// What is drawn -----------------------------------------------------------------------------------
+
+void FramePicture::draw(const Drawing& drawing) {
+  canvas_->clear();
+  for (const Part part : {Part::hatch, Part::guide}) draw_lines(drawing, part);
+  if (style_.paths) draw_lines(drawing, Part::trace);
+  draw_flexible(drawing);
+  for (const Part part : {Part::link, Part::cylinder, Part::spring, Part::joint, Part::bearing, Part::journal}) draw_lines(drawing, part);
+  draw_forces(drawing);
+  draw_head(drawing);
+  draw_foot(drawing);
+}
+
+void FramePicture::draw_flexible(const Drawing& drawing) {
+  for (const DrawnBody& body : drawing.bodies) {
+    Eigen::Matrix2Xd at(2, body.points.cols());
+    for (Eigen::Index i = 0; i < at.cols(); ++i) at.col(i) = place(body.points.col(i));
+    const auto colour = colours_.find(owner_of(drawing, body));
+    const Colour own = colour == colours_.end() ? ink : colour->second;
+    std::vector<Colour> inside;
+    if (!style_.field.empty())
+      for (const double value : values(body, style_.field)) inside.push_back(field_colour(range_.share(value)));
+    if (inside.empty())
+      canvas_->fill(at, body.cells, mix(own, white, 0.65));
+    else
+      canvas_->fill(at, body.cells, inside);
+    canvas_->stroke_outline(at, body.cells, inside.empty() ? 4 : 2, inside.empty() ? own : ink);
+  }
+}
+
+void FramePicture::draw_lines(const Drawing& drawing, Part part) {
+  for (const DrawnLine& line : drawing.lines) {
+    if (line.part != part) continue;
+    std::vector<Vector2d> r;
+    for (const Vector2d& p : line.points) r.push_back(place(p));
+    switch (part) {
+      case Part::hatch: canvas_->stroke(r, line.closed, 2, mix(ink, white, 0.55)); break;
+      case Part::guide: canvas_->stroke(r, line.closed, 4, mix(ink, white, 0.45)); break;
+      case Part::trace: canvas_->stroke(r, line.closed, 1.6, mix(ink, white, 0.55)); break;
+      case Part::spring: canvas_->stroke(r, line.closed, 3, mix(ink, white, 0.2)); break;
+      case Part::cylinder:
+        if (line.closed) canvas_->fill(r, mix(ink, white, 0.8));
+        canvas_->stroke(r, line.closed, line.closed ? 3 : 7, mix(ink, white, line.closed ? 0.2 : 0.45));
+        break;
+      case Part::link: {
+        const auto found = colours_.find(line.owner);
+        const Colour colour = found == colours_.end() ? ink : found->second;
+        if (line.closed) canvas_->fill(r, mix(colour, white, 0.65));
+        if (!line.closed) canvas_->stroke(r, false, 13, mix(colour, ink, 0.5));
+        canvas_->stroke(r, line.closed, line.closed ? 4 : 9, colour);
+        break;
+      }
+      case Part::joint:
+      case Part::journal:
+      case Part::bearing: draw_joint(line, r); break;
+    }
+  }
+}
+
+void FramePicture::draw_joint(const DrawnLine& line, const std::vector<Vector2d>& r) {
+  if (r.size() == 1) {
+    canvas_->disc(r[0], 8, ink);
+    canvas_->disc(r[0], 5, white);
+    return;
+  }
+  if (line.closed && line.part != Part::joint) canvas_->fill(r, line.part == Part::journal ? mix(ink, white, 0.7) : white);
+  constexpr double pin = 0.1;  // of the picture: larger circles are wheels
+  if (line.closed && line.part == Part::joint && (r[0] - r[r.size() / 2]).norm() < pin * height_) canvas_->fill(r, white);
+  canvas_->stroke(r, line.closed, 3, ink);
+}
+
+/// Arrows longer than thrice the usual length are cut there. Of couples the sense alone is drawn.
+void FramePicture::draw_forces(const Drawing& drawing) {
+  if (!style_.forces) return;
+  for (const DrawnForce& f : drawing.forces) {
+    const Colour& colour = arrows.at(static_cast<std::size_t>(f.giver)).colour;
+    const Vector2d at = place(f.at);
+    const double length = usual_force_ > 0 ? std::min(f.force.norm() / usual_force_, 3.0) * arrow_pixels() : 0;
+    constexpr double worth_it = 4, share = 0.02;  // [px], of the largest couple
+    if (length > worth_it) canvas_->arrow(at, at + length * f.force.normalized(), 4, colour);
+    if (f.couple != 0 && std::abs(f.couple) > share * largest_couple_) canvas_->turn(at, 26, f.couple > 0, 3, colour);
+  }
+}
+
+/// Time and bodies.
+void FramePicture::draw_head(const Drawing& drawing) {
+  const double w = width_, h = height_, first = h - 52;
+  canvas_->fill({{0, h - top_}, {w, h - top_}, {w, h}, {0, h}}, white);
+  if (!style_.timeless) canvas_->words("t = " + quantity(drawing.t, "s"), side, first, Align::left, ink);
+  for (const Label& label : labels_) {
+    const Colour& colour = colours_.at(label.owner);
+    const double y = first - line_height * label.row;
+    canvas_->disc({label.x + 8, y + 8}, 8, colour);
+    canvas_->words(drawing.owners.at(static_cast<std::size_t>(label.owner)), label.x + 24, y, Align::left, mix(colour, ink, 0.35));
+  }
+  if (unnamed_ > 0)
+    canvas_->words("and " + std::to_string(unnamed_) + " more", side, first - line_height, Align::left, mix(ink, white, 0.3));
+}
+
+/// The scales of lengths and forces, and what is drawn larger than it is.
+void FramePicture::draw_foot(const Drawing& drawing) {
+  const double w = width_, y = 38;
+  canvas_->fill({{0, 0}, {w, 0}, {w, 1.0 * bottom_}, {0, 1.0 * bottom_}}, white);
+  const double length = round_length(0.2 * width_ / scale_), end = side + length * scale_;
+  canvas_->stroke({{side, y + 8}, {side, y}, {end, y}, {end, y + 8}}, false, 2.5, ink);
+  const std::string metres = quantity(length, "m");
+  canvas_->words(metres, end + 14, y - 6, Align::left, ink);
+
+  double x = end + 14 + canvas_->width_of(metres) + 40;
+  if (usual_force_ > 0) {
+    const double force = round_length(usual_force_), pixels = force / usual_force_ * arrow_pixels();
+    canvas_->arrow({x, y}, {x + pixels, y}, 4, ink);
+    canvas_->words(quantity(force, "N"), x + pixels + 14, y - 6, Align::left, ink);
+    x += pixels + 14 + canvas_->width_of(quantity(force, "N")) + 30;
+    for (std::size_t k = 0; k < arrows.size(); ++k) {
+      if (std::ranges::none_of(drawing.forces, [&](const DrawnForce& f) { return f.giver == static_cast<Giver>(k); })) continue;
+      canvas_->words(arrows[k].name, x, y - 6, Align::left, arrows[k].colour);
+      x += canvas_->width_of(arrows[k].name) + 18;
+    }
+  }
+  std::string larger;
+  const auto add_times = [&](const char* what, double times) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%s drawn %.3g times", what, times);
+    larger += (larger.empty() ? "" : "      ") + std::string(text.data());
+  };
+  if (drawing.exaggeration != 1) add_times("clearance", drawing.exaggeration);
+  if (drawing.deformation != 1) add_times("deformation", drawing.deformation);
+  const bool beside = x + canvas_->width_of(larger) < w - side;
+  canvas_->words(larger, w - side, beside ? y - 6 : y - 34, Align::right, ink);
+  if (!style_.field.empty()) draw_field_scale();
+}
+
+/// The scale of a field's colours: its name, its least and its greatest value.
+void FramePicture::draw_field_scale() {
+  const std::string& field = style_.field;
+  const std::size_t unit = field.rfind(" [");
+  const bool has_unit = unit != std::string::npos && field.back() == ']';
+  const std::string symbol = has_unit ? field.substr(unit + 2, field.size() - unit - 3) : "";
+  constexpr int steps = 256;
+  const double left = 0.42 * width_, right = 0.82 * width_, y = bottom_ - field_row, step = (right - left) / steps, high = 18;
+  for (int i = 0; i < steps; ++i) {
+    const double x = left + i * step;  // each a little over the next: no paper shows between them
+    canvas_->fill({{x, y}, {x + step + 1, y}, {x + step + 1, y + high}, {x, y + high}}, field_colour((i + 0.5) / steps));
+  }
+  canvas_->words(field.substr(0, has_unit ? unit : field.size()), side, y, Align::left, ink);
+  const bool from_zero = std::abs(range_.least) < 1e-6 * std::abs(range_.greatest);
+  canvas_->words(quantity(from_zero ? 0 : range_.least, symbol), left - 14, y, Align::right, ink);
+  canvas_->words(quantity(range_.greatest, symbol), right + 14, y, Align::left, ink);
+}
+
+}  // namespace pintle

@@ -1,0 +1,64 @@
+// pintle-view SCENE, for `pintle view`: a page that shows a scene as it is written, to look at and to move by hand.
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+
+#include "app/options.h"
+#include "app/progress.h"
+#include "app/view/server.h"
+#include "framework/common/library_threads.h"
+#include "framework/scene/error.h"
+
+namespace {
+
+using namespace pintle;
+using namespace pintle::app;
+
+int view(const std::string& scene, const std::vector<std::string>& set, int port) {
+  if (!std::filesystem::is_regular_file(scene)) throw SceneError(scene + ": no such file; name a scene (YAML)");
+  Options options;
+  options.set = set;
+  ViewSession session(scene, overrides(options));
+  ViewServer server(session, port);
+  heed_signals();
+  std::cout << "  " << server.address() << "\n  open it in a browser on this machine; Ctrl-C ends it" << std::endl;
+  server.serve(asked_to_stop);
+  return ok;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  leave_failed_writes_to_us();
+  end_on_signals();
+  hold_library_threads();
+  CLI::App command("Shows a scene in the browser as it is written: assembled, with its freedoms, to be dragged through its motion.",
+                   "pintle view");
+  std::string scene;
+  std::vector<std::string> set;
+  int port = 0;
+  command.add_option("scene", scene, "scene file (YAML); the page shows it anew whenever a file of its folder is saved")
+      ->required()
+      ->type_name("SCENE.yaml");
+  command.add_option("--set", set, "override a parameter or key of the scene; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME|PATH=VALUE");
+  command.add_option("--port", port, "on this port of 127.0.0.1 (default: any that is free)")->type_name("N")->check(CLI::Range(1, 65535));
+  command.footer(
+      "The page is served to this machine alone, under an address that nobody can guess, and nothing is written. Bodies are rigid\n"
+      "there, drivers are let go, joints with play are closed. Exit codes: see pintle --help\n");
+  try {
+    command.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return command.exit(e) == 0 ? ok : bad_scene;
+  }
+  try {
+    return view(scene, set, port);
+  } catch (const SceneError& e) {
+    std::cerr << "pintle: " << e.what() << "\n";
+    return bad_scene;
+  } catch (const std::exception& e) {
+    std::cerr << "pintle: " << e.what() << "\n";
+    return trouble;
+  }
+}

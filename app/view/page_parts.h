@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+/// The page of app/view/ as the build puts it into pintle-view (cmake/embed.cmake).
+namespace pintle::page_parts {
+
+extern const std::string_view view_page, view_style, view_script;
+
+}  // namespace pintle::page_parts

@@ -1,0 +1,106 @@
+#include "app/view/server.h"
+
+#include <httplib.h>
+#include <sys/random.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <string_view>
+#include <thread>
+
+#include "app/view/page_parts.h"
+
+namespace pintle::app {
+
+namespace {
+
+/// 128 bits that no other process knows.
+std::string unguessable() {
+  std::array<unsigned char, 16> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    throw std::runtime_error("the system gives no random numbers, which an address that nobody can guess asks for");
+  std::string out;
+  for (const unsigned char byte : bytes) {
+    std::array<char, 3> digits{};
+    std::snprintf(digits.data(), digits.size(), "%02x", byte);
+    out += digits.data();
+  }
+  return out;
+}
+
+}  // namespace
+
+struct ViewServer::Server {
+  httplib::Server http;
+  std::string token = unguessable();
+  int port = 0;
+
+  /// A request that a page of ours makes: to this address by its name, from no other site.
+  bool is_ours(const httplib::Request& request) const {
+    const std::string host = request.get_header_value("Host"), origin = request.get_header_value("Origin");
+    const std::string here = "127.0.0.1:" + std::to_string(port);
+    return host == here && (origin.empty() || origin == "http://" + here);
+  }
+  /// @param path  within the page's folder, plain letters
+  template <class Answer>
+  httplib::Server::Handler answering(const char* type, const Answer& answer) {
+    return [this, type, answer](const httplib::Request& request, httplib::Response& response) {
+      if (!is_ours(request)) {
+        response.status = 404;
+        return;
+      }
+      response.set_content(answer(request), type);
+    };
+  }
+  template <class Answer>
+  void get(const std::string& path, const char* type, const Answer& answer) {
+    http.Get("/" + token + "/" + path, answering(type, answer));
+  }
+  template <class Answer>
+  void post(const std::string& path, const Answer& answer) {
+    http.Post("/" + token + "/" + path, answering("application/json", answer));
+  }
+};
+
+ViewServer::ViewServer(ViewSession& session, int port) : server_(std::make_unique<Server>()) {
+  httplib::Server& http = server_->http;
+  constexpr std::size_t largest_request = 1 << 16;
+  http.set_payload_max_length(largest_request);
+  http.set_keep_alive_max_count(1000);
+  http.new_task_queue = [] { return new httplib::ThreadPool(4); };
+  http.set_default_headers({{"Content-Security-Policy",
+                             "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; frame-ancestors 'none'; "
+                             "base-uri 'none'; form-action 'none'"},
+                            {"X-Content-Type-Options", "nosniff"},
+                            {"Referrer-Policy", "no-referrer"},
+                            {"Cache-Control", "no-store"}});
+  const auto text = [](std::string_view part) { return [part](const httplib::Request&) { return std::string(part); }; };
+  server_->get("", "text/html; charset=utf-8", text(page_parts::view_page));
+  server_->get("view.css", "text/css; charset=utf-8", text(page_parts::view_style));
+  server_->get("view.js", "text/javascript; charset=utf-8", text(page_parts::view_script));
+  server_->get("now", "application/json", [&session](const httplib::Request& request) {
+    return session.now(std::strtol(request.get_param_value("known").c_str(), nullptr, 10));
+  });
+  server_->post("drag", [&session](const httplib::Request& request) { return session.drag(request.body); });
+  server_->post("again", [&session](const httplib::Request&) { return session.again(); });
+
+  server_->port = port == 0 ? http.bind_to_any_port("127.0.0.1") : http.bind_to_port("127.0.0.1", port) ? port : -1;
+  if (server_->port <= 0)
+    throw std::runtime_error("--port " + std::to_string(port) + ": cannot be had on 127.0.0.1; another program may have it, name another");
+}
+
+ViewServer::~ViewServer() = default;
+
+std::string ViewServer::address() const { return "http://127.0.0.1:" + std::to_string(server_->port) + "/" + server_->token + "/"; }
+
+void ViewServer::serve(const std::function<bool()>& stop) {
+  std::thread serving([this] { server_->http.listen_after_bind(); });
+  while (!stop()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  server_->http.stop();
+  serving.join();
+}
+
+}  // namespace pintle::app

@@ -1,0 +1,172 @@
+#include "app/view/session.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include <Eigen/Geometry>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/build/build.h"
+#include "framework/build/inertia_defaults.h"
+#include "framework/common/index.h"
+#include "framework/configuration/assemble.h"
+
+namespace pintle::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Eigen::Vector2d;
+
+/// When a file that the scene may read from its folder was saved last.
+fs::file_time_type last_saved(const fs::path& scene) {
+  fs::file_time_type last = fs::file_time_type::min();
+  std::error_code ignored;
+  const fs::path folder = scene.has_parent_path() ? scene.parent_path() : fs::path(".");
+  for (auto entry = fs::directory_iterator(folder, ignored); entry != fs::directory_iterator(); entry.increment(ignored)) {
+    constexpr std::array<std::string_view, 7> read{".yaml", ".yml", ".csv", ".geo", ".inp", ".msh", ".json"};
+    if (std::ranges::find(read, entry->path().extension().string()) == read.end()) continue;
+    if (const auto time = entry->last_write_time(ignored); !ignored) last = std::max(last, time);
+  }
+  return last;
+}
+
+Json lines_json(const Drawing& drawing) {
+  Json out = Json::array();
+  for (const DrawnLine& line : drawing.lines) {
+    Json points = Json::array();
+    for (const Vector2d& r : line.points) points.push_back(r.x()), points.push_back(r.y());
+    out.push_back({{"part", static_cast<int>(line.part)}, {"owner", line.owner}, {"closed", line.closed}, {"points", std::move(points)}});
+  }
+  return out;
+}
+
+}  // namespace
+
+/// A scene made ready to be moved: rigid, as `pintle kinematics` takes it.
+struct ViewSession::Assembled {
+  Scene scene;
+  Model model;
+  Assembly start;
+  State state;
+  std::unique_ptr<MovedByHand> hand;
+
+  explicit Assembled(Scene read)
+      : scene(ready_for_kinematics(std::move(read))),
+        model(build(scene)),
+        start(assemble(scene, model)),
+        state(start.start),
+        hand(std::make_unique<MovedByHand>(model.system, start.start.y)) {}
+
+  void take_pose() { state.y.head(model.system.n()) = hand->coordinates(); }
+
+  Drawing drawing() const {
+    Equations eq(model.system);
+    pose(model.system, 0, state.y, eq);
+    speed(model.system, 0, state.y, eq);
+    Drawing out = draw(model, Drafting(scene, model), state, eq);
+    out.forces.clear();
+    return out;
+  }
+
+  Json bodies_json() const {
+    Json out = Json::array();
+    for (std::size_t b = 0; b < model.system.bodies.size(); ++b) {
+      const double* q = state.y.data() + 3 * b;
+      out.push_back({{"name", model.system.bodies[b].name}, {"x", q[0]}, {"y", q[1]}, {"angle", q[2]}});
+    }
+    return out;
+  }
+
+  /// Of each freedom the velocities of all markers on bodies.
+  Json freedoms_json() const {
+    constexpr int most = 12;
+    const Eigen::MatrixXd motions = hand->freedoms(most);
+    Json out = Json::array();
+    for (Eigen::Index k = 0; k < motions.cols(); ++k) {
+      Json arrows = Json::array();
+      for (const Marker& m : model.system.markers) {
+        if (m.body == ground) continue;
+        const Eigen::Vector3d v = motions.col(k).segment<3>(3 * m.body);
+        const double angle = state.y[3 * m.body + 2];
+        const Vector2d r = Eigen::Rotation2Dd(angle) * m.x_BP, place = state.y.segment<2>(3 * m.body) + r;
+        arrows.push_back({place.x(), place.y(), v[0] - v[2] * r.y(), v[1] + v[2] * r.x()});
+      }
+      out.push_back(std::move(arrows));
+    }
+    return out;
+  }
+
+  Json json() const {
+    const Drawing drawn = drawing();
+    Json colours = Json::array(), drivers = Json::array();
+    for (const auto& colour : drawn.colours) colours.push_back(colour ? Json(*colour) : Json());
+    for (std::size_t k = 0; k < model.system.joints.size(); ++k)
+      if (is_driver(model.system.joints[k])) drivers.push_back(model.system.joint_names[k]);
+    return {{"title", scene.title},         {"length", model.system.length},
+            {"owners", drawn.owners},       {"colours", colours},
+            {"lines", lines_json(drawn)},   {"bodies", bodies_json()},
+            {"mobility", hand->mobility()}, {"freedoms", freedoms_json()},
+            {"drivers", drivers},           {"warnings", warnings_of(model, start)}};
+  }
+};
+
+ViewSession::ViewSession(fs::path scene, Overrides overrides) : scene_(std::move(scene)), overrides_(std::move(overrides)) {}
+
+ViewSession::~ViewSession() = default;
+
+void ViewSession::read_if_saved() {
+  const fs::file_time_type saved = last_saved(scene_);
+  if (version_ > 0 && saved == saved_) return;
+  saved_ = saved, ++version_, error_.clear();
+  try {
+    assembled_ = std::make_unique<Assembled>(read_scene(scene_, overrides_));
+  } catch (const std::exception& e) {
+    error_ = e.what();  // what was there before stays on the page
+  }
+}
+
+std::string ViewSession::drawing() const {
+  Json out{{"version", version_}, {"file", scene_.filename().string()}, {"error", error_}};
+  if (assembled_) out.update(assembled_->json());
+  return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string ViewSession::now(long known) {
+  const std::lock_guard lock(one_at_a_time_);
+  read_if_saved();
+  return known == version_ ? Json{{"version", version_}}.dump() : drawing();
+}
+
+std::string ViewSession::drag(const std::string& request) {
+  const std::lock_guard lock(one_at_a_time_);
+  const Json asked = Json::parse(request, nullptr, false);
+  const auto number = [](const Json& list, std::size_t i) { return list.at(i).get<double>(); };
+  try {
+    if (!assembled_ || asked.at("version").get<long>() != version_) return drawing();
+    const int body = asked.at("body").get<int>();
+    const Json &point = asked.at("point"), &to = asked.at("to");
+    const Vector2d grabbed(number(point, 0), number(point, 1)), goal(number(to, 0), number(to, 1));
+    if (body < 0 || body >= static_cast<int>(assembled_->model.system.bodies.size()) || !grabbed.allFinite() || !goal.allFinite())
+      return drawing();
+    ++version_;
+    if (assembled_->hand->pull(body, grabbed, goal)) assembled_->take_pose();
+  } catch (const Json::exception&) {  // no request of the page
+  }
+  return drawing();
+}
+
+std::string ViewSession::again() {
+  const std::lock_guard lock(one_at_a_time_);
+  if (assembled_) {
+    assembled_->hand = std::make_unique<MovedByHand>(assembled_->model.system, assembled_->start.start.y);
+    assembled_->state = assembled_->start.start;
+    ++version_;
+  }
+  return drawing();
+}
+
+}  // namespace pintle::app

@@ -1,0 +1,161 @@
+// What frames hold of a mechanism: every force, the ground, cylinders; and what pictures of them show.
+#include "framework/mechanism/drawing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "app/film.h"
+#include "app/survey.h"
+#include "framework/build/build.h"
+#include "framework/configuration/assemble.h"
+#include "framework/dynamics/equations/equations.h"
+#include "framework/scene/yaml/reader.h"
+
+namespace pintle {
+namespace {
+
+using Eigen::Vector2d;
+
+/// The scene as it starts.
+Drawing drawn(const std::string& text) {
+  const Scene scene = read_scene_text(text, "scene.yaml", {}, ".");
+  const Model model = build(scene);
+  const Assembly assembly = assemble(scene, model);
+  Equations eq(model.system);
+  Eigen::VectorXd dy(model.system.n_y());
+  evaluate(model.system, assembly.start, eq, dy);
+  return draw(model, Drafting(scene, model), assembly.start, eq);
+}
+
+std::vector<DrawnForce> forces_of(const Drawing& drawing, const std::string& owner) {
+  std::vector<DrawnForce> out;
+  for (const DrawnForce& f : drawing.forces)
+    if (drawing.owners.at(static_cast<std::size_t>(f.owner)) == owner) out.push_back(f);
+  return out;
+}
+
+long lines_of(const Drawing& drawing, Part part, const std::string& owner) {
+  return std::ranges::count_if(
+      drawing.lines, [&](const DrawnLine& l) { return l.part == part && drawing.owners.at(static_cast<std::size_t>(l.owner)) == owner; });
+}
+
+/// A rod of 2 kg hangs at rest; a force pulls its tip sideways at a lever of 3 m, which a couple at the hinge's height balances.
+constexpr const char* hanging = R"(
+gravity: [0, -10]
+bodies: {rod: {rigid: {mass: 2, inertia: 0.1, center: [0, -1]}, points: {O: [0, 0], tip: [0, -3]}}}
+joints: {hinge: {revolute: [ground, rod.O]}}
+forces: {pull: {force: [7, 0], at: rod.tip}, twist: {torque: -21, on: rod}}
+run: {until: 1}
+)";
+
+TEST(DrawnForces, AreThoseOfEveryJointAndLoadWhereTheyAct) {
+  const Drawing drawing = drawn(hanging);
+  const auto hinge = forces_of(drawing, "hinge"), pull = forces_of(drawing, "pull"), twist = forces_of(drawing, "twist");
+  ASSERT_EQ(hinge.size(), 1U);
+  EXPECT_EQ(hinge[0].giver, Giver::joint);
+  EXPECT_NEAR((hinge[0].force - Vector2d(-7, 20)).norm(), 0, 1e-9);  // the rod is in balance
+  EXPECT_NEAR(hinge[0].at.norm(), 0, 1e-9);
+  ASSERT_EQ(pull.size(), 1U);
+  EXPECT_EQ(pull[0].giver, Giver::load);
+  EXPECT_NEAR((pull[0].at - Vector2d(0, -3)).norm(), 0, 1e-9);
+  EXPECT_NEAR((pull[0].force - Vector2d(7, 0)).norm(), 0, 1e-12);
+  ASSERT_EQ(twist.size(), 1U);
+  EXPECT_NEAR(twist[0].couple, -21, 1e-12);
+}
+
+TEST(DrawnForces, OfSpringsPointAlongThem) {
+  const Drawing drawing = drawn(R"(
+bodies: {mass: {rigid: {mass: 1, inertia: 1}, pose: {at: [2, 0]}}}
+joints: {guide: {prismatic: [ground, mass]}}
+forces: {spring: {spring: [ground, mass], stiffness: 100, free length: 1.5}}
+run: {until: 1}
+)");
+  const auto spring = forces_of(drawing, "spring");
+  ASSERT_EQ(spring.size(), 1U);
+  EXPECT_EQ(spring[0].giver, Giver::spring);
+  EXPECT_NEAR((spring[0].force - Vector2d(-50, 0)).norm(), 0, 1e-9);
+  EXPECT_EQ(lines_of(drawing, Part::spring, "spring"), 1);
+}
+
+TEST(DrawnGround, StandsUnderItsPinsAndAlongItsGuides) {
+  const Drawing drawing = drawn(hanging);
+  long triangles = 0;
+  for (const DrawnLine& line : drawing.lines)
+    if (line.part == Part::hatch && line.closed) {
+      ++triangles;
+      EXPECT_NEAR(line.points.front().norm(), 0, 1e-9);
+      for (std::size_t i = 1; i < line.points.size(); ++i) EXPECT_LT(line.points[i].y(), 0);
+    }
+  EXPECT_EQ(triangles, 1);
+  EXPECT_GT(lines_of(drawing, Part::hatch, "ground"), 3);
+}
+
+TEST(DrawnCylinders, ReachFromTheOneEndToTheOther) {
+  const Drawing drawing = drawn(R"(
+ground: {points: {A: [0, 0], B: [3, 0]}}
+bodies: {arm: {rigid: {mass: 1, inertia: 0.1}, points: {O: [0, 0], E: [0, 4]}, pose: {at: [3, 0]}}}
+joints: {pivot: {revolute: [ground.B, arm.O]}}
+drivers: {ram: {distance: [ground.A, arm.E], law: present}}
+run: {until: 1}
+)");
+  ASSERT_EQ(lines_of(drawing, Part::cylinder, "ram"), 2);
+  Vector2d low(1e9, 1e9), high = -low;
+  for (const DrawnLine& line : drawing.lines)
+    if (line.part == Part::cylinder && !line.closed) low = line.points.front(), high = line.points.back();
+  EXPECT_NEAR((high - Vector2d(3, 4)).norm(), 0, 1e-6);       // the rod ends at the arm
+  EXPECT_NEAR(std::abs(low.x() * 4 - low.y() * 3), 0, 1e-6);  // and lies on the line between both ends
+}
+
+TEST(DrawnPoints, AreFollowedAsTheOutputNamesThem) {
+  std::string scene = hanging;
+  scene += "output: {points: [rod.tip]}\n";
+  const Drawing drawing = drawn(scene);
+  ASSERT_EQ(drawing.followed.size(), 1U);
+  EXPECT_EQ(drawing.followed[0].name, "rod.tip");
+  EXPECT_NEAR((drawing.followed[0].at - Vector2d(0, -3)).norm(), 0, 1e-9);
+}
+
+// --- pictures ---
+
+Drawing beside_a_wall() {
+  Drawing d;
+  d.owners = {"block", "ground"};
+  d.lines = {{Part::link, 0, true, {{-1, 0}, {1, 0}, {1, 1}, {-1, 1}}}, {Part::guide, 1, false, {{-100, 0}, {100, 0}}}};
+  d.forces = {{{0, 0}, {0, 5}, 0, Giver::joint, 0}};
+  return d;
+}
+
+TEST(Survey, ShowsWhatMovesAndNotAWallOfTwoHundredMetres) {
+  Survey survey("", "");
+  survey.add(beside_a_wall());
+  const Eigen::AlignedBox2d world = survey.world();
+  EXPECT_TRUE(world.contains(Vector2d(-1, 0)) && world.contains(Vector2d(1, 1)));
+  EXPECT_LT(world.sizes().x(), 2 * 1.3);  // what moves, and an eighth of it on both sides
+  EXPECT_GT(world.sizes().x(), 2);
+}
+
+TEST(Survey, ShowsAllPlacesOfAFilmAndScalesArrowsByTheUsualForce) {
+  Survey survey("", "");
+  for (int i = 0; i < 20; ++i) {
+    Drawing d = beside_a_wall();
+    for (Vector2d& r : d.lines[0].points) r.y() += i;
+    if (i == 7) d.forces[0].force *= 1000;  // an impact
+    survey.add(d);
+  }
+  EXPECT_TRUE(survey.world().contains(Vector2d(0, 20)));
+  EXPECT_EQ(survey.usual_force(), 5);
+}
+
+TEST(Survey, OfOneBodyShowsThatAlone) {
+  Survey survey("ground", "");
+  survey.add(beside_a_wall());
+  EXPECT_EQ(survey.world().sizes().x(), 200);
+  Survey nothing("nobody", "");
+  nothing.add(beside_a_wall());
+  EXPECT_THROW(nothing.world(), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace pintle

@@ -1,0 +1,149 @@
+// `pintle view`, asked as a browser would: over its socket, by hand.
+#include <arpa/inet.h>
+#include <signal.h>
+#include <sys/socket.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/unit/program.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace pintle_test;
+using Json = nlohmann::json;
+
+constexpr const char* crank = R"(
+title: A crank
+ground: {points: {O: [0, 0]}}
+bodies: {crank: {rigid: {mass: 1, inertia: 1}, points: {O: [0, 0], A: [2, 0]}}}
+joints: {main: {revolute: [ground.O, crank.O]}}
+run: {until: 1}
+)";
+
+/// The program, on a scene in a folder of its own, until the end of the test.
+class View : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::string(PINTLE_VIEW).empty()) GTEST_SKIP() << "pintle-view was not built: apt-get install libcpp-httplib-dev pkgconf";
+    scene_ = folder_.write("scene.yaml", crank);
+    child_ = start(folder_.path() / "log", {PINTLE_PROGRAM, "view", scene_.string()});
+    using clock = std::chrono::steady_clock;
+    for (const auto begin = clock::now(); clock::now() - begin < std::chrono::minutes(2);) {
+      const std::string said = contents(folder_.path() / "log.out");
+      if (const std::size_t at = said.find("http://127.0.0.1:"); at != std::string::npos && said.find('\n', at) != std::string::npos) {
+        const std::string address = said.substr(at + 17, said.find('\n', at) - at - 17);
+        port_ = std::stoi(address);
+        root_ = address.substr(address.find('/'));
+        return;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    FAIL() << "it has named no address: " << contents(folder_.path() / "log.err");
+  }
+  void TearDown() override {
+    if (child_ <= 0) return;
+    kill(child_, SIGKILL);
+    wait_for(child_, folder_.path() / "log");
+  }
+
+  /// @returns all that comes back   @param host  of the header; empty: as it is
+  std::string answer(const std::string& method, const std::string& path, const std::string& body = "", std::string host = "",
+                     const std::string& more = "") const {
+    if (host.empty()) host = "127.0.0.1:" + std::to_string(port_);
+    const int to = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port_));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    std::string out;
+    if (connect(to, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) {
+      const std::string request = method + " " + path + " HTTP/1.1\r\nHost: " + host + "\r\nConnection: close\r\n" + more +
+                                  "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+      EXPECT_EQ(write(to, request.data(), request.size()), static_cast<ssize_t>(request.size()));
+      char some[4096];
+      for (ssize_t n = 0; (n = read(to, some, sizeof some)) > 0;) out.append(some, static_cast<std::size_t>(n));
+    }
+    close(to);
+    return out;
+  }
+  static std::string status(const std::string& answer) { return answer.substr(9, 3); }
+  static Json json(const std::string& answer) { return Json::parse(answer.substr(answer.find("\r\n\r\n") + 4), nullptr, false); }
+  Json now(long known = 0) const { return json(answer("GET", root_ + "now?known=" + std::to_string(known))); }
+
+  Folder folder_;
+  fs::path scene_;
+  pid_t child_ = -1;
+  int port_ = 0;
+  std::string root_;
+};
+
+TEST_F(View, ShowsTheSceneAndItsFreedomUnderItsAddressAlone) {
+  EXPECT_EQ(status(answer("GET", root_)), "200");
+  EXPECT_EQ(status(answer("GET", root_ + "view.js")), "200");
+  for (const std::string path : {"/", "/now", "/view.js", "/0123456789abcdef0123456789abcdef/", "/../../etc/passwd"})
+    EXPECT_EQ(status(answer("GET", path)), "404") << path;
+  EXPECT_EQ(status(answer("GET", root_ + "../../../../etc/passwd")), "404");
+  EXPECT_EQ(status(answer("GET", root_, "", "evil.example")), "404");  // another name for this machine
+  EXPECT_EQ(status(answer("POST", root_ + "again", "{}", "", "Origin: http://evil.example\r\n")), "404");
+  EXPECT_NE(status(answer("PUT", root_ + "now", "x")), "200");
+  EXPECT_GE(root_.size(), 32U);
+
+  const Json scene = now();
+  ASSERT_TRUE(scene.is_object());
+  EXPECT_EQ(scene["title"], "A crank");
+  EXPECT_EQ(scene["error"], "");
+  EXPECT_EQ(scene["mobility"], 1);
+  EXPECT_EQ(scene["freedoms"].size(), 1U);
+  EXPECT_FALSE(scene["lines"].empty());
+  EXPECT_EQ(now(scene["version"]), (Json{{"version", scene["version"]}}));  // nothing new
+}
+
+TEST_F(View, TurnsTheCrankToWhereItIsDragged) {
+  const Json scene = now();
+  const Json dragged =
+      json(answer("POST", root_ + "drag", Json{{"version", scene["version"]}, {"body", 0}, {"point", {2, 0}}, {"to", {0, 7}}}.dump()));
+  ASSERT_TRUE(dragged.is_object());
+  EXPECT_NEAR(dragged["bodies"][0]["angle"].get<double>(), std::acos(-1.0) / 2, 1e-3);
+  const Json back = json(answer("POST", root_ + "again", "{}"));
+  EXPECT_NEAR(back["bodies"][0]["angle"].get<double>(), 0, 1e-9);
+  for (const std::string nonsense : {"", "{", "[]", R"({"version": 1, "body": 99, "point": [0, 0], "to": [0, 0]})",
+                                     R"({"version": 1, "body": 0, "point": [], "to": "far"})"})
+    EXPECT_EQ(status(answer("POST", root_ + "drag", nonsense)), "200") << nonsense;  // what stands there is told again
+  EXPECT_NE(status(answer("POST", root_ + "drag", std::string(1 << 17, ' '))), "200");
+}
+
+TEST_F(View, ReadsTheSceneAgainWhenItIsSavedAndKeepsTheLastThatWasRight) {
+  const Json first = now();
+  std::string text = crank;
+  text.replace(text.find("A crank"), 7, "A new one");
+  const auto save = [&](const std::string& what, int seconds) {
+    folder_.write("scene.yaml", what);
+    fs::last_write_time(scene_, fs::last_write_time(scene_) + std::chrono::seconds(seconds));  // whatever the clock's grain is
+  };
+  save(text, 1);
+  const Json second = now(first["version"]);
+  EXPECT_EQ(second["title"], "A new one");
+  save("bodies: {", 2);
+  const Json wrong = now(second["version"]);
+  EXPECT_NE(wrong["error"].get<std::string>().find("scene.yaml:"), std::string::npos) << wrong["error"];
+  EXPECT_EQ(wrong["title"], "A new one");
+  save(crank, 3);
+  EXPECT_EQ(now(wrong["version"])["error"], "");
+}
+
+TEST_F(View, WritesNothingAndEndsByCtrlC) {
+  now();
+  long files = 0;
+  for (const auto& entry : fs::directory_iterator(folder_.path())) files += entry.path().filename().string().starts_with("log") ? 0 : 1;
+  EXPECT_EQ(files, 1);
+  kill(child_, SIGINT);
+  EXPECT_EQ(wait_for(std::exchange(child_, -1), folder_.path() / "log").code, 0);
+}
+
+}  // namespace
