@@ -48,6 +48,10 @@ class Manners(unittest.TestCase):
         self.assertEqual(self.say("run", "--help").returncode, 0)
         self.assertEqual(self.say().returncode, 2)
 
+    def test_a_scene_may_be_named_pintle_yaml(self):
+        self.assertEqual(self.say("run", "swing.pintle.yaml", "-q").returncode, 0)
+        self.assertTrue((self.place / "runs" / "swing" / "run.json").exists())
+
     def test_redundancy_is_told_in_few_lines(self):
         bars = "\n".join(f"  bar {k}: {{rigid: {{mass: 1 kg, inertia: 0.1}}, points: {{A: [0, 0], B: [0, 1]}}}}" for k in range(40))
         pins = "\n".join(f"  foot {k}: {{revolute: [ground [{k}, 0], bar {k}.A]}}\n  head {k}: {{revolute: [plate.P{k}, bar {k}.B]}}" for k in range(40))
