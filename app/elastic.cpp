@@ -1,13 +1,13 @@
 // Commands on one body of elements: modes, mesh and static.
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <numbers>
 
 #include "app/options.h"
+#include "app/progress.h"
 #include "app/run_end.h"
+#include "app/waiting.h"
 #include "framework/analysis/natural_modes/natural_modes.h"
 #include "framework/analysis/static_case/contact_case.h"
 #include "framework/analysis/static_case/static_case.h"
@@ -41,11 +41,6 @@ std::string cells(const Mesh& mesh) {
   return out;
 }
 
-/// What is being done, for someone who waits at a terminal.
-void say(const Options& options, const std::string& what) {
-  if (!options.quiet && !options.json && ::isatty(STDERR_FILENO)) std::cerr << "  " << what << " …\n";
-}
-
 void print_head(const Scene& scene) { std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n"; }
 
 void add_body(Rows& rows, const ElasticBody& e) {
@@ -61,12 +56,10 @@ void print_warnings(const ElasticBody& e) {
   for (const std::string& w : e.warnings) std::cout << "  warning: " << w << "\n";
 }
 
-ElasticBody made(const Options& options, const Scene& scene, const std::string& name) {
-  const SceneBody& body = elastic_of(scene, name);
-  say(options, "meshing and assembling " + body.name);
-  ElasticBody e = elastic_body(scene, body);
+ElasticBody made(const Scene& scene, const std::string& name) {
+  now_doing("meshing and assembling the body");
+  ElasticBody e = elastic_body(scene, elastic_of(scene, name));
   if (const std::string warning = size_warning(scene, e); !warning.empty()) e.warnings.push_back(warning);
-  say(options, std::to_string(e.mesh.x.cols()) + " nodes, " + std::to_string(e.model.n()) + " freedoms: computing");
   return e;
 }
 
@@ -109,13 +102,16 @@ void write_shapes(const fs::path& directory, const ElasticBody& e, const ModeTab
 }  // namespace
 
 int modes(const Options& options) {
+  Waiting waiting(options.quiet || options.json);
   const Scene scene = read_scene(options.scene, overrides(options));
   const fs::path out = results_directory(options, "-modes");
   require_place(out);
-  const ElasticBody e = made(options, scene, options.body);
+  const ElasticBody e = made(scene, options.body);
+  now_doing("finding the modes");
   const ModesReport report = modes_of(scene, e, options.count);
   const bool large = e.mesh.x.cols() > frames_up_to;
   const int frames = options.frames >= 0 ? options.frames : large ? 0 : default_frames;
+  now_doing("writing the results");
   write_whole(options, out, [&](const fs::path& folder) {
     write_text(folder / "modes.csv", modes_csv(report.natural, report));
     write_text(folder / "modes.json", modes_json(scene, e, report));
@@ -124,6 +120,7 @@ int modes(const Options& options) {
     write_text(folder / "reduced.csv", modes_csv(*report.reduced, report));
     write_shapes(folder, e, *report.reduced, "reduced", frames);
   });
+  waiting.end();
   if (options.json) {
     std::cout << modes_json(scene, e, report);
   } else if (!options.quiet) {
@@ -148,11 +145,14 @@ int modes(const Options& options) {
 }
 
 int mesh(const Options& options) {
+  Waiting waiting(options.quiet || options.json);
   const Scene scene = read_scene(options.scene, overrides(options));
   const fs::path out = results_directory(options, "-mesh");
   require_place(out);
-  const ElasticBody e = made(options, scene, options.body);
+  const ElasticBody e = made(scene, options.body);
+  now_doing("writing the results");
   write_whole(options, out, [&](const fs::path& folder) { write_mesh_report(folder, scene, e); });
+  waiting.end();
   if (options.json) {
     std::cout << mesh_json(scene, e);
   } else if (!options.quiet) {
@@ -206,13 +206,16 @@ void add_contact(Rows& rows, const ContactReport& c) {
   rows.emplace_back("greatest pressure", number(c.greatest_pressure * 1e-6) + " MPa");
 }
 
-int contact_statics(const Options& options, const Scene& scene, const fs::path& out) {
+int contact_statics(const Options& options, Waiting& waiting, const Scene& scene, const fs::path& out) {
   std::vector<ElasticBody> bodies;
-  for (const std::string& name : bodies_of(*scene.statics)) bodies.push_back(made(options, scene, name));
+  for (const std::string& name : bodies_of(*scene.statics)) bodies.push_back(made(scene, name));
   std::vector<const ElasticBody*> all;
   for (const ElasticBody& e : bodies) all.push_back(&e);
+  now_doing("solving the static case");
   const ContactCase c = solve_contact_case(scene, all);
+  now_doing("writing the results");
   write_whole(options, out, [&](const fs::path& folder) { write_contact_case(folder, scene, all, c); });
+  waiting.end();
   if (options.json) {
     std::cout << contact_json(scene, all, c);
   } else if (!options.quiet) {
@@ -233,14 +236,18 @@ int contact_statics(const Options& options, const Scene& scene, const fs::path& 
 }  // namespace
 
 int statics(const Options& options) {
+  Waiting waiting(options.quiet || options.json);
   const Scene scene = read_scene(options.scene, overrides(options));
   const fs::path out = results_directory(options, "-static");
   require_place(out);
-  if (scene.statics && !scene.statics->contacts.empty()) return contact_statics(options, scene, out);
+  if (scene.statics && !scene.statics->contacts.empty()) return contact_statics(options, waiting, scene, out);
   const std::string name = !options.body.empty() || !scene.statics ? options.body : scene.statics->body;
-  const ElasticBody e = made(options, scene, name);
+  const ElasticBody e = made(scene, name);
+  now_doing("solving the static case");
   const StaticReport r = solve_case(scene, e);
+  now_doing("writing the results");
   write_whole(options, out, [&](const fs::path& folder) { write_case(folder, scene, e, r); });
+  waiting.end();
   if (options.json) {
     std::cout << static_json(scene, e, r);
   } else if (!options.quiet) {

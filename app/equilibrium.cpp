@@ -5,7 +5,9 @@
 #include <map>
 
 #include "app/options.h"
+#include "app/progress.h"
 #include "app/run_end.h"
+#include "app/waiting.h"
 #include "framework/analysis/simulate/identity.h"
 #include "framework/analysis/simulate/saved_state.h"
 #include "framework/bodies/segments.h"
@@ -104,15 +106,22 @@ void print(const Scene& scene, const Equilibrium& e, const fs::path& out) {
 }  // namespace
 
 int equilibrium(const Options& options) {
+  Waiting waiting(options.quiet || options.json);
+  now_doing("reading the scene");
   Scene scene = with_pieces(ready_for_statics(read_scene(options.scene, overrides(options))));
   scene.output.frames = 2;  // so that flexible bodies can be drawn
   const double at = options.at.empty() ? 0 : instant(options);
   const fs::path out = results_directory(options, "-statics");
   require_place(out);
+  now_doing("building the model");
   const Model model = build(scene);
+  now_doing("assembling the mechanism");
   const Assembly assembly = assemble(scene, model);
+  now_doing("seeking where the mechanism rests");
   const Equilibrium found = find_equilibrium(scene, model, assembly, at);
 
+  waiting.end();
+  now_doing("writing the results");
   write_whole(options, out, [&](const fs::path& folder) {
     write_equilibrium(folder, scene, model, found);
     if (runs_from_rest(scene, found))

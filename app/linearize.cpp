@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "app/options.h"
+#include "app/progress.h"
 #include "app/run_end.h"
+#include "app/waiting.h"
 #include "framework/analysis/linearize/linearize.h"
 #include "framework/bodies/segments.h"
 #include "framework/build/build.h"
@@ -77,6 +79,8 @@ void write_animations(const fs::path& out, const Scene& scene, const Model& mode
 }  // namespace
 
 int linearize(const Options& options) {
+  Waiting waiting(options.quiet || options.json);
+  now_doing("reading the scene");
   Scene scene = read_scene(options.scene, overrides(options));
   if (!options.at.empty() && !options.at_rest) require_run(scene);
   const double t = options.at.empty() ? 0 : instant(options);
@@ -84,7 +88,9 @@ int linearize(const Options& options) {
   const fs::path out = results_directory(options, "-linearize");
   require_place(out);
   if (options.frames > 0) scene.output.frames = std::max(2, scene.output.frames);  // keeps what flexible bodies are drawn by
+  now_doing("building the model");
   const Model model = build(scene);
+  now_doing("assembling the mechanism");
   const Assembly assembly = assemble(scene, model);
   State state;
   std::string note;
@@ -92,6 +98,7 @@ int linearize(const Options& options) {
     LinearizedStart start = linearized_start(scene, model, assembly);
     state = std::move(start.state), note = std::move(start.note);
   } else if (options.at_rest) {
+    now_doing("seeking where the mechanism rests");
     const Equilibrium rest = find_equilibrium(scene, model, assembly, t);
     if (!rest.found) {
       std::cerr << scene.file << ": no equilibrium to linearize about: " << rest.reason << "\n";
@@ -99,6 +106,7 @@ int linearize(const Options& options) {
     }
     state = rest.state;
   } else {
+    now_doing("running to the state");
     try {
       state = state_at(model, assembly.start, t);
     } catch (const std::runtime_error& e) {
@@ -106,9 +114,12 @@ int linearize(const Options& options) {
       return run_failed;
     }
   }
+  now_doing("finding how it moves about the state");
   Linearization lin = linearize(scene, model, state, options.at_rest ? Laws::hold : Laws::go_on);
   if (!note.empty()) lin.notes.push_back(note);
+  waiting.end();
 
+  now_doing("writing the results");
   write_whole(options, out, [&](const fs::path& folder) {
     write_linearization(folder, scene, lin, options.count);
     if (options.frames > 0) write_animations(folder, scene, model, lin, options.count, options.frames);

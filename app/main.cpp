@@ -12,6 +12,7 @@
 
 #include "app/command_options.h"
 #include "app/options.h"
+#include "app/mistyped.h"
 #include "app/progress.h"
 #include "framework/common/library_threads.h"
 #include "framework/scene/error.h"
@@ -81,8 +82,13 @@ int carry_out(int argc, char** argv) {
   for (const auto& [command, unused] : commands) add_options(*command, options);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // for help, or the version
+    return app.exit(asked);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? ok : bad_scene;
+    const std::string words = mistyped(app, argc, argv);
+    if (words.empty()) return app.exit(e), bad_scene;
+    std::cerr << "pintle: " << words << "\n";
+    return bad_scene;
   }
   now_doing("reading the input");
   set_bounds(options);

@@ -67,7 +67,9 @@ void print_rows(std::ostream& out, const Rows& rows) {
 
 fs::path results_directory(const Options& options, const std::string& suffix) {
   if (!options.out.empty()) return without_slash(options.out);
-  const fs::path base = fs::path("runs") / (fs::path(options.scene).stem().string() + suffix);
+  fs::path name = fs::path(options.scene).stem();
+  if (name.extension() == ".pintle" && name != ".pintle") name = name.stem();  // crank.pintle.yaml is the scene crank
+  const fs::path base = fs::path("runs") / (name.string() + suffix);
   fs::path path = base;
   for (int k = 2; fs::exists(path); ++k) path = base.string() + "-" + std::to_string(k);
   return path;

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <new>
 
+#include "framework/common/work_done.h"
 #include "meshes/limits.h"
 
 namespace pintle::app {
@@ -18,7 +19,9 @@ namespace pintle::app {
 namespace {
 
 volatile std::sig_atomic_t asked_by = 0;
-const char* activity = "starting";
+using clock = std::chrono::steady_clock;
+std::atomic<const char*> activity = "starting";
+std::atomic<clock::rep> activity_begin = clock::now().time_since_epoch().count();
 std::string kept, kept_note;  // made beforehand: there may be no memory when they are wanted
 
 const char* stop_words(int signal) {
@@ -39,6 +42,7 @@ void say(const char* words) {
 }
 
 extern "C" void end_at_once(int signal) {
+  if (::isatty(STDERR_FILENO)) say("\r\033[K");  // a line that says how far it is may stand there
   say("pintle: "), say(stop_words(signal)), say(" while "), say(activity), say("; there are no results yet\n");
   constexpr int stopped = 6;
   ::_exit(stopped);
@@ -134,8 +138,15 @@ void end_on_signals() {
   }
 }
 
-void now_doing(const char* what) { activity = what; }
+void now_doing(const char* what) {
+  activity_begin = clock::now().time_since_epoch().count();
+  work_done = -1;
+  activity = what;
+}
 const char* what_is_done() { return activity; }
+double doing_since() {
+  return std::chrono::duration<double>(clock::now().time_since_epoch() - clock::duration(activity_begin.load())).count();
+}
 
 void results_are_in(const std::string& folder) {
   kept_note = folder.empty() ? "" : "; what was computed is in " + folder;
@@ -150,11 +161,11 @@ StatusLine::~StatusLine() {
   if (shown_) std::cerr << "\r\033[K" << std::flush;
 }
 
-bool StatusLine::due() const { return on_ && std::chrono::steady_clock::now() - last_ > std::chrono::milliseconds(200); }
+bool StatusLine::due() const { return on_ && clock::now() - last_ > std::chrono::milliseconds(200); }
 
 void StatusLine::show(const std::string& text) {
   std::cerr << "\r  " << text << "\033[K" << std::flush;
-  last_ = std::chrono::steady_clock::now(), shown_ = true;
+  last_ = clock::now(), shown_ = true;
 }
 
 bool Progress::operator()(double t) {

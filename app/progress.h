@@ -30,6 +30,7 @@ std::string stopped_by();
 /// What the program does now, for whom memory ends: "building the model". Text that stays.
 void now_doing(const char* what);
 const char* what_is_done();
+double doing_since();  ///< for how long it has done that [s]
 /// Where results are being written, for whatever ends the program. Empty: nowhere.
 void results_are_in(const std::string& folder);
 /// "; what was computed is in …", if it is there.

@@ -52,7 +52,10 @@ void tell_leftovers(const Options& options, const fs::path& out) {
   constexpr std::size_t most = 3;
   std::cerr << "  note: " << all.size() << (all.size() == 1 ? " folder" : " folders")
             << " of runs that were ended, or still go, with the same --out:";
-  for (std::size_t k = 0; k < std::min(most, all.size()); ++k) std::cerr << " " << all[k].string();
+  for (std::size_t k = 0; k < std::min(most, all.size()); ++k) {
+    std::cerr << " " << all[k].string();
+    if (const auto t = time_of_last_row(all[k])) std::cerr << " (to t = " << number(*t) << " s)";
+  }
   std::cerr << (all.size() > most ? " …" : "") << "; rename what is worth keeping and remove the rest\n";
 }
 

@@ -22,7 +22,7 @@ function(pintle_module name)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF LIBRARY_OUTPUT_DIRECTORY ${pintle_modules}
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   add_dependencies(pintle ${target})
-  install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/pintle)
+  install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/pintle COMPONENT program)
 endfunction()
 
 # pintle_helper(NAME SOURCES … LINKS …) builds the program pintle-NAME, which the library starts. It stands beside the modules.
@@ -36,5 +36,5 @@ function(pintle_helper name)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF OUTPUT_NAME pintle-${name} RUNTIME_OUTPUT_DIRECTORY ${pintle_modules})
   pintle_batches(${target} SIZE 8 ALONE "gmsh_|confine|_main")  # system and Gmsh headers are for these alone
   add_dependencies(pintle ${target})
-  install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/pintle)
+  install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/pintle COMPONENT program)
 endfunction()

@@ -267,15 +267,18 @@ std::string row_text(const System& system, int joint, int row) {
 }
 
 std::string rows_text(const System& system, const std::vector<bool>& marked, bool which) {
-  std::string out;
+  constexpr std::size_t most = 6;
+  std::vector<std::string> joints;
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     std::string rows;
     for (int row = system.row_begin[k]; row < system.row_begin[k + 1]; ++row)
       if (marked[at(row)] == which)
         rows += (rows.empty() ? " " : ", ") + std::string(row_name(system.joints[k], row - system.row_begin[k]));
-    if (!rows.empty()) out += (out.empty() ? "" : "; ") + quoted(system.joint_names[k]) + rows;
+    if (!rows.empty()) joints.push_back(quoted(system.joint_names[k]) + rows);
   }
-  return out;
+  std::string out;
+  for (std::size_t k = 0; k < std::min(joints.size(), most); ++k) out += (k > 0 ? "; " : "") + joints[k];
+  return out + (joints.size() > most ? "; and of " + std::to_string(joints.size() - most) + " more joints" : "");
 }
 
 std::string contradiction(const System& system, double t, const VectorXd& y, double until) {

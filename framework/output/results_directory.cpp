@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <fstream>
+#include <system_error>
 
 #include "framework/common/file.h"
 
@@ -55,6 +58,22 @@ std::vector<fs::path> leftovers(const fs::path& directory) {
   }
   std::ranges::sort(out);
   return out;
+}
+
+std::optional<double> time_of_last_row(const fs::path& folder) {
+  constexpr std::streamoff widest = 1 << 20;  // of a row
+  std::ifstream in(folder / "trajectory.csv", std::ios::binary);
+  if (!in.seekg(0, std::ios::end)) return {};
+  const std::streamoff size = in.tellg(), from = std::max<std::streamoff>(0, size - 2 * widest);
+  std::string text(static_cast<std::size_t>(size - from), '\0');
+  if (!in.seekg(from) || !in.read(text.data(), size - from)) return {};
+  const auto end = text.rfind('\n');
+  if (end == std::string::npos || end == 0) return {};
+  const auto begin = text.rfind('\n', end - 1);
+  if (begin == std::string::npos) return {};  // nothing but the heading
+  double t = 0;
+  const auto [stop, error] = std::from_chars(text.data() + begin + 1, text.data() + end, t);
+  return error == std::errc() && *stop == ',' ? std::optional(t) : std::nullopt;
 }
 
 void require_writable(const fs::path& directory) {

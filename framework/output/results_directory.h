@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ std::filesystem::path without_slash(const std::filesystem::path&);
 
 /// What runs that were ended, or still go, left beside a results directory.
 std::vector<std::filesystem::path> leftovers(const std::filesystem::path& directory);
+
+/// The time of the last whole row of its trajectory.csv: how far a run that was killed had come, to about a second of its work.
+std::optional<double> time_of_last_row(const std::filesystem::path& folder);
 
 /// The folder in which it will be made, or the nearest one above.
 std::filesystem::path nearest_that_exists(const std::filesystem::path& directory);

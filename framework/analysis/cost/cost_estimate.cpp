@@ -13,6 +13,7 @@
 #include "framework/analysis/simulate/explain_failure.h"
 #include "framework/build/choose_method.h"
 #include "framework/common/processor_time.h"
+#include "framework/common/work_done.h"
 #include "framework/integration/integrator.h"
 #include "framework/mechanism/drawing.h"
 #include "framework/mechanism/table.h"
@@ -57,6 +58,8 @@ Tried try_out(Integrator& run, double until, long most_steps, double most_second
     ++t.steps;
     out.ends.push_back(run.state().t);
     t.by_clock = since(begin) > most_seconds;
+    work_done =
+        std::max({run.state().t / until, static_cast<double>(t.steps) / static_cast<double>(most_steps), since(begin) / most_seconds});
   }
   t.seconds = since(begin);
   t.reached = run.state().t;

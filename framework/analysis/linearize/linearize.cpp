@@ -11,6 +11,7 @@
 #include "framework/analysis/linearize/steady_axes.h"
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
+#include "framework/common/work_done.h"
 #include "framework/configuration/unsound_laws.h"
 #include "framework/configuration/assemble.h"
 #include "framework/integration/integrator.h"
@@ -281,8 +282,7 @@ Linearization linearize(const Scene& scene, const Model& model, const State& giv
 
 State state_at(const Model& model, const State& start, double t) {
   Integrator integrator(model.system, model.scheme, start);
-  while (integrator.failure().empty() && integrator.state().t < t && integrator.advance(t)) {
-  }
+  while (integrator.failure().empty() && integrator.state().t < t && integrator.advance(t)) work_done = integrator.state().t / t;
   if (!integrator.failure().empty()) throw std::runtime_error("the run to the state failed: " + integrator.failure());
   return integrator.state();
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "framework/common/work_done.h"
 #include "framework/component/eigen/factor.h"
 #include "framework/component/eigen/pencil.h"
 #include "framework/component/eigen/starting_loads.h"
@@ -139,6 +140,7 @@ void iterate(Subspace& space, Search& s, EigenPairs& out) {
     const VectorXd r = residuals(space, s, s.wanted);
     good = (r.array() <= s.options.tolerance).count();
     worst = r.maxCoeff();
+    work_done = static_cast<double>(good) / static_cast<double>(s.wanted);
     if (good < s.wanted) continue;
     if (!s.options.check) {
       out.converged = true;

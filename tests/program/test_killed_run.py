@@ -1,0 +1,88 @@
+"""A run that is killed, ten times at ten places: what it wrote is there, whole rows, the same bytes as of a run that was not, and says
+how far it came. Places are rows, not times: nothing here depends on how fast the machine is.
+
+usage: test_killed_run.py PINTLE"""
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+pintle = os.path.realpath(sys.argv.pop(1))
+scene = """
+gravity: [0, -9.81]
+bodies: {rod: {rigid: {mass: 1 kg, inertia: 0.1}, points: {O: [-1, 0], E: [1, 0]}}, ball: {rigid: {mass: 1 kg, inertia: 0.1}, points: {O: [0, 0.5]}}}
+joints: {hinge: {revolute: [ground, rod.O]}, pin: {revolute: [rod.E, ball.O]}}
+start: {rod: {angle: 0 deg}}
+run: {until: 20000 s, tolerance: 1e-9, method: dopri5}
+output: {every: 5 ms, states: 2 s}
+"""
+
+
+def pieces(folder):
+    return {f.relative_to(folder).as_posix(): f.read_bytes() for f in sorted(folder.rglob("*")) if f.is_file()}
+
+
+class KilledRun(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.place = Path(place.name)
+        (self.place / "scene.yaml").write_text(scene)
+
+    def killed(self, rows):
+        """The folder that a run leaves which is killed once so many rows are on the disk."""
+        out = self.place / f"killed-{rows}"
+        process = subprocess.Popen([pintle, "run", "scene.yaml", "--out", out.name, "--quiet"], cwd=self.place)
+        try:
+            while process.poll() is None:
+                found = list(self.place.glob(out.name + ".part-*/trajectory.csv"))
+                if found and found[0].read_bytes().count(b"\n") > rows:
+                    break
+                time.sleep(0.002)
+        finally:
+            process.send_signal(signal.SIGKILL)
+        self.assertEqual(process.wait(), -signal.SIGKILL)
+        self.assertFalse(out.exists())
+        (left,) = self.place.glob(out.name + ".part-*")
+        return left
+
+    def run_to(self, until):
+        out = self.place / "whole"
+        subprocess.run([pintle, "run", "scene.yaml", "--set", f"run.until={until!r}", "--out", out.name, "--quiet"], cwd=self.place, check=True)
+        return pieces(out)
+
+    def test_ten_times(self):
+        left, furthest = [], 0
+        for rows in (0, 1, 10, 100, 500, 1000, 1500, 2500, 4000, 6000):
+            folder = self.killed(rows)
+            files = pieces(folder)
+            lines = files["trajectory.csv"].split(b"\n")
+            self.assertGreater(len(lines) - 2, rows - 1)
+            last = lines[-2].split(b",")[0]  # what follows the last line's end may be cut
+            time_reached = 0.0 if last.startswith(b"t ") else float(last)
+            furthest = max(furthest, time_reached)
+            left.append((folder, files, time_reached))
+        whole = self.run_to(furthest + 3)
+        for folder, files, reached in left:
+            for table in ("trajectory.csv", "ledger.csv", "events.csv"):
+                rows = files[table][: files[table].rfind(b"\n") + 1]
+                self.assertTrue(whole[table].startswith(rows), f"{folder.name}: {table}")
+            states = [n for n in files if n.startswith("states/") and n.endswith(".state")]
+            self.assertGreaterEqual(len(states), int(reached / 2) - 1 if reached > 4 else 0)
+            for name in states:  # whole or not there
+                done = subprocess.run([pintle, "run", "scene.yaml", "--restart", folder / name, "--out", f"on-{folder.name}-{Path(name).stem}", "--quiet",
+                                       "--set", f"run.until={2 * len(states) + 3} s"], cwd=self.place, capture_output=True, text=True)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                break
+            said = subprocess.run([pintle, "run", "scene.yaml", "--out", folder.name.partition(".part-")[0], "--set", "run.until=5 ms"], cwd=self.place,
+                                  capture_output=True, text=True)
+            self.assertIn(folder.name + (f" (to t = {reached:.6g} s)" if reached > 0 else ""), said.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
