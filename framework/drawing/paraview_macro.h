@@ -104,11 +104,13 @@ def show_forces(source, view, size, largest):
     display.Ambient, display.Diffuse = 1, 0
 
 
-def show_flexible(source, view):
+def show_flexible(source, view, stress):
     display = Show(source, view, "UnstructuredGridRepresentation")
     ColorBy(display, ("POINTS", "von Mises [Pa]"))
     display.SetScalarBarVisibility(view, True)
-    style_bar(GetColorTransferFunction("von Mises [Pa]"), view, "von Mises [Pa]")
+    table = GetColorTransferFunction("von Mises [Pa]")
+    table.RescaleTransferFunction(0, stress or 1)
+    style_bar(table, view, "von Mises [Pa]")
 
 
 def show_impacts(source, view):
@@ -122,18 +124,20 @@ def show_impacts(source, view):
 
 
 def survey(moving, forces, times):
-    """What moves, over some times, as xmin, xmax, ymin, ymax; and the force that arrows are measured by."""
-    box, largest = [1e300, -1e300, 1e300, -1e300], []
+    """What moves, over some times, as xmin, xmax, ymin, ymax; the force that arrows are measured by; the greatest stress."""
+    box, largest, stress = [1e300, -1e300, 1e300, -1e300], [], 0
     for time in times[:: max(1, len(times) // 25)]:
         for source in moving:
             source.UpdatePipeline(time)
             b = source.GetDataInformation().GetBounds()
             if b[0] <= b[1]:
                 box = [min(box[0], b[0]), max(box[1], b[1]), min(box[2], b[2]), max(box[3], b[3])]
+            if source.PointData.GetArray("von Mises [Pa]"):
+                stress = max(stress, source.PointData["von Mises [Pa]"].GetRange(0)[1])
         forces.UpdatePipeline(time)
         if forces.GetDataInformation().GetNumberOfPoints() > 0:
             largest.append(forces.PointData["force [N]"].GetRange(-1)[1])
-    return box, sorted(largest)[int(0.9 * (len(largest) - 1))] if largest else 0
+    return box, sorted(largest)[int(0.9 * (len(largest) - 1))] if largest else 0, stress
 
 
 files, times = series()
@@ -144,7 +148,7 @@ if len(sys.argv) > 1:
     view.ViewSize = [1400, 1000]
 bodies, cylinders, forces = parts_of(lines, "bodies", 0, 0), parts_of(lines, "cylinders", 7, 7), parts_of(lines, "forces at points", 9, 12)
 flexible = [source for source in others if source.FieldData.GetArray("body")]
-box, largest = survey([bodies, cylinders, *flexible], forces, times)
+box, largest, stress = survey([bodies, cylinders, *flexible], forces, times)
 size = max(box[1] - box[0], box[3] - box[2], 1e-9)
 
 view.UseColorPaletteForBackground = 0
@@ -163,7 +167,7 @@ for name, first, last, colour, width in (("ground", 8, 8, [0.55, 0.55, 0.6], 1),
     show_lines(parts_of(lines, name, first, last), view, colour, width)
 show_lines(cylinders, view, [0.3, 0.3, 0.35], 3)
 for source in flexible:
-    show_flexible(source, view)
+    show_flexible(source, view, stress)
 for source in others:
     if source.PointData.GetArray("peak force [N]"):
         show_impacts(source, view)

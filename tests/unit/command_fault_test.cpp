@@ -193,8 +193,7 @@ TEST_P(Commands, StoppedBySignalEndWithSixAndAWord) {
   const std::pair<int, const char*> signals[]{{SIGINT, "Ctrl-C"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}};
   // Much longer than any test waits.
   const std::string verb = GetParam().verb;
-  Words longer{"--set", "run.until=4000 s",  "--set", "run.max steps=2000000000",
-               "--set", "output.every=1 ms", "--set", "output.frames=0"};
+  Words longer{"--set", "run.until=4000 s", "--set", "run.max steps=2000000000", "--set", "output.every=1 ms", "--set", "output.frames=0"};
   if (GetParam().input == std::string("plate.yaml")) longer = {"--set", "n=200"};
   Words all = command();
   if (verb == "tradeoff") all[static_cast<std::size_t>(std::ranges::find(all, "--budget") - all.begin()) + 1] = "1 h";

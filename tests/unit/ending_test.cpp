@@ -173,9 +173,8 @@ TEST(Ending, ADiskThatFillsKeepsItsRowsAndStatesAndSaysWhere) {
 TEST(Ending, AReaderThatGoesAwayIsAnErrorAndNoSignal) {
   const Folder folder;
   const fs::path log = folder.path() / "log", out = folder.path() / "out";
-  const Ended end =
-      run(log, {"/bin/bash", "-c", "(sleep 0.1; \"$@\"; echo $? > " + (folder.path() / "code").string() + ") | true", "bash",
-                PINTLE_PROGRAM, "run", example, "-o", out.string(), "--set", "run.until=1 ms", "--set", "output.frames=0"});
+  const Ended end = run(log, {"/bin/bash", "-c", "(sleep 0.1; \"$@\"; echo $? > " + (folder.path() / "code").string() + ") | true", "bash",
+                              PINTLE_PROGRAM, "run", example, "-o", out.string(), "--set", "run.until=1 ms", "--set", "output.frames=0"});
   EXPECT_EQ(contents(folder.path() / "code"), "1\n");
   EXPECT_NE(end.complained.find("standard output"), std::string::npos) << end.complained;
   EXPECT_TRUE(fs::exists(out / "run.json"));

@@ -326,7 +326,14 @@ std::vector<KeyTable> scene_tables() {
       {"run.method.moreau", {{"step", required, "0.1 ms"}}},
       {"run.method.generalized-alpha", {{"rho", required, "0.8"}}},
       {"run.onset", {{"cut", required, "1e-8 m"}}},
-      {"output", {{"every"}, {"states"}, {"frames", optional, "", {"auto"}}, {"exaggerate"}, {"deformation", optional, "", {"auto"}}, {"points"}, {"stress"}}}};
+      {"output",
+       {{"every"},
+        {"states"},
+        {"frames", optional, "", {"auto"}},
+        {"exaggerate"},
+        {"deformation", optional, "", {"auto"}},
+        {"points"},
+        {"stress"}}}};
   for (const char* path : {"joints.*.clearance", "contacts.*"}) add_contact_laws(path, all);
   return all;
 }
