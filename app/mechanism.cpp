@@ -18,6 +18,7 @@
 #include "framework/common/nearest.h"
 #include "framework/common/processor_time.h"
 #include "framework/common/text.h"
+#include "framework/configuration/unsound_laws.h"
 #include "framework/output/results.h"
 #include "framework/output/room.h"
 #include "framework/output/run_files.h"
@@ -139,6 +140,7 @@ void print_check(const Scene& scene, const Model& model, const Assembly& a) {
   print_redundancy(s, a);
   for (const std::string& w : model.warnings) std::cout << "  warning: " << w << "\n";
   for (const std::string& w : warnings_of(model, a)) std::cout << "  warning: " << w << "\n";
+  for (const std::string& w : tables_left(scene, model, a.start)) std::cout << "  warning: " << w << "\n";
 }
 
 /// "3 (the last goes on), peak force 20 N, deepest 1e-06 m"; of rigid surfaces an impulse in place of a depth.
