@@ -18,6 +18,7 @@
 #include "framework/common/nearest.h"
 #include "framework/common/processor_time.h"
 #include "framework/common/text.h"
+#include "framework/configuration/unsound_laws.h"
 #include "framework/output/results.h"
 #include "framework/output/room.h"
 
@@ -174,6 +175,7 @@ void print_check(const Scene& scene, const Model& model, const Assembly& a) {
   print_redundancy(s, a);
   for (const std::string& w : model.warnings) std::cout << "  warning: " << w << "\n";
   for (const std::string& w : warnings_of(model, a)) std::cout << "  warning: " << w << "\n";
+  for (const std::string& w : tables_left(scene, model, a.start)) std::cout << "  warning: " << w << "\n";
 }
 /// What `run` would say of the room for its results.
 void foresee_room(const Options& options, const Scene& scene, Model& model) {

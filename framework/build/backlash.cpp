@@ -1,7 +1,6 @@
 #include "framework/build/backlash.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "framework/build/clearance.h"
@@ -61,14 +60,21 @@ BuiltContact build_flanks(const Scene& scene, const SceneJoint& j, const Joint& 
   return out;
 }
 
+double pitch_of(const SceneJoint& j, const Flank& flank) {
+  const Pair& teeth = j.coupling->teeth;
+  const std::array<double, 2> radius = pitch_radii(flank);
+  for (const std::size_t wheel : {0u, 1u})
+    if (teeth[wheel] > 0) return 2 * std::numbers::pi * std::abs(radius[wheel]) / teeth[wheel];
+  return 0;
+}
+
 void settle_flanks(const Scene& scene, const SceneJoint& j, const Joint& ideal, std::size_t first, System& system) {
-  const double teeth = j.coupling->teeth[0],
-               pitch = teeth > 0 ? 2 * std::numbers::pi * std::get<Gear>(ideal).radius_a / teeth : std::numeric_limits<double>::infinity();
-  if (!(j.play->backlash < pitch))
+  for (std::size_t k = first; k < first + 2; ++k) system.contacts[k].flank->teeth = teeth_of(ideal);
+  const double pitch = pitch_of(j, *system.contacts[first].flank);
+  if (pitch > 0 && !(j.play->backlash < pitch))
     throw SceneError(scene.file, j.play->place,
                      "backlash " + number_text(1e3 * j.play->backlash) + " mm is a tooth and its gap or more, which take " +
                          number_text(1e3 * pitch) + " mm of the pitch circle; make it smaller");
-  for (std::size_t k = first; k < first + 2; ++k) system.contacts[k].flank->teeth = teeth_of(ideal);
 }
 
 }  // namespace pintle

@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "framework/build/backlash.h"
 #include "framework/common/index.h"
 #include "framework/dynamics/model/signal_values.h"
 #include "framework/dynamics/model/marker_motion.h"
@@ -128,6 +129,14 @@ SetState setting(const Scene& scene, const SceneEvent& event, const std::string&
           }};
 }
 
+// Of a gear or rack with backlash, where it is known.
+double pitch_of_teeth(const Scene& scene, const Model& model, const std::string& name) {
+  const auto joint = std::ranges::find(scene.joints, name, &SceneJoint::name);
+  if (joint == scene.joints.end() || !joint->play || !joint->coupling) return 0;
+  const int first = model.order.joints[static_cast<std::size_t>(joint - scene.joints.begin())];
+  return pitch_of(*joint, *model.system.contacts[at(first)].flank);
+}
+
 std::vector<EventAction> actions_of(const Scene& scene, const SceneEvent& event, const SceneDoing& doing, const Model& model,
                                     EventLaws& laws) {
   const auto elements = elements_of(scene, model);
@@ -135,7 +144,8 @@ std::vector<EventAction> actions_of(const Scene& scene, const SceneEvent& event,
   for (const std::string& name : doing.release)
     out.push_back(SwitchOver{switch_at(model.system, find_element(scene, event, elements, name).is), false});
   for (const std::string& name : doing.engage)
-    out.push_back(SwitchOver{switch_at(model.system, find_element(scene, event, elements, name).is), true});
+    out.push_back(
+        SwitchOver{switch_at(model.system, find_element(scene, event, elements, name).is), true, pitch_of_teeth(scene, model, name)});
   for (const auto& [name, value] : doing.set) out.push_back(setting(scene, event, name, value, laws));
   if (doing.row) out.push_back(Record::row);
   if (doing.save) out.push_back(Record::state);

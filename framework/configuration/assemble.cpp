@@ -162,7 +162,9 @@ int match_speeds(const Scene& scene, Closure& closure, const System& system, Rou
   }
   if (left.lpNorm<Eigen::Infinity>() > 1e-8 * scale)
     cannot(scene, "cannot move as `start` and the drivers ask", closure, left, "/s",
-           left.lpNorm<Eigen::Infinity>() < nearly_right * scale ? must_fit : "leave out a speed in `start`, or a driver");
+           left.lpNorm<Eigen::Infinity>() < nearly_right * scale
+               ? must_fit
+               : "leave out a speed in `start`, a driver, or a joint such as a gear that couples what others couple in another ratio");
   const std::vector<Dependence> singular = singular_dependences(system, 0, r.y);
   if (!singular.empty() && !choose_branch(closure, system, J, singular, r.W_speed, r.y))
     throw AssemblyError(scene.file, named_place(scene, closure.owner(singular.front().N.back().first)),

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "framework/common/index.h"
 #include "framework/common/text.h"
 #include "framework/dynamics/equations/equations.h"
+#include "framework/dynamics/model/joints.h"
 #include "framework/dynamics/model/signal_values.h"
 #include "framework/mechanism/trajectory.h"
 #include "framework/scene/units/signal_law.h"
@@ -76,8 +78,10 @@ class LawsAt {
     for (const int k : of.in) in.push_back(signal_at(system_, system_.signals[at(k)], now_.y));
     const std::string steep_over = std::isfinite(value) && !grown ? infinite_slope(from, of, in) : "";
     if (std::isfinite(value) && !grown && steep_over.empty()) return;
+    const bool left = !beyond_its_table(of.of, now_.t, in.data(), Outside::refused).empty();
     found = "the " + shown(from) + " of " + quoted(name) + place_of_law(scene_, place) + " " +
-            (grown                ? "has come to " + number_text(value)
+            (left                 ? "is left"
+             : grown              ? "has come to " + number_text(value)
              : steep_over.empty() ? "is not a finite number"
                                   : "has no finite slope over " + steep_over) +
             " at t = " + number_text(now_.t, 9) + " s" +
@@ -110,6 +114,83 @@ namespace {
 bool has_begun(const std::vector<std::string>& warnings, const std::string& with) {
   return std::ranges::any_of(warnings, [&](const std::string& w) { return w.starts_with(with); });
 }
+
+/// What a driver that no event releases imposes: one coordinate and its rate, between two bodies or two markers.
+struct DrivenCoordinate {
+  bool angle;
+  int a, b;  ///< bodies of an angle, markers of a distance
+  const TimeLaw* law;
+};
+
+std::vector<DrivenCoordinate> driven_by_laws(const System& system) {
+  std::vector<DrivenCoordinate> out;
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const TimeLaw* law = driver_law(system.joints[k]);
+    const auto of_it = [&](const Switch& s) { return s.of == Switch::joint && s.index == static_cast<int>(k); };
+    if (!law || std::ranges::any_of(system.switches, of_it)) continue;
+    const JointEnds ends = ends_of(system.joints[k]);
+    const bool angle = std::holds_alternative<AngleDriver>(system.joints[k]);
+    const auto end = [&](std::size_t i) { return angle ? system.markers[at(ends.marker[i])].body : ends.marker[i]; };
+    out.push_back({angle, end(0), end(1), law});
+  }
+  return out;
+}
+
+/// A signal at a time, where a driver alone decides it; NaN: none does. Angles are counted from the start.
+double driven_value(const System& system, const std::vector<DrivenCoordinate>& drivers, const MotionSignal& signal, const State& start,
+                    double t) {
+  using Kind = MotionSignal::Kind;
+  const bool angle = signal.kind == Kind::angle || signal.kind == Kind::relative_angle,
+             turn = signal.kind == Kind::speed || signal.kind == Kind::relative_speed;
+  const bool length = signal.kind == Kind::length || signal.kind == Kind::length_rate;
+  if (angle || turn || length)
+    for (const DrivenCoordinate& driver : drivers) {
+      if (driver.angle == length) continue;
+      const auto end = [&](int marker) { return length ? marker : system.markers[at(marker)].body; };
+      const int b = end(of_two(signal.kind) ? signal.b : signal.a), a = of_two(signal.kind) ? end(signal.a) : ground;
+      const bool along = a == driver.a && b == driver.b, against = a == driver.b && b == driver.a;
+      if (!along && !against) continue;
+      const double sign = against && !length ? -1 : 1;
+      const Jet now = (*driver.law)(t);
+      if (turn || signal.kind == Kind::length_rate) return sign * now.rate;
+      return signal_at(system, signal, start.y) + sign * (now.value - (*driver.law)(start.t).value);
+    }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+std::vector<std::string> tables_left(const Scene& scene, const Model& model, const State& start) {
+  constexpr int looks = 2000;
+  const System& system = model.system;
+  const std::vector<DrivenCoordinate> drivers = driven_by_laws(system);
+  std::vector<std::string> out;
+  each_law(scene, model, [&](const std::string& name, const Place& place, const Law& from, int index) {
+    const SignalLaw& law = system.laws[at(index)];
+    std::vector<double> in;
+    const auto say = [&](double t, const std::string& when) {
+      const std::string held = beyond_its_table(law.of, t, in.data(), Outside::holds_unasked);
+      const std::string refused = beyond_its_table(law.of, t, in.data(), Outside::refused);
+      if (held.empty() && refused.empty()) return false;
+      out.push_back("the " + shown(from) + " of " + quoted(name) + place_of_law(scene, place) + " is left " + when + seen(from, in) + ": " +
+                    (held.empty()
+                         ? refused + ", and ends the run there: lengthen the table, or write outside: hold"
+                         : held + ", and holds the value at its end: lengthen the table, or write outside: hold or outside: refuse"));
+      return true;
+    };
+    for (const int k : law.in) in.push_back(signal_at(system, system.signals[at(k)], start.y));
+    if (in.empty() || say(start.t, "at the start") || !scene.has_run) return;
+    for (int i = 1; i <= looks; ++i) {
+      const double t = scene.run.until * i / looks;
+      for (std::size_t k = 0; k < in.size(); ++k) in[k] = driven_value(system, drivers, system.signals[at(law.in[k])], start, t);
+      if (!std::ranges::all_of(in, [](double x) { return std::isfinite(x); })) return;  // the motion decides
+      if (say(t, "by t = " + number_text(t, 4) + " s, as its driver moves")) return;
+    }
+  });
+  return out;
+}
+
+namespace {
 
 void warn_of_tables(const Scene& scene, const Model& model, const State& state, std::vector<std::string>& warnings) {
   const System& system = model.system;

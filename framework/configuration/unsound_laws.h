@@ -14,6 +14,9 @@ namespace pintle {
 /// none.
 std::string explain_signals(const Scene&, const Model&, const State& start, const State&);
 
+/// Tables of signals that the start lies outside of, or that drivers will turn or push what they see out of: in words, each table once.
+std::vector<std::string> tables_left(const Scene&, const Model&, const State& start);
+
 /// What a law sees: ", where cart.x = -1, …: keep it finite, …".
 std::string seen_by_law(const Law&, const SignalFunction&, double t, const std::vector<double>& in);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,14 @@ namespace pintle {
 using Index = Eigen::Index;
 
 namespace {
+
+constexpr double least_step = 4e-16;  // of the time: shorter ones are lost in its last digits
+
+// What comes so near before one of these, or behind it, comes there: no step fits in between.
+void end_together(double& t, std::initializer_list<double> ends) {
+  for (const double end : ends)
+    if (std::isfinite(end) && std::abs(end - t) <= least_step * std::abs(end)) t = end;
+}
 
 Events events_of(const System& system, const Scheme& scheme, ContactEvents*& contacts, LawEvents*& laws) {
   std::vector<std::unique_ptr<EventGroup>> groups;
@@ -75,11 +84,11 @@ bool Integrator::advance(double until) {
   const double ahead = std::min({kink_ahead(wish), law - t0, turn_ahead_.time(system_, step_.from.state)});
   if (!step_to(std::min(until - t0, ahead))) return false;
   if (step_.h == ahead) control_.wish_for(std::max(control_.wish(), wish));  // cut short by a kink or a law, not by an error
-  for (const double end : {law, until})
-    if (std::isfinite(end) && std::abs(end - step_.to.state.t) <= 4e-16 * std::abs(end)) step_.to.state.t = end;
+  end_together(step_.to.state.t, {law, until});
 
   std::optional<EventInStep> event;
   if (!events_.empty() && !end_at_first_event(event)) return false;
+  end_together(step_.to.state.t, {law, until});
   ++counts_.steps;
   events_.follow(step_, motion());
   if (!events_.count(step_, event, motion(), wish)) return stop(events_.again_and_again(), step_.to.state.t);
@@ -130,7 +139,7 @@ bool Integrator::step_to(double left) {
   for (int tries = 0; tries < 60; ++tries) {
     const StepControl::Try now = control_.next(left);
     const double h = now.h;
-    if (h < 4e-16 * std::max(std::abs(step_.from.state.t), left)) {
+    if (h < least_step * std::max(std::abs(step_.from.state.t), left)) {
       stop("the step became too small (" + number_text(h, 6) + " s) for the tolerance" + trouble());
       break;
     }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "framework/common/index.h"
+#include "framework/dynamics/equations/meshing.h"
 #include "framework/dynamics/model/marker_motion.h"
 
 namespace pintle {
@@ -20,7 +21,7 @@ void as_far_as_the_end(double beside, double rate, Gap& gap) {
 
 }  // namespace
 
-ProfileContact profile_contact(const System& system, std::size_t first, const Equations& eq) {
+ProfileContact profile_contact(const System& system, std::size_t first, const State& state, const Equations& eq) {
   ProfileContact out;
   double nearest = -std::numeric_limits<double>::infinity();
   for (std::size_t k = first; k < first + at(system.contacts[first].pairs); ++k) {
@@ -29,7 +30,7 @@ ProfileContact profile_contact(const System& system, std::size_t first, const Eq
     out.normal += effect.normal.force, out.friction += effect.friction, out.on_a += effect.on_a, out.on_b += effect.on_b;
     out.pressed = std::max(out.pressed, effect.normal.force);
     const MovingPoint a = moving_point(eq.motion[at(pair.a)]), b = moving_point(eq.motion[at(pair.b)]);
-    Gap gap = gap_between(pair, a, b);
+    Gap gap = gap_between(pair, a, pair.flank ? in_its_gap(system, pair, static_cast<int>(k), state.y, b) : b);
     if (pair.flank) {
       const double along = pair.flank->side * std::cos(pair.flank->angle);
       out.teeth -= along * effect.normal.force, out.travel += (gap.depth + pair.flank->half) / (2 * along);

@@ -13,6 +13,6 @@ struct ProfileContact {
   Wrench on_a = Wrench::Zero(), on_b = Wrench::Zero();
 };
 /// @param first  of its pairs
-ProfileContact profile_contact(const System&, std::size_t first, const Equations&);
+ProfileContact profile_contact(const System&, std::size_t first, const State&, const Equations&);
 
 }  // namespace pintle

@@ -145,7 +145,7 @@ template <class Out>
 void profile_columns(const System& system, std::size_t first, Out& out) {
   std::optional<ProfileContact> found;  // once a row
   const auto contact = [&](const Now& now) -> const ProfileContact& {
-    if (!found) found = profile_contact(system, first, now.eq);
+    if (!found) found = profile_contact(system, first, now.state, now.eq);
     return *found;
   };
   const ContactPair& pair = system.contacts[first];

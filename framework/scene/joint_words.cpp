@@ -23,7 +23,7 @@ std::span<const JointWord> joint_words() {
       {.kind = JointKind::distance, .word = "distance", .clearance = true, .numbers = {length}},
       {.kind = JointKind::differential, .word = "differential", .third = true, .turns = true, .numbers = {ratio}},
       {.kind = JointKind::gear, .word = "gear", .turns = true, .clearance = true, .couples = {"radii", "teeth", "inside"}},
-      {.kind = JointKind::rack, .word = "rack", .turns = true, .clearance = true, .couples = {"radius"}},
+      {.kind = JointKind::rack, .word = "rack", .turns = true, .clearance = true, .couples = {"radius", "teeth"}},
       {.kind = JointKind::rolling, .word = "rolling", .turns = true, .couples = {"radius", "radii", "inside"}},
       {.kind = JointKind::belt, .word = "belt", .turns = true, .couples = {"radii", "crossed"}},
       {.kind = JointKind::screw, .word = "screw", .third = true, .turns = true, .couples = {"lead"}},

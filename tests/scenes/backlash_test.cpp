@@ -297,6 +297,37 @@ TEST(BacklashEvents, TeethMeshAgainWhereTheyFit) {
   EXPECT_NE(behind.run.reason.find("half the backlash of its teeth"), std::string::npos) << behind.run.reason;
 }
 
+// Parted wheels slip by many teeth, and mesh again in the gap where they are by then.
+TEST(BacklashEvents, TeethMeshInTheNearestGapAfterALongSlip) {
+  const double pitch = 2 * M_PI * 0.1 / 20;
+  const auto slipped = [&](const Pair& pair, const std::string& when) {
+    return run(scene(pair, "normal: {flores: {restitution: 0.5, stiffness: 1e9}}", 0) +
+               "drivers: {motor: {angle: [ground, a], law: 10 rad/s*t}}\nforces: {drag: {torque: -0.5 N m s*b.speed, on: b}}\n"
+               "events:\n  open: {when: t > 5 ms, once: true, do: {release: teeth}}\n"
+               "  shut: {when: \"" +
+               when + "\", once: true, do: {engage: teeth}}\nrun: {until: 0.5}\noutput: {frames: 0, every: 1 ms}\n");
+  };
+  Pair ring = pairs[2];
+  ring.coupling = "gear: [a, b], teeth: [20, 40], inside: true";
+  for (const Pair& pair : {pairs[1], ring}) {
+    SCOPED_TRACE(pair.coupling);
+    const Whole w = slipped(pair, "t > 0.2 s && abs(sin(pi*teeth.travel/(" + number(pitch) + " m))) < 0.01");
+    ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
+    ASSERT_EQ(w.run.happenings.size(), 2u);
+    const double slip = pair.c_a * w.last("a.angle [rad]") + pair.c_b * w.last("b.angle [rad]");
+    EXPECT_GT(slip, 5 * pitch);
+    EXPECT_NEAR(std::remainder(slip, pitch), w.last("teeth.travel [m]"), 1e-9);
+    EXPECT_NEAR(w.last("teeth.travel [m]"), play / 2, 1e-5);
+    EXPECT_NEAR(std::abs(w.last("teeth.force [N]")), 0.5 * 5 / 0.2, 1e-3);
+  }
+  const Whole unknown = slipped(pairs[0], "t > 0.2 s");
+  EXPECT_EQ(unknown.run.status, Status::failed);
+  pintle_test::expect_says(unknown.run.reason, {"\"teeth\" cannot be engaged", "gap of the start", "`teeth`"});
+  const Whole against = slipped(pairs[1], "abs(teeth.travel) > 10 mm");
+  EXPECT_EQ(against.run.status, Status::failed);
+  pintle_test::expect_says(against.run.reason, {"\"teeth\" cannot be engaged", "nearest gap", "`travel`"});
+}
+
 // ---- input ----
 
 TEST(BadBacklash, IsRefusedInOneLineWithKeyAndRemedy) {

@@ -44,6 +44,17 @@ TEST_P(Level, OfOneWithElseEndsByName) {
   const Whole w = run(pushed("up: {when: b.vx > 1 m/s, do: {set: {F: -2}}, else: {set: {F: 2}}}"), GetParam());
   expect_failed(w, {"t = 0.5 s", "up", "again and again without time passing", "two levels apart"});
 }
+// What a state's jump makes false comes again at this instant, where the next makes it true.
+TEST_P(Level, OfTwoThatSetBackWhatTheyWaitForEndsByName) {
+  const Whole w = run(pushed("low: {when: F < 1, do: {set: {F: 3}}}, high: {when: F > 2.5, do: {set: {F: 0}}}, "
+                             "first: {when: t > 1 s, once: true, do: {set: {F: 3}}}"),
+                      GetParam());
+  expect_failed(w, {"t = 1 s", "low", "high", "again and again without time passing"});
+}
+TEST_P(Level, WhereAStateIsSetToNoNumberEndsByName) {
+  const Whole w = run(pushed("jump: {when: b.vx > 1 m/s, do: {set: {F: 1/(F - 2)}}}"), GetParam());
+  expect_failed(w, {"t = 0.5 s", "\"jump\" sets F", "not a finite number"});
+}
 TEST_P(Level, OfTwoWithAHysteresisGoesOn) {
   const Whole w =
       run(pushed("up: {when: b.vx > 1 m/s, do: {set: {F: -2}}}, down: {when: b.vx < 0.93 m/s, from start: false, do: {set: {F: 2}}}"),

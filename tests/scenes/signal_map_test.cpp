@@ -8,6 +8,7 @@
 
 #include "framework/build/build.h"
 #include "framework/configuration/equilibrium.h"
+#include "framework/configuration/unsound_laws.h"
 #include "framework/scene/units/signal_law.h"
 #include "tests/refusal.h"
 #include "tests/scenes/text_runs.h"
@@ -121,6 +122,25 @@ TEST(SignalMap, EndsTheRunByNameWhereItIsLeft) {
   EXPECT_NEAR(held.last("rotor.speed [rad/s]"), 81 / 0.15, 1e-3);  // -15 + (90 − 45) … at 0.9: 45 + 0.8·45
 }
 
+// Lines of both axes that are met together just where the run ends, at whatever times the clock has digits for.
+TEST(SignalMap, LinesAreMetTogetherAtTheEndOfARun) {
+  const Folder folder("a, 0, 1, 2\n0, 1, 2, 3\n1, 2, 4, 6\n2, 3, 6, 9\n");
+  for (const char* method : {"dopri5", "verner87", "generalized-alpha"})
+    for (const double until : {0.3, 0.7, 1.0, 1.7, 13.1, 100.3})
+      for (const double speed : {0.3, 0.37, 0.61, 0.7}) {
+        const auto number = [](double x) { return pintle_scenes::number(x); };
+        const auto w = pintle_scenes::run(read_scene_text(
+            "bodies: {b: {rigid: {mass: 1 kg, inertia: 1}}}\nparameters: {T: " + number(until) + " s, u: " + number(speed) +
+                " m/s, w: 0.9 m/s}\nstart: {b: {x: 1 m - u*T, vx: u, y: 1 m - w*T, vy: w}}\n"
+                "forces: {push: {force: [{table: map.csv, over: [b.x, b.y], value unit: 1e-12 N, outside: hold}, 0], at: b}}\n"
+                "run: {until: T, method: " +
+                method + "}\noutput: {every: T/4}\n",
+            (folder.path / "scene.yaml").string(), {}, folder.path));
+        EXPECT_EQ(w.run.status, Status::finished) << method << " " << until << " " << speed << ": " << w.run.reason;
+        EXPECT_EQ(w.run.t_end, until);
+      }
+}
+
 // A body that flies freely along a table that ends at 2 m, by whatever method, however long its steps.
 class TableEnds : public testing::TestWithParam<const char*> {
  protected:
@@ -140,7 +160,8 @@ TEST_P(TableEnds, EndTheRunByNameWhereTheyAreToldTo) {
   for (const char* shape : {"linear", "spline"}) {
     const auto w = ran(std::string(", outside: refuse, interpolation: ") + shape);
     EXPECT_EQ(w.run.status, Status::failed);
-    pintle_test::expect_says(w.run.reason, {"t = 0.19 s", "\"push\"", "by the table map.csv", "b.x = 2", "outside: hold"});
+    EXPECT_TRUE(w.run.reason.starts_with("the law by the table map.csv of \"push\" (")) << w.run.reason;  // the cause first
+    pintle_test::expect_says(w.run.reason, {"is left at t = 0.19", "b.x = 2", "goes from 0 to 2 m", "outside: hold"});
     EXPECT_EQ(ran(std::string(", outside: refuse, interpolation: ") + shape, "0.18 s").run.status, Status::finished);
   }
 }
@@ -157,6 +178,61 @@ TEST_P(TableEnds, AreWarnedOfOnceWhereNothingIsSaidOfThem) {
   pintle_test::expect_says(about(left)[0], {"\"push\"", "scene.yaml:3", "b.x = 2", "from 0 to 2", "outside: hold", "outside: refuse"});
   EXPECT_EQ(about(ran(", outside: hold")).size(), 0u);
   EXPECT_EQ(about(ran("", "0.18 s")).size(), 0u);
+}
+
+// What is 5 x up to 1 m and 3 + 2 x beyond, along x = 0.1 m + (10 m/s) t, as the rate of a state, as an output, and in a condition.
+TEST(SignalTable, IsARateAndAnOutputThatConditionsName) {
+  const Folder folder("0, 0\n1, 5\n2, 7\n");
+  const std::string held = "{table: map.csv, over: b.x, interpolation: linear, outside: hold, value unit: ";
+  for (const char* method : {"dopri5", "verner87", "generalized-alpha"}) {
+    const Scene s =
+        read_scene_text("bodies: {b: {rigid: {mass: 1 kg, inertia: 1}}}\nstart: {b: {x: 0.1 m, vx: 10 m/s}}\nstates: {sum: {rate: " + held +
+                            "N}, start: 0 N s}}\noutputs: {look: " + held +
+                            "N}, twice: 2*look}\nevents: {e: {when: twice > 12 N, do: {row: true}}}\n"
+                            "run: {until: 0.18 s, method: " +
+                            method + "}\noutput: {every: 10 ms}\n",
+                        (folder.path / "scene.yaml").string(), {}, folder.path);
+    EXPECT_EQ(read_scene_text(s.filled_in, (folder.path / "scene.yaml").string(), {}, folder.path).filled_in, s.filled_in);
+    const auto w = pintle_scenes::run(s);
+    ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
+    const auto t = w.column("t [s]"), sum = w.column("sum [kg m/s]"), look = w.column("look [N]"), twice = w.column("twice [N]");
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const double x = 0.1 + 10 * t[i], beyond = std::max(x - 1, 0.0);
+      EXPECT_NEAR(look[i], 5 * x - 3 * beyond, 1e-12) << method << t[i];
+      EXPECT_NEAR(twice[i], 2 * look[i], 1e-12);
+      EXPECT_NEAR(sum[i], (2.5 * (x * x - 0.01) - 1.5 * beyond * beyond) / 10, 1e-6) << method << t[i];
+    }
+    ASSERT_EQ(w.run.happenings.size(), 1u);
+    EXPECT_NEAR(w.run.happenings[0].t, 0.14, 1e-12);
+  }
+}
+
+// What check can know: the start, and what a driver imposes.
+TEST(SignalTable, IsKnownToBeLeftBeforehand) {
+  const Folder folder("0, 0\n1, 5\n2, 7\n");
+  const auto left = [&](const std::string& over, const std::string& outside, const std::string& more) {
+    const Scene s = read_scene_text(
+        "bodies: {b: {rigid: {mass: 1 kg, inertia: 1}, points: {P: [1 m, 0]}}}\njoints: {pin: {revolute: [ground, b]}}\n"
+        "forces: {push: {torque: {table: map.csv, value unit: N m, over: " +
+            over + outside + "}, on: b}}\nrun: {until: 1 s}\n" + more,
+        (folder.path / "scene.yaml").string(), {}, folder.path);
+    const Model model = build(s);
+    return tables_left(s, model, assemble(s, model).start);
+  };
+  const std::string turned = "drivers: {motor: {angle: [ground, b], law: 3 rad/s*t}}\n";
+  EXPECT_TRUE(left("b.angle", "", "start: {b: {angle: 1.5}}\n").empty());
+  const auto at_start = left("b.angle", "", "start: {b: {angle: 2.5}}\n");
+  ASSERT_EQ(at_start.size(), 1u);
+  pintle_test::expect_says(at_start[0], {"map.csv of \"push\"", "scene.yaml:3", "is left at the start", "b.angle = 2.5",
+                                         "goes from 0 to 2 rad", "holds the value at its end"});
+  for (const char* over : {"b.angle", "motor.angle", "pin.angle", "b.speed - 0.5 rad/s"}) {
+    const auto driven = left(over, ", outside: refuse", turned);
+    ASSERT_EQ(driven.size(), 1u) << over;
+    pintle_test::expect_says(driven[0],
+                             {"is left", over[2] == 's' ? "at the start" : "by t = 0.667 s", "ends the run there", "outside: hold"});
+  }
+  EXPECT_TRUE(left("b.angle", ", outside: hold", turned).empty());
+  EXPECT_TRUE(left("b.P.x", "", turned).empty()) << "a place is no driver's own";
 }
 
 TEST(BadSignalMap, IsRefusedWithPlaceAndRemedy) {

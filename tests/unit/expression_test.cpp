@@ -46,6 +46,22 @@ TEST(Quantity, AnglesAndTurningSpeedsAreInRadians) {
   EXPECT_DOUBLE_EQ(value("50*rev/s", dimension::angular_speed), 100 * pi);
 }
 
+// V = W/A, Ohm = V/A, H = V s/A, C = A s, F = C/V, and N m/A is V s.
+TEST(Quantity, ElectricalUnitsAreThoseOfPower) {
+  constexpr Dimension current{0, 0, 0, 0, 1}, voltage{2, 1, -3, 0, -1}, resistance{2, 1, -3, 0, -2};
+  EXPECT_EQ(value("5 mA", current), 5e-3);
+  EXPECT_DOUBLE_EQ(value("12 V*(2 A)", {2, 1, -3, 0}), 24);
+  EXPECT_DOUBLE_EQ(value("2 kV/(4 A)", resistance), 500);
+  EXPECT_DOUBLE_EQ(value("4.7 kΩ*(2 mA)", voltage), 9.4);
+  EXPECT_DOUBLE_EQ(value("3 mH*(2 A)^2", dimension::torque), 12e-3);
+  EXPECT_DOUBLE_EQ(value("10 uF*(2 V)^2", dimension::torque), 4e-5);
+  EXPECT_DOUBLE_EQ(value("6 C/(2 s)", current), 3);
+  EXPECT_DOUBLE_EQ(value("0.1 N m/A*(3 A)", dimension::torque), value("0.1 V s*(3 A)", dimension::torque));
+  expect_says(refusal("3 V", current), {"a voltage [V]", "a current [A]"});
+  expect_says(refusal("1 A + 1", current), {"a current [A]", "give the bare number its unit"});
+  expect_says(refusal("2 A m", dimension::force), {"m*A"});
+}
+
 TEST(Quantity, BareNumberIsSI) {
   EXPECT_EQ(value("0.25", dimension::length), 0.25);
   EXPECT_EQ(value("-1.5e-3", dimension::force), -1.5e-3);
@@ -250,6 +266,7 @@ TEST(Law, RunsOnManyThreadsAtOnce) {
 
 TEST(ParameterName, MayNotHideAUnitAFunctionOrTime) {
   EXPECT_EQ(fault_of_name("clearance_2"), "");
+  EXPECT_EQ(fault_of_name("F"), "");  // an electrical unit gives way
   for (const char* name : {"t", "pi", "mm", "N", "sin", "step", "2a", "a b", ""}) EXPECT_NE(fault_of_name(name), "") << name;
 }
 

@@ -262,7 +262,11 @@ void Simulation::explain() {
     for (const State& tried : {integrator_.last().to.state, integrator_.state()})
       for (const std::string& found : {explain_cams(scene_, model_, tried), explain_signals(scene_, model_, start_, tried)})
         if (why.empty()) why = found;
-    if (why.empty()) why = explain_failure(scene_, system_, integrator_);
+    if (!why.empty()) {  // the cause first; then where it has left the method
+      reason = why + " (" + reason + ")";
+      return;
+    }
+    why = explain_failure(scene_, system_, integrator_);
     if (why.empty()) why = monitor_.worst_warning();
     if (!why.empty()) reason += "; " + why;
   } else if (!countable_) {

@@ -1,6 +1,7 @@
 #include "framework/common/index.h"
 #include "framework/dynamics/equations/equations.h"
 #include "framework/dynamics/equations/laws.h"
+#include "framework/dynamics/equations/meshing.h"
 #include "framework/dynamics/equations/sticking.h"
 
 namespace pintle {
@@ -56,8 +57,10 @@ void apply_forces(const System& system, const State& state, Equations& eq) {
   if (!eq.friction.empty()) add_joint_friction(system, state, eq);
   for (std::size_t i = 0; i < system.contacts.size(); ++i) {
     const ContactPair& pair = system.contacts[i];
-    eq.contact[i] = evaluate(pair, eq.motion[at(pair.a)], eq.motion[at(pair.b)], state.impact_rate[i],
-                             state.friction.empty() ? DryFriction{} : state.friction[i], x + system.contact_x[i]);
+    const MarkerMotion &a = eq.motion[at(pair.a)], &b = eq.motion[at(pair.b)];
+    const DryFriction dry = state.friction.empty() ? DryFriction{} : state.friction[i];
+    eq.contact[i] = pair.flank ? evaluate(pair, a, in_its_gap(system, pair, static_cast<int>(i), state.y, b), state.impact_rate[i], dry)
+                               : evaluate(pair, a, b, state.impact_rate[i], dry, x + system.contact_x[i]);
     if (eq.contact[i].normal.force == 0 && eq.contact[i].friction == 0) continue;
     add_wrench(system, eq, pair.a, eq.contact[i].on_a, eq.f);
     add_wrench(system, eq, pair.b, eq.contact[i].on_b, eq.f);

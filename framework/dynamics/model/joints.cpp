@@ -152,15 +152,30 @@ TimeLaw* driver_law(Joint& joint) { return const_cast<TimeLaw*>(driver_law(std::
 
 bool is_angle_row(const Joint& j, int row) { return std::string_view(row_name(j, row)) == "angle"; }
 
+namespace {
+
+// What is asked at every evaluation: std::visit goes by a table of pointers where there are so many kinds, this by a switch.
+template <std::size_t kind = 0, class F>
+void of_its_kind(const Joint& joint, const F& f) {
+  if constexpr (kind < std::variant_size_v<Joint>) {
+    if (joint.index() == kind)
+      f(*std::get_if<kind>(&joint));
+    else
+      of_its_kind<kind + 1>(joint, f);
+  }
+}
+
+}  // namespace
+
 void evaluate_pose(const Joint& joint, const MarkerMotion* markers, double t, ConstraintRows& out, Block* L) {
-  std::visit([&](const auto& j) { pose(j, markers, t, out, L); }, joint);
+  of_its_kind(joint, [&](const auto& j) { pose(j, markers, t, out, L); });
 }
 
 void evaluate_speed(const Joint& joint, const MarkerMotion* markers, double t, ConstraintRows& out) {
   const auto evaluate = [&]<class Kind>(const Kind& j) {
     if constexpr (HasSpeed<Kind>) speed(j, markers, t, out);
   };
-  std::visit(evaluate, joint);
+  of_its_kind(joint, evaluate);
 }
 
 WrenchTangent wrench_tangent(const Joint& joint, const MarkerMotion* markers, const double* lambda) {

@@ -84,14 +84,32 @@ std::string latch(const System& system, int k, State& state, Equations& eq) {
   return "";
 }
 
-std::string too_deep(const System& system, const Switch& s, const State& state) {
+// Teeth take the gap in which they are. How far they have slipped is what the depths of their two flanks, in the gap of the start, differ by.
+void mesh(const System& system, const SwitchOver& one, State& state) {
+  const int first = system.switches[at(one.at)].index;
+  const std::optional<Flank>& flank = system.contacts[at(first)].flank;
+  if (!flank || !(one.pitch > 0)) return;
+  const double slip =
+      flank->side * (gap_of(system, first, state).value - gap_of(system, first + 1, state).value) / (2 * std::cos(flank->angle));
+  offset(system, one.at, state.y) = one.pitch * std::round(slip / one.pitch);
+}
+
+std::string too_deep(const System& system, const SwitchOver& one, const State& state) {
+  const Switch& s = system.switches[at(one.at)];
   for (int c = s.index; c < s.index + system.contacts[at(s.index)].pairs; ++c) {
     if (!(onset_of(system, c, state).value > 0)) continue;
     const double depth = gap_of(system, c, state).value;
     const ContactPair& pair = system.contacts[at(c)];
-    if (pair.flank ? depth > pair.flank->half : depth > too_far_in * contact_size(pair, system.length))
-      return "cannot be engaged: its surfaces overlap by " + number_text(depth, 6) + " m there, more than " +
-             (pair.flank ? "half the backlash of its teeth" : "a tenth of their smallest radius") + "; engage it while they are apart";
+    const auto overlap = [&](const char* most, const char* remedy) {
+      return "cannot be engaged: its surfaces overlap by " + number_text(depth, 6) + " m there, more than " + most + "; " + remedy;
+    };
+    if (!pair.flank && depth > too_far_in * contact_size(pair, system.length))
+      return overlap("a tenth of their smallest radius", "engage it while they are apart");
+    if (pair.flank && depth > pair.flank->half)
+      return one.pitch > 0 ? overlap("half the backlash of its teeth, in the nearest gap too",
+                                     "engage it where tooth faces gap, by a condition on its column `travel`")
+                           : overlap("half the backlash of its teeth, in the gap of the start, the only one that is known",
+                                     "give its `teeth`, for all other gaps");
   }
   return "";
 }
@@ -157,8 +175,10 @@ Engagement switch_over(const System& system, std::span<const SwitchOver> asked, 
     offset(system, one.at, state.y) = 0;
     if (!one.engage) release(system, s, state);
     if (one.engage && s.of == Switch::force) rest_states(system, s.index, state);
-    if (one.engage && s.of == Switch::contact)
-      if (const std::string why = too_deep(system, s, state); !why.empty()) return fail(one.at, why);
+    if (one.engage && s.of == Switch::contact) {
+      mesh(system, one, state);
+      if (const std::string why = too_deep(system, one, state); !why.empty()) return fail(one.at, why);
+    }
     if (one.engage && s.of == Switch::joint) engaged = one.at;
   }
   for (const SwitchOver& one : changes)

@@ -9,8 +9,9 @@
 namespace pintle {
 
 struct SwitchOver {
-  int at;       ///< index into System::switches
-  bool engage;  ///< false: release
+  int at;            ///< index into System::switches
+  bool engage;       ///< false: release
+  double pitch = 0;  ///< of teeth with backlash, from one to the next along their pitch circles; 0: not known [m]
 };
 
 /// What a change of the mechanism has done, or why it cannot be.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "framework/common/index.h"
+#include "framework/dynamics/equations/meshing.h"
 #include "framework/integration/stepper.h"
 
 namespace pintle {
@@ -136,8 +137,11 @@ struct Facing {
   MovingPoint a, b;
   Gap gap;
 };
-Facing facing(const System& system, const ContactPair& pair, const State& state) {
-  const MovingPoint a = moving_point(system, pair.a, state.y), b = moving_point(system, pair.b, state.y);
+Facing facing(const System& system, int contact, const State& state) {
+  const ContactPair& pair = system.contacts[at(contact)];
+  const MovingPoint a = moving_point(system, pair.a, state.y);
+  MovingPoint b = moving_point(system, pair.b, state.y);
+  if (pair.flank) b = in_its_gap(system, pair, contact, state.y, b);
   Facing out{a, b, gap_between(pair, a, b)};
   out.gap.depth -= pair.slack;
   return out;
@@ -146,14 +150,14 @@ Facing facing(const System& system, const ContactPair& pair, const State& state)
 }  // namespace
 
 Guard gap_of(const System& system, int contact, const State& state) {
-  const Gap gap = facing(system, system.contacts[at(contact)], state).gap;
+  const Gap gap = facing(system, contact, state).gap;
   return {gap.depth, gap.rate};
 }
 
 ContactEffect pressing(const System& system, int contact, const State& state) {
   const ContactPair& pair = system.contacts[at(contact)];
   ContactEffect out;
-  out.gap = facing(system, pair, state).gap;
+  out.gap = facing(system, contact, state).gap;
   if (is_rigid(pair))
     out.normal.force = state.friction[at(contact)].load;
   else if (const double latched = state.impact_rate[at(contact)]; latched > 0)
@@ -185,7 +189,7 @@ Guard belonging(const ContactPair& pair, const Facing& now) {
 Guard onset_of(const System& system, int contact, const State& state) {
   if (is_released(system, Switch::contact, contact, state.y)) return {-1};
   const ContactPair& pair = system.contacts[at(contact)];
-  const Facing now = facing(system, pair, state);
+  const Facing now = facing(system, contact, state);
   Guard out{now.gap.depth, now.gap.rate};
   if (!pair.profiles) return out;
   if (pair.deepest - now.gap.depth < out.value) out = {pair.deepest - now.gap.depth, -now.gap.rate};
@@ -199,7 +203,7 @@ int parts_to_look_at(const System& system, int contact, const Step& step) {
   const ContactPair& pair = system.contacts[at(contact)];
   double speed = 0, rate = 0, near = -std::numeric_limits<double>::infinity(), onset = near;
   for (const State* state : {&step.from.state, &step.to.state}) {
-    const Gap gap = facing(system, pair, *state).gap;
+    const Gap gap = facing(system, contact, *state).gap;
     speed = std::max(speed, std::hypot(gap.rate, gap.sideways));
     near = std::max(near, gap.depth);
   }
@@ -219,7 +223,7 @@ int parts_to_look_at(const System& system, int contact, const Step& step) {
 
 Margin margin_of(const System& system, int contact, const State& state) {
   const ContactPair& pair = system.contacts[at(contact)];
-  const Facing now = facing(system, pair, state);
+  const Facing now = facing(system, contact, state);
   return margin(pair, now.gap, now.a, now.b);
 }
 

@@ -214,10 +214,13 @@ void SceneEvents::rearm_beside(int event, const Step& step) {
   }
 }
 
-// A state that jumps may come to stand exactly where two numbers are equal.
+// A state that jumps may come to stand exactly where two numbers are equal. Where it makes a condition false, that may become true again at
+// this instant, though nothing is to be done where it is false.
 void SceneEvents::decide_on_level(const std::vector<double>& before, const State& state) {
   for (int event = 0; event < size(); ++event) {
     const double now = all_of(event, state).value;
+    if (waits_[at(event)] == Waits::for_false && rules_[at(event)].otherwise.empty() && now < -guard_near)
+      waits_[at(event)] = Waits::for_true, shift_[at(event)] = 0;
     if (now == before[at(event)] || !(std::abs(now) <= guard_near) || waits_[at(event)] == Waits::no_more) continue;
     const bool is_true = holds(event, state);
     if (is_true == (waits_[at(event)] == Waits::for_true))
@@ -290,6 +293,10 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
   for (const EventAction& action : actions) {
     if (const auto* set = std::get_if<SetState>(&action)) {
       set->set(system_, seen, state);
+      if (!state.y.allFinite()) {
+        out.failure = "the event " + quoted(rule.name) + " sets " + set->name + " to what is not a finite number";
+        return out;
+      }
       out.change = std::max(out.change, EventOutcome::Change::jump);
       add_words(out.did, "set " + set->name);
     } else if (const auto* stop = std::get_if<StopRun>(&action)) {

@@ -40,7 +40,7 @@ const char* word_for(Op op) {
   throw ExpressionError(s);
 }
 
-Dimension joined(const Dimension& a, const Dimension& b) { return {a.length, a.mass, a.time, a.angle != 0 ? a.angle : b.angle}; }
+Dimension joined(const Dimension& a, const Dimension& b) { return {a.length, a.mass, a.time, a.angle != 0 ? a.angle : b.angle, a.current}; }
 
 void must_be_number(Op op, const Dimension& a) {
   if (!same(a, dimension::number)) throw ExpressionError(std::string(word_for(op)) + " needs a number or an angle, not " + describe(a));

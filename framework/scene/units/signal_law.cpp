@@ -44,9 +44,9 @@ double no_number(std::size_t inputs, double* slope) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-std::string told_beyond(const Ends& ends, double x) {
-  return "it is read at " + number_text(x, 9) + ", and goes from " + number_text(ends[0], 9) + " to " + number_text(ends[1], 9) +
-         " (in SI)";
+std::string told_beyond(const Ends& ends, double x, const std::string& unit) {
+  const std::string si = unit.empty() ? "" : " " + unit;
+  return "it is read at " + number_text(x, 9) + si + ", and goes from " + number_text(ends[0], 9) + " to " + number_text(ends[1], 9) + si;
 }
 
 }  // namespace
@@ -82,12 +82,12 @@ double SignalMap::operator()(double t, const double* in, double* slope) const {
 std::string beyond_its_table(const SignalFunction& law, double t, const double* in, Outside outside) {
   if (const auto* one = law.target<SignalTable>()) {
     const double x = one->over(t, in, nullptr);
-    if (one->outside == outside && is_beyond(ends_of_table(*one), x)) return told_beyond(ends_of_table(*one), x);
+    if (one->outside == outside && is_beyond(ends_of_table(*one), x)) return told_beyond(ends_of_table(*one), x, one->unit);
   } else if (const auto* two = law.target<SignalMap>()) {
     for (const std::size_t k : {0, 1}) {
       const double x = two->over[k](t, in, nullptr);
       const Ends ends = ends_of_numbers(k == 0 ? two->table.grid().a : two->table.grid().b);
-      if (two->outside == outside && is_beyond(ends, x)) return told_beyond(ends, x);
+      if (two->outside == outside && is_beyond(ends, x)) return told_beyond(ends, x, two->units[k]);
     }
   }
   return "";

@@ -32,6 +32,7 @@ struct SignalTable {
   SignalFormula over;
   double begin = 0, period = 0;  ///< what the samples span, where it comes again and again; period 0: it has ends
   Outside outside = Outside::holds;
+  std::string unit = {};  ///< of what it is read at, in SI
   double operator()(double t, const double* in, double* slope) const;
   bool refuses(double x) const;
 };
@@ -41,11 +42,13 @@ struct SignalMap {
   Bilinear table;
   std::array<SignalFormula, 2> over;
   Outside outside = Outside::refused;
+  std::array<std::string, 2> units = {};  ///< likewise
   double operator()(double t, const double* in, double* slope) const;
   bool refuses(double a, double b) const;
 };
 
-/// Where a law that is a table ends, if `in` lies outside a table that does so there: "it is read at …, and goes from …"; else empty.
+/// Where a law that is a table ends, if `in` lies outside a table that does so there: "it is read at 2 m, and goes from 0 to 1 m"; else
+/// empty.
 std::string beyond_its_table(const SignalFunction&, double t, const double* in, Outside);
 
 /// Samples that span one period, as a table that comes again and again.

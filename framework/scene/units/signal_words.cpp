@@ -134,7 +134,8 @@ SignalNames signal_names(const std::map<std::string, SignalWord, std::less<>>& w
     if (use == SignalUse::written) continue;
     if (word.what == What::column)
       known.refused =
-          "follows from the accelerations, which follow from what acts (algebraic feedback), so only outputs may name it: take places, "
+          "follows from the accelerations, which follow from what acts (algebraic feedback), so only outputs and conditions of events may "
+          "name it: take places, "
           "speeds, lengths or states here";
     if (word.what == What::output)
       known.refused = "is an output, which nothing that acts on the motion may name: write its expression here";

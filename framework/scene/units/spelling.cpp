@@ -27,8 +27,18 @@ struct Plain {
 
 // Characters an engineer types that are not ASCII.
 Plain plain(std::string_view text) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> spellings{
-      {{"µ", "u"}, {"μ", "u"}, {"°", " deg"}, {"·", "*"}, {"×", "*"}, {"−", "-"}, {"²", "^2"}, {"³", "^3"}, {"π", "pi"}, {"\u00a0", " "}}};
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 12> spellings{{{"µ", "u"},
+                                                                                     {"μ", "u"},
+                                                                                     {"Ω", "Ohm"},
+                                                                                     {"\u2126", "Ohm"},
+                                                                                     {"°", " deg"},
+                                                                                     {"·", "*"},
+                                                                                     {"×", "*"},
+                                                                                     {"−", "-"},
+                                                                                     {"²", "^2"},
+                                                                                     {"³", "^3"},
+                                                                                     {"π", "pi"},
+                                                                                     {"\u00a0", " "}}};
   const auto goes_on = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
   Plain out;
   for (std::size_t place = 0; !text.empty();) {

@@ -16,26 +16,33 @@ namespace {
 constexpr double pi = std::numbers::pi;
 namespace d = dimension;
 constexpr Dimension power_of_work{2, 1, -3, 0};
+constexpr Dimension resistance{2, 1, -3, 0, -2}, inductance{2, 1, -2, 0, -2}, capacitance{-2, -1, 4, 0, 2}, charge{0, 0, 1, 0, 1},
+    torque_of_current{2, 1, -2, 0, -1};
 
-constexpr std::array known_units{Unit{"m", 1, d::length},         Unit{"km", 1e3, d::length},    Unit{"cm", 1e-2, d::length},
-                                 Unit{"mm", 1e-3, d::length},     Unit{"um", 1e-6, d::length},   Unit{"nm", 1e-9, d::length},
-                                 Unit{"kg", 1, d::mass},          Unit{"g", 1e-3, d::mass},      Unit{"mg", 1e-6, d::mass},
-                                 Unit{"s", 1, d::time},           Unit{"ms", 1e-3, d::time},     Unit{"us", 1e-6, d::time},
-                                 Unit{"ns", 1e-9, d::time},       Unit{"rad", 1, d::angle},      Unit{"mrad", 1e-3, d::angle},
-                                 Unit{"deg", pi / 180, d::angle}, Unit{"rev", 2 * pi, d::angle}, Unit{"rpm", pi / 30, d::angular_speed},
-                                 Unit{"N", 1, d::force},          Unit{"mN", 1e-3, d::force},    Unit{"kN", 1e3, d::force},
-                                 Unit{"MN", 1e6, d::force},       Unit{"Pa", 1, d::stress},      Unit{"kPa", 1e3, d::stress},
-                                 Unit{"MPa", 1e6, d::stress},     Unit{"GPa", 1e9, d::stress},   Unit{"bar", 1e5, d::stress},
-                                 Unit{"J", 1, d::torque},         Unit{"mJ", 1e-3, d::torque},   Unit{"kJ", 1e3, d::torque},
-                                 Unit{"W", 1, power_of_work},     Unit{"kW", 1e3, power_of_work}};
+constexpr std::array known_units{Unit{"m", 1, d::length},         Unit{"km", 1e3, d::length},     Unit{"cm", 1e-2, d::length},
+                                 Unit{"mm", 1e-3, d::length},     Unit{"um", 1e-6, d::length},    Unit{"nm", 1e-9, d::length},
+                                 Unit{"kg", 1, d::mass},          Unit{"g", 1e-3, d::mass},       Unit{"mg", 1e-6, d::mass},
+                                 Unit{"s", 1, d::time},           Unit{"ms", 1e-3, d::time},      Unit{"us", 1e-6, d::time},
+                                 Unit{"ns", 1e-9, d::time},       Unit{"rad", 1, d::angle},       Unit{"mrad", 1e-3, d::angle},
+                                 Unit{"deg", pi / 180, d::angle}, Unit{"rev", 2 * pi, d::angle},  Unit{"rpm", pi / 30, d::angular_speed},
+                                 Unit{"N", 1, d::force},          Unit{"mN", 1e-3, d::force},     Unit{"kN", 1e3, d::force},
+                                 Unit{"MN", 1e6, d::force},       Unit{"Pa", 1, d::stress},       Unit{"kPa", 1e3, d::stress},
+                                 Unit{"MPa", 1e6, d::stress},     Unit{"GPa", 1e9, d::stress},    Unit{"bar", 1e5, d::stress},
+                                 Unit{"J", 1, d::torque},         Unit{"mJ", 1e-3, d::torque},    Unit{"kJ", 1e3, d::torque},
+                                 Unit{"W", 1, power_of_work},     Unit{"kW", 1e3, power_of_work}, Unit{"A", 1, d::current},
+                                 Unit{"mA", 1e-3, d::current},    Unit{"kA", 1e3, d::current},    Unit{"V", 1, d::voltage},
+                                 Unit{"mV", 1e-3, d::voltage},    Unit{"kV", 1e3, d::voltage},    Unit{"Ohm", 1, resistance},
+                                 Unit{"mOhm", 1e-3, resistance},  Unit{"kOhm", 1e3, resistance},  Unit{"MOhm", 1e6, resistance},
+                                 Unit{"H", 1, inductance},        Unit{"mH", 1e-3, inductance},   Unit{"uH", 1e-6, inductance},
+                                 Unit{"F", 1, capacitance},       Unit{"mF", 1e-3, capacitance},  Unit{"uF", 1e-6, capacitance},
+                                 Unit{"nF", 1e-9, capacitance},   Unit{"C", 1, charge},           Unit{"mC", 1e-3, charge}};
 
 constexpr std::array turns{Unit{"Hz", 2 * pi, d::angular_speed}, Unit{"kHz", 2e3 * pi, d::angular_speed}};
 
 struct AbsentWord {
   std::string_view name, remedy;
 };
-constexpr const char* no_electricity =
-    "electrical units are not offered: take plain numbers, of A, V and Ohm; a motor's constant of 0.1 N m/A is 0.1 N m";
+constexpr const char* write_ohm = "resistances are written in Ohm, mOhm, kOhm or MOhm";
 constexpr std::array absent_words{AbsentWord{"Hz", "Hz counts turns, not radians: write 50*rev/s, 3000 rpm or 50/s, as you mean it"},
                                   AbsentWord{"kHz", "Hz counts turns, not radians: write 1000*rev/s or 1000/s, as you mean it"},
                                   AbsentWord{"min", "minutes are not offered: write 60 s"},
@@ -46,12 +53,9 @@ constexpr std::array absent_words{AbsentWord{"Hz", "Hz counts turns, not radians
                                   AbsentWord{"lbf", "pounds are not offered: write 4.4482216 N"},
                                   AbsentWord{"psi", "pounds are not offered: write 6894.7573 Pa"},
                                   AbsentWord{"ton", "write 1000 kg"},
-                                  AbsentWord{"A", no_electricity},
-                                  AbsentWord{"mA", no_electricity},
-                                  AbsentWord{"V", no_electricity},
-                                  AbsentWord{"mV", no_electricity},
-                                  AbsentWord{"Ohm", no_electricity},
-                                  AbsentWord{"ohm", no_electricity},
+                                  AbsentWord{"ohm", write_ohm},
+                                  AbsentWord{"kohm", write_ohm},
+                                  AbsentWord{"Ah", "write 3600 C, or 1 A*(3600 s)"},
                                   AbsentWord{"Nm", "a product of units is written with a space: N m"},
                                   AbsentWord{"Nmm", "a product of units is written with a space: N mm"},
                                   AbsentWord{"kNm", "a product of units is written with a space: kN m"},
@@ -88,7 +92,14 @@ const std::array named{Named{d::number, "a number", ""},
                        Named{d::area, "an area", "m^2"},
                        Named{d::second_moment, "a second moment of area", "m^4"},
                        Named{{3, 0, 0, 0}, "a volume", "m^3"},
-                       Named{d::density, "a density", "kg/m^3"}};
+                       Named{d::density, "a density", "kg/m^3"},
+                       Named{d::current, "a current", "A"},
+                       Named{d::voltage, "a voltage", "V"},
+                       Named{resistance, "a resistance", "Ohm"},
+                       Named{inductance, "an inductance", "H"},
+                       Named{capacitance, "a capacitance", "F"},
+                       Named{charge, "a charge", "C"},
+                       Named{torque_of_current, "a motor constant or flux", "N*m/A"}};
 
 bool near(double a, double b) { return std::abs(a - b) < 1e-9; }
 
@@ -101,7 +112,7 @@ const Named* name_of(const Dimension& q) {
 std::string base_units(const Dimension& q) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
-  const std::array<std::pair<const char*, double>, 3> parts{{{"kg", q.mass}, {"m", q.length}, {"s", q.time}}};
+  const std::array<std::pair<const char*, double>, 4> parts{{{"kg", q.mass}, {"m", q.length}, {"s", q.time}, {"A", q.current}}};
   const auto put = [&](const char* name, double exponent) {
     out << name;
     if (near(exponent, 1)) return;
@@ -125,12 +136,14 @@ std::string base_units(const Dimension& q) {
 }  // namespace
 
 Dimension product(const Dimension& a, const Dimension& b) {
-  return {a.length + b.length, a.mass + b.mass, a.time + b.time, a.angle + b.angle};
+  return {a.length + b.length, a.mass + b.mass, a.time + b.time, a.angle + b.angle, a.current + b.current};
 }
 
-Dimension power(const Dimension& a, double n) { return {n * a.length, n * a.mass, n * a.time, n * a.angle}; }
+Dimension power(const Dimension& a, double n) { return {n * a.length, n * a.mass, n * a.time, n * a.angle, n * a.current}; }
 
-bool same(const Dimension& a, const Dimension& b) { return near(a.length, b.length) && near(a.mass, b.mass) && near(a.time, b.time); }
+bool same(const Dimension& a, const Dimension& b) {
+  return near(a.length, b.length) && near(a.mass, b.mass) && near(a.time, b.time) && near(a.current, b.current);
+}
 
 bool bare(const Dimension& a) { return same(a, {}) && near(a.angle, 0); }
 

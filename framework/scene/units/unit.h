@@ -6,18 +6,19 @@
 
 namespace pintle {
 
-/// Powers of length, mass, time and angle. Halves occur: a contact stiffness is in N/m^1.5. Angle
+/// Powers of length, mass, time, angle and electric current. Halves occur: a contact stiffness is in N/m^1.5. Angle
 /// is carried so that 30 deg is not taken for a bare number, but it never separates two dimensions:
 /// N m and N m/rad, 1/s and rad/s are the same.
 struct Dimension {
-  double length = 0, mass = 0, time = 0, angle = 0;
+  double length = 0, mass = 0, time = 0, angle = 0, current = 0;
 };
 
 namespace dimension {
 inline constexpr Dimension number{}, length{1, 0, 0, 0}, mass{0, 1, 0, 0}, time{0, 0, 1, 0}, angle{0, 0, 0, 1}, speed{1, 0, -1, 0},
     angular_speed{0, 0, -1, 1}, acceleration{1, 0, -2, 0}, inertia{2, 1, 0, 0}, force{1, 1, -2, 0}, torque{2, 1, -2, 0},
     stress{-1, 1, -2, 0}, stiffness{0, 1, -2, 0}, damping{0, 1, -1, 0}, torsion_stiffness{2, 1, -2, -1}, torsion_damping{2, 1, -1, -1},
-    area{2, 0, 0, 0}, second_moment{4, 0, 0, 0}, density{-3, 1, 0, 0}, line_load{0, 1, -2, 0}, rate{0, 0, -1, 0};
+    area{2, 0, 0, 0}, second_moment{4, 0, 0, 0}, density{-3, 1, 0, 0}, line_load{0, 1, -2, 0}, rate{0, 0, -1, 0}, current{0, 0, 0, 0, 1},
+    voltage{2, 1, -3, 0, -1};
 }  // namespace dimension
 
 Dimension product(const Dimension&, const Dimension&);

@@ -124,6 +124,7 @@ void put_coupling(const SceneJoint& joint, Json& out) {
   if (c.radius > 0) out["radius"] = c.radius;
   if (c.radii[0] > 0) out["radii"] = json(c.radii);
   if (c.teeth[0] > 0) out["teeth"] = json(c.teeth);
+  if (c.radius > 0 && c.teeth[1] > 0) out["teeth"] = c.teeth[1];
   if (meshes) out["inside"] = c.inside;
   if (joint.kind == JointKind::belt) out["crossed"] = c.crossed;
   if (joint.kind == JointKind::screw) out["lead"] = c.lead;

@@ -42,8 +42,9 @@ Pair read_two(const Node& node, const Dimension& expected, const char* example) 
 }
 
 void read_wheels(const Node& node, const JointWord& word, SceneCoupling& out) {
-  const bool line = node.has("radius"), teeth = node.has("teeth"), radii = node.has("radii");
   const std::string kind = word.word;
+  const bool line = node.has("radius"), radii = node.has("radii"), of_pinion = kind == "rack" && node.has("teeth");
+  const bool teeth = node.has("teeth") && !of_pinion;
   if (line + teeth + radii > 1) {
     const char* second = teeth ? "teeth" : "radius";
     node.at(second).fail(std::string("says the size of the wheels beside radii; keep one of them"));
@@ -51,6 +52,10 @@ void read_wheels(const Node& node, const JointWord& word, SceneCoupling& out) {
   if (line) {
     out.radius = read_size(node.at("radius"));
     if (node.has("inside")) node.at("inside").fail("belongs to two discs, with radii; a disc on a line has radius alone");
+  }
+  if (of_pinion) {
+    out.teeth = {0, node.at("teeth").quantity(dimension::number, rule::positive)};
+    if (out.teeth[1] != std::round(out.teeth[1])) node.at("teeth").fail("is " + number_text(out.teeth[1]) + ", but teeth are whole");
   }
   if (radii) out.radii = read_two(node.at("radii"), dimension::length, "[20 mm, 60 mm]");
   if (teeth) {

@@ -154,7 +154,7 @@ void read_forces(const Node& root, const std::filesystem::path& folder, Scene& s
     load.engaged = read_engaged(node);
     scene.loads.push_back(std::move(load));
   }
-  ActingSignals signals(scene);
+  ActingSignals signals(root, scene);
   for (std::size_t i = 0; i < entries.size(); ++i)
     read_laws_of(entries[i], folder, end_of_run(scene), signals, scene.loads[scene.loads.size() - entries.size() + i]);
 }

@@ -68,11 +68,13 @@ std::filesystem::path table_file(const Node& table, const std::filesystem::path&
 /// The signals that what acts on the motion may name, found when first asked for.
 class ActingSignals {
  public:
-  explicit ActingSignals(const Scene& scene) : scene_(scene) {}
+  ActingSignals(const Node& root, const Scene& scene) : root_(root), scene_(scene) {}
   const SignalNames& names();
-  const Scene& scene() const { return scene_; }
+  /// May the text name some? Cheaper than to list all of a large scene for "10 N".
+  bool may_be_in(const std::string& text) const;
 
  private:
+  const Node& root_;
   const Scene& scene_;
   std::optional<SignalNames> names_;
 };

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cmath>
 #include <locale>
+#include <set>
 #include <sstream>
 
 #include "framework/scene/units/signal_words.h"
@@ -12,14 +13,6 @@
 namespace pintle {
 
 namespace {
-
-// Cheaper than to list all signals of a large scene for "10 N": a letter after a dot, or a name without one.
-bool may_name_signals(const std::string& text, const Scene& scene) {
-  if (!scene.states.empty()) return true;
-  for (std::size_t dot = text.find('.'); dot != std::string::npos; dot = text.find('.', dot + 1))
-    if (dot + 1 < text.size() && std::isalpha(static_cast<unsigned char>(text[dot + 1]))) return true;
-  return false;
-}
 
 Law read_acting_law(const Node& node, const Dimension& expected, const SignalNames& names) {
   try {
@@ -56,11 +49,11 @@ double unit_of(const Node& node, const Dimension& expected) {
   }
 }
 
-TableAxis read_axis(const Node& over, const Node* unit, ActingSignals& signals) {
+TableAxis read_axis(const Node& over, const Node* unit, const SignalNames& names) {
   TableAxis out;
   out.text = over.expression("a signal such as ram.y");
   try {
-    out.law = read_measured_law(out.text, over.source().parameters, signals.names());
+    out.law = read_measured_law(out.text, over.source().parameters, names);
   } catch (const ExpressionError& error) {
     over.fail(error.what());
   }
@@ -91,7 +84,8 @@ std::string signal_table_text(const Node& node, const std::vector<TableAxis>& ax
   if (axes.size() == 1) out << ", \"interpolation\": \"" << interpolation << "\", \"periodic\": " << (periodic ? "true" : "false");
   if (std::ranges::any_of(axes, [](const TableAxis& axis) { return axis.unit != 1; })) out << ", \"over unit\": " << listed(json_unit);
   if (!periodic && outside != Outside::holds_unasked) out << ", \"outside\": \"" << (outside == Outside::holds ? "hold" : "refuse") << "\"";
-  if (value_unit != 1) out << ", \"value unit\": \"" << value_unit << " " << value_si << "\"";
+  if (value_unit != 1 || (node.has("value unit") && !value_si.empty()))
+    out << ", \"value unit\": \"" << value_unit << " " << value_si << "\"";
   out << "}";
   return out.str();
 }
@@ -110,6 +104,12 @@ Outside read_outside(const Node& node, std::string_view keys, Outside otherwise)
   return node.at("outside").one_of(choices(keys, "outside")) == "hold" ? Outside::holds : Outside::refused;
 }
 
+// A table without `over`.
+void must_be_of_time(const Node& node) {
+  for (const char* key : {"over unit", "periodic", "outside"})
+    if (node.has(key)) node.at(key).fail("belongs to a table over signals; add over: crank.angle, or leave it out");
+}
+
 // The same formula, input i of which is called to[i] now.
 SignalFormula renumbered(const Law& law, const std::vector<int>& to) {
   if (law.constant) return SignalFormula(Program{{{Op::constant, law.at(0).value}}});
@@ -120,14 +120,14 @@ SignalFormula renumbered(const Law& law, const std::vector<int>& to) {
 }
 
 Law read_signal_map(const Node& node, std::string_view keys, const Dimension& expected, const std::filesystem::path& folder,
-                    ActingSignals& signals) {
+                    const SignalNames& names) {
   for (const char* key : {"interpolation", "periodic"})
     if (node.has(key)) node.at(key).fail("belongs to a table over one number; a table over two is bilinear: leave it out");
   const std::vector<Node> over = node.at("over").items(2, "an expression, or two for a table over both: [engine.speed, throttle]");
   std::vector<Node> units;
   if (node.has("over unit")) units = node.at("over unit").items(2, "a unit for each: [rpm, 1]");
   std::vector<TableAxis> axes;
-  for (std::size_t k = 0; k < 2; ++k) axes.push_back(read_axis(over[k], units.empty() ? nullptr : &units[k], signals));
+  for (std::size_t k = 0; k < 2; ++k) axes.push_back(read_axis(over[k], units.empty() ? nullptr : &units[k], names));
   Law out{{}, "", false};
   std::vector<SignalFormula> formulas;
   for (const TableAxis& axis : axes) {
@@ -146,18 +146,19 @@ Law read_signal_map(const Node& node, std::string_view keys, const Dimension& ex
   const Outside outside = read_outside(node, keys, Outside::refused);
   Grid grid = read_grid(table_file(node, folder), {axes[0].unit, axes[1].unit, value_unit}, node.place().key, {axes[0].text, axes[1].text});
   out.text = signal_table_text(node, axes, "linear", false, outside, value_unit, si_unit(expected));
-  out.of_signals = SignalMap{Bilinear(std::move(grid)), {formulas[0], formulas[1]}, outside};
+  out.of_signals = SignalMap{
+      Bilinear(std::move(grid)), {formulas[0], formulas[1]}, outside, {si_unit(axes[0].law.dimension), si_unit(axes[1].law.dimension)}};
   return out;
 }
 
 Law read_signal_table(const Node& node, std::string_view keys, const Dimension& expected, const std::filesystem::path& folder,
-                      ActingSignals& signals) {
+                      const SignalNames& names) {
   if (node.has("time unit")) node.at("time unit").fail("belongs to a table over t; of a table over signals write `over unit`");
   const Node over = node.at("over");
-  if (over.is_list()) return read_signal_map(node, keys, expected, folder, signals);
+  if (over.is_list()) return read_signal_map(node, keys, expected, folder, names);
   std::vector<Node> unit;
   if (node.has("over unit")) unit.push_back(node.at("over unit"));
-  const TableAxis x = read_axis(over, unit.empty() ? nullptr : unit.data(), signals);
+  const TableAxis x = read_axis(over, unit.empty() ? nullptr : unit.data(), names);
   if (x.law.law.signals.empty())
     over.fail(over.shown() + " names no signal; write one such as ram.y, or leave `over` out for a table over t");
   const bool linear = node.has("interpolation") && node.at("interpolation").one_of(choices(keys, "interpolation")) == "linear";
@@ -170,15 +171,65 @@ Law read_signal_table(const Node& node, std::string_view keys, const Dimension& 
   Law out{{}, signal_table_text(node, {x}, linear ? "linear" : "spline", periodic, outside, value_unit, si_unit(expected)), false};
   out.signals = x.law.law.signals;
   out.uses_time = x.law.law.uses_time;
+  const std::string of_axis = si_unit(x.law.dimension);
   if (periodic) {
     must_close(node, samples);
     out.of_signals = periodic_table(std::move(samples), linear, formula);
   } else if (linear) {
-    out.of_signals = SignalTable{.table = Polyline(std::move(samples)), .over = formula, .outside = outside};
+    out.of_signals = SignalTable{.table = Polyline(std::move(samples)), .over = formula, .outside = outside, .unit = of_axis};
   } else {
-    out.of_signals = SignalTable{.table = Spline(std::move(samples)), .over = formula, .outside = outside};
+    out.of_signals = SignalTable{.table = Spline(std::move(samples)), .over = formula, .outside = outside, .unit = of_axis};
   }
   return out;
+}
+
+Law read_rate(const Node& node, const Dimension& d, const Scene& scene, const SignalNames& names) {
+  constexpr const char* keys = "states.*.rate";
+  if (!node.is_map()) return read_acting_law(node, d, names);
+  check_keys(node, keys);
+  if (node.has("over")) return read_signal_table(node, keys, d, node.source().folder, names);
+  must_be_of_time(node);
+  return read_time_law(node, d, Smoothness::load, node.source().folder, scene.has_run ? scene.run.until : 0);
+}
+
+// What a table gives is measured in its `value unit`.
+SceneOutput read_table_output(const Node& node, const SignalNames& names) {
+  constexpr const char* keys = "outputs.*";
+  check_keys(node, keys);
+  if (!node.has("over")) node.fail("lacks a required key; add for example over: crank.angle, what the table is read at");
+  Dimension d = dimension::number;
+  try {
+    if (node.has("value unit")) d = read_quantity(node.at("value unit").text("a unit such as N m")).dimension;
+  } catch (const ExpressionError& error) {
+    node.at("value unit").fail(error.what());
+  }
+  return {node.name(), read_signal_table(node, keys, d, node.source().folder, names), si_unit(d), node.place()};
+}
+
+// Does an output name another, itself or by those that it names?
+bool needs(const std::vector<Node>& outputs, const Node& one, const std::string& name, std::set<std::string>& seen) {
+  const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  const auto names = [&](const std::string& text, const std::string& word) {
+    for (std::size_t i = text.find(word); i != std::string::npos; i = text.find(word, i + 1))
+      if ((i == 0 || !in_word(text[i - 1])) && (i + word.size() == text.size() || !in_word(text[i + word.size()]))) return true;
+    return false;
+  };
+  if (!one.is_scalar() || !seen.insert(one.name()).second) return false;
+  const std::string& text = one.yaml().text;
+  return names(text, name) ||
+         std::ranges::any_of(outputs, [&](const Node& next) { return names(text, next.name()) && needs(outputs, next, name, seen); });
+}
+
+// An output that names one that is not read yet.
+[[noreturn]] void fail_of_order(const std::vector<Node>& outputs, const Node& node, const Node& named) {
+  const std::string begun = "\"" + node.yaml().text + "\": ";
+  std::set<std::string> seen;
+  if (node.name() == named.name())
+    node.fail(begun + node.name() + " would follow from itself; name what it follows from, or make it a state");
+  if (needs(outputs, named, node.name(), seen))
+    node.fail(begun + node.name() + " and " + named.name() + " would follow from each other; let one of them follow from signals alone");
+  node.fail(begun + named.name() + " is not known yet; an output may name those above it, so write " + named.name() + " above " +
+            node.name());
 }
 
 // A name that an expression can tell from all others.
@@ -195,18 +246,32 @@ void check_signal_name(const Node& node, const Scene& scene, const char* what) {
 }  // namespace
 
 const SignalNames& ActingSignals::names() {
-  if (!names_) names_ = signal_names(signal_words(scene_), SignalUse::acts);
+  if (names_) return *names_;
+  names_ = signal_names(signal_words(scene_), SignalUse::acts);
+  if (root_.has("outputs") && root_.at("outputs").is_map())
+    for (const Yaml& output : root_.at("outputs").yaml().items)
+      names_->try_emplace(output.key,
+                          SignalName{dimension::number,
+                                     "is an output, which may follow from what acts, so that only outputs and conditions of events "
+                                     "name it: write its expression here"});
   return *names_;
+}
+
+// A letter after a dot, or a name without one.
+bool ActingSignals::may_be_in(const std::string& text) const {
+  if (!scene_.states.empty() || root_.has("outputs")) return true;
+  for (std::size_t dot = text.find('.'); dot != std::string::npos; dot = text.find('.', dot + 1))
+    if (dot + 1 < text.size() && std::isalpha(static_cast<unsigned char>(text[dot + 1]))) return true;
+  return false;
 }
 
 Law read_load_law(const Node& node, std::string_view keys, const Dimension& expected, const std::filesystem::path& folder, double until,
                   ActingSignals& signals) {
   if (node.is_map()) {
     check_keys(node, keys);
-    if (node.has("over")) return read_signal_table(node, keys, expected, folder, signals);
-    for (const char* key : {"over unit", "periodic", "outside"})
-      if (node.has(key)) node.at(key).fail("belongs to a table over signals; add over: crank.angle, or leave it out");
-  } else if (node.is_scalar() && may_name_signals(node.yaml().text, signals.scene())) {
+    if (node.has("over")) return read_signal_table(node, keys, expected, folder, signals.names());
+    must_be_of_time(node);
+  } else if (node.is_scalar() && signals.may_be_in(node.yaml().text)) {
     Law law = read_acting_law(node, expected, signals.names());
     if (!law.signals.empty()) return law;
   }
@@ -245,10 +310,11 @@ void read_states(const Node& root, Scene& scene) {
 
 void read_state_rates(const Node& root, Scene& scene) {
   if (scene.states.empty()) return;
-  const SignalNames names = signal_names(signal_words(scene), SignalUse::acts);
+  ActingSignals signals(root, scene);
+  const SignalNames& names = signals.names();
   for (SceneState& state : scene.states) {
     const Dimension d = names.find(state.name)->second.dimension;
-    state.rate = read_acting_law(root.at("states").at(state.name).at("rate"), product(d, dimension::rate), names);
+    state.rate = read_rate(root.at("states").at(state.name).at("rate"), product(d, dimension::rate), scene, names);
   }
 }
 
@@ -260,7 +326,13 @@ void read_outputs(const Node& root, Scene& scene) {
   for (const Node& node : entries) {
     check_signal_name(node, scene, "an output");
     if (names.contains(node.name())) node.fail("\"" + node.name() + "\" is a signal already; give this output a name of its own");
-    const std::string text = node.expression("an expression such as gas.fx*piston.vx");
+    if (node.is_map()) {
+      scene.outputs.push_back(read_table_output(node, names));
+      const std::string& unit = scene.outputs.back().unit;
+      names[node.name()] = {unit.empty() ? dimension::number : read_quantity(unit).dimension, ""};
+      continue;
+    }
+    const std::string text = node.expression("an expression such as gas.fx*piston.vx, or a table");
     try {
       MeasuredLaw read = read_measured_law(text, node.source().parameters, names);
       scene.outputs.push_back({node.name(), std::move(read.law), si_unit(read.dimension), node.place()});
@@ -268,10 +340,7 @@ void read_outputs(const Node& root, Scene& scene) {
     } catch (const ExpressionError& error) {
       const std::string said = error.what();
       for (const Node& other : entries)
-        if (said.find("\"" + other.name() + "\" is neither") != std::string::npos)
-          node.fail("\"" + text + "\": " + other.name() +
-                    " is not known yet; an output may name those above it, and not itself, so write " + other.name() + " above " +
-                    node.name());
+        if (said.find("\"" + other.name() + "\" is neither") != std::string::npos) fail_of_order(entries, node, other);
       node.fail(said);
     }
   }

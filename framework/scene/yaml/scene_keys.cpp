@@ -302,6 +302,8 @@ std::vector<KeyTable> scene_tables() {
       {"forces.*.force.*", load_table_keys},
       {"forces.*.law", load_table_keys},
       {"states.*", {{"rate", required, "setpoint - arm.angle"}, {"start"}, {"unit"}, {"scale"}, {"repeat"}}},
+      {"states.*.rate", load_table_keys},
+      {"outputs.*", load_table_keys},
       {"events.*",
        {{"when", required, "crank.angle > 30 deg"},
         {"once", optional, "", {"true", "false"}},

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "eigen_layout.h"
+#include "framework/dynamics/model/system.h"
+
+/// Teeth with backlash that events engage mesh in the gap where they are by then. The offset of their switch is by how much that has slipped
+/// from the gap of the start, so that C is C − offset for them. Theory: docs/theory/gears.md.
+namespace pintle {
+
+/// The wheel b as if it had turned on to the gap of the start.
+template <class Moving>
+Moving in_its_gap(const System& system, const ContactPair& pair, int contact, const Eigen::VectorXd& y, Moving b) {
+  const int k = system.switches.empty() ? -1 : system.contact_switch[static_cast<std::size_t>(contact)];
+  if (k >= 0) b.angle -= y[system.switch_begin() + 2 * k + 1] / pitch_radii(*pair.flank)[1];
+  return b;
+}
+
+}  // namespace pintle
