@@ -129,17 +129,17 @@ void solve_by_algebra(const Scene& scene, const Model& model, const Assembly& as
   run.seconds += std::chrono::duration<double>(clock::now() - begin).count();
 }
 
-// The run's animation frames, taken more often, are where the efforts are read.
+// The run's animation frames, taken more often, are where the efforts are read, whether anyone draws the frames or not.
 void integrate(Scene scene, const Model& model, const Assembly& assembly, const Listeners& listeners, Inverse& out) {
   constexpr int least = 4096;
-  const bool drawn = listeners.frame && scene.output.frames > 1;
+  const bool drawn = scene.output.frames > 1;
   const int between = drawn ? std::max(1, least / (scene.output.frames - 1)) : least;
   scene.output.frames = between * (drawn ? scene.output.frames - 1 : 1) + 1;
   Listeners told = listeners;
   int k = 0;
   told.frame = [&](const State& state, const Equations& eq) {
     add_efforts(model.system, state.t, eq, out.drivers);
-    if (drawn && k % between == 0) listeners.frame(state, eq);
+    if (drawn && listeners.frame && k % between == 0) listeners.frame(state, eq);
     ++k;
   };
   out.run = simulate(scene, model, steady_start(model, assembly), told);

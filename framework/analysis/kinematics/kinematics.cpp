@@ -203,7 +203,7 @@ void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const s
   const auto begin = clock::now();
   clock::duration drawing{};
   run.trajectory = trajectory_table(told);
-  const std::vector<double> outputs = output_times(scene), frames = listeners.frame ? frame_times(scene) : std::vector<double>{};
+  const std::vector<double> outputs = output_times(scene), frames = frame_times(scene);  // visited, drawn or not: poses follow one another
   std::size_t o = 0, f = 0;
   bool going = motion.failure().empty();
   double reached = motion.state().t;
@@ -224,7 +224,8 @@ void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const s
       }
       if (f < frames.size() && frames[f] == t) {
         const auto before = clock::now();
-        listeners.frame(motion.state(), motion.equations()), ++f;
+        if (listeners.frame) listeners.frame(motion.state(), motion.equations());
+        ++f;
         drawing += clock::now() - before;
       }
     }
