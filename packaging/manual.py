@@ -37,6 +37,11 @@ def text_of(*command):
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
+def is_there(pintle, command):
+    """`film` and `view` are programs of their own, which a build may lack."""
+    return subprocess.run([pintle, command, "--help"], capture_output=True).returncode == 0
+
+
 def read_entry(heading, words):
     """ "-o,--out DIR" and what its help says"""
     names, _, value = heading.partition(" ")
@@ -228,7 +233,7 @@ def main(out, pintle, *others):
     out = Path(out)
     program = read_help("pintle", text_of(pintle, "--help"))
     version = text_of(pintle, "--version").split()[-1]
-    commands = [read_help(f"pintle {n}", text_of(pintle, n, "--help")) for n, _ in program.commands]
+    commands = [read_help(f"pintle {n}", text_of(pintle, n, "--help")) for n, _ in program.commands if is_there(pintle, n)]
     pages = [program, *commands, *(read_help(Path(p).name, text_of(p, "--help")) for p in others)]
     names = [c.name.replace(" ", "-") for c in pages]
     files = {f"man/{n}.1": man_page(c, version, names) for n, c in zip(names, pages)}

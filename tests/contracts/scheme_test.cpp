@@ -8,6 +8,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <limits>
 #include <ostream>
 #include <string>
 #include <tuple>
@@ -276,6 +277,21 @@ TEST_P(SchemeContract, DenseOutputMeetsBothEnds) {
   for (const State* end : {&step.from.state, &step.to.state}) {
     interpolate_quintic(k.system, step, end->t, dense);
     EXPECT_LT((dense.y - end->y).norm(), 1e-12 * end->y.norm());
+  }
+}
+
+// Many turns from zero, places have lost what tells the speeds inside a short step; a cubic through speeds and accelerations of its ends has not.
+TEST_P(SchemeContract, DenseOutputOfAShortStepManyTurnsOnHasSpeedsBetweenItsEnds) {
+  const Case k = link::make();
+  Step step = march(k, 1e-7, 1);
+  for (State* end : {&step.from.state, &step.to.state}) end->y[2] += 1e6;
+  const double s0 = step.from.state.y[5], s1 = step.to.state.y[5], a0 = step.from.dy[5], a1 = step.to.dy[5];
+  const double allowed =
+      std::abs(s1 - s0) + step.h * (std::abs(a0) + std::abs(a1)) + 8 * std::numeric_limits<double>::epsilon() * std::abs(s0);
+  State dense;
+  for (int tenth = 1; tenth < 10; ++tenth) {
+    interpolate_quintic(k.system, step, step.from.state.t + tenth * step.h / 10, dense);
+    EXPECT_NEAR(dense.y[5], s0, allowed) << tenth;
   }
 }
 

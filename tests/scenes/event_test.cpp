@@ -75,6 +75,31 @@ output: {every: 0.1 s}
   EXPECT_GT(std::abs(column("pin.fx on bob [N]")[at - 1]), 1) << "until then it held";
 }
 
+// Half the speed of one disc is left to two. The row that is due at that instant shows it before, the event's own row after.
+TEST_P(ByMethod, ARowOfAnEventStandsBesideTheOneThatIsDue) {
+  const Whole w = run(R"(
+bodies:
+  a: {rigid: {mass: 1 kg, inertia: 0.1 kg m^2}}
+  b: {rigid: {mass: 1 kg, inertia: 0.1 kg m^2}}
+joints:
+  p: {revolute: [ground, a]}
+  q: {revolute: [ground, b]}
+  lock: {differential: [a, b], ratio: -1, engaged: false}
+start: {a: {speed: 10 rad/s}}
+events: {close: {when: t > 0.5 s, once: true, do: {engage: lock, row: true}}}
+run: {until: 1 s}
+output: {every: 0.25 s}
+)",
+                      GetParam());
+  expect_sound(w);
+  EXPECT_EQ(w.run.trajectory.column("t [s]"), (std::vector<double>{0, 0.25, 0.5, 0.5, 0.75, 1}));
+  const std::vector<double> speeds{10, 10, 10, 5, 5, 5};
+  const auto& speed = w.run.trajectory.column("a.speed [rad/s]");
+  ASSERT_EQ(speed.size(), speeds.size());
+  for (std::size_t row = 0; row < speeds.size(); ++row) EXPECT_NEAR(speed[row], speeds[row], GetParam().near) << row;
+  EXPECT_NEAR(w.run.ledger.column("kinetic [J]")[3], 2.5, GetParam().near);
+}
+
 // Ring held: the sun turns 1 + k times for the carrier's one, k = 1.5. Locked: all turn as one.
 TEST_P(ByMethod, APlanetaryStageShiftsAsItsInertiasSay) {
   const Whole w = run(R"(

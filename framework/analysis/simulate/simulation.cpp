@@ -203,9 +203,8 @@ bool Simulation::report() {
   return true;
 }
 
-/// What an event asks for: the state that it has left.
+/// What an event asks for: the state that it has left, beside that before it where a row is due at its instant.
 void Simulation::add_row_here() {
-  if (integrator_.state().t <= last_row_ && last_row_ > 0) return;
   if (!integrator_.sample(integrator_.state().t, sampled_)) return;
   book(sampled_);
   add_row(sampled_);
