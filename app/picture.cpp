@@ -69,8 +69,10 @@ void add_options(CLI::App& command, Choice& choice) {
   command.add_option("--deformation", choice.deformation, "draw deformation so many times as large (default: as output.deformation says)")
       ->type_name("FACTOR")
       ->check(CLI::PositiveNumber);
-  command.add_flag("!--no-forces", drawn.style.forces, "leave out the arrows of forces");
-  command.add_flag("!--no-paths", drawn.style.paths, "leave out the paths of points");
+  command.add_flag_callback(
+      "--no-forces", [&drawn] { drawn.style.forces = false; }, "leave out the arrows of forces");
+  command.add_flag_callback(
+      "--no-paths", [&drawn] { drawn.style.paths = false; }, "leave out the paths of points");
   command.add_flag("-q,--quiet", drawn.quiet, "print nothing but errors");
   auto* frame = command.add_option("--frame", choice.frame, "of a picture: which frame, from 0; -1 is the last (default)")->type_name("N");
   command.add_option("--time", choice.time, "of a picture: the frame nearest to this time [s]")->excludes(frame)->type_name("T");
