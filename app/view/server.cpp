@@ -70,6 +70,7 @@ ViewServer::ViewServer(ViewSession& session, int port) : server_(std::make_uniqu
   constexpr std::size_t largest_request = 1 << 16;
   http.set_payload_max_length(largest_request);
   http.set_keep_alive_max_count(1000);
+  http.set_socket_options([](socket_t) {});  // else two programs could share one port
   http.new_task_queue = [] { return new httplib::ThreadPool(4); };
   http.set_default_headers({{"Content-Security-Policy",
                              "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; frame-ancestors 'none'; "
