@@ -23,14 +23,8 @@ install(FILES
 if(NOT PROJECT_IS_TOP_LEVEL)
   return()
 endif()
-set(programs pintle_app)
-foreach(beside IN ITEMS pintle_picture pintle_view)
-  if(TARGET ${beside})
-    list(APPEND programs ${beside})
-  endif()
-endforeach()
-set_target_properties(${programs} PROPERTIES INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR}/pintle)  # the modules
-install(TARGETS ${programs} COMPONENT program)
+set_target_properties(${pintle_programs} PROPERTIES INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR}/pintle)  # the modules
+install(TARGETS ${pintle_programs} COMPONENT program)
 install(DIRECTORY examples DESTINATION ${pintle_share} COMPONENT program PATTERN __pycache__ EXCLUDE)
 install(FILES docs/scene.schema.json docs/study.schema.json DESTINATION ${pintle_share}/docs COMPONENT program)  # where examples seek them
 install(FILES README.md SECURITY.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

@@ -36,7 +36,7 @@ output: {every: 0.01, frames: 11}
 class Film : public testing::Test {
  protected:
   void SetUp() override {
-    if (fs::path(PINTLE_PICTURE).empty()) GTEST_SKIP() << "the program that draws was not built: apt-get install libcairo2-dev pkgconf";
+    if (fs::path(PINTLE_BESIDE).empty()) GTEST_SKIP() << "the program that draws was not built: apt-get install libcairo2-dev pkgconf";
     if (in_path("ffmpeg").empty() || in_path("ffprobe").empty()) GTEST_SKIP() << "there is no ffmpeg here: apt-get install ffmpeg";
     ASSERT_EQ(run_with(pendulum).code, 0);
   }

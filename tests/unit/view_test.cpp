@@ -30,7 +30,7 @@ run: {until: 1}
 class View : public testing::Test {
  protected:
   void SetUp() override {
-    if (std::string(PINTLE_VIEW).empty()) GTEST_SKIP() << "pintle-view was not built: apt-get install libcpp-httplib-dev pkgconf";
+    if (std::string(PINTLE_BESIDE).empty()) GTEST_SKIP() << "pintle-view was not built: apt-get install libcpp-httplib-dev pkgconf";
     scene_ = folder_.write("scene.yaml", crank);
     child_ = start(folder_.path() / "log", {PINTLE_PROGRAM, "view", scene_.string()});
     using clock = std::chrono::steady_clock;
