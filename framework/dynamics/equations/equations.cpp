@@ -18,13 +18,14 @@ using Modal = Eigen::Map<const VectorXd>;
 
 namespace {
 
-// v ← M⁻¹ v
-void multiply_inverse_mass(const System& system, Equations& eq, VectorXd& v) {
+// v = M⁻¹ f
+void multiply_inverse_mass(const System& system, Equations& eq, const VectorXd& f, VectorXd& v) {
   const Index n = system.n_rigid();
   if (eq.flexible.empty()) {
-    v.array() *= eq.W.array();
+    v = eq.W.cwiseProduct(f);
     return;
   }
+  v = f;
   for (Index b = 0; b < n / 3; ++b)
     if (eq.flexible_of[static_cast<std::size_t>(b)] < 0) v.segment<3>(3 * b).array() *= eq.W.segment<3>(3 * b).array();
   for (FlexibleInertia& body : eq.flexible) solve(body, v.data());
@@ -34,7 +35,7 @@ void multiply_inverse_mass(const System& system, Equations& eq, VectorXd& v) {
 void subtract_reaction(const System& system, Equations& eq, const VectorXd& x, double* v) {
   eq.g.setZero();
   add_reaction(eq, x, eq.g);
-  multiply_inverse_mass(system, eq, eq.g);
+  multiply_inverse_mass(system, eq, eq.g, eq.g);
   Eigen::Map<VectorXd>(v, eq.g.size()) -= eq.g;
 }
 
@@ -58,20 +59,21 @@ void add_product(const Equations& eq, const double* v, VectorXd& out) {
 // the residual, solved for again, takes that away.
 void solve_reactions(const System& system, Equations& eq) {
   constexpr double rounding = 1e-13;
-  constexpr int refinements = 2;
+  const int refinements = eq.uneven || eq.schur.weak() ? 2 : 0;
   eq.lambda.setZero();
   if (eq.lambda.size() == 0) return;
   double size = 0;
   for (int i = 0; i <= refinements; ++i) {
     eq.mu = -eq.gamma;
     add_product(eq, eq.a.data(), eq.mu);
-    const double residual = largest(eq.mu);
-    if (i == 0) size = residual;
-    if (i > 0 && residual <= rounding * size) break;
+    if (refinements > 0) {
+      const double residual = largest(eq.mu);
+      if (i == 0) size = residual;
+      if (i > 0 && residual <= rounding * size) break;
+    }
     eq.schur.solve(eq.mu);
     eq.lambda += eq.mu;
     subtract_reaction(system, eq, eq.mu, eq.a.data());
-    if (!eq.uneven && !eq.schur.weak()) break;
   }
 }
 
@@ -79,8 +81,7 @@ void solve_reactions(const System& system, Equations& eq) {
 bool agree(const System& system, Equations& eq) {
   constexpr double little = 1e-2;    // of what they ask: close to singular poses speeds off by 1e-6 weigh that much
   constexpr double rounding = 1e-8;  // of the accelerations that the joints take away
-  eq.g = eq.f;
-  multiply_inverse_mass(system, eq, eq.g);
+  multiply_inverse_mass(system, eq, eq.f, eq.g);
   const double free = rounding * largest(eq.g);
   eq.mu = -eq.gamma;
   const double size = largest(eq.mu);
@@ -264,8 +265,7 @@ void accelerate(const System& system, const State& state, Equations& eq) {
   apply_forces(system, state, eq);
 
   // S λ = Cq M⁻¹ f − γ,  a = M⁻¹ (f − Cqᵀ λ)
-  eq.a = eq.f;
-  multiply_inverse_mass(system, eq, eq.a);
+  multiply_inverse_mass(system, eq, eq.f, eq.a);
   acceleration_side(eq, eq.gamma);
   solve_reactions(system, eq);
   ++eq.evaluations;
@@ -298,7 +298,7 @@ bool project(const System& system, double t, VectorXd& y, Equations& eq) {
 }
 
 void respond(const System& system, Equations& eq, VectorXd& a, VectorXd& lambda) {
-  multiply_inverse_mass(system, eq, a);
+  multiply_inverse_mass(system, eq, a, a);
   lambda.setZero(system.n_rows());
   if (system.n_rows() == 0) return;
   add_product(eq, a.data(), lambda);
