@@ -53,9 +53,10 @@ TEST(Moreau, BringsABallToRest) {
   EXPECT_NEAR(w.last("ball.y [m]"), 0.1, g * step * step);
   EXPECT_NEAR(w.last("ball.vy [m/s]"), 0, g * step);
   EXPECT_NEAR(at(w, "ball.y [m]", 0.4), 1.1 - g * 0.08, 1e-9);  // falls are exact
-  double pushed = 0;
-  for (const Impact& i : w.run.impacts) pushed += i.impulse;
+  double pushed = 0, lost = 0;
+  for (const Impact& i : w.run.impacts) pushed += i.impulse, lost += i.lost;
   EXPECT_NEAR(pushed, g * 6, 2 * g * step);  // what stops the weight of 1 kg
+  EXPECT_NEAR(lost, w.ledger("foot.lost to hysteresis [J]"), 1e-12 * g);
   EXPECT_NEAR(w.ledger("foot.lost to hysteresis [J]"), g, 1e-4 * g);
 }
 
@@ -68,6 +69,8 @@ TEST(Moreau, SlidesAndRolls) {
   EXPECT_NEAR(w.last("ball.vx [m/s]"), 5 * 2. / 3, 10 * step);
   EXPECT_NEAR(w.last("ball.speed [rad/s]"), -50 * 2. / 3, 100 * step);
   EXPECT_NEAR(w.ledger("foot.lost to friction [J]"), 25 / 6., 100 * step);
+  ASSERT_EQ(w.run.impacts.size(), 1u);
+  EXPECT_NEAR(w.run.impacts[0].lost, w.ledger("foot.lost to friction [J]") + w.ledger("foot.lost to hysteresis [J]"), 1e-12 * 25);
 }
 
 TEST(Moreau, IsRefusedWhereItDoesNotFit) {

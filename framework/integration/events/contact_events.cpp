@@ -163,7 +163,8 @@ void ContactEvents::write_down(Step& step) {
   const State& state = step.to.state;
   for (int c = 0; c < contacts(); ++c) {
     const bool closed = state.impact_rate[at(c)] > 0, before = log_.touching(c);
-    if (closed && !before) log_.begin(c, step, gap_of(system_, c, state), step.from.state.t + step.h / 2, state.impact_rate[at(c)]);
+    if (closed && !before)
+      log_.begin(c, step.from.state, gap_of(system_, c, state), step.from.state.t + step.h / 2, state.impact_rate[at(c)]);
     if (closed) log_.strike({.contact = c, .approach = 0, .separation = 0, .impulse = state.friction[at(c)].load * step.h}, state);
     if (!closed && before) log_.end(c, step.from.state.t, -gap_of(system_, c, step.from.state).rate);
   }
@@ -235,7 +236,7 @@ EventOutcome ContactEvents::strike(std::vector<int> touching, Step& step) {
             "contact a law with a stiffness"};
   for (const Blow& blow : *blows)
     if (!log_.touching(blow.contact) && (blow.impulse > 0 || blow.separation == 0))
-      log_.begin(blow.contact, step, gap_of(system_, blow.contact, state), state.t, std::max(0.0, blow.approach));
+      log_.begin(blow.contact, state, gap_of(system_, blow.contact, state), state.t, std::max(0.0, blow.approach));
   state = std::move(after);
   for (const Blow& blow : *blows)
     if (log_.touching(blow.contact)) log_.strike(blow, state);
@@ -296,7 +297,7 @@ void ContactEvents::begin(int contact, Step& step, double rate) {
   state.impact_rate[at(contact)] = latched;
   if (!state.friction.empty()) state.friction[at(contact)] = {};
   const Guard now = gap_of(system_, contact, state);
-  log_.begin(contact, step, now, moment(step, now), latched);
+  log_.begin(contact, state, now, moment(step, now), latched);
 }
 
 void ContactEvents::end(int contact, Step& step) {

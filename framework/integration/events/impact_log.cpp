@@ -54,7 +54,7 @@ double ImpactLog::loss(int contact, const State& state) const {
   return state.y[z] + (system_.contacts[at(contact)].friction ? state.y[z + 1] : 0);
 }
 
-void ImpactLog::begin(int contact, const Step& step, const Guard& gap, double begin, double latched) {
+void ImpactLog::begin(int contact, const State& before, const Guard& gap, double begin, double latched) {
   const ContactPair& pair = system_.contacts[at(contact)];
   open_[at(contact)] = static_cast<int>(impacts_.size());
   Impact impact{.contact = contact, .begin = begin, .approach = latched};
@@ -62,7 +62,7 @@ void ImpactLog::begin(int contact, const Step& step, const Guard& gap, double be
     impact.deepest = std::max(gap.value, 0.0);  // a start inside the wall, or a force that begins with a jump
     impact.peak_force = evaluate(pair.normal, approach_of(pair, gap.value, gap.rate, latched)).force;
   }
-  loss_at_begin_[at(contact)] = loss(contact, step.to.state);
+  loss_at_begin_[at(contact)] = loss(contact, before);
   impacts_.push_back(impact);
 }
 

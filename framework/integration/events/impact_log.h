@@ -28,8 +28,9 @@ class ImpactLog {
   explicit ImpactLog(const System&);
 
   bool touching(int contact) const { return open_[static_cast<std::size_t>(contact)] >= 0; }
-  /// @param gap  where it begins   @param begin  moment, perhaps between the clock's   @param latched  its approach speed
-  void begin(int contact, const Step&, const Guard& gap, double begin, double latched);
+  /// @param before  its losses are counted from here   @param gap  where it begins   @param begin  moment, perhaps between the clock's
+  /// @param latched  its approach speed
+  void begin(int contact, const State& before, const Guard& gap, double begin, double latched);
   void end(int contact, double end, double separation);
   /// An impact of a rigid contact in its stay; it may end it. After it is booked.
   void strike(const Blow&, const State&);
