@@ -300,21 +300,27 @@ TEST(BacklashEvents, TeethMeshAgainWhereTheyFit) {
 // Parted wheels slip by many teeth, and mesh again in the gap where they are by then.
 TEST(BacklashEvents, TeethMeshInTheNearestGapAfterALongSlip) {
   const double pitch = 2 * M_PI * 0.1 / 20;
+  const std::string wheels_driven =
+      "drivers: {motor: {angle: [ground, a], law: 10 rad/s*t}}\nforces: {drag: {torque: -0.5 N m s*b.speed, on: b}}\n";
+  const std::string pinion_driven =
+      "drivers: {motor: {angle: [ground, b], law: 10 rad/s*t}}\nforces: {drag: {force: [-12.5 N s/m*a.vx, 0], at: a}}\n";
   const auto slipped = [&](const Pair& pair, const std::string& when) {
     return run(scene(pair, "normal: {flores: {restitution: 0.5, stiffness: 1e9}}", 0) +
-               "drivers: {motor: {angle: [ground, a], law: 10 rad/s*t}}\nforces: {drag: {torque: -0.5 N m s*b.speed, on: b}}\n"
+               (pair.of_a[2] == 'v' ? pinion_driven : wheels_driven) +
                "events:\n  open: {when: t > 5 ms, once: true, do: {release: teeth}}\n"
                "  shut: {when: \"" +
                when + "\", once: true, do: {engage: teeth}}\nrun: {until: 0.5}\noutput: {frames: 0, every: 1 ms}\n");
   };
   Pair ring = pairs[2];
   ring.coupling = "gear: [a, b], teeth: [20, 40], inside: true";
-  for (const Pair& pair : {pairs[1], ring}) {
+  Pair rack = pairs[4];
+  rack.coupling += ", teeth: 20";
+  for (const Pair& pair : {pairs[1], ring, rack}) {
     SCOPED_TRACE(pair.coupling);
     const Whole w = slipped(pair, "t > 0.2 s && abs(sin(pi*teeth.travel/(" + number(pitch) + " m))) < 0.01");
     ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
     ASSERT_EQ(w.run.happenings.size(), 2u);
-    const double slip = pair.c_a * w.last("a.angle [rad]") + pair.c_b * w.last("b.angle [rad]");
+    const double slip = pair.c_a * w.last(pair.of_a[2] == 'v' ? "a.x [m]" : "a.angle [rad]") + pair.c_b * w.last("b.angle [rad]");
     EXPECT_GT(slip, 5 * pitch);
     EXPECT_NEAR(std::remainder(slip, pitch), w.last("teeth.travel [m]"), 1e-9);
     EXPECT_NEAR(w.last("teeth.travel [m]"), play / 2, 1e-5);
