@@ -98,6 +98,20 @@ bool Integrator::advance(double until) {
   return event || switch_method();
 }
 
+bool Integrator::act_at_end() {
+  row_ = save_ = false;
+  if (!failure_.empty() || !ended_.empty()) return false;
+  const std::optional<EventInStep> event = events_.due(step_.to.state);
+  if (!event) return false;
+  step_.from = step_.to;
+  step_.h = 0, step_.struck = false;
+  if (!events_.count(step_, event, motion(), control_.wish())) return stop(events_.again_and_again(), step_.to.state.t);
+  if (!act_on(*event, control_.wish())) return false;
+  stepper_->accept(eq_);
+  look_at_end();
+  return true;
+}
+
 double Integrator::kink_ahead(double wish) const {
   return stepper_->traits().follows_impacts ? events_.kink_ahead(wish) : std::numeric_limits<double>::infinity();
 }

@@ -28,6 +28,9 @@ class Integrator {
 
   /// One step towards `until`, ending there at the latest. @returns false when it cannot; see failure(), or need not; see ended()
   bool advance(double until);
+  /// Where no step is to follow: the next of the events that have come at the last step's end but would act as the following step begins.
+  /// @returns false where there is none, or it cannot act; see failure()
+  bool act_at_end();
   /// Between steps: the state is changed here, as by an event. @returns false when it cannot go on from there; see failure()
   bool change(const std::function<void(State&)>& act);
   /// Dense output inside the last step or at its end, fully evaluated in `sampled()`. Of an explicit step it is brought

@@ -144,6 +144,50 @@ events: {raise: {when: t > 0.4 s, once: true, do: {set: {n: 3}}}, e: {when: ")ya
   }
 }
 
+// Where the run ends no step follows in which what has just come would act.
+TEST_P(Level, ThatIsReachedWhereTheRunEndsComesThere) {
+  const auto ends = [&](const std::string& events) {
+    return run(R"yaml(
+bodies: {b: {rigid: {mass: 1 kg, inertia: 1 kg m^2}}}
+states: {n: {rate: 0/(1 s), start: 2}, x: {rate: 1/(1 s), start: 0}}
+start: {b: {x: 0, vx: 10 m/s}}
+run: {until: 1 s}
+events: {)yaml" + events +
+                   "}\n",
+               GetParam());
+  };
+  struct AtEnd {
+    const char* event;
+    bool comes;
+  };
+  for (const auto& [event, comes] : {
+           AtEnd{"e: {when: t >= 1 s, do: {row: true}}", true},
+           AtEnd{"e: {when: 1 s <= t, do: {row: true}}", true},
+           AtEnd{"e: {when: t > 1 s, do: {row: true}}", false},
+           AtEnd{"e: {when: x >= 1, do: {row: true}}", true},
+           AtEnd{"e: {when: x > 1.000001, do: {row: true}}", false},
+           AtEnd{"e: {when: b.x >= 10 m, do: {row: true}}", true},
+           AtEnd{"e: {when: t < 1 s, from start: false, do: {row: true}, else: {row: true}}", true},
+           AtEnd{"e: {when: t <= 1 s, from start: false, do: {row: true}, else: {row: true}}", false},
+           AtEnd{"e: {when: t >= 1 s, once: true, do: {row: true}}", true},
+           AtEnd{"first: {when: t >= 1 s, do: {set: {n: 3}}}, e: {when: n >= 3, do: {row: true}}", true},
+           AtEnd{"e: {when: n > 2.5, do: {row: true}}, first: {when: t >= 1 s, do: {set: {n: 3}}}", true},
+       }) {
+    const Whole w = ends(event);
+    ASSERT_EQ(w.run.status, Status::finished) << event << ": " << w.run.reason;
+    EXPECT_EQ(std::ranges::count(w.run.happenings, std::string("e"), &Happening::event), comes) << event;
+    for (const Happening& h : w.run.happenings) EXPECT_NEAR(h.t, 1, 1e-12) << event;
+  }
+  const Whole stopped = ends("e: {when: t >= 1 s, do: {stop: enough, row: true}}");
+  EXPECT_EQ(stopped.run.status, Status::finished);
+  EXPECT_EQ(stopped.run.reason, "enough");
+  const Whole set = ends("e: {when: t >= 1 s, do: {set: {n: 7}, row: true}}");
+  EXPECT_EQ(set.last("n [1]"), 7);
+  expect_failed(
+      ends("low: {when: n < 1, do: {set: {n: 3}}}, high: {when: n > 2.5, do: {set: {n: 0}}}, first: {when: t >= 1 s, do: {set: {n: 3}}}"),
+      {"t = 1 s", "low", "high", "again and again without time passing"});
+}
+
 TEST(EventLevel, SavesOneStateWhereTheRunEnds) {
   Scene s = read_scene_text(pushed("end: {when: t > 0.5 s, do: {save: true, stop: enough}}"), "scene.yaml");
   for (const int states : {0, 3}) {

@@ -165,11 +165,19 @@ start: {a: {angle: 90 deg, speed: 2}}
 run: {until: 5}
 )";
 
+const std::string leaves_its_table = R"yaml(
+bodies: {b: {rigid: {mass: 1 kg, inertia: 1 kg m^2}}}
+forces: {push: {force: [{table: spring.csv, over: b.x, outside: refuse}, 0], at: b}}
+run: {until: 1 s}
+)yaml";
+
 TEST(ExitCodes, CheckNamesWhyTheRunFailsAsTheRunDoes) {
   for (const Words& verb : {Words{"check"}, Words{"run", "-q"}}) {
     std::string said;
     EXPECT_EQ(exit_code(verb, {{"scene.yaml", misfitting_cranks}}, said), 4);
     EXPECT_TRUE(holds(said, "redundant joints") && holds(said, "b\" stays open by") && holds(said, "more digits")) << said;
+    EXPECT_EQ(exit_code(verb, {{"scene.yaml", leaves_its_table}, {"spring.csv", "x [m],F [N]\n0,1\n0.01,2\n"}}, said), 4);
+    EXPECT_TRUE(holds(said, "is left at t = ") && holds(said, "spring.csv") && holds(said, "lengthen the table")) << said;
   }
 }
 

@@ -239,8 +239,7 @@ CostEstimate estimate_cost(const Scene& scene, const Model& model, const Assembl
   Integrator run(system, model.scheme, assembly.start);
   const Tried tried = try_for(run, system, model.scheme, p.until, share_of_the_run * seconds);
   p.run = cost_of(tried, p.until);
-  if (std::string& trouble = p.run.trial.trouble; !trouble.empty())
-    if (const std::string why = explain_failure(scene, system, run); !why.empty()) trouble += "; " + why;
+  if (!run.failure().empty()) p.run.trial.trouble = explained_failure(scene, model, assembly.start, run);
   estimate_rows(scene, model, run, p.output);
   estimate_frames(scene, model, run, p.output);
   const double outputs = p.output.seconds();
@@ -248,6 +247,7 @@ CostEstimate estimate_cost(const Scene& scene, const Model& model, const Assembl
   const double impacts = p.run.trial.reached > 0 ? static_cast<double>(p.run.trial.impacts) * p.until / p.run.trial.reached : 0;
   p.memory = resident() + impacts * sizeof(Impact);
 
+  if (!p.run.trial.trouble.empty()) return p;  // there is no time to save
   const std::vector<Simpler> models = simpler_models(scene, model, assembly.start);
   for (const Simpler& s : models) {
     if (since(begin) > clock_factor * seconds / 2) {

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <sstream>
 
+#include "framework/analysis/simulate/explain_cams.h"
 #include "framework/build/laws.h"
 #include "framework/configuration/redundancy.h"
+#include "framework/configuration/unsound_laws.h"
 
 namespace pintle {
 
@@ -63,9 +65,7 @@ std::string explain_numbers(const System& system, const Integrator& integrator) 
          "what it carries, or take method: generalized-alpha";
 }
 
-}  // namespace
-
-std::string explain_failure(const Scene& scene, const System& system, Integrator& integrator) {
+std::string explain_state(const Scene& scene, const System& system, Integrator& integrator) {
   const State at = integrator.state();
   State sampled;
   integrator.sample(at.t, sampled);
@@ -73,6 +73,19 @@ std::string explain_failure(const Scene& scene, const System& system, Integrator
   if (!at.y.allFinite()) return explain_numbers(system, integrator);
   const std::string pose = explain_pose(system, at.t, at.y);
   return pose.empty() ? explain_numbers(system, integrator) : pose;
+}
+
+}  // namespace
+
+std::string explained_failure(const Scene& scene, const Model& model, const State& start, Integrator& integrator,
+                              const std::string& otherwise) {
+  const std::string& failure = integrator.failure();
+  for (const State& tried : {integrator.last().to.state, integrator.state()})
+    for (const std::string& why : {explain_cams(scene, model, tried), explain_signals(scene, model, start, tried)})
+      if (!why.empty()) return why + " (" + failure + ")";
+  std::string why = explain_state(scene, model.system, integrator);
+  if (why.empty()) why = otherwise;
+  return why.empty() ? failure : failure + "; " + why;
 }
 
 }  // namespace pintle

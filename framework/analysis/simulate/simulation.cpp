@@ -6,7 +6,6 @@
 
 #include "framework/analysis/simulate/end_short.h"
 #include "framework/analysis/simulate/energy_balance.h"
-#include "framework/analysis/simulate/explain_cams.h"
 #include "framework/analysis/simulate/explain_failure.h"
 #include "framework/analysis/simulate/run_warnings.h"
 #include "framework/common/worse.h"
@@ -126,6 +125,8 @@ bool Simulation::advance(double t) {
     if (going_ && !opened_) going_ = report();
     opened_ = true;
     while (goes_on() && integrator_.state().t < until) going_ = step(until);
+    while (goes_on() && integrator_.state().t >= scene_.run.until && integrator_.act_at_end()) going_ = after_step();
+    going_ = going_ && integrator_.failure().empty();
   });
   return goes_on() && integrator_.state().t < scene_.run.until;
 }
@@ -166,13 +167,17 @@ Run Simulation::finish() {
   return std::move(run_);
 }
 
-/// One step and what is due by its end. @returns false if the run cannot go on
+/// @returns false if the run cannot go on
 bool Simulation::step(double until) {
   if (listeners_.progress && integrator_.counts().steps % 64 == 0 && !listeners_.progress(integrator_.state().t)) {
     end(Status::interrupted, "stopped by the user");
     return true;
   }
-  if (!integrator_.advance(until)) return false;
+  return integrator_.advance(until) && after_step();
+}
+
+/// What is due by the end of a step, or of an event after the last. @returns false if the run cannot go on
+bool Simulation::after_step() {
   if (!system_.contacts.empty()) slow_.see(system_, integrator_.last(), integrator_.equations());
   if (!report()) return false;
   if (integrator_.asks_for_row()) add_row_here();
@@ -257,17 +262,7 @@ void Simulation::explain() {
   end(Status::failed, integrator_.failure());
   std::string& reason = run_.reason;
   if (!reason.empty()) {
-    std::string why;
-    for (const State& tried : {integrator_.last().to.state, integrator_.state()})
-      for (const std::string& found : {explain_cams(scene_, model_, tried), explain_signals(scene_, model_, start_, tried)})
-        if (why.empty()) why = found;
-    if (!why.empty()) {  // the cause first; then where it has left the method
-      reason = why + " (" + reason + ")";
-      return;
-    }
-    why = explain_failure(scene_, system_, integrator_);
-    if (why.empty()) why = monitor_.worst_warning();
-    if (!why.empty()) reason += "; " + why;
+    reason = explained_failure(scene_, model_, start_, integrator_, monitor_.worst_warning());
   } else if (!countable_) {
     reason = "the energy at the start is beyond what a double holds; check masses, speeds and units";
   } else {

@@ -62,6 +62,7 @@ class Simulation {
   void go_on(const SavedState&);
   bool goes_on() const { return going_ && run_.status == Status::finished && integrator_.ended().empty(); }
   bool step(double until);
+  bool after_step();
   bool report();
   void add_row_here();
   void book(const State&);

@@ -85,6 +85,8 @@ class EventGroup {
   /// A time in a step at both ends of which the guard is below zero, at which it is not: where the guard's own rates at the ends
   /// do not lead there.
   virtual std::optional<double> positive_inside(int, const Step&, const DenseOutput&) const { return std::nullopt; }
+  /// Where its guard is zero the event has come already: no more has to follow.
+  virtual bool comes_at_zero(int, const State&) const { return false; }
   /// Since it came last, its guard has left zero by no more than rounding can keep up.
   virtual bool hardly_left(int, const Step&, const DenseOutput&) const { return false; }
   /// Steps end so near the guard's zero that nothing can be gained by ending them nearer.

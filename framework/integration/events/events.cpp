@@ -136,6 +136,17 @@ std::optional<EventInStep> Events::first(const Step& step, const DenseOutput& mo
   return out ? out : at_end;
 }
 
+std::optional<EventInStep> Events::due(const State& end) const {
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const WatchedGuard w = ask(k);
+    if (!w.level || w.direction == Direction::none) continue;
+    const double before = turned(from_[k], w).value, now = turned(guard(k, end), w).value;
+    if (now > w.zero || (before < -w.zero && now >= -w.zero && group(k).comes_at_zero(places_[k].event, end)))
+      return EventInStep{k, w, end.t};
+  }
+  return std::nullopt;
+}
+
 Events::Ending Events::end_at(const EventInStep& event, Stepper& stepper, const ErrorNorm& norm, Step& step, Equations& eq) {
   if (event.watch.overshoot > 0) return turned(to_[event.at], event.watch).value <= event.watch.overshoot ? Ending::there : Ending::missed;
   const double t0 = step.from.state.t, t1 = step.to.state.t, h = step.h;

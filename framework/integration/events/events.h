@@ -36,6 +36,8 @@ class Events {
   /// Ends the step at the event by true steps of the method, not dense output. Where it is missed step.h is as before;
   /// the method cannot step there where it is impossible.
   Ending end_at(const EventInStep&, Stepper&, const ErrorNorm&, Step&, Equations&);
+  /// What has come exactly at a step's end, or past it by what another has done there.
+  std::optional<EventInStep> due(const State& end) const;
   /// Where the step really ended.
   void look_at_end(const Step&, const Equations* evaluated);
 

@@ -159,6 +159,10 @@ std::optional<double> SceneEvents::positive_inside(int event, const Step& step, 
   return std::nullopt;
 }
 
+bool SceneEvents::comes_at_zero(int event, const State& state) const {
+  return holds(event, state) == (waits_[at(event)] == Waits::for_true);
+}
+
 bool SceneEvents::met(int, const Guard& guard) const { return std::abs(guard.value) <= guard_rounding; }
 
 // At the ends of steps, and in the middle of the last, which may be all that lies between.
