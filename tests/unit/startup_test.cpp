@@ -71,10 +71,10 @@ std::string loaded_by(const std::string& scene, const std::string& verb = "run")
 
 bool holds(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
-TEST(StartUp, ARigidSceneLoadsNeitherGmshNorVtk) {
+TEST(StartUp, ARigidSceneLoadsNeitherGmshNorVtkNorMpi) {
   const std::string loaded = loaded_by(started_four_bar + std::string(every_step));
   ASSERT_TRUE(holds(loaded, "libyaml-cpp")) << "the loader says nothing: this test sees nothing";
-  for (const char* heavy : {"libgmsh", "libTK", "libvtk", "libpintle_", "pintle-mesher", "libfltk"})
+  for (const char* heavy : {"libgmsh", "libTK", "libvtk", "libmpi", "libopen-rte", "libpintle_", "pintle-mesher", "libfltk"})
     EXPECT_FALSE(holds(loaded, heavy)) << heavy;
 }
 
