@@ -9,6 +9,7 @@
 #include "framework/common/file.h"
 #include "framework/common/file_names.h"
 #include "framework/common/text.h"
+#include "framework/drawing/frame_text.h"
 #include "framework/drawing/paraview_macro.h"
 #include "framework/drawing/vtk_encoder.h"
 #include "meshes/module.h"
@@ -24,16 +25,13 @@ const VtkEncoder& encoder() {
   return loaded;
 }
 
-void write_vtu(const fs::path& path, const std::string& text) {
-  if (text.empty()) throw FileError(path, "VTK could not encode it, for which it needs memory");
-  write_text(path, text);
-}
-
 }  // namespace
 
 void write_grid(const fs::path& path, const Eigen::Matrix2Xd& at, const std::vector<Cells>& cells, const std::vector<Field>& on_points,
                 const std::vector<Field>& on_cells, double t) {
-  write_vtu(path, encoder().grid(at, cells, on_points, on_cells, t));
+  const std::string text = encoder().grid(at, cells, on_points, on_cells, t);
+  if (text.empty()) throw FileError(path, "VTK could not encode it, for which it needs memory");
+  write_text(path, text);
 }
 
 void write_collection(const fs::path& path, const std::vector<CollectedFile>& files) {
@@ -50,12 +48,12 @@ void write_collection(const fs::path& path, const std::vector<CollectedFile>& fi
 struct FrameWriter::Bodies {
   struct Kept {
     std::string name, stem;
-    std::shared_ptr<void> cells;  ///< as VTK keeps them, the same in each frame
+    PackedCells cells;  ///< the same in each frame
   };
   std::vector<Kept> kept;
   FileNames names;
 
-  void keep(const DrawnBody& body) { kept.push_back({body.name, names.add(body.name, "body"), {}}); }
+  void keep(const DrawnBody& body) { kept.push_back({body.name, names.add(body.name, "body"), PackedCells(body.cells)}); }
 };
 
 struct FrameWriter::Paths {
@@ -108,31 +106,31 @@ void FrameWriter::add(const Drawing& drawing) {
   std::array<char, 16> number_text;
   std::snprintf(number_text.data(), number_text.size(), "%05d.vtu", frames_++);
   const std::string ending = number_text.data();
-  write_vtu(directory_ / "frames" / ending, encoder().lines(drawing));
+  write_text(directory_ / "frames" / ending, lines_text(drawing));
   files_.push_back({drawing.t, "frames/" + ending});
   paths_->add(drawing);
 
   for (std::size_t b = 0; b < drawing.bodies.size(); ++b) {
     const DrawnBody& body = drawing.bodies[b];
     if (b == bodies_->kept.size()) bodies_->keep(body);
-    Bodies::Kept& kept = bodies_->kept[b];
+    const Bodies::Kept& kept = bodies_->kept[b];
     assert(kept.name == body.name);
     const std::string file = kept.stem + "_" + ending;
-    write_vtu(directory_ / "frames" / file, encoder().body(body, drawing.t, drawing.deformation, kept.cells));
+    write_text(directory_ / "frames" / file, body_text(body, drawing.t, drawing.deformation, kept.cells));
     files_.push_back({drawing.t, "frames/" + file, static_cast<int>(b) + 1});
   }
 }
 
 void FrameWriter::write_whole_run(const std::string& name, const std::string& vtu) {
   const std::string file = "frames/" + bodies_->names.add(name, name) + ".vtu";
-  write_vtu(directory_ / file, vtu);
+  write_text(directory_ / file, vtu);
   int part = 0;
   for (const CollectedFile& f : files_) part = std::max(part, f.part + 1);
   for (const double t : paths_->t) files_.push_back({t, file, part});
 }
 
 void FrameWriter::finish(const std::vector<DrawnImpact>& impacts) {
-  if (!paths_->followed.empty()) write_whole_run("paths", encoder().lines(paths_->drawing()));
+  if (!paths_->followed.empty()) write_whole_run("paths", lines_text(paths_->drawing()));
   if (!impacts.empty() && !paths_->touching.empty()) {
     Eigen::Matrix2Xd at(2, static_cast<Eigen::Index>(impacts.size()));
     std::vector<std::string> names;
@@ -140,7 +138,7 @@ void FrameWriter::finish(const std::vector<DrawnImpact>& impacts) {
       at.col(static_cast<Eigen::Index>(k)) = paths_->place(impacts[k]);
       names.push_back(paths_->contacts[static_cast<std::size_t>(impacts[k].place)]);
     }
-    write_whole_run("impacts", encoder().impacts(at, impacts, names));
+    write_whole_run("impacts", impacts_text(at, impacts, names));
   }
   std::ranges::stable_sort(files_, {}, &CollectedFile::t);
   write_collection(directory_ / "mechanism.pvd", files_);

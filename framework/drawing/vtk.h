@@ -92,8 +92,8 @@ struct Drawing {
 
 /// Writes `frames/NNNNN.vtu` (the lines of a drawing), `frames/BODY_NNNNN.vtu` (a flexible body of
 /// it), `frames/paths.vtu` and `frames/impacts.vtu` (of the whole run), `mechanism.pvd` (their times) and `mechanism.py`
-/// (what shows them) under a directory; ParaView opens the last two. VTK is loaded
-/// when the first grid is written (meshes/module.h); only vtk_encoder.cpp knows it.
+/// (what shows them) under a directory; ParaView opens the last two. They are written without VTK (frame_text.h);
+/// write_grid loads it when it is first called (meshes/module.h), and only vtk_encoder.cpp knows it.
 ///
 /// The lines are an unstructured grid, z = 0: a polygon for each closed line of a link or cylinder, a polyline for each other line, then a
 /// vertex for each force; part 0 of the collection.

@@ -42,7 +42,7 @@ double times(double from, double until, double interval) { return interval > 0 ?
 
 RoomNeeded room_needed(const Scene& scene, const Model& model, double from) {
   constexpr double least_number = 2, number = 17;  // bytes of text
-  constexpr double least_frame = 1000, frame = 5000, point = 64;
+  constexpr double least_frame = 1000, frame = 11000, point = 72;
   const double until = scene.run.until;
   const double rows = times(from, until, scene.output.every > 0 ? scene.output.every : until / 1000);
   const double wide = rows * static_cast<double>(trajectory_table(model).columns()),

@@ -136,7 +136,7 @@ const std::vector<Foreign> foreign{
     {"gmsh.h", {"meshes/gmsh_"}},
     {"nlopt.h", {"framework/study/fit/optimiser.cpp"}},
     {"Spectra/", {"tests/", "benchmarks/"}},
-    {"mpi.h", {"app/communicator.cpp"}},
+    {"mpi.h", {"app/mpi_communicator.cpp"}},
     {"CLI/", {"app/"}},
     {"nlohmann/",
      {"framework/scene/", "framework/analysis/", "framework/output/", "framework/study/", "framework/report/", "app/", "tests/",

@@ -38,8 +38,8 @@ output: {every: 1e-6, frames: 0}
 class Place {
  public:
   explicit Place(std::string_view scene) { folder_.write("scene.yaml", std::string(scene)); }
-  /// Runs the scene, with `extra` before the environment. @returns its exit code   @param ms  from start to end
-  int run(const std::string& extra, double* ms = nullptr) const {
+  /// Runs the scene, or asks another question, with `extra` before the environment. @returns its exit code   @param ms  from start to end
+  int run(const std::string& extra, double* ms = nullptr, const std::string& verb = "run") const {
     using clock = std::chrono::steady_clock;
     const fs::path out = folder_.path() / "out";
     fs::remove_all(out);
@@ -47,7 +47,7 @@ class Place {
     if (!extra.empty()) environment.push_back(extra);
     const auto begin = clock::now();
     const Ended end = pintle_test::run(
-        folder_.path() / "log", {PINTLE_PROGRAM, "run", (folder_.path() / "scene.yaml").string(), "-q", "-o", out.string()}, environment);
+        folder_.path() / "log", {PINTLE_PROGRAM, verb, (folder_.path() / "scene.yaml").string(), "-q", "-o", out.string()}, environment);
     if (ms) *ms = std::chrono::duration<double, std::milli>(clock::now() - begin).count();
     return end.code;
   }
@@ -63,25 +63,30 @@ class Place {
   Folder folder_;
 };
 
-std::string loaded_by(const std::string& scene) {
+std::string loaded_by(const std::string& scene, const std::string& verb = "run") {
   const Place place(scene);
-  EXPECT_EQ(place.run("LD_DEBUG=files"), 0);
+  EXPECT_EQ(place.run("LD_DEBUG=files", nullptr, verb), 0);
   return place.loaded();
 }
 
 bool holds(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
-TEST(StartUp, ARigidSceneLoadsNeitherGmshNorVtk) {
+TEST(StartUp, ARigidSceneLoadsNeitherGmshNorVtkNorMpi) {
   const std::string loaded = loaded_by(started_four_bar + std::string(every_step));
   ASSERT_TRUE(holds(loaded, "libyaml-cpp")) << "the loader says nothing: this test sees nothing";
-  for (const char* heavy : {"libgmsh", "libTK", "libvtk", "libpintle_", "pintle-mesher", "libfltk"})
+  for (const char* heavy : {"libgmsh", "libTK", "libvtk", "libmpi", "libopen-rte", "libpintle_", "pintle-mesher", "libfltk"})
     EXPECT_FALSE(holds(loaded, heavy)) << heavy;
 }
 
-TEST(StartUp, VtkIsLoadedByFramesAlone) {
+TEST(StartUp, FramesAreWrittenWithoutVtk) {
   const std::string loaded = loaded_by(started_four_bar + std::string(two_frames));
+  ASSERT_TRUE(holds(loaded, "libyaml-cpp"));
+  for (const char* heavy : {"libpintle_", "libvtk", "libgmsh"}) EXPECT_FALSE(holds(loaded, heavy)) << heavy;
+}
+
+TEST(StartUp, VtkIsLoadedByFilesOfABodyAlone) {
+  const std::string loaded = loaded_by(std::string(meshed), "mesh");
   EXPECT_TRUE(holds(loaded, "libpintle_vtk") && holds(loaded, "libvtkIOXML"));
-  EXPECT_FALSE(holds(loaded, "libgmsh"));
 }
 
 TEST(StartUp, GmshIsLoadedByMeshesAlone) {

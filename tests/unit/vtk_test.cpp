@@ -1,8 +1,10 @@
 #include "framework/drawing/vtk.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -186,6 +188,22 @@ TEST(Frame, CarriesItsTimeAndTheExaggerationOfTheClearance) {
   EXPECT_EQ(grid->GetFieldData()->GetArray("clearance exaggeration")->GetTuple1(0), 25);
 }
 
+TEST(Frame, KeepsNumbersInTheTypesThatItsReadersKnow) {
+  Drawing d = drawing(0);
+  d.colours = {Rgb{255, 0, 128}, std::nullopt};
+  const auto grid = written(d);
+  EXPECT_EQ(grid->GetPoints()->GetDataType(), VTK_DOUBLE);
+  for (const char* name : {"force [N]", "couple [N m]"}) EXPECT_EQ(grid->GetPointData()->GetArray(name)->GetDataType(), VTK_DOUBLE) << name;
+  for (const char* name : {"part", "owner"}) EXPECT_EQ(grid->GetCellData()->GetArray(name)->GetDataType(), VTK_INT) << name;
+  vtkDataArray* colour = grid->GetCellData()->GetArray("colour");
+  ASSERT_TRUE(colour);
+  EXPECT_EQ(colour->GetDataType(), VTK_UNSIGNED_CHAR);
+  ASSERT_EQ(colour->GetNumberOfComponents(), 3);
+  EXPECT_EQ(colour->GetComponent(0, 2), 128);
+  EXPECT_EQ(colour->GetComponent(1, 0), 96);  // grey, where the scene gives none
+  EXPECT_EQ(names(grid, "colours"), (std::vector<std::string>{"#ff0080", ""}));
+}
+
 TEST(Frame, OfNothingIsAnEmptyGrid) {
   const auto grid = written(Drawing{});
   EXPECT_EQ(grid->GetNumberOfCells(), 0);
@@ -249,6 +267,60 @@ TEST(FlexibleFrame, CarriesItsFieldsInSinglePrecisionAndWhoAndWhenItIs) {
   EXPECT_EQ(names(grid, "body"), std::vector<std::string>{"plate"});
   EXPECT_EQ(grid->GetFieldData()->GetArray("TimeValue")->GetTuple1(0), 0.1);
   EXPECT_EQ(grid->GetFieldData()->GetArray("deformation exaggeration")->GetTuple1(0), 40);
+}
+
+/// Values with runs of zeros of every length, here and there a negative zero, which is none.
+Eigen::MatrixXd spotted(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
+  Eigen::MatrixXd out(rows, columns);
+  unsigned left = 0, state = seed;
+  bool zero = false;
+  for (double* x = out.data(); x != out.data() + out.size(); ++x) {
+    if (left == 0) {
+      state = state * 1664525U + 1013904223U;
+      left = 1 + (state >> 24) % (zero ? 7 : 40);
+      zero = !zero;
+    }
+    *x = zero ? 0 : left % 5 == 0 ? -0.0 : 1.0 / 3 * left;
+    --left;
+  }
+  return out;
+}
+
+// Zeros are packed in words of eight bytes and blocks of 32768: 4096 of one, 1365 points and a third, 8192 floats.
+TEST(FlexibleFrame, IsWhatItWasWhereverZerosStand) {
+  const Folder folder;
+  FrameWriter writer(folder.path);
+  std::vector<DrawnBody> all;
+  std::vector<int> sizes{1365, 1366, 4095, 4096, 4097, 8191, 8192, 8193, 20000};
+  for (int n = 1; n < 24; ++n) sizes.push_back(n);
+  for (const int n : sizes)
+    for (unsigned seed = 0; seed < 3; ++seed) {
+      DrawnBody b{"body " + std::to_string(all.size()), spotted(2, n, seed), {{CellShape::line2, {0, n - 1}, {1}}}, {}};
+      b.fields = {{"spotted", spotted(1, n, seed + 5)}, {"nothing", Eigen::MatrixXd::Zero(3, n)}, {"<&\">", spotted(2, n, seed + 9)}};
+      all.push_back(b);
+    }
+  Drawing d;
+  d.bodies = all;
+  writer.add(d);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto grid = read(folder.path / ("frames/body_" + std::to_string(k) + "_00000.vtu"));
+    const Eigen::Index n = all[k].points.cols();
+    ASSERT_EQ(grid->GetNumberOfPoints(), n);
+    Eigen::Index wrong = 0;
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (int c = 0; c < 2; ++c)
+        wrong += grid->GetPoint(i)[c] != all[k].points(c, i) || std::signbit(grid->GetPoint(i)[c]) != std::signbit(all[k].points(c, i));
+    EXPECT_EQ(wrong, 0) << n;
+    for (const Field& f : all[k].fields) {
+      vtkDataArray* array = grid->GetPointData()->GetArray(f.name.c_str());
+      ASSERT_TRUE(array) << f.name;
+      ASSERT_EQ(array->GetNumberOfTuples(), n);
+      for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index c = 0; c < f.values.rows(); ++c)
+          wrong += array->GetComponent(i, static_cast<int>(c)) != static_cast<float>(f.values(c, i));
+      EXPECT_EQ(wrong, 0) << f.name << ' ' << n;
+    }
+  }
 }
 
 TEST(FlexibleFrame, OfALaterTimeHasTheSameCellsAtItsOwnPlaces) {

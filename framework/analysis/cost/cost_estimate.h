@@ -71,7 +71,7 @@ struct CostEstimate {
 };
 
 /// Tries out the run and simpler ones, each for its share of the time; those that end before it, as a whole. Meshes nothing
-/// and writes nothing but, if the scene has frames, two in a temporary folder.
+/// and writes nothing but, if the scene has frames, a few in a temporary folder.
 /// @param seconds  of computing that the trials may take together; their lengths follow from it by counts, not by the clock
 /// @throws std::runtime_error  a frame cannot be written
 CostEstimate estimate_cost(const Scene&, const Model&, const Assembly&, double seconds = 1);
