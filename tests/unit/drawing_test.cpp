@@ -220,7 +220,37 @@ TEST(Survey, OfOneBodyShowsThatAlone) {
   EXPECT_EQ(survey.world().sizes().x(), 200);
   Survey nothing("nobody", "");
   nothing.add(beside_a_wall());
-  EXPECT_THROW(nothing.world(), std::runtime_error);
+  EXPECT_THROW(nothing.world(), std::invalid_argument);
+}
+
+/// A ball of 0.1 m that lies in half a circle of 1 m, and one on a ramp as long.
+TEST(Survey, ShowsTheWholeBowlThatABallIsInAndOfARampWhatIsNear) {
+  Drawing d;
+  d.owners = {"ball", "ground"};
+  DrawnLine ball{Part::link, 0, true, {}}, bowl{Part::guide, 1, false, {}};
+  for (int i = 0; i < 24; ++i) {
+    const double turn = 0.2617993877991494 * i;
+    ball.points.emplace_back(0.3 + 0.05 * std::cos(turn), -0.3 + 0.05 * std::sin(turn));
+    if (i >= 12) bowl.points.emplace_back(0.5 * std::cos(turn), 0.5 * std::sin(turn));
+  }
+  d.lines = {ball, bowl};
+  Survey in_bowl("", "");
+  in_bowl.add(d);
+  for (const Vector2d& r : bowl.points) EXPECT_TRUE(in_bowl.world().contains(r)) << r.transpose();
+  d.lines[1].points = {{-0.5, 0.45}, {0.6, -0.65}};
+  Survey on_ramp("", "");
+  on_ramp.add(d);
+  EXPECT_LT(on_ramp.world().sizes().maxCoeff(), 0.1 * 1.3);
+}
+
+/// A couple has a place and no size.
+TEST(Survey, OfACoupleShowsWhereItActs) {
+  Survey survey("twist", "");
+  survey.add(drawn(hanging));
+  const Eigen::AlignedBox2d world = survey.world();
+  EXPECT_NEAR(world.center().norm(), 0, 1e-9);  // on the rod's origin
+  EXPECT_GT(world.sizes().minCoeff(), 0.1);
+  EXPECT_LT(world.sizes().maxCoeff(), 3);
 }
 
 }  // namespace
