@@ -96,7 +96,8 @@ void add_options(CLI::App& command, Choice& choice) {
       ->required()
       ->type_name("OUT");
   command.add_option("--size", choice.size, "in pixels (default 1400, as high as needed)")->type_name("WIDTH[xHEIGHT]");
-  command.add_option("--around", drawn.around, "fill the picture with this body, joint or force")->type_name("NAME");
+  command.add_option("--around", drawn.around, "fill the picture with this body or joint, or show what is near this force")
+      ->type_name("NAME");
   command.add_option("--field", drawn.style.field, "colour flexible bodies, or the .vtu file's, by this field, e.g. \"von Mises [Pa]\"")
       ->type_name("FIELD");
   command.add_option("--deformation", choice.deformation, "draw deformation so many times as large (default: as output.deformation says)")
@@ -121,6 +122,23 @@ void add_options(CLI::App& command, Choice& choice) {
   command.footer(
       "Films are packed by ffmpeg (apt-get install ffmpeg). Slow motion is as smooth as the run has frames: --set output.frames=500.\n"
       "Exit codes: see pintle --help\n");
+}
+
+/// The help of the one command leaves out what is for the other.
+void tailor_help(CLI::App& command, const std::string& name) {
+  const auto hide = [&](std::initializer_list<const char*> options) {
+    for (const char* const option : options) command.get_option(option)->group("");
+  };
+  if (name == "pintle film") {
+    hide({"--frame", "--time"});
+    command.get_option("results")->description("a folder that run, kinematics, inverse or statics has written");
+    command.get_option("out")->description("a film of all frames (.mp4, .webm, .gif); one that is there is replaced");
+  }
+  if (name == "pintle picture") {
+    hide({"--fps", "--speed", "--from", "--to"});
+    command.get_option("out")->description("a picture (.png); one that is there is replaced");
+    command.footer("Exit codes: see pintle --help\n");
+  }
 }
 
 /// Options given that mean nothing here would otherwise be passed over.
@@ -203,6 +221,7 @@ int main(int argc, char** argv) {
                    name);
   Choice choice;
   add_options(command, choice);
+  tailor_help(command, name);
   try {
     command.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
