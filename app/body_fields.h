@@ -17,7 +17,7 @@ struct FieldRange {
 /// Values of a field at a body's points, vectors by their length; empty if it has no such field.
 Eigen::RowVectorXd values(const DrawnBody&, const std::string& field);
 
-/// @throws std::runtime_error  no body has such a field (those they have)
+/// @throws std::invalid_argument  no body has such a field (those they have)
 FieldRange range_of(const Drawing&, const std::string& field);
 
 }  // namespace pintle

@@ -110,7 +110,7 @@ struct Canvas::Surface {
   Surface(const Surface&) = delete;
 };
 
-Canvas::Canvas(int width, int height) : width_(width), height_(height), surface_(std::make_unique<Surface>(width, height)) {
+Canvas::Canvas(int width, int height, double letters) : width_(width), height_(height), surface_(std::make_unique<Surface>(width, height)) {
   if (cairo_status(surface_->pen) != CAIRO_STATUS_SUCCESS)
     throw std::runtime_error("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
                              " pixels is too large to draw; make --size smaller");
@@ -118,7 +118,6 @@ Canvas::Canvas(int width, int height) : width_(width), height_(height), surface_
   cairo_set_line_cap(pen, CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(pen, CAIRO_LINE_JOIN_ROUND);
   cairo_select_font_face(pen, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  constexpr double letters = 22;
   cairo_set_font_size(pen, letters);
   clear();
 }

@@ -24,7 +24,8 @@ enum class Align { left, right };
 /// alone knows; it needs no display.
 class Canvas {
  public:
-  Canvas(int width, int height);
+  /// @param letters  their size [px]
+  Canvas(int width, int height, double letters);
   ~Canvas();
   Canvas(const Canvas&) = delete;
 

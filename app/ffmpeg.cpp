@@ -9,8 +9,11 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -59,7 +62,34 @@ std::vector<std::string> arguments(const fs::path& ending, const fs::path& part,
   return out;
 }
 
+constexpr const char* no_ffmpeg = "there is no ffmpeg, the program that packs films: apt-get install ffmpeg";
+
+/// In a folder of PATH.
+bool ffmpeg_is_there() {
+  const char* const path = std::getenv("PATH");
+  if (path == nullptr) return true;  // the system has folders of its own then
+  std::istringstream folders(path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (::access((fs::path(folder.empty() ? "." : folder) / "ffmpeg").c_str(), X_OK) == 0) return true;
+  return false;
+}
+
 }  // namespace
+
+void FilmFile::foresee(const fs::path& file) {
+  if (!ffmpeg_is_there()) throw std::runtime_error(no_ffmpeg);
+  std::error_code ignored;
+  const auto refuse = [&](int error) {
+    throw FileError(file, "cannot be written: " + std::generic_category().message(error) +
+                              "; name a film in a folder that is there and may be written to");
+  };
+  if (fs::is_directory(file, ignored)) refuse(EISDIR);
+  const fs::path part = unique_neighbour(file);
+  const int made = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (made < 0) refuse(errno);
+  ::close(made);
+  fs::remove(part, ignored);
+}
 
 bool FilmFile::is_film(const fs::path& file) {
   const fs::path ending = file.extension();
@@ -100,7 +130,7 @@ void FilmFile::start(int width, int height, double rate) {
   ::close(pipe[0]);
   if (error == 0) return;
   child_ = -1;
-  if (error == ENOENT) throw std::runtime_error("there is no ffmpeg, the program that packs films: apt-get install ffmpeg");
+  if (error == ENOENT) throw std::runtime_error(no_ffmpeg);
   throw FileError("ffmpeg", error, "cannot be started");
 }
 

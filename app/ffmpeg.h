@@ -22,6 +22,9 @@ class FilmFile {
   /// @throws std::runtime_error  what ffmpeg said
   void finish();
 
+  /// What would keep the film from being made, before its pictures are drawn: no ffmpeg, no folder, one that cannot be written to.
+  /// @throws std::runtime_error  FileError
+  static void foresee(const std::filesystem::path&);
   static bool is_film(const std::filesystem::path&);  ///< by its ending
 
  private:

@@ -5,13 +5,12 @@
 
 namespace pintle {
 
-void write_field_picture(const std::filesystem::path& file, const std::string& field, int width, const std::filesystem::path& picture) {
+void write_field_picture(const std::filesystem::path& file, PictureStyle style, const std::filesystem::path& picture) {
   Drawing drawing;
   drawing.bodies.push_back(read_body(file));
   drawing.owners = {drawing.bodies.back().name};
-  PictureStyle style;
-  style.width = width, style.field = field, style.timeless = true;
-  Survey survey("", field);
+  style.timeless = true;
+  Survey survey("", style.field);
   survey.add(drawing);
   FramePicture drawn(style, survey, drawing);
   drawn.draw(drawing);

@@ -32,14 +32,14 @@ std::vector<std::size_t> shown_frames(const std::vector<double>& times, const Fi
   for (std::size_t n = 0; n < times.size(); ++n)
     if (times[n] >= plan.from - tolerance && times[n] <= plan.until + tolerance) inside.push_back(n);
   if (inside.empty())
-    throw std::runtime_error("--from, --to: no frame is between them; the frames are from " + shown_time(times.front()) + " to " +
-                             shown_time(times.back()));
+    throw std::invalid_argument("--from, --to: no frame is between them; the frames are from " + shown_time(times.front()) + " to " +
+                                shown_time(times.back()));
   if (!plan.speed) return inside;
   const double from = times[inside.front()], lasts = (times[inside.back()] - from) / *plan.speed;
   constexpr double most = 1e5;
   if (lasts * plan.rate > most)
-    throw std::runtime_error("--speed: the film would last " + shown_time(lasts) +
-                             ", more than a hundred thousand pictures; make it faster");
+    throw std::invalid_argument("--speed: the film would last " + shown_time(lasts) +
+                                ", more than a hundred thousand pictures; make it faster");
   std::vector<std::size_t> out;
   const auto count = static_cast<long>(std::floor(lasts * plan.rate * (1 + 1e-12))) + 1;
   for (long k = 0; k < count; ++k) out.push_back(nearest_frame(times, from + static_cast<double>(k) * *plan.speed / plan.rate));
@@ -47,6 +47,7 @@ std::vector<std::size_t> shown_frames(const std::vector<double>& times, const Fi
 }
 
 bool write_film(const Drawn& drawn, const FilmPlan& plan) {
+  FilmFile::foresee(drawn.file);
   app::StatusLine line(drawn.quiet);
   app::now_doing("making the film");
   const std::vector<FrameFiles> frames = frames_of(drawn.directory);

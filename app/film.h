@@ -26,7 +26,7 @@ struct FilmPlan {
 };
 
 /// Writes the film. @returns false: the user stopped it, and there is no file
-/// @throws std::runtime_error  the results, the plan or the file do not do
+/// @throws std::invalid_argument  the plan does not do; std::runtime_error  the results or the file do not
 bool write_film(const Drawn&, const FilmPlan&);
 
 /// Of a picture of a film the frame to show, for each; the frame nearest to its time. @pre frames are in the order of their times

@@ -12,8 +12,9 @@ namespace pintle {
 
 namespace {
 
+constexpr double letters = 22;  // [px], of large pictures
 const Colour ink{0.16, 0.18, 0.22}, white{1, 1, 1};
-constexpr int side = 36, line_height = 34, field_row = 48;  // [px]
+constexpr int rim_width = 36, line_height = 34, field_row = 48;  // [px], of large pictures
 
 /// Okabe and Ito's colours, which the colour-blind tell apart, less the yellow, which white swallows.
 const std::array<Colour, 6> palette{Colour{0.00, 0.45, 0.70}, Colour{0.84, 0.37, 0.00}, Colour{0.00, 0.62, 0.45},
@@ -54,26 +55,35 @@ std::map<int, Colour> body_colours(const Drawing& drawing) {
 
 FramePicture::FramePicture(const PictureStyle& style, const Survey& survey, const Drawing& first)
     : style_(style),
-      world_(survey.world()),
+      asked_(survey.world()),
       usual_force_(style.forces ? survey.usual_force() : 0),
       largest_couple_(style.forces ? survey.largest_couple() : 0),
       range_(survey.range()),
+      givers_{survey.gives(Giver::joint), survey.gives(Giver::contact), survey.gives(Giver::spring), survey.gives(Giver::load)},
       width_(style.width) {
   constexpr int least = 200, most = 8000;
   if (width_ < least || width_ > most || (style.height != 0 && (style.height < least || style.height > most)))
-    throw std::runtime_error("--size: a picture is from 200 to 8000 pixels wide and high");
+    throw std::invalid_argument("--size: a picture is from 200 to 8000 pixels wide and high");
   if (style.even) width_ -= width_ % 2;
+  constexpr double usual = 700, smallest = 0.45;  // [px]
+  small_ = std::clamp(std::min<double>(width_, style.height > 0 ? 1.5 * style.height : width_) / usual, smallest, 1.0);
   colours_ = body_colours(first);
   name_bodies(first);
+  bottom_ = static_cast<int>(small_ * (84 + field_rows() * field_row));
   fit();
-  canvas_ = std::make_unique<Canvas>(width_, height_);
+  note_scales(first);
+  place_notes();
+  fit();
+  canvas_ = std::make_unique<Canvas>(width_, height_, letters * small_);
 }
 
-/// Names from the right, in as many rows as they need beside the time, three at most.
+/// Names from the right, in as many rows as they need beside the time, three at most and fewer in a low picture.
 void FramePicture::name_bodies(const Drawing& drawing) {
-  const Canvas measure(1, 1);
-  constexpr int most_rows = 3, disc = 24, gap = 20;
-  const double left = side + measure.width_of("t = 888.888 ms") + 2 * gap, right = width_ - side;
+  const Canvas measure(1, 1, letters * small_);
+  const double disc = 24 * small_, gap = 20 * small_, side = rim_width * small_;
+  const int room = style_.height > 0 ? static_cast<int>((0.3 * style_.height / small_ - 42) / line_height) : 3;
+  const int most_rows = std::clamp(room, 1, 3);
+  const double left = side + (style_.timeless ? 0 : measure.width_of("t = 888.888 ms") + 2 * gap), right = width_ - side;
   std::vector<Label> row;
   double x = left;
   int rows = 0;
@@ -84,21 +94,60 @@ void FramePicture::name_bodies(const Drawing& drawing) {
   for (const auto& [owner, colour] : colours_) {
     const double wide = disc + measure.width_of(drawing.owners.at(static_cast<std::size_t>(owner)));
     if (!row.empty() && x + wide > right) end_row();
-    if (rows == most_rows) {
-      unnamed_ = static_cast<int>(colours_.size() - labels_.size());
-      break;
-    }
+    if (rows == most_rows) break;
     row.push_back({owner, x, 0});
     x += wide + gap;
   }
   if (!row.empty()) end_row();
-  top_ = 42 + line_height * std::max(rows, 1);
-  bottom_ = 84 + (style_.field.empty() ? 0 : field_row);
+  unnamed_ = static_cast<int>(colours_.size() - labels_.size());
+  top_ = static_cast<int>(small_ * (42 + line_height * std::max(rows, 1)));
+}
+
+/// The scales of lengths and forces, the kinds of forces, and what is drawn larger than it is.
+void FramePicture::note_scales(const Drawing& drawing) {
+  const Canvas measure(1, 1, letters * small_);
+  const auto add = [&](Note::Kind kind, const std::string& text, const Colour& colour, double symbol) {
+    const double wide = symbol + (symbol > 0 ? 14 * small_ : 0) + measure.width_of(text);
+    notes_.push_back({kind, text, colour, symbol, wide});
+  };
+  const double length = round_length(0.2 * width_ / scale_);
+  add(Note::lengths, quantity(length, "m"), ink, length * scale_);
+  if (usual_force_ > 0) {
+    const double force = round_length(usual_force_);
+    add(Note::forces, quantity(force, "N"), ink, force / usual_force_ * arrow_pixels());
+    for (std::size_t k = 0; k < arrows.size(); ++k)
+      if (givers_[k]) add(Note::words, arrows[k].name, arrows[k].colour, 0);
+  }
+  const auto add_times = [&](const char* what, double times) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%s drawn %.3g times", what, times);
+    add(Note::words, text.data(), ink, 0);
+  };
+  if (drawing.exaggeration != 1) add_times("clearance", drawing.exaggeration);
+  if (drawing.deformation != 1) add_times("deformation", drawing.deformation);
+}
+
+/// In rows; of those for which a low picture has no room the last give way.
+void FramePicture::place_notes() {
+  const double gap = 26 * small_, side = rim_width * small_;
+  const int room = style_.height > 0 ? static_cast<int>((0.3 * style_.height / small_ - 50) / line_height) : 4;
+  double x = side;
+  int row = 0;
+  for (Note& note : notes_) {
+    if (x > side && x + note.width > width_ - side) x = side, ++row;
+    note.x = x, note.row = row;
+    x += note.width + gap;
+  }
+  const int rows = std::clamp(row + 1, 1, std::max(room, 1));
+  std::erase_if(notes_, [&](const Note& note) { return note.row >= rows; });
+  for (Note& note : notes_) note.row = rows - 1 - note.row;  // from below
+  bottom_ = static_cast<int>(small_ * (50 + line_height * rows + field_rows() * field_row));
 }
 
 /// Chooses the scale, and the height where it is free, so that the world fills the picture.
 void FramePicture::fit() {
-  const int margins = bottom_ + top_, inner = width_ - 2 * side;
+  world_ = asked_;
+  const int margins = bottom_ + top_, inner = static_cast<int>(width_ - 2 * rim_width * small_);
   const double size = std::max(world_.sizes().maxCoeff(), 1e-9), room = usual_force_ > 0 ? 0.08 : 0.03;  // arrows may end outside
   world_.min().array() -= room * size;
   world_.max().array() += room * size;
@@ -106,11 +155,12 @@ void FramePicture::fit() {
   height_ = style_.height;
   if (height_ == 0) {
     const double asked = sizes.y() / sizes.x() * inner + margins;
-    height_ = static_cast<int>(std::clamp(asked, 0.3 * width_, 0.8 * width_));
+    const double least = std::max(0.3 * width_, margins + 0.25 * width_);  // the mechanism is to be seen
+    height_ = static_cast<int>(std::clamp(asked, least, std::max(0.8 * width_, least)));
   }
   if (style_.even) height_ -= height_ % 2;
   scale_ = std::min(inner / sizes.x(), (height_ - margins) / sizes.y());
-  if (!(scale_ > 0)) throw std::runtime_error("--size: is too low to draw in");
+  if (!(scale_ > 0)) throw std::invalid_argument("--size: is too low to draw in");
 }
 
 Vector2d FramePicture::place(const Vector2d& world) const {
@@ -129,7 +179,7 @@ void FramePicture::draw(const Drawing& drawing) {
   for (const Part part : {Part::link, Part::cylinder, Part::spring, Part::joint, Part::bearing, Part::journal}) draw_lines(drawing, part);
   draw_forces(drawing);
   draw_head(drawing);
-  draw_foot(drawing);
+  draw_foot();
 }
 
 void FramePicture::draw_flexible(const Drawing& drawing) {
@@ -145,7 +195,7 @@ void FramePicture::draw_flexible(const Drawing& drawing) {
       canvas_->fill(at, body.cells, mix(own, white, 0.65));
     else
       canvas_->fill(at, body.cells, inside);
-    canvas_->stroke_outline(at, body.cells, inside.empty() ? 4 : 2, inside.empty() ? own : ink);
+    canvas_->stroke_outline(at, body.cells, small_ * (inside.empty() ? 4 : 2), inside.empty() ? own : ink);
   }
 }
 
@@ -155,20 +205,20 @@ void FramePicture::draw_lines(const Drawing& drawing, Part part) {
     std::vector<Vector2d> r;
     for (const Vector2d& p : line.points) r.push_back(place(p));
     switch (part) {
-      case Part::hatch: canvas_->stroke(r, line.closed, 2, mix(ink, white, 0.55)); break;
-      case Part::guide: canvas_->stroke(r, line.closed, 4, mix(ink, white, 0.45)); break;
-      case Part::trace: canvas_->stroke(r, line.closed, 1.6, mix(ink, white, 0.55)); break;
-      case Part::spring: canvas_->stroke(r, line.closed, 3, mix(ink, white, 0.2)); break;
+      case Part::hatch: canvas_->stroke(r, line.closed, small_ * 2, mix(ink, white, 0.55)); break;
+      case Part::guide: canvas_->stroke(r, line.closed, small_ * 4, mix(ink, white, 0.45)); break;
+      case Part::trace: canvas_->stroke(r, line.closed, small_ * 1.6, mix(ink, white, 0.55)); break;
+      case Part::spring: canvas_->stroke(r, line.closed, small_ * 3, mix(ink, white, 0.2)); break;
       case Part::cylinder:
         if (line.closed) canvas_->fill(r, mix(ink, white, 0.8));
-        canvas_->stroke(r, line.closed, line.closed ? 3 : 7, mix(ink, white, line.closed ? 0.2 : 0.45));
+        canvas_->stroke(r, line.closed, small_ * (line.closed ? 3 : 7), mix(ink, white, line.closed ? 0.2 : 0.45));
         break;
       case Part::link: {
         const auto found = colours_.find(line.owner);
         const Colour colour = found == colours_.end() ? ink : found->second;
         if (line.closed) canvas_->fill(r, mix(colour, white, 0.65));
-        if (!line.closed) canvas_->stroke(r, false, 13, mix(colour, ink, 0.5));
-        canvas_->stroke(r, line.closed, line.closed ? 4 : 9, colour);
+        if (!line.closed) canvas_->stroke(r, false, small_ * 13, mix(colour, ink, 0.5));
+        canvas_->stroke(r, line.closed, small_ * (line.closed ? 4 : 9), colour);
         break;
       }
       case Part::joint:
@@ -180,14 +230,14 @@ void FramePicture::draw_lines(const Drawing& drawing, Part part) {
 
 void FramePicture::draw_joint(const DrawnLine& line, const std::vector<Vector2d>& r) {
   if (r.size() == 1) {
-    canvas_->disc(r[0], 8, ink);
-    canvas_->disc(r[0], 5, white);
+    canvas_->disc(r[0], 8 * small_, ink);
+    canvas_->disc(r[0], 5 * small_, white);
     return;
   }
   if (line.closed && line.part != Part::joint) canvas_->fill(r, line.part == Part::journal ? mix(ink, white, 0.7) : white);
   constexpr double pin = 0.1;  // of the picture: larger circles are wheels
   if (line.closed && line.part == Part::joint && (r[0] - r[r.size() / 2]).norm() < pin * height_) canvas_->fill(r, white);
-  canvas_->stroke(r, line.closed, 3, ink);
+  canvas_->stroke(r, line.closed, 3 * small_, ink);
 }
 
 /// Arrows longer than thrice the usual length are cut there. Of couples the sense alone is drawn.
@@ -198,76 +248,62 @@ void FramePicture::draw_forces(const Drawing& drawing) {
     const Vector2d at = place(f.at);
     const double length = usual_force_ > 0 ? std::min(f.force.norm() / usual_force_, 3.0) * arrow_pixels() : 0;
     constexpr double worth_it = 4, share = 0.02;  // [px], of the largest couple
-    if (length > worth_it) canvas_->arrow(at, at + length * f.force.normalized(), 4, colour);
-    if (f.couple != 0 && std::abs(f.couple) > share * largest_couple_) canvas_->turn(at, 26, f.couple > 0, 3, colour);
+    if (length > worth_it) canvas_->arrow(at, at + length * f.force.normalized(), 4 * small_, colour);
+    if (f.couple != 0 && std::abs(f.couple) > share * largest_couple_) canvas_->turn(at, 26 * small_, f.couple > 0, 3 * small_, colour);
   }
 }
 
 /// Time and bodies.
 void FramePicture::draw_head(const Drawing& drawing) {
-  const double w = width_, h = height_, first = h - 52;
+  const double w = width_, h = height_, first = h - 52 * small_, side = rim_width * small_;
   canvas_->fill({{0, h - top_}, {w, h - top_}, {w, h}, {0, h}}, white);
   if (!style_.timeless) canvas_->words("t = " + quantity(drawing.t, "s"), side, first, Align::left, ink);
   for (const Label& label : labels_) {
     const Colour& colour = colours_.at(label.owner);
-    const double y = first - line_height * label.row;
-    canvas_->disc({label.x + 8, y + 8}, 8, colour);
-    canvas_->words(drawing.owners.at(static_cast<std::size_t>(label.owner)), label.x + 24, y, Align::left, mix(colour, ink, 0.35));
+    const double y = first - small_ * line_height * label.row;
+    canvas_->disc({label.x + 8 * small_, y + 8 * small_}, 8 * small_, colour);
+    canvas_->words(drawing.owners.at(static_cast<std::size_t>(label.owner)), label.x + 24 * small_, y, Align::left, mix(colour, ink, 0.35));
   }
-  if (unnamed_ > 0)
-    canvas_->words("and " + std::to_string(unnamed_) + " more", side, first - line_height, Align::left, mix(ink, white, 0.3));
+  if (unnamed_ > 0) {
+    const bool below = labels_.back().row > 0;
+    canvas_->words((below ? "and " : "+ ") + std::to_string(unnamed_) + (below ? " more" : ""), below ? side : w - 2,
+                   below ? first - small_ * line_height : first, below ? Align::left : Align::right, mix(ink, white, 0.3));
+  }
 }
 
-/// The scales of lengths and forces, and what is drawn larger than it is.
-void FramePicture::draw_foot(const Drawing& drawing) {
-  const double w = width_, y = 38;
-  canvas_->fill({{0, 0}, {w, 0}, {w, 1.0 * bottom_}, {0, 1.0 * bottom_}}, white);
-  const double length = round_length(0.2 * width_ / scale_), end = side + length * scale_;
-  canvas_->stroke({{side, y + 8}, {side, y}, {end, y}, {end, y + 8}}, false, 2.5, ink);
-  const std::string metres = quantity(length, "m");
-  canvas_->words(metres, end + 14, y - 6, Align::left, ink);
-
-  double x = end + 14 + canvas_->width_of(metres) + 40;
-  if (usual_force_ > 0) {
-    const double force = round_length(usual_force_), pixels = force / usual_force_ * arrow_pixels();
-    canvas_->arrow({x, y}, {x + pixels, y}, 4, ink);
-    canvas_->words(quantity(force, "N"), x + pixels + 14, y - 6, Align::left, ink);
-    x += pixels + 14 + canvas_->width_of(quantity(force, "N")) + 30;
-    for (std::size_t k = 0; k < arrows.size(); ++k) {
-      if (std::ranges::none_of(drawing.forces, [&](const DrawnForce& f) { return f.giver == static_cast<Giver>(k); })) continue;
-      canvas_->words(arrows[k].name, x, y - 6, Align::left, arrows[k].colour);
-      x += canvas_->width_of(arrows[k].name) + 18;
-    }
+void FramePicture::draw_foot() {
+  canvas_->fill({{0, 0}, {1.0 * width_, 0}, {1.0 * width_, 1.0 * bottom_}, {0, 1.0 * bottom_}}, white);
+  for (const Note& note : notes_) {
+    const double y = small_ * (38 + line_height * note.row), x = note.x, end = x + note.symbol;
+    if (note.kind == Note::lengths)
+      canvas_->stroke({{x, y + 8 * small_}, {x, y}, {end, y}, {end, y + 8 * small_}}, false, 2.5 * small_, ink);
+    if (note.kind == Note::forces) canvas_->arrow({x, y}, {end, y}, 4 * small_, ink);
+    canvas_->words(note.text, note.symbol > 0 ? end + 14 * small_ : x, y - 6 * small_, Align::left, note.colour);
   }
-  std::string larger;
-  const auto add_times = [&](const char* what, double times) {
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%s drawn %.3g times", what, times);
-    larger += (larger.empty() ? "" : "      ") + std::string(text.data());
-  };
-  if (drawing.exaggeration != 1) add_times("clearance", drawing.exaggeration);
-  if (drawing.deformation != 1) add_times("deformation", drawing.deformation);
-  const bool beside = x + canvas_->width_of(larger) < w - side;
-  canvas_->words(larger, w - side, beside ? y - 6 : y - 34, Align::right, ink);
   if (!style_.field.empty()) draw_field_scale();
 }
 
-/// The scale of a field's colours: its name, its least and its greatest value.
+int FramePicture::field_rows() const { return style_.field.empty() ? 0 : width_ < 600 ? 2 : 1; }
+
+/// The scale of a field's colours: its name, its least and its greatest value; in a narrow picture the name above.
 void FramePicture::draw_field_scale() {
   const std::string& field = style_.field;
   const std::size_t unit = field.rfind(" [");
-  const bool has_unit = unit != std::string::npos && field.back() == ']';
+  const bool has_unit = unit != std::string::npos && field.back() == ']', beside = field_rows() == 1;
   const std::string symbol = has_unit ? field.substr(unit + 2, field.size() - unit - 3) : "";
+  const bool from_zero = std::abs(range_.least) < 1e-6 * std::abs(range_.greatest);
+  const std::string least = quantity(from_zero ? 0 : range_.least, symbol), greatest = quantity(range_.greatest, symbol);
   constexpr int steps = 256;
-  const double left = 0.42 * width_, right = 0.82 * width_, y = bottom_ - field_row, step = (right - left) / steps, high = 18;
+  const double side = rim_width * small_, gap = 14 * small_, y = bottom_ - small_ * field_row * field_rows(), high = 18 * small_;
+  const double left = beside ? 0.42 * width_ : side + canvas_->width_of(least) + gap;
+  const double right = beside ? 0.82 * width_ : width_ - side - canvas_->width_of(greatest) - gap, step = (right - left) / steps;
   for (int i = 0; i < steps; ++i) {
     const double x = left + i * step;  // each a little over the next: no paper shows between them
     canvas_->fill({{x, y}, {x + step + 1, y}, {x + step + 1, y + high}, {x, y + high}}, field_colour((i + 0.5) / steps));
   }
-  canvas_->words(field.substr(0, has_unit ? unit : field.size()), side, y, Align::left, ink);
-  const bool from_zero = std::abs(range_.least) < 1e-6 * std::abs(range_.greatest);
-  canvas_->words(quantity(from_zero ? 0 : range_.least, symbol), left - 14, y, Align::right, ink);
-  canvas_->words(quantity(range_.greatest, symbol), right + 14, y, Align::left, ink);
+  canvas_->words(field.substr(0, has_unit ? unit : field.size()), side, beside ? y : y + 0.8 * small_ * field_row, Align::left, ink);
+  canvas_->words(least, left - gap, y, Align::right, ink);
+  canvas_->words(greatest, right + gap, y, Align::left, ink);
 }
 
 }  // namespace pintle

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 
 #include "app/canvas.h"
@@ -19,7 +20,7 @@ struct PictureStyle {
 /// Draws frames on a canvas of a fixed size: a uniform scale, time and names of the bodies above, scales below.
 class FramePicture {
  public:
-  /// @param first  of the frames, for the names of the bodies   @throws std::runtime_error  the size does not do
+  /// @param first  of the frames, for the names of the bodies   @throws std::invalid_argument  the size does not do
   FramePicture(const PictureStyle&, const Survey&, const Drawing& first);
 
   Canvas& canvas() { return *canvas_; }
@@ -33,8 +34,19 @@ class FramePicture {
     double x;
     int row;
   };
+  /// Below the picture, from the left, row after row.
+  struct Note {
+    enum Kind { lengths, forces, words } kind;
+    std::string text;
+    Colour colour;
+    double symbol, width;  ///< of what stands before the text, and of both [px]
+    double x = 0;
+    int row = 0;
+  };
   void fit();
   void name_bodies(const Drawing&);
+  void note_scales(const Drawing&);
+  void place_notes();
   Vector2d place(const Vector2d& world) const;
   double arrow_pixels() const;
 
@@ -43,17 +55,21 @@ class FramePicture {
   void draw_joint(const DrawnLine&, const std::vector<Vector2d>&);
   void draw_forces(const Drawing&);
   void draw_head(const Drawing&);
-  void draw_foot(const Drawing&);
+  void draw_foot();
+  int field_rows() const;
   void draw_field_scale();
 
   PictureStyle style_;
-  Eigen::AlignedBox2d world_;
+  Eigen::AlignedBox2d asked_, world_ = {};  ///< and with room about it
   double usual_force_, largest_couple_;
   FieldRange range_;
+  std::array<bool, 4> givers_;                     ///< kinds of forces in some frame
   int width_, height_ = 0, top_ = 0, bottom_ = 0;  ///< [px]
+  double small_ = 1;                               ///< letters and lines of small pictures are so many times as large
   double scale_ = 1;                               ///< [px/m]
   std::map<int, Colour> colours_;                  ///< of owners that are bodies with a shape
   std::vector<Label> labels_;
+  std::vector<Note> notes_;
   int unnamed_ = 0;  ///< bodies for whose names there is no room
   std::unique_ptr<Canvas> canvas_;
 };

@@ -82,13 +82,8 @@ int carry_out(int argc, char** argv) {
   for (const auto& [command, unused] : commands) add_options(*command, options);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success& asked) {  // for help, or the version
-    return app.exit(asked);
   } catch (const CLI::ParseError& e) {
-    const std::string words = mistyped(app, argc, argv);
-    if (words.empty()) return app.exit(e), bad_scene;
-    std::cerr << "pintle: " << words << "\n";
-    return bad_scene;
+    return end_of(app, e, argc, argv);
   }
   now_doing("reading the input");
   set_bounds(options);

@@ -1,7 +1,9 @@
 #include "app/mistyped.h"
 
+#include <iostream>
 #include <vector>
 
+#include "app/options.h"
 #include "framework/common/nearest.h"
 
 namespace pintle::app {
@@ -23,26 +25,51 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return out;
 }
 
+/// Names of commands, all that are as near as the nearest; or those that there are.
+std::string meant(const std::string& word, const std::vector<std::string>& commands) {
+  const std::string best = nearest(word, commands);
+  std::vector<std::string> near;
+  for (const std::string& command : commands)
+    if (!best.empty() && edit_distance(word, command) == edit_distance(word, best)) near.push_back('"' + command + '"');
+  return near.size() > 1 ? " Did you mean " + listed(near) + "?" : did_you_mean(word, commands);
+}
+
+std::string full_name(const std::string& command) { return command.starts_with("pintle") ? command : "pintle " + command; }
+
+/// The command that was named, or the program itself where it has but one.
+const CLI::App* command_of(const CLI::App& app) {
+  const auto named = app.get_subcommands();
+  if (!named.empty()) return named.front();
+  return command_names(app).empty() ? &app : nullptr;
+}
+
 }  // namespace
 
 std::string mistyped(const CLI::App& app, int argc, char** argv) {
-  const std::vector<const CLI::App*> parsed = [&] {
-    std::vector<const CLI::App*> out;
-    for (const CLI::App* command : app.get_subcommands()) out.push_back(command);
-    return out;
-  }();
-  if (parsed.empty()) {
+  const CLI::App* const command = command_of(app);
+  if (command == nullptr) {
     if (argc < 2 || is_option(argv[1])) return "";
-    return "\"" + std::string(argv[1]) + "\" is no command." + did_you_mean(argv[1], command_names(app)) + " pintle --help lists them.";
+    return "\"" + std::string(argv[1]) + "\" is no command." + meant(argv[1], command_names(app)) + " pintle --help lists them.";
   }
-  const std::string name = parsed.front()->get_name();
+  const std::string full = full_name(command->get_name());
   for (const std::string& word : app.remaining(true))
     if (is_option(word)) {
       const std::string option = word.substr(0, word.find('='));
-      return name + " has no option " + option + "." + did_you_mean(option, option_names(*parsed.front())) + " pintle " + name +
-             " --help tells what each does.";
+      return full.substr(full.find(' ') + 1) + " has no option " + option + "." + did_you_mean(option, option_names(*command)) + " " +
+             full + " --help tells what each does.";
     }
   return "";
+}
+
+int end_of(const CLI::App& app, const CLI::ParseError& e, int argc, char** argv) {
+  if (e.get_exit_code() == 0) return app.exit(e);
+  std::string words = mistyped(app, argc, argv);
+  if (words.empty()) {
+    const CLI::App* const command = command_of(app);
+    words = std::string(e.what()) + "; " + (command ? full_name(command->get_name()) : "pintle") + " --help tells what it takes";
+  }
+  std::cerr << "pintle: " << words << "\n";
+  return bad_scene;
 }
 
 }  // namespace pintle::app

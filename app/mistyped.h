@@ -10,4 +10,7 @@ namespace pintle::app {
 /// empty. @param app  after its parse
 std::string mistyped(const CLI::App& app, int argc, char** argv);
 
+/// Prints the help that was asked for, or in a line what is wrong with the command line. @returns the exit code
+int end_of(const CLI::App& app, const CLI::ParseError&, int argc, char** argv);
+
 }  // namespace pintle::app

@@ -2,8 +2,8 @@
 // Reads what framework/drawing/vtk.h describes.
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
@@ -16,6 +16,7 @@
 #include "app/field_picture.h"
 #include "app/film.h"
 #include "app/frames.h"
+#include "app/mistyped.h"
 #include "app/options.h"
 #include "app/progress.h"
 
@@ -38,8 +39,8 @@ const FrameFiles& frame_of(const std::vector<FrameFiles>& frames, const Choice& 
   if (!std::isnan(choice.time))
     return *std::ranges::min_element(frames, {}, [&](const FrameFiles& frame) { return std::abs(frame.t - choice.time); });
   if (n < 0 || n >= count)
-    throw std::runtime_error(choice.drawn.directory.string() + ": has " + std::to_string(count) + " frames, 0 to " +
-                             std::to_string(count - 1) + "; asked for " + std::to_string(choice.frame));
+    throw std::invalid_argument("--frame: " + choice.drawn.directory.string() + " has " + std::to_string(count) + " frames, 0 to " +
+                                std::to_string(count - 1) + "; asked for " + std::to_string(choice.frame));
   return frames[static_cast<std::size_t>(n)];
 }
 
@@ -50,6 +51,38 @@ void write_picture(const Choice& choice) {
   FramePicture picture(choice.drawn.style, survey, drawing);
   picture.draw(drawing);
   picture.canvas().write_png(choice.drawn.file);
+}
+
+/// @returns NaN: it is no number
+double number_of(const std::string& text) {
+  double out = 0;
+  return CLI::detail::lexical_cast(text, out) ? out : std::numeric_limits<double>::quiet_NaN();
+}
+CLI::Validator above_zero() {
+  const auto complaint = [](const std::string& text) {
+    const double x = number_of(text);
+    return std::isfinite(x) && x > 0 ? "" : text + " is no number above 0; write one such as 0.01";
+  };
+  return {complaint, ""};
+}
+CLI::Validator finite() {
+  const auto complaint = [](const std::string& text) {
+    return std::isfinite(number_of(text)) ? "" : text + " is no time; write a number of seconds";
+  };
+  return {complaint, ""};
+}
+
+void read_size(const std::string& text, PictureStyle& style) {
+  constexpr int least = 200, most = 8000;
+  const char* const end = text.data() + text.size();
+  const auto [x, no_width] = std::from_chars(text.data(), end, style.width);
+  bool right = no_width == std::errc() && style.width >= least && style.width <= most;
+  if (right && x != end) {
+    const auto [rest, no_height] = std::from_chars(x + 1, end, style.height);
+    right = *x == 'x' && no_height == std::errc() && rest == end && style.height >= least && style.height <= most;
+  }
+  if (!right)
+    throw std::invalid_argument("--size " + text + ": write WIDTH or WIDTHxHEIGHT in pixels, from 200 to 8000 each, such as 1400x800");
 }
 
 void add_options(CLI::App& command, Choice& choice) {
@@ -63,48 +96,117 @@ void add_options(CLI::App& command, Choice& choice) {
       ->required()
       ->type_name("OUT");
   command.add_option("--size", choice.size, "in pixels (default 1400, as high as needed)")->type_name("WIDTH[xHEIGHT]");
-  command.add_option("--around", drawn.around, "fill the picture with this body, joint or force")->type_name("NAME");
+  command.add_option("--around", drawn.around, "fill the picture with this body or joint, or show what is near this force")
+      ->type_name("NAME");
   command.add_option("--field", drawn.style.field, "colour flexible bodies, or the .vtu file's, by this field, e.g. \"von Mises [Pa]\"")
       ->type_name("FIELD");
   command.add_option("--deformation", choice.deformation, "draw deformation so many times as large (default: as output.deformation says)")
       ->type_name("FACTOR")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command.add_flag_callback(
       "--no-forces", [&drawn] { drawn.style.forces = false; }, "leave out the arrows of forces");
   command.add_flag_callback(
       "--no-paths", [&drawn] { drawn.style.paths = false; }, "leave out the paths of points");
   command.add_flag("-q,--quiet", drawn.quiet, "print nothing but errors");
   auto* frame = command.add_option("--frame", choice.frame, "of a picture: which frame, from 0; -1 is the last (default)")->type_name("N");
-  command.add_option("--time", choice.time, "of a picture: the frame nearest to this time [s]")->excludes(frame)->type_name("T");
+  command.add_option("--time", choice.time, "of a picture: the frame nearest to this time [s]")
+      ->excludes(frame)
+      ->type_name("T")
+      ->check(finite());
   command.add_option("--fps", choice.film.rate, "of a film: pictures a second (default 25)")->type_name("N")->check(CLI::Range(1.0, 240.0));
   command.add_option("--speed", choice.speed, "of a film: 1 as fast as it is, 0.01 a hundred times slower (default: every frame once)")
       ->type_name("FACTOR")
-      ->check(CLI::PositiveNumber);
-  command.add_option("--from", choice.film.from, "of a film: from this time [s]")->type_name("T");
-  command.add_option("--to", choice.film.until, "of a film: until this time [s]")->type_name("T");
+      ->check(above_zero());
+  command.add_option("--from", choice.film.from, "of a film: from this time [s]")->type_name("T")->check(finite());
+  command.add_option("--to", choice.film.until, "of a film: until this time [s]")->type_name("T")->check(finite());
   command.footer(
       "Films are packed by ffmpeg (apt-get install ffmpeg). Slow motion is as smooth as the run has frames: --set output.frames=500.\n"
       "Exit codes: see pintle --help\n");
 }
 
-int write(Choice& choice) {
+/// The help of the one command leaves out what is for the other.
+void tailor_help(CLI::App& command, const std::string& name) {
+  const auto hide = [&](std::initializer_list<const char*> options) {
+    for (const char* const option : options) command.get_option(option)->group("");
+  };
+  if (name == "pintle film") {
+    hide({"--frame", "--time"});
+    command.get_option("results")->description("a folder that run, kinematics, inverse or statics has written");
+    command.get_option("out")->description("a film of all frames (.mp4, .webm, .gif); one that is there is replaced");
+  }
+  if (name == "pintle picture") {
+    hide({"--fps", "--speed", "--from", "--to"});
+    command.get_option("out")->description("a picture (.png); one that is there is replaced");
+    command.footer("Exit codes: see pintle --help\n");
+  }
+}
+
+/// Options given that mean nothing here would otherwise be passed over.
+void refuse_options(const CLI::App& command, std::initializer_list<const char*> names, const std::string& why) {
+  for (const char* const name : names)
+    if (command.count(name) > 0) throw std::invalid_argument(std::string(name) + " " + why);
+}
+
+/// " it has a [Pa], b [Pa]" of a body's file, empty where it cannot be read.
+std::string fields_in(const fs::path& file) {
+  std::string names;
+  try {
+    for (const Field& field : read_body(file).fields) names += (names.empty() ? "; it has " : ", ") + field.name;
+  } catch (const std::runtime_error&) {
+  }
+  return names;
+}
+
+/// @throws std::invalid_argument  what is given in place of a folder of results is a file that does not do
+void judge_input(const CLI::App& command, const Choice& choice, bool film) {
+  const fs::path& given = choice.drawn.directory;
+  if (!fs::is_regular_file(given)) return;
+  const std::string ending = given.extension().string(), folder = given.has_parent_path() ? given.parent_path().string() : ".";
+  if (ending == ".pvd") throw std::invalid_argument(given.string() + ": is a file of a run; name its folder, " + folder);
+  if (ending != ".vtu")
+    throw std::invalid_argument(given.string() +
+                                ": is a file; name the folder of its results, which `pintle run` writes with --out FOLDER");
+  if (film) throw std::invalid_argument(given.string() + ": is at one instant; a film is made from the folder of a run");
+  if (choice.drawn.style.field.empty())
+    throw std::invalid_argument(given.string() + ": say which field of the body to draw by --field NAME" + fields_in(given) +
+                                "; of a run name its folder");
+  refuse_options(command, {"--around", "--deformation", "--frame", "--time", "--no-forces", "--no-paths"},
+                 "is for folders of runs; " + given.string() + " is one body");
+}
+
+int write(const CLI::App& command, Choice& choice) {
   Drawn& drawn = choice.drawn;
-  if (!choice.size.empty() && std::sscanf(choice.size.c_str(), "%dx%d", &drawn.style.width, &drawn.style.height) < 1)
-    throw std::invalid_argument("--size " + choice.size + ": give WIDTHxHEIGHT, such as 1400x600");
+  const bool film = FilmFile::is_film(drawn.file);
+  if (!film && drawn.file.extension() != ".png")
+    throw std::invalid_argument(drawn.file.string() + ": is neither a picture nor a film by its ending; write .png, .mp4, .webm or .gif");
+  if (film)
+    refuse_options(command, {"--frame", "--time"}, "is an option of pintle picture; the part of a film is chosen by --from and --to");
+  else
+    refuse_options(command, {"--fps", "--speed", "--from", "--to"},
+                   "is an option of pintle film; a picture is chosen by --frame or --time");
+  if (choice.film.from > choice.film.until) throw std::invalid_argument("--from is after --to; write the earlier time as --from");
+  if (command.count("--size") > 0) read_size(choice.size, drawn.style);
   if (choice.deformation > 0) drawn.deformation = choice.deformation;
   if (choice.speed > 0) choice.film.speed = choice.speed;
-  if (FilmFile::is_film(drawn.file)) {
+  judge_input(command, choice, film);
+  if (film) {
     if (write_film(drawn, choice.film)) return app::ok;
     std::cerr << "pintle: " << app::stopped_by() << "; there is no film\n";
     return app::stopped;
   }
-  if (drawn.file.extension() != ".png")
-    throw std::invalid_argument(drawn.file.string() + ": is neither a picture nor a film by its ending; write .png, .mp4, .webm or .gif");
-  if (!drawn.style.field.empty() && !fs::is_directory(drawn.directory))
-    write_field_picture(drawn.directory, drawn.style.field, drawn.style.width, drawn.file);
+  if (fs::is_regular_file(drawn.directory))
+    write_field_picture(drawn.directory, drawn.style, drawn.file);
   else
     write_picture(choice);
   return app::ok;
+}
+
+/// @throws std::invalid_argument  the file ends as what the other command makes
+void judge_ending(const std::string& name, const fs::path& file) {
+  if (name == "pintle film" && file.extension() == ".png")
+    throw std::invalid_argument(file.string() + ": a film ends in .mp4, .webm or .gif; pictures are drawn by pintle picture");
+  if (name == "pintle picture" && FilmFile::is_film(file))
+    throw std::invalid_argument(file.string() + ": a picture ends in .png; films are made by pintle film");
 }
 
 }  // namespace
@@ -119,17 +221,16 @@ int main(int argc, char** argv) {
                    name);
   Choice choice;
   add_options(command, choice);
+  tailor_help(command, name);
   try {
     command.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return command.exit(e) == 0 ? app::ok : app::bad_scene;
+    return app::end_of(command, e, argc, argv);
   }
   vtkObject::GlobalWarningDisplayOff();  // what fails is said below, once
   try {
-    if (film && choice.drawn.file.extension() == ".png")
-      throw std::invalid_argument(choice.drawn.file.string() +
-                                  ": a film ends in .mp4, .webm or .gif; pictures are drawn by pintle picture");
-    return write(choice);
+    judge_ending(name, choice.drawn.file);
+    return write(command, choice);
   } catch (const std::invalid_argument& e) {
     std::cerr << "pintle: " << e.what() << '\n';
     return app::bad_scene;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "framework/common/nearest.h"
+
 namespace pintle {
 
 namespace {
@@ -19,12 +21,34 @@ void extend(Eigen::AlignedBox2d& world, const std::vector<Eigen::Vector2d>& poin
   for (const Eigen::Vector2d& r : points) world.extend(Eigen::Vector2d(r.cwiseMax(reach.min()).cwiseMin(reach.max())));
 }
 
+/// Whether a surface is as a bowl about things in a box: bent, around their middle, and not so large that they could not be seen in it.
+bool holds(const std::vector<Eigen::Vector2d>& surface, const Eigen::AlignedBox2d& things) {
+  constexpr double largest = 20, bent = 0.1;  // times the things; of the length of its chord
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& r : surface) box.extend(r);
+  if (!box.contains(things.center()) || box.sizes().maxCoeff() > largest * things.sizes().maxCoeff()) return false;
+  const Eigen::Vector2d chord = surface.back() - surface.front();
+  if (chord.norm() < 0.01 * box.sizes().maxCoeff()) return true;  // it goes round
+  return std::ranges::any_of(surface, [&](const Eigen::Vector2d& r) {
+    const Eigen::Vector2d d = r - surface.front();
+    return std::abs(chord.x() * d.y() - chord.y() * d.x()) > bent * chord.squaredNorm();
+  });
+}
+
 }  // namespace
 
 void Survey::add(const Drawing& drawing) {
   const bool whole = around_.empty();
+  if (owners_.empty()) {
+    owners_ = drawing.owners;
+    for (const DrawnLine& line : drawing.lines)
+      if (whole && line.part == Part::guide && owners_.at(static_cast<std::size_t>(line.owner)) == "ground")
+        surfaces_.push_back(line.points);
+  }
   for (const DrawnLine& line : drawing.lines) {
     const bool still = stands_still(line.part);
+    if (!still)
+      for (const Eigen::Vector2d& r : line.points) all_.extend(r);
     if (!whole && (line.part == Part::trace || drawing.owners.at(static_cast<std::size_t>(line.owner)) != around_)) continue;
     for (const Eigen::Vector2d& r : line.points) {
       if (!whole || !still)
@@ -37,8 +61,12 @@ void Survey::add(const Drawing& drawing) {
     if (whole || body.name == around_)
       for (Eigen::Index i = 0; i < body.points.cols(); ++i) moving_.extend(Eigen::Vector2d(body.points.col(i)));
 
+  for (const DrawnForce& f : drawing.forces)
+    if (!whole && drawing.owners.at(static_cast<std::size_t>(f.owner)) == around_) places_.push_back(f.at);
+
   double force = 0;
   for (const DrawnForce& f : drawing.forces) {
+    givers_.at(static_cast<std::size_t>(f.giver)) = true;
     force = std::max(force, f.force.norm());
     largest_couple_ = std::max(largest_couple_, std::abs(f.couple));
   }
@@ -50,11 +78,21 @@ void Survey::add(const Drawing& drawing) {
 }
 
 Eigen::AlignedBox2d Survey::world() const {
-  if (moving_.isEmpty() && !around_.empty()) throw std::runtime_error("--around " + around_ + ": nothing of that name is drawn");
   Eigen::AlignedBox2d world = moving_;
+  if (!around_.empty() && world.isEmpty()) {
+    const bool known = std::ranges::find(owners_, around_) != owners_.end();
+    if (!known) throw std::invalid_argument("--around " + around_ + ": nothing of that name is drawn." + did_you_mean(around_, owners_));
+    if (places_.empty())
+      throw std::invalid_argument("--around " + around_ + ": it has no place in these frames; name a body or a joint that it acts on");
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(0.15 * (all_.isEmpty() ? 1 : all_.sizes().maxCoeff()));
+    for (const Eigen::Vector2d& r : places_) world.extend(Eigen::Vector2d(r - reach)).extend(Eigen::Vector2d(r + reach));
+  }
   if (world.isEmpty())
     for (const Eigen::Vector2d& r : fixed_) world.extend(r);
   if (world.isEmpty()) throw std::runtime_error("there is nothing to draw");
+  for (const auto& surface : surfaces_)
+    if (!moving_.isEmpty() && holds(surface, moving_))
+      for (const Eigen::Vector2d& r : surface) world.extend(r);
   extend(world, fixed_, 0.12);  // a long wall is cut
   extend(world, paths_, 0.6);
   return world;

@@ -3,13 +3,14 @@
 // The time that all parts of the page show, and what moves it.
 
 class Clock {
-  constructor(t, events) {
+  constructor(t, events, happenings) {
     this.t = t;  // times of rows, which steps go to
     this.begin = t[0] ?? 0;
     this.end = t.at(-1) ?? 0;
     this.time = this.begin;
     this.pointed = null;  // under the pointer, in a plot
-    this.events = events;
+    this.events = events;          // times of impacts
+    this.happenings = happenings;  // of the scene's events: [name, time, what it did]
     this.plots = new Set();  // those over time, which are zoomed together
     this.listeners = [];
     this.playing = false;

@@ -3,7 +3,7 @@
 // Buttons, sliders, keys and the pointer.
 
 function keysOf(page) {
-  const {clock, stage, events} = page;
+  const {clock, stage, events, actions} = page;
   const flip = (id) => () => byId(id).click();
   const view = (change) => () => (change(), page.redraw());
   return new Map([
@@ -14,6 +14,8 @@ function keysOf(page) {
     ["End", () => clock.set(clock.end)],
     ["n", () => events?.step(1)],
     ["p", () => events?.step(-1)],
+    ["e", () => actions?.step(1)],
+    ["E", () => actions?.step(-1)],
     ["+", view(() => stage.zoom(1.25))],
     ["=", view(() => stage.zoom(1.25))],
     ["-", view(() => stage.zoom(0.8))],
@@ -31,6 +33,7 @@ const keyHelp = [
   ["← →", "one row back, on; with Shift ten rows"],
   ["Home End", "first, last row"],
   ["p n", "impact before, next impact"],
+  ["E e", "event of the scene before (with Shift), next event"],
   ["+ − 0", "zoom in, zoom out, show all"],
   ["f t l s", "forces, paths, names, stress on or off"],
   ["?", "this list"],
@@ -111,8 +114,9 @@ function showTransport(clock) {
   byId("clock").textContent = `${(clock.time * factor).toFixed(3)} ${unit}`;
 }
 
-/// The impacts above the slider.
+/// The impacts and the scene's events above the slider.
 function drawScrubMarks(clock) {
+  markHappenings(byId("scrub-happenings"), clock, clock.begin, clock.end);
   const canvas = byId("scrub-marks");
   const ratio = window.devicePixelRatio || 1;
   canvas.width = canvas.clientWidth * ratio;

@@ -6,11 +6,13 @@ function drawMechanism(stage) {
   const {model} = stage;
   for (const profile of model.ground) drawGround(stage, stage.profilePoints(profile, stage.now), profile.closed);
   for (const joint of model.joints)
-    if (joint.symbol.includes("guide")) drawGuide(stage, joint);
+    if (joint.symbol.includes("guide")) drawStretch(stage, joint);
   model.bodies.forEach((body, b) => drawBody(stage, body, b));
   if (stage.show.paths) stage.paths.forEach((path, i) => drawPath(stage, path, i));
-  for (const force of model.forces)
-    if (force.spring) drawSpring(stage, force);
+  for (const line of model["pitch lines"]) drawStretch(stage, line);
+  for (const wheel of model.wheels) drawWheel(stage, wheel);
+  for (const span of model.spans) drawBelt(stage, span);
+  for (const actuator of model.actuators) drawActuator(stage, actuator);
   for (const joint of model.joints) drawJoint(stage, joint);
   for (const contact of model.contacts)
     if (contact.radius) drawClearance(stage, contact);
@@ -201,13 +203,14 @@ function fillByStress(stage, {triangles, mises}, at) {
   }
 }
 
-// Joints, clearances, springs
+// Joints and clearances
 
 const pinPixels = (stage) => Math.min(Math.max(0.6 * stage.model.pin * stage.scale, 3), 9);
 
-function drawGuide(stage, joint) {
-  const a = stage.motion.place(joint.a, stage.now);
-  const b = stage.motion.place(joint.b, stage.now);
+/// Of the line through a along its direction what is near b.
+function drawStretch(stage, {a: first, b: second}) {
+  const a = stage.motion.place(first, stage.now);
+  const b = stage.motion.place(second, stage.now);
   const [ux, uy] = [Math.cos(a.angle), Math.sin(a.angle)];
   const along = ux * (b.x - a.x) + uy * (b.y - a.y);
   const half = 0.5 * stage.model.length;
@@ -244,22 +247,6 @@ function drawClearance(stage, contact) {
   circle(stage, {x: centre.x + factor * e.x, y: centre.y + factor * e.y}, journal * stage.scale);
   fill(stage, stage.colours.ink, 0.3);
   stroke(stage, stage.colours.ink, 1.5);
-}
-
-function drawSpring(stage, spring) {
-  const [x0, y0] = stage.px(stage.motion.place(spring.a, stage.now));
-  const [x1, y1] = stage.px(stage.motion.place(spring.b, stage.now));
-  const length = Math.hypot(x1 - x0, y1 - y0) || 1;
-  const width = Math.min(Math.max(stage.model.pin * stage.scale, 4), 12);
-  const [nx, ny] = [(-width * (y1 - y0)) / length, (width * (x1 - x0)) / length];
-  const turns = 14;
-  const {context} = stage;
-  context.beginPath();
-  for (let i = 0; i <= turns; ++i) {
-    const side = i < 2 || i > turns - 2 ? 0 : i % 2 ? 1 : -1;
-    context.lineTo(x0 + ((x1 - x0) * i) / turns + side * nx, y0 + ((y1 - y0) * i) / turns + side * ny);
-  }
-  stroke(stage, stage.colours.spring, 1.5);
 }
 
 // Paths, forces, words
@@ -363,5 +350,7 @@ function drawNotes(stage) {
   if (stage.model.contacts.some((c) => c.radius) && stage.exaggeration !== 1)
     notes.push(`clearance drawn ${plain(stage.exaggeration, 3)} times as large`);
   if (stage.meshes.some((m) => m) && stage.deformation !== 1) notes.push(`deformation drawn ${plain(stage.deformation, 3)} times as large`);
+  const {happening} = stage;
+  if (happening) notes.push(`${happening[0]}: ${happening[2]}`);
   notes.forEach((note, i) => write(stage, note, 16, 18 + 17 * i, stage.colours.faint));
 }

@@ -41,10 +41,11 @@ class Page {
     this.data = data;
     this.table = readTable(data.trajectory);
     const events = data.events?.rows ?? [];
-    this.clock = new Clock(this.table.poses.t, events.map((row) => row[1]));
+    this.clock = new Clock(this.table.poses.t, events.map((row) => row[1]), data.actions?.rows ?? []);
     this.motion = new Motion(data.model, this.table.poses);
     this.stage = new Stage(byId("canvas"), this.motion);
-    this.events = data.events ? new EventTable(this.clock, data.events) : null;
+    this.events = data.events ? new EventTable(this.clock, data.events, "impact", "strongest") : null;
+    this.actions = data.actions ? new EventTable(this.clock, data.actions, "action", "first") : null;
     this.ledger = data.ledger?.rows > 0 ? new LedgerPanel(this.clock, readTable(data.ledger), data.run) : null;
     this.panels = [];
     for (const {names, against} of firstPlots(data.model, this.table)) this.addPlot(names, against);
@@ -98,6 +99,7 @@ class Page {
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
+      this.stage.happening = happeningAt(this.clock);
       this.stage.draw(this.clock.time);
     });
   }
@@ -115,11 +117,24 @@ function reportShown(page) {
         (panel) => (panel?.shown ?? []).map(({column, value}) => [column.name, value.textContent, value.title]));
     return {t: clock.time, clock: byId("clock").textContent, values};
   });
-  tellShown(shown);
+  const marks = (box) => [...box.querySelectorAll(".happening")].map(({title, style}) => [title, style.left]);
+  tellShown(shown, {
+    rims: page.stage.model.wheels.map((wheel) => isInked(page.stage, wheel)),
+    "scrubber marks": marks(byId("scrub-box")),
+    "plot marks": panels.filter((panel) => !panel.against).map((panel) => marks(panel.area)),
+    steps: [-1, -1, -1, 1].map((way) => (page.actions?.step(way), clock.time)),
+  });
 }
 
-const tellShown = (shown) =>
-    document.body.append(element("script", {type: "application/json", id: "shown", textContent: JSON.stringify({shown, errors})}));
+/// Whether something is drawn on a wheel's rim, half a right angle up to the right.
+function isInked(stage, {marker, radius}) {
+  const {x, y} = stage.motion.place(marker, stage.now);
+  const at = stage.px({x: x + radius * Math.SQRT1_2, y: y + radius * Math.SQRT1_2}).map((p) => Math.round(p * stage.ratio));
+  return stage.context.getImageData(at[0] - 1, at[1] - 1, 3, 3).data.some((value) => value > 0);
+}
+
+const tellShown = (shown, more = {}) =>
+    document.body.append(element("script", {type: "application/json", id: "shown", textContent: JSON.stringify({shown, errors, ...more})}));
 
 const errors = [];
 window.addEventListener("error", (event) => errors.push(String(event.message)));
@@ -128,6 +143,6 @@ const data = JSON.parse(byId("data").textContent);
 const page = data.rows ? new StudyPage(data) : new Page(data);
 page.start();
 if (location.hash === "#check")
-  reportShown(page);
+  queueMicrotask(() => reportShown(page));  // once plots are drawn
 else if (location.hash.startsWith("#t="))
   page.clock.set(Number(location.hash.slice(3)));

@@ -165,13 +165,16 @@ function paddedRange(u, least, most) {
   return [least - margin, most + margin];
 }
 
-/// What every plot over time does: the pointer shows values, a click goes there, a zoom is one of all plots, impacts are marked.
+/// What every plot over time does: the pointer shows values, a click goes there, a zoom is one of all plots, impacts and events are
+/// marked.
 function timeHooks(clock) {
   return {
-    ready: [(u) => clickGoes(u, clock)],
+    ready: [(u) => (clickGoes(u, clock), u.over.append(happeningsOf(u)))],
     setCursor: [(u) => u.cursor.event && clock.point(u.cursor.left >= 0 && u.cursor.idx !== null ? u.data[0][u.cursor.idx] : null)],
     setScale: [(u, key) => key === "x" && clock.zoom(u)],
     drawClear: [(u) => markEvents(u, clock.events)],
+    drawAxes: [(u) => markTimes(u, clock.happenings)],
+    draw: [(u) => markHappenings(happeningsOf(u), clock, u.scales.x.min, u.scales.x.max)],
   };
 }
 
@@ -199,6 +202,34 @@ function markEvents(u, events) {
     if (x < bbox.left || x > bbox.left + bbox.width) continue;
     ctx.moveTo(x, bbox.top);
     ctx.lineTo(x, bbox.top + 7 * (window.devicePixelRatio || 1));
+  }
+  ctx.stroke();
+  ctx.restore();
+}
+
+const happeningsOf = (u) => (u.happenings ??= element("div", {className: "happenings"}));
+
+/// A dashed line through the plot at each event of the scene, with its name where there is room.
+function markTimes(u, happenings) {
+  const {ctx, bbox} = u;
+  const ratio = window.devicePixelRatio || 1;
+  ctx.save();
+  ctx.strokeStyle = ctx.fillStyle = css("--event");
+  ctx.globalAlpha = happenings.length > 60 ? 0.25 : 0.7;
+  ctx.setLineDash([4 * ratio, 4 * ratio]);
+  ctx.font = `${11 * ratio}px system-ui, sans-serif`;
+  ctx.textBaseline = "top";
+  ctx.beginPath();
+  let free = bbox.left;
+  for (const [name, time] of happenings) {
+    const x = Math.round(u.valToPos(time, "x", true)) + 0.5;
+    if (x < bbox.left || x > bbox.left + bbox.width) continue;
+    ctx.moveTo(x, bbox.top);
+    ctx.lineTo(x, bbox.top + bbox.height);
+    const end = x + 3 * ratio + ctx.measureText(name).width;
+    if (x < free || end > bbox.left + bbox.width) continue;
+    ctx.fillText(name, x + 3 * ratio, bbox.top + 2 * ratio);
+    free = end + 4 * ratio;
   }
   ctx.stroke();
   ctx.restore();

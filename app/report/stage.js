@@ -61,7 +61,12 @@ class Stage {
       mesh.bend(poses[b], 1);
       for (let i = 0; i < mesh.world.length; i += 2) add({x: mesh.world[i], y: mesh.world[i + 1]});
     });
-    for (const joint of [...this.model.joints, ...this.model.forces.filter((f) => f.spring)])
+    for (const {marker, radius} of this.model.wheels) {
+      const {x, y} = this.motion.place(marker, poses);
+      add({x: x - radius, y: y - radius});
+      add({x: x + radius, y: y + radius});
+    }
+    for (const joint of [...this.model.joints, ...this.model.actuators])
       for (const marker of [joint.a, joint.b])
         if (this.model.markers[marker].body >= 0 || joint.symbol !== "guide") add(this.motion.place(marker, poses));
   }

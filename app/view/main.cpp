@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "app/mistyped.h"
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/view/server.h"
@@ -50,7 +51,7 @@ int main(int argc, char** argv) {
   try {
     command.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return command.exit(e) == 0 ? ok : bad_scene;
+    return end_of(command, e, argc, argv);
   }
   try {
     return view(scene, set, port);

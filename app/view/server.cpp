@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <thread>
@@ -38,11 +39,11 @@ struct ViewServer::Server {
   std::string token = unguessable();
   int port = 0;
 
-  /// A request that a page of ours makes: to this address by its name, from no other site.
+  /// A request that a page of ours makes, or the user's browser for it: to this address by its name, from no other site.
   bool is_ours(const httplib::Request& request) const {
     const std::string host = request.get_header_value("Host"), origin = request.get_header_value("Origin");
-    const std::string here = "127.0.0.1:" + std::to_string(port);
-    return host == here && (origin.empty() || origin == "http://" + here);
+    const std::string here = "127.0.0.1:" + std::to_string(port), site = request.get_header_value("Sec-Fetch-Site");
+    return host == here && (origin.empty() || origin == "http://" + here) && (site.empty() || site == "same-origin" || site == "none");
   }
   /// @param path  within the page's folder, plain letters
   template <class Answer>
@@ -52,7 +53,10 @@ struct ViewServer::Server {
         response.status = 404;
         return;
       }
-      response.set_content(answer(request), type);
+      if (const std::optional<std::string> body = answer(request))
+        response.set_content(*body, type);
+      else
+        response.status = 400;
     };
   }
   template <class Answer>
@@ -70,8 +74,20 @@ ViewServer::ViewServer(ViewSession& session, int port) : server_(std::make_uniqu
   constexpr std::size_t largest_request = 1 << 16;
   http.set_payload_max_length(largest_request);
   http.set_keep_alive_max_count(1000);
-  http.set_socket_options([](socket_t) {});  // else two programs could share one port
-  http.new_task_queue = [] { return new httplib::ThreadPool(4); };
+  http.set_socket_options([](socket_t) {});                          // else two programs could share one port
+  http.new_task_queue = [] { return new httplib::ThreadPool(32); };  // so many connections may say nothing
+  http.set_read_timeout(5);
+  http.set_write_timeout(5);
+  http.set_keep_alive_timeout(2);
+  // Of a request with a body of a length that is not said the end would be waited for.
+  http.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
+    const bool reads = request.method == "GET" || request.method == "HEAD", posts = request.method == "POST";
+    if (reads || (posts && request.has_header("Content-Length"))) return httplib::Server::HandlerResponse::Unhandled;
+    response.status = posts ? 411 : 405;
+    response.set_header("Allow", "GET, HEAD, POST");
+    response.set_header("Connection", "close");
+    return httplib::Server::HandlerResponse::Handled;
+  });
   http.set_default_headers({{"Content-Security-Policy",
                              "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; frame-ancestors 'none'; "
                              "base-uri 'none'; form-action 'none'"},
@@ -86,7 +102,9 @@ ViewServer::ViewServer(ViewSession& session, int port) : server_(std::make_uniqu
     return session.now(std::strtol(request.get_param_value("known").c_str(), nullptr, 10));
   });
   server_->post("drag", [&session](const httplib::Request& request) { return session.drag(request.body); });
-  server_->post("again", [&session](const httplib::Request&) { return session.again(); });
+  server_->post("again", [&session](const httplib::Request& request) {
+    return request.body == "{}" ? std::optional(session.again()) : std::nullopt;
+  });
 
   server_->port = port == 0 ? http.bind_to_any_port("127.0.0.1") : http.bind_to_port("127.0.0.1", port) ? port : -1;
   if (server_->port <= 0)

@@ -21,17 +21,21 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Eigen::Vector2d;
 
-/// When a file that the scene may read from its folder was saved last.
-fs::file_time_type last_saved(const fs::path& scene) {
-  fs::file_time_type last = fs::file_time_type::min();
-  std::error_code ignored;
+/// When each file that the scene may read from its folder was saved, itself among them while it is there.
+std::map<fs::path, fs::file_time_type> saved_files(const fs::path& scene) {
+  std::map<fs::path, fs::file_time_type> out;
+  const auto add = [&](const fs::path& file) {
+    std::error_code gone;
+    if (const auto time = fs::last_write_time(file, gone); !gone) out[file] = time;
+  };
   const fs::path folder = scene.has_parent_path() ? scene.parent_path() : fs::path(".");
+  std::error_code ignored;
   for (auto entry = fs::directory_iterator(folder, ignored); entry != fs::directory_iterator(); entry.increment(ignored)) {
     constexpr std::array<std::string_view, 7> read{".yaml", ".yml", ".csv", ".geo", ".inp", ".msh", ".json"};
-    if (std::ranges::find(read, entry->path().extension().string()) == read.end()) continue;
-    if (const auto time = entry->last_write_time(ignored); !ignored) last = std::max(last, time);
+    if (std::ranges::find(read, entry->path().extension().string()) != read.end()) add(entry->path());
   }
-  return last;
+  add(scene);
+  return out;
 }
 
 Json lines_json(const Drawing& drawing) {
@@ -119,9 +123,9 @@ ViewSession::ViewSession(fs::path scene, Overrides overrides) : scene_(std::move
 ViewSession::~ViewSession() = default;
 
 void ViewSession::read_if_saved() {
-  const fs::file_time_type saved = last_saved(scene_);
+  auto saved = saved_files(scene_);
   if (version_ > 0 && saved == saved_) return;
-  saved_ = saved, ++version_, error_.clear();
+  saved_ = std::move(saved), ++version_, error_.clear();
   try {
     assembled_ = std::make_unique<Assembled>(read_scene(scene_, overrides_));
   } catch (const std::exception& e) {
@@ -141,20 +145,21 @@ std::string ViewSession::now(long known) {
   return known == version_ ? Json{{"version", version_}}.dump() : drawing();
 }
 
-std::string ViewSession::drag(const std::string& request) {
+std::optional<std::string> ViewSession::drag(const std::string& request) {
   const std::lock_guard lock(one_at_a_time_);
   const Json asked = Json::parse(request, nullptr, false);
-  const auto number = [](const Json& list, std::size_t i) { return list.at(i).get<double>(); };
+  const auto place = [](const Json& list) { return Vector2d(list.at(0).get<double>(), list.at(1).get<double>()); };
   try {
-    if (!assembled_ || asked.at("version").get<long>() != version_) return drawing();
+    const long version = asked.at("version").get<long>();
     const int body = asked.at("body").get<int>();
-    const Json &point = asked.at("point"), &to = asked.at("to");
-    const Vector2d grabbed(number(point, 0), number(point, 1)), goal(number(to, 0), number(to, 1));
+    const Vector2d grabbed = place(asked.at("point")), goal = place(asked.at("to"));
+    if (!assembled_ || version != version_) return drawing();
     if (body < 0 || body >= static_cast<int>(assembled_->model.system.bodies.size()) || !grabbed.allFinite() || !goal.allFinite())
-      return drawing();
+      return {};
     ++version_;
     if (assembled_->hand->pull(body, grabbed, goal)) assembled_->take_pose();
-  } catch (const Json::exception&) {  // no request of the page
+  } catch (const Json::exception&) {
+    return {};
   }
   return drawing();
 }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "framework/configuration/moved_by_hand.h"
@@ -21,7 +23,8 @@ class ViewSession {
   /// What is to be drawn, or {"version": n} alone if that is what the page has.
   std::string now(long known);
   /// @param request  {"version", "body", "point": [x, y], "to": [x, y]}, the point in the body's axes from its mass centre
-  std::string drag(const std::string& request);
+  /// @returns nothing: that is no such request
+  std::optional<std::string> drag(const std::string& request);
   /// As the scene assembles it.
   std::string again();
 
@@ -33,8 +36,8 @@ class ViewSession {
   std::filesystem::path scene_;
   Overrides overrides_;
   std::mutex one_at_a_time_;
-  long version_ = 0;  ///< of the files and the pose
-  std::filesystem::file_time_type saved_{};
+  long version_ = 0;                                                        ///< of the files and the pose
+  std::map<std::filesystem::path, std::filesystem::file_time_type> saved_;  ///< files that the scene may read from its folder
   std::string error_;
   std::unique_ptr<Assembled> assembled_;
 };

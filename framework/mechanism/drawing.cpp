@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 #include <span>
-#include <type_traits>
 #include <variant>
 
 #include "framework/common/index.h"
 #include "framework/mechanism/drawn_symbols.h"
+#include "framework/mechanism/drawn_wheels.h"
 #include "framework/scene/colour.h"
 
 namespace pintle {
@@ -125,58 +125,6 @@ void draw_clearances(const System& system, const Drafting& drafting, const Equat
          circle(center + s * now.gap.e, std::max(bearing_radius(pair.gap) - s * pair.gap.clearance(), 0.05 * bearing_radius(pair.gap)))});
     out.forces.push_back({center + bearing_radius(pair.gap) * now.gap.n, now.on_b.head<2>(), owner, Giver::contact});
   }
-}
-
-// A wheel, with a spoke that turns with it.
-void draw_wheel(const MarkerMotion& m, double radius, Part part, int owner, Drawing& out) {
-  const double r = std::abs(radius);
-  out.lines.push_back({part, owner, true, circle(m.r, r)});
-  out.lines.push_back({part, owner, false, {m.r, m.r + r * Vector2d(std::cos(m.angle), std::sin(m.angle))}});
-}
-// The span from a to b round pulleys with radii > 0 where it goes round counter-clockwise.
-void draw_span(const MarkerMotion& a, const MarkerMotion& b, double radius_a, double radius_b, Part part, int owner, Drawing& out) {
-  const Vector2d d = b.r - a.r;
-  const double delta = radius_b - radius_a, apart = d.squaredNorm() - delta * delta;
-  if (!(apart > 0)) return;
-  const double angle = std::atan2(d.y(), d.x()) - std::atan2(delta, std::sqrt(apart));
-  const Vector2d normal(-std::sin(angle), std::cos(angle));
-  out.lines.push_back({part, owner, false, {a.r - radius_a * normal, b.r - radius_b * normal}});
-}
-
-// Pitch circles, pulleys and their belts, discs that roll.
-void draw_wheels(const System& system, const Equations& eq, Drawing& out) {
-  const int bodies = static_cast<int>(system.bodies.size());
-  for (std::size_t k = 0; k < system.joints.size(); ++k) {
-    const int owner = bodies + static_cast<int>(k);
-    const auto wheels = [&]<class Kind>(const Kind& j) {
-      if constexpr (std::is_base_of_v<Rack, Kind>) draw_wheel(eq.motion[at(j.b)], j.radius, Part::joint, owner, out);
-      if constexpr (std::is_base_of_v<Gear, Kind>) {
-        const MarkerMotion &a = eq.motion[at(j.a)], &b = eq.motion[at(j.b)];
-        draw_wheel(a, j.radius_a, Part::joint, owner, out);
-        draw_wheel(b, j.radius_b, Part::joint, owner, out);
-        constexpr double touching = 1e-2;  // else a belt joins them
-        if (std::abs((b.r - a.r).norm() - std::abs(j.radius_a + j.radius_b)) < touching * std::abs(j.radius_a)) return;
-        draw_span(a, b, j.radius_a, -j.radius_b, Part::joint, owner, out);
-        draw_span(b, a, -j.radius_b, j.radius_a, Part::joint, owner, out);
-      }
-    };
-    std::visit(wheels, system.joints[k]);
-  }
-  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
-    const ContactPair& pair = system.contacts[c];
-    if (!pair.flank || pair.pair > 0) continue;
-    const int owner = bodies + static_cast<int>(system.joints.size() + c);
-    const std::array<double, 2> radius = pitch_radii(*pair.flank);
-    if (radius[0] != 0) draw_wheel(eq.motion[at(pair.a)], radius[0], Part::joint, owner, out);
-    draw_wheel(eq.motion[at(pair.b)], radius[1], Part::joint, owner, out);
-  }
-  for (std::size_t f = 0; f < system.forces.size(); ++f)
-    if (const auto* span = std::get_if<BeltSpan>(&system.forces[f])) {
-      const MarkerMotion &a = eq.motion[at(span->a)], &b = eq.motion[at(span->b)];
-      const int owner = FirstOwners(system).force + static_cast<int>(f);
-      draw_wheel(b, span->radius_b, Part::spring, owner, out);
-      draw_span(a, b, span->radius_a, span->radius_b, Part::spring, owner, out);
-    }
 }
 
 // Surfaces, and what each pair that touches does to b.

@@ -169,20 +169,34 @@ void draw_spiral(const MarkerMotion& a, const MarkerMotion& b, double radius, in
 
 }  // namespace
 
-void draw_actuators(const System& system, const Drafting& drafting, const Equations& eq, Drawing& out) {
+std::vector<DrawnActuator> actuators_of(const System& system, const Drafting& drafting) {
   const FirstOwners first(system);
+  std::vector<DrawnActuator> out;
   for (std::size_t k = 0; k < system.joints.size(); ++k)
-    if (const auto* cylinder = std::get_if<DistanceDriver>(&system.joints[k]))
-      draw_cylinder(eq.motion[at(cylinder->a)].r, eq.motion[at(cylinder->b)].r, drafting.pin, first.joint + static_cast<int>(k), out);
+    if (const auto* driver = std::get_if<DistanceDriver>(&system.joints[k]))
+      out.push_back({DrawnActuator::cylinder, driver->a, driver->b, first.joint + static_cast<int>(k), drafting.pin});
   for (std::size_t f = 0; f < system.forces.size(); ++f) {
     const Force& force = system.forces[f];
-    const MarkerMotion &a = eq.motion[at(marker_a(force))], &b = eq.motion[at(marker_b(force))];
-    const int owner = first.force + static_cast<int>(f);
     const auto* sized = std::get_if<SizedForce>(&force);
-    if (std::holds_alternative<Spring>(force) || std::holds_alternative<Maxwell>(force)) draw_coil(a.r, b.r, drafting.pin, owner, out);
-    if (sized && sized->way == SizedForce::pull) draw_cylinder(a.r, b.r, 0.7 * drafting.pin, owner, out);
+    const auto add = [&](DrawnActuator::Kind kind, double width) {
+      out.push_back({kind, marker_a(force), marker_b(force), first.force + static_cast<int>(f), width});
+    };
+    if (std::holds_alternative<Spring>(force) || std::holds_alternative<Maxwell>(force)) add(DrawnActuator::coil, drafting.pin);
+    if (sized && sized->way == SizedForce::pull) add(DrawnActuator::cylinder, 0.7 * drafting.pin);
     const bool turns_back = sized && sized->way == SizedForce::restoring;
-    if (std::holds_alternative<TorsionSpring>(force) || turns_back) draw_spiral(a, b, drafting.pin, owner, out);
+    if (std::holds_alternative<TorsionSpring>(force) || turns_back) add(DrawnActuator::spiral, drafting.pin);
+  }
+  return out;
+}
+
+void draw_actuators(const System& system, const Drafting& drafting, const Equations& eq, Drawing& out) {
+  for (const DrawnActuator& one : actuators_of(system, drafting)) {
+    const MarkerMotion &a = eq.motion[at(one.a)], &b = eq.motion[at(one.b)];
+    switch (one.kind) {
+      case DrawnActuator::cylinder: draw_cylinder(a.r, b.r, one.width, one.owner, out); break;
+      case DrawnActuator::coil: draw_coil(a.r, b.r, one.width, one.owner, out); break;
+      case DrawnActuator::spiral: draw_spiral(a, b, one.width, one.owner, out); break;
+    }
   }
 }
 

@@ -16,7 +16,13 @@ void draw_ground(const Model&, const Drafting&, const Equations&, Drawing&);
 /// What holds the surfaces of a body together: bars from its first joint to the others and to the middle of each surface.
 void draw_bars(const Model&, const Equations&, Drawing&);
 
-/// Drivers of a length as barrel and rod, springs as coils, of angles as spirals.
+/// Drivers of a length and forces along their line as barrel and rod, springs as coils, of angles as spirals.
+struct DrawnActuator {
+  enum Kind { cylinder, coil, spiral } kind;
+  int a, b, owner;  ///< markers; into Drawing::owners
+  double width;     ///< of a cylinder half of it, of a spiral its inner radius [m]
+};
+std::vector<DrawnActuator> actuators_of(const System&, const Drafting&);
 void draw_actuators(const System&, const Drafting&, const Equations&, Drawing&);
 
 /// Forces and couples of joints, springs and loads, each on the body that its columns name. Contacts draw their own.

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/common/index.h"
+#include "framework/mechanism/drawn_symbols.h"
+#include "framework/mechanism/drawn_wheels.h"
 #include "framework/mechanism/trajectory.h"
 #include "framework/report/drawn_mesh.h"
 #include "framework/report/page.h"
@@ -156,6 +158,30 @@ Json forces_json(const System& system) {
   return out;
 }
 
+void add_wheels(const System& system, Json& out) {
+  const DrawnWheels all = wheels_of(system);
+  Json &wheels = out["wheels"] = Json::array(), &spans = out["spans"] = Json::array(), &lines = out["pitch lines"] = Json::array();
+  for (const auto& w : all.wheels) wheels.push_back({{"marker", w.marker}, {"radius", w.radius}});
+  for (const auto& s : all.spans) spans.push_back({{"a", s.a}, {"b", s.b}, {"radii", {s.radius_a, s.radius_b}}});
+  for (const auto& l : all.lines) lines.push_back({{"a", l.a}, {"b", l.b}});
+}
+
+const char* kind_name(DrawnActuator::Kind kind) {
+  switch (kind) {
+    case DrawnActuator::cylinder: return "cylinder";
+    case DrawnActuator::coil: return "coil";
+    case DrawnActuator::spiral: return "spiral";
+  }
+  return "";
+}
+
+Json actuators_json(const System& system, const Drafting& drafting) {
+  Json out = Json::array();
+  for (const DrawnActuator& one : actuators_of(system, drafting))
+    out.push_back({{"kind", kind_name(one.kind)}, {"a", one.a}, {"b", one.b}, {"width", one.width}});
+  return out;
+}
+
 }  // namespace
 
 Json drawn_model_json(const Scene& scene, const Model& model, std::size_t mesh_bytes) {
@@ -164,18 +190,21 @@ Json drawn_model_json(const Scene& scene, const Model& model, std::size_t mesh_b
   for (const Marker& m : model.system.markers) markers.push_back(marker_json(m));
   for (const RecordedPoint& p : model.points) points.push_back(p.name);
   for (const SceneOutput& o : scene.outputs) outputs.push_back(o.name);
-  return {{"length", model.system.length},
-          {"pin", drafting.pin},
-          {"exaggeration", drafting.exaggeration},
-          {"deformation", drafting.deformation},
-          {"bodies", bodies_json(model, drafting, mesh_bytes)},
-          {"ground", profiles_json(model, ground)},
-          {"markers", markers},
-          {"joints", joints_json(model.system)},
-          {"contacts", contacts_json(model.system)},
-          {"forces", forces_json(model.system)},
-          {"points", points},
-          {"outputs", outputs}};
+  Json out{{"length", model.system.length},
+           {"pin", drafting.pin},
+           {"exaggeration", drafting.exaggeration},
+           {"deformation", drafting.deformation},
+           {"bodies", bodies_json(model, drafting, mesh_bytes)},
+           {"ground", profiles_json(model, ground)},
+           {"markers", markers},
+           {"joints", joints_json(model.system)},
+           {"contacts", contacts_json(model.system)},
+           {"forces", forces_json(model.system)},
+           {"actuators", actuators_json(model.system, drafting)},
+           {"points", points},
+           {"outputs", outputs}};
+  add_wheels(model.system, out);
+  return out;
 }
 
 std::vector<std::string> needed_columns(const Model& model) {

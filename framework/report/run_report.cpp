@@ -101,6 +101,27 @@ Json events_json(const fs::path& path, std::size_t most) {
   return {{"columns", columns}, {"rows", rows}, {"all", all}};
 }
 
+/// What the scene's events did: the first so many.
+Json actions_json(const fs::path& path, std::size_t most) {
+  CsvReader file(path);
+  Json columns = Json::array(), rows = Json::array();
+  for (const std::string& heading : file.header()) {
+    const ColumnName column = column_name(heading);
+    columns.push_back({{"name", column.name}, {"unit", column.unit}});
+  }
+  if (columns.size() != 3) throw ResultsError(path.string() + ":1: has not the columns event, t and did. Run the scene again");
+  std::size_t all = 0;
+  for (std::vector<std::string> fields; file.next(fields); ++all) {
+    if (rows.size() == most) continue;
+    try {
+      rows.push_back({fields[0], std::stod(fields[1]), fields[2]});
+    } catch (const std::logic_error&) {
+      file.fail("a time that should be a number is none");
+    }
+  }
+  return {{"columns", columns}, {"rows", rows}, {"all", all}};
+}
+
 void require_columns(const fs::path& file, const ReducedTable& table, const std::vector<std::string>& needed) {
   std::vector<std::string> there;
   for (const Sheet& sheet : table.sheets)
@@ -138,6 +159,7 @@ std::string motion_page(const Description& results, const fs::path& directory, c
     out["ledger"] = table_json(reduced_by_row(directory / "ledger.csv", limits.ledger));
     out["events"] = events_json(directory / "events.csv", limits.events);
   }
+  if (fs::exists(directory / "actions.csv")) out["actions"] = actions_json(directory / "actions.csv", limits.events);
   return page(title, json_text(out, -1));
 }
 

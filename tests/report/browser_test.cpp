@@ -79,6 +79,42 @@ INSTANTIATE_TEST_SUITE_P(Report, Browser, testing::Values("slider_crank_clearanc
   return file.substr(0, file.find('.'));
 });
 
+/// Two gears, and two events that come at a quarter and three quarters of the run.
+TEST(BrowserShows, WheelsAndStepsToTheEventsOfTheScene) {
+  if (!there_is_a_browser()) GTEST_SKIP() << "there is no chromium here; apt-get install chromium";
+  const Folder folder;
+  write_run(folder.path(), read_scene_text(R"(
+ground: {points: {A: [0, 0], B: [3, 0]}}
+bodies:
+  small: {rigid: {mass: 1, inertia: 1}, points: {O: [0, 0]}}
+  large: {rigid: {mass: 1, inertia: 1}, points: {O: [0, 0]}, pose: {at: [3, 0]}}
+joints: {a: {revolute: [ground.A, small.O]}, b: {revolute: [ground.B, large.O]}, mesh: {gear: [small.O, large.O], radii: [1, 2]}}
+events: {early: {when: t > 0.05 s, do: {row: true}}, late: {when: t > 0.15 s, do: {row: true}}}
+forces: {motor: {torque: 1, on: small}}
+run: {until: 0.2 s}
+output: {every: 10 ms}
+)",
+                                           "wheels.yaml"));
+  std::ofstream(folder.path() / "report.html") << report_page(folder.path());
+  const Json page = shown_by_browser(folder, folder.path() / "report.html");
+  ASSERT_TRUE(page.is_object()) << "the page has told nothing";
+  EXPECT_TRUE(page["errors"].empty()) << page["errors"];
+  EXPECT_EQ(page["rims"], Json::array({true, true}));
+  std::vector<Json> places{page["scrubber marks"]};
+  for (const Json& plot : page["plot marks"]) places.push_back(plot);
+  ASSERT_GE(places.size(), 2U);
+  for (const Json& marks : places) {
+    ASSERT_EQ(marks.size(), 2U) << page;
+    EXPECT_EQ(marks[0][0].get<std::string>().find("early: wrote a row"), 0U) << marks[0];
+    EXPECT_EQ(marks[1][0].get<std::string>().find("late: wrote a row"), 0U) << marks[1];
+    EXPECT_NEAR(std::stod(marks[0][1].get<std::string>()), 25, 1e-6);
+    EXPECT_NEAR(std::stod(marks[1][1].get<std::string>()), 75, 1e-6);
+  }
+  const double expected[] = {0.15, 0.05, 0.05, 0.15};  // from the end: back, back, back where there is no more, on
+  ASSERT_EQ(page["steps"].size(), std::size(expected));
+  for (std::size_t k = 0; k < std::size(expected); ++k) EXPECT_NEAR(page["steps"][k].get<double>(), expected[k], 1e-9) << k;
+}
+
 }  // namespace
 
 }  // namespace pintle

@@ -81,6 +81,42 @@ TEST(Page, HasTheColoursAndTheOutputsOfTheScene) {
   EXPECT_EQ(data["model"]["outputs"], Json::array({"height"}));
 }
 
+constexpr const char* wheels_and_events = R"(
+ground: {points: {A: [0, 0], B: [3, 0]}}
+bodies:
+  small: {rigid: {mass: 1, inertia: 1}, points: {O: [0, 0]}}
+  large: {rigid: {mass: 1, inertia: 1}, points: {O: [0, 0]}, pose: {at: [3, 0]}}
+joints: {a: {revolute: [ground.A, small.O]}, b: {revolute: [ground.B, large.O]}, mesh: {gear: [small.O, large.O], radii: [1, 2]}}
+events:
+  early: {when: t > 0.05 s, do: {row: true}}
+  late: {when: t > 0.15 s, do: {row: true}}
+start: {small: {speed: 1}}
+run: {until: 0.2 s}
+output: {every: 10 ms}
+)";
+
+TEST(Page, HasTheWheelsOfTheMechanismAndWhatItsEventsDid) {
+  const Folder folder;
+  write_run(folder.path(), read_scene_text(wheels_and_events, "wheels.yaml"));
+  const Json data = data_of(report_page(folder.path()));
+  const Json& wheels = data["model"]["wheels"];
+  ASSERT_EQ(wheels.size(), 2U);
+  EXPECT_NEAR(wheels[0]["radius"].get<double>(), 1, 1e-12);
+  EXPECT_NEAR(wheels[1]["radius"].get<double>(), 2, 1e-12);
+  const auto body_of = [&](const Json& wheel) { return data["model"]["markers"][wheel["marker"].get<std::size_t>()]["body"].get<int>(); };
+  EXPECT_EQ(body_of(wheels[0]), 0);
+  EXPECT_EQ(body_of(wheels[1]), 1);
+  const Json& rows = data["actions"]["rows"];
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0][0], "early");
+  EXPECT_NEAR(rows[1][1].get<double>(), 0.15, 1e-9);
+  EXPECT_EQ(rows[1][2], "wrote a row");
+  folder.write("actions.csv", "event,t [s],did\nearly,soon,nothing\n");
+  expect_refused<std::runtime_error>([&] { report_page(folder.path()); }, {"actions.csv:2: a time that should be a number is none"});
+  fs::remove(folder.path() / "actions.csv");
+  EXPECT_FALSE(data_of(report_page(folder.path())).contains("actions"));
+}
+
 /// Names in a scene are letters and digits, but titles are free, and so are the files of a folder that a stranger has sent.
 TEST(Page, NothingOfTheResultsIsTakenForHtml) {
   const Folder folder;
@@ -94,6 +130,7 @@ TEST(Page, NothingOfTheResultsIsTakenForHtml) {
   run[attack] = attack;
   folder.write("run.json", run.dump());
   folder.write("events.csv", "joint,begin [s],end [s]\n" + attack + ",0,1\n");
+  folder.write("actions.csv", "event,t [s],did\n" + attack + ",0," + attack + "\n");
   const std::string page = report_page(folder.path());
   EXPECT_EQ(count(page, "<script"), 2U);
   EXPECT_EQ(count(page, "</script"), 2U);

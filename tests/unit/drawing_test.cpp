@@ -108,6 +108,72 @@ run: {until: 1}
   EXPECT_NEAR(std::abs(low.x() * 4 - low.y() * 3), 0, 1e-6);  // and lies on the line between both ends
 }
 
+/// Of a thing's closed lines radius and centre, from their extremes.
+std::vector<std::pair<double, Vector2d>> circles_of(const Drawing& drawing, const std::string& owner) {
+  std::vector<std::pair<double, Vector2d>> out;
+  for (const DrawnLine& line : drawing.lines) {
+    if (!line.closed || drawing.owners.at(static_cast<std::size_t>(line.owner)) != owner) continue;
+    Vector2d low = line.points[0], high = low;
+    for (const Vector2d& p : line.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    out.emplace_back((high - low).x() / 2, (low + high) / 2);
+  }
+  return out;
+}
+
+constexpr const char* two_wheels = R"(
+ground: {points: {A: [0, 0], B: [%B, 0]}}
+bodies:
+  small: {rigid: {mass: 1, inertia: 1}, points: {O: [0, 0]}}
+  large: {rigid: {mass: 1, inertia: 1}, points: {O: [0, 0]}, pose: {at: [%B, 0]}}
+joints: {a: {revolute: [ground.A, small.O]}, b: {revolute: [ground.B, large.O]}, %JOINT}
+run: {until: 1}
+)";
+Drawing wheels(std::string apart, const std::string& joint) {
+  std::string scene = two_wheels;
+  for (const auto& [mark, text] : {std::pair(std::string("%B"), apart), std::pair(std::string("%JOINT"), joint)})
+    for (std::size_t at; (at = scene.find(mark)) != std::string::npos;) scene.replace(at, mark.size(), text);
+  return drawn(scene);
+}
+
+TEST(DrawnWheels, OfGearsTouchAndHaveNoBelt) {
+  const Drawing drawing = wheels("3", "mesh: {gear: [small.O, large.O], radii: [1, 2]}");
+  const auto circles = circles_of(drawing, "mesh");
+  ASSERT_EQ(circles.size(), 2U);
+  EXPECT_NEAR(circles[0].first + circles[1].first, 3, 1e-9);
+  EXPECT_NEAR((circles[1].second - Vector2d(3, 0)).norm(), 0, 1e-9);
+  EXPECT_EQ(lines_of(drawing, Part::joint, "mesh"), 4);  // and a spoke each
+}
+
+TEST(DrawnWheels, OfABeltAreTouchedByBothItsSpans) {
+  const Drawing drawing = wheels("5", "belt: {belt: [small.O, large.O], radii: [1, 2]}");
+  long spans = 0;
+  for (const DrawnLine& line : drawing.lines) {
+    if (line.closed || line.part != Part::joint || (line.points[1] - line.points[0]).norm() < 3) continue;
+    ++spans;
+    const bool begins_at_small = line.points[0].norm() < line.points[1].norm();
+    const Vector2d at_small = line.points[begins_at_small ? 0 : 1], at_large = line.points[begins_at_small ? 1 : 0] - Vector2d(5, 0);
+    EXPECT_NEAR(at_small.norm(), 1, 1e-9);
+    EXPECT_NEAR(at_large.norm(), 2, 1e-9);
+    for (const Vector2d& radius : {at_small, at_large}) EXPECT_NEAR(radius.dot(line.points[1] - line.points[0]), 0, 1e-9);
+    EXPECT_GT(at_small.y() * at_large.y(), 0);  // an open belt
+  }
+  EXPECT_EQ(spans, 2);
+}
+
+TEST(DrawnWheels, OfARackRollOnItsLine) {
+  const Drawing drawing = drawn(R"(
+ground: {points: {A: [0, 0]}}
+bodies: {pinion: {rigid: {mass: 1, inertia: 1}, points: {O: [0, 0]}, pose: {at: [0, 0.5]}}}
+joints: {way: {rack: [ground.A, pinion.O], radius: 0.5}}
+run: {until: 1}
+)");
+  ASSERT_EQ(circles_of(drawing, "way").size(), 1U);
+  EXPECT_NEAR(circles_of(drawing, "way")[0].first, 0.5, 1e-9);
+  ASSERT_EQ(lines_of(drawing, Part::guide, "way"), 1);
+  for (const DrawnLine& line : drawing.lines)
+    for (const Vector2d& p : line.points) EXPECT_TRUE(line.part != Part::guide || std::abs(p.y()) < 1e-12);
+}
+
 TEST(DrawnPoints, AreFollowedAsTheOutputNamesThem) {
   std::string scene = hanging;
   scene += "output: {points: [rod.tip]}\n";
@@ -154,7 +220,37 @@ TEST(Survey, OfOneBodyShowsThatAlone) {
   EXPECT_EQ(survey.world().sizes().x(), 200);
   Survey nothing("nobody", "");
   nothing.add(beside_a_wall());
-  EXPECT_THROW(nothing.world(), std::runtime_error);
+  EXPECT_THROW(nothing.world(), std::invalid_argument);
+}
+
+/// A ball of 0.1 m that lies in half a circle of 1 m, and one on a ramp as long.
+TEST(Survey, ShowsTheWholeBowlThatABallIsInAndOfARampWhatIsNear) {
+  Drawing d;
+  d.owners = {"ball", "ground"};
+  DrawnLine ball{Part::link, 0, true, {}}, bowl{Part::guide, 1, false, {}};
+  for (int i = 0; i < 24; ++i) {
+    const double turn = 0.2617993877991494 * i;
+    ball.points.emplace_back(0.3 + 0.05 * std::cos(turn), -0.3 + 0.05 * std::sin(turn));
+    if (i >= 12) bowl.points.emplace_back(0.5 * std::cos(turn), 0.5 * std::sin(turn));
+  }
+  d.lines = {ball, bowl};
+  Survey in_bowl("", "");
+  in_bowl.add(d);
+  for (const Vector2d& r : bowl.points) EXPECT_TRUE(in_bowl.world().contains(r)) << r.transpose();
+  d.lines[1].points = {{-0.5, 0.45}, {0.6, -0.65}};
+  Survey on_ramp("", "");
+  on_ramp.add(d);
+  EXPECT_LT(on_ramp.world().sizes().maxCoeff(), 0.1 * 1.3);
+}
+
+/// A couple has a place and no size.
+TEST(Survey, OfACoupleShowsWhereItActs) {
+  Survey survey("twist", "");
+  survey.add(drawn(hanging));
+  const Eigen::AlignedBox2d world = survey.world();
+  EXPECT_NEAR(world.center().norm(), 0, 1e-9);  // on the rod's origin
+  EXPECT_GT(world.sizes().minCoeff(), 0.1);
+  EXPECT_LT(world.sizes().maxCoeff(), 3);
 }
 
 }  // namespace

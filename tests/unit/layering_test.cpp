@@ -107,7 +107,7 @@ const std::vector<Layer> layers{
     {"framework/report/",
      {"framework/common/", "framework/scene/", "framework/bodies/", "framework/drawing/", "framework/mechanism/", "framework/build/"}},
 
-    {"app/view/", {"framework/", "app/options.h", "app/progress.h"}},
+    {"app/view/", {"framework/", "app/mistyped.h", "app/options.h", "app/progress.h"}},
     {"app/", {"files/", "elements/", "contact/", "meshes/", "framework/"}},
     {"examples/", {"elements/", "contact/", "meshes/", "framework/"}},
     {"tests/oracles/", {}},

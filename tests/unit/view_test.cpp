@@ -52,23 +52,30 @@ class View : public testing::Test {
     wait_for(child_, folder_.path() / "log");
   }
 
-  /// @returns all that comes back   @param host  of the header; empty: as it is
-  std::string answer(const std::string& method, const std::string& path, const std::string& body = "", std::string host = "",
+  /// @returns all that comes back   @param name  of the host, in the header; empty: as it is
+  std::string answer(const std::string& method, const std::string& path, const std::string& body = "", std::string name = "",
                      const std::string& more = "") const {
-    if (host.empty()) host = "127.0.0.1:" + std::to_string(port_);
+    if (name.empty()) name = host();
+    return answered(method + " " + path + " HTTP/1.1\r\nHost: " + name + "\r\nConnection: close\r\n" + more +
+                    "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+  }
+  std::string host() const { return "127.0.0.1:" + std::to_string(port_); }
+  int connected() const {
     const int to = socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<std::uint16_t>(port_));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(connect(to, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    return to;
+  }
+  /// All that comes back until the connection is closed.
+  std::string answered(const std::string& request) const {
+    const int to = connected();
     std::string out;
-    if (connect(to, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) {
-      const std::string request = method + " " + path + " HTTP/1.1\r\nHost: " + host + "\r\nConnection: close\r\n" + more +
-                                  "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
-      EXPECT_EQ(write(to, request.data(), request.size()), static_cast<ssize_t>(request.size()));
-      char some[4096];
-      for (ssize_t n = 0; (n = read(to, some, sizeof some)) > 0;) out.append(some, static_cast<std::size_t>(n));
-    }
+    EXPECT_EQ(write(to, request.data(), request.size()), static_cast<ssize_t>(request.size()));
+    char some[4096];
+    for (ssize_t n = 0; (n = read(to, some, sizeof some)) > 0;) out.append(some, static_cast<std::size_t>(n));
     close(to);
     return out;
   }
@@ -112,9 +119,13 @@ TEST_F(View, TurnsTheCrankToWhereItIsDragged) {
   EXPECT_NEAR(dragged["bodies"][0]["angle"].get<double>(), std::acos(-1.0) / 2, 1e-3);
   const Json back = json(answer("POST", root_ + "again", "{}"));
   EXPECT_NEAR(back["bodies"][0]["angle"].get<double>(), 0, 1e-9);
-  for (const std::string nonsense : {"", "{", "[]", R"({"version": 1, "body": 99, "point": [0, 0], "to": [0, 0]})",
-                                     R"({"version": 1, "body": 0, "point": [], "to": "far"})"})
-    EXPECT_EQ(status(answer("POST", root_ + "drag", nonsense)), "200") << nonsense;  // what stands there is told again
+  const std::string body_99 = Json{{"version", back["version"]}, {"body", 99}, {"point", {0, 0}}, {"to", {0, 0}}}.dump();
+  for (const std::string& nonsense : Words{"", "{", "[]", body_99, R"({"body": 0, "point": [0, 0], "to": [0, 0]})",
+                                           R"({"version": 1, "body": 0, "point": [], "to": "far"})"})
+    EXPECT_EQ(status(answer("POST", root_ + "drag", nonsense)), "400") << nonsense;
+  EXPECT_EQ(status(answer("POST", root_ + "again", "what")), "400");
+  const Json late{{"version", 0}, {"body", 0}, {"point", {2, 0}}, {"to", {0, 7}}};  // of a drawing that is no more
+  EXPECT_EQ(status(answer("POST", root_ + "drag", late.dump())), "200");
   EXPECT_NE(status(answer("POST", root_ + "drag", std::string(1 << 17, ' '))), "200");
 }
 
@@ -135,6 +146,58 @@ TEST_F(View, ReadsTheSceneAgainWhenItIsSavedAndKeepsTheLastThatWasRight) {
   EXPECT_EQ(wrong["title"], "A new one");
   save(crank, 3);
   EXPECT_EQ(now(wrong["version"])["error"], "");
+}
+
+TEST_F(View, SaysThatASceneIsGoneAndShowsItAgainWhenItIsBack) {
+  folder_.write("other.yaml", crank);
+  fs::last_write_time(folder_.path() / "other.yaml", fs::last_write_time(scene_) + std::chrono::hours(1));
+  const Json first = now();
+  fs::remove(scene_);
+  const Json gone = now(first["version"]);
+  ASSERT_TRUE(gone.contains("error")) << gone;
+  EXPECT_NE(gone["error"].get<std::string>().find("scene.yaml"), std::string::npos) << gone["error"];
+  EXPECT_EQ(gone["title"], "A crank");  // the last drawing stays
+  folder_.write("scene.yaml", crank);
+  EXPECT_EQ(now(gone["version"])["error"], "");
+}
+
+TEST_F(View, SlipsOfItsOptionsAreToldWithWhatWasMeant) {
+  const Ended end = pintle_test::run(folder_.path() / "slip", {PINTLE_PROGRAM, "view", scene_.string(), "--prot", "80"});
+  EXPECT_EQ(end.code, 2);
+  EXPECT_EQ(end.complained.find("pintle: view has no option --prot. Did you mean \"--port\"?"), 0U) << end.complained;
+}
+
+TEST_F(View, AnswersItsOwnPageAlone) {
+  const auto from = [&](const std::string& site) { return status(answer("GET", root_, "", "", "Sec-Fetch-Site: " + site + "\r\n")); };
+  EXPECT_EQ(from("same-origin"), "200");
+  EXPECT_EQ(from("none"), "200");  // an address that the user has typed
+  for (const std::string site : {"cross-site", "same-site"}) {
+    EXPECT_EQ(from(site), "404") << site;
+    EXPECT_EQ(status(answer("POST", root_ + "again", "{}", "", "Sec-Fetch-Site: " + site + "\r\n")), "404") << site;
+  }
+}
+
+TEST_F(View, RefusesOtherMethodsWithoutWaitingForABody) {
+  const auto said = [&](const std::string& method) {
+    return answered(method + " " + root_ + "now HTTP/1.1\r\nHost: " + host() + "\r\n\r\n");
+  };
+  for (const std::string method : {"PUT", "PATCH", "DELETE", "OPTIONS"}) EXPECT_EQ(status(said(method)), "405") << method;
+  EXPECT_EQ(status(said("POST")), "411");
+}
+
+/// As many as a browser and a scanner of ports may leave open; none of them has been given up when the page is answered.
+TEST_F(View, AnswersWhileOthersSayNothing) {
+  std::vector<int> silent;
+  for (int k = 0; k < 13; ++k) {
+    silent.push_back(connected());
+    EXPECT_EQ(write(silent.back(), "GET ", 4), 4);
+  }
+  EXPECT_EQ(status(answer("GET", root_)), "200");
+  char any = 0;
+  for (const int one : silent) {
+    EXPECT_LT(recv(one, &any, 1, MSG_DONTWAIT), 0) << "it was answered, or closed";
+    close(one);
+  }
 }
 
 TEST_F(View, WritesNothingAndEndsByCtrlC) {
