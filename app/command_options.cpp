@@ -127,6 +127,16 @@ constexpr const char* what_sensitivity_writes =
     "  sweep.csv, …            the cases, as sweep does: started again after any end, it goes on from there\n"
     "Exit code 4: no case ran to its end. Others: see pintle --help\n";
 
+constexpr const char* what_nonlinear_writes =
+    "A study names a scene, a section through its motion or Lyapunov exponents, and maybe a parameter to vary; docs/nonlinear.md has its\n"
+    "language. It writes\n"
+    "  section.csv             a row for each return: its time and what was recorded\n"
+    "  values.csv              a row for each value: period, impacts, exponents\n"
+    "  lyapunov.csv            the exponents as they came to be\n"
+    "  section.svg             the section, or the diagram over the parameter, exponents underneath\n"
+    "  study.yaml, scene.yaml, journal-0.txt   as sweep does: started again after any end, it goes on from there\n"
+    "Exit code 4: no value could be followed to its end. Others: see pintle --help\n";
+
 /// What a study of cases shares with the others.
 void add_sweep_options(CLI::App& command, Options& options) {
   const std::string name = command.get_name();
@@ -135,7 +145,10 @@ void add_sweep_options(CLI::App& command, Options& options) {
   command.add_option("-t,--threads", options.threads, "cases run at once by this process (default: as many as cores; under MPI 1)")
       ->type_name("N")
       ->check(whole(1, 4096));
-  command.footer(name == "sweep" ? what_sweep_writes : name == "fit" ? what_fit_writes : what_sensitivity_writes);
+  command.footer(name == "sweep"       ? what_sweep_writes
+                 : name == "fit"       ? what_fit_writes
+                 : name == "nonlinear" ? what_nonlinear_writes
+                                       : what_sensitivity_writes);
 }
 
 constexpr const char* what_tradeoff_writes =
@@ -252,7 +265,7 @@ void add_options(CLI::App& command, Options& options) {
   add_bounds(command, options);
   if (name == "report") return add_report_options(command, options);
   if (name == "plot") return add_plot_options(command, options);
-  if (name == "sweep" || name == "fit" || name == "sensitivity") return add_sweep_options(command, options);
+  if (name == "sweep" || name == "fit" || name == "sensitivity" || name == "nonlinear") return add_sweep_options(command, options);
   if (name == "tradeoff") return add_tradeoff_options(command, options);
   command.add_option("scene", options.scene, "scene file (YAML)")->required()->check(named())->type_name("SCENE.yaml");
   command

@@ -68,6 +68,7 @@ int carry_out(int argc, char** argv) {
       {app.add_subcommand("sweep", "Run many cases of a scene into one table, by threads or MPI"), sweep},
       {app.add_subcommand("fit", "Find parameters that reach a goal, within limits"), fit},
       {app.add_subcommand("sensitivity", "Find how measures depend on parameters and their tolerances"), sensitivity},
+      {app.add_subcommand("nonlinear", "Find Poincare sections, bifurcation diagrams and Lyapunov exponents"), nonlinear},
       {app.add_subcommand("tradeoff", "Measure error against time over settings of fidelity, and recommend one"), tradeoff},
       {app.add_subcommand("report", "Turn the results of a run into one page: motion, plots, impacts, ledger"), report},
       {app.add_subcommand("plot", "Plot columns of results in the terminal, or as an SVG picture"), plot},

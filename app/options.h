@@ -53,6 +53,7 @@ int film(const Options&);
 int view(const Options&);
 int fit(const Options&);
 int sensitivity(const Options&);
+int nonlinear(const Options&);
 
 /// What a scene's files may do and cost, from here on.  @throws SceneError  an option cannot be read
 void set_bounds(const Options&);

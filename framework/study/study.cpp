@@ -163,7 +163,7 @@ StudyFile read_study(const std::filesystem::path& path) {
   file.study.scene.situations = read_situations(root, file.study.scene);
   const Scene common = common_scene(file.study.scene);
   if (!root.has("measure")) {
-    if (!root.has("goal")) require_measures(file);
+    if (!root.has("goal") && !root.has("section") && !root.has("lyapunov")) require_measures(file);
     return file;
   }
   file.study.measures = read_measures(root.at("measure"), path.string(), question);

@@ -24,7 +24,11 @@ std::span<const KeyTable> study_tables() {
         {"goal"},
         {"subject to"},
         {"fit"},
-        {"sensitivity"}}},
+        {"sensitivity"},
+        {"section"},
+        {"over"},
+        {"direction", optional, "", {"forwards", "backwards", "both", "from start"}},
+        {"lyapunov"}}},
       {"study.sweep", {{"grid"}, {"list"}, {"random"}, {"latin hypercube"}, {"limit"}, {"most steps"}}},
       {"study.sweep.grid.*",
        {{"from", required, "0.01 mm"}, {"to", required, "0.5 mm"}, {"count", required, "50"}, {"scale", optional, "", {"linear", "log"}}}},
@@ -60,7 +64,9 @@ std::span<const KeyTable> study_tables() {
        {{"parameters", required, "{length: {uniform: 0.1 mm}}"}, {"levels"}, {"corners"}, {"monte carlo"}, {"sobol"}, {"most steps"}}},
       {"study.sensitivity.parameters.*", {{"at"}, {"step"}, {"uniform"}, {"normal"}}},
       {"study.sensitivity.monte carlo", {{"count", required, "1000"}, {"seed"}}},
-      {"study.sensitivity.sobol", {{"count", required, "256"}, {"seed"}}}};
+      {"study.sensitivity.sobol", {{"count", required, "256"}, {"seed"}}},
+      {"study.section", {{"every"}, {"when"}, {"record", required, "{height: ball.y}"}, {"transient"}, {"returns"}, {"tolerance"}}},
+      {"study.lyapunov", {{"exponents"}, {"every", required, "0.1 s"}, {"over", required, "1000 s"}, {"transient"}, {"distance"}}}};
   return all;
 }
 

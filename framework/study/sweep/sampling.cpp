@@ -182,6 +182,8 @@ Cases sampled(const Node& section, bool latin) {
 
 }  // namespace
 
+Cases read_grid(const Node& group) { return grid(group); }
+
 Quantity read_value(const Node& node) {
   try {
     return read_quantity(node.text("a value such as 0.1 mm"), node.source().parameters);

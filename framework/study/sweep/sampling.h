@@ -32,6 +32,8 @@ inline constexpr std::size_t most_cases = 1'000'000;
 /// Reads the section `sweep` of a study: `grid`, `list`, `random` or `latin hypercube`.
 /// @throws SceneError  naming file, line, key, value and remedy
 Cases read_cases(const Node& sweep);
+/// All combinations of the values that a group gives for each name, as under `grid`. @throws SceneError
+Cases read_grid(const Node& group);
 
 /// Where u ∈ [0, 1] lies between two values: evenly, or evenly in the logarithm. Rounded to twelve digits.
 struct Span {

@@ -1,0 +1,171 @@
+// pintle nonlinear: Poincaré sections, bifurcation diagrams, Lyapunov exponents.
+#include "framework/study/nonlinear/nonlinear.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <thread>
+
+#include "app/options.h"
+#include "app/progress.h"
+#include "framework/common/file.h"
+#include "framework/plots/plot.h"
+
+namespace pintle::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string words_of_period(std::size_t period) { return period == 0 ? "no period found" : "period " + std::to_string(period); }
+
+/// One row for each stretch of values that have the same period.
+void add_periods(const Nonlinear& study, const std::vector<FollowedValue>& values, Rows& rows) {
+  for (std::size_t k = 0; k < values.size();) {
+    std::size_t end = k + 1;
+    const auto same = [&](const FollowedValue& v) {
+      return v.period == values[k].period && v.status == values[k].status && v.backwards == values[k].backwards;
+    };
+    while (end < values.size() && same(values[end])) ++end;
+    std::string where = study.varies() ? values[k].parameter : std::to_string(values[k].orbit.t.size()) + " returns";
+    if (end - k > 1) where += " to " + values[end - 1].parameter + " (" + std::to_string(end - k) + " values)";
+    if (study.order == Order::both) where += values[k].backwards ? ", backwards" : ", forwards";
+    rows.emplace_back(values[k].status == "finished" ? words_of_period(values[k].period) : values[k].status, where);
+    k = end;
+  }
+}
+
+/// The exponents of the only value, and their sum.
+void add_exponents(const Orbit& orbit, Rows& rows) {
+  double sum = 0;
+  for (std::size_t j = 0; j < orbit.exponents.size(); ++j) {
+    const Exponent& one = orbit.exponents[j];
+    sum += one.value;
+    rows.emplace_back("exponent " + std::to_string(j + 1),
+                      number(one.value) + (std::isnan(one.error) ? "" : " +- " + number(one.error, 2)) + " 1/s");
+  }
+  if (orbit.exponents.size() > 1) rows.emplace_back("their sum", number(sum) + " 1/s");
+}
+
+void add_impacts(const ImpactFigures& f, std::size_t returns, Rows& rows) {
+  if (f.count == 0) return;
+  rows.emplace_back("impacts a return", number(f.count / static_cast<double>(returns)));
+  rows.emplace_back("approach", number(f.least_approach) + " to " + number(f.most_approach) + " m/s, median " + number(f.median));
+  rows.emplace_back("time in contact", number(100 * f.contact_share, 4) + " %");
+  if (f.grazing > 0) rows.emplace_back("grazing", number(f.grazing) + " impacts slower than 5 % of the median");
+}
+
+void print(const Nonlinear& study, const SweepEnd& end, const std::vector<FollowedValue>& values, const fs::path& out) {
+  std::cout << (study.sweep.study.title.empty() ? study.sweep.study.file : study.sweep.study.title) << "\n";
+  Rows rows;
+  if (study.varies()) rows.emplace_back("values of", parameter_header(study));
+  if (study.question.section) add_periods(study, values, rows);
+  if (!study.varies() && !values.empty()) {
+    add_exponents(values[0].orbit, rows);
+    add_impacts(values[0].orbit.impacts, values[0].orbit.t.size(), rows);
+  }
+  const auto grazes = std::ranges::count_if(values, [](const FollowedValue& v) { return v.orbit.impacts.grazing > 0; });
+  if (study.varies() && grazes > 0) rows.emplace_back("grazing", "at " + std::to_string(grazes) + " values: see values.csv");
+  const auto positive = std::ranges::count_if(values, [](const FollowedValue& v) {
+    return !v.orbit.exponents.empty() && v.orbit.exponents[0].value > 2 * v.orbit.exponents[0].error;
+  });
+  if (study.varies() && study.question.lyapunov)
+    rows.emplace_back("chaos", "greatest exponent above twice its standard error at " + std::to_string(positive) + " values");
+  if (end.count.before > 0) rows.emplace_back("earlier sessions", std::to_string(end.count.before) + " of " + std::to_string(study.size()));
+  rows.emplace_back("results", (out / (study.question.section ? "section.csv" : "lyapunov.csv")).string());
+  print_rows(std::cout, rows);
+}
+
+Curve dots(const std::string& label) { return {.label = label, .x = {}, .y = {}, .dashed = false, .points = true}; }
+
+/// Without a parameter: the second signal over the first, or the only one over the number of the return.
+Panel map_of_returns(const FollowedValue& value, const std::vector<std::string>& headers) {
+  Panel panel{
+      .title = "", .x_label = headers.size() > 1 ? headers[0] : "return", .y_label = headers[headers.size() > 1 ? 1 : 0], .curves = {}};
+  Curve& curve = panel.curves.emplace_back(dots(""));
+  for (std::size_t k = 0; k < value.orbit.signals.size(); ++k) {
+    const std::vector<double>& one = value.orbit.signals[k];
+    curve.x.push_back(one.size() > 1 ? one[0] : static_cast<double>(k + 1));
+    curve.y.push_back(one.size() > 1 ? one[1] : one[0]);
+  }
+  return panel;
+}
+
+/// A signal of all returns over the parameter, each direction in a colour.
+Panel diagram(const Nonlinear& study, const std::vector<FollowedValue>& values, const std::string& header, std::size_t signal) {
+  Panel panel{.title = "", .x_label = parameter_header(study), .y_label = header, .curves = {}};
+  for (const bool backwards : {false, true}) {
+    Curve curve = dots(study.order != Order::both ? "" : backwards ? "backwards" : "forwards");
+    for (const FollowedValue& value : values)
+      if (value.backwards == backwards)
+        for (const std::vector<double>& one : value.orbit.signals) curve.x.push_back(value.x), curve.y.push_back(one[signal]);
+    if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
+  }
+  return panel;
+}
+
+Panel exponents_over(const Nonlinear& study, const std::vector<FollowedValue>& values) {
+  Panel panel{
+      .title = "", .x_label = study.varies() ? parameter_header(study) : "t [s]", .y_label = "Lyapunov exponents [1/s]", .curves = {}};
+  for (std::size_t j = 0; j < static_cast<std::size_t>(study.question.lyapunov->exponents); ++j) {
+    Curve curve = dots("exponent " + std::to_string(j + 1));
+    curve.points = study.varies();
+    for (const FollowedValue& value : values) {
+      if (study.varies() && j < value.orbit.exponents.size()) curve.x.push_back(value.x), curve.y.push_back(value.orbit.exponents[j].value);
+      if (study.varies()) continue;
+      for (std::size_t k = 0; k < value.orbit.running.size(); ++k)
+        curve.x.push_back(value.orbit.running_t[k]), curve.y.push_back(value.orbit.running[k][j]);
+    }
+    if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
+  }
+  return panel;
+}
+
+std::string picture_of(const Nonlinear& study, const std::vector<FollowedValue>& values, const std::vector<std::string>& headers) {
+  std::vector<Panel> panels;
+  for (std::size_t i = 0; i < headers.size() && study.varies(); ++i) panels.push_back(diagram(study, values, headers[i], i));
+  if (!headers.empty() && !study.varies()) panels.push_back(map_of_returns(values[0], headers));
+  if (study.question.lyapunov) panels.push_back(exponents_over(study, values));
+  return svg(panels, 1);
+}
+
+}  // namespace
+
+int nonlinear(const Options& options) {
+  now_doing("reading the study");
+  const Nonlinear study = read_nonlinear(options.scene, overrides(options));
+  const fs::path out =
+      options.out.empty() ? fs::path("runs") / (fs::path(options.scene).stem().string() + "-nonlinear") : fs::path(options.out);
+  SweepSettings settings;
+  settings.threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  heed_signals();
+  SweepEnd end;
+  now_doing("following the motion");
+  {
+    StatusLine line(options.quiet);
+    settings.progress = [&](const SweepCount& c) {
+      if (line.due()) line.show(std::to_string(c.before + c.done) + " of " + std::to_string(c.cases) + " values");
+      return !asked_to_stop();
+    };
+    end = run_nonlinear(study, out, settings);
+  }
+  for (const std::string& note : end.notes) std::cerr << "note: " << note << "\n";
+  if (!end.whole) {
+    std::cerr << study.sweep.study.file << ": " << (asked_to_stop() ? stopped_by() : "stopped") << " after " << end.rows.size() << " of "
+              << study.size() << " values; the same command goes on from here\n";
+    return stopped;
+  }
+  const std::vector<FollowedValue> values = followed(study, end.rows);
+  write_synced(out / "section.svg", picture_of(study, values, signal_headers(study, end.rows)));
+  if (options.json)
+    std::cout << nonlinear_json(study, end.rows);
+  else if (!options.quiet)
+    print(study, end, values, out);
+  if (std::ranges::any_of(values, [](const FollowedValue& v) { return v.status == "finished" || v.status == "too few returns"; }))
+    return ok;
+  std::cerr << study.sweep.study.file << ": none of " << values.size()
+            << " values could be followed to the end; the first: " << values.front().status << ": " << values.front().reason << "\n";
+  return run_failed;
+}
+
+}  // namespace pintle::app

@@ -1,0 +1,161 @@
+#include "framework/study/nonlinear/lyapunov.h"
+
+#include <cmath>
+#include <memory>
+
+#include <Eigen/QR>
+
+#include "framework/common/text.h"
+#include "framework/study/nonlinear/follower.h"
+#include "framework/study/sweep/sampling.h"
+
+namespace pintle {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int batches = 20;         // of the time, for standard errors
+constexpr int most_running = 200;   // running values that are kept
+constexpr double dependent = 1e-6;  // of the largest: a distance that is none of its own
+
+/// What coordinates, speeds and states are measured by: coordinates by their own scales, speeds by these over the interval.
+VectorXd scales_of(const System& system, double interval) {
+  VectorXd out(system.z_begin());
+  const Index n = system.n();
+  out.head(n) = system.scale;
+  out.segment(n, n) = system.scale / interval;
+  for (Index k = 0; k < system.n_x(); ++k) out[2 * n + k] = system.x_scale[k] > 0 ? system.x_scale[k] : system.length;
+  return out;
+}
+
+/// Gram and Schmidt's D = Q R, with a positive diagonal.
+void orthonormalise(const MatrixXd& D, MatrixXd& Q, MatrixXd& R) {
+  const Index k = D.cols();
+  Q = D;
+  R.setZero(k, k);
+  for (Index j = 0; j < k; ++j) {
+    for (int twice = 0; twice < 2; ++twice)
+      for (Index i = 0; i < j; ++i) {
+        const double part = Q.col(i).dot(Q.col(j));
+        R(i, j) += part;
+        Q.col(j) -= part * Q.col(i);
+      }
+    R(j, j) = Q.col(j).norm();
+    if (R(j, j) > 0) Q.col(j) /= R(j, j);
+  }
+}
+
+class Neighbours {
+ public:
+  Neighbours(const Model& model, Integrator& integrator, const LyapunovRun& run, const std::function<bool()>& go_on)
+      : model_(model), main_(integrator), run_(run), go_on_(go_on), scales_(scales_of(model.system, run.interval)) {
+    const Index n = scales_.size();
+    const auto k = static_cast<Index>(run.count);
+    if (k > n) too_many(n);
+    Q_.resize(n, k);
+    for (Index j = 0; j < k; ++j) {
+      Stream stream(1, "neighbour " + std::to_string(j));
+      for (Index i = 0; i < n; ++i) Q_(i, j) = 2 * stream.uniform() - 1;
+      Q_.col(j).normalize();
+      apart_.push_back(std::make_unique<Integrator>(model.system, model.scheme, integrator.state()));
+    }
+  }
+
+  /// One interval. @returns the logarithm of each growth
+  VectorXd grow(double until) {
+    const MatrixXd before = set_apart();
+    orthonormalise(before, Q_, R_);
+    for (Index j = 1; j < R_.cols(); ++j)
+      if (!(R_(j, j) > dependent * R_(0, 0))) too_many(j);
+    go_to(main_, until, go_on_);
+    MatrixXd after(before.rows(), before.cols());
+    for (Index j = 0; j < before.cols(); ++j) {
+      go_to(*apart_[static_cast<std::size_t>(j)], until, go_on_);
+      after.col(j) = distance(*apart_[static_cast<std::size_t>(j)]);
+    }
+    // What unit vectors along the columns of Q have become.
+    const MatrixXd grown = R_.triangularView<Eigen::Upper>().transpose().solve(after.transpose()).transpose();
+    orthonormalise(grown, Q_, R_);
+    if (!(R_.diagonal().array() > 0).all() || !R_.allFinite())
+      throw OrbitTrouble{"failed", "t = " + number_text(until, 6) +
+                                       " s: a neighbour has fallen onto the motion; shorten lyapunov.every, or ask for fewer exponents"};
+    return R_.diagonal().array().log();
+  }
+
+ private:
+  [[noreturn]] static void too_many(Index dimensions) {
+    throw OrbitTrouble{"failed", "the phase space has " + std::to_string(dimensions) + " dimensions; ask for as many exponents at most"};
+  }
+
+  VectorXd distance(const Integrator& neighbour) const {
+    return (neighbour.state().y - main_.state().y).head(scales_.size()).cwiseQuotient(scales_);
+  }
+
+  /// Each neighbour beside the motion, on the constraints, in the modes of the motion. @returns the distances
+  MatrixXd set_apart() {
+    const std::string here = main_.save();
+    MatrixXd out(scales_.size(), Q_.cols());
+    for (Index j = 0; j < Q_.cols(); ++j) {
+      Integrator& one = *apart_[static_cast<std::size_t>(j)];
+      one.load(here);
+      const VectorXd step = run_.distance * Q_.col(j).cwiseProduct(scales_);
+      if (!one.change([&](State& state) { state.y.head(step.size()) += step; })) throw OrbitTrouble{"failed", one.failure()};
+      out.col(j) = distance(one);
+    }
+    return out;
+  }
+
+  const Model& model_;
+  Integrator& main_;
+  const LyapunovRun& run_;
+  const std::function<bool()>& go_on_;
+  VectorXd scales_;
+  MatrixXd Q_, R_;
+  std::vector<std::unique_ptr<Integrator>> apart_;
+};
+
+/// Mean and standard error of rates, by the scatter of the means over batches of them, which hardly know of each other.
+Exponent mean_of(const std::vector<VectorXd>& logs, Index j, double interval) {
+  const std::size_t n = logs.size();
+  Exponent out;
+  for (const VectorXd& one : logs) out.value += one[j] / (static_cast<double>(n) * interval);
+  const std::size_t size = n / batches;
+  if (size == 0) {
+    out.error = std::numeric_limits<double>::quiet_NaN();
+    return out;
+  }
+  double squares = 0;
+  for (std::size_t b = 0; b < batches; ++b) {
+    double mean = 0;
+    for (std::size_t k = 0; k < size; ++k) mean += logs[n - (b + 1) * size + k][j] / (static_cast<double>(size) * interval);
+    squares += (mean - out.value) * (mean - out.value);
+  }
+  out.error = std::sqrt(squares / (batches * (batches - 1.0)));
+  return out;
+}
+
+}  // namespace
+
+void lyapunov_exponents(const Model& model, Integrator& integrator, const LyapunovRun& run, const std::function<bool()>& go_on,
+                        Orbit& out) {
+  const double from = integrator.state().t;
+  const long intervals = std::max(1L, std::lround(run.over / run.interval));
+  const long every = (intervals + most_running - 1) / most_running;
+  Neighbours neighbours(model, integrator, run, go_on);
+  std::vector<VectorXd> logs;
+  VectorXd sum = VectorXd::Zero(run.count);
+  for (long k = 1; k <= intervals; ++k) {
+    logs.push_back(neighbours.grow(from + static_cast<double>(k) * run.interval));
+    sum += logs.back();
+    if (k % every != 0 && k != intervals) continue;
+    const VectorXd now = sum / (static_cast<double>(k) * run.interval);
+    out.running_t.push_back(static_cast<double>(k) * run.interval);
+    out.running.emplace_back(now.data(), now.data() + now.size());
+  }
+  for (Index j = 0; j < sum.size(); ++j) out.exponents.push_back(mean_of(logs, j, run.interval));
+}
+
+}  // namespace pintle

@@ -1,0 +1,167 @@
+#include "framework/study/nonlinear/nonlinear.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <new>
+#include <numeric>
+#include <thread>
+
+#include "framework/bodies/body_store.h"
+#include "framework/common/file.h"
+#include "framework/common/library_threads.h"
+#include "framework/study/sweep/study_folder.h"
+#include "framework/study/sweep/task_queue.h"
+
+namespace pintle {
+
+namespace {
+
+namespace fs = std::filesystem;
+using wall_clock = std::chrono::steady_clock;
+
+double seconds_since(wall_clock::time_point begin) { return std::chrono::duration<double>(wall_clock::now() - begin).count(); }
+
+/// Threads that follow chains of values and write what they come to into the journal. What has ended is gone on from.
+class ChainCrew {
+ public:
+  ChainCrew(const Nonlinear& study, Journal& journal, std::vector<Row> ended) : study_(study), journal_(journal), chains_(study.chains()) {
+    for (Row& row : ended)
+      if (!lacked_memory(row)) ended_.emplace(row.number, std::move(row));
+    std::vector<std::size_t> all(chains_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    queue_.add(all);
+    queue_.close();
+  }
+
+  void work(const SweepSettings& settings, SweepCount& count) {
+    const auto begin = wall_clock::now();
+    std::vector<std::thread> threads;
+    const int most = static_cast<int>(std::min(static_cast<std::size_t>(settings.threads), chains_.size()));
+    running_ = most;
+    for (int k = 0; k < most; ++k) threads.emplace_back([this, k] { draw(k); });
+    while (running_ > 0) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(seconds_since(begin) < 1 ? 5 : 50));
+      look(count);
+      count.seconds = seconds_since(begin);
+      if (settings.progress && !settings.progress(count)) stopped_ = true, queue_.clear();
+    }
+    for (std::thread& thread : threads) thread.join();
+    look(count);
+    count.seconds = seconds_since(begin);
+    if (trouble_) std::rethrow_exception(trouble_);
+  }
+
+ private:
+  void look(SweepCount& count) {
+    const std::lock_guard lock(mutex_);
+    count.done = done_, count.trouble = troubled_, count.busy = busy_;
+  }
+
+  void draw(int thread) {
+    try {
+      hold_library_threads();
+      while (const std::optional<std::size_t> chain = queue_.draw()) follow(chains_[*chain], thread);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      trouble_ = std::current_exception();
+      stopped_ = true;
+      queue_.clear();
+    }
+    --running_;
+  }
+
+  void follow(const std::vector<std::size_t>& chain, int thread) {
+    Orbit before;
+    bool known = false;
+    for (const std::size_t number : chain) {
+      if (stopped_) return;
+      if (const auto found = ended_.find(number); found != ended_.end()) {
+        before = Orbit::of(found->second.values);
+      } else {
+        const auto begin = wall_clock::now();
+        Row row = follow_one(number, known ? &before : nullptr);
+        if (stopped_ || row.status == status_text(Status::interrupted)) return;
+        row.worker = "0." + std::to_string(thread);
+        row.run_seconds = seconds_since(begin);
+        journal_.append(row);
+        if (row.status == status_text(Status::out_of_memory)) return;
+        before = Orbit::of(row.values);
+        const std::lock_guard lock(mutex_);
+        ++done_, troubled_ += row.status != "finished", busy_ += row.run_seconds;
+      }
+      known = !before.end.empty();
+    }
+  }
+
+  Row follow_one(std::size_t number, const Orbit* before) {
+    Row row;
+    row.number = number;
+    try {
+      const OrbitEnd end = follow_orbit(study_.sweep.study.scene, study_.sweep.cases.overrides(study_.case_of(number)), study_.question,
+                                        before, bodies_, [this] { return !stopped_; });
+      row.status = end.status, row.reason = end.reason, row.values = end.orbit.numbers(), row.units = end.units;
+      row.t_end = end.orbit.end_t, row.steps = end.steps, row.impacts = end.impacts;
+    } catch (const std::bad_alloc&) {
+      row.status = status_text(Status::out_of_memory), row.reason = "there was not enough memory; follow fewer values at once (--threads)";
+      row.values = Orbit{}.numbers();
+    }
+    return row;
+  }
+
+  const Nonlinear& study_;
+  Journal& journal_;
+  const std::vector<std::vector<std::size_t>> chains_;
+  std::map<std::size_t, Row> ended_;
+  TaskQueue queue_;
+  BodyStore bodies_;
+  std::atomic<bool> stopped_ = false;
+  std::atomic<int> running_ = 0;
+  std::mutex mutex_;  ///< of what follows
+  std::size_t done_ = 0, troubled_ = 0;
+  double busy_ = 0;
+  std::exception_ptr trouble_;
+};
+
+void write_results(const Nonlinear& study, const fs::path& folder, const std::vector<Row>& rows) {
+  if (study.question.section) write_synced(folder / "section.csv", section_csv(study, rows));
+  if (study.question.lyapunov) write_synced(folder / "lyapunov.csv", lyapunov_csv(study, rows));
+  write_synced(folder / "timings.csv", timings_csv(rows));
+  write_synced(folder / "values.csv", values_csv(study, rows));
+}
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> Nonlinear::chains() const {
+  std::vector<std::size_t> up(sweep.cases.size());
+  std::iota(up.begin(), up.end(), std::size_t{1});
+  std::vector<std::vector<std::size_t>> out;
+  if (order == Order::from_start) {
+    for (const std::size_t k : up) out.push_back({k});
+    return out;
+  }
+  if (order == Order::backwards) std::ranges::reverse(up);
+  if (order == Order::both)
+    for (std::size_t k = sweep.cases.size(); k > 0; --k) up.push_back(sweep.cases.size() + k);
+  return {up};
+}
+
+SweepEnd run_nonlinear(const Nonlinear& study, const fs::path& folder, const SweepSettings& settings) {
+  SweepEnd end;
+  end.workers = settings.threads;
+  end.count.cases = study.size();
+  const std::unique_ptr<Journal> journal = open_study_folder(study.sweep, folder, end.notes);
+  const auto ended = [&] { return read_journals(folder, study.sweep.print, study.size()); };
+  const std::vector<Row> before = ended();
+  end.count.before = static_cast<std::size_t>(std::ranges::count_if(before, [](const Row& row) { return !lacked_memory(row); }));
+  ChainCrew(study, *journal, before).work(settings, end.count);
+  end.rows = ended();
+  end.whole = end.rows.size() == study.size();
+  if (end.whole) write_results(study, folder, end.rows);
+  return end;
+}
+
+}  // namespace pintle

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "framework/study/nonlinear/orbit.h"
+#include "framework/study/sweep/sweep.h"
+
+/// Poincaré sections, bifurcation diagrams and Lyapunov exponents of a scene: docs/nonlinear.md
+namespace pintle {
+
+/// From where each value of the parameter is followed.
+enum class Order { forwards, backwards, both, from_start };
+
+struct Nonlinear {
+  Sweep sweep;  ///< its cases are the values of the parameter; one without any where none varies
+  OrbitQuestion question;
+  Order order = Order::forwards;
+
+  bool varies() const { return !sweep.cases.names.empty(); }
+  /// How often a value is followed in all: of both ways each twice.
+  std::size_t size() const { return sweep.cases.size() * (order == Order::both ? 2 : 1); }
+  /// Of a number in the journal, from 1: the case, from 0; and which way it is come to.
+  std::size_t case_of(std::size_t number) const { return (number - 1) % sweep.cases.size(); }
+  bool backwards(std::size_t number) const { return order == Order::backwards || number > sweep.cases.size(); }
+  /// Numbers in the order in which they are followed, each from the end of the one before; each list begins at the scene's start.
+  std::vector<std::vector<std::size_t>> chains() const;
+};
+
+/// Reads a study with a `section` or `lyapunov`. `set` holds for all values, after the study's own.
+/// @throws SceneError  naming file, line, key, value and remedy
+Nonlinear read_nonlinear(const std::filesystem::path&, const Overrides& set = {});
+
+/// Follows what has not been followed yet, and leaves in `folder` section.csv, values.csv and lyapunov.csv beside what a sweep leaves:
+/// the same to the bit whatever the number of workers and however often it was killed.
+/// @throws as run_sweep
+SweepEnd run_nonlinear(const Nonlinear&, const std::filesystem::path& folder, const SweepSettings&);
+
+/// A value that was followed, as it is told.
+struct FollowedValue {
+  std::string parameter;  ///< in SI, or as written; empty where none varies
+  double x = 0;           ///< as a number; its place in the order where it is none
+  bool backwards = false;
+  std::string status, reason;
+  Orbit orbit;
+  std::size_t period = 0;  ///< in returns; 0: none was found
+};
+/// @pre rows are of this study
+std::vector<FollowedValue> followed(const Nonlinear&, const std::vector<Row>& rows);
+std::string parameter_header(const Nonlinear&);
+/// "height [m]"
+std::vector<std::string> signal_headers(const Nonlinear&, const std::vector<Row>& rows);
+
+/// A row for each return; for each value; for each value and time.
+std::string section_csv(const Nonlinear&, const std::vector<Row>& rows);
+std::string values_csv(const Nonlinear&, const std::vector<Row>& rows);
+std::string lyapunov_csv(const Nonlinear&, const std::vector<Row>& rows);
+/// What is told of each value, for programs.
+std::string nonlinear_json(const Nonlinear&, const std::vector<Row>& rows);
+
+}  // namespace pintle

@@ -1,0 +1,171 @@
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/common/text.h"
+#include "framework/scene/units/unit.h"
+#include "framework/scene/yaml/json_text.h"
+#include "framework/study/nonlinear/nonlinear.h"
+
+namespace pintle {
+
+namespace {
+
+std::string number_field(double x) {
+  std::string out;
+  append_number(out, x);
+  return out;
+}
+
+/// The unit that values of the parameter are written in, where all are numbers of one kind; else nothing.
+std::optional<std::string> unit_of_parameter(const Nonlinear& study) {
+  std::optional<std::string> out;
+  for (std::size_t k = 0; k < study.sweep.cases.size(); ++k) {
+    const std::optional<Quantity> q = study.sweep.cases.quantity(k, 0);
+    if (!q) return {};
+    const std::string unit = si_unit(q->dimension);
+    if (out && *out != unit) return {};
+    out = unit;
+  }
+  return out;
+}
+
+std::string with_its_unit(const std::string& name, const std::string& unit) { return unit.empty() ? name : name + " [" + unit + "]"; }
+
+/// What stands at the head of each row: parameter and direction, where they are.
+std::string heading_of_values(const Nonlinear& study) {
+  std::string out;
+  if (study.varies()) out += csv_field(parameter_header(study)) + ",";
+  if (study.order == Order::both) out += "direction,";
+  return out;
+}
+
+std::string fields_of(const Nonlinear& study, const FollowedValue& value) {
+  std::string out;
+  if (study.varies()) out += csv_field(value.parameter) + ",";
+  if (study.order == Order::both) out += value.backwards ? "backwards," : "forwards,";
+  return out;
+}
+
+}  // namespace
+
+std::string parameter_header(const Nonlinear& study) {
+  if (!study.varies()) return "";
+  return with_its_unit(study.sweep.cases.names[0], unit_of_parameter(study).value_or(""));
+}
+
+std::vector<std::string> signal_headers(const Nonlinear& study, const std::vector<Row>& rows) {
+  std::vector<std::string> out;
+  if (!study.question.section) return out;
+  for (std::size_t i = 0; i < study.question.section->record.size(); ++i) {
+    std::string unit;
+    for (const Row& row : rows)
+      if (unit.empty() && i < row.units.size()) unit = row.units[i];
+    out.push_back(with_its_unit(study.question.section->record[i].name, unit));
+  }
+  return out;
+}
+
+std::vector<FollowedValue> followed(const Nonlinear& study, const std::vector<Row>& rows) {
+  const bool numbers = study.varies() && unit_of_parameter(study).has_value();
+  std::vector<FollowedValue> out;
+  for (const Row& row : rows) {
+    FollowedValue& value = out.emplace_back();
+    const std::size_t k = study.case_of(row.number);
+    value.x = numbers ? study.sweep.cases.quantity(k, 0)->value : static_cast<double>(k + 1);
+    if (study.varies()) value.parameter = numbers ? number_field(value.x) : study.sweep.cases.values[k][0].value_or("");
+    value.backwards = study.backwards(row.number);
+    value.status = row.status, value.reason = row.reason;
+    value.orbit = Orbit::of(row.values);
+    if (study.question.section) value.period = period_of(value.orbit.signals, study.question.section->tolerance);
+  }
+  return out;
+}
+
+std::string section_csv(const Nonlinear& study, const std::vector<Row>& rows) {
+  std::string out = heading_of_values(study) + "return,t [s]";
+  for (const std::string& header : signal_headers(study, rows)) out += "," + csv_field(header);
+  out += '\n';
+  for (const FollowedValue& value : followed(study, rows)) {
+    const std::string head = fields_of(study, value);
+    for (std::size_t k = 0; k < value.orbit.t.size(); ++k) {
+      out += head + std::to_string(k + 1) + "," + number_field(value.orbit.t[k]);
+      for (const double x : value.orbit.signals[k]) out += "," + number_field(x);
+      out += '\n';
+    }
+  }
+  return out;
+}
+
+std::string values_csv(const Nonlinear& study, const std::vector<Row>& rows) {
+  const int exponents = study.question.lyapunov ? study.question.lyapunov->exponents : 0;
+  std::string out = heading_of_values(study) + "status";
+  if (study.question.section)
+    out +=
+        ",returns,period,impacts a return,interval [s],least approach [m/s],median approach [m/s],greatest approach [m/s],grazing,"
+        "share of time in contact";
+  for (int j = 1; j <= exponents; ++j) out += ",exponent " + std::to_string(j) + " [1/s],standard error " + std::to_string(j) + " [1/s]";
+  out += ",reason\n";
+  for (const FollowedValue& value : followed(study, rows)) {
+    const Orbit& orbit = value.orbit;
+    out += fields_of(study, value) + value.status;
+    if (study.question.section) {
+      const ImpactFigures& f = orbit.impacts;
+      const double n = static_cast<double>(orbit.t.size()), none = std::numeric_limits<double>::quiet_NaN();
+      const auto known = [&](double x) { return f.count > 0 ? x : none; };
+      out += "," + std::to_string(orbit.t.size()) + "," + std::to_string(value.period);
+      for (const double x : {n > 0 ? f.count / n : none, f.count > 1 ? f.interval : none, known(f.least_approach), known(f.median),
+                             known(f.most_approach), n > 0 ? f.grazing : none, n > 0 ? f.contact_share : none})
+        out += "," + number_field(x);
+    }
+    for (std::size_t j = 0; j < static_cast<std::size_t>(exponents); ++j) {
+      const bool there = j < orbit.exponents.size();
+      out += "," + (there ? number_field(orbit.exponents[j].value) : "") + "," + (there ? number_field(orbit.exponents[j].error) : "");
+    }
+    out += "," + csv_field(value.reason) + "\n";
+  }
+  return out;
+}
+
+std::string nonlinear_json(const Nonlinear& study, const std::vector<Row>& rows) {
+  using Json = nlohmann::ordered_json;
+  const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
+  Json values = Json::array();
+  for (const FollowedValue& value : followed(study, rows)) {
+    Json& one = values.emplace_back(Json::object());
+    if (study.varies()) one[parameter_header(study)] = value.parameter, one["direction"] = value.backwards ? "backwards" : "forwards";
+    one["status"] = value.status, one["reason"] = value.reason;
+    if (study.question.section) {
+      one["returns"] = value.orbit.t.size(), one["period"] = value.period;
+      one["impacts"] = value.orbit.impacts.count, one["grazing"] = value.orbit.impacts.grazing;
+    }
+    for (const Exponent& e : value.orbit.exponents)
+      one["exponents [1/s]"].push_back({{"value", number(e.value)}, {"standard error", number(e.error)}});
+  }
+  const Json out = {{"program", "pintle"},
+                    {"version", PINTLE_VERSION},
+                    {"title", study.sweep.study.title},
+                    {"file", study.sweep.study.file},
+                    {"values", values}};
+  return json_text(out) + "\n";
+}
+
+std::string lyapunov_csv(const Nonlinear& study, const std::vector<Row>& rows) {
+  std::string out = heading_of_values(study) + "t [s]";
+  for (int j = 1; j <= study.question.lyapunov->exponents; ++j) out += ",exponent " + std::to_string(j) + " [1/s]";
+  out += '\n';
+  for (const FollowedValue& value : followed(study, rows)) {
+    const std::string head = fields_of(study, value);
+    for (std::size_t k = 0; k < value.orbit.running_t.size(); ++k) {
+      out += head + number_field(value.orbit.running_t[k]);
+      for (const double x : value.orbit.running[k]) out += "," + number_field(x);
+      out += '\n';
+    }
+  }
+  return out;
+}
+
+}  // namespace pintle

@@ -1,0 +1,150 @@
+#include <algorithm>
+
+#include "framework/build/build.h"
+#include "framework/scene/yaml/keys.h"
+#include "framework/scene/yaml/override.h"
+#include "framework/study/nonlinear/nonlinear.h"
+
+namespace pintle {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr int most_returns = 1'000'000;
+
+/// Judges an expression by what the scene's reader says of it where an override puts it.
+class Trying {
+ public:
+  Trying(const CaseSource& source, const Overrides& set) : source_(source), set_(set) {}
+
+  /// @throws SceneError  the scene does not take `text` there, at the node
+  void judge(const Node& node, const Overrides& put) const {
+    Overrides all = set_;
+    all.insert(all.end(), put.begin(), put.end());
+    try {
+      build(case_scene(source_, all));
+    } catch (const SceneError& error) {
+      node.fail(about(error.what(), put));
+    }
+  }
+
+ private:
+  /// What is said behind "--set PATH", with what stands below it.
+  static std::string about(const std::string& said, const Overrides& put) {
+    for (const auto& [path, text] : put) {
+      const std::string mark = ": --set " + path;
+      const auto at = said.find(mark);
+      if (at == std::string::npos) continue;
+      const auto colon = said.find(": ", at + mark.size());
+      if (colon == at + mark.size()) return said.substr(colon + 2);
+    }
+    return said;
+  }
+
+  const CaseSource& source_;
+  const Overrides& set_;
+};
+
+/// An expression for a time, in the scene's parameters.
+std::string read_time(const Node& node, const Trying& trying) {
+  const std::string text = node.text("a time such as 2*pi/omega or 10 ms");
+  trying.judge(node, {{"output", "null"}, {"run.until", override_text(node.yaml())}});
+  return override_text(node.yaml());
+}
+
+std::vector<Recorded> read_record(const Node& node) {
+  constexpr const char* remedy = "names and expressions: {height: ball.y, speed: ball.vy}, or a list of expressions";
+  std::vector<Recorded> out;
+  const auto add = [&](const Node& entry, const std::string& name) {
+    const std::string words = entry.text("an expression of signals such as crank.speed");
+    for (const Recorded& one : out)
+      if (one.name == (name.empty() ? words : name)) entry.fail("is recorded twice; leave one out");
+    out.push_back({name.empty() ? words : name, override_text(entry.yaml())});
+  };
+  if (node.is_scalar())
+    add(node, "");
+  else if (node.is_list())
+    for (const Node& entry : node.list(1, remedy)) add(entry, "");
+  else
+    for (const Node& entry : node.entries(remedy)) add(entry, entry.name());
+  if (out.empty()) node.fail(std::string("records nothing; write ") + remedy);
+  return out;
+}
+
+int read_count(const Node& node, long least) {
+  const long n = node.count(least);
+  if (n > most_returns) node.fail("is more than " + std::to_string(most_returns) + "; take fewer");
+  return static_cast<int>(n);
+}
+
+SectionQuestion read_section(const Node& node, const Trying& trying) {
+  static const std::vector<std::string> kinds{"every", "when"};
+  check_keys(node, "study.section");
+  SectionQuestion out;
+  if (which_key(node, kinds, "where the motion is looked at") == "every")
+    out.every = read_time(node.at("every"), trying);
+  else
+    out.when = override_text(node.at("when").yaml());
+  out.record = read_record(node.at("record"));
+  if (node.has("transient")) out.transient = read_count(node.at("transient"), 0);
+  if (node.has("returns")) out.returns = read_count(node.at("returns"), 1);
+  if (node.has("tolerance")) out.tolerance = node.at("tolerance").quantity(dimension::number, rule::inside_zero_one);
+  // One after another, so that what is wrong is named.
+  OrbitQuestion question{out, {}};
+  const Overrides all = recording(question);
+  const Node record = node.at("record");
+  for (std::size_t k = 0; k < out.record.size(); ++k) {
+    const Node entry = record.is_map() ? record.at(out.record[k].name) : record;
+    trying.judge(entry, {all[k]});
+  }
+  if (!out.when.empty()) trying.judge(node.at("when"), Overrides(all.begin() + static_cast<std::ptrdiff_t>(out.record.size()), all.end()));
+  return out;
+}
+
+LyapunovQuestion read_lyapunov(const Node& node, const Trying& trying) {
+  check_keys(node, "study.lyapunov");
+  LyapunovQuestion out;
+  if (node.has("exponents")) out.exponents = read_count(node.at("exponents"), 1);
+  out.every = read_time(node.at("every"), trying);
+  out.over = read_time(node.at("over"), trying);
+  if (node.has("transient")) out.transient = read_time(node.at("transient"), trying);
+  if (node.has("distance")) out.distance = node.at("distance").quantity(dimension::number, rule::inside_zero_one);
+  return out;
+}
+
+Cases read_over(const Node& root) {
+  if (!root.has("over")) return {{}, {{}}, {}};
+  Cases cases = read_grid(root.at("over"));
+  if (cases.names.size() != 1)
+    root.at("over").fail("names " + std::to_string(cases.names.size()) + " parameters; name one, and set the others");
+  return cases;
+}
+
+}  // namespace
+
+Nonlinear read_nonlinear(const fs::path& path, const Overrides& set) {
+  const StudyFile file = read_study(path);
+  const Node root = file.root();
+  if (!root.has("section") && !root.has("lyapunov"))
+    root.fail("has neither section nor lyapunov; add for example section: {every: 2*pi/omega, record: {height: ball.y}}");
+  for (const char* other : {"measure", "analysis", "situations", "sweep"})
+    if (root.has(other)) root.at(other).fail("is of other studies; leave it out beside section and lyapunov");
+  if (root.has("direction") && !root.has("over")) root.at("direction").fail("is of studies over a parameter; add over, or leave it out");
+  CaseSource source = file.study.scene;
+  source.common.insert(source.common.end(), set.begin(), set.end());
+  const Cases cases = read_over(root);
+  if (!cases.names.empty()) cases_of(file, cases, path, set, {});  // what is wrong with the values is said of them
+  const Overrides first = cases.overrides(0);
+  const Trying trying(source, first);
+  Nonlinear out;
+  if (root.has("direction")) {
+    const auto words = choices("study", "direction");
+    out.order = static_cast<Order>(std::ranges::find(words, root.at("direction").one_of(words)) - words.begin());
+  }
+  if (root.has("section")) out.question.section = read_section(root.at("section"), trying);
+  if (root.has("lyapunov")) out.question.lyapunov = read_lyapunov(root.at("lyapunov"), trying);
+  out.sweep = cases_of(file, cases, path, set, recording(out.question));
+  return out;
+}
+
+}  // namespace pintle

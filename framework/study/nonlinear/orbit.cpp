@@ -1,0 +1,247 @@
+#include "framework/study/nonlinear/orbit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "framework/analysis/simulate/simulate.h"
+#include "framework/bodies/body_store.h"
+#include "framework/build/build.h"
+#include "framework/common/text.h"
+#include "framework/configuration/assemble.h"
+#include "framework/mechanism/trajectory.h"
+#include "framework/study/nonlinear/follower.h"
+#include "framework/study/nonlinear/lyapunov.h"
+
+namespace pintle {
+
+namespace {
+
+constexpr const char* event_name = "return to the section";
+
+std::string output_name(std::size_t k) { return "return " + std::to_string(k + 1); }
+
+/// The scene of one value, in which the section alone asks for rows.
+Scene recording_scene(const CaseSource& source, const Overrides& set) {
+  Scene scene = case_scene(source, set);
+  for (SceneEvent& event : scene.events)
+    if (event.name != event_name) event.then.row = event.otherwise.row = false;
+  return scene;
+}
+
+/// The columns of the trajectory that are recorded.
+struct Columns {
+  Table row;
+  std::vector<std::size_t> at;
+  std::vector<std::string> units;
+
+  Columns(const Model& model, const OrbitQuestion& question) : row(trajectory_table(model)) {
+    const std::size_t n = question.section ? question.section->record.size() : 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::string name = output_name(k);
+      const auto found = std::ranges::find_if(row.header, [&](const std::string& h) { return h == name || h.starts_with(name + " ["); });
+      at.push_back(static_cast<std::size_t>(found - row.header.begin()));
+      const auto open = found->find('[');
+      units.push_back(open == std::string::npos ? "" : found->substr(open + 1, found->size() - open - 2));
+    }
+  }
+  std::vector<double> read(const Model& model, Integrator& integrator, State& sampled) {
+    row.data.clear();
+    if (!integrator.sample(integrator.state().t, sampled)) throw OrbitTrouble{"failed", "a return cannot be evaluated"};
+    record(model, sampled, integrator.sampled(), row);
+    std::vector<double> out;
+    for (const std::size_t k : at) out.push_back(row.data[k]);
+    return out;
+  }
+};
+
+double time_of(const CaseSource& source, Overrides set, const std::string& text) {
+  set.emplace_back("output", "null");
+  set.emplace_back("run.until", text);
+  return case_scene(source, set).run.until;
+}
+
+/// The start of a value: the scene's own, with the coordinates, speeds and states of another value's end. Integrals of the ledger begin
+/// at 0, contacts as they lie.
+State start_of(const System& system, const Assembly& assembly, const Orbit* before, bool clock_goes_on) {
+  State start = assembly.start;
+  if (!before || before->end.size() != static_cast<std::size_t>(system.z_begin())) return start;
+  for (int k = 0; k < system.z_begin(); ++k) start.y[k] = before->end[static_cast<std::size_t>(k)];
+  if (clock_goes_on) start.t = before->end_t;
+  return start;
+}
+
+ImpactFigures figures(const std::vector<Impact>& all, double from, double to) {
+  ImpactFigures out;
+  std::vector<double> speeds, begins;
+  for (const Impact& impact : all) {
+    const double end = std::isnan(impact.end) ? to : std::min(impact.end, to);
+    out.contact_share += std::max(0.0, end - std::max(impact.begin, from)) / (to - from);
+    if (impact.begin <= from || impact.begin > to) continue;
+    speeds.push_back(impact.approach), begins.push_back(impact.begin);
+  }
+  out.count = static_cast<double>(speeds.size());
+  if (speeds.empty()) return out;
+  if (begins.size() > 1) {
+    const auto [first, last] = std::ranges::minmax(begins);
+    out.interval = (last - first) / static_cast<double>(begins.size() - 1);
+  }
+  std::ranges::sort(speeds);
+  out.least_approach = speeds.front(), out.most_approach = speeds.back();
+  const std::size_t half = speeds.size() / 2;
+  out.median = speeds.size() % 2 == 1 ? speeds[half] : (speeds[half - 1] + speeds[half]) / 2;
+  out.grazing = static_cast<double>(std::ranges::count_if(speeds, [&](double v) { return v < grazing_share * out.median; }));
+  return out;
+}
+
+/// One value, from its scene to what it has come to.
+class Following {
+ public:
+  Following(const CaseSource& source, const Overrides& set, const OrbitQuestion& question, const Orbit* before, BodyStore& bodies,
+            const std::function<bool()>& go_on, OrbitEnd& out)
+      : question_(question), go_on_(go_on), out_(out), scene_(recording_scene(source, set)) {
+    const auto time = [&](const std::string& text) { return time_of(source, set, text); };
+    const bool by_time = question.section && !question.section->every.empty();
+    if (by_time) out.orbit.interval = time(question.section->every);
+    if (question.lyapunov) times_ = {time(question.lyapunov->every), time(question.lyapunov->over), time_from(time)};
+    const bool clock_goes_on = before && (!by_time || before->interval == out.orbit.interval);
+    const double from = clock_goes_on ? before->end_t : 0;
+    scene_.run.until += from;
+    if (by_time) scene_.run.until = from + out.orbit.interval * (question.section->transient + question.section->returns);
+    last_ = scene_.run.until;
+    if (question.lyapunov) scene_.run.until += times_.transient + times_.over;
+    model_ = build(scene_, bodies);
+    if (question.lyapunov) model_.scheme.switch_below = 0;  // neighbours are compared: all by one method, as accurate as at the start
+    start_ = start_of(model_.system, assemble(scene_, model_), before, clock_goes_on);
+  }
+
+  void follow() {
+    Integrator integrator(model_.system, model_.scheme, start_);
+    if (!integrator.failure().empty()) throw OrbitTrouble{"failed", integrator.failure()};
+    try {
+      if (question_.section) returns(integrator);
+      if (question_.lyapunov) exponents(integrator);
+    } catch (...) {
+      count(integrator);
+      throw;
+    }
+    count(integrator);
+    out_.orbit.end_t = integrator.state().t;
+    const Eigen::VectorXd& y = integrator.state().y;
+    out_.orbit.end.assign(y.data(), y.data() + model_.system.z_begin());
+  }
+
+ private:
+  /// The first instant of Lyapunov exponents lies behind the transient, which may be 0.
+  template <class Time>
+  double time_from(const Time& time) const {
+    const std::string& text = question_.lyapunov->transient;
+    return text == LyapunovQuestion{}.transient ? 0 : time(text);
+  }
+
+  void count(const Integrator& integrator) {
+    out_.steps = integrator.counts().steps;
+    out_.impacts = static_cast<long>(integrator.impacts().size());
+  }
+
+  void returns(Integrator& integrator) {
+    const SectionQuestion& section = *question_.section;
+    Columns columns(model_, question_);
+    out_.units = columns.units;
+    const double from = integrator.state().t;
+    double begin = from;
+    for (int k = 1; k <= section.transient + section.returns; ++k) {
+      if (section.every.empty()) {
+        if (!go_to_return(integrator, last_, go_on_)) {
+          too_few(k - 1);
+          break;
+        }
+      } else {
+        go_to(integrator, from + k * out_.orbit.interval, go_on_);
+      }
+      if (k <= section.transient) begin = integrator.state().t;
+      if (k <= section.transient) continue;
+      out_.orbit.t.push_back(integrator.state().t);
+      out_.orbit.signals.push_back(columns.read(model_, integrator, sampled_));
+    }
+    if (integrator.state().t > begin) out_.orbit.impacts = figures(integrator.impacts(), begin, integrator.state().t);
+  }
+
+  void too_few(int came) {
+    const SectionQuestion& section = *question_.section;
+    out_.status = "too few returns";
+    out_.reason = std::to_string(came) + " of " + std::to_string(section.transient + section.returns) + " by run.until, " +
+                  number_text(last_, 6) + " s; lengthen it, or ask for fewer";
+  }
+
+  void exponents(Integrator& integrator) {
+    go_to(integrator, integrator.state().t + times_.transient, go_on_);
+    LyapunovRun run{
+        .count = question_.lyapunov->exponents, .interval = times_.every, .over = times_.over, .distance = question_.lyapunov->distance};
+    lyapunov_exponents(model_, integrator, run, go_on_, out_.orbit);
+  }
+
+  const OrbitQuestion& question_;
+  const std::function<bool()>& go_on_;
+  OrbitEnd& out_;
+  Scene scene_;
+  Model model_;
+  State start_, sampled_;
+  double last_ = 0;  ///< by which returns must have come [s]
+  struct {
+    double every = 0, over = 0, transient = 0;
+  } times_;
+};
+
+}  // namespace
+
+Overrides recording(const OrbitQuestion& question) {
+  Overrides out;
+  if (!question.section) return out;
+  const SectionQuestion& section = *question.section;
+  for (std::size_t k = 0; k < section.record.size(); ++k) out.emplace_back("outputs." + output_name(k), section.record[k].expression);
+  if (section.when.empty()) return out;
+  const std::string event = std::string("events.") + event_name;
+  out.emplace_back(event + ".when", section.when);
+  out.emplace_back(event + ".from start", "false");
+  out.emplace_back(event + ".do", "{row: true}");
+  return out;
+}
+
+OrbitEnd follow_orbit(const CaseSource& source, const Overrides& set, const OrbitQuestion& question, const Orbit* before, BodyStore& bodies,
+                      const std::function<bool()>& go_on) {
+  OrbitEnd out;
+  try {
+    Following(source, set, question, before, bodies, go_on, out).follow();
+    if (out.status.empty()) out.status = status_text(Status::finished);
+  } catch (const OrbitTrouble& trouble) {
+    out.status = trouble.status, out.reason = trouble.reason;
+  } catch (const AssemblyError& error) {
+    out.status = "not assembled", out.reason = error.what();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    out.status = "refused", out.reason = error.what();
+  }
+  std::ranges::replace_if(
+      out.reason, [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  return out;
+}
+
+std::size_t period_of(const std::vector<std::vector<double>>& signals, double tolerance) {
+  if (signals.empty()) return 0;
+  std::vector<double> size(signals[0].size(), 0.0);
+  for (const auto& one : signals)
+    for (std::size_t i = 0; i < size.size(); ++i) size[i] = std::max(size[i], std::abs(one[i]));
+  const auto comes_again = [&](std::size_t period) {
+    for (std::size_t k = period; k < signals.size(); ++k)
+      for (std::size_t i = 0; i < size.size(); ++i)
+        if (!(std::abs(signals[k][i] - signals[k - period][i]) <= tolerance * size[i])) return false;
+    return true;
+  };
+  for (std::size_t period = 1; 2 * period <= signals.size(); ++period)
+    if (comes_again(period)) return period;
+  return 0;
+}
+
+}  // namespace pintle

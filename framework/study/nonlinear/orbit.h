@@ -1,0 +1,92 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/scene/error.h"
+#include "framework/study/case.h"
+
+namespace pintle {
+
+/// A signal that is recorded at each return.
+struct Recorded {
+  std::string name, expression;
+};
+
+/// Where the motion is looked at. Texts are expressions of the scene, times in its parameters.
+struct SectionQuestion {
+  std::string every;  ///< a time; or
+  std::string when;   ///< a condition that turns true
+  std::vector<Recorded> record;
+  int transient = 100, returns = 100;
+  double tolerance = 1e-4;  ///< of a period, next to the largest magnitude of each signal
+};
+
+/// What is asked of the growth of small distances.
+struct LyapunovQuestion {
+  int exponents = 1;
+  std::string every, over, transient = "0 s";
+  double distance = 1e-6;
+};
+
+struct OrbitQuestion {
+  std::optional<SectionQuestion> section;
+  std::optional<LyapunovQuestion> lyapunov;
+};
+
+/// Overrides by which a scene records what a section asks for, and finds when.
+Overrides recording(const OrbitQuestion&);
+
+/// Contacts in the time of the returns that are recorded, of all contacts together.
+struct ImpactFigures {
+  double count = 0;                                          ///< that began in it
+  double interval = 0;                                       ///< between beginnings, mean [s]
+  double least_approach = 0, median = 0, most_approach = 0;  ///< [m/s]
+  double grazing = 0;                                        ///< of them, slower than grazing_share of the median
+  double contact_share = 0;                                  ///< of the time, summed over contacts
+};
+inline constexpr double grazing_share = 0.05;
+
+/// An exponent, and the standard error of its mean over batches of the time [1/s].
+struct Exponent {
+  double value = 0, error = 0;
+};
+
+/// What one value of the parameter has come to.
+struct Orbit {
+  std::vector<double> t;                     ///< of each return recorded [s]
+  std::vector<std::vector<double>> signals;  ///< of each
+  ImpactFigures impacts;
+  std::vector<Exponent> exponents;
+  std::vector<double> running_t;             ///< [s]
+  std::vector<std::vector<double>> running;  ///< the exponents as they have come to by then
+  double interval = 0;                       ///< of a section by time [s]
+  double end_t = 0;                          ///< the state to go on from
+  std::vector<double> end;                   ///< coordinates, speeds, states; none: there is none
+
+  /// All of it as numbers, which a journal keeps to the bit.
+  std::vector<double> numbers() const;
+  /// @throws std::invalid_argument  these are no orbit
+  static Orbit of(const std::vector<double>& numbers);
+};
+
+/// How following an orbit ended.
+struct OrbitEnd {
+  std::string status, reason;  ///< as of a case
+  Orbit orbit;
+  std::vector<std::string> units;  ///< of the signals recorded
+  long steps = 0, impacts = 0;
+};
+
+/// Follows one value of the parameter, from the scene's start or from where another has ended. Never throws but for want of memory.
+/// @param go_on  asked now and then; false interrupts
+OrbitEnd follow_orbit(const CaseSource&, const Overrides&, const OrbitQuestion&, const Orbit* before, BodyStore&,
+                      const std::function<bool()>& go_on);
+
+/// The least number of returns after which all signals come again within `tolerance`, next to the largest magnitude of each; 0: none up to
+/// half of the returns.
+std::size_t period_of(const std::vector<std::vector<double>>& signals, double tolerance);
+
+}  // namespace pintle

@@ -1,0 +1,223 @@
+// Poincaré sections, periods and Lyapunov exponents against closed forms.
+#include "framework/study/nonlinear/nonlinear.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/scenes/sweep_folder.h"
+
+namespace pintle {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Sets a study up in a folder and follows it.
+struct Followed {
+  Nonlinear study;
+  std::vector<Row> rows;
+  std::vector<FollowedValue> values;
+};
+
+Followed follow_study(const SweepFolder& folder, const std::string& scene, const std::string& study, int threads = 1) {
+  folder.write("scene.yaml", scene);
+  folder.write("study.yaml", "scene: scene.yaml\n" + study);
+  Followed out;
+  out.study = read_nonlinear(folder / "study.yaml");
+  SweepSettings settings;
+  settings.threads = threads;
+  out.rows = run_nonlinear(out.study, folder / "out", settings).rows;
+  out.values = followed(out.study, out.rows);
+  for (const FollowedValue& value : out.values) EXPECT_EQ(value.status, "finished") << value.reason;
+  return out;
+}
+
+// E. N. Lorenz (1963), by states of the scene's own.
+const char* const lorenz =
+    "parameters: {sigma: 10, rho: 28, beta: 8/3}\n"
+    "bodies: {plate: {rigid: {mass: 1 kg, inertia: 1 kg m^2}}}\n"
+    "joints: {held: {weld: [ground, plate]}}\n"
+    "states:\n"
+    "  X: {rate: \"sigma*(Y - X)/(1 s)\", start: 1}\n"
+    "  Y: {rate: \"(X*(rho - Z) - Y)/(1 s)\", start: 1}\n"
+    "  Z: {rate: \"(X*Y - beta*Z)/(1 s)\", start: 20}\n"
+    "run: {until: 1000 s, tolerance: 1e-9, method: verner87}\n";
+
+// The divergence of the flow is -(sigma + 1 + beta) everywhere; the flow's own direction neither grows nor shrinks.
+TEST(Nonlinear, LorenzHasItsExponentsAndTheirSumIsTheDivergence) {
+  const SweepFolder folder;
+  const Followed done = follow_study(folder, lorenz, "lyapunov: {exponents: 3, every: 0.2 s, over: 300 s, transient: 20 s}\n");
+  const std::vector<Exponent>& found = done.values.at(0).orbit.exponents;
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_NEAR(found[0].value + found[1].value + found[2].value, -(10 + 1 + 8.0 / 3), 1e-3);
+  // 0.9056 (Sprott 2003); the time is finite: within four of its own standard errors, and these are small.
+  EXPECT_LT(found[0].error, 0.05);
+  EXPECT_NEAR(found[0].value, 0.9056, 4 * found[0].error);
+  EXPECT_NEAR(found[1].value, 0, 4 * found[1].error + 0.01);
+}
+
+/// A ball on a heavy table that goes as A sin(omega t), driven by gamma = A omega^2/g: the exact map, once a period. The orbit that
+/// hits once a period has, at its impacts, gamma cos(phi) = pi (1 - e)/(1 + e), and the multipliers of its return have the sum
+/// 1 + e^2 - (1 + e)^2 gamma sin(phi) and the product e^2. So it is born at gamma = pi (1 - e)/(1 + e) and doubles where
+/// gamma sin(phi) = 2 (1 + e^2)/(1 + e)^2.
+struct Table {
+  double e = 0.5, omega = 100, g = 9.81;
+  double birth() const { return pi * (1 - e) / (1 + e); }
+  double doubling() const { return std::hypot(birth(), 2 * (1 + e * e) / ((1 + e) * (1 + e))); }
+  double phase(double gamma) const { return std::acos(birth() / gamma); }
+  double sum(double gamma) const { return 1 + e * e - (1 + e) * (1 + e) * gamma * std::sin(phase(gamma)); }
+  /// Half a flight after an impact, at the apex, `off` times as high above the table's height at impacts as on the orbit.
+  std::string scene(double gamma, double off) const {
+    const double period = 2 * pi / omega, amplitude = gamma * g / (omega * omega), launch = g * period / 2;
+    const double apex = 0.01 + amplitude * std::sin(phase(gamma)) + off * launch * launch / (2 * g);
+    return "parameters: {omega: 100 rad/s, gamma: " + std::to_string(gamma) +
+           ", A: gamma*9.81 m/s^2/omega^2, phase: " + std::to_string(phase(gamma)) +
+           "}\ngravity: [0, -9.81]\n"
+           "ground: {points: {below: {at: [0, -1 m], angle: 90 deg}}}\n"
+           "bodies:\n"
+           "  table: {rigid: {mass: 100 kg, inertia: 1}, profiles: {top: {path: [[-1, 0], [1, 0]], material: right}}}\n"
+           "  ball: {rigid: {mass: 0.01 kg, inertia: 1e-6}, profiles: {rim: {disc: [0, 0], radius: 10 mm}}}\n"
+           "joints:\n"
+           "  guide: {prismatic: [ground.below, table], angle: -90 deg}\n"
+           "  tube: {prismatic: [ground.below, ball], angle: -90 deg}\n"
+           "drivers: {shaker: {distance: [ground.below, table], law: \"1 m + A*sin(omega*t + phase + pi)\"}}\n"
+           "contacts: {hit: {between: [ball.rim, table.top], model: impact, restitution: 0.5}}\n"
+           "start: {ball: {y: " +
+           std::to_string(apex) +
+           " m, vy: 0}}\n"
+           "run: {until: 10 s, tolerance: 1e-10, method: dopri5}\n";
+  }
+};
+
+std::string once_a_period(int transient, int returns) {
+  return "section: {every: 2*pi/omega, record: {height: ball.y, speed: ball.vy}, transient: " + std::to_string(transient) +
+         ", returns: " + std::to_string(returns) + ", tolerance: 1e-3}\n";
+}
+
+TEST(Nonlinear, ABouncingBallDoublesItsPeriodAtTheClosedForm) {
+  const Table table;
+  for (const double part : {0.98, 1.02}) {
+    const SweepFolder folder;
+    const Followed done = follow_study(folder, table.scene(part * table.doubling(), 1.001), once_a_period(300, 16));
+    EXPECT_EQ(done.values.at(0).period, part < 1 ? 1u : 2u);
+    EXPECT_EQ(done.values[0].orbit.impacts.count, 16);
+    EXPECT_EQ(done.values[0].orbit.impacts.grazing, 0);
+  }
+}
+
+// Deviations d of a return obey d'' - sum d' + product d = 0.
+TEST(Nonlinear, ReturnsOfABouncingBallConvergeByTheMultipliersOfTheClosedForm) {
+  const Table table;
+  const double gamma = 1.2;
+  const SweepFolder folder;
+  const Followed done = follow_study(folder, table.scene(gamma, 1.0005), once_a_period(0, 40));
+  const std::vector<std::vector<double>>& returns = done.values.at(0).orbit.signals;
+  const auto d = [&](std::size_t k) { return returns[k][1] - returns.back()[1]; };
+  const std::size_t k = 4;  // small by then, so that squares are some 1e-4 of it
+  const double det = d(k) * d(k + 2) - d(k + 1) * d(k + 1);
+  const double sum = (d(k) * d(k + 3) - d(k + 1) * d(k + 2)) / det;
+  const double product = (d(k + 1) * d(k + 3) - d(k + 2) * d(k + 2)) / det;
+  EXPECT_NEAR(sum, table.sum(gamma), 2e-3);
+  EXPECT_NEAR(product, table.e * table.e, 2e-3);
+}
+
+// Both multipliers have the size e where they are complex, so both exponents are log(e) a period: neighbours pass impacts.
+TEST(Nonlinear, ExponentsOfABouncingBallAreTheLogarithmsOfItsMultipliers) {
+  const Table table;
+  const double period = 2 * pi / table.omega;
+  const SweepFolder folder;
+  const Followed done = follow_study(folder, table.scene(1.2, 1.0),
+                                     "lyapunov: {exponents: 2, every: 2*pi/omega, over: 200*2*pi/omega, transient: 50*2*pi/omega}\n");
+  const std::vector<Exponent>& found = done.values.at(0).orbit.exponents;
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NEAR((found[0].value + found[1].value) * period, 2 * std::log(table.e), 1e-3);
+  EXPECT_NEAR(found[0].value * period, std::log(table.e), 0.02);  // the share of the last, unfinished turn of the pair
+}
+
+TEST(Nonlinear, AnInterruptedStudyGoesOnToTheSameFilesToTheByte) {
+  const Table table;
+  const std::string study = once_a_period(5, 6) + "over: {gamma: [1.2, 1.3, 1.4]}\ndirection: both\n";
+  const SweepFolder whole, cut;
+  follow_study(whole, table.scene(1.2, 1.0), study);
+  cut.write("scene.yaml", table.scene(1.2, 1.0));
+  cut.write("study.yaml", "scene: scene.yaml\n" + study);
+  const Nonlinear again = read_nonlinear(cut / "study.yaml");
+  run_nonlinear(again, cut / "out", {});
+  // All but the heading and the first two values are lost, the third is torn.
+  const std::string journal = contents(cut / "out/journal-0.txt");
+  std::size_t end = 0;
+  for (int line = 0; line < 3; ++line) end = journal.find('\n', end) + 1;
+  std::ofstream(cut / "out/journal-0.txt", std::ios::binary) << journal.substr(0, end + 40);
+  for (const char* name : {"section.csv", "values.csv"}) fs::remove(cut / "out" / name);
+  const SweepEnd last = run_nonlinear(again, cut / "out", {});
+  EXPECT_EQ(last.count.before, 2u);
+  EXPECT_EQ(last.count.done, 4u);
+  for (const char* name : {"section.csv", "values.csv"}) {
+    EXPECT_FALSE(contents(cut / "out" / name).empty()) << name;
+    EXPECT_EQ(contents(cut / "out" / name), contents(whole / "out" / name)) << name;
+  }
+}
+
+// By energy 1/12 a section of Hénon and Heiles' (1964) at x = 0, x' > 0 keeps H.
+TEST(Nonlinear, ASectionOfHenonAndHeilesKeepsItsEnergy) {
+  const SweepFolder folder;
+  const Followed done = follow_study(folder,
+                                     "bodies: {plate: {rigid: {mass: 1 kg, inertia: 1 kg m^2}}}\n"
+                                     "joints: {held: {weld: [ground, plate]}}\n"
+                                     "states:\n"
+                                     "  x: {rate: u/(1 s), start: 0}\n"
+                                     "  y: {rate: w/(1 s), start: 0.1}\n"
+                                     "  u: {rate: \"(-x - 2*x*y)/(1 s)\", start: sqrt(1/6 - 0.01 + 0.002/3)}\n"
+                                     "  w: {rate: \"(-y - x^2 + y^2)/(1 s)\", start: 0}\n"
+                                     "run: {until: 500 s, tolerance: 1e-11, method: verner87}\n",
+                                     "section: {when: x > 0, record: [x, y, u, w], transient: 0, returns: 40}\n");
+  ASSERT_EQ(done.values.at(0).orbit.signals.size(), 40u);
+  for (const std::vector<double>& r : done.values[0].orbit.signals) {
+    const double x = r[0], y = r[1], u = r[2], w = r[3];
+    EXPECT_NEAR(x, 0, 1e-10);
+    EXPECT_GT(u, 0);
+    EXPECT_NEAR((u * u + w * w + x * x + y * y) / 2 + x * x * y - y * y * y / 3, 1.0 / 12, 1e-8);
+  }
+}
+
+struct Refused {
+  const char* study;
+  std::vector<std::string> words;
+};
+
+TEST(Nonlinear, WhatIsWrongIsNamedWithItsRemedy) {
+  const SweepFolder folder;
+  folder.write("scene.yaml", lorenz);
+  for (const Refused& one : std::vector<Refused>{
+           {"measure: energy lost", {"study.yaml", "neither section nor lyapunov", "add"}},
+           {"section: {every: 1 s, when: X > 0, record: X}", {"study.yaml:2", "section"}},
+           {"section: {every: 1 s}", {"study.yaml:2", "record"}},
+           {"section: {evry: 1 s, record: X}", {"study.yaml:2", "evry", "every"}},
+           {"section: {every: 1 m, record: X}", {"study.yaml:2", "section.every", "time"}},
+           {"section: {every: 1 s, record: [Q]}", {"study.yaml:2", "section.record", "Q"}},
+           {"section: {when: X > , record: [X]}", {"study.yaml:2", "section.when"}},
+           {"section: {every: 1 s, record: [X, X]}", {"study.yaml:2", "twice", "leave one out"}},
+           {"section: {every: 1 s, record: X, returns: 0}", {"study.yaml:2", "section.returns"}},
+           {"section: {every: 1 s, record: X}\ndirection: both", {"study.yaml:3", "direction", "over"}},
+           {"section: {every: 1 s, record: X}\nover: {rho: [1, 2], beta: [1]}", {"study.yaml:3", "over", "name one"}},
+           {"section: {every: 1 s, record: X}\nover: {ro: [1, 2]}", {"study.yaml:3", "over", "rho"}},
+           {"section: {every: 1 s, record: X}\nover: {rho: [1]}\ndirection: up", {"study.yaml:4", "direction", "forwards"}},
+           {"lyapunov: {every: 1 s}", {"study.yaml:2", "over"}},
+           {"lyapunov: {every: 1 s, over: 2 s, distance: 2}", {"study.yaml:2", "lyapunov.distance", "0 and 1"}},
+           {"lyapunov: {every: 1 s, over: 2 s}\nsweep: {grid: {rho: [1]}}", {"study.yaml:3", "sweep", "leave it out"}}}) {
+    folder.write("study.yaml", std::string("scene: scene.yaml\n") + one.study + "\n");
+    try {
+      read_nonlinear(folder / "study.yaml");
+      ADD_FAILURE() << "accepted: " << one.study;
+    } catch (const SceneError& error) {
+      for (const std::string& word : one.words)
+        EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << one.study << "\n  " << error.what() << "\n  lacks " << word;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pintle
