@@ -1,5 +1,6 @@
 #include "framework/scene/error.h"
 #include "framework/study/fit/fit.h"
+#include "framework/study/nonlinear/nonlinear.h"
 #include "framework/study/sensitivity/sensitivity.h"
 #include "framework/study/study.h"
 #include "framework/study/sweep/sweep.h"
@@ -35,6 +36,7 @@ void fuzz_study(std::string_view bytes) {
   read(read_sweep);
   read(read_fit);
   read(read_sensitivity);
+  read(read_nonlinear);
 }
 
 }  // namespace pintle

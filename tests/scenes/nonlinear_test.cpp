@@ -137,6 +137,29 @@ TEST(Nonlinear, ExponentsOfABouncingBallAreTheLogarithmsOfItsMultipliers) {
   EXPECT_NEAR(found[0].value * period, std::log(table.e), 0.02);  // the share of the last, unfinished turn of the pair
 }
 
+// Free motion takes areas of the phase plane by exp(-c t/m), an impact by e^2: the product of the multipliers of an orbit that hits once
+// a period, and the sum of its exponents.
+TEST(Nonlinear, AnImpactOscillatorsMultipliersHaveTheProductOfTheClosedForm) {
+  const SweepFolder folder;
+  const Followed done =
+      follow_study(folder,
+                   "parameters: {omega: 2 rad/s}\n"
+                   "ground: {points: {G: [0, 0]}, profiles: {stop: {path: [[0.1 m, -1 m], [0.1 m, 1 m]], material: right}}}\n"
+                   "bodies: {block: {rigid: {mass: 1 kg, inertia: 1}, profiles: {rim: {disc: [0, 0], radius: 0.1 m}}}}\n"
+                   "joints: {guide: {prismatic: [ground.G, block]}}\n"
+                   "forces: {pull: {force: [\"1 N*cos(omega*t) - 1 N/m*block.x - 0.1 N s/m*block.vx\", 0], at: block}}\n"
+                   "contacts: {hit: {between: [block.rim, ground.stop], model: impact, restitution: 0.6}}\n"
+                   "start: {block: {x: -0.5 m, vx: 0}}\n"
+                   "run: {until: 100 s, tolerance: 1e-10, method: dopri5}\n",
+                   "section: {every: 2*pi/omega, record: [block.x, block.vx], transient: 100, returns: 20}\n"
+                   "lyapunov: {exponents: 2, every: 2*pi/omega, over: 100*2*pi/omega}\n");
+  EXPECT_EQ(done.values.at(0).period, 1u);
+  EXPECT_EQ(done.values[0].orbit.impacts.count, 20);
+  const std::vector<Exponent>& found = done.values[0].orbit.exponents;
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NEAR((found[0].value + found[1].value) * pi, 2 * std::log(0.6) - 0.1 * pi, 1e-4);
+}
+
 TEST(Nonlinear, AnInterruptedStudyGoesOnToTheSameFilesToTheByte) {
   const Table table;
   const std::string study = once_a_period(5, 6) + "over: {gamma: [1.2, 1.3, 1.4]}\ndirection: both\n";
