@@ -132,8 +132,9 @@ std::string curve_of(const Panel& p, const Axes& axes, std::size_t k) {
   }
   std::string s;
   if (!x.empty() && !c.points) s += polyline(x, y, stroke_of(p, k));
+  const double radius = x.size() > 400 ? 1 : 2.5;  // so that many do not run together
   for (std::size_t i = 0; (p.log || c.points) && i < x.size(); ++i)
-    s += printed("<circle cx='%.1f' cy='%.1f' r='2.5' fill='%s'/>\n", x[i], y[i], colour_of(k));
+    s += printed("<circle cx='%.1f' cy='%.1f' r='%g' fill='%s'/>\n", x[i], y[i], radius, colour_of(k));
   return s;
 }
 
