@@ -2,6 +2,9 @@
 // name and a remedy, before anything is computed.
 #include <sys/stat.h>
 
+#include <map>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "tests/unit/program.h"
@@ -12,7 +15,7 @@ namespace fs = std::filesystem;
 using namespace pintle_test;
 
 const char* const scene_commands[] = {"run", "check", "statics", "kinematics", "inverse", "linearize", "modes", "static", "mesh"};
-const char* const study_commands[] = {"sweep", "fit", "sensitivity", "tradeoff"};
+const char* const study_commands[] = {"sweep", "fit", "sensitivity", "tradeoff", "nonlinear"};
 
 const char* const wheel = R"(
 bodies: {wheel: {rigid: {mass: 1, inertia: 1}}}
@@ -33,6 +36,7 @@ class Paths : public testing::Test {
         "sought.yaml",
         "scene: scene.yaml\nmeasure: {work: work of motor}\ngoal: {minimise: work}\nvary: {run.tolerance: {from: 1e-7, to: 1e-6}}\n"
         "fit: {starts: 1, evaluations: 2}\nsensitivity: {parameters: {run.tolerance: {at: 1e-6}}}\n");
+    folder_.write("returns.yaml", "scene: scene.yaml\nsection: {every: 1e-4 s, record: {angle: wheel.angle}, transient: 1, returns: 4}\n");
     folder_.write("trade.yaml", "scene: scene.yaml\nmeasure: {work: work of motor}\n");
     fs::create_directory(at("inside"));
     folder_.write("inside/file", "text\n");
@@ -64,13 +68,20 @@ TEST_F(Paths, ASceneOrStudyIsAnOrdinaryFileThatSaysSomething) {
 }
 
 TEST_F(Paths, ResultsGoWhereNothingIs) {
-  for (const std::string command :
-       {"run", "statics", "kinematics", "inverse", "linearize", "modes", "static", "mesh", "sweep", "fit", "sensitivity", "tradeoff"}) {
-    const bool seeks = command == "fit" || command == "sensitivity";
-    const std::string input = at(command == "sweep"      ? "study.yaml"
-                                 : seeks                 ? "sought.yaml"
-                                 : command == "tradeoff" ? "trade.yaml"
-                                                         : "scene.yaml");
+  for (const auto& [command, file] : std::map<std::string, std::string>{{"run", "scene.yaml"},
+                                                                        {"statics", "scene.yaml"},
+                                                                        {"kinematics", "scene.yaml"},
+                                                                        {"inverse", "scene.yaml"},
+                                                                        {"linearize", "scene.yaml"},
+                                                                        {"modes", "scene.yaml"},
+                                                                        {"static", "scene.yaml"},
+                                                                        {"mesh", "scene.yaml"},
+                                                                        {"sweep", "study.yaml"},
+                                                                        {"fit", "sought.yaml"},
+                                                                        {"sensitivity", "sought.yaml"},
+                                                                        {"tradeoff", "trade.yaml"},
+                                                                        {"nonlinear", "returns.yaml"}}) {
+    const std::string input = at(file);
     expect_refused({command, input, "--out", ""}, "--out");
     // Commands on a body refuse this scene for want of elements; they share the rest with the others.
     if (command == "modes" || command == "static" || command == "mesh") continue;
@@ -122,6 +133,7 @@ TEST_F(Paths, AJournalIsAnOrdinaryFile) {
   ASSERT_EQ(mkfifo(at("swept/journal-0.txt").c_str(), 0600), 0);
   expect_refused({"sweep", at("study.yaml"), "--out", at("swept")}, at("swept/journal-0.txt"));
   expect_refused({"fit", at("sought.yaml"), "--out", at("swept")}, at("swept/journal-0.txt"));
+  expect_refused({"nonlinear", at("returns.yaml"), "--out", at("swept")}, at("swept/journal-0.txt"));
 }
 
 }  // namespace
