@@ -61,11 +61,11 @@ TEST(Fit, ChebyshevsLinkageIsFoundFromAPoorStart) {
   EXPECT_TRUE(fs::exists(folder / "out/path.csv"));
 }
 
-/// Greatest less least y of Hoecken's P, crank 1, over half a turn: by hand.
-double hoecken(double ground, double link) {
+/// Greatest less least y of Hoecken's P, crank 1, over half a turn or what is said [rad]: by hand.
+double hoecken(double ground, double link, double range = pi) {
   double low = 1e9, high = -1e9;
   for (int k = 0; k <= 720; ++k) {
-    const double a = pi / 2 + pi * k / 720, x = std::cos(a), y = std::sin(a), dx = ground - x, dy = -y, d = std::hypot(dx, dy);
+    const double a = pi - range / 2 + range * k / 720, x = std::cos(a), y = std::sin(a), dx = ground - x, dy = -y, d = std::hypot(dx, dy);
     const double height = std::sqrt(link * link - d * d / 4), by = y + dy / 2 + dx / d * height;
     low = std::min(low, 2 * by - y), high = std::max(high, 2 * by - y);
   }
@@ -84,6 +84,32 @@ TEST(Fit, HoeckensStraightestLineIsFoundFromAPoorStart) {
   EXPECT_LE(found, 0.1 * best) << "as straight as the best of a fine grid";
   EXPECT_NEAR(ground / 0.22, 1, 0.01);  // Norton's table, to what about so flat a least value can be told from it
   EXPECT_NEAR(link / 0.28, 1, 0.01);
+}
+
+// Norton, Design of Machinery, table 3-1: ground and link over the crank that make the line straightest over so much of the crank's turn, and
+// how straight it is then, in parts of its length.
+TEST(Fit, PublishedOptimaOfACouplerCurveAreFound) {
+  struct Optimum {
+    double degrees, ground, link, straight;
+  };
+  for (const Optimum& row :
+       {Optimum{120, 2.625, 3.438, 0.010e-2}, Optimum{160, 2.35, 3.025, 0.047e-2}}) {
+    SCOPED_TRACE(row.degrees);
+    const SweepFolder folder;
+    folder.write("scene.yaml", contents(studies / "../hoecken_straight_line.yaml"));
+    folder.write("study.yaml",
+                 "scene: scene.yaml\nanalysis: kinematics\nset: {range: " + std::to_string(row.degrees) +
+                     " deg}\nmeasure: {length: range of x of coupler.P}\nvary: {ground: {from: 0.2 m, to: 0.35 m, start: 0.3 m}, "
+                     "link: {from: 0.25 m, to: 0.45 m, start: 0.4 m}}\ngoal: {minimise: range of y of coupler.P}\n"
+                     "fit: {starts: 1, evaluations: 200}\n");
+    const FitPlan plan = read_fit(folder / "study.yaml");
+    const FitEnd end = run_fit(plan, folder / "out", {2, {}});
+    const double found = measure(plan, end, plan.goal.measure), length = measure(plan, end, 0);
+    EXPECT_LE(found, 0.1 * hoecken(row.ground, row.link, row.degrees * pi / 180)) << "as straight as the published one";
+    EXPECT_NEAR(found / length, row.straight, 0.1 * row.straight) << "its proportions are rounded, which costs it up to a fourteenth";
+    EXPECT_NEAR(variable(plan, end, "ground") / (0.1 * row.ground), 1, 0.01);
+    EXPECT_NEAR(variable(plan, end, "link") / (0.1 * row.link), 1, 0.01);
+  }
 }
 
 TEST(Fit, ASpringIsChosenForANaturalFrequency) {
