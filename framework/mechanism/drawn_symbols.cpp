@@ -109,12 +109,15 @@ void draw_ground(const Model& model, const Drafting& drafting, const Equations& 
 void draw_bars(const Model& model, const Equations& eq, Drawing& out) {
   const System& system = model.system;
   std::vector<std::vector<Vector2d>> held(system.bodies.size());  // by body
-  for (std::size_t k = 0; k < system.joints.size(); ++k) {
-    if (properties_of(system.joints[k]).symbol == JointSymbol::none) continue;
-    const JointEnds ends = ends_of(system.joints[k]);
-    for (const int marker : {ends.marker[0], ends.marker[1]})
+  const auto hold = [&](int a, int b) {
+    for (const int marker : {a, b})
       if (!on_ground(system, marker)) held[at(system.markers[at(marker)].body)].push_back(eq.motion[at(marker)].r);
+  };
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const JointEnds ends = ends_of(system.joints[k]);
+    if (properties_of(system.joints[k]).symbol != JointSymbol::none) hold(ends.marker[0], ends.marker[1]);
   }
+  for (std::size_t c = 0; c < at(n_clearances(system)); ++c) hold(system.contacts[c].a, system.contacts[c].b);
   std::vector<bool> has_surface(system.bodies.size(), false);
   for (const DrawnProfile& p : model.profiles) {
     if (p.body == ground || p.points.empty()) continue;

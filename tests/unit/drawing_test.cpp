@@ -174,6 +174,25 @@ run: {until: 1}
     for (const Vector2d& p : line.points) EXPECT_TRUE(line.part != Part::guide || std::abs(p.y()) < 1e-12);
 }
 
+// A body with a surface is drawn as bars between its pins and its surface, whether a pin has play or not.
+TEST(DrawnBars, ReachPinsWithAndWithoutPlay) {
+  const auto jaw = [](const std::string& clearance) {
+    return drawn(R"(
+ground: {points: {P: [0, 0.5]}}
+bodies:
+  rod: {rigid: {mass: 1, inertia: 1e-2}, points: {B: [0.3, 0]}}
+  jaw: {rigid: {mass: 1, inertia: 1e-2}, points: {P: [0, 0.5], B: [0.3, 0]}, profiles: {tooth: {disc: [0.4, 0.1], radius: 0.02}}}
+joints:
+  bearing: {revolute: [ground, rod]}
+  top: {revolute: [ground.P, jaw.P]}
+  pin: {revolute: [rod.B, jaw.B])" + clearance + "}\nrun: {until: 1}\n");
+  };
+  const auto bars = [](const Drawing& drawing) { return lines_of(drawing, Part::link, "jaw"); };
+  const long without = bars(jaw(""));
+  EXPECT_EQ(without, 3);  // the tooth, and bars from the top to the pin and to the tooth
+  EXPECT_EQ(bars(jaw(", clearance: {radial: 0.1 mm, bearing radius: 10 mm, bearing: rod, normal: {hertz: {stiffness: 1e9}}}")), without);
+}
+
 TEST(DrawnPoints, AreFollowedAsTheOutputNamesThem) {
   std::string scene = hanging;
   scene += "output: {points: [rod.tip]}\n";
