@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
-#include <thread>
 
 #include "app/options.h"
 #include "app/progress.h"
@@ -87,9 +86,9 @@ std::string lack(const FitPlan& plan, const FitEnd& end) {
 int fit(const Options& options) {
   now_doing("reading the study");
   const FitPlan plan = read_fit(options.scene, overrides(options));
-  const fs::path out = options.out.empty() ? fs::path("runs") / (fs::path(options.scene).stem().string() + "-fit") : fs::path(options.out);
+  const fs::path out = study_directory(options, "-fit");
   FitSettings settings;
-  settings.threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  settings.threads = thread_count(options);
   FitEnd end;
   now_doing("searching");
   {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <thread>
 
 #include "app/options.h"
 #include "app/progress.h"
@@ -17,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string counted(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
+
 std::string words_of_period(std::size_t period) { return period == 0 ? "no period found" : "period " + std::to_string(period); }
 
 /// One row for each stretch of values that have the same period.
@@ -27,10 +28,11 @@ void add_periods(const Nonlinear& study, const std::vector<FollowedValue>& value
       return v.period == values[k].period && v.status == values[k].status && v.backwards == values[k].backwards;
     };
     while (end < values.size() && same(values[end])) ++end;
-    std::string where = study.varies() ? values[k].parameter : std::to_string(values[k].orbit.t.size()) + " returns";
+    std::string where = study.varies() ? values[k].parameter : counted(values[k].orbit.t.size(), "return");
     if (end - k > 1) where += " to " + values[end - 1].parameter + " (" + std::to_string(end - k) + " values)";
     if (study.order == Order::both) where += values[k].backwards ? ", backwards" : ", forwards";
-    rows.emplace_back(values[k].status == "finished" ? words_of_period(values[k].period) : values[k].status, where);
+    const bool finished = values[k].status == "finished";
+    rows.emplace_back(finished ? words_of_period(values[k].period) : values[k].status, finished ? where : where + ": " + values[k].reason);
     k = end;
   }
 }
@@ -42,7 +44,10 @@ void add_exponents(const Orbit& orbit, Rows& rows) {
     const Exponent& one = orbit.exponents[j];
     sum += one.value;
     rows.emplace_back("exponent " + std::to_string(j + 1),
-                      number(one.value) + (std::isnan(one.error) ? "" : " +- " + number(one.error, 2)) + " 1/s");
+                      number(one.value) + (std::isnan(one.error) ? "" : " +- " + number(one.error, 2)) + " 1/s" +
+                          (std::isnan(one.error)
+                               ? ", its error not known: lyapunov.over has fewer than " + std::to_string(exponent_batches) + " intervals"
+                               : ""));
   }
   if (orbit.exponents.size() > 1) rows.emplace_back("their sum", number(sum) + " 1/s");
 }
@@ -134,10 +139,9 @@ std::string picture_of(const Nonlinear& study, const std::vector<FollowedValue>&
 int nonlinear(const Options& options) {
   now_doing("reading the study");
   const Nonlinear study = read_nonlinear(options.scene, overrides(options));
-  const fs::path out =
-      options.out.empty() ? fs::path("runs") / (fs::path(options.scene).stem().string() + "-nonlinear") : fs::path(options.out);
+  const fs::path out = study_directory(options, "-nonlinear");
   SweepSettings settings;
-  settings.threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  settings.threads = thread_count(options);
   heed_signals();
   SweepEnd end;
   now_doing("following the motion");
@@ -157,12 +161,13 @@ int nonlinear(const Options& options) {
   }
   const std::vector<FollowedValue> values = followed(study, end.rows);
   write_synced(out / "section.svg", picture_of(study, values, signal_headers(study, end.rows)));
+  const bool any =
+      std::ranges::any_of(values, [](const FollowedValue& v) { return v.status == "finished" || v.status == "too few returns"; });
   if (options.json)
     std::cout << nonlinear_json(study, end.rows);
-  else if (!options.quiet)
+  else if (any && !options.quiet)
     print(study, end, values, out);
-  if (std::ranges::any_of(values, [](const FollowedValue& v) { return v.status == "finished" || v.status == "too few returns"; }))
-    return ok;
+  if (any) return ok;
   std::cerr << study.sweep.study.file << ": none of " << values.size()
             << " values could be followed to the end; the first: " << values.front().status << ": " << values.front().reason << "\n";
   return run_failed;

@@ -3,6 +3,7 @@
 #include <iomanip>
 #include <ostream>
 #include <sstream>
+#include <thread>
 
 #include "files/trust.h"
 #include "framework/output/results_directory.h"
@@ -65,11 +66,20 @@ void print_rows(std::ostream& out, const Rows& rows) {
   for (const auto& [left, right] : rows) out << "  " << std::left << std::setw(static_cast<int>(width) + 2) << left << right << "\n";
 }
 
-fs::path results_directory(const Options& options, const std::string& suffix) {
+fs::path study_directory(const Options& options, const std::string& suffix) {
   if (!options.out.empty()) return without_slash(options.out);
   fs::path name = fs::path(options.scene).stem();
   if (name.extension() == ".pintle" && name != ".pintle") name = name.stem();  // crank.pintle.yaml is the scene crank
-  const fs::path base = fs::path("runs") / (name.string() + suffix);
+  return fs::path("runs") / (name.string() + suffix);
+}
+
+int thread_count(const Options& options) {
+  return options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+fs::path results_directory(const Options& options, const std::string& suffix) {
+  const fs::path base = study_directory(options, suffix);
+  if (!options.out.empty()) return base;
   fs::path path = base;
   for (int k = 2; fs::exists(path); ++k) path = base.string() + "-" + std::to_string(k);
   return path;

@@ -65,5 +65,8 @@ using Rows = std::vector<std::pair<std::string, std::string>>;
 void print_rows(std::ostream&, const Rows&);  ///< the second column aligned
 /// runs/NAME, or runs/NAME-2, …: never over something that is there; `suffix` joins the scene's name.
 std::filesystem::path results_directory(const Options&, const std::string& suffix = "");
+/// runs/NAME and the suffix, where the same command goes on from what is there.
+std::filesystem::path study_directory(const Options&, const std::string& suffix);
+int thread_count(const Options&);  ///< --threads, or as many as the machine has
 
 }  // namespace pintle::app

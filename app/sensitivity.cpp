@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
-#include <thread>
 
 #include "app/options.h"
 #include "app/progress.h"
@@ -66,10 +65,9 @@ void print(const SensitivityPlan& plan, const std::vector<MeasureSensitivity>& a
 int sensitivity(const Options& options) {
   now_doing("reading the study");
   const SensitivityPlan plan = read_sensitivity(options.scene, overrides(options));
-  const fs::path out =
-      options.out.empty() ? fs::path("runs") / (fs::path(options.scene).stem().string() + "-sensitivity") : fs::path(options.out);
+  const fs::path out = study_directory(options, "-sensitivity");
   SweepSettings settings;
-  settings.threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  settings.threads = thread_count(options);
   heed_signals();
   settings.progress = [](const SweepCount&) { return !asked_to_stop(); };
   now_doing("running the cases");

@@ -9,7 +9,6 @@
 #include <iomanip>
 #include <iostream>
 #include <sstream>
-#include <thread>
 
 #include "app/communicator.h"
 #include "app/options.h"
@@ -100,12 +99,9 @@ bool none_ran(const SweepEnd& end) {
 }
 
 int carry_out(const Sweep& sweep, const Options& options, Communicator* together, bool leads) {
-  const fs::path out =
-      options.out.empty() ? fs::path("runs") / (fs::path(options.scene).stem().string() + "-sweep") : fs::path(options.out);
+  const fs::path out = study_directory(options, "-sweep");
   SweepSettings settings;
-  settings.threads = options.threads > 0 ? options.threads
-                     : together          ? 1
-                                         : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  settings.threads = options.threads == 0 && together ? 1 : thread_count(options);
   settings.communicator = together;
   SweepEnd end;
   now_doing("running the cases");

@@ -72,12 +72,7 @@ std::vector<Measure> read_measures(const Node& node, const std::string& file, co
     const std::string words = entry.text("words such as peak force at crank pin");
     out.push_back({name.empty() ? words : name, words, entry.place(), file, question, {}});
   };
-  if (node.is_scalar())
-    add(node, "");
-  else if (node.is_list())
-    for (const Node& entry : node.list(1, remedy)) add(entry, "");
-  else
-    for (const Node& entry : node.entries(remedy)) add(entry, entry.name());
+  each_entry(node, remedy, add);
   if (out.empty()) node.fail(std::string("measures nothing; write ") + remedy);
   return out;
 }
@@ -113,12 +108,10 @@ std::string first_in(const Node& scene, const char* group, const char* otherwise
   return scene.at(group).keys().front();
 }
 
-[[noreturn]] void reject_scene(const Node& root, const std::filesystem::path& path) {
+std::string example_of_sweep(const Node& root) {
   const std::string parameter = first_in(root, "parameters", "run.tolerance");
   const std::string value = parameter == "run.tolerance" ? "1e-6" : override_text(root.at("parameters").at(parameter).yaml());
-  const std::string example = "{scene: " + path.filename().string() + ", measure: {peak: peak force at " +
-                              first_in(root, "joints", "JOINT") + "}, sweep: {grid: {" + parameter + ": [" + value + ", …]}}}";
-  throw SceneError(path.string(), {}, "is a scene, not a study. Write a study beside it, for example  " + example + "  (docs/studies.md)");
+  return "measure: {peak: peak force at " + first_in(root, "joints", "JOINT") + "}, sweep: {grid: {" + parameter + ": [" + value + ", …]}}";
 }
 
 }  // namespace
@@ -142,14 +135,17 @@ std::vector<Measure> read_curves(const StudyFile& file) {
   return out;
 }
 
-StudyFile read_study(const std::filesystem::path& path) {
+StudyFile read_study(const std::filesystem::path& path, const std::string& instead) {
   constexpr std::size_t most_bytes = std::size_t{100} << 20;
   StudyFile file;
   file.source.file = file.study.file = path.string();
   file.tree = parse_yaml(read_text_file(path, most_bytes), path.string());
   const Node root = file.root();
   if (root.is_nothing()) root.fail("is empty; docs/studies.md shows what to write");
-  if (root.is_map() && root.has("bodies") && !root.has("scene")) reject_scene(root, path);
+  if (root.is_map() && root.has("bodies") && !root.has("scene"))
+    throw SceneError(path.string(), {},
+                     "is a scene, not a study. Write a study beside it, for example  {scene: " + path.filename().string() + ", " +
+                         (instead.empty() ? example_of_sweep(root) : instead) + "}  (docs/studies.md)");
   check_keys(root, "study");
   if (root.has("title")) file.study.title = root.at("title").text("a line of text");
   const Node scene = root.at("scene");
@@ -163,7 +159,7 @@ StudyFile read_study(const std::filesystem::path& path) {
   file.study.scene.situations = read_situations(root, file.study.scene);
   const Scene common = common_scene(file.study.scene);
   if (!root.has("measure")) {
-    if (!root.has("goal") && !root.has("section") && !root.has("lyapunov")) require_measures(file);
+    if (!root.has("goal") && instead.empty()) require_measures(file);
     return file;
   }
   file.study.measures = read_measures(root.at("measure"), path.string(), question);

@@ -137,6 +137,28 @@ TEST(Nonlinear, ExponentsOfABouncingBallAreTheLogarithmsOfItsMultipliers) {
   EXPECT_NEAR(found[0].value * period, std::log(table.e), 0.02);  // the share of the last, unfinished turn of the pair
 }
 
+// Near the doubling they are real and apart, and neighbours take the time that is not counted to turn to the slower one.
+TEST(Nonlinear, ExponentsOfABouncingBallAreThoseOfItsRealMultipliers) {
+  const Table table;
+  const double period = 2 * pi / table.omega, gamma = 1.5, sum = table.sum(gamma), root = std::sqrt(sum * sum - 4 * table.e * table.e);
+  const double slow = (sum - root) / 2, fast = (sum + root) / 2;  // both below 0
+  const SweepFolder folder;
+  const Followed done =
+      follow_study(folder, table.scene(gamma, 1.0), "lyapunov: {exponents: 2, every: 2*pi/omega, over: 200*2*pi/omega}\n");
+  const std::vector<Exponent>& found = done.values.at(0).orbit.exponents;
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NEAR(found[0].value * period, std::log(-slow), 1e-4);
+  EXPECT_NEAR(found[1].value * period, std::log(-fast), 1e-3);
+}
+
+TEST(Nonlinear, ErrorsOfExponentsAreToldOfEnoughIntervals) {
+  for (const int intervals : {19, 20}) {
+    const SweepFolder folder;
+    const Followed done = follow_study(folder, lorenz, "lyapunov: {every: 0.2 s, over: " + std::to_string(intervals) + "*0.2 s}\n");
+    EXPECT_EQ(std::isnan(done.values.at(0).orbit.exponents.at(0).error), intervals < 20);
+  }
+}
+
 // Free motion takes areas of the phase plane by exp(-c t/m), an impact by e^2: the product of the multipliers of an orbit that hits once
 // a period, and the sum of its exponents.
 TEST(Nonlinear, AnImpactOscillatorsMultipliersHaveTheProductOfTheClosedForm) {
@@ -211,6 +233,26 @@ struct Refused {
   std::vector<std::string> words;
 };
 
+TEST(Nonlinear, WhatIsWrongElsewhereIsNotSaidOfTheStudy) {
+  const SweepFolder folder;
+  folder.write("scene.yaml", lorenz);
+  folder.write("study.yaml", "scene: scene.yaml\nlyapunov: {every: 1 s, over: 100 s}\n");
+  const auto said = [&](const std::string& file, const Overrides& set) -> std::string {
+    try {
+      read_nonlinear(folder / file, set);
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string parameter = said("study.yaml", {{"ro", "1"}});
+  EXPECT_NE(parameter.find("--set ro"), std::string::npos) << parameter;
+  EXPECT_EQ(parameter.find("lyapunov"), std::string::npos) << parameter;
+  const std::string scene = said("scene.yaml", {});
+  EXPECT_NE(scene.find("is a scene, not a study"), std::string::npos) << scene;
+  EXPECT_NE(scene.find("section: {"), std::string::npos) << scene;
+}
+
 TEST(Nonlinear, WhatIsWrongIsNamedWithItsRemedy) {
   const SweepFolder folder;
   folder.write("scene.yaml", lorenz);
@@ -223,12 +265,13 @@ TEST(Nonlinear, WhatIsWrongIsNamedWithItsRemedy) {
            {"section: {every: 1 s, record: [Q]}", {"study.yaml:2", "section.record", "Q"}},
            {"section: {when: X > , record: [X]}", {"study.yaml:2", "section.when"}},
            {"section: {every: 1 s, record: [X, X]}", {"study.yaml:2", "twice", "leave one out"}},
-           {"section: {every: 1 s, record: X, returns: 0}", {"study.yaml:2", "section.returns"}},
+           {"section: {every: 1 s, record: X, returns: 1}", {"study.yaml:2", "section.returns"}},
            {"section: {every: 1 s, record: X}\ndirection: both", {"study.yaml:3", "direction", "over"}},
            {"section: {every: 1 s, record: X}\nover: {rho: [1, 2], beta: [1]}", {"study.yaml:3", "over", "name one"}},
            {"section: {every: 1 s, record: X}\nover: {ro: [1, 2]}", {"study.yaml:3", "over", "rho"}},
            {"section: {every: 1 s, record: X}\nover: {rho: [1]}\ndirection: up", {"study.yaml:4", "direction", "forwards"}},
            {"lyapunov: {every: 1 s}", {"study.yaml:2", "over"}},
+           {"lyapunov: {every: 1 s, over: 0.4 s}", {"study.yaml:2", "lyapunov.over", "0.4 s", "every", "many"}},
            {"lyapunov: {every: 1 s, over: 2 s, distance: 2}", {"study.yaml:2", "lyapunov.distance", "0 and 1"}},
            {"lyapunov: {every: 1 s, over: 2 s}\nsweep: {grid: {rho: [1]}}", {"study.yaml:3", "sweep", "leave it out"}}}) {
     folder.write("study.yaml", std::string("scene: scene.yaml\n") + one.study + "\n");

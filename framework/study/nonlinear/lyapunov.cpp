@@ -17,7 +17,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int batches = 20;         // of the time, for standard errors
 constexpr int most_running = 200;   // running values that are kept
 constexpr double dependent = 1e-6;  // of the largest: a distance that is none of its own
 
@@ -122,18 +121,18 @@ Exponent mean_of(const std::vector<VectorXd>& logs, Index j, double interval) {
   const std::size_t n = logs.size();
   Exponent out;
   for (const VectorXd& one : logs) out.value += one[j] / (static_cast<double>(n) * interval);
-  const std::size_t size = n / batches;
+  const std::size_t size = n / exponent_batches;
   if (size == 0) {
     out.error = std::numeric_limits<double>::quiet_NaN();
     return out;
   }
   double squares = 0;
-  for (std::size_t b = 0; b < batches; ++b) {
+  for (std::size_t b = 0; b < exponent_batches; ++b) {
     double mean = 0;
     for (std::size_t k = 0; k < size; ++k) mean += logs[n - (b + 1) * size + k][j] / (static_cast<double>(size) * interval);
     squares += (mean - out.value) * (mean - out.value);
   }
-  out.error = std::sqrt(squares / (batches * (batches - 1.0)));
+  out.error = std::sqrt(squares / (exponent_batches * (exponent_batches - 1.0)));
   return out;
 }
 
@@ -141,10 +140,10 @@ Exponent mean_of(const std::vector<VectorXd>& logs, Index j, double interval) {
 
 void lyapunov_exponents(const Model& model, Integrator& integrator, const LyapunovRun& run, const std::function<bool()>& go_on,
                         Orbit& out) {
-  const double from = integrator.state().t;
-  const long intervals = std::max(1L, std::lround(run.over / run.interval));
-  const long every = (intervals + most_running - 1) / most_running;
+  const double begin = integrator.state().t, from = begin + static_cast<double>(run.transient) * run.interval;
+  const long intervals = run.intervals, every = (intervals + most_running - 1) / most_running;
   Neighbours neighbours(model, integrator, run, go_on);
+  for (long k = 1; k <= run.transient; ++k) neighbours.grow(begin + static_cast<double>(k) * run.interval);
   std::vector<VectorXd> logs;
   VectorXd sum = VectorXd::Zero(run.count);
   for (long k = 1; k <= intervals; ++k) {

@@ -9,8 +9,10 @@ namespace pintle {
 
 struct LyapunovRun {
   int count = 1;
-  double interval = 0, over = 0;  ///< [s]
-  double distance = 1e-6;         ///< of neighbours, in coordinates over their scales
+  double interval = 0;     ///< [s]
+  long transient = 0;      ///< intervals in which neighbours turn to where they grow, and nothing is counted
+  long intervals = 1;      ///< that are counted
+  double distance = 1e-6;  ///< of neighbours, in coordinates over their scales
 };
 
 /// The greatest Lyapunov exponents of the motion from the integrator's state on, by neighbours, which are brought back to the distance, and

@@ -24,12 +24,14 @@ class Trying {
     try {
       build(case_scene(source_, all));
     } catch (const SceneError& error) {
-      node.fail(about(error.what(), put));
+      const std::string of_it = about(error.what(), put);
+      if (of_it.empty()) throw;  // of another override, which is named
+      node.fail(of_it);
     }
   }
 
  private:
-  /// What is said behind "--set PATH", with what stands below it.
+  /// What is said behind "--set PATH", with what stands below it; empty: it is of none of these.
   static std::string about(const std::string& said, const Overrides& put) {
     for (const auto& [path, text] : put) {
       const std::string mark = ": --set " + path;
@@ -38,7 +40,7 @@ class Trying {
       const auto colon = said.find(": ", at + mark.size());
       if (colon == at + mark.size()) return said.substr(colon + 2);
     }
-    return said;
+    return "";
   }
 
   const CaseSource& source_;
@@ -61,12 +63,7 @@ std::vector<Recorded> read_record(const Node& node) {
       if (one.name == (name.empty() ? words : name)) entry.fail("is recorded twice; leave one out");
     out.push_back({name.empty() ? words : name, override_text(entry.yaml())});
   };
-  if (node.is_scalar())
-    add(node, "");
-  else if (node.is_list())
-    for (const Node& entry : node.list(1, remedy)) add(entry, "");
-  else
-    for (const Node& entry : node.entries(remedy)) add(entry, entry.name());
+  each_entry(node, remedy, add);
   if (out.empty()) node.fail(std::string("records nothing; write ") + remedy);
   return out;
 }
@@ -87,7 +84,7 @@ SectionQuestion read_section(const Node& node, const Trying& trying) {
     out.when = override_text(node.at("when").yaml());
   out.record = read_record(node.at("record"));
   if (node.has("transient")) out.transient = read_count(node.at("transient"), 0);
-  if (node.has("returns")) out.returns = read_count(node.at("returns"), 1);
+  if (node.has("returns")) out.returns = read_count(node.at("returns"), 2);  // of fewer none can come again
   if (node.has("tolerance")) out.tolerance = node.at("tolerance").quantity(dimension::number, rule::inside_zero_one);
   // One after another, so that what is wrong is named.
   OrbitQuestion question{out, {}};
@@ -123,10 +120,10 @@ Cases read_over(const Node& root) {
 }  // namespace
 
 Nonlinear read_nonlinear(const fs::path& path, const Overrides& set) {
-  const StudyFile file = read_study(path);
+  constexpr const char* example = "section: {every: 2*pi/omega, record: {height: ball.y}}";
+  const StudyFile file = read_study(path, example);
   const Node root = file.root();
-  if (!root.has("section") && !root.has("lyapunov"))
-    root.fail("has neither section nor lyapunov; add for example section: {every: 2*pi/omega, record: {height: ball.y}}");
+  if (!root.has("section") && !root.has("lyapunov")) root.fail(std::string("has neither section nor lyapunov; add for example ") + example);
   for (const char* other : {"measure", "analysis", "situations", "sweep"})
     if (root.has(other)) root.at(other).fail("is of other studies; leave it out beside section and lyapunov");
   if (root.has("direction") && !root.has("over")) root.at("direction").fail("is of studies over a parameter; add over, or leave it out");
@@ -142,7 +139,14 @@ Nonlinear read_nonlinear(const fs::path& path, const Overrides& set) {
     out.order = static_cast<Order>(std::ranges::find(words, root.at("direction").one_of(words)) - words.begin());
   }
   if (root.has("section")) out.question.section = read_section(root.at("section"), trying);
-  if (root.has("lyapunov")) out.question.lyapunov = read_lyapunov(root.at("lyapunov"), trying);
+  if (root.has("lyapunov")) {
+    out.question.lyapunov = read_lyapunov(root.at("lyapunov"), trying);
+    try {
+      lyapunov_times(source, first, *out.question.lyapunov);
+    } catch (const std::invalid_argument& error) {
+      root.at("lyapunov").at("over").fail(error.what());
+    }
+  }
   out.sweep = cases_of(file, cases, path, set, recording(out.question));
   return out;
 }

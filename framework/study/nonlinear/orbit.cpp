@@ -103,13 +103,17 @@ class Following {
     const auto time = [&](const std::string& text) { return time_of(source, set, text); };
     const bool by_time = question.section && !question.section->every.empty();
     if (by_time) out.orbit.interval = time(question.section->every);
-    if (question.lyapunov) times_ = {time(question.lyapunov->every), time(question.lyapunov->over), time_from(time)};
+    if (question.lyapunov) try {
+        times_ = lyapunov_times(source, set, *question.lyapunov);
+      } catch (const std::invalid_argument& error) {
+        throw OrbitTrouble{"refused", std::string("lyapunov.over ") + error.what()};
+      }
     const bool clock_goes_on = before && (!by_time || before->interval == out.orbit.interval);
     const double from = clock_goes_on ? before->end_t : 0;
     scene_.run.until += from;
     if (by_time) scene_.run.until = from + out.orbit.interval * (question.section->transient + question.section->returns);
     last_ = scene_.run.until;
-    if (question.lyapunov) scene_.run.until += times_.transient + times_.over;
+    if (question.lyapunov) scene_.run.until += times_.whole();
     model_ = build(scene_, bodies);
     if (question.lyapunov) model_.scheme.switch_below = 0;  // neighbours are compared: all by one method, as accurate as at the start
     start_ = start_of(model_.system, assemble(scene_, model_), before, clock_goes_on);
@@ -132,13 +136,6 @@ class Following {
   }
 
  private:
-  /// The first instant of Lyapunov exponents lies behind the transient, which may be 0.
-  template <class Time>
-  double time_from(const Time& time) const {
-    const std::string& text = question_.lyapunov->transient;
-    return text == LyapunovQuestion{}.transient ? 0 : time(text);
-  }
-
   void count(const Integrator& integrator) {
     out_.steps = integrator.counts().steps;
     out_.impacts = static_cast<long>(integrator.impacts().size());
@@ -153,7 +150,7 @@ class Following {
     for (int k = 1; k <= section.transient + section.returns; ++k) {
       if (section.every.empty()) {
         if (!go_to_return(integrator, last_, go_on_)) {
-          too_few(k - 1);
+          too_few(k - 1, from);
           break;
         }
       } else {
@@ -167,17 +164,19 @@ class Following {
     if (integrator.state().t > begin) out_.orbit.impacts = figures(integrator.impacts(), begin, integrator.state().t);
   }
 
-  void too_few(int came) {
+  void too_few(int came, double begin) {
     const SectionQuestion& section = *question_.section;
     out_.status = "too few returns";
-    out_.reason = std::to_string(came) + " of " + std::to_string(section.transient + section.returns) + " by run.until, " +
-                  number_text(last_, 6) + " s; lengthen it, or ask for fewer";
+    out_.reason = std::to_string(came) + " of " + std::to_string(section.transient + section.returns) + " within run.until, " +
+                  number_text(last_ - begin, 6) + " s of this value; lengthen it, or ask for fewer";
   }
 
   void exponents(Integrator& integrator) {
-    go_to(integrator, integrator.state().t + times_.transient, go_on_);
-    LyapunovRun run{
-        .count = question_.lyapunov->exponents, .interval = times_.every, .over = times_.over, .distance = question_.lyapunov->distance};
+    const LyapunovRun run{.count = question_.lyapunov->exponents,
+                          .interval = times_.every,
+                          .transient = times_.transient,
+                          .intervals = times_.intervals,
+                          .distance = question_.lyapunov->distance};
     lyapunov_exponents(model_, integrator, run, go_on_, out_.orbit);
   }
 
@@ -188,12 +187,24 @@ class Following {
   Model model_;
   State start_, sampled_;
   double last_ = 0;  ///< by which returns must have come [s]
-  struct {
-    double every = 0, over = 0, transient = 0;
-  } times_;
+  LyapunovTimes times_;
 };
 
 }  // namespace
+
+LyapunovTimes lyapunov_times(const CaseSource& source, const Overrides& set, const LyapunovQuestion& question) {
+  constexpr double tenth = 0.1, nearly = 1e-9;
+  LyapunovTimes out;
+  out.every = time_of(source, set, question.every);
+  const double over = time_of(source, set, question.over);
+  const double transient = question.transient.empty() ? tenth * over : time_of(source, set, question.transient);
+  if (over < (1 - nearly) * out.every)
+    throw std::invalid_argument("is " + number_text(over, 6) + " s, less than one interval `every` of " + number_text(out.every, 6) +
+                                " s; take many of them");
+  out.intervals = std::lround(over / out.every);
+  out.transient = static_cast<long>(std::ceil(transient / out.every - nearly));
+  return out;
+}
 
 Overrides recording(const OrbitQuestion& question) {
   Overrides out;

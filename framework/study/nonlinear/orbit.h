@@ -27,7 +27,8 @@ struct SectionQuestion {
 /// What is asked of the growth of small distances.
 struct LyapunovQuestion {
   int exponents = 1;
-  std::string every, over, transient = "0 s";
+  std::string every, over;
+  std::string transient;  ///< empty: a tenth of `over`
   double distance = 1e-6;
 };
 
@@ -49,10 +50,11 @@ struct ImpactFigures {
 };
 inline constexpr double grazing_share = 0.05;
 
-/// An exponent, and the standard error of its mean over batches of the time [1/s].
+/// An exponent, and the standard error of its mean over batches of the intervals [1/s]. Of fewer intervals than batches it is NaN.
 struct Exponent {
   double value = 0, error = 0;
 };
+inline constexpr int exponent_batches = 20;
 
 /// What one value of the parameter has come to.
 struct Orbit {
@@ -79,6 +81,15 @@ struct OrbitEnd {
   std::vector<std::string> units;  ///< of the signals recorded
   long steps = 0, impacts = 0;
 };
+
+/// Times of the growth of distances, in the scene's parameters.
+struct LyapunovTimes {
+  double every = 0;                   ///< [s]
+  long transient = 0, intervals = 0;  ///< whole ones
+  double whole() const { return every * static_cast<double>(transient + intervals); }
+};
+/// @throws std::invalid_argument  `over` is less than `every`
+LyapunovTimes lyapunov_times(const CaseSource&, const Overrides&, const LyapunovQuestion&);
 
 /// Follows one value of the parameter, from the scene's start or from where another has ended. Never throws but for want of memory.
 /// @param go_on  asked now and then; false interrupts
