@@ -178,14 +178,16 @@ run: {until: 1}
 TEST(DrawnBars, ReachPinsWithAndWithoutPlay) {
   const auto jaw = [](const std::string& clearance) {
     return drawn(R"(
-ground: {points: {P: [0, 0.5]}}
+ground: {points: {P: [0, 0.5]}, profiles: {wall: {path: [[1, 1], [1, -1]], material: left}}}
 bodies:
   rod: {rigid: {mass: 1, inertia: 1e-2}, points: {B: [0.3, 0]}}
   jaw: {rigid: {mass: 1, inertia: 1e-2}, points: {P: [0, 0.5], B: [0.3, 0]}, profiles: {tooth: {disc: [0.4, 0.1], radius: 0.02}}}
+contacts: {hit: {between: [jaw.tooth, ground.wall], model: impact, restitution: 0}}
 joints:
   bearing: {revolute: [ground, rod]}
   top: {revolute: [ground.P, jaw.P]}
-  pin: {revolute: [rod.B, jaw.B])" + clearance + "}\nrun: {until: 1}\n");
+  pin: {revolute: [rod.B, jaw.B])" +
+                 clearance + "}\nrun: {until: 1}\n");
   };
   const auto bars = [](const Drawing& drawing) { return lines_of(drawing, Part::link, "jaw"); };
   const long without = bars(jaw(""));
