@@ -92,8 +92,7 @@ TEST(Fit, PublishedOptimaOfACouplerCurveAreFound) {
   struct Optimum {
     double degrees, ground, link, straight;
   };
-  for (const Optimum& row :
-       {Optimum{120, 2.625, 3.438, 0.010e-2}, Optimum{160, 2.35, 3.025, 0.047e-2}}) {
+  for (const Optimum& row : {Optimum{120, 2.625, 3.438, 0.010e-2}, Optimum{160, 2.35, 3.025, 0.047e-2}}) {
     SCOPED_TRACE(row.degrees);
     const SweepFolder folder;
     folder.write("scene.yaml", contents(studies / "../hoecken_straight_line.yaml"));
