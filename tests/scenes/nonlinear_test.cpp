@@ -271,7 +271,7 @@ TEST(Nonlinear, WhatIsWrongIsNamedWithItsRemedy) {
            {"section: {every: 1 s, record: X}\nover: {ro: [1, 2]}", {"study.yaml:3", "over", "rho"}},
            {"section: {every: 1 s, record: X}\nover: {rho: [1]}\ndirection: up", {"study.yaml:4", "direction", "forwards"}},
            {"lyapunov: {every: 1 s}", {"study.yaml:2", "over"}},
-           {"lyapunov: {every: 1 s, over: 0.4 s}", {"study.yaml:2", "lyapunov.over", "0.4 s", "every", "many"}},
+           {"lyapunov: {every: 1 s, over: 0.4 s}", {"study.yaml:2", "lyapunov", "over is 0.4 s", "every", "many"}},
            {"lyapunov: {every: 1 s, over: 2 s, distance: 2}", {"study.yaml:2", "lyapunov.distance", "0 and 1"}},
            {"lyapunov: {every: 1 s, over: 2 s}\nsweep: {grid: {rho: [1]}}", {"study.yaml:3", "sweep", "leave it out"}}}) {
     folder.write("study.yaml", std::string("scene: scene.yaml\n") + one.study + "\n");

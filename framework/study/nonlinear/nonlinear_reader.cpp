@@ -144,7 +144,7 @@ Nonlinear read_nonlinear(const fs::path& path, const Overrides& set) {
     try {
       lyapunov_times(source, first, *out.question.lyapunov);
     } catch (const std::invalid_argument& error) {
-      root.at("lyapunov").at("over").fail(error.what());
+      root.at("lyapunov").fail(error.what());
     }
   }
   out.sweep = cases_of(file, cases, path, set, recording(out.question));

@@ -103,11 +103,7 @@ class Following {
     const auto time = [&](const std::string& text) { return time_of(source, set, text); };
     const bool by_time = question.section && !question.section->every.empty();
     if (by_time) out.orbit.interval = time(question.section->every);
-    if (question.lyapunov) try {
-        times_ = lyapunov_times(source, set, *question.lyapunov);
-      } catch (const std::invalid_argument& error) {
-        throw OrbitTrouble{"refused", std::string("lyapunov.over ") + error.what()};
-      }
+    if (question.lyapunov) times_ = lyapunov_times(source, set, *question.lyapunov);
     const bool clock_goes_on = before && (!by_time || before->interval == out.orbit.interval);
     const double from = clock_goes_on ? before->end_t : 0;
     scene_.run.until += from;
@@ -199,7 +195,7 @@ LyapunovTimes lyapunov_times(const CaseSource& source, const Overrides& set, con
   const double over = time_of(source, set, question.over);
   const double transient = question.transient.empty() ? tenth * over : time_of(source, set, question.transient);
   if (over < (1 - nearly) * out.every)
-    throw std::invalid_argument("is " + number_text(over, 6) + " s, less than one interval `every` of " + number_text(out.every, 6) +
+    throw std::invalid_argument("over is " + number_text(over, 6) + " s, less than one interval `every` of " + number_text(out.every, 6) +
                                 " s; take many of them");
   out.intervals = std::lround(over / out.every);
   out.transient = static_cast<long>(std::ceil(transient / out.every - nearly));
