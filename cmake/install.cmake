@@ -17,6 +17,7 @@ write_basic_package_version_file(pintleConfigVersion.cmake COMPATIBILITY SameMin
 install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/pintleConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/pintleConfigVersion.cmake
+  cmake/FindLZ4.cmake
   cmake/FindSuiteSparse.cmake
   DESTINATION ${pintle_config} COMPONENT development)
 

@@ -1,67 +1,17 @@
 #include "framework/drawing/vtu_text.h"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <utility>
+
+#include <lz4.h>
 
 namespace pintle {
 
 namespace {
 
-// --- blocks of LZ4: sequences of literal bytes and a match, what stood `offset` bytes before; the last has literals only ---
-
-constexpr std::size_t shortest_match = 4, most_in_token = 15;
-
-void append_rest_of_length(std::string& out, std::size_t length) {
-  if (length < most_in_token) return;
-  length -= most_in_token;
-  out.append(length / 255, '\xff');
-  out += static_cast<char>(length % 255);
-}
-
-void append_token(std::string& out, std::size_t literals, std::size_t beyond_shortest) {
-  out += static_cast<char>(std::min(literals, most_in_token) << 4 | std::min(beyond_shortest, most_in_token));
-}
-
-void append_literals(std::string& out, std::string_view literals) {
-  append_token(out, literals.size(), 0);
-  append_rest_of_length(out, literals.size());
-  out += literals;
-}
-
-void append_sequence(std::string& out, std::string_view literals, std::size_t match) {
-  constexpr std::string_view offset("\x01\x00", 2);
-  append_token(out, literals.size(), match - shortest_match);
-  append_rest_of_length(out, literals.size());
-  out += literals;
-  out += offset;
-  append_rest_of_length(out, match - shortest_match);
-}
-
-/// Of a run of zero words the first byte is a literal, and the rest repeats it.
-void append_lz4_block(std::string& out, std::string_view bytes) {
-  constexpr std::size_t word = sizeof(std::uint64_t), kept_at_end = 12;  // where the format lets no match begin
-  const std::size_t words = bytes.size() > kept_at_end ? (bytes.size() - kept_at_end) / word : 0;
-  const auto is_zero = [&](std::size_t w) {
-    std::uint64_t value;
-    std::memcpy(&value, bytes.data() + w * word, word);
-    return value == 0;
-  };
-  std::size_t written = 0;
-  for (std::size_t w = 0; w < words; ++w) {
-    if (!is_zero(w)) continue;
-    const std::size_t begin = w;
-    while (w + 1 < words && is_zero(w + 1)) ++w;
-    append_sequence(out, bytes.substr(written, begin * word + 1 - written), (w + 1 - begin) * word - 1);
-    written = (w + 1) * word;
-  }
-  append_literals(out, bytes.substr(written));
-}
-
-// --- arrays as VTK reads them: the number of blocks, the size of a whole one and of the last, if that is no whole one, how long each
-//     is when packed; then the blocks ---
-
+// As VTK reads an array: the number of blocks, the size of a whole one and of the last, if that is no whole one, how long each is when
+// packed; then the blocks.
 std::string packed_array(std::string_view bytes) {
   constexpr std::size_t block = 32768;
   const std::size_t blocks = (bytes.size() + block - 1) / block;
@@ -69,11 +19,14 @@ std::string packed_array(std::string_view bytes) {
   header.resize(header.size() + blocks);
   const std::size_t header_size = header.size() * sizeof header.front();
   std::string out(header_size, '\0');
-  out.reserve(header_size + bytes.size() + bytes.size() / 64 + 16 * blocks);
   for (std::size_t b = 0; b < blocks; ++b) {
+    const std::string_view one = bytes.substr(b * block, block);
+    const int most = LZ4_compressBound(static_cast<int>(one.size()));
     const std::size_t before = out.size();
-    append_lz4_block(out, bytes.substr(b * block, block));
-    header[3 + b] = out.size() - before;
+    out.resize(before + static_cast<std::size_t>(most));
+    const int packed = LZ4_compress_default(one.data(), out.data() + before, static_cast<int>(one.size()), most);
+    header[3 + b] = static_cast<std::uint64_t>(packed);
+    out.resize(before + static_cast<std::size_t>(packed));
   }
   std::memcpy(out.data(), header.data(), header_size);
   return out;

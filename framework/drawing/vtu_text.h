@@ -10,8 +10,7 @@
 namespace pintle {
 
 /// An unstructured grid as the text of a .vtu file, made without VTK: some XML, then the arrays as they stand in memory
-/// ("appended", "raw"), in blocks of LZ4's format, which VTK and ParaView unpack. Nothing but runs of zeros is packed: z of what is plane,
-/// forces where there are none. That is half of a frame, and costs no more than looking at it.
+/// ("appended", "raw") in blocks packed by LZ4, which VTK and ParaView unpack.
 class VtuText {
  public:
   /// Where an array belongs. Of the cells VTK asks for `connectivity`, `offsets` and `types`, of the places for `Points`.

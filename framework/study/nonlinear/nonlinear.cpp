@@ -26,9 +26,9 @@ using wall_clock = std::chrono::steady_clock;
 double seconds_since(wall_clock::time_point begin) { return std::chrono::duration<double>(wall_clock::now() - begin).count(); }
 
 /// Threads that follow chains of values and write what they come to into the journal. What has ended is gone on from.
-class ChainCrew {
+class ChainWorkers {
  public:
-  ChainCrew(const Nonlinear& study, Journal& journal, std::vector<Row> ended) : study_(study), journal_(journal), chains_(study.chains()) {
+  ChainWorkers(const Nonlinear& study, Journal& journal, std::vector<Row> ended) : study_(study), journal_(journal), chains_(study.chains()) {
     for (Row& row : ended)
       if (!lacked_memory(row)) ended_.emplace(row.number, std::move(row));
     std::vector<std::size_t> all(chains_.size());
@@ -157,7 +157,7 @@ SweepEnd run_nonlinear(const Nonlinear& study, const fs::path& folder, const Swe
   const auto ended = [&] { return read_journals(folder, study.sweep.print, study.size()); };
   const std::vector<Row> before = ended();
   end.count.before = static_cast<std::size_t>(std::ranges::count_if(before, [](const Row& row) { return !lacked_memory(row); }));
-  ChainCrew(study, *journal, before).work(settings, end.count);
+  ChainWorkers(study, *journal, before).work(settings, end.count);
   end.rows = ended();
   end.whole = end.rows.size() == study.size();
   if (end.whole) write_results(study, folder, end.rows);
