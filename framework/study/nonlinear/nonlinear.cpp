@@ -28,7 +28,8 @@ double seconds_since(wall_clock::time_point begin) { return std::chrono::duratio
 /// Threads that follow chains of values and write what they come to into the journal. What has ended is gone on from.
 class ChainWorkers {
  public:
-  ChainWorkers(const Nonlinear& study, Journal& journal, std::vector<Row> ended) : study_(study), journal_(journal), chains_(study.chains()) {
+  ChainWorkers(const Nonlinear& study, Journal& journal, std::vector<Row> ended)
+      : study_(study), journal_(journal), chains_(study.chains()) {
     for (Row& row : ended)
       if (!lacked_memory(row)) ended_.emplace(row.number, std::move(row));
     std::vector<std::size_t> all(chains_.size());
