@@ -126,7 +126,9 @@ struct Foreign {
   Paths may;
 };
 const std::vector<Foreign> foreign{
-    {"vtk", {"framework/drawing/vtk_encoder.cpp", "app/picture.cpp", "app/frames.cpp", "tests/unit/vtk_test.cpp"}},
+    {"vtk",
+     {"framework/drawing/vtk_encoder.cpp", "app/picture.cpp", "app/frames.cpp", "tests/unit/frame_files.h", "tests/unit/vtk_test.cpp",
+      "tests/unit/flexible_frame_test.cpp"}},
     {"cairo", {"app/canvas.cpp"}},
     {"httplib", {"app/view/server.cpp"}},
     {"yaml-cpp/", {"framework/scene/", "tests/"}},
