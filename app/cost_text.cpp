@@ -69,7 +69,7 @@ std::string what_it_takes(const Saving& s) {
 
 void print_cost(const CostEstimate& p, double build_seconds) {
   const OutputCost& o = p.output;
-  std::cout << "  price of the run\n";
+  std::cout << "  cost of the run\n";
   Rows rows{{"  an evaluation runs", join(p.terms)}};
   if (p.largest_rate > 0) rows.emplace_back("  largest frequency", frequency(p.largest_rate) + ", " + p.largest_rate_of);
   if (p.contact_rate > 0) rows.emplace_back("  of a slow contact", frequency(p.contact_rate));

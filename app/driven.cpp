@@ -87,7 +87,7 @@ int kinematics(const Options& options) {
     if (writer) writer->finish();
     write_kinematics(results.path(), scene, model, run);
   };
-  settle(results, run, write, [&] { write_text(results.path() / "kinematics.json", kinematics_json(scene, model, run)); });
+  finish_run(results, run, write, [&] { write_text(results.path() / "kinematics.json", kinematics_json(scene, model, run)); });
 
   if (options.json)
     std::cout << kinematics_json(scene, model, run);
@@ -116,7 +116,7 @@ int inverse(const Options& options) {
     if (writer) writer->finish(drawn_impacts(found.run.impacts));
     write_inverse(results.path(), scene, model, assembly, found);
   };
-  settle(results, found.run, write, [&] { write_text(results.path() / "inverse.json", inverse_json(scene, model, found)); });
+  finish_run(results, found.run, write, [&] { write_text(results.path() / "inverse.json", inverse_json(scene, model, found)); });
 
   if (options.json) {
     std::cout << inverse_json(scene, model, found);

@@ -198,7 +198,7 @@ int run(const Options& options) {
   now_doing("writing the results");
   const auto report = [&] { recording.report(result); };
   const auto write = [&] { recording.finish(result), report(); };
-  settle(results, result, write, report);
+  finish_run(results, result, write, report);
 
   if (options.json)
     std::cout << run_json(scene, model, assembly, result);

@@ -69,7 +69,7 @@ void write_whole(const Options& options, const fs::path& out, const std::functio
   results.commit();
 }
 
-void settle(ResultsDirectory& results, Run& run, const std::function<void()>& write, const std::function<void()>& report) {
+void finish_run(ResultsDirectory& results, Run& run, const std::function<void()>& write, const std::function<void()>& report) {
   bool whole = run.status != Status::not_written;
   const auto attempt = [&](const std::function<void()>& act) {
     try {

@@ -23,7 +23,7 @@ void write_whole(const Options&, const std::filesystem::path& out, const std::fu
 
 /// The end of a run: `write` writes what is left, and the folder becomes what it is to be. Where anything of that fails the
 /// folder stays, the run's status is not_written and its reason says where; `report` then writes that.
-void settle(ResultsDirectory&, Run&, const std::function<void()>& write, const std::function<void()>& report);
+void finish_run(ResultsDirectory&, Run&, const std::function<void()>& write, const std::function<void()>& report);
 
 /// Says on stderr how a run ended that did not finish, where nothing else says it.
 int exit_code(const Options&, const Scene&, const Run&);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes docs/gallery.md and the pictures in docs/gallery/: each scene of examples/ as the program draws it, with what its head says to expect.
 
-usage: make_gallery.py PINTLE PINTLE_PICTURE [SCENE …]      of some scenes the pictures alone are made anew
+usage: make_gallery.py PINTLE PINTLE_PICTURE [SCENE …]      of some scenes the pictures alone are made again
 """
 
 import re

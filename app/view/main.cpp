@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
   std::string scene;
   std::vector<std::string> set;
   int port = 0;
-  command.add_option("scene", scene, "scene file (YAML); the page shows it anew whenever a file of its folder is saved")
+  command.add_option("scene", scene, "scene file (YAML); the page shows it again whenever a file of its folder is saved")
       ->required()
       ->type_name("SCENE.yaml");
   command.add_option("--set", set, "override a parameter or key of the scene; may be repeated")

@@ -13,7 +13,7 @@
 
 namespace pintle::app {
 
-/// A scene as it is looked at: read anew when a file of its folder is saved, moved by hand. Answers are JSON, errors included. For
+/// A scene as it is looked at: read again when a file of its folder is saved, moved by hand. Answers are JSON, errors included. For
 /// several threads.
 class ViewSession {
  public:

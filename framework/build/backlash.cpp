@@ -68,7 +68,7 @@ double pitch_of(const SceneJoint& j, const Flank& flank) {
   return 0;
 }
 
-void settle_flanks(const Scene& scene, const SceneJoint& j, const Joint& ideal, std::size_t first, System& system) {
+void complete_flanks(const Scene& scene, const SceneJoint& j, const Joint& ideal, std::size_t first, System& system) {
   for (std::size_t k = first; k < first + 2; ++k) system.contacts[k].flank->teeth = teeth_of(ideal);
   const double pitch = pitch_of(j, *system.contacts[first].flank);
   if (pitch > 0 && !(j.play->backlash < pitch))

@@ -67,7 +67,7 @@ class Builder {
     keep_drawings();
     report_flexible(scene_, elements_, elastic_, model_);
     model_.system.length = size();
-    settle_start(scene_, model_);
+    complete_couplings(scene_, model_);
     model_.system.length = size();
     signals_.finish();
     allow_rounding(model_.system);

@@ -237,7 +237,7 @@ BuiltContact build_contact(const Scene& scene, const SceneContact& c, const Prof
   for (const SceneJoint& j : scene.joints)
     if (j.kind == JointKind::weld && std::minmax(j.a.body, j.b.body) == std::minmax(c.a.body, c.b.body))
       throw SceneError(scene.file, c.place,
-                       "the weld " + quoted(j.name) + " holds its two bodies together: they cannot touch anew; leave the contact out");
+                       "the weld " + quoted(j.name) + " holds its two bodies together: they cannot touch again; leave the contact out");
   ContactPair like = laws_of(scene, c, a, b);
   like.a = markers[0], like.b = markers[1];
   BuiltContact out = build_pairs(scene, c, a, b, like, first);

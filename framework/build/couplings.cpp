@@ -18,7 +18,7 @@ namespace pintle {
 
 namespace {
 
-// ---- joints before they are settled ----
+// ---- joints before they are complete ----
 
 /// The ends of a relation, and the place of each point among them.
 class Ends {
@@ -90,7 +90,7 @@ Relation on_a_frame(const Scene& scene, const SceneJoint& j, Markers& markers) {
 
 // ---- at the start ----
 
-/// Settles one joint by the motion of its markers.
+/// Completes one joint by the motion of its markers.
 class Settling {
  public:
   Settling(const Scene& scene, const System& system, const Eigen::VectorXd& y)
@@ -103,7 +103,7 @@ class Settling {
     }
   }
 
-  void settle(const SceneJoint& j, Joint& made) const {
+  void complete(const SceneJoint& j, Joint& made) const {
     if (auto* rod = std::get_if<Distance>(&made)) {
       rod->length += open(made) + rod->length;
       if (!(rod->length > 0)) wrong(j.place, "length must stay above 0; at the start present is " + length(rod->length - j.length));
@@ -122,7 +122,7 @@ class Settling {
       related->constant += open(made);
     }
   }
-  void settle(const SceneDriver& d, Joint& made) const {
+  void complete(const SceneDriver& d, Joint& made) const {
     TimeLaw& law = *driver_law(made);
     const double present = open(made) + law(0).value;
     if (d.kind == DriverKind::distance && !(present + law(0).value > 0))
@@ -138,7 +138,7 @@ class Settling {
     if (!(apart > a + b)) overlap(l.place, apart, a, b);
   }
   /// Constant per span: stiffness over its length.
-  void settle(const SceneBelt& belt, BeltSpan& span) const {
+  void complete(const SceneBelt& belt, BeltSpan& span) const {
     const MarkerMotion &a = motion_[at(span.a)], &b = motion_[at(span.b)];
     const double delta = span.radius_b - span.radius_a, apart = (b.r - a.r).norm();
     const double span_length = std::sqrt(apart * apart - delta * delta);
@@ -274,27 +274,27 @@ std::vector<BeltSpan> spans_of(const Scene& scene, const SceneLoad& l, const Sce
   return out;
 }
 
-void settle_start(const Scene& scene, Model& model) {
+void complete_couplings(const Scene& scene, Model& model) {
   System& system = model.system;
   std::vector<int> open;
-  const auto each = [&](auto settle) {
+  const auto each = [&](auto complete) {
     for (std::size_t i = 0; i < scene.joints.size(); ++i)
-      if (const SceneJoint& j = scene.joints[i]; !j.play && (is_coupling(j) || j.from_present)) settle(j, model.order.joints[i]);
+      if (const SceneJoint& j = scene.joints[i]; !j.play && (is_coupling(j) || j.from_present)) complete(j, model.order.joints[i]);
     for (std::size_t i = 0; i < scene.drivers.size(); ++i)
-      if (scene.drivers[i].from_present) settle(scene.drivers[i], model.order.drivers[i]);
+      if (scene.drivers[i].from_present) complete(scene.drivers[i], model.order.drivers[i]);
   };
   each([&](const auto&, int joint) { open.push_back(joint); });
   const bool belts = std::ranges::any_of(scene.loads, [](const SceneLoad& l) { return std::holds_alternative<SceneBelt>(l.what); });
   if (open.empty() && !belts && std::ranges::none_of(system.loose, meshes)) return;
   const System rest = without(system, open);
   const Settling start(scene, rest, closed_pose(scene, rest, model.bent));
-  each([&](const auto& named, int joint) { start.settle(named, system.joints[at(joint)]); });
+  each([&](const auto& named, int joint) { start.complete(named, system.joints[at(joint)]); });
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     const SceneJoint& j = scene.joints[i];
     if (!j.play || !is_coupling(j)) continue;
     Joint& ideal = system.loose[at(std::ranges::find(system.loose_names, j.name) - system.loose_names.begin())];
-    start.settle(j, ideal);
-    settle_flanks(scene, j, ideal, at(model.order.joints[i]), system);
+    start.complete(j, ideal);
+    complete_flanks(scene, j, ideal, at(model.order.joints[i]), system);
   }
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const auto* belt = std::get_if<SceneBelt>(&scene.loads[i].what);
@@ -302,7 +302,7 @@ void settle_start(const Scene& scene, Model& model) {
     for (std::size_t k = 0; belt && k < belt->pulleys.size(); ++k) {
       for (std::size_t other = 0; other < k; ++other) start.keep_apart(scene.loads[i], span(k), span(other));
     }
-    for (std::size_t k = 0; belt && k < belt->pulleys.size(); ++k) start.settle(*belt, span(k));
+    for (std::size_t k = 0; belt && k < belt->pulleys.size(); ++k) start.complete(*belt, span(k));
   }
 }
 

@@ -18,7 +18,7 @@ inline constexpr double least_covered = 0.5;
 /// Contacts on flexible bodies whose shapes hold less than `least_covered` of what the body yields to a blow there, where
 /// that is not little beside the contact's own depth. In words.
 /// @param bodies  one a body of the scene; of rigid ones none
-/// @pre the system's contacts are settled
+/// @pre the system's contacts are complete
 std::vector<std::string> contact_warnings(const Scene&, const System&, const BuiltOrder&,
                                           const std::vector<std::optional<MechanismBody>>& bodies);
 

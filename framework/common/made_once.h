@@ -36,7 +36,7 @@ class MadeOnce {
       promise.set_value(nullptr);
       throw;
     }
-    settle(key, bytes_of_(*result) + key.size());
+    record_size(key, bytes_of_(*result) + key.size());
     promise.set_value(result);
     return result;
   }
@@ -69,7 +69,7 @@ class MadeOnce {
     return {};
   }
 
-  void settle(const std::string& key, std::size_t bytes) {
+  void record_size(const std::string& key, std::size_t bytes) {
     const std::lock_guard lock(mutex_);
     entries_.at(key).bytes = bytes;
     bytes_ += bytes;

@@ -34,7 +34,7 @@ class Search {
   void push(const VectorXd& direction) {
     State pushed = state_;
     pushed.y.head(direction.size()) += direction;
-    if (rest_.settle(pushed, 1)) state_ = pushed;
+    if (rest_.project(pushed, 1)) state_ = pushed;
   }
 
  private:
@@ -52,7 +52,7 @@ class Search {
       if (residual < best) best = residual, calmest = state_;
       if (best <= nearly && idle > 12) {  // rounding lets it fall no further
         state_ = calmest;
-        rest_.settle(state_, 1);
+        rest_.project(state_, 1);
         return true;
       }
       if (far_away()) return false;
@@ -89,7 +89,7 @@ class Search {
     for (int tries = 0; tries < 4; ++tries, share /= 4) {
       State trial = state_;
       trial.y.head(held.n()) += share * d;
-      if (!rest_.settle(trial, 0.5 * share * rest_.size(d) + 1e-9)) continue;
+      if (!rest_.project(trial, 0.5 * share * rest_.size(d) + 1e-9)) continue;
       const bool lower = rest_.potential <= before - 1e-4 * share * fall + rounding;
       const bool calmer = rest_.unrest() <= (by_potential ? 0.9 : 1.5) * unrest;
       if (by_potential ? lower || (calmer && rest_.potential <= before + 10 * rounding) : calmer) {
@@ -100,7 +100,7 @@ class Search {
     }
     trust_ = std::max(trust_ / 2, 1e-6);
     State back = state_;
-    rest_.settle(back, 1);
+    rest_.project(back, 1);
     return false;
   }
 
@@ -244,7 +244,7 @@ bool rests_together(const Scene& scene, const Model& model, const RestingStates&
   for (std::size_t i = 0; i < system.states.size(); ++i) all.which.push_back(static_cast<int>(i));
   Rest rest(system, time, all);
   State state = out.state;
-  if (!rest.settle(state, 1)) {
+  if (!rest.project(state, 1)) {
     out.reason = why_no_pose(scene, model, state);
     return true;
   }
@@ -292,14 +292,14 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
   VectorXd own = out.state.y.segment(system.x_begin() + system.own_x, static_cast<Index>(system.states.size()));
   if (!states.sought.empty() && rests_together(scene, model, states, time, own, out)) return out;
   Rest rest(system, time, {states.kept, std::make_shared<VectorXd>(own)});
-  if (!rest.settle(out.state, 1)) {
+  if (!rest.project(out.state, 1)) {
     out.reason = why_no_pose(scene, model, out.state);
     return out;
   }
   Search way(rest, out.state);
   search(rest, way, out);
   State last = way.state();
-  rest.settle(last, 1);
+  rest.project(last, 1);
   out.iterations = way.iterations();
   out.residual = rest.residual();
   out.method = !has_potential(rest.held)

@@ -83,7 +83,7 @@ class TogetherAtRest {
     const Index n = open.cols();
     state.y.head(rest_.held.n()) += rest_.held.scale.cwiseProduct(open * step.head(n));
     for (Index i = 0; i < step.size() - n; ++i) own_[sought_[at(i)]] += system_.states[at(sought_[at(i)])].scale * step[n + i];
-    return rest_.settle(state, 1);
+    return rest_.project(state, 1);
   }
 
   double worst_rate() const { return left.tail(static_cast<Index>(sought_.size())).lpNorm<Eigen::Infinity>(); }
@@ -214,7 +214,7 @@ JointRest find_joint_rest(const System& system, Rest& rest, VectorXd& own, const
     own = own_before;
     damping *= 10;
   }
-  rest.settle(state, 1);
+  rest.project(state, 1);
   out.found = rest.residual() <= nearly && now.worst_rate() <= still;
   if (out.found) out.undetermined = undetermined_states(system, now, states.sought);
   if (!out.found && now.worst_rate() > still) {

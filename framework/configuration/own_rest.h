@@ -15,11 +15,11 @@ struct RestingStates {
 };
 RestingStates resting_states(const System&);
 
-/// Do the sought states follow from each pose, their rates depending on them? @pre rest was settled
+/// Do the sought states follow from each pose, their rates depending on them? @pre rest was projected onto the joints
 bool follow_the_pose(const System&, const RestingStates&, const Rest&, double t);
 
 /// Newton's method, damped after Levenberg and Marquardt, on the open directions of the joints and the sought states.
-/// @pre rest keeps every state at `own`, and was settled at `state`
+/// @pre rest keeps every state at `own`, and was projected at `state`
 struct JointRest {
   bool found = false;
   int iterations = 0;

@@ -22,7 +22,7 @@ struct RowReport {
 };
 
 /// Judges the rows at a pose y and, where some are redundant, at poses reached from it by small motions that the
-/// joints allow (drivers let go). As many rows as are redundant there too are lastingly so, those whose null vectors are
+/// joints allow (drivers let go). As many rows as are redundant there too are permanently so, those whose null vectors are
 /// nearest to the ones there; a force is shared if it is at any of these poses.
 RowReport validate_rows(const System&, double t, const Eigen::VectorXd& y);
 

@@ -61,7 +61,7 @@ Rest::Rest(const System& system, double t, const KeptStates& kept)
   span_ = std::max(span / system.length, 1.0);
 }
 
-bool Rest::settle(State& state, double farthest) {
+bool Rest::project(State& state, double farthest) {
   const VectorXd before = state.y.head(held.n());
   state.t = t_;
   stop(state);

@@ -25,7 +25,7 @@ class Rest {
 
   /// Brings the pose onto the joints and evaluates everything there.
   /// @returns false if it cannot be, or only by a leap
-  bool settle(State&, double farthest);
+  bool project(State&, double farthest);
 
   /// Largest coordinate of a displacement, over the mechanism's extent, angles as they are.
   double size(const Eigen::VectorXd& displacement) const;

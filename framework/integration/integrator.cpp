@@ -231,7 +231,7 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   if (!outcome.did.empty()) happenings_.push_back({step_.to.state.t, events_.name(event), outcome.did});
   row_ = outcome.row, save_ = outcome.save;
   ended_ = outcome.end;
-  if (laws_ && outcome.change >= EventOutcome::Change::jump) laws_->settle(step_.to.state);
+  if (laws_ && outcome.change >= EventOutcome::Change::jump) laws_->find_sides(step_.to.state);
   hold_laws();
   if (outcome.change == EventOutcome::Change::nothing && step_.h > 0) {
     control_.wish_for(std::max(control_.wish(), wish));
@@ -251,7 +251,7 @@ bool Integrator::change(const std::function<void(State&)>& act) {
   if (!failure_.empty() || !ended_.empty()) return false;
   step_.y_before = step_.to.state.y;
   act(step_.to.state);
-  if (laws_) laws_->settle(step_.to.state);
+  if (laws_) laws_->find_sides(step_.to.state);
   hold_laws();
   control_.forget_errors();
   events_.forget_end();

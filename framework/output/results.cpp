@@ -28,7 +28,7 @@ Json assembly_json(const System& system, const Assembly& a) {
     redundant.push_back({{"joint", system.joint_names[static_cast<std::size_t>(r.joint)]},
                          {"row", row_name(system.joints[static_cast<std::size_t>(r.joint)], r.row)},
                          {"implied by", others},
-                         {"lasting", r.permanent}});
+                         {"permanent", r.permanent}});
   }
   Json shared = Json::array();
   for (std::size_t k = 0; k < system.joints.size() && !a.redundant.empty(); ++k)
@@ -162,7 +162,7 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
   return json_text(out) + "\n";
 }
 
-std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly, const CostEstimate& price) {
+std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly, const CostEstimate& cost) {
   std::vector<std::string> warnings = model.warnings;
   for (std::string& w : warnings_of(model, assembly)) warnings.push_back(std::move(w));
   const Json out = {{"title", scene.title},
@@ -172,7 +172,7 @@ std::string check_json(const Scene& scene, const Model& model, const Assembly& a
                     {"clearances", model.clearances},
                     {"flexible bodies", flexible_json(model)},
                     {"rigid run", preliminary_run_json(model)},
-                    {"price", Json::parse(cost_json(price))},
+                    {"cost", Json::parse(cost_json(cost))},
                     {"warnings", warnings},
                     {"scene", scene_json(scene)}};
   return json_text(out) + "\n";

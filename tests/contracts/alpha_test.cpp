@@ -33,7 +33,7 @@ Step march(const Case& k, double rho, double span, int n, VectorXd* errors = nul
   step.to.state = k.start;
   step.to.dy.setZero(k.system.n_y());
   step.from = step.to;
-  EXPECT_TRUE(alpha.settle(k.system, step.to, eq));
+  EXPECT_TRUE(alpha.project(k.system, step.to, eq));
   for (int i = 1; i <= n; ++i) {
     std::swap(step.from, step.to);
     EXPECT_TRUE(alpha.attempt(k.system, span / n, step, eq)) << alpha.trouble();
@@ -124,7 +124,7 @@ TEST(Alpha, LedgerOfALinearSystemClosesToRoundingAtAnyStep) {
       step.to.state = k.start;
       step.to.dy.setZero(k.system.n_y());
       step.from = step.to;
-      ASSERT_TRUE(alpha.settle(k.system, step.to, eq));
+      ASSERT_TRUE(alpha.project(k.system, step.to, eq));
       const double start = energies(k.system, step.to.state, eq).balance();
       double lost = 0;
       for (int i = 0; i < 40; ++i) {

@@ -151,7 +151,7 @@ class SchemeContract : public testing::TestWithParam<std::tuple<Tableau, Constra
     step.to.state = k.start;
     step.to.dy.setZero(k.system.n_y());
     step.from = step.to;
-    EXPECT_TRUE(stages.settle(k.system, step.to, eq));
+    EXPECT_TRUE(stages.project(k.system, step.to, eq));
     for (int i = 1; i <= n; ++i) {
       std::swap(step.from, step.to);
       EXPECT_TRUE(stages.attempt(k.system, span / n, step, eq));
@@ -227,7 +227,7 @@ TEST_P(QuarticInsideSteps, HasFifthOrder) {
     Step step;
     step.to.state = k.start;
     step.to.dy.setZero(k.system.n_y());
-    ASSERT_TRUE(stages.settle(k.system, step.to, eq));
+    ASSERT_TRUE(stages.project(k.system, step.to, eq));
     step.from = step.to;
     ASSERT_TRUE(stages.attempt(k.system, span, step, eq));
     error.push_back(0);

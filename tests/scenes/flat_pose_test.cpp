@@ -60,7 +60,7 @@ TEST(ParallelCranks, AtRestShareTheWeightAlikeByGeneralisedAlpha) {
   }
 }
 
-// The lasting redundancy is seen beside rows that are nearly dependent, at any distance from the flat pose: forces tend to those in it, for
+// The permanent redundancy is seen beside rows that are nearly dependent, at any distance from the flat pose: forces tend to those in it, for
 // each radian by no more than all weights and inertia forces together.
 TEST(ParallelCranks, HaveForcesThatTendToThoseOfTheFlatPose) {
   for (const double speed : {1.0, 5.0}) {

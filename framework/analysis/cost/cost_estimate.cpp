@@ -119,7 +119,7 @@ void estimate_rows(const Scene& scene, const Model& model, Integrator& run, Outp
 struct Temporary {
   fs::path path;
   Temporary() {
-    std::string name = (fs::temp_directory_path() / "pintle_price_XXXXXX").string();
+    std::string name = (fs::temp_directory_path() / "pintle_cost_XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
     path = name;
   }

@@ -56,10 +56,10 @@ std::vector<double> frame_times(const Scene& scene) {
 DrivenMotion::DrivenMotion(const System& system, State start)
     : system_(system), eq_(system), state_(std::move(start)), a_(VectorXd::Zero(system.n())), gamma_(VectorXd::Zero(system.n_rows())) {
   state_.impact_rate.resize(system.contacts.size(), 0.0);
-  if (!settle(state_, a_)) failure_ = "t = " + number_text(state_.t, 6) + " s: " + why();
+  if (!project(state_, a_)) failure_ = "t = " + number_text(state_.t, 6) + " s: " + why();
 }
 
-bool DrivenMotion::settle(State& state, VectorXd& a) {
+bool DrivenMotion::project(State& state, VectorXd& a) {
   constexpr double enough = 1e-14, good = 1e-11;
   constexpr int most = 10;
   const Index n = system_.n();
@@ -99,7 +99,7 @@ bool DrivenMotion::attempt(double h, State& trial, VectorXd& a) {
   const double position = worst_position_, velocity = worst_velocity_;
   const double move = size(step);
   if (move > farthest) return false;
-  if (settle(trial, a) && size(trial.y.head(n) - q_predicted) <= part * move + small && (!rows_.deficient() || move <= careful)) {
+  if (project(trial, a) && size(trial.y.head(n) - q_predicted) <= part * move + small && (!rows_.deficient() || move <= careful)) {
     const double change = size(trial.y.segment(n, n) - s_predicted), fastest = std::max(size(s), size(trial.y.segment(n, n)));
     if (change <= speed_part * fastest || change * h <= small_turn) return true;
   }
@@ -127,7 +127,7 @@ bool DrivenMotion::advance(double t) {
     h_ = h / 3;
     if (h_ < 1e-11 * std::max(std::abs(t), left)) {
       failure_ = "t = " + number_text(state_.t, 6) + " s: " + why();
-      settle(state_, a_);
+      project(state_, a_);
       return false;
     }
   }

@@ -32,7 +32,7 @@ class DrivenMotion {
   double worst_velocity() const { return worst_velocity_; }
 
  private:
-  bool settle(State&, Eigen::VectorXd& a);
+  bool project(State&, Eigen::VectorXd& a);
   bool attempt(double h, State& trial, Eigen::VectorXd& a);
   double size(const Eigen::VectorXd& d) const { return d.cwiseQuotient(system_.scale).lpNorm<Eigen::Infinity>(); }
   std::string why();

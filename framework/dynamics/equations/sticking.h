@@ -45,7 +45,7 @@ void keep_friction(const System&, const Equations&, State&);
 struct FrictionResponse {
   const Eigen::MatrixXd &W, &lambda;
 };
-/// Does a change of forces share out anew what several could hold, or only what it changes, to its own last digits?
+/// Does a change of forces share out again what several could hold, or only what it changes, to its own last digits?
 enum class Shares { all, change };
 /// Change of the forces T of eq.sticking from `before`: W δT = slips for what holds, T = −d μ N for what slides, N of the multipliers
 /// λ + response δT or of its own contact. Where others could hold as well, as at two corners of a box on one ground, each bears a part after what it

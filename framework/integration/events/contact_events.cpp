@@ -243,7 +243,7 @@ EventOutcome ContactEvents::strike(std::vector<int> touching, Step& step) {
   return {.change = EventOutcome::Change::jump};
 }
 
-// Its forces are decided anew, and it is over once they have let it open.
+// Its forces are decided again, and it is over once they have let it open.
 EventOutcome ContactEvents::part(int contact, Step& step) {
   State& state = step.to.state;
   if (state.impact_rate[at(contact)] > 0) {

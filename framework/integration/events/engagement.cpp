@@ -186,7 +186,7 @@ Engagement switch_over(const System& system, std::span<const SwitchOver> asked, 
       if (const std::string why = latch(system, one.at, state, eq); !why.empty()) return fail(one.at, why);
   if (engaged >= 0)
     if (const std::string why = strike_joints(system, changes, state, eq, out); !why.empty()) return fail(engaged, why);
-  for (std::size_t k = 0; k < state.friction.size(); ++k)  // whether it slides or sticks is decided anew
+  for (std::size_t k = 0; k < state.friction.size(); ++k)  // whether it slides or sticks is decided again
     if (k >= system.contacts.size() || state.impact_rate[k] > 0) state.friction[k] = {};
   evaluate_forces(system, state, eq);
   for (const SwitchOver& one : changes) lost(system, one.at, state.y) -= stored(system, system.switches[at(one.at)], eq);

@@ -111,7 +111,7 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
     for (double part = 0.5; part > 1e-9 && begin == t0; part /= 2)
       if (const double t = t0 + part * (end - t0); along(t).value < away) begin = t;
     if (begin == t0 && (spent || from.value >= 0)) {           // it never has
-      if (spent && w.at_once && from.rate < 0 && to.rate > 0)  // it comes back from where nothing shows: anew, where it turns
+      if (spent && w.at_once && from.rate < 0 && to.rate > 0)  // it comes back from where nothing shows: again, where it turns
         return crossing([&](double t) { return Guard{along(t).rate}; }, t0, t1, 1e-9 * step.h);
       if (spent || !w.at_once || here_ > 4) return std::nullopt;
       end = t0;

@@ -80,7 +80,7 @@ void LawEvents::see(const State& state) {
     if (const double size = std::abs(value(laws_[l], state)); std::isfinite(size)) most_[l] = std::max(most_[l], size);
 }
 
-void LawEvents::settle(const State& state) {
+void LawEvents::find_sides(const State& state) {
   const std::vector<double> before = past(state);
   std::vector<int> found = sides_;
   for (const Sided& one : laws_) {
@@ -137,7 +137,7 @@ std::optional<double> LawEvents::positive_inside(int event, const Step& step, co
 
 void LawEvents::start(Step& step) {
   std::ranges::fill(lag_, 0.0);
-  settle(step.to.state);
+  find_sides(step.to.state);
   see(step.to.state);
 }
 

@@ -16,8 +16,8 @@ class LawEvents final : public EventGroup {
 
   /// For Equations: on which the laws are held.
   const std::vector<int>& sides() const { return sides_; }
-  /// Where the state has jumped, sides are found anew.
-  void settle(const State&);
+  /// Where the state has jumped, sides are found again.
+  void find_sides(const State&);
 
   int order() const override { return 3; }
   int size() const override { return 2; }

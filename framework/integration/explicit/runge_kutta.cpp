@@ -44,7 +44,7 @@ bool RungeKutta::sample(const Step& step, double t, Equations& eq, State& out) {
     } else {
       node.state = step.to.state;
     }
-    found = stages.settle(system_, node, eq);
+    found = stages.project(system_, node, eq);
   }
   if (found) out = node.state;
   return found;
@@ -92,7 +92,7 @@ void RungeKutta::load(Reader& in) { in.whole(stages_); }
 
 void RungeKutta::evaluate_end(const Step& step, Equations& eq) {
   Instant end = step.to;
-  stages_.settle(system_, end, eq);
+  stages_.project(system_, end, eq);
 }
 
 }  // namespace pintle

@@ -14,7 +14,7 @@ class RungeKutta final : public Stepper {
 
   std::string_view name() const override { return stages_.tableau().name; }
   const StepperTraits& traits() const override { return traits_; }
-  bool project(Instant& node, Equations& eq) override { return stages_.settle(system_, node, eq); }
+  bool project(Instant& node, Equations& eq) override { return stages_.project(system_, node, eq); }
   bool attempt(double h, const ErrorNorm&, Step&, Equations&) override;
   void accept(Equations& eq) override { stages_.refresh(system_, eq); }
   double first_step(const Instant&, const ErrorNorm&, double left) const override;

@@ -73,7 +73,7 @@ void Stages::watch(const Equations& eq) {
   if (eq.permanent == 0) most_ = std::max(most_, eq.schur.least());
 }
 
-bool Stages::settle(const System& system, Instant& node, Equations& eq) {
+bool Stages::project(const System& system, Instant& node, Equations& eq) {
   if (constraints_ == Constraints::partitioning && system.n_rows() > 0) {
     if (partition_.dependent().empty() || !system.switches.empty()) {
       pose(system, node.state.t, node.state.y, eq);
@@ -129,7 +129,7 @@ bool Stages::reach(const System& system, const Instant& from_node, double h, Ins
   to.friction = from.friction;
   to.y = from.y;
   add_combination(h, tableau_.b, k_, to.y);  // a closing stage has no weight
-  if (!to.y.allFinite() || !settle(system, to_node, eq)) return false;
+  if (!to.y.allFinite() || !project(system, to_node, eq)) return false;
   watch(eq);
   if (tableau_.closes) k_.back() = to_node.dy;
   return to_node.dy.allFinite();

@@ -17,11 +17,11 @@ class Stages {
   Stages(const System&, const Tableau&, Constraints);
 
   /// Brings y onto the constraints and evaluates everything there. @returns false at a singular pose
-  bool settle(const System&, Instant&, Equations&);
+  bool project(const System&, Instant&, Equations&);
   /// Fills step.to and step.error from step.from and h. @returns false if a stage could not be
   /// evaluated or is not finite; step.from is never changed.
   bool attempt(const System&, double h, Step&, Equations&);
-  /// The state that a step of h from a node leads to, settled and evaluated, without an error estimate.
+  /// The state that a step of h from a node leads to, projected onto the constraints and evaluated, without an error estimate.
   bool reach(const System&, const Instant& from, double h, Instant& to, Equations&);
   /// Chooses a new independent set if the present one has worn out. After an accepted step.
   void refresh(const System&, Equations&);

@@ -76,7 +76,7 @@ void Alpha::balance(const System& system, const State& state, const VectorXd& dy
   ++eq.evaluations;
 }
 
-bool Alpha::settle(const System& system, Instant& node, Equations& eq) {
+bool Alpha::project(const System& system, Instant& node, Equations& eq) {
   if (!project(system, node.state.t, node.state.y, eq)) return false;
   remove_slip(system, node.state, eq);
   accelerate(system, node.state, eq);

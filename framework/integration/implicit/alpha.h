@@ -32,7 +32,7 @@ class Alpha {
   Alpha(const System&, const Equations&, double rho, double tolerance);
 
   /// Brings y onto the constraints, evaluates there and forgets: a start. @returns false at a singular pose
-  bool settle(const System&, Instant&, Equations&);
+  bool project(const System&, Instant&, Equations&);
   /// As Stages::attempt. step.error is the local error, filtered through the iteration matrix so that
   /// what the scheme damps does not count. @returns false if Newton does not converge; see trouble()
   bool attempt(const System&, double h, Step&, Equations&);

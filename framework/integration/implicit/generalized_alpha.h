@@ -15,7 +15,7 @@ class GeneralizedAlpha final : public Stepper {
 
   std::string_view name() const override { return method; }
   const StepperTraits& traits() const override { return traits_; }
-  bool project(Instant& node, Equations& eq) override { return alpha_.settle(system_, node, eq); }
+  bool project(Instant& node, Equations& eq) override { return alpha_.project(system_, node, eq); }
   bool attempt(double h, const ErrorNorm&, Step&, Equations&) override;
   void accept(Equations&) override {}
   double first_step(const Instant&, const ErrorNorm&, double left) const override;

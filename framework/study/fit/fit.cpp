@@ -12,7 +12,7 @@
 #include "framework/bodies/body_store.h"
 #include "framework/common/file.h"
 #include "framework/common/text.h"
-#include "framework/study/fit/crew.h"
+#include "framework/study/fit/workers.h"
 #include "framework/study/sweep/study_folder.h"
 
 namespace pintle {

@@ -74,7 +74,7 @@ void say_none_meets(const TradeReport& r, std::vector<std::string>& said) {
   said.push_back("Nothing is recommended: " + (r.ran() == r.listed() ? std::string("no setting") : "none" + of_how_many(r)) +
                  " is shown to have an error of at most " + percent_text(r.plan.error) + ".");
   if (best.size() == 1)
-    said.push_back("The most accurate is " + setting_text(r.plan, r.points[best.front()]) + ", " + priced(r, best.front()) + ".");
+    said.push_back("The most accurate is " + setting_text(r.plan, r.points[best.front()]) + ", " + cost_text(r, best.front()) + ".");
   else
     said.push_back(
         printed("The %zu most accurate cannot be told apart: each errs by at most %s.", best.size(), percent_text(most).c_str()));

@@ -62,17 +62,17 @@ void say_wanted(const TradeReport& r, std::vector<std::string>& said) {
   const TradePlan& plan = r.plan;
   if (plan.error > 0 && r.cheapest)
     said.push_back("Cheapest" + of_how_many(r) + " for an error of " + percent_text(plan.error) + ": " +
-                   setting_text(plan, r.points[*r.cheapest]) + ", " + priced(r, *r.cheapest) + ".");
+                   setting_text(plan, r.points[*r.cheapest]) + ", " + cost_text(r, *r.cheapest) + ".");
   if (plan.time > 0 && r.best_in_time)
-    said.push_back("Most accurate" + of_how_many(r) + " within " + time_text(plan.time) +
-                   ", as far as can be told: " + setting_text(plan, r.points[*r.best_in_time]) + ", " + priced(r, *r.best_in_time) + ".");
+    said.push_back("Most accurate" + of_how_many(r) + " within " + time_text(plan.time) + ", as far as can be told: " +
+                   setting_text(plan, r.points[*r.best_in_time]) + ", " + cost_text(r, *r.best_in_time) + ".");
   else if (plan.time > 0)
     said.push_back("No setting" + of_how_many(r) + " takes as little as " + time_text(plan.time) + "; the fastest is " +
-                   setting_text(plan, r.points[r.front.front()]) + ", " + priced(r, r.front.front()) +
+                   setting_text(plan, r.points[r.front.front()]) + ", " + cost_text(r, r.front.front()) +
                    (r.recommended ? "." : ". Nothing is recommended."));
   if (plan.error <= 0 && plan.time <= 0)
     said.push_back("With no wish given, the front's knee is recommended, past which more time buys little: " +
-                   setting_text(plan, r.points[*r.recommended]) + ", " + priced(r, *r.recommended) + of_how_many(r) + ".");
+                   setting_text(plan, r.points[*r.recommended]) + ", " + cost_text(r, *r.recommended) + of_how_many(r) + ".");
 }
 
 void say_as_it_stands(const TradeReport& r, std::vector<std::string>& said) {
@@ -81,7 +81,7 @@ void say_as_it_stands(const TradeReport& r, std::vector<std::string>& said) {
     said.push_back(stopped("The scene as it stands was not judged: " + p.status + (p.reason.empty() ? "" : ", " + p.reason)));
     return;
   }
-  std::string s = "The scene as it stands takes " + priced(r, 0);
+  std::string s = "The scene as it stands takes " + cost_text(r, 0);
   if (r.recommended && *r.recommended != 0) s += "; what is recommended takes " + times_text(r.points[*r.recommended].time / p.time);
   said.push_back(s + ".");
 }
@@ -215,8 +215,8 @@ void say_front(const TradeReport& r, std::vector<std::string>& said) {
                    setting_text(r.plan, r.points[r.front.front()]) + " as far as can be told, and none is faster.");
   else
     said.push_back(printed("The front is %zu of the %s that ran: ", r.front.size(), settings_text(r.ran()).c_str()) + "from " +
-                   setting_text(r.plan, r.points[r.front.front()]) + " (" + priced(r, r.front.front()) + ") to " +
-                   setting_text(r.plan, r.points[r.front.back()]) + " (" + priced(r, r.front.back()) + ").");
+                   setting_text(r.plan, r.points[r.front.front()]) + " (" + cost_text(r, r.front.front()) + ") to " +
+                   setting_text(r.plan, r.points[r.front.back()]) + " (" + cost_text(r, r.front.back()) + ").");
   std::string s;
   for (std::size_t a = 0; a < r.plan.axes.size(); ++a)
     for (std::size_t v = 0; v < r.plan.axes[a].values.size(); ++v) {
@@ -252,7 +252,7 @@ void say_unusable(const TradeReport& r, std::vector<std::string>& said) {
 
 }  // namespace
 
-std::string priced(const TradeReport& r, std::size_t point) {
+std::string cost_text(const TradeReport& r, std::size_t point) {
   const TradePoint& p = r.points[point];
   return time_text(p.time) + " with an error " + (p.counted() > p.warning ? "of " : "") + error_text(p);
 }

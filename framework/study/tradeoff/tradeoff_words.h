@@ -14,7 +14,7 @@ std::string error_text(const TradePoint&);
 std::string percent_text(double share);
 std::string time_text(double seconds);
 /// Time and error of a point.
-std::string priced(const TradeReport&, std::size_t point);
+std::string cost_text(const TradeReport&, std::size_t point);
 std::string settings_text(std::size_t count);
 /// " of the 7 of 84 settings that ran"; nothing where all did.
 std::string of_how_many(const TradeReport&);

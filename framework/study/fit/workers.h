@@ -35,29 +35,29 @@ inline std::size_t share_out(std::size_t count, int threads, const std::function
     --out;
     ended.notify_all();
   };
-  std::vector<std::thread> crew;
+  std::vector<std::thread> workers;
   try {
     for (std::size_t k = 0; k < std::min(count, static_cast<std::size_t>(threads)); ++k) {
       {
         const std::lock_guard lock(mutex);
         ++out;
       }
-      crew.emplace_back(work);
+      workers.emplace_back(work);
     }
   } catch (const std::exception&) {  // the others do the work
     const std::lock_guard lock(mutex);
     --out;
   }
-  if (crew.empty()) out = 1, work();
+  if (workers.empty()) out = 1, work();
   for (std::unique_lock lock(mutex); out > 0;) {
     ended.wait_for(lock, std::chrono::milliseconds(100), [&] { return out == 0; });
     lock.unlock();
     poll();
     lock.lock();
   }
-  for (std::thread& t : crew) t.join();
+  for (std::thread& t : workers) t.join();
   if (trouble) std::rethrow_exception(trouble);
-  return std::max<std::size_t>(1, crew.size());
+  return std::max<std::size_t>(1, workers.size());
 }
 
 }  // namespace pintle
