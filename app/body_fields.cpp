@@ -28,8 +28,8 @@ FieldRange range_of(const Drawing& drawing, const std::string& field) {
   if (range.least > range.greatest) {
     std::string names;
     for (const auto& name : known) names += (names.empty() ? "" : ", ") + name;
-    throw std::invalid_argument("--field \"" + field + "\": no body of the frame has it; " +
-                                (names.empty() ? "the frame has no flexible bodies" : "they have " + names));
+    throw std::invalid_argument("--field \"" + field + "\": no body in the frame has this field; " +
+                                (names.empty() ? "the frame has no flexible bodies" : "available fields: " + names));
   }
   return range;
 }

@@ -113,7 +113,7 @@ struct Canvas::Surface {
 Canvas::Canvas(int width, int height, double letters) : width_(width), height_(height), surface_(std::make_unique<Surface>(width, height)) {
   if (cairo_status(surface_->pen) != CAIRO_STATUS_SUCCESS)
     throw std::runtime_error("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                             " pixels is too large to draw; make --size smaller");
+                             " pixels is too large to draw; choose a smaller --size");
   cairo_t* pen = surface_->pen;
   cairo_set_line_cap(pen, CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(pen, CAIRO_LINE_JOIN_ROUND);
@@ -249,7 +249,7 @@ void Canvas::write_png(const std::filesystem::path& file) const {
     return CAIRO_STATUS_SUCCESS;
   };
   if (cairo_surface_write_to_png_stream(surface_->image, append, &png) != CAIRO_STATUS_SUCCESS)
-    throw FileError(file, "the picture could not be encoded, for which there was not enough memory");
+    throw FileError(file, "the picture could not be encoded: there was not enough memory");
   write_text(file, png);
 }
 

@@ -69,7 +69,7 @@ void print_choice(const FlexibleReport& r) {
     for (std::size_t i = 0; i < cells.size(); ++i) std::cout << std::setw(widths[i]) << cells[i];
     std::cout << "\n";
   };
-  line({"mode", "frequency [Hz]", "its strain energy %", "left out after it: energy %, displacement %"});
+  line({"mode", "frequency [Hz]", "strain energy %", "left out after this mode: energy %, displacement %"});
   int k = 0;
   for (const ConsideredMode& m : r.choice->considered)
     line({std::to_string(++k), number(m.frequency, 6), percent(m.energy),
@@ -132,11 +132,11 @@ void print_redundancy(const System& s, const Assembly& a) {
     for (int i : r.implied_by) others.push_back("\"" + s.joint_names[static_cast<std::size_t>(i)] + "\"");
     std::cout << "  redundant" << (r.permanent ? "" : " in this pose only") << ": \"" << s.joint_names[static_cast<std::size_t>(r.joint)]
               << "\" (" << groups[k].rows << ")"
-              << (others.empty() ? (groups[k].count > 1 ? " hold" : " holds") + std::string(" nothing that moves")
+              << (others.empty() ? (groups[k].count > 1 ? " constrain" : " constrains") + std::string(" nothing that can move")
                                  : (groups[k].count > 1 ? " are" : " is") + std::string(" implied by ") + some(others))
               << "\n";
   }
-  if (groups.size() > most) std::cout << "  redundant: as much at " << groups.size() - most << " more joints; --json has them all\n";
+  if (groups.size() > most) std::cout << "  redundant: also rows of " << groups.size() - most << " more joints; --json lists them all\n";
   if (a.redundant.empty()) return;
   const std::string unique = rows_text(s, a.shared, false);
   std::cout << "  joint forces that are unique: " << (unique.empty() ? "none" : unique) << "\n"

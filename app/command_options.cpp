@@ -9,30 +9,30 @@ namespace {
 constexpr const char* what_it_writes =
     "It writes\n"
     "  trajectory.csv   motion of each body, force of each joint, eccentricity and contact of each clearance\n"
-    "  ledger.csv       each energy, loss and work against time, and what none of them explains\n"
+    "  ledger.csv       each energy, loss and work over time, and the energy that none of them explains\n"
     "  actions.csv      what the events of the scene did, and when\n"
-    "  events.csv       an impact a row: begin, end, speeds, deepest penetration, peak force, energy lost\n"
+    "  events.csv       one row per impact: begin, end, speeds, deepest penetration, peak force, energy lost\n"
     "  run.json         the scene with every value filled in, status, counts, timings\n"
     "  mechanism.pvd    the animation for ParaView, with frames/*.vtu; mechanism.py shows it\n"
     "Exit codes: see pintle --help\n";
 
 constexpr const char* what_statics_writes =
-    "The whole mechanism at rest, drivers held, loads as they are at that time; for the stresses of one body under\n"
-    "given loads see pintle static. It writes\n"
+    "Finds the equilibrium of the whole mechanism, with drivers held and loads as at that time. For the stresses of one\n"
+    "body under given loads see pintle static. It writes\n"
     "  statics.csv, .json   pose of each body, force of each joint, torque or force of each driver, contacts, loads\n"
-    "  mechanism.pvd        the mechanism there, for ParaView\n"
+    "  mechanism.pvd        the mechanism at equilibrium, for ParaView\n"
     "Exit code 4: there is no equilibrium, or none was found. Others: see pintle --help\n";
 
 constexpr const char* what_kinematics_writes =
-    "Every freedom must have a driver. Bodies need no masses, those with modes stay rigid. It writes\n"
+    "Every degree of freedom must have a driver. Bodies need no mass; bodies with modes stay rigid. It writes\n"
     "  trajectory.csv    position, speed and acceleration of each body and of output.points\n"
     "  kinematics.json   the scene with every value filled in, status, counts\n"
     "  mechanism.pvd     the animation for ParaView, if the scene asks for frames\n"
     "Exit codes: see pintle --help\n";
 
 constexpr const char* what_inverse_writes =
-    "Rigid and fully driven mechanisms by algebra; with bodies that bend, clearances or free motions by integration,\n"
-    "the drivers as constraints. It writes\n"
+    "Solves rigid, fully driven mechanisms algebraically. With flexible bodies, clearances or free motions it integrates in\n"
+    "time, with the drivers as constraints. It writes\n"
     "  trajectory.csv   motion of each body, force of each joint, torque or force of each driver\n"
     "  DRIVER.csv       t and torque (or thrust) of each driver, a table that a force of a scene can follow\n"
     "  inverse.json     the scene with every value filled in, status, counts, extremes\n"
@@ -40,29 +40,29 @@ constexpr const char* what_inverse_writes =
     "Exit codes: see pintle --help\n";
 
 constexpr const char* what_linearize_writes =
-    "Small motion about a state, contacts that are closed there counted by the slope of their laws. It writes\n"
-    "  linearized.csv, .json   frequency, damping ratio, decay, root of each mode, and what moves most in it\n"
+    "Linearizes the motion about a state. Contacts that are closed there count with the slope of their laws. It writes\n"
+    "  linearized.csv, .json   frequency, damping ratio, decay, root of each mode, and the part that moves most\n"
     "  shapes.csv              the shapes, coordinate by coordinate\n"
     "  A.csv B.csv C.csv D.csv x' = A x + B u, y = C x + D u, states, inputs and outputs named\n"
     "  mode_01/mechanism.pvd … with --frames, an animation of each mode for ParaView\n"
-    "docs/linearize.md says what each means. Exit codes: see pintle --help\n";
+    "docs/linearize.md explains each of them. Exit codes: see pintle --help\n";
 
 constexpr const char* what_modes_writes =
-    "The body's supports hold it; without any it is free. It writes\n"
+    "The body is held by its supports; without supports it is free. It writes\n"
     "  modes.csv, modes.json   frequency, effective mass, damping ratio, residual of each mode\n"
-    "  modes.vtu               every shape as a vector field, with its modal von Mises stress\n"
+    "  modes.vtu               every mode shape as a vector field, with its modal von Mises stress\n"
     "  mode_01.pvd, …          an animation of each mode for ParaView\n"
-    "  reduced.*, reduced_01…  the same of the reduced body, if it says `modes`\n"
+    "  reduced.*, reduced_01…  the same for the reduced body, if the scene gives it `modes`\n"
     "Exit codes: see pintle --help\n";
 
 constexpr const char* what_sweep_writes =
-    "A study names a scene, what is measured and what is varied; docs/studies.md has its language. It writes\n"
-    "  sweep.csv               a row per case, the same whatever the number of workers\n"
+    "A study names a scene, what is measured and what is varied; docs/studies.md describes the format. It writes\n"
+    "  sweep.csv               one row per case, the same for any number of workers\n"
     "  sweep.json, timings.csv counts by status, extremes; time of each case\n"
     "  study.yaml, scene.yaml  what was run\n"
-    "  journal-0.txt, …        cases as they end: started again after any end, it goes on from there\n"
-    "A case that fails is a row with its reason. On many cores or machines: mpirun pintle sweep STUDY.yaml, one process\n"
-    "per core, in a directory that all share.\n"
+    "  journal-0.txt, …        cases as they end; after an interruption, the same command continues from there\n"
+    "A failed case is a row with its reason. On many cores or machines: mpirun pintle sweep STUDY.yaml, one process\n"
+    "per core, in a directory that all of them share.\n"
     "Exit codes: see pintle --help\n";
 
 /// A whole number from 1, or another least, to `most`.
@@ -107,42 +107,46 @@ void add_study_options(CLI::App& command, Options& options, const std::string& s
       ->type_name("NAME|PATH=VALUE");
   command.add_flag("--json", options.json, "print JSON instead of text");
   command.add_option("-o,--out", options.out, out)->check(named())->type_name("DIR");
-  command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  command.add_flag("-q,--quiet", options.quiet, "print errors only");
 }
 
 constexpr const char* what_fit_writes =
-    "A study names a scene, what may vary, a goal and limits; docs/studies.md has its language. It writes\n"
-    "  fit.csv                 every case that was tried, the same whatever the number of workers\n"
+    "A study names a scene, what may vary, a goal and limits; docs/studies.md describes the format. It writes\n"
+    "  fit.csv                 every case that was tried, the same for any number of workers\n"
     "  fitted.yaml             the scene with the best values, ready to run\n"
     "  fit.json                the best values, how each search ended\n"
-    "  path.csv                of a path: its points, and where the curve passes them\n"
-    "  study.yaml, scene.yaml, journal-0.txt   as sweep does: started again after any end, it goes on from there\n"
+    "  path.csv                for a path: its points, and where the curve passes them\n"
+    "  study.yaml, scene.yaml, journal-0.txt   as for sweep; after an interruption, the same command continues from there\n"
     "Exit code 4: nothing could be measured, no point meets the limits, or the goal is not within its tolerance; the output says\n"
     "which. Others: see pintle --help\n";
 
 constexpr const char* what_sensitivity_writes =
-    "A study names a scene, measures and parameters, and how these scatter; docs/studies.md has its language. It writes\n"
+    "A study names a scene, measures and parameters, and how the parameters scatter; docs/studies.md describes the format. It\n"
+    "writes\n"
     "  sensitivity.csv         derivatives with their errors, worst case, scatter, Sobol indices with their intervals\n"
     "  sensitivity.json        the same, for programs\n"
-    "  sweep.csv, …            the cases, as sweep does: started again after any end, it goes on from there\n"
+    "  sweep.csv, …            the cases, as for sweep; after an interruption, the same command continues from there\n"
     "Exit code 4: no case ran to its end. Others: see pintle --help\n";
 
 constexpr const char* what_nonlinear_writes =
-    "A study names a scene, a section through its motion or Lyapunov exponents, and maybe a parameter to vary; docs/nonlinear.md has its\n"
-    "language. It writes\n"
-    "  section.csv             a row for each return: its time and what was recorded\n"
-    "  values.csv              a row for each value: period, impacts, exponents\n"
-    "  lyapunov.csv            the exponents as they came to be\n"
-    "  section.svg             the section, or the diagram over the parameter, exponents underneath\n"
-    "  study.yaml, scene.yaml, journal-0.txt   as sweep does: started again after any end, it goes on from there\n"
-    "Exit code 4: no value could be followed to its end. Others: see pintle --help\n";
+    "A study names a scene, a section through its motion or Lyapunov exponents, and optionally a parameter to vary; docs/nonlinear.md\n"
+    "describes the format. It writes\n"
+    "  section.csv             one row per return: its time and what was recorded\n"
+    "  values.csv              one row per parameter value: period, impacts, exponents\n"
+    "  lyapunov.csv            the estimates of the exponents over time\n"
+    "  section.svg             the section, or the diagram over the parameter, with the exponents below it\n"
+    "  study.yaml, scene.yaml, journal-0.txt   as for sweep; after an interruption, the same command continues from there\n"
+    "Exit code 4: the run failed for every parameter value. Others: see pintle --help\n";
 
 /// What a study of cases shares with the others.
 void add_sweep_options(CLI::App& command, Options& options) {
   const std::string name = command.get_name();
-  add_study_options(command, options, "study file (YAML)", "cases",
-                    "directory for the results, or of the same study, to go on with (default: runs/STUDY-" + name + ")");
-  command.add_option("-t,--threads", options.threads, "cases run at once by this process (default: as many as cores; under MPI 1)")
+  add_study_options(
+      command, options, "study file (YAML)", "cases",
+      "directory for the results; if it holds an earlier session of this study, that session is continued (default: runs/STUDY-" + name +
+          ")");
+  command
+      .add_option("-t,--threads", options.threads, "cases that this process runs in parallel (default: the number of cores; under MPI 1)")
       ->type_name("N")
       ->check(whole(1, 4096));
   command.footer(name == "sweep"       ? what_sweep_writes
@@ -152,14 +156,14 @@ void add_sweep_options(CLI::App& command, Options& options) {
 }
 
 constexpr const char* what_tradeoff_writes =
-    "A study names the axes of fidelity (docs/studies.md); a scene alone gets those that it suggests: tolerance, scheme,\n"
+    "A study names the axes of fidelity (docs/studies.md). For a scene alone they are derived from the scene: tolerance, scheme,\n"
     "models of its clearances, modes of its bodies. It writes\n"
-    "  tradeoff.csv            a row per setting: times, values, errors, what dominates\n"
+    "  tradeoff.csv            one row per setting: times, values, errors, what dominates\n"
     "  tradeoff.svg, .md       error against time; the answers and the front as tables\n"
-    "  tradeoff.json           all of it, the reference and how it was proved included\n"
+    "  tradeoff.json           all of it, with the reference and how the reference was proved\n"
     "  recommended.yaml        the scene with the recommended setting, ready to run\n"
-    "Exit code 4: nothing is recommended, as the error (or time) that is wanted could not be shown of any setting; the\n"
-    "output says what is missing and what would help. There is then no recommended.yaml. Others: see pintle --help\n";
+    "Exit code 4: nothing is recommended, because no setting was shown to reach the requested error (or time); the output\n"
+    "says what is missing and what would help. recommended.yaml is then not written. Others: see pintle --help\n";
 
 void add_tradeoff_options(CLI::App& command, Options& options) {
   add_study_options(command, options, "study file, or a scene with --quantity (YAML)", "settings",
@@ -167,18 +171,17 @@ void add_tradeoff_options(CLI::App& command, Options& options) {
   command.add_option("--quantity", options.quantities, "what matters, e.g. \"peak force at gudgeon pin\"; may be repeated")
       ->allow_extra_args(false)
       ->type_name("WORDS");
-  command.add_option("--error", options.wanted_error, "the error that is wanted, e.g. 1%: the cheapest setting for it is recommended")
+  command.add_option("--error", options.wanted_error, "the requested error, e.g. 1%: the cheapest setting that reaches it is recommended")
       ->type_name("SHARE");
-  command
-      .add_option("--time", options.wanted_time,
-                  "the time of a run that is wanted, e.g. 0.5s: the most accurate setting within it is named")
+  command.add_option("--time", options.wanted_time, "the requested time of a run, e.g. 0.5s: the most accurate setting within it is named")
       ->type_name("TIME");
   command
       .add_option("--budget", options.budget,
-                  "of computing, e.g. 10min: then what is clearly dominated is not run (default: of a scene 1min, of a study as it says)")
+                  "limit of the computing time, e.g. 10min: to keep it, clearly dominated settings are not run (default: 1min for a scene; "
+                  "a study sets its own)")
       ->type_name("TIME");
   command.add_option("--repeats", options.repeats, "timed runs of each setting (default 5)")->type_name("N")->check(whole(1, 1000));
-  command.add_option("--markdown", options.markdown, "write the report there as well, its picture beside it")
+  command.add_option("--markdown", options.markdown, "also write the report to this file, with its picture beside it")
       ->check(named())
       ->type_name("FILE.md");
   command.footer(what_tradeoff_writes);
@@ -187,10 +190,10 @@ void add_tradeoff_options(CLI::App& command, Options& options) {
 void add_linearize_options(CLI::App& command, Options& options) {
   command
       .add_option("--at", options.at,
-                  "about the state that the run has at this time, e.g. 20ms; with --equilibrium, with drivers and loads as they are then")
+                  "linearize about the state of the run at this time, e.g. 20ms; with --equilibrium, take drivers and loads at this time")
       ->type_name("TIME");
   command.add_flag("--equilibrium", options.at_rest,
-                   "about where the mechanism rests, drivers and loads held; without it and --at, about the assembled start");
+                   "linearize about the equilibrium, with drivers and loads held; without this option and --at, about the assembled start");
   command.add_option("-n,--count", options.count, "how many modes are printed and drawn (default 6; all are written)")
       ->type_name("N")
       ->check(whole(0, 100'000));
@@ -202,42 +205,42 @@ void add_linearize_options(CLI::App& command, Options& options) {
 
 /// What a scene may reach and cost, which no scene can say: SECURITY.md.
 void add_bounds(CLI::App& command, Options& options) {
-  command
-      .add_option("--allow-path", options.allowed, "let the scene read files in this folder and below it, beside its own; may be repeated")
+  command.add_option("--allow-path", options.allowed, "also let the scene read files in this folder and its subfolders; may be repeated")
       ->allow_extra_args(false)
       ->check(named())
       ->type_name("DIR");
-  command.add_flag("--trust-geo", options.trust_geo, "let drawings (.geo) do all that they ask for, shell commands included");
-  command.add_option("--mesh-time", options.mesh_time, "time that the mesh of one body may take (default 600 s)")->type_name("TIME");
-  command.add_option("--mesh-memory", options.mesh_memory, "memory that it may take, in GB (default 8)")
+  command.add_flag("--trust-geo", options.trust_geo, "let drawings (.geo) run every command in them, shell commands included");
+  command.add_option("--mesh-time", options.mesh_time, "limit of the time to mesh one body (default 600 s)")->type_name("TIME");
+  command.add_option("--mesh-memory", options.mesh_memory, "limit of the memory to mesh one body, in GB (default 8)")
       ->type_name("GB")
       ->check(CLI::Range(0.1, 1e6));
 }
 
 constexpr const char* what_report_writes =
-    "One HTML file that needs no other file and no network: the mechanism moving, plots of any columns, impacts, the energy\n"
-    "ledger, warnings, and how the results were made. The mechanism is built again from the scene in the folder, so meshes and\n"
-    "drawings that it names must be where they were. Of tables too long for it every curve keeps its least and greatest values.\n"
+    "Writes one HTML file that needs no other file and no network: the moving mechanism, plots of any columns, impacts, the energy\n"
+    "ledger, warnings, and how the results were made. The mechanism is built again from the scene in the folder, so the meshes\n"
+    "and drawings that it names must still be in place. If a table is too long for the page, each curve keeps its least and\n"
+    "greatest values.\n"
     "docs/report.md says more. Exit codes: see pintle --help\n";
 
 void add_report_options(CLI::App& command, Options& options) {
-  command.add_option("results", options.scene, "a folder that run, kinematics or inverse has written")
+  command.add_option("results", options.scene, "results folder of run, kinematics or inverse")
       ->required()
       ->check(named())
       ->type_name("DIR");
-  command.add_option("-o,--out", options.out, "the page to write; one that is there is replaced (default: DIR/report.html)")
+  command.add_option("-o,--out", options.out, "the page to write; an existing file is replaced (default: DIR/report.html)")
       ->check(named())
       ->check(ends_in(".html", "a report is one page of HTML"))
       ->type_name("FILE.html");
-  command.add_option("--size", options.megabytes, "how large the page may be, about, in MB (default 5)")
+  command.add_option("--size", options.megabytes, "approximate limit of the size of the page, in MB (default 5)")
       ->type_name("MB")
       ->check(CLI::Range(1.0, 200.0));
-  command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  command.add_flag("-q,--quiet", options.quiet, "print errors only");
   command.footer(what_report_writes);
 }
 
 void add_plot_options(CLI::App& command, Options& options) {
-  command.add_option("results", options.scene, "a folder that run, kinematics or inverse has written")
+  command.add_option("results", options.scene, "results folder of run, kinematics or inverse")
       ->required()
       ->check(named())
       ->type_name("DIR");
@@ -245,11 +248,11 @@ void add_plot_options(CLI::App& command, Options& options) {
       ->required()
       ->type_name("COLUMN");
   command.add_option("--against", options.against, "the column along x (default: the time), e.g. \"gudgeon pin.ex\"")->type_name("COLUMN");
-  command.add_option("-o,--out", options.out, "write a picture there; one that is there is replaced (default: to the terminal)")
+  command.add_option("-o,--out", options.out, "write a picture to this file; an existing file is replaced (default: plot in the terminal)")
       ->check(named())
       ->check(ends_in(".svg", "a plot is written as SVG"))
       ->type_name("FILE.svg");
-  command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  command.add_flag("-q,--quiet", options.quiet, "print errors only");
   command.footer("Exit codes: see pintle --help\n");
 }
 
@@ -271,7 +274,7 @@ void add_options(CLI::App& command, Options& options) {
   command
       .add_option("--set", options.set,
                   "override a parameter of the scene, e.g. --set clearance=0.1mm, or any key by its path, e.g. --set run.tolerance=1e-6, "
-                  "--set \"joints.pin.clearance=null\" (null takes it away); may be repeated")
+                  "--set \"joints.pin.clearance=null\" (null removes it); may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME|PATH=VALUE");
   command.add_flag("--json", options.json, "print JSON instead of text");
@@ -280,12 +283,12 @@ void add_options(CLI::App& command, Options& options) {
   command.add_option("-o,--out", options.out, "directory for the results; it must not exist (default: " + folder + ", numbered)")
       ->check(named())
       ->type_name("DIR");
-  command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  command.add_flag("-q,--quiet", options.quiet, "print errors only");
   if (name == "run")
-    command.add_option("--restart", options.restart, "go on from a saved state of this scene, states/NNNNN.state of a run")
+    command.add_option("--restart", options.restart, "continue from a saved state of this scene, states/NNNNN.state of a run")
         ->check(named())
         ->type_name("FILE.state");
-  if (name == "run") command.add_flag("--report", options.report, "make a page of the results as well, DIR/report.html");
+  if (name == "run") command.add_flag("--report", options.report, "also write a page of the results, DIR/report.html");
   if (name == "run") command.footer(what_it_writes);
   if (name == "run") return;
   if (name == "linearize") return add_linearize_options(command, options);
@@ -294,14 +297,14 @@ void add_options(CLI::App& command, Options& options) {
     return;
   }
   if (name == "statics") {
-    command.add_option("--at", options.at, "with drivers and loads as they are at this time, e.g. 20ms (default 0)")->type_name("TIME");
+    command.add_option("--at", options.at, "take drivers and loads at this time, e.g. 20ms (default 0)")->type_name("TIME");
     command.footer(what_statics_writes);
     return;
   }
-  command.add_option("-b,--body", options.body, "which body; may be left out when only one is made of elements")->type_name("NAME");
+  command.add_option("-b,--body", options.body, "which body; may be left out if only one body is made of elements")->type_name("NAME");
   if (name == "static")
     command.footer(
-        "It writes static.vtu (displacement, stress), points.csv, section_forces.csv (beams) and static.json; of bodies that touch a\n"
+        "It writes static.vtu (displacement, stress), points.csv, section_forces.csv (beams) and static.json; for bodies in contact a\n"
         "folder each, and contacts.csv (pressure and gap).\nExit codes: see pintle "
         "--help\n");
   if (name == "mesh") command.footer("It writes mesh.vtu (quality of each cell, groups) and mesh.json.\nExit codes: see pintle --help\n");

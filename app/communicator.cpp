@@ -30,7 +30,7 @@ std::unique_ptr<Communicator> communicator() {
   std::unique_ptr<Communicator> out(module_table<MpiTable>("mpi").make());
   if (out->size() == 1 && expected > 1)
     throw SceneError("the launcher started " + std::to_string(expected) +
-                     " processes, but MPI sees one: start them by mpirun, or by srun --mpi=pmix");
+                     " processes, but MPI sees only one: start them with mpirun, or with srun --mpi=pmix");
   return out;
 #else
   if (expected > 1)

@@ -56,10 +56,10 @@ std::string steps_text(const RunCost& c) {
 
 std::string what_it_takes(const Saving& s) {
   const Trial& t = s.cost.trial;
-  if (!t.trouble.empty()) return "cannot be told: " + t.trouble;
+  if (!t.trouble.empty()) return "unknown: " + t.trouble;
   std::string part = number(100 * std::abs(s.saved), 2) + " %";
   if (std::abs(s.saved) < 0.02)
-    part = "nothing to speak of";
+    part = "negligible";
   else if (s.saved < 0)
     part += " more time instead";
   return s.of_outputs ? part : part + "; " + steps_text(s.cost) + " steps";
@@ -73,7 +73,7 @@ void print_cost(const CostEstimate& p, double build_seconds) {
   Rows rows{{"  an evaluation runs", join(p.terms)}};
   if (p.largest_rate > 0) rows.emplace_back("  largest frequency", frequency(p.largest_rate) + ", " + p.largest_rate_of);
   if (p.contact_rate > 0) rows.emplace_back("  of a slow contact", frequency(p.contact_rate));
-  rows.emplace_back("  steps", steps_text(p.run) + " of " + duration(p.run.step) + " in the mean");
+  rows.emplace_back("  steps", steps_text(p.run) + " of " + duration(p.run.step) + " on average");
   const std::string frames = o.frames > 0 ? ", " + std::to_string(o.frames) + " frames " + duration(o.frames * o.frame_seconds) : "";
   rows.emplace_back("  processor time", about(p.seconds, duration) + ": computing " + duration(p.run.seconds.likely) + ", " +
                                             std::to_string(o.rows) + " rows " + duration(static_cast<double>(o.rows) * o.row_seconds) +
@@ -81,11 +81,11 @@ void print_cost(const CostEstimate& p, double build_seconds) {
   rows.emplace_back("  memory, files", size(p.memory) + ", " + size(o.bytes()));
   rows.emplace_back("  how sure", certainty(p));
   print_rows(std::cout, rows);
-  if (!p.simpler.empty()) std::cout << "  what would be saved of that time\n";
+  if (!p.simpler.empty()) std::cout << "  share of that time that each simplification would save\n";
   Rows savings;
   for (const Saving& s : p.simpler) savings.emplace_back("  " + s.what, what_it_takes(s));
   print_rows(std::cout, savings);
-  if (!p.untried.empty()) std::cout << "    not tried for want of time: " << join(p.untried) << "\n";
+  if (!p.untried.empty()) std::cout << "    not tried, to save time: " << join(p.untried) << "\n";
 }
 
 }  // namespace pintle::app

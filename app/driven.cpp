@@ -61,7 +61,7 @@ std::string effort_text(const Inverse& found, std::size_t d, const fs::path& out
   const auto [least, most] = std::minmax_element(e.value.begin(), e.value.end());
   return number(*least) + " to " + number(*most) + unit + ", " + (out / effort_file(found, d)).string() + " with " +
          std::to_string(e.t.size()) + " rows" +
-         (std::isnan(e.error) ? "" : " (a spline through every second one is off by " + number(e.error, 2) + unit + " at most)");
+         (std::isnan(e.error) ? "" : " (error of a spline through every second row: " + number(e.error, 2) + unit + " at most)");
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ int modes(const Options& options) {
     if (report.reduced) print_table(*report.reduced, report, e.scene->elastic->modes->method == SceneModes::Method::normal);
     std::cout << "\n";
     print_warnings(e);
-    if (frames == 0 && options.frames < 0) std::cout << "  no animations of so large a mesh unless asked for: --frames 24\n";
+    if (frames == 0 && options.frames < 0) std::cout << "  no animations: the mesh is large; to write them, add --frames 24\n";
     print_rows(std::cout, {{"time", number(e.mesh_seconds, 3) + " s mesh, " + number(e.assembly_seconds, 3) + " s assembly, " +
                                         number(report.seconds, 3) + " s modes"},
                            {"results", out.string() + (frames > 0 ? ", animations " + (out / "mode_01.pvd").string() + " …" : "")}});

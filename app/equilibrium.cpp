@@ -43,8 +43,8 @@ std::string stability_text(const Stability& s) {
   if (s.neutral > 0)
     out += (out.empty() ? "" : ", ") + std::string("neutral in ") + plural(s.neutral, "direction") + bodies(s.unstable, s.neutral);
   if (out.empty()) out = "stable";
-  out += ", of " + plural(s.freedoms, "freedom");
-  return out + (s.circulatory ? "; loads that follow may make it flutter, which statics cannot tell" : "");
+  out += ", of " + plural(s.freedoms, "degree") + " of freedom";
+  return out + (s.circulatory ? "; follower loads may cause flutter, which statics cannot detect" : "");
 }
 
 struct Column {
@@ -89,11 +89,11 @@ void print(const Scene& scene, const Equilibrium& e, const fs::path& out) {
   std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
   Rows rows;
   if (!e.method.empty())
-    rows.emplace_back(e.found ? "found by" : "tried", e.method + ", " + plural(e.iterations, "iteration") + "; out of balance " +
+    rows.emplace_back(e.found ? "found by" : "tried", e.method + ", " + plural(e.iterations, "iteration") + "; residual " +
                                                           number(e.residual, 2) + " of the greatest force");
   if (e.found) {
     rows.emplace_back("equilibrium", stability_text(e.stability));
-    if (e.state.t != 0) rows.emplace_back("at", number(e.state.t, 9) + " s, drivers held and loads as they are then");
+    if (e.state.t != 0) rows.emplace_back("at", number(e.state.t, 9) + " s, with drivers held and loads as at this time");
     add_values(e.table, rows);
   }
   rows.emplace_back("results", out.string() + ", drawing " + (out / "mechanism.pvd").string());
@@ -117,7 +117,7 @@ int equilibrium(const Options& options) {
   const Model model = build(scene);
   now_doing("assembling the mechanism");
   const Assembly assembly = assemble(scene, model);
-  now_doing("seeking where the mechanism rests");
+  now_doing("finding the equilibrium");
   const Equilibrium found = find_equilibrium(scene, model, assembly, at);
 
   waiting.end();

@@ -62,7 +62,7 @@ std::vector<std::string> arguments(const fs::path& ending, const fs::path& part,
   return out;
 }
 
-constexpr const char* no_ffmpeg = "there is no ffmpeg, the program that packs films: apt-get install ffmpeg";
+constexpr const char* no_ffmpeg = "ffmpeg, the program that encodes films, is not installed: apt-get install ffmpeg";
 
 /// In a folder of PATH.
 bool ffmpeg_is_there() {
@@ -80,8 +80,8 @@ void FilmFile::foresee(const fs::path& file) {
   if (!ffmpeg_is_there()) throw std::runtime_error(no_ffmpeg);
   std::error_code ignored;
   const auto refuse = [&](int error) {
-    throw FileError(file, "cannot be written: " + std::generic_category().message(error) +
-                              "; name a film in a folder that is there and may be written to");
+    throw FileError(
+        file, "cannot be written: " + std::generic_category().message(error) + "; name a film in an existing folder with write permission");
   };
   if (fs::is_directory(file, ignored)) refuse(EISDIR);
   const fs::path part = unique_neighbour(file);
@@ -98,7 +98,7 @@ bool FilmFile::is_film(const fs::path& file) {
 
 FilmFile::FilmFile(fs::path file, int width, int height, double rate) : file_(std::move(file)), part_(unique_neighbour(file_)) {
   words_ = ::memfd_create("ffmpeg", MFD_CLOEXEC);
-  if (words_ < 0) throw std::runtime_error("ffmpeg cannot be started: there are too many open files, or there is no memory");
+  if (words_ < 0) throw std::runtime_error("ffmpeg cannot be started: there are too many open files, or there is not enough memory");
   start(width, height, rate);
 }
 
@@ -159,7 +159,7 @@ void FilmFile::fail() {
   const ssize_t n = ::pread(words_, said.data(), said.size(), 0);
   std::string words(said.data(), n > 0 ? static_cast<std::size_t>(n) : 0);
   while (!words.empty() && words.back() == '\n') words.pop_back();
-  throw FileError(file_, words.empty() ? "ffmpeg ended without a word" : "ffmpeg says: " + words);
+  throw FileError(file_, words.empty() ? "ffmpeg ended without a message" : "ffmpeg says: " + words);
 }
 
 void FilmFile::add(std::span<const unsigned char> picture) {

@@ -32,14 +32,14 @@ std::vector<std::size_t> shown_frames(const std::vector<double>& times, const Fi
   for (std::size_t n = 0; n < times.size(); ++n)
     if (times[n] >= plan.from - tolerance && times[n] <= plan.until + tolerance) inside.push_back(n);
   if (inside.empty())
-    throw std::invalid_argument("--from, --to: no frame is between them; the frames are from " + shown_time(times.front()) + " to " +
+    throw std::invalid_argument("--from, --to: no frame lies between them; the frames are from " + shown_time(times.front()) + " to " +
                                 shown_time(times.back()));
   if (!plan.speed) return inside;
   const double from = times[inside.front()], lasts = (times[inside.back()] - from) / *plan.speed;
   constexpr double most = 1e5;
   if (lasts * plan.rate > most)
     throw std::invalid_argument("--speed: the film would last " + shown_time(lasts) +
-                                ", more than a hundred thousand pictures; make it faster");
+                                ", more than a hundred thousand pictures; choose a higher speed");
   std::vector<std::size_t> out;
   const auto count = static_cast<long>(std::floor(lasts * plan.rate * (1 + 1e-12))) + 1;
   for (long k = 0; k < count; ++k) out.push_back(nearest_frame(times, from + static_cast<double>(k) * *plan.speed / plan.rate));
@@ -63,7 +63,7 @@ bool write_film(const Drawn& drawn, const FilmPlan& plan) {
   for (std::size_t k = 0; k < shown.size(); ++k) {
     if (k > 0 && shown[k] == shown[k - 1]) continue;
     survey.add(read_frame(frames[shown[k]], drawn.deformation));
-    if (!tell("looking at frame ", k)) return false;
+    if (!tell("reading frame ", k)) return false;
   }
   PictureStyle style = drawn.style;
   style.even = true;

@@ -48,7 +48,7 @@ void add_best(Rows& rows, const FitPlan& plan, const FitEnd& end) {
                       number(x, 9) + " (from " + number(span.span.from) + " to " + number(span.span.to) + end_of_span + ")");
   }
   rows.emplace_back("found", "in case " + std::to_string(t.row.number) + ", " + t.phase + "; " + std::to_string(agreeing(plan, end)) +
-                                 " of " + std::to_string(end.best_of.size()) + " starts led there by themselves");
+                                 " of " + std::to_string(end.best_of.size()) + " starts reached it independently");
 }
 
 void print(const FitPlan& plan, const FitEnd& end, const fs::path& out) {
@@ -70,14 +70,16 @@ void print(const FitPlan& plan, const FitEnd& end, const fs::path& out) {
 std::string lack(const FitPlan& plan, const FitEnd& end) {
   if (!end.best) {
     const auto first = std::ranges::find_if(end.tried, [](const Trying& t) { return !t.worth.known; });
-    std::string out = "none of " + std::to_string(end.tried.size()) + " points could be measured; give a start that works, or more sample";
+    std::string out =
+        "none of " + std::to_string(end.tried.size()) + " points could be measured; give a start that works, or more sample points";
     if (first != end.tried.end()) out += "; the first: " + first->row.status + (first->row.reason.empty() ? "" : ": " + first->row.reason);
     return out;
   }
   if (end.tried[*end.best].worth.worst() > met_within)
-    return "no point was found that meets all limits of subject to; there is no fitted.yaml. Widen vary or the limits, or allow more "
-           "evaluations";
-  if (!end.meets(plan)) return "the goal is not reached within its tolerance; what came nearest is in fitted.yaml";
+    return "no point was found that meets all limits of `subject to`; fitted.yaml is not written. Widen the ranges of `vary` or the "
+           "limits, or "
+           "allow more evaluations";
+  if (!end.meets(plan)) return "the goal is not reached within its tolerance; the nearest point is in fitted.yaml";
   return "";
 }
 

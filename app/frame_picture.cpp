@@ -160,7 +160,7 @@ void FramePicture::fit() {
   }
   if (style_.even) height_ -= height_ % 2;
   scale_ = std::min(inner / sizes.x(), (height_ - margins) / sizes.y());
-  if (!(scale_ > 0)) throw std::invalid_argument("--size: is too low to draw in");
+  if (!(scale_ > 0)) throw std::invalid_argument("--size: the height is too small to draw in");
 }
 
 Vector2d FramePicture::place(const Vector2d& world) const {

@@ -25,15 +25,14 @@ namespace fs = std::filesystem;
 
 std::string about_text(const Options& options, const Linearization& lin) {
   if (options.at_rest)
-    return "where the mechanism rests" +
-           (lin.about.t > 0 ? ", drivers and loads as at t = " + number(lin.about.t, 9) + " s" : std::string());
+    return "the equilibrium" + (lin.about.t > 0 ? ", drivers and loads as at t = " + number(lin.about.t, 9) + " s" : std::string());
   if (!options.at.empty()) return "the run's state at t = " + number(lin.about.t, 9) + " s";
   return "the assembled start";
 }
 
 void print_modes(const Linearization& lin, int count) {
   std::printf("\n  %4s %-11s %15s %15s %10s %13s  %s\n", "mode", "", "frequency [Hz]", "natural [Hz]", "damping", "decay [1/s]",
-              "moves most (its body's share of the kinetic energy)");
+              "moves most (share of its body in the kinetic energy)");
   int k = 0, left_out = 0;
   for (const LinearMode& m : lin.modes) {
     ++k;
@@ -98,7 +97,7 @@ int linearize(const Options& options) {
     LinearizedStart start = linearized_start(scene, model, assembly);
     state = std::move(start.state), note = std::move(start.note);
   } else if (options.at_rest) {
-    now_doing("seeking where the mechanism rests");
+    now_doing("finding the equilibrium");
     const Equilibrium rest = find_equilibrium(scene, model, assembly, t);
     if (!rest.found) {
       std::cerr << scene.file << ": no equilibrium to linearize about: " << rest.reason << "\n";
@@ -114,7 +113,7 @@ int linearize(const Options& options) {
       return run_failed;
     }
   }
-  now_doing("finding how it moves about the state");
+  now_doing("linearizing about the state");
   Linearization lin = linearize(scene, model, state, options.at_rest ? Laws::hold : Laws::go_on);
   if (!note.empty()) lin.notes.push_back(note);
   waiting.end();

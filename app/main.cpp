@@ -26,15 +26,15 @@ using namespace pintle::app;
 constexpr const char* exit_codes =
     "Exit codes\n"
     "  0  done\n"
-    "  1  a file or directory cannot be read or written, or memory does not suffice; what was computed is kept and named\n"
+    "  1  a file or directory cannot be read or written, or there is not enough memory; what was computed is kept, and its place is named\n"
     "  2  the scene or the command line is wrong\n"
     "  3  the mechanism cannot be assembled\n"
-    "  4  the integration failed, of check: when tried out, of sweep, sensitivity and nonlinear: in every case; or of tradeoff: the\n"
-    "     accuracy asked for could not be shown; of fit: the goal or a limit could not be met; what was computed is kept\n"
-    "  5  the ledger leaves more energy unexplained than the scene's bound; the results are kept\n"
-    "  6  stopped by the user (Ctrl-C), SIGTERM or SIGHUP; what was computed is kept. A second signal ends at once\n"
+    "  4  the integration failed (check: in its trial; sweep, sensitivity and nonlinear: in every case); tradeoff: no setting was shown\n"
+    "     to have the requested accuracy; fit: the goal or a limit was not met. What was computed is kept\n"
+    "  5  the energy-balance error exceeds the bound of the scene; the results are kept\n"
+    "  6  stopped by the user (Ctrl-C), SIGTERM or SIGHUP; what was computed is kept. A second signal ends the program at once\n"
     "\n"
-    "A scene is a YAML file; docs/scene.md has its language, examples/ has scenes to start from:\n"
+    "A scene is a YAML file; docs/scene.md describes the format, examples/ has scenes to start from:\n"
     "  pintle check examples/slider_crank_clearance.yaml\n"
     "  pintle run examples/slider_crank_clearance.yaml --set clearance=0.1mm --out worn\n"
     "  pintle report worn        (worn/report.html, for any browser)\n"
@@ -60,8 +60,8 @@ int carry_out(int argc, char** argv) {
   Options options;
   const std::map<CLI::App*, int (*)(const Options&)> commands{
       {app.add_subcommand("run", "Run a scene and write its results"), run},
-      {app.add_subcommand("check", "Say what a scene holds and requires, and what its run will cost"), check},
-      {app.add_subcommand("statics", "Find where a whole mechanism rests, and the forces in its joints there"), equilibrium},
+      {app.add_subcommand("check", "Say what a scene contains and requires, and what its run will cost"), check},
+      {app.add_subcommand("statics", "Find the equilibrium of a whole mechanism, and the joint forces there"), equilibrium},
       {app.add_subcommand("kinematics", "Move a mechanism by its drivers alone; no masses needed"), kinematics},
       {app.add_subcommand("inverse", "Find the driving torques and joint forces of a driven mechanism"), inverse},
       {app.add_subcommand("linearize", "Find natural frequencies, damping and state-space matrices about a state"), linearize},
@@ -74,10 +74,10 @@ int carry_out(int argc, char** argv) {
       {app.add_subcommand("plot", "Plot columns of results in the terminal, or as an SVG picture"), plot},
       {app.add_subcommand("film", "Make a film of a run: MP4, WebM or GIF"), film},
       {app.add_subcommand("picture", "Draw a frame of a run, or a field of a body, as a picture"), picture},
-      {app.add_subcommand("view", "Show a scene in the browser as it is written, to be moved by hand"), view},
+      {app.add_subcommand("view", "Show a scene in the browser while it is being written; move it by hand"), view},
       {app.add_subcommand("modes", "Find the natural frequencies and mode shapes of one body of elements"), modes},
       {app.add_subcommand("static",
-                          "Solve the static load case of one body of elements, or of some that touch (of a whole mechanism: statics)"),
+                          "Solve the static load case of one body of elements, or of several in contact (for a whole mechanism: statics)"),
        statics},
       {app.add_subcommand("mesh", "Mesh one body of elements and judge the mesh"), mesh}};
   for (const auto& [command, unused] : commands) add_options(*command, options);
@@ -93,7 +93,7 @@ int carry_out(int argc, char** argv) {
   if (name != "modes" && name != "static" && name != "mesh") hold_library_threads();  // a run is the same on any number of cores
   const int exit = commands.at(command)(options);
   if (std::cout.flush()) return exit;
-  std::cerr << "pintle: what there was to print could not be written to standard output\n";
+  std::cerr << "pintle: the output could not be written to standard output\n";
   return exit == ok ? trouble : exit;
 }
 
@@ -134,7 +134,7 @@ int main(int argc, char** argv) {
     std::cerr << "pintle: " << e.what() << "\n";
     return no_assembly;
   } catch (const MeshingStopped&) {
-    std::cerr << "pintle: stopped while a body was meshed\n";
+    std::cerr << "pintle: stopped while a body was being meshed\n";
     return stopped;
   } catch (const std::bad_alloc&) {
     say_there_was_no_memory();

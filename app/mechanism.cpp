@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "3 (the last goes on), peak force 20 N, deepest 1e-06 m"; of rigid surfaces an impulse in place of a depth.
+/// "3 (the last has not ended), peak force 20 N, deepest 1e-06 m"; of rigid surfaces an impulse in place of a depth.
 std::string contacts_text(const ContactPair& pair, int first, const std::vector<Impact>& impacts) {
   long begun = 0, ended = 0;
   double deepest = 0, force = 0, impulse = 0;
@@ -36,7 +36,7 @@ std::string contacts_text(const ContactPair& pair, int first, const std::vector<
     force = std::max(force, i.peak_force);
     impulse = std::max(impulse, i.impulse);
   }
-  return std::to_string(begun) + (begun > ended ? " (the last goes on)" : "") + ", peak force " + number(force, 4) + " N, " +
+  return std::to_string(begun) + (begun > ended ? " (the last has not ended)" : "") + ", peak force " + number(force, 4) + " N, " +
          (is_rigid(pair) ? "greatest impulse " + number(impulse, 4) + " N s" : "deepest " + number(deepest, 4) + " m");
 }
 
@@ -91,7 +91,7 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
   const bool judged = run.status == Status::finished || run.status == Status::ledger_over_bound;
   std::cout << "  unexplained energy" << (judged ? "" : " so far") << ": " << number(run.unexplained, 3) << " J, "
             << number(run.energy_in_play > 0 ? std::abs(run.unexplained) / run.energy_in_play : 0, 3) << " of the energy in play"
-            << (judged ? "" : "; not judged, as the run has not finished") << "\n";
+            << (judged ? "" : "; not judged, because the run has not finished") << "\n";
 }
 
 Scene runnable(const Options& options) {
@@ -164,8 +164,8 @@ std::optional<SavedState> saved_state(const Options& options, const Scene& scene
   if (options.restart.empty()) return {};
   SavedState from = read_state(options.restart, scene, model, assembly);
   if (from.t >= scene.run.until)
-    throw SceneError("--restart " + options.restart + ": was saved at " + number(from.t, 9) + " s, where the run of " + scene.file +
-                     " has ended; make run.until longer");
+    throw SceneError("--restart " + options.restart + ": was saved at " + number(from.t, 9) + " s, but the run of " + scene.file +
+                     " ends no later than this; increase run.until");
   return from;
 }
 

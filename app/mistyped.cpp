@@ -49,14 +49,14 @@ std::string mistyped(const CLI::App& app, int argc, char** argv) {
   const CLI::App* const command = command_of(app);
   if (command == nullptr) {
     if (argc < 2 || is_option(argv[1])) return "";
-    return "\"" + std::string(argv[1]) + "\" is no command." + meant(argv[1], command_names(app)) + " pintle --help lists them.";
+    return "\"" + std::string(argv[1]) + "\" is not a command." + meant(argv[1], command_names(app)) + " pintle --help lists them.";
   }
   const std::string full = full_name(command->get_name());
   for (const std::string& word : app.remaining(true))
     if (is_option(word)) {
       const std::string option = word.substr(0, word.find('='));
       return full.substr(full.find(' ') + 1) + " has no option " + option + "." + did_you_mean(option, option_names(*command)) + " " +
-             full + " --help tells what each does.";
+             full + " --help explains each.";
     }
   return "";
 }
@@ -66,7 +66,7 @@ int end_of(const CLI::App& app, const CLI::ParseError& e, int argc, char** argv)
   std::string words = mistyped(app, argc, argv);
   if (words.empty()) {
     const CLI::App* const command = command_of(app);
-    words = std::string(e.what()) + "; " + (command ? full_name(command->get_name()) : "pintle") + " --help tells what it takes";
+    words = std::string(e.what()) + "; " + (command ? full_name(command->get_name()) : "pintle") + " --help lists the arguments";
   }
   std::cerr << "pintle: " << words << "\n";
   return bad_scene;

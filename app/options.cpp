@@ -29,7 +29,7 @@ void set_bounds(const Options& options) {
   Trust trust;
   trust.geo = options.trust_geo;
   for (const std::string& folder : options.allowed) {
-    if (!fs::is_directory(folder)) throw SceneError("--allow-path " + folder + ": there is no such folder; name one that is there");
+    if (!fs::is_directory(folder)) throw SceneError("--allow-path " + folder + ": there is no such folder; name an existing one");
     trust.folders.emplace_back(folder);
   }
   set_trust(std::move(trust));

@@ -21,9 +21,10 @@ int become(const std::string& program, const std::string& command, const Options
   argv.push_back(nullptr);
   ::execv(file.c_str(), argv.data());
   if (errno == ENOENT)
-    throw std::runtime_error(file.string() + " is not there, which `pintle " + command +
-                             "` is done by; install what it is built with (apt-get install " + packages + "), configure and build again");
-  throw std::runtime_error(file.string() + ", which `pintle " + command + "` is done by, cannot be started");
+    throw std::runtime_error(file.string() + " is missing, and `pintle " + command +
+                             "` needs it; install the packages that it is built with (apt-get install " + packages +
+                             "), configure and build again");
+  throw std::runtime_error(file.string() + ", which `pintle " + command + "` needs, cannot be started");
 }
 
 }  // namespace

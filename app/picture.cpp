@@ -61,13 +61,13 @@ double number_of(const std::string& text) {
 CLI::Validator above_zero() {
   const auto complaint = [](const std::string& text) {
     const double x = number_of(text);
-    return std::isfinite(x) && x > 0 ? "" : text + " is no number above 0; write one such as 0.01";
+    return std::isfinite(x) && x > 0 ? "" : text + " is not a number above 0; write one such as 0.01";
   };
   return {complaint, ""};
 }
 CLI::Validator finite() {
   const auto complaint = [](const std::string& text) {
-    return std::isfinite(number_of(text)) ? "" : text + " is no time; write a number of seconds";
+    return std::isfinite(number_of(text)) ? "" : text + " is not a time; write a number of seconds";
   };
   return {complaint, ""};
 }
@@ -88,11 +88,10 @@ void read_size(const std::string& text, PictureStyle& style) {
 void add_options(CLI::App& command, Choice& choice) {
   Drawn& drawn = choice.drawn;
   command
-      .add_option("results", drawn.directory,
-                  "a folder that run, kinematics, inverse or statics has written; or a .vtu of a body, with --field")
+      .add_option("results", drawn.directory, "results folder of run, kinematics, inverse or statics; or a .vtu of a body, with --field")
       ->required()
       ->type_name("DIR");
-  command.add_option("out", drawn.file, "a picture (.png), or a film of all frames (.mp4, .webm, .gif); one that is there is replaced")
+  command.add_option("out", drawn.file, "a picture (.png), or a film of all frames (.mp4, .webm, .gif); an existing file is replaced")
       ->required()
       ->type_name("OUT");
   command.add_option("--size", choice.size, "in pixels (default 1400, as high as needed)")->type_name("WIDTH[xHEIGHT]");
@@ -100,27 +99,29 @@ void add_options(CLI::App& command, Choice& choice) {
       ->type_name("NAME");
   command.add_option("--field", drawn.style.field, "colour flexible bodies, or the .vtu file's, by this field, e.g. \"von Mises [Pa]\"")
       ->type_name("FIELD");
-  command.add_option("--deformation", choice.deformation, "draw deformation so many times as large (default: as output.deformation says)")
+  command.add_option("--deformation", choice.deformation, "factor by which deformation is magnified (default: output.deformation)")
       ->type_name("FACTOR")
       ->check(above_zero());
   command.add_flag_callback(
       "--no-forces", [&drawn] { drawn.style.forces = false; }, "leave out the arrows of forces");
   command.add_flag_callback(
       "--no-paths", [&drawn] { drawn.style.paths = false; }, "leave out the paths of points");
-  command.add_flag("-q,--quiet", drawn.quiet, "print nothing but errors");
+  command.add_flag("-q,--quiet", drawn.quiet, "print errors only");
   auto* frame = command.add_option("--frame", choice.frame, "of a picture: which frame, from 0; -1 is the last (default)")->type_name("N");
   command.add_option("--time", choice.time, "of a picture: the frame nearest to this time [s]")
       ->excludes(frame)
       ->type_name("T")
       ->check(finite());
-  command.add_option("--fps", choice.film.rate, "of a film: pictures a second (default 25)")->type_name("N")->check(CLI::Range(1.0, 240.0));
-  command.add_option("--speed", choice.speed, "of a film: 1 as fast as it is, 0.01 a hundred times slower (default: every frame once)")
+  command.add_option("--fps", choice.film.rate, "of a film: pictures per second (default 25)")
+      ->type_name("N")
+      ->check(CLI::Range(1.0, 240.0));
+  command.add_option("--speed", choice.speed, "of a film: 1 is real time, 0.01 a hundred times slower (default: every frame once)")
       ->type_name("FACTOR")
       ->check(above_zero());
   command.add_option("--from", choice.film.from, "of a film: from this time [s]")->type_name("T")->check(finite());
   command.add_option("--to", choice.film.until, "of a film: until this time [s]")->type_name("T")->check(finite());
   command.footer(
-      "Films are packed by ffmpeg (apt-get install ffmpeg). Slow motion is as smooth as the run has frames: --set output.frames=500.\n"
+      "Films are encoded by ffmpeg (apt-get install ffmpeg). For smooth slow motion, run with more frames: --set output.frames=500.\n"
       "Exit codes: see pintle --help\n");
 }
 
@@ -131,12 +132,12 @@ void tailor_help(CLI::App& command, const std::string& name) {
   };
   if (name == "pintle film") {
     hide({"--frame", "--time"});
-    command.get_option("results")->description("a folder that run, kinematics, inverse or statics has written");
-    command.get_option("out")->description("a film of all frames (.mp4, .webm, .gif); one that is there is replaced");
+    command.get_option("results")->description("results folder of run, kinematics, inverse or statics");
+    command.get_option("out")->description("a film of all frames (.mp4, .webm, .gif); an existing file is replaced");
   }
   if (name == "pintle picture") {
     hide({"--fps", "--speed", "--from", "--to"});
-    command.get_option("out")->description("a picture (.png); one that is there is replaced");
+    command.get_option("out")->description("a picture (.png); an existing file is replaced");
     command.footer("Exit codes: see pintle --help\n");
   }
 }
@@ -166,9 +167,9 @@ void judge_input(const CLI::App& command, const Choice& choice, bool film) {
   if (ending != ".vtu")
     throw std::invalid_argument(given.string() +
                                 ": is a file; name the folder of its results, which `pintle run` writes with --out FOLDER");
-  if (film) throw std::invalid_argument(given.string() + ": is at one instant; a film is made from the folder of a run");
+  if (film) throw std::invalid_argument(given.string() + ": shows one instant; a film is made from the folder of a run");
   if (choice.drawn.style.field.empty())
-    throw std::invalid_argument(given.string() + ": say which field of the body to draw by --field NAME" + fields_in(given) +
+    throw std::invalid_argument(given.string() + ": choose the field of the body to draw with --field NAME" + fields_in(given) +
                                 "; of a run name its folder");
   refuse_options(command, {"--around", "--deformation", "--frame", "--time", "--no-forces", "--no-paths"},
                  "is for folders of runs; " + given.string() + " is one body");
@@ -178,12 +179,12 @@ int write(const CLI::App& command, Choice& choice) {
   Drawn& drawn = choice.drawn;
   const bool film = FilmFile::is_film(drawn.file);
   if (!film && drawn.file.extension() != ".png")
-    throw std::invalid_argument(drawn.file.string() + ": is neither a picture nor a film by its ending; write .png, .mp4, .webm or .gif");
+    throw std::invalid_argument(drawn.file.string() +
+                                ": its ending is neither that of a picture nor of a film; write .png, .mp4, .webm or .gif");
   if (film)
-    refuse_options(command, {"--frame", "--time"}, "is an option of pintle picture; the part of a film is chosen by --from and --to");
+    refuse_options(command, {"--frame", "--time"}, "is an option of pintle picture; choose the part of a film with --from and --to");
   else
-    refuse_options(command, {"--fps", "--speed", "--from", "--to"},
-                   "is an option of pintle film; a picture is chosen by --frame or --time");
+    refuse_options(command, {"--fps", "--speed", "--from", "--to"}, "is an option of pintle film; choose a picture with --frame or --time");
   if (choice.film.from > choice.film.until) throw std::invalid_argument("--from is after --to; write the earlier time as --from");
   if (command.count("--size") > 0) read_size(choice.size, drawn.style);
   if (choice.deformation > 0) drawn.deformation = choice.deformation;

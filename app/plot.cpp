@@ -67,13 +67,14 @@ std::vector<std::string> signals_of(const fs::path& directory) {
   const bool is_signal = std::ranges::find(signals, name) != signals.end();
   const std::string near = is_signal ? name : nearest(name, all);
   std::string message = directory.string() + ": has no column " + pintle::quoted(name);
-  if (near.empty()) throw ResultsError(message + "; the first line of trajectory.csv and of ledger.csv names them all");
+  if (near.empty()) throw ResultsError(message + "; the first lines of trajectory.csv and ledger.csv list all columns");
   if (!is_signal) message += "; did you mean " + pintle::quoted(near) + "?";
   if (std::ranges::find(known, near) != known.end()) throw ResultsError(message);
   std::string label = near;
   std::ranges::replace(label, '.', ' ');
-  throw ResultsError(message + (is_signal ? ", which is" : " That is") + " a signal of its scene; to have it written add `outputs: {" +
-                     label + ": " + near + "}` to the scene and run it again");
+  throw ResultsError(message + (is_signal ? ", which is" : " That is") +
+                     " a signal of its scene; to write it as a column, add `outputs: {" + label + ": " + near +
+                     "}` to the scene and run it again");
 }
 
 /// The table that has a column of this name, with its unit or without.
@@ -119,8 +120,8 @@ std::vector<Panel> panels_of(const Options& options, bool one_each) {
     const fs::path table = table_with(tables, name);
     const PlottedColumn y = read_column(table, name, against != "t");
     if (against != "t" && y.t != x.t)
-      throw ResultsError("--against " + against + ": stands in another table than " + pintle::quoted(name) +
-                         ", with other rows; name one of the same");
+      throw ResultsError("--against " + against + ": is in another table than " + pintle::quoted(name) +
+                         ", with other rows; name a column of the same table");
     const std::string unit = one_each ? std::to_string(out.size()) : y.name.unit;
     if (!of_unit.contains(unit)) {
       of_unit[unit] = out.size();

@@ -59,8 +59,8 @@ const char* crash_words(int signal) {
 }
 
 extern "C" void tell_of_crash(int signal) {
-  say("pintle: it crashed ("), say(crash_words(signal)), say(") while "), say(activity);
-  say(": a fault in the program, or in a library where memory did not suffice; please report it"), say(where_results_are()), say("\n");
+  say("pintle: crashed ("), say(crash_words(signal)), say(") while "), say(activity);
+  say(": an error in the program, or in a library that ran out of memory; please report it"), say(where_results_are()), say("\n");
   ::raise(signal);  // as it would have ended: the handler served once
 }
 

@@ -28,7 +28,7 @@ std::string reason() {
 }  // namespace
 
 void require_place(const fs::path& out) {
-  now_doing("looking at the place for the results");
+  now_doing("checking the folder for the results");
   require_writable(out);
   now_doing("computing");
 }
@@ -41,8 +41,7 @@ void require_file_place(const fs::path& file) {
                              "; name a file to write");
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, error))
-    throw std::runtime_error(file.string() + ": cannot be written, as there is no folder " + folder.string() +
-                             "; make it, or name another");
+    throw std::runtime_error(file.string() + ": cannot be written: there is no folder " + folder.string() + "; create it, or name another");
   fs::remove(make_unique_folder(folder / ".pintle"), error);
 }
 
@@ -51,12 +50,12 @@ void tell_leftovers(const Options& options, const fs::path& out) {
   if (options.quiet || all.empty()) return;
   constexpr std::size_t most = 3;
   std::cerr << "  note: " << all.size() << (all.size() == 1 ? " folder" : " folders")
-            << " of runs that were ended, or still go, with the same --out:";
+            << " of interrupted or still running runs with the same --out:";
   for (std::size_t k = 0; k < std::min(most, all.size()); ++k) {
     std::cerr << " " << all[k].string();
     if (const auto t = time_of_last_row(all[k])) std::cerr << " (to t = " << number(*t) << " s)";
   }
-  std::cerr << (all.size() > most ? " …" : "") << "; rename what is worth keeping and remove the rest\n";
+  std::cerr << (all.size() > most ? " …" : "") << "; rename those worth keeping and remove the rest\n";
 }
 
 void write_whole(const Options& options, const fs::path& out, const std::function<void(const fs::path&)>& write) {
@@ -86,7 +85,7 @@ void finish_run(ResultsDirectory& results, Run& run, const std::function<void()>
   else
     attempt(report);
   if (whole || run.reason.find("the results are in") != std::string::npos) return;
-  if (!results.holds_files()) return void(run.reason += "; nothing of the results could be written");
+  if (!results.holds_files()) return void(run.reason += "; no results could be written");
   run.reason += "; what was computed" + (run.t_end > 0 ? " up to t = " + number(run.t_end) + " s" : std::string()) + " is in " +
                 results.path().string();
 }

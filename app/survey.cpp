@@ -81,9 +81,9 @@ Eigen::AlignedBox2d Survey::world() const {
   Eigen::AlignedBox2d world = moving_;
   if (!around_.empty() && world.isEmpty()) {
     const bool known = std::ranges::find(owners_, around_) != owners_.end();
-    if (!known) throw std::invalid_argument("--around " + around_ + ": nothing of that name is drawn." + did_you_mean(around_, owners_));
+    if (!known) throw std::invalid_argument("--around " + around_ + ": nothing with this name is drawn." + did_you_mean(around_, owners_));
     if (places_.empty())
-      throw std::invalid_argument("--around " + around_ + ": it has no place in these frames; name a body or a joint that it acts on");
+      throw std::invalid_argument("--around " + around_ + ": it has no position in these frames; name a body or a joint that it acts on");
     const Eigen::Vector2d reach = Eigen::Vector2d::Constant(0.15 * (all_.isEmpty() ? 1 : all_.sizes().maxCoeff()));
     for (const Eigen::Vector2d& r : places_) world.extend(Eigen::Vector2d(r - reach)).extend(Eigen::Vector2d(r + reach));
   }

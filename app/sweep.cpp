@@ -80,7 +80,7 @@ void print(const Sweep& sweep, const SweepEnd& end, const fs::path& out) {
     rows.emplace_back(status, std::to_string(n) + (first.reason.empty() ? "" : why));
   }
   for (const MeasureRange& r : measure_ranges(sweep, end.rows))
-    rows.emplace_back(r.header, r.least_in == 0 ? "no case has it"
+    rows.emplace_back(r.header, r.least_in == 0 ? "no case has a value"
                                                 : number(r.least) + " (case " + std::to_string(r.least_in) + ") to " + number(r.greatest) +
                                                       " (case " + std::to_string(r.greatest_in) + ")");
   if (end.count.done > 0)

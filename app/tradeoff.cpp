@@ -41,7 +41,7 @@ std::vector<Measure> asked_quantities(const Options& options) {
   std::vector<Measure> out;
   for (const std::string& words : options.quantities) {
     if (std::ranges::find(out, words, &Measure::words) != out.end())
-      throw SceneError("--quantity \"" + words + "\": is asked for twice; leave one out");
+      throw SceneError("--quantity \"" + words + "\": is given twice; remove one");
     out.emplace_back(Measure{words, words, Place{0, "--quantity"}, options.scene});
   }
   return out;
@@ -62,7 +62,7 @@ Asked understood(const Options& options) {
   const Overrides set = overrides(options);
   if (is_study(options.scene)) {
     StudyFile file = read_study(options.scene);
-    if (!file.study.scene.situations.empty()) file.root().at("situations").fail("is of sweep, fit and sensitivity; leave it out here");
+    if (!file.study.scene.situations.empty()) file.root().at("situations").fail("is a key of sweep, fit and sensitivity; remove it here");
     require_measures(file);
     file.study.scene.common.insert(file.study.scene.common.end(), set.begin(), set.end());
     asked.scene = file.study.scene;
@@ -134,7 +134,7 @@ int tradeoff(const Options& options) {
     std::cout << tradeoff_text(report);
     print_rows(std::cout, {{"spent", number(report.seconds, 3) + " s"},
                            {"results", out.string() + (report.recommended ? ", ready to run: " + (out / "recommended.yaml").string()
-                                                                          : "; no recommended.yaml, as nothing is recommended")}});
+                                                                          : "; no recommended.yaml, because nothing is recommended")}});
   }
   if (report.stopped) std::cerr << options.scene << ": " << stopped_by() << "; what was measured until then is in " << out.string() << "\n";
   if (report.stopped) return stopped;

@@ -33,21 +33,22 @@ int main(int argc, char** argv) {
   leave_failed_writes_to_us();
   end_on_signals();
   hold_library_threads();
-  CLI::App command("Shows a scene in the browser as it is written: assembled, with its freedoms, to be dragged through its motion.",
-                   "pintle view");
+  CLI::App command(
+      "Shows a scene in the browser while it is being written: assembled, with its degrees of freedom, to be dragged through its motion.",
+      "pintle view");
   std::string scene;
   std::vector<std::string> set;
   int port = 0;
-  command.add_option("scene", scene, "scene file (YAML); the page shows it again whenever a file of its folder is saved")
+  command.add_option("scene", scene, "scene file (YAML); the page is updated whenever a file in its folder is saved")
       ->required()
       ->type_name("SCENE.yaml");
   command.add_option("--set", set, "override a parameter or key of the scene; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME|PATH=VALUE");
-  command.add_option("--port", port, "on this port of 127.0.0.1 (default: any that is free)")->type_name("N")->check(CLI::Range(1, 65535));
+  command.add_option("--port", port, "port of 127.0.0.1 (default: any free port)")->type_name("N")->check(CLI::Range(1, 65535));
   command.footer(
-      "The page is served to this machine alone, under an address that nobody can guess, and nothing is written. Bodies are rigid\n"
-      "there, drivers are let go, joints with play are closed. Exit codes: see pintle --help\n");
+      "The page is served to this machine only, under an address that nobody can guess, and nothing is written. Bodies are rigid\n"
+      "there, drivers are released, clearances are closed. Exit codes: see pintle --help\n");
   try {
     command.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

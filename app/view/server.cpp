@@ -22,7 +22,7 @@ namespace {
 std::string unguessable() {
   std::array<unsigned char, 16> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    throw std::runtime_error("the system gives no random numbers, which an address that nobody can guess asks for");
+    throw std::runtime_error("the system gives no random numbers, which are needed for an address that nobody can guess");
   std::string out;
   for (const unsigned char byte : bytes) {
     std::array<char, 3> digits{};
@@ -108,7 +108,8 @@ ViewServer::ViewServer(ViewSession& session, int port) : server_(std::make_uniqu
 
   server_->port = port == 0 ? http.bind_to_any_port("127.0.0.1") : http.bind_to_port("127.0.0.1", port) ? port : -1;
   if (server_->port <= 0)
-    throw std::runtime_error("--port " + std::to_string(port) + ": cannot be had on 127.0.0.1; another program may have it, name another");
+    throw std::runtime_error("--port " + std::to_string(port) +
+                             ": is not available on 127.0.0.1; another program may use it. Choose another port");
 }
 
 ViewServer::~ViewServer() = default;

@@ -34,7 +34,7 @@ class Manners(unittest.TestCase):
     def test_a_mistyped_command(self):
         done = self.say("rnu", "swing.pintle.yaml")
         self.assertEqual(done.returncode, 2)
-        self.assertIn('"rnu" is no command. Did you mean "run"?', done.stderr)
+        self.assertIn('"rnu" is not a command. Did you mean "run"?', done.stderr)
         self.assertIn("Known here: ", self.say("simulate").stderr)
 
     def test_a_mistyped_option(self):

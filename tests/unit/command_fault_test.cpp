@@ -101,7 +101,7 @@ class Commands : public testing::TestWithParam<Command> {
   void expect_nothing_lost(const Ended& end, bool must_fail) {
     if (end.signal != SIGKILL) {
       if (end.signal != 0) {  // in a library that does not look at what it asked for: with words then
-        EXPECT_NE(end.complained.find("it crashed"), std::string::npos);
+        EXPECT_NE(end.complained.find("pintle: crashed"), std::string::npos);
       }
       EXPECT_FALSE(end.code == code_ && must_fail) << "a failure is no success";
       if (end.code != code_) {

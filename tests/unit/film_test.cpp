@@ -232,7 +232,7 @@ TEST_F(Picture, OfTwoHundredPixelsHasRoomForTheMechanism) {
 TEST_F(Film, WhatKeepsItFromBeingWrittenIsForeseen) {
   fs::remove_all(folder_.path() / "out" / "frames");
   fs::create_directory(folder_.path() / "folder.mp4");
-  expect_refused({"film", "out", "missing/film.mp4"}, {"missing/film.mp4: cannot be written", "folder that is there"}, 1);
+  expect_refused({"film", "out", "missing/film.mp4"}, {"missing/film.mp4: cannot be written", "existing folder"}, 1);
   expect_refused({"film", "out", "/proc/film.mp4"}, {"/proc/film.mp4: cannot be written"}, 1);
   expect_refused({"film", "out", "folder.mp4"}, {"folder.mp4: cannot be written"}, 1);
 }
