@@ -45,14 +45,14 @@ std::string short_number(double x) {
 
 std::string certainty(const CostEstimate& p) {
   const Trial& t = p.run.trial;
-  if (!t.trouble.empty()) return "the run failed when tried out: " + t.trouble;
-  if (t.whole) return "the whole run was tried out: its steps are counted, not guessed";
+  if (!t.trouble.empty()) return "the trial run failed: " + t.trouble;
+  if (t.whole) return "the trial covered the whole run: the steps are counted, not estimated";
   constexpr double even = 1.2;
   const std::string part = short_number(100 * t.reached / p.until);
-  const std::string seen = "told from " + std::to_string(t.steps) + " steps, the first " + part + " % of the run";
+  const std::string seen = "estimated from " + std::to_string(t.steps) + " steps, the first " + part + " % of the run";
   const double spread = p.run.steps.low > 0 ? p.run.steps.high / p.run.steps.low : INFINITY;
-  return seen + (spread < even ? ", where steps came evenly" : ", where steps did not come evenly, hence the range") +
-         "; what only happens later is not in it";
+  return seen + (spread < even ? ", where the step rate was even" : ", where the step rate was uneven, hence the range") +
+         "; events after that are not included";
 }
 
 std::string cost_json(const CostEstimate& p) {

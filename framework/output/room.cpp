@@ -78,14 +78,14 @@ std::vector<std::string> validate_room(const std::filesystem::path& directory, c
     throw std::runtime_error(at + "the results need at least " + needs(needed.least) + ", and the disk has " + has(room.on_disk) +
                              " left; make room, name another place with --out, or " + remedy);
   if (needed.file_least > room.in_a_file)
-    throw std::runtime_error(at + "trajectory.csv needs at least " + needs(needed.file_least) + ", and a file may have " +
+    throw std::runtime_error(at + "trajectory.csv needs at least " + needs(needed.file_least) + ", and the limit for one file is " +
                              has(room.in_a_file) + "; raise the limit (ulimit -f), or " + remedy);
   std::vector<std::string> out;
   if (needed.likely > room.on_disk)
     out.push_back("the results may need " + needs(needed.likely) + ", and the disk of " + directory.string() + " has " + has(room.on_disk) +
                   " left; make room, name another place with --out, or " + remedy);
   if (needed.file_likely > room.in_a_file)
-    out.push_back("trajectory.csv may need " + needs(needed.file_likely) + ", and a file may have " + has(room.in_a_file) +
+    out.push_back("trajectory.csv may need " + needs(needed.file_likely) + ", and the limit for one file is " + has(room.in_a_file) +
                   "; raise the limit (ulimit -f), or " + remedy);
   return out;
 }

@@ -66,7 +66,7 @@ TEST(CostEstimate, OfALongRunIsToldFromAPartOfItWithinAFactorOfTwo) {
     EXPECT_GT(p.run.steps.likely, steps / within);
     EXPECT_LE(p.run.steps.low, p.run.steps.likely);
     EXPECT_GE(p.run.steps.high, p.run.steps.likely);
-    EXPECT_TRUE(certainty(p).find("told from") == 0) << certainty(p);
+    EXPECT_TRUE(certainty(p).find("estimated from") == 0) << certainty(p);
   }
 }
 
