@@ -90,8 +90,8 @@ Rough rough_state(const Scene& scene, const System& system, const Bent& bent) {
 
 constexpr double nearly_right = 1e-6;  // no pose and no speed is so by chance
 const char* const must_fit =
-    "redundant joints must fit each other to 1e-11 of the mechanism's size: write lengths, points and angles with more digits, or leave a "
-    "joint out";
+    "redundant joints must agree with each other to 1e-11 of the mechanism's size: write lengths, points and angles with more digits, or "
+    "remove a joint";
 
 // What of C a run takes for met (onto_constraints); here no more may be left.
 double constraints_met(const System& system, const VectorXd& y) {
@@ -134,8 +134,9 @@ int close_joints(const Scene& scene, Closure& closure, const System& system, Rou
   if (!(left <= constraints_met(system, r.y))) {
     closure.violation(r.y);
     const bool pinned = !scene.start_bodies.empty();
-    cannot(scene, pinned ? "cannot close with what `start` pins down" : "cannot close", closure, C, "",
-           left < nearly_right ? must_fit : "check lengths and points, or give the bodies rough poses (`pose`) nearer to the wanted one");
+    cannot(
+        scene, pinned ? "cannot close with the values given in `start`" : "cannot close", closure, C, "",
+        left < nearly_right ? must_fit : "check lengths and points, or give the bodies rough poses (`pose`) nearer to the intended ones");
   }
   close_in(closure, system, r.W_pose, r.y, C, J);
   return i;
@@ -161,15 +162,15 @@ int match_speeds(const Scene& scene, Closure& closure, const System& system, Rou
     left = now;
   }
   if (left.lpNorm<Eigen::Infinity>() > 1e-8 * scale)
-    cannot(scene, "cannot move as `start` and the drivers ask", closure, left, "/s",
-           left.lpNorm<Eigen::Infinity>() < nearly_right * scale
-               ? must_fit
-               : "leave out a speed in `start`, a driver, or a joint such as a gear that couples what others couple in another ratio");
+    cannot(scene, "cannot move with the speeds that `start` and the drivers prescribe", closure, left, "/s",
+           left.lpNorm<Eigen::Infinity>() < nearly_right * scale ? must_fit
+                                                                 : "remove a speed from `start`, a driver, or a joint (such as a gear) "
+                                                                   "between bodies that other joints couple with a different ratio");
   const std::vector<Dependence> singular = singular_dependences(system, 0, r.y);
   if (!singular.empty() && !choose_branch(closure, system, J, singular, r.W_speed, r.y))
     throw AssemblyError(scene.file, named_place(scene, closure.owner(singular.front().N.back().first)),
-                        "the start is a singular pose, where motions branch, and no branch has these speeds; start elsewhere, "
-                        "or give other speeds in `start`");
+                        "the start is a singular pose, where the motion can branch, and no branch has these speeds; start from another "
+                        "pose, or give other speeds in `start`");
   return 1;
 }
 
@@ -216,11 +217,11 @@ std::vector<std::string> warnings_of(const Model& model, const Assembly& assembl
   }
   if (any)
     out.push_back(
-        "redundant joints: how they share these forces does not follow from the motion and is settled by convention (least norm): " +
+        "redundant joints: the motion does not determine how they share these forces; the program chooses the solution of least norm: " +
         rows_text(system, assembly.shared));
   if (!singular.empty())
-    out.push_back("the start is a singular pose, where motions branch: there, and only there, other joints imply " + singular +
-                  "; speeds in `start` choose the branch, else it is the one nearest to the least kinetic energy");
+    out.push_back("the start is a singular pose, where the motion can branch: in this pose only, other joints imply " + singular +
+                  "; speeds in `start` choose the branch; without them it is the one nearest to the least kinetic energy");
   return out;
 }
 
@@ -284,7 +285,7 @@ Assembly assembled(const Scene& scene, const System& system, const Bent& bent) {
   if (!out.redundant.empty())
     if (const std::string conflict = contradiction(system, 0, r.y, scene.run.until); !conflict.empty())
       throw AssemblyError(scene.file, named_place(scene, last_driver(system, out.redundant)),
-                          conflict + "; leave one of them out, or let it follow the other");
+                          conflict + "; remove one of them, or let it follow the other");
   return out;
 }
 
@@ -307,7 +308,7 @@ void refuse_rigid_contacts(const Scene& scene, const System& system, const std::
   for (std::size_t c = 0; c < system.contacts.size(); ++c)
     if (is_rigid(system.contacts[c]))
       throw AssemblyError(scene.file, named_place(scene, system.contact_names[c]),
-                          what + " needs contacts that give way; instead of model: impact give it a normal law with a stiffness");
+                          what + " needs compliant contacts; instead of model: impact, give it a normal law with a stiffness");
 }
 
 VectorXd closed_pose(const Scene& scene, const System& system, const std::vector<std::pair<int, VectorXd>>& bent) {

@@ -39,8 +39,8 @@ std::vector<Eigen::Vector2d> drawn_journals(const Scene& scene, const System& sy
     if (e.norm() <= clearance && e.norm() > clearance * (is_held(pair) ? direction_is_meant : rounding)) out[c] = e;
     if (e.norm() > clearance + bearing_radius(pair.gap))
       doubts.push_back(quoted(joint->name) + ": the journal is drawn " + number_text(e.norm(), 3) +
-                       " m from the middle of its bearing, outside it; " +
-                       "it starts in the middle: correct the bodies' `pose`, or give the joint an eccentricity in `start`");
+                       " m from the centre of its bearing, which is outside the bearing; " +
+                       "the run starts with it at the centre. Correct the bodies' `pose`, or give the joint an eccentricity in `start`");
   }
   return out;
 }
@@ -56,7 +56,7 @@ void doubt_moves(const Scene& scene, const System& system, const Eigen::VectorXd
     doubts.push_back(
         "to close the joints " + quoted(scene.bodies[b].name) + " was " +
         (moved ? "moved by " + number_text(away, 3) + " m" : "turned by " + number_text(move[2] * 180 / std::numbers::pi, 3) + " deg") +
-        " from where it is drawn; if another way to close was meant, correct its `pose` or pin it in `start`");
+        " from where it is drawn; if another configuration was intended, correct its `pose` or fix it in `start`");
   }
 }
 
@@ -67,8 +67,8 @@ std::string driven_twice(const System& system, const Redundancy& r) {
   if (is_driver(system.joints[at(r.joint)])) drivers.push_back(quoted(system.joint_names[at(r.joint)]));
   if (drivers.size() < 2) return "";
   return "the drivers " + listed(drivers, "and") +
-         " move one freedom in the same way, and how they share its force is settled by convention; leave " +
-         (drivers.size() == 2 ? "one" : "all but one") + " of them out";
+         " drive the same degree of freedom, and the motion does not determine how they share the force; remove " +
+         (drivers.size() == 2 ? "one" : "all but one") + " of them";
 }
 
 }  // namespace pintle

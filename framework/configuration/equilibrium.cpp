@@ -166,8 +166,8 @@ void warn(const Model& model, const Equations& eq, Equilibrium& out) {
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     if (is_held(system.contacts[c])) {
       if (const double N = clearance_effect(system, eq, c).normal.force; N < 0)
-        out.warnings.push_back("\"" + system.contact_names[c] + "\": its massless link pushes by " + number_text(-N) +
-                               " N, as no wall could pull; the joint would be open there");
+        out.warnings.push_back("\"" + system.contact_names[c] + "\": its massless link is in compression with " + number_text(-N) +
+                               " N, but a wall cannot pull; the joint would be open there");
       continue;
     }
     const double depth = eq.contact[c].gap.depth;
@@ -181,11 +181,11 @@ void warn(const Model& model, const Equations& eq, Equilibrium& out) {
       out.warnings.push_back("\"" + system.contact_names[c] + "\": " + range);
     if (system.contacts[c].friction && std::exchange(last, system.contact_names[c]) != system.contact_names[c])
       out.warnings.push_back("\"" + system.contact_names[c] +
-                             "\": what friction would hold depends on how the mechanism came to rest, so it holds nothing here");
+                             "\": the friction force at rest depends on how the mechanism came to rest, so it is taken as 0");
   }
   for (const JointFriction& f : system.frictions)
     out.warnings.push_back("\"" + system.joint_names[at(f.joint)] +
-                           "\": what its friction would hold depends on how the mechanism came to rest, so it holds nothing here");
+                           "\": the friction force at rest depends on how the mechanism came to rest, so it is taken as 0");
   for (const BendingProbe& p : model.bending) {
     const auto eta = out.state.y.segment(system.eta_begin[at(p.index)], p.displacement.cols());
     const VectorXd u = p.displacement * eta;
@@ -213,9 +213,8 @@ void search(Rest& rest, Search& way, Equilibrium& out) {
 
 std::string why_no_pose(const Scene& scene, const Model& model, const State& start) {
   const std::string unsound = explain_signals(scene, model, start, start);
-  return !unsound.empty()
-             ? unsound
-             : "the pose to start from is singular, or its forces are beyond what a double holds (check stiffnesses, lengths and loads)";
+  return !unsound.empty() ? unsound
+                          : "the start pose is singular, or its forces exceed the range of a double (check stiffnesses, lengths and loads)";
 }
 
 void finish(const Scene& scene, const Model& model, Rest& rest, const RestingStates& states, const State& last, Equilibrium& out) {
@@ -254,16 +253,16 @@ bool rests_together(const Scene& scene, const Model& model, const RestingStates&
   out.iterations = joint.iterations;
   out.residual = rest.residual();
   out.method = "Newton's method for the pose and the scene's own states together";
-  out.stability.why_not = "own states decide with the forces whether it stays there: pintle linearize --equilibrium tells";
+  out.stability.why_not = "its stability also depends on the scene's own states: use pintle linearize --equilibrium";
   if (!joint.undetermined.empty())
     out.warnings.push_back(
         "of the states " + names(joint.undetermined) +
-        " only some together follow from the rest: other values would do as well; those nearest to their starts were taken");
+        " only some combinations are determined at equilibrium; of the possible values, those nearest to their starts were taken");
   if (!out.found)
     out.reason = !joint.reason.empty()
                      ? joint.reason
                      : "no equilibrium was found: after " + std::to_string(out.iterations) + " iterations " + number_text(out.residual) +
-                           " of the greatest force is still out of balance; start nearer to it " +
+                           " of the greatest force is still unbalanced; start nearer to the equilibrium " +
                            "(`start`, `pose`, the states' `start`), or check the gains";
   finish(scene, model, rest, states, state, out);
   return true;
@@ -284,8 +283,8 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
     std::vector<std::string> drivers;
     for (std::size_t k = 0; k < system.joints.size(); ++k)
       if (is_driver(system.joints[k])) drivers.push_back(system.joint_names[k]);
-    out.reason = "the mechanism cannot be led beyond t = " + number_text(reached) + " s: the law of " + names(drivers) +
-                 " asks for what the links cannot reach there, or passes a singular pose; name an earlier time with --at";
+    out.reason = "the mechanism cannot be moved beyond t = " + number_text(reached) + " s: the law of " + names(drivers) +
+                 " prescribes a position that the links cannot reach there, or passes a singular pose; name an earlier time with --at";
     return out;
   }
   const RestingStates states = resting_states(system);
@@ -303,23 +302,23 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
   out.iterations = way.iterations();
   out.residual = rest.residual();
   out.method = !has_potential(rest.held)
-                   ? "overdamped flow into Newton's method, for loads that follow, or that signals size, have no potential"
+                   ? "overdamped flow, then Newton's method (follower loads and loads controlled by signals have no potential)"
                : way.damped() ? "Newton's method, damped towards the overdamped flow"
                               : "Newton's method";
   constexpr double told = 1e-6;  // looked at again: next to a singular pose the smallest change of pose upsets the joints' forces
   const bool was_found = out.found;
   out.found = out.found && out.residual <= told;
   if (was_found && !out.found)
-    out.reason = "a rest was found next to a singular pose, where the forces of joints have no bound: they cannot be told, " +
-                 number_text(out.residual) + " of the greatest is out of balance; start elsewhere, or leave out a driver or a joint";
+    out.reason = "an equilibrium was found next to a singular pose, where joint forces grow without bound and cannot be determined: " +
+                 number_text(out.residual) + " of the greatest is unbalanced; start from another pose, or remove a driver or a joint";
   else if (!out.found && way.runs_away())
     out.reason =
         "nothing stops " + names(restless(rest.held, rest.eq.a)) +
-        " from moving on without end under gravity and loads; join or support what falls, or balance a torque that keeps turning it";
+        " from moving without limit under gravity and loads; join or support what falls, or balance the torque that keeps turning it";
   else if (!out.found)
     out.reason = "no equilibrium was found: after " + std::to_string(out.iterations) + " iterations " + number_text(out.residual) +
-                 " of the greatest force is still out of balance, most at " + names(restless(rest.held, rest.eq.a)) +
-                 "; start nearer to it (`start`, `pose`), or check the stiffnesses";
+                 " of the greatest force is still unbalanced, most of it at " + names(restless(rest.held, rest.eq.a)) +
+                 "; start nearer to the equilibrium (`start`, `pose`), or check the stiffnesses";
   finish(scene, model, rest, states, last, out);
   return out;
 }

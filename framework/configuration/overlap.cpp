@@ -22,9 +22,9 @@ std::string overlap_words(const ContactPair& pair, double depth) {
   std::ostringstream s;
   s.precision(4);
   s << "the two surfaces overlap by " << depth << " m at the start, "
-    << (is_rigid(pair) ? "which rigid bodies cannot; move a body by `start` or `pose`"
-                       : "more than a tenth of their smallest radius; move a body by `start` or `pose`")
-    << (pair.profiles ? ", or turn round the side of the material" : "");
+    << (is_rigid(pair) ? "which is impossible for rigid bodies; move a body with `start` or `pose`"
+                       : "more than a tenth of their smallest radius; move a body with `start` or `pose`")
+    << (pair.profiles ? ", or put the material on the other side" : "");
   return s.str();
 }
 

@@ -191,8 +191,9 @@ JointRest find_joint_rest(const System& system, Rest& rest, VectorXd& own, const
   constexpr int most = 500;
   JointRest out;
   if (system.n() + static_cast<int>(states.sought.size()) > most_together) {
-    out.reason = "the states " + list_of_states(system, states.sought) + " rest only together with the pose, and more than " +
-                 std::to_string(most_together) + " coordinates are not solved so; let their rates fall with them, or take fewer modes";
+    out.reason = "the states " + list_of_states(system, states.sought) +
+                 " are at rest only together with the pose, and this is solved for at most " + std::to_string(most_together) +
+                 " coordinates; make the rate of each state decrease with the state, or use fewer modes";
     return out;
   }
   TogetherAtRest now(system, rest, own, states);
@@ -219,9 +220,10 @@ JointRest find_joint_rest(const System& system, Rest& rest, VectorXd& own, const
   if (out.found) out.undetermined = undetermined_states(system, now, states.sought);
   if (!out.found && now.worst_rate() > still) {
     const OwnState& moving = system.states[at(now.fastest())];
-    out.reason = "the state " + quoted(moving.name) + " comes to no rest: where the forces are best balanced its rate is still " +
+    out.reason = "the state " + quoted(moving.name) + " does not come to rest: where the forces are best balanced, its rate is still " +
                  with_rate_unit(law_at(system, system.laws[at(moving.rate)], state.t, state.y), moving) +
-                 ", and nothing that it acts on brings it to 0; a limit may stand in the way (saturate, if), or start nearer to the rest";
+                 ", and nothing that it acts on brings the rate to 0; a limit (saturate, if) may prevent it; otherwise start nearer to the "
+                 "equilibrium";
   }
   return out;
 }
@@ -234,10 +236,10 @@ std::string moving_state(const System& system, const RestingStates& states, cons
     const double rate = law_at(system, law, state.t, state.y);
     if (!(std::abs(rate) <= still * own.scale))
       return "the state " + quoted(own.name) + " never rests: its rate there is " + with_rate_unit(rate, own) +
-             ", and nothing that it changes could bring that to 0; leave it out here, or let its rate fall with it";
+             ", and nothing that it acts on can bring the rate to 0; leave it out here, or make its rate decrease with the state";
     if (!law.in.empty())
-      notes.push_back("the state " + quoted(own.name) + " is kept as it starts, " + number_text(own.start, 6) +
-                      (own.unit.empty() ? "" : " " + own.unit) + ": any value of it would rest there");
+      notes.push_back("the state " + quoted(own.name) + " keeps its start value, " + number_text(own.start, 6) +
+                      (own.unit.empty() ? "" : " " + own.unit) + ": it is at rest there with any value");
   }
   return "";
 }

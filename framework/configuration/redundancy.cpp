@@ -223,10 +223,10 @@ std::string misfit(const System& system, double t, const VectorXd& y, const std:
     const int k = joint_of(system, worst);
     std::ostringstream s;
     s.precision(3);
-    s << "the redundant joints " << listed(names_in(system, d, false)) << " do not fit each other: " << quoted(system.joint_names[at(k)])
-      << " stays open by " << std::abs(eq.C[worst]) << (is_angle_row(system.joints[at(k)], worst - system.row_begin[at(k)]) ? " rad" : " m")
-      << ", and 1e-11 of the mechanism's size is all that is allowed; write lengths, points and angles with more digits, or leave a joint "
-         "out";
+    s << "the redundant joints " << listed(names_in(system, d, false))
+      << " do not agree with each other: " << quoted(system.joint_names[at(k)]) << " stays open by " << std::abs(eq.C[worst])
+      << (is_angle_row(system.joints[at(k)], worst - system.row_begin[at(k)]) ? " rad" : " m")
+      << ", but at most 1e-11 of the mechanism's size is allowed; write lengths, points and angles with more digits, or remove a joint";
     return s.str();
   }
   return "";
@@ -292,7 +292,7 @@ std::string contradiction(const System& system, double t, const VectorXd& y, dou
                                 ? "the drivers " + listed(names) + " contradict each other"
                                 : "the driver " + listed(names) + " moves what " + listed(names_in(system, d, false)) + " hold";
     if (contradiction_of_accelerations(system, t, y, d) > 1e-5)
-      return who + ": at t = " + number_text(t) + " s they ask different accelerations of one freedom";
+      return who + ": at t = " + number_text(t) + " s they prescribe different accelerations for one degree of freedom";
     const std::vector<Driven> drivers = driven_by(system, d);
     const bool constant = std::all_of(all.near.begin(), all.near.end(), [&](const std::vector<Dependence>& there) {
       return std::any_of(there.begin(), there.end(),
@@ -300,7 +300,7 @@ std::string contradiction(const System& system, double t, const VectorXd& y, dou
     });
     if (constant)
       if (const auto conflict = first_contradiction(drivers, t, until))
-        return who + ": from t = " + number_text(conflict->first) + " s on, apart by " + number_text(conflict->second) + " there";
+        return who + ": from t = " + number_text(conflict->first) + " s on; they differ by " + number_text(conflict->second) + " there";
   }
   return "";
 }
@@ -322,15 +322,15 @@ std::string explain_pose(const System& system, double t, const VectorXd& y) {
     const Dependence& d = nearly[k];
     const std::vector<std::string> drivers = names_in(system, d, true);
     const std::string others = listed(names_in(system, d, false));
-    if (drivers.empty()) return "a singular pose: the rows of " + others + " have become dependent on each other there";
+    if (drivers.empty()) return "a singular pose: the constraint equations of " + others + " have become linearly dependent there";
     const auto driver = std::find(system.joint_names.begin(), system.joint_names.end(), drivers.front()) - system.joint_names.begin();
     const Joint& joint = system.joints[static_cast<std::size_t>(driver)];
     return "a dead centre: the driver " + listed(drivers) + " cannot move past " + number_text((*driver_law(joint))(t).value) +
-           (is_angle_row(joint, 0) ? " rad" : " m") + (others.empty() ? "" : ", where " + others + " hold against it");
+           (is_angle_row(joint, 0) ? " rad" : " m") + (others.empty() ? "" : ", because " + others + " hold it there");
   }
   for (const Dependence& d : permanent)
     if (const auto drivers = names_in(system, d, true); drivers.size() > 1)
-      return "the drivers " + listed(drivers) + " act on one freedom and do not agree";
+      return "the drivers " + listed(drivers) + " act on the same degree of freedom and contradict each other";
   return "";
 }
 

@@ -80,12 +80,12 @@ class LawsAt {
     if (std::isfinite(value) && !grown && steep_over.empty()) return;
     const bool left = !beyond_its_table(of.of, now_.t, in.data(), Outside::refused).empty();
     found = "the " + shown(from) + " of " + quoted(name) + place_of_law(scene_, place) + " " +
-            (left                 ? "is left"
-             : grown              ? "has come to " + number_text(value)
+            (left                 ? "leaves its table"
+             : grown              ? "has reached " + number_text(value)
              : steep_over.empty() ? "is not a finite number"
                                   : "has no finite slope over " + steep_over) +
             " at t = " + number_text(now_.t, 9) + " s" +
-            (grown ? seen(from, in) + ": it seems to grow beyond all bounds; keep it finite, for example with max(…)"
+            (grown ? seen(from, in) + ": it seems to grow without bound; keep it finite, for example with max(…)"
                    : seen_by_law(from, of.of, now_.t, in));
   }
   std::string infinite_slope(const Law& from, const SignalLaw& of, const std::vector<double>& in) const {
@@ -172,10 +172,11 @@ std::vector<std::string> tables_left(const Scene& scene, const Model& model, con
       const std::string held = beyond_its_table(law.of, t, in.data(), Outside::holds_unasked);
       const std::string refused = beyond_its_table(law.of, t, in.data(), Outside::refused);
       if (held.empty() && refused.empty()) return false;
-      out.push_back("the " + shown(from) + " of " + quoted(name) + place_of_law(scene, place) + " is left " + when + seen(from, in) + ": " +
-                    (held.empty()
-                         ? refused + ", and ends the run there: lengthen the table, or write outside: hold"
-                         : held + ", and holds the value at its end: lengthen the table, or write outside: hold or outside: refuse"));
+      out.push_back(
+          "the " + shown(from) + " of " + quoted(name) + place_of_law(scene, place) + " leaves its table " + when + seen(from, in) + ": " +
+          (held.empty()
+               ? refused + ", which ends the run there: lengthen the table, or write outside: hold"
+               : held + ", and the value at the end of the table is used: lengthen the table, or write outside: hold or outside: refuse"));
       return true;
     };
     for (const int k : law.in) in.push_back(signal_at(system, system.signals[at(k)], start.y));
@@ -201,10 +202,10 @@ void warn_of_tables(const Scene& scene, const Model& model, const State& state, 
     for (const int k : law.in) in.push_back(signal_at(system, system.signals[at(k)], state.y));
     const std::string beyond = beyond_its_table(law.of, state.t, in.data(), Outside::holds_unasked);
     if (beyond.empty()) return;
-    const std::string subject = "the " + shown(from) + " of " + quoted(name) + place_of_law(scene, place) + " is left";
+    const std::string subject = "the " + shown(from) + " of " + quoted(name) + place_of_law(scene, place) + " leaves its table";
     if (has_begun(warnings, subject)) return;
     warnings.push_back(subject + " at t = " + number_text(state.t, 6) + " s" + seen(from, in) + ": " + beyond +
-                       ", and holds the value at its end: lengthen the table, or write outside: hold or outside: refuse");
+                       ", and the value at the end of the table is used: lengthen the table, or write outside: hold or outside: refuse");
   });
 }
 

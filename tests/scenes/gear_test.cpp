@@ -266,8 +266,8 @@ TEST(GearInput, NamesTheCouplingsOfATrainThatContradictsItself) {
   };
   for (const char* law : {"2*t", "2*t^2"}) {
     const std::string motor = "drivers: {motor: {angle: [ground, a], law: " + std::string(law) + "}}\n" + rest;
-    pintle_test::expect_says(said(triangle + motor), {"ab", "bc", "ca", "motor", "leave"});
-    pintle_test::expect_says(said(twice + motor), {"pair", "loop", "motor", "leave"});
+    pintle_test::expect_says(said(triangle + motor), {"ab", "bc", "ca", "motor", "remove"});
+    pintle_test::expect_says(said(twice + motor), {"pair", "loop", "motor", "remove"});
   }
 }
 

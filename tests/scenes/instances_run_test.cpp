@@ -160,7 +160,7 @@ TEST(Drivers, OfOneFreedomThatAgreeAreNamedTogether) {
       "bodies: {crank: {rigid: {mass: 1, inertia: 1}}}\njoints: {a: {revolute: [ground, crank]}}\n"
       "drivers: {left motor: {angle: [ground, crank], law: 3*t}, right motor: {angle: [ground, crank], law: 3*t}}\nrun: {until: 0.1 s}\n");
   EXPECT_TRUE(std::ranges::any_of(w.run.warnings, [](const std::string& s) {
-    return s.find("the drivers \"left motor\" and \"right motor\" move one freedom") != std::string::npos;
+    return s.find("the drivers \"left motor\" and \"right motor\" drive the same degree of freedom") != std::string::npos;
   }));
 }
 

@@ -82,7 +82,7 @@ TEST(JointRest, ACounterStaysAsItStarts) {
   EXPECT_EQ(found.state(0), 2);
   EXPECT_EQ(found.state(1), 1);
   EXPECT_NEAR(40 * (target - found.angle()), weight * std::cos(found.angle()), 1e-9);
-  EXPECT_TRUE(found.warns("\"turned\" is kept as it starts, 2"));
+  EXPECT_TRUE(found.warns("\"turned\" keeps its start value, 2"));
   EXPECT_FALSE(found.warns("heater"));
   EXPECT_TRUE(found.rest.stability.judged);
 }

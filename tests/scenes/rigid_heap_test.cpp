@@ -206,8 +206,9 @@ TEST(RigidHeap, AStartDeepInsideATooth) {
   };
   EXPECT_NO_THROW(start(0.0412, -0.0061));
   for (const auto& at : {std::pair(0.038, -0.0061), std::pair(0.045, 0.003), std::pair(0.03, -0.006), std::pair(0.0, 0.0)})
-    pintle_test::expect_one_line(pintle_test::refusal_by<std::exception>([&] { start(at.first, at.second); }), "scene.yaml:6: contacts.c",
-                                 {"the two surfaces overlap by", "which rigid bodies cannot; move a body by `start` or `pose`"});
+    pintle_test::expect_one_line(
+        pintle_test::refusal_by<std::exception>([&] { start(at.first, at.second); }), "scene.yaml:6: contacts.c",
+        {"the two surfaces overlap by", "which is impossible for rigid bodies; move a body with `start` or `pose`"});
 }
 
 }  // namespace

@@ -76,18 +76,18 @@ TEST(BadRigid, GeneralizedAlphaTakesNoImpacts) {
 
 TEST(BadRigid, AStartInOverlapSaysHowDeepAndWhatToDo) {
   expect_refused([] { return scene("restitution: 0.5", 0.09); }, "scene.yaml:6: contacts.foot",
-                 "overlap by 0.01 m at the start, which rigid bodies cannot; move a body by `start` or `pose`");
+                 "overlap by 0.01 m at the start, which is impossible for rigid bodies; move a body with `start` or `pose`");
 }
 
 TEST(BadRigid, EquilibriumAndLinearisationNeedContactsThatGiveWay) {
   const Scene s = scene("restitution: 0.5");
   const Model model = build(s);
   const Assembly start = assemble(s, model);
-  const std::string place = "scene.yaml:6: contacts.foot", remedy = "instead of model: impact give it a normal law with a stiffness";
+  const std::string place = "scene.yaml:6: contacts.foot", remedy = "instead of model: impact, give it a normal law with a stiffness";
   pintle_test::expect_one_line(pintle_test::refusal_by<std::exception>([&] { find_equilibrium(s, model, start); }), place,
-                               {"an equilibrium needs contacts that give way", remedy});
+                               {"an equilibrium needs compliant contacts", remedy});
   pintle_test::expect_one_line(pintle_test::refusal_by<std::exception>([&] { linearize(s, model, start.start); }), place,
-                               {"a linearisation needs contacts that give way", remedy});
+                               {"a linearisation needs compliant contacts", remedy});
 }
 
 }  // namespace

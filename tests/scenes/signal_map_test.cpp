@@ -161,7 +161,7 @@ TEST_P(TableEnds, EndTheRunByNameWhereTheyAreToldTo) {
     const auto w = ran(std::string(", outside: refuse, interpolation: ") + shape);
     EXPECT_EQ(w.run.status, Status::failed);
     EXPECT_TRUE(w.run.reason.starts_with("the law by the table map.csv of \"push\" (")) << w.run.reason;  // the cause first
-    pintle_test::expect_says(w.run.reason, {"is left at t = 0.19", "b.x = 2", "goes from 0 to 2 m", "outside: hold"});
+    pintle_test::expect_says(w.run.reason, {"leaves its table at t = 0.19", "b.x = 2", "goes from 0 to 2 m", "outside: hold"});
     EXPECT_EQ(ran(std::string(", outside: refuse, interpolation: ") + shape, "0.18 s").run.status, Status::finished);
   }
 }
@@ -223,13 +223,13 @@ TEST(SignalTable, IsKnownToBeLeftBeforehand) {
   EXPECT_TRUE(left("b.angle", "", "start: {b: {angle: 1.5}}\n").empty());
   const auto at_start = left("b.angle", "", "start: {b: {angle: 2.5}}\n");
   ASSERT_EQ(at_start.size(), 1u);
-  pintle_test::expect_says(at_start[0], {"map.csv of \"push\"", "scene.yaml:3", "is left at the start", "b.angle = 2.5",
-                                         "goes from 0 to 2 rad", "holds the value at its end"});
+  pintle_test::expect_says(at_start[0], {"map.csv of \"push\"", "scene.yaml:3", "leaves its table at the start", "b.angle = 2.5",
+                                         "goes from 0 to 2 rad", "the value at the end of the table is used"});
   for (const char* over : {"b.angle", "motor.angle", "pin.angle", "b.speed - 0.5 rad/s"}) {
     const auto driven = left(over, ", outside: refuse", turned);
     ASSERT_EQ(driven.size(), 1u) << over;
-    pintle_test::expect_says(driven[0],
-                             {"is left", over[2] == 's' ? "at the start" : "by t = 0.667 s", "ends the run there", "outside: hold"});
+    pintle_test::expect_says(
+        driven[0], {"leaves its table", over[2] == 's' ? "at the start" : "by t = 0.667 s", "ends the run there", "outside: hold"});
   }
   EXPECT_TRUE(left("b.angle", ", outside: hold", turned).empty());
   EXPECT_TRUE(left("b.P.x", "", turned).empty()) << "a place is no driver's own";
