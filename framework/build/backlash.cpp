@@ -30,10 +30,9 @@ void require_round(const Scene& scene, const SceneJoint& j) {
   const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, n.place, message); };
   if (j.play->impact || n.stiffness || n.law == "table") return;
   if (!(j.play->pressure_angle > 0))
-    wrong(n.law +
-          " needs to know how round the flanks are: add `pressure angle: 20 deg` to the clearance, or take a `stiffness` or a table");
+    wrong(n.law + " needs the curvature of the flanks: add `pressure angle: 20 deg` to the clearance, or give a `stiffness` or a table");
   if (j.coupling->teeth[0] > 0)
-    wrong(n.law + " needs to know how round the flanks are: write `radii` in place of `teeth`, or take a `stiffness`");
+    wrong(n.law + " needs the curvature of the flanks: write `radii` instead of `teeth`, or give a `stiffness`");
 }
 
 }  // namespace
@@ -41,11 +40,10 @@ void require_round(const Scene& scene, const SceneJoint& j) {
 BuiltContact build_flanks(const Scene& scene, const SceneJoint& j, const Joint& ideal) {
   const ScenePlay& play = *j.play;
   const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, play.place, message); };
-  if (j.kind != JointKind::gear && j.kind != JointKind::rack) wrong("of couplings only a gear and a rack take a clearance");
+  if (j.kind != JointKind::gear && j.kind != JointKind::rack) wrong("of the couplings, only a gear and a rack can have a clearance");
   if (!(play.backlash > 0)) wrong("backlash must be above 0; leave out `clearance` for an ideal joint");
   if (!(play.pressure_angle >= 0 && play.pressure_angle < std::numbers::pi / 4)) wrong("the pressure angle must lie between 0 and 45 deg");
-  if (play.friction)
-    wrong("the pitch circles of teeth roll on each other without slip, so that friction finds nothing to rub on; leave it out");
+  if (play.friction) wrong("the pitch circles of the teeth roll on each other without slip, so friction has no effect; leave it out");
   require_round(scene, j);
   const Flank flank{teeth_of(ideal), 1, play.backlash / 2 * std::cos(play.pressure_angle), play.pressure_angle};
   const std::array<double, 2> radius = pitch_radii(flank);
@@ -73,8 +71,8 @@ void complete_flanks(const Scene& scene, const SceneJoint& j, const Joint& ideal
   const double pitch = pitch_of(j, *system.contacts[first].flank);
   if (pitch > 0 && !(j.play->backlash < pitch))
     throw SceneError(scene.file, j.play->place,
-                     "backlash " + number_text(1e3 * j.play->backlash) + " mm is a tooth and its gap or more, which take " +
-                         number_text(1e3 * pitch) + " mm of the pitch circle; make it smaller");
+                     "backlash " + number_text(1e3 * j.play->backlash) + " mm is not less than the pitch of the teeth, " +
+                         number_text(1e3 * pitch) + " mm along the pitch circle; make it smaller");
 }
 
 }  // namespace pintle

@@ -118,8 +118,8 @@ class Builder {
     if (b.mass == 0) missing = "mass: 0.3 kg";
     if (b.inertia == 0) missing += (missing.empty() ? "" : ", and ") + std::string("inertia: 1e-4 kg m^2");
     if (!missing.empty())
-      wrong(b.place, quoted(b.name) + " lacks what forces act on; add for example " + missing +
-                         " (only `pintle kinematics` does without, and `pintle statics` without gravity)");
+      wrong(b.place, quoted(b.name) + " lacks mass properties that forces need; add for example " + missing +
+                         " (only `pintle kinematics`, and `pintle statics` without gravity, do not need them)");
     if (!(b.mass > 0)) wrong(b.place, "mass must be above 0 kg");
     if (!(b.inertia > 0)) wrong(b.place, "inertia must be above 0 kg m^2");
   }
@@ -294,8 +294,8 @@ class Builder {
   void validate_output() const {
     constexpr double most = 1e7;
     if (scene_.output.every > 0 && scene_.run.until / scene_.output.every > most)
-      wrong(scene_.output.place, "`every` asks for more than ten million rows; make it longer, or run.until shorter");
-    if (scene_.output.frames == 1) wrong(scene_.output.place, "one frame is no animation; ask for 0, or 2 and more");
+      wrong(scene_.output.place, "`every` gives more than ten million rows; increase it, or decrease run.until");
+    if (scene_.output.frames == 1) wrong(scene_.output.place, "one frame is not an animation; write 0, or at least 2");
   }
 
   static double size_of(const Joint& joint) {
@@ -335,8 +335,8 @@ class Builder {
     number(model_.system, !s.tableau || s.switch_below > 0);
     s.tolerance = run.tolerance;
     if (s.constraints == Constraints::partitioning && model_.system.n_rows() > 300)
-      wrong(run.place, "partitioning is dense and meant for up to 300 rows, this scene has " + std::to_string(model_.system.n_rows()) +
-                           "; use constraints: projection");
+      wrong(run.place, "partitioning uses dense matrices, for at most 300 constraint equations; this scene has " +
+                           std::to_string(model_.system.n_rows()) + "; use constraints: projection");
     s.onset_cut = run.onset_cut.value_or(0);
     follow_laws(scene_, s);
     if (s.fixed_step > 0) s.max_step = std::min(s.max_step, s.fixed_step);

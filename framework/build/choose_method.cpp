@@ -253,9 +253,9 @@ Constraints constraints_of(const Scene& scene, bool is_explicit) {
   const std::string& c = scene.run.constraints;
   if (c == "partitioning" && !is_explicit)
     throw SceneError(scene.file, scene.run.place,
-                     scene.run.method + " does not take constraints: partitioning; leave it out, or take dopri5");
+                     scene.run.method + " does not support constraints: partitioning; leave it out, or use dopri5");
   if (c != "partitioning" && c != "projection")
-    throw SceneError(scene.file, scene.run.place, "there are no constraints: " + c + "; take projection, the default, or partitioning");
+    throw SceneError(scene.file, scene.run.place, "there are no constraints: " + c + "; write projection (the default) or partitioning");
   return c == "partitioning" ? Constraints::partitioning : Constraints::projection;
 }
 
@@ -279,8 +279,8 @@ void choose(const Scene& scene, const System& system, const RateSpectrum& s, Sch
   why = name(scheme) + ", chosen because Dormand and Prince's pair needs about " + short_number(needed) + " steps a second";
   if (d.stability > d.accuracy) {
     const bool by_decay = s.most_damped.decay / decay_reached > s.fastest.rate / rate_reached;
-    why += ", which stability asks for because of " +
-           (by_decay ? damped_text(s) : s.fastest.what + " (" + short_number(s.fastest.rate) + " rad/s)");
+    why +=
+        ", a limit of stability set by " + (by_decay ? damped_text(s) : s.fastest.what + " (" + short_number(s.fastest.rate) + " rad/s)");
   } else {
     why += " for its accuracy";
   }
@@ -334,12 +334,12 @@ namespace {
 void require_rigid(const Scene& scene, const System& system) {
   const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, scene.run.place, "moreau takes " + message); };
   if (!(scene.run.step > 0 && scene.run.step <= scene.run.until)) wrong("steps of one length, above 0 and no longer than the run");
-  if (system.n() != system.n_rigid()) wrong("rigid bodies only, for its steps do not follow what swings fast; take auto");
-  if (!system.frictions.empty()) wrong("no friction in ideal joints; take auto, or leave that friction out");
+  if (system.n() != system.n_rigid()) wrong("rigid bodies only, because its steps do not resolve fast vibrations; use auto");
+  if (!system.frictions.empty()) wrong("no friction in ideal joints; use auto, or leave that friction out");
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
-    if (!is_rigid(system.contacts[c])) wrong("rigid contacts only; give \"" + system.contact_names[c] + "\" model: impact, or take auto");
+    if (!is_rigid(system.contacts[c])) wrong("rigid contacts only; give \"" + system.contact_names[c] + "\" model: impact, or use auto");
     if (system.contacts[c].rigid->poisson)
-      wrong("Newton's law of restitution only; give \"" + system.contact_names[c] + "\" that, or take auto");
+      wrong("Newton's law of restitution only; give it to \"" + system.contact_names[c] + "\", or use auto");
   }
 }
 
@@ -364,11 +364,10 @@ void choose_method(const Scene& scene, const System& system, Scheme& scheme) {
       scheme.fixed_step = run.step;
     } else if (!scheme.tableau && has_rigid_contacts(system)) {
       throw SceneError(scene.file, run.place,
-                       "generalized-alpha does not take impacts of rigid bodies (model: impact); take auto, dopri5 or moreau, or give the "
-                       "contacts a law "
-                       "with a stiffness");
+                       "generalized-alpha does not support impacts of rigid bodies (model: impact); use auto, dopri5 or moreau, or give "
+                       "the contacts a law with a stiffness");
     }
-    scheme.reason = run.method + ", as the scene says";
+    scheme.reason = run.method + ", chosen in the scene";
   }
   scheme.constraints = constraints_of(scene, scheme.tableau != nullptr);
 }

@@ -58,13 +58,14 @@ std::string match(const Scene& scene, const SceneClearance& c, const IdealPin& p
     const double energy = pin.force * radial;
     const double depth = energy > 0 ? depth_storing(law, energy) : 0.01 * radial;
     spring.k = stiffness_of_equal_energy(law, depth);
-    words += "; the stiffness stores what the contact law does at a depth of " + text(depth) + " m" +
-             (energy > 0 ? ", which " + text(pin.force) + " N, the ideal joint's force, brings it to over the clearance" : "");
+    words +=
+        "; the stiffness stores as much energy as the contact law at a depth of " + text(depth) + " m" +
+        (energy > 0 ? ", the depth that the work of the ideal joint's force, " + text(pin.force) + " N, over the clearance gives" : "");
   }
   if (!c.damping) {
     const double e = restitution_of(law, pin.mass);
     spring.d = 2 * damping_ratio(e) * std::sqrt(spring.k * pin.mass);
-    words += "; the damping gives the law's restitution of " + text(e) + " to the " + text(pin.mass) + " kg that meet there";
+    words += "; the damping gives the restitution " + text(e) + " of the contact law for the effective mass of " + text(pin.mass) + " kg";
   }
   return words;
 }
@@ -89,7 +90,7 @@ ImpactLaw impact_law(const Scene& scene, const SceneNormal& n, double k) {
   for (const CylinderLaw& law : cylinder_laws()) others.emplace_back(law.name);
   const double chi = hysteresis_factor(scene, n, n.law, others);
   if (!n.stiffness && n.exponent != 1.5)
-    wrong("`young` and `poisson` give the stiffness of exponent 1.5; with another exponent give `stiffness`");
+    wrong("`young` and `poisson` give the stiffness for the exponent 1.5 only; for another exponent give `stiffness`");
   if (!(k > 0) || !std::isfinite(k)) wrong("no stiffness: give `young` and `poisson`, or `stiffness`");
   return {k, n.exponent, chi};
 }
@@ -97,7 +98,7 @@ ImpactLaw impact_law(const Scene& scene, const SceneNormal& n, double k) {
 Cylinders cylinders_of(const Scene& scene, const SceneNormal& n, const std::array<double, 2>& radii) {
   const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, n.place, message); };
   const bool layered = find_cylinder_law(n.law)->of_a_layer;
-  if (!(n.length > 0)) wrong(n.law + " needs a length above 0, of the contact along the cylinders' axes");
+  if (!(n.length > 0)) wrong(n.law + " needs a length above 0: that of the contact along the axes of the cylinders");
   Cylinders out{radii[0], radii[1], n.length, 0};
   if (layered && n.stiffness) {
     if (!(*n.stiffness > 0)) wrong(n.law + " needs a stiffness above 0");
@@ -106,8 +107,8 @@ Cylinders cylinders_of(const Scene& scene, const SceneNormal& n, const std::arra
   }
   if (!(n.bearing.young > 0)) wrong(n.law + " needs `young` and `poisson`");
   if (layered) {
-    if (!(n.layer > 0)) wrong(n.law + " needs a layer of a thickness above 0");
-    if (!(n.bearing.poisson < 0.5)) wrong("a layer with Poisson's ratio 0.5 cannot be compressed; give `stiffness` for what it does");
+    if (!(n.layer > 0)) wrong(n.law + " needs a layer with a thickness above 0");
+    if (!(n.bearing.poisson < 0.5)) wrong("a layer with Poisson's ratio 0.5 is incompressible; give `stiffness` instead");
     out.layer = n.layer;
     out.foundation = foundation_modulus(n.bearing.young, n.bearing.poisson, n.layer);
     return out;
@@ -123,11 +124,11 @@ DampedLaw cylinder_law(const Scene& scene, const SceneNormal& n, const std::arra
   const CylinderLaw& law = *find_cylinder_law(n.law);
   const Cylinders c = cylinders_of(scene, n, radii);
   const double clearance = std::abs(c.a + c.b);
-  if (!c.internal() && !law.external) wrong(n.law + " is a law of a pin in a hole; between two round bodies take johnson, or a table");
+  if (!c.internal() && !law.external) wrong(n.law + " is a law for a pin in a hole; for two convex bodies use johnson, or a table");
   constexpr double rounding = 1e-9;
   if (c.internal() && (clearance < (1 - rounding) * law.least_clearance || clearance > (1 + rounding) * law.most_clearance))
     wrong(n.law + " has constants for radial clearances from " + text(law.least_clearance) + " to " + text(law.most_clearance) +
-          " m, not for " + text(clearance) + " m; take johnson");
+          " m, not for " + text(clearance) + " m; use johnson");
   DampedLaw out = law.law(c);
   out.name = law.name;
   return out;
@@ -138,7 +139,7 @@ DampedLaw table_law(const Scene& scene, const SceneNormal& n) {
     return {.elastic = force_table(n.points),
             .deepest = n.points.back()[0],
             .name = "table",
-            .limit = "its last slope goes on there; add points"};
+            .limit = "the law continues with its last slope there; add points"};
   } catch (const std::invalid_argument& error) {
     throw SceneError(scene.file, n.place, std::string("its table ") + error.what());
   }
@@ -172,7 +173,7 @@ std::string impact_text(const RigidImpact& impact) {
 }
 
 void check_rigid_friction(const Scene& scene, const SceneFriction& f) {
-  if (f.law != "coulomb" && rubs(f)) throw SceneError(scene.file, f.place, "friction of rigid bodies is dry; take the law coulomb");
+  if (f.law != "coulomb" && rubs(f)) throw SceneError(scene.file, f.place, "friction of rigid bodies is dry; use the law coulomb");
 }
 
 bool rubs(const SceneFriction& f) { return f.coefficient != 0 || f.holds.value_or(0) != 0; }
@@ -183,7 +184,7 @@ FrictionLaw bristles(const Scene& scene, const SceneFriction& f, double holds) {
   constexpr double slow = 1e-3;  // [m/s]
   const double stribeck = f.stribeck > 0 ? f.stribeck : slow, damping = f.bristle_damping.value_or(critical_damping(f.bristle_stiffness));
   const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, f.place, message); };
-  if (!(f.coefficient > 0)) wrong(f.law + " needs a coefficient above 0, at which its bristles give way");
+  if (!(f.coefficient > 0)) wrong(f.law + " needs a coefficient above 0, at which its bristles slip");
   if (!(f.bristle_stiffness > 0)) wrong(f.law + " needs a bristle stiffness above 0");
   if (!(f.viscous >= 0)) wrong("viscous friction must not be negative");
   if (f.law == "lugre") {
@@ -201,7 +202,7 @@ FrictionLaw bristles(const Scene& scene, const SceneFriction& f, double holds) {
 
 FrictionLaw friction_law(const Scene& scene, const SceneFriction& f) {
   const double holds = f.holds.value_or(f.coefficient);
-  if (holds < f.coefficient) throw SceneError(scene.file, f.place, "the static coefficient of friction must be the other or above");
+  if (holds < f.coefficient) throw SceneError(scene.file, f.place, "the static coefficient of friction must not be below the sliding one");
   if (f.law == "ambrosio") return Ambrosio{f.coefficient, f.v0, f.v1};
   if (f.law == "threlfall") return Threlfall{f.coefficient, f.v1};
   if (f.law == "tanh") return HyperbolicTangent{f.coefficient, f.v1};
@@ -210,7 +211,7 @@ FrictionLaw friction_law(const Scene& scene, const SceneFriction& f) {
   if (f.law == "lugre" || f.law == "gonthier") return bristles(scene, f, holds);
   throw SceneError(
       scene.file, f.place,
-      "there is no law of friction " + quoted(f.law) + "; write coulomb, lugre, gonthier, ambrosio, threlfall, tanh or bengisu-akay");
+      "there is no friction law " + quoted(f.law) + "; write coulomb, lugre, gonthier, ambrosio, threlfall, tanh or bengisu-akay");
 }
 
 std::string friction_text(const ContactPair& pair) {
@@ -227,12 +228,13 @@ std::string friction_text(const ContactPair& pair) {
 ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
   const auto wrong = [&](const Place& place, const std::string& message) { throw SceneError(scene.file, place, message); };
   const SceneClearance& c = *j.clearance;
-  if (j.kind != JointKind::revolute) wrong(c.place, "only a revolute joint takes a clearance");
+  if (j.kind != JointKind::revolute) wrong(c.place, "only a revolute joint can have this clearance");
   if (c.bearing != j.a.body && c.bearing != j.b.body)
     wrong(c.place, "bearing: \"" + c.bearing + "\" is neither \"" + j.a.body + "\" nor \"" + j.b.body + "\"." +
                        did_you_mean(c.bearing, std::vector{j.a.body, j.b.body}));
   if (!(c.radial > 0)) wrong(c.place, "radial must be above 0; leave out `clearance` for an ideal joint");
-  if (!(c.radial < c.bearing_radius)) wrong(c.place, "radial clearance must be below the bearing radius, else no journal is left");
+  if (!(c.radial < c.bearing_radius))
+    wrong(c.place, "radial clearance must be below the bearing radius: the journal radius is their difference");
   if (!(c.bearing_radius - c.radial < c.bearing_radius))
     wrong(c.place, "radial clearance is less than the last digit of the bearing radius; leave out `clearance` for an ideal joint");
 
@@ -250,7 +252,7 @@ ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
   } else {
     if (!(c.stiffness && c.damping)) law_of(scene, c);  // judged now, asked for what is missing by complete_clearances
     if ((c.stiffness && !(*c.stiffness > 0)) || (c.damping && !(*c.damping >= 0)))
-      wrong(c.place, "stiffness must be above 0 and damping not below");
+      wrong(c.place, "stiffness must be above 0, and damping must not be negative");
     pair.normal = ImpactLaw{.k = c.stiffness.value_or(0), .n = 1, .chi = 0, .d = c.damping.value_or(0)};
   }
   if (rubs(c)) {
@@ -284,7 +286,7 @@ std::vector<std::string> complete_clearances(const Scene& scene, System& system,
       words += ", stiffness " + stiffness_text(pair.normal) + ", damping " + text(viscous_damping(pair.normal)) + " N s/m" +
                friction_text(pair) + how;
     } else if (rubs(c)) {
-      warnings.push_back("\"" + joints[i]->name + "\": a massless link has no wall to slide on; its friction is left out");
+      warnings.push_back("\"" + joints[i]->name + "\": a massless link has no wall to slide on; its friction is ignored");
     }
     out.push_back(words + left_out(c));
   }
@@ -300,7 +302,7 @@ void validate_start_journals(const Scene& scene, const System& system) {
     const ContactPair& pair = system.contacts[static_cast<std::size_t>(found - known.begin())];
     if (!is_held(pair) && std::hypot(s.eccentricity[0], s.eccentricity[1]) > pair.gap.clearance() + too_deep * journal_radius(pair.gap))
       throw SceneError(scene.file, s.place,
-                       "eccentricity puts the journal deeper into the wall than a tenth of its radius, where no contact law holds; "
+                       "the eccentricity puts the journal into the wall by more than a tenth of its radius, where no contact law is valid; "
                        "the clearance is " +
                            std::to_string(1e3 * pair.gap.clearance()) + " mm");
   }
@@ -320,7 +322,7 @@ std::string rounding_warning(const Scene& scene, const SceneJoint& j, double len
   if (lost <= few) return "";
   std::ostringstream s;
   s.precision(3);
-  s << "radial clearance " << j.clearance->radial << " m: places in a mechanism of " << length << " m are rounded to " << 100 * lost
+  s << "radial clearance " << j.clearance->radial << " m: positions in a mechanism of " << length << " m are rounded to " << 100 * lost
     << " % of it";
   if (lost > most) throw SceneError(scene.file, j.clearance->place, s.str() + "; leave out `clearance` for an ideal joint");
   return "\"" + j.name + "\": " + s.str();

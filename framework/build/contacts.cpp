@@ -47,11 +47,10 @@ double stiffness_of(const Scene& scene, const SceneContact& c, const Profile& pr
   if (n.stiffness) return *n.stiffness;
   const std::optional<double> a = curvature(profile_a), b = curvature(profile_b);
   if (!a || !b || !(*a + *b > 0))
-    throw SceneError(
-        scene.file, n.place,
-        "`young` and `poisson` give a stiffness where each profile has one radius all along, and the two no common centre; give "
-        "`stiffness` for " +
-            quoted(c.name));
+    throw SceneError(scene.file, n.place,
+                     "`young` and `poisson` give a stiffness only if each profile has a constant radius and the two are not concentric; "
+                     "give `stiffness` for " +
+                         quoted(c.name));
   return hertz_stiffness(1 / (*a + *b), n.bearing.young, n.bearing.poisson, n.journal.young, n.journal.poisson);
 }
 
@@ -61,8 +60,8 @@ std::array<double, 2> radii_of(const Scene& scene, const SceneContact& c, const 
   const bool flat_too = find_cylinder_law(c.normal.law)->of_a_layer;
   if (!a || !b || !(*a + *b > 0) || (!flat_too && (*a == 0 || *b == 0)))
     throw SceneError(scene.file, c.normal.place,
-                     c.normal.law + " is a law of two cylinders: each profile must be an arc of one radius all along" +
-                         (flat_too ? ", or one of them straight," : ",") + " and the two have no common centre; give a `table` for " +
+                     c.normal.law + " is a law for two cylinders: each profile must be an arc of constant radius" +
+                         (flat_too ? ", or one of them straight," : ",") + " and the two must not be concentric; give a `table` for " +
                          quoted(c.name));
   const auto radius = [](double curved) { return curved == 0 ? std::numeric_limits<double>::infinity() : 1 / curved; };
   return {radius(*a), radius(*b)};
@@ -237,22 +236,21 @@ BuiltContact build_contact(const Scene& scene, const SceneContact& c, const Prof
   for (const SceneJoint& j : scene.joints)
     if (j.kind == JointKind::weld && std::minmax(j.a.body, j.b.body) == std::minmax(c.a.body, c.b.body))
       throw SceneError(scene.file, c.place,
-                       "the weld " + quoted(j.name) + " holds its two bodies together: they cannot touch again; leave the contact out");
+                       "the weld " + quoted(j.name) + " joins these two bodies rigidly, so they need no contact; leave the contact out");
   ContactPair like = laws_of(scene, c, a, b);
   like.a = markers[0], like.b = markers[1];
   BuiltContact out = build_pairs(scene, c, a, b, like, first);
   if (const double hollow = too_hollow(a, b); hollow > 0) {
     std::ostringstream s;
     s << quoted(c.name) << ": a profile has a hollow of radius " << hollow
-      << " m, too narrow for what is to touch its ground: that would touch at two sides of it, and only one of these is seen; give the "
-         "other profile a smaller radius";
+      << " m, too narrow for the other profile to reach its bottom: that profile would touch both sides, and only one of these contacts is "
+         "found; give it a smaller radius";
     out.warning = s.str();
   }
   if (!c.impact && has_sharp_corners(a) && has_sharp_corners(b))
-    out.warning =
-        quoted(c.name) +
-        ": both profiles have sharp corners; nothing holds two of these that meet point to point, and energy comes from nothing there; "
-        "give one of the profiles `round`";
+    out.warning = quoted(c.name) +
+                  ": both profiles have sharp corners; if two corners meet, there is no contact force and energy is created; give one of "
+                  "the profiles `round`";
   return out;
 }
 

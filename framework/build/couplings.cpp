@@ -31,9 +31,10 @@ class Ends {
     const auto found = std::ranges::find_if(
         points_, [&](const PointRef* p) { return p->body == ref.body && (p->body != "ground" || p->point == ref.point); });
     if (of_point && (*found)->point != ref.point)
-      throw SceneError(scene_.file, place_,
-                       "measures " + quoted(ref.body) + " at two of its points, " + quoted((*found)->point) + " and " + quoted(ref.point) +
-                           "; a relation takes one point of each body: weld a light body there, or measure from the same point");
+      throw SceneError(
+          scene_.file, place_,
+          "measures " + quoted(ref.body) + " at two of its points, " + quoted((*found)->point) + " and " + quoted(ref.point) +
+              "; a relation uses one point of each body: weld a light body at the other point, or measure from the same point");
     return static_cast<int>(found - points_.begin());
   }
 
@@ -106,7 +107,7 @@ class Settling {
   void complete(const SceneJoint& j, Joint& made) const {
     if (auto* rod = std::get_if<Distance>(&made)) {
       rod->length += open(made) + rod->length;
-      if (!(rod->length > 0)) wrong(j.place, "length must stay above 0; at the start present is " + length(rod->length - j.length));
+      if (!(rod->length > 0)) wrong(j.place, "length must stay above 0; at the start `present` is " + length(rod->length - j.length));
     } else if (auto* gear = std::get_if<Gear>(&made)) {
       mesh(j, made, *gear, 0);
     } else if (auto* disc = std::get_if<RollsOnDisc>(&made)) {
@@ -158,7 +159,7 @@ class Settling {
   }
   [[noreturn]] void overlap(const Place& place, double apart, double a, double b) const {
     wrong(place, "two of its pulleys are " + length(apart) + " apart at the start, but radii of " + length(a) + " and " + length(b) +
-                     " ask for more than " + length(a + b) + "; correct radii or points");
+                     " need more than " + length(a + b) + "; correct radii or points");
   }
   static std::string length(double x) { return number_text(1e3 * x, 7) + " mm"; }
   static std::string angle(double x) { return number_text(x * 180 / std::numbers::pi, 7) + " deg"; }
@@ -183,10 +184,9 @@ class Settling {
       if (!(apart > a + b)) overlap(j.place, apart, a, b);
       return;
     }
-    if (!(sum > 0))
-      wrong(j.place, "two wheels of one size do not run inside each other; leave out inside, or join them by a revolute or weld");
+    if (!(sum > 0)) wrong(j.place, "a wheel cannot run inside another of the same size; leave out inside, or use a revolute or a weld");
     if (j.coupling->teeth[0] > 0) {
-      if (!(apart > 0)) wrong(j.place, "the centres of its wheels coincide at the start, so that their radii are not known; write radii");
+      if (!(apart > 0)) wrong(j.place, "the centres of its wheels coincide at the start, so their radii are undetermined; write radii");
       gear.radius_a *= apart / sum;
       gear.radius_b *= apart / sum;
       return;
@@ -194,7 +194,7 @@ class Settling {
     if (std::abs(apart - sum) <= played(j) * std::max(a, b)) return;
     const double other = gear.radius_b > 0 ? std::abs(a - b) : a + b;
     wrong(j.place, "the centres are " + length(apart) + " apart at the start, but radii of " + length(a) + " and " + length(b) +
-                       (gear.radius_b > 0 ? "" : ", one inside the other,") + " ask for " + length(sum) + "; correct radii or points" +
+                       (gear.radius_b > 0 ? "" : ", one inside the other,") + " need " + length(sum) + "; correct radii or points" +
                        (std::abs(apart - other) <= played(j) * std::max(a, b)
                             ? gear.radius_b > 0 ? ", or write inside: true" : ", or leave out inside"
                             : ""));
@@ -205,7 +205,7 @@ class Settling {
     const double height = perp(a.u).dot(b.r - a.r);
     if (std::abs(std::abs(height) - rack.radius) > played(j) * rack.radius)
       wrong(j.place, "the wheel's centre is " + length(std::abs(height)) + " off the line at the start, but its radius is " +
-                         length(rack.radius) + "; correct the radius or the points, or turn the line's direction");
+                         length(rack.radius) + "; correct the radius or the points, or turn the direction of the line");
     if (height < 0) rack.radius = -rack.radius;
   }
   /// How far off a drawing may be, over the radius: what rolls is brought into contact, gears are held by other joints.

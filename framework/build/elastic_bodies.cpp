@@ -37,7 +37,7 @@ ElasticBodies elastic_bodies(const Scene& scene, BodyStore* store, bool prelimin
     const SceneBody& b = scene.bodies[i];
     if (!b.elastic) continue;
     if (const auto* beam = std::get_if<SceneBeam>(&b.elastic->shape); beam && beam->pieces > 1)
-      throw SceneError(scene.file, b.place, "it is to be cut into pieces; build what with_pieces makes of the scene");
+      throw SceneError(scene.file, b.place, "it must be cut into pieces first; build the scene that with_pieces returns");
     all[i] = &out.meshed[i].emplace(store ? store->elastic(scene, b) : elastic_body(scene, b));
     if (const std::string warning = size_warning(scene, *all[i]); !warning.empty()) out.meshed[i]->warnings.push_back(warning);
     validate_inertia(scene, *all[i]);
@@ -64,7 +64,7 @@ void report_flexible(const Scene& scene, const std::vector<std::optional<Mechani
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (!elements[i] || !elements[i]->elastic.scene->elastic->modes) continue;
     if (!elements[i]->body.flex) {
-      model.warnings.push_back(quoted(scene.bodies[i].name) + " stays rigid: its `modes` keep no shape; raise below, or ask for a count");
+      model.warnings.push_back(quoted(scene.bodies[i].name) + " stays rigid: its `modes` keep no shape; increase below, or give a count");
       continue;
     }
     FlexibleReport& r = model.flexible.emplace_back(flexible_report(*elements[i]));

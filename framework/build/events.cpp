@@ -40,7 +40,7 @@ std::map<std::string, Element> elements_of(const Scene& scene, const Model& mode
     const bool contact = j.clearance || j.play;
     Element one{{contact ? Switch::contact : Switch::joint, model.order.joints[i], !j.engaged}, j.place};
     if (contact && is_held(system.contacts[at(one.is.index)]))
-      one.refusal = "its clearance is a massless link, which holds always; take model: contact";
+      one.refusal = "its clearance is a massless link, which cannot be released; use model: contact";
     out.emplace(j.name, one);
   }
   for (std::size_t i = 0; i < scene.drivers.size(); ++i)
@@ -178,13 +178,13 @@ void warn_of_events(const Scene& scene, Model& model) {
       model.warnings.push_back(quoted(name) + " starts released, and no event engages it: it never acts");
     if (!element.is.released && engaged.contains(name) && !released.contains(name))
       model.warnings.push_back(
-          quoted(name) + " is engaged from the start, and no event releases it: to engage it does nothing; write engaged: false there");
+          quoted(name) + " is engaged from the start and no event releases it, so engaging it has no effect; write engaged: false for it");
   }
   for (const SceneEvent& event : scene.events) {
     const Known known = known_of_condition(event, scene.has_run ? scene.run.until : std::numeric_limits<double>::infinity());
     if (known == Known::open) continue;
     model.warnings.push_back("the event " + quoted(event.name) +
-                             (known == Known::always ? " comes at the start and never again" : " never comes") + ": its condition " +
+                             (known == Known::always ? " occurs at the start and never again" : " never occurs") + ": its condition " +
                              event.guard.text +
                              (event.guard.constant     ? " does not change"
                               : known == Known::always ? " is always true"

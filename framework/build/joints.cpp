@@ -47,7 +47,7 @@ Joint joint_of(const Scene& scene, const SceneJoint& j, Markers& markers) {
       if (!(j.length > 0) && !j.from_present)
         throw SceneError(scene.file, j.place, "length must be above 0; for two points that coincide use revolute");
       return Distance{a, b, j.length};
-    default: throw SceneError(scene.file, j.place, std::string("a ") + word.word + " joint lacks the sizes of its coupling");
+    default: throw SceneError(scene.file, j.place, std::string("a ") + word.word + " joint needs the dimensions of its coupling");
   }
 }
 

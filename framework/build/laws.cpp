@@ -32,7 +32,7 @@ void validate_jumps(const Scene& scene, const SceneDriver& d, const LawScale& sc
     throw SceneError(scene.file, d.place,
                      "the " + std::string(place ? "value" : "speed") + " of its law " + d.law.text + " jumps at t = " + when + " s, from " +
                          number_text(from, 9) + " to " + number_text(to, 9) + " " + unit +
-                         ": that is an impact; let it change over some time, for example with step(t, " + when + " s, " +
+                         ": that is an impact; make it change gradually, for example with step(t, " + when + " s, " +
                          number_text(b.after + 0.01 * scene.run.until, 9) + " s)");
   }
 }
@@ -45,7 +45,7 @@ void validate_finite(const Scene& scene, const Law& law, const Place& place, con
                          " s; write one that stays finite from 0 to run.until, or end the run before");
   };
   if (!std::isnan(scale.not_finite)) fail("is not a finite number", scale.not_finite);
-  if (const auto pole = pole_of(law.at, scene.run.until, driver)) fail("grows beyond all bounds", *pole);
+  if (const auto pole = pole_of(law.at, scene.run.until, driver)) fail("grows without bound", *pole);
 }
 
 /// Calls f(law, name, place, driver or nullptr) for each law of time.
@@ -203,8 +203,8 @@ std::string explain_laws(const Scene& scene, double t) {
     if (!std::isfinite(now.value + now.rate + then.value + then.rate))
       out = which + "is not a finite number there; write one that is";
     else if (std::abs(now.rate) * t > steep * before)
-      out = which + "has come to " + number_text(now.value, 9) + " and changes by " + number_text(now.rate, 9) +
-            " a second there: it seems to grow beyond all bounds; write one that stays finite, or end the run before (run.until)";
+      out = which + "has reached " + number_text(now.value, 9) + " and changes by " + number_text(now.rate, 9) +
+            " per second there: it seems to grow without bound; write one that stays finite, or end the run before (run.until)";
   });
   return out;
 }

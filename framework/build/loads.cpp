@@ -18,7 +18,7 @@ class Loading {
 
   void operator()(const SceneForce& f) {
     if (markers_.body(f.at) == ground)
-      throw SceneError(scene_.file, f.at.place, "a force on the ground moves nothing; name a body's point");
+      throw SceneError(scene_.file, f.at.place, "a force on the ground has no effect; name a point of a body");
     const int b = markers_.marker(f.at, f.follows ? Holds::direction : Holds::point), a = markers_.marker({"ground", "", f.at.place});
     if (f.x.signals.empty() && f.y.signals.empty())
       add(PointForce{a, b, f.x.at, f.y.at, f.follows});

@@ -104,7 +104,7 @@ std::array<Profile, 2> profiles_of(const Scene& scene, const SceneJoint& j) {
     const double width = 2 * (play.pin_radius + play.gap);
     return {play.travel ? slot(width, *play.travel) : walls(width), circle({0, 0}, play.pin_radius)};
   }
-  if (j.kind != JointKind::distance) wrong("only revolute, prismatic, slot, distance, gear and rack joints take a clearance");
+  if (j.kind != JointKind::distance) wrong("only revolute, prismatic, slot, distance, gear and rack joints can have a clearance");
   if (!(play.gap < j.length)) wrong("gap must be less than the length");
   Profile end;
   add(end, {});
@@ -117,14 +117,14 @@ std::array<Profile, 2> open_bearing(const Scene& scene, const SceneJoint& j) {
   const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, c.place, message); };
   const Profile journal = circle({0, 0}, c.bearing_radius - c.radial);
   if (!(arc.extent > 0 && arc.extent < SceneArc::turn + SceneArc::rounding)) wrong("the extent of the arc must lie between 0 and 360 deg");
-  if (c.model == ClearanceModel::massless_link) wrong("a massless link holds the journal at the wall, which an arc is not all round");
+  if (c.model == ClearanceModel::massless_link) wrong("a massless link needs a wall all round, and an arc is open");
   if (c.model == ClearanceModel::spring_damper && !(c.stiffness && c.damping))
     wrong("the spring-damper of an open bearing needs both stiffness and damping");
   if (arc.whole()) return {journal, circle({0, 0}, -c.bearing_radius)};
   if (!(arc.wall > 0)) wrong("the arc needs a wall above 0");
   if (!(arc.edge >= 0 && arc.edge <= arc.wall / 2)) wrong("the edge of the arc must lie between 0 and half of its wall");
   if (!(2 * std::asin(arc.edge / (c.bearing_radius + arc.edge)) < arc.extent))
-    wrong("the edges leave nothing of the arc; make them smaller or the extent larger");
+    wrong("the edges cover the whole arc; make them smaller or the extent larger");
   return {journal, ring(c.bearing_radius, arc)};
 }
 

@@ -122,7 +122,7 @@ RigidRun rigid_run(const Scene& scene, const std::vector<const ElasticBody*>& el
     const Assembly assembly = assemble(twin, model);
     if (!assembly.redundant.empty()) {
       const Redundancy& r = assembly.redundant.front();
-      run.trouble = "with every body rigid, " + row_text(model.system, r.joint, r.row) + " repeats what other joints hold";
+      run.trouble = "with every body rigid, " + row_text(model.system, r.joint, r.row) + " is implied by other joints";
     } else {
       march(twin, model, assembly, attachments_of(scene, model.order, elements), imposed_frequencies(scene), run);
     }

@@ -51,9 +51,9 @@ std::vector<std::string> contact_warnings(const Scene& scene, const System& syst
     for (Eigen::Index k = 0; k < 2; ++k) {
       const double share = std::max(0.0, yields.kept[k]) / yields.full[k];
       if (!(share < least_covered) || !((yields.full[k] - yields.kept[k]) * stiffness > matters)) continue;
-      out.push_back("\"" + system.contact_names[at.k] + "\" strikes \"" + scene.bodies[at.body].name + "\" where its shapes hold " +
-                    percent(share) + " of what it yields to a blow along its " + (k == 0 ? "x" : "y") +
-                    " axis: peak forces and hysteresis come out wrong; take craig-bampton, or keep more");
+      out.push_back("\"" + system.contact_names[at.k] + "\" strikes \"" + scene.bodies[at.body].name + "\" where its shapes cover only " +
+                    percent(share) + " of its compliance along its " + (k == 0 ? "x" : "y") +
+                    " axis: peak forces and hysteresis will be wrong; use craig-bampton, or keep more shapes");
       break;
     }
   }
@@ -62,10 +62,11 @@ std::vector<std::string> contact_warnings(const Scene& scene, const System& syst
 
 std::string stiff_parts_warning(const MechanismBody& b) {
   if (!(b.inertia_covered.share < least_covered)) return "";
-  return "the shapes of \"" + b.body.name + "\" hold " + percent(b.inertia_covered.share) + " of its deformation under " +
+  return "the shapes of \"" + b.body.name + "\" cover only " + percent(b.inertia_covered.share) + " of its deformation under " +
          b.inertia_covered.of +
-         ": parts beyond or between the points in use stay rigid; raise the count of craig-bampton until its shapes, which now end at " +
-         number_text(std::round(b.modes.omega.maxCoeff() / (2 * std::numbers::pi))) + " Hz, move these parts so";
+         ": parts beyond or between its connection points stay rigid; increase the count of craig-bampton until its shapes, which now "
+         "end at " +
+         number_text(std::round(b.modes.omega.maxCoeff() / (2 * std::numbers::pi))) + " Hz, deform these parts";
 }
 
 std::vector<std::string> stress_warnings(const System& system, const std::vector<RecordedStress>& stresses,
@@ -85,8 +86,8 @@ std::vector<std::string> stress_warnings(const System& system, const std::vector
     if (stretch > rounding * bend) continue;
     const std::string& name = system.bodies[static_cast<std::size_t>(s.body)].name;
     out.push_back("no shape of \"" + name +
-                  "\" stretches: its section force N is recorded as nothing, and the stress is that of bending alone; "
-                  "take craig-bampton where joints or forces hold two points of it, or keep more shapes");
+                  "\" stretches it: its section force N is recorded as 0, and the stress is that of bending only; "
+                  "use craig-bampton if joints or forces act on two of its points, or keep more shapes");
   }
   return out;
 }

@@ -36,9 +36,9 @@ void SignalMaker::warn_of_swing(const Law& law, const Place& place) {
   const std::optional<Swing> swing = spline ? worst_swing(*spline) : std::nullopt;
   if (!swing) return;
   const std::string where = (place.file.empty() ? scene_.file : place.file) + ":" + std::to_string(place.line) + ": " + place.key;
-  model_.warnings.push_back(where + ": the spline of its table " + law.text + " swings beyond its samples between " +
+  model_.warnings.push_back(where + ": the spline of its table " + law.text + " overshoots its samples between " +
                             number_text(swing->begin, 6) + " and " + number_text(swing->end, 6) + " by " + number_text(swing->by, 3) +
-                            " (SI units): take interpolation: linear, or more samples where the values turn");
+                            " (SI units): use interpolation: linear, or more samples where the values turn");
 }
 
 void SignalMaker::finish() {
@@ -71,10 +71,10 @@ int SignalMaker::signal(const std::string& name, const Place& place) {
     for (const auto& [other, what] : words()) names.push_back(other);
     const std::string near = nearest(name, names);
     wrong(place, "there is no signal " + quoted(name) +
-                     (near.empty() ? "; they are written as trajectory.csv writes its columns" : ". Did you mean " + quoted(near) + "?"));
+                     (near.empty() ? "; signals are named like the columns of trajectory.csv" : ". Did you mean " + quoted(near) + "?"));
   }
   if (word->second.what >= What::output)
-    wrong(place, quoted(name) + " follows from the accelerations, and cannot size what they follow from; take places, speeds or states");
+    wrong(place, quoted(name) + " depends on the accelerations, which depend on this law; use positions, speeds or states");
   model_.system.signals.push_back(made(word->second));
   return known->second;
 }
@@ -145,10 +145,9 @@ WrittenOutput written_output(const Scene& scene, const SceneOutput& o, const Mod
       });
       if (column == header.end()) {
         const bool of_point = name.ends_with(".ax") || name.ends_with(".ay");
-        throw SceneError(
-            scene.file, o.place,
-            quoted(name) + " is no column of trajectory.csv" +
-                (of_point ? "; name its point under output.points" : "; the columns are those that the thing has: docs/results.md"));
+        throw SceneError(scene.file, o.place,
+                         quoted(name) + " is not a column of trajectory.csv" +
+                             (of_point ? "; name its point under output.points" : "; docs/results.md lists the columns of each element"));
       }
       out.in.push_back({WrittenOutput::Input::column, static_cast<int>(column - header.begin())});
     } else {

@@ -306,7 +306,7 @@ TEST(OneWord, SaysWhatTheModelDoesNotUse) {
   Scene s = with_model(ClearanceModel::massless_link, {.clearance = 1e-4, .friction = 0.1});
   const pintle::Model link = build(s);
   EXPECT_NE(link.clearances[0].find("not used: normal, friction"), std::string::npos) << link.clearances[0];
-  EXPECT_EQ(std::ranges::count_if(link.warnings, [](const std::string& w) { return w.find("friction is left out") != std::string::npos; }),
+  EXPECT_EQ(std::ranges::count_if(link.warnings, [](const std::string& w) { return w.find("friction is ignored") != std::string::npos; }),
             1);
   s.joints[2].clearance->model = ClearanceModel::contact;
   s.joints[2].clearance->damping = 1;

@@ -168,7 +168,8 @@ TEST(CylinderContact, WarnsWhereALawEnds) {
   };
   warned(flying(cylinders("johnson")), "\"bush\": its depth reached");
   warned(flying(cylinders("johnson")), "where its law, johnson, ends: the contact spans more than 30 degrees");
-  warned(flying("{table: {" + points + "}}"), "beyond 2e-05 m where its law, table, ends: its last slope goes on there; add points");
+  warned(flying("{table: {" + points + "}}"),
+         "beyond 2e-05 m where its law, table, ends: the law continues with its last slope there; add points");
 }
 
 TEST(CylinderContact, FilledInReadsBackToItself) {
@@ -246,9 +247,9 @@ TEST(CylinderContact, RefusesWhatCannotBe) {
   pin(cylinders("winkler", ", journal: {young: 1 GPa, poisson: 0.2}"), "does not belong to winkler");
   pin(cylinders("johnson", ", layer: 1 mm"), "does not belong to johnson");
   pin("{flores: {restitution: 0.5, young: 1 GPa, poisson: 0.3, layer: 1 mm}}", "does not belong to flores");
-  roll(cylinders("liu"), "liu is a law of a pin in a hole");
-  roll(cylinders("esdu"), "esdu is a law of a pin in a hole");
-  refused([&] { return rolling(cylinders("johnson"), "path: [[-1, 0], [1, 0]], material: right"); }, "a law of two cylinders");
+  roll(cylinders("liu"), "liu is a law for a pin in a hole");
+  roll(cylinders("esdu"), "esdu is a law for a pin in a hole");
+  refused([&] { return rolling(cylinders("johnson"), "path: [[-1, 0], [1, 0]], material: right"); }, "a law for two cylinders");
   Scene tight = flying(cylinders("pereira"));
   tight.joints[0].clearance->radial = 1e-6;
   refused([&] { return tight; }, "5e-06 to 0.01 m, not for 1e-06 m");

@@ -349,7 +349,7 @@ TEST(Method, RefusesConstraintsThatItCannotKeep) {
     return pintle_test::refusal_by([&] { pintle::build(s); });
   };
   EXPECT_NE(rejected("generalized-alpha", "partitioning").find("partitioning"), std::string::npos);
-  EXPECT_NE(rejected("generalized-alpha", "index 3").find("take projection"), std::string::npos);
+  EXPECT_NE(rejected("generalized-alpha", "index 3").find("write projection"), std::string::npos);
   EXPECT_NE(rejected("dopri6", "projection").find("Did you mean"), std::string::npos) << rejected("dopri6", "projection");
   EXPECT_EQ(rejected("auto", "partitioning"), "accepted");
 }

@@ -223,8 +223,7 @@ TEST_P(Pulse, OfAConditionAtAMarkOfATableIsFound) {
 TEST(SplineWarning, IsOfWhatSwingsBesideASuddenChangeAlone) {
   const auto warned = [](const std::string& samples, const std::string& more = "") {
     const Model model = build(with_file(over_x(more), samples));
-    return std::ranges::any_of(model.warnings,
-                               [](const std::string& w) { return w.find("swings beyond its samples") != std::string::npos; });
+    return std::ranges::any_of(model.warnings, [](const std::string& w) { return w.find("overshoots its samples") != std::string::npos; });
   };
   std::string sine, parabola;
   for (int i = 0; i <= 24; ++i) {

@@ -85,8 +85,8 @@ TEST(Moreau, IsRefusedWhereItDoesNotFit) {
   };
   refused(scene(rigid, "moreau"), "write {moreau: {step: 0.1 ms}}");
   refused(scene(rigid, moreau(2)), "no longer than the run");
-  refused(scene(rigid + ", restitution law: poisson", moreau(1e-3)), "give \"foot\" that, or take auto");
-  refused(scene("normal: {hertz: {stiffness: 1e9}}", moreau(1e-3)), "give \"foot\" model: impact, or take auto");
+  refused(scene(rigid + ", restitution law: poisson", moreau(1e-3)), "give it to \"foot\", or use auto");
+  refused(scene("normal: {hertz: {stiffness: 1e9}}", moreau(1e-3)), "give \"foot\" model: impact, or use auto");
 }
 
 }  // namespace

@@ -173,7 +173,7 @@ TEST(BadOpenBearing, IsRefusedInOneLineWithKeyAndRemedy) {
                         {"middle: 0, extent: 0, wall: 4 mm", lossy, "arc.extent", "greater than 0"},
                         {"middle: 0, extent: 1 mm, wall: 4 mm", lossy, "arc.extent", "angle"},
                         {"middle: 0, extent: 180 deg, wall: 4 mm, edge: 3 mm", lossy, "arc.edge", "half of wall"},
-                        {"middle: 0, extent: 5 deg, wall: 4 mm, edge: 1 mm", lossy, "joints.hook.clearance", "edges leave nothing"},
+                        {"middle: 0, extent: 5 deg, wall: 4 mm, edge: 1 mm", lossy, "joints.hook.clearance", "edges cover the whole arc"},
                         {"middle: 0, extent: 180 deg, wall: 4 mm", "model: massless link", "clearance.arc", "massless link"},
                         {"middle: 0, extent: 180 deg, wall: 4 mm", "model: spring-damper, " + lossy, "joints.hook.clearance",
                          "both stiffness and damping"}}) {

@@ -71,7 +71,7 @@ TEST(BadRigid, ClearanceIsRefusedTheSameWay) {
 
 TEST(BadRigid, GeneralizedAlphaTakesNoImpacts) {
   expect_refused([] { return scene("restitution: 0.5", 0.1, "{generalized-alpha: {rho: 0.8}}"); }, "scene.yaml",
-                 "take auto, dopri5 or moreau, or give the contacts a law with a stiffness");
+                 "use auto, dopri5 or moreau, or give the contacts a law with a stiffness");
 }
 
 TEST(BadRigid, AStartInOverlapSaysHowDeepAndWhatToDo) {
