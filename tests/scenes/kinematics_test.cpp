@@ -166,7 +166,7 @@ TEST(Kinematics, AnUndrivenFreedomIsRefusedWithTheBodiesThatMove) {
   s.bodies.push_back(body("idle", 0, 0, {point("P", 0)}));
   s.joints.push_back(joint("spindle", JointKind::revolute, "ground", "idle.P"));
   const std::string said = refusal<AssemblyError>(s);
-  EXPECT_NE(said.find("1 freedom is not driven"), std::string::npos) << said;
+  EXPECT_NE(said.find("1 degree of freedom is not driven"), std::string::npos) << said;
   EXPECT_NE(said.find("\"idle\" moves"), std::string::npos) << said;
   EXPECT_EQ(said.find("\"crank\""), std::string::npos) << said;
 }

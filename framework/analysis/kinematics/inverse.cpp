@@ -122,7 +122,7 @@ void solve_by_algebra(const Scene& scene, const Model& model, const Assembly& as
   follow(
       scene, model, forces.motion(), [&](double t) { return forces.advance(t); }, listeners, run);
   if (run.status == Status::failed && run.reason.empty())
-    run.reason = "t = " + number_text(forces.motion().state().t, 9) + " s: the forces there are no finite numbers; " +
+    run.reason = "t = " + number_text(forces.motion().state().t, 9) + " s: the forces there are not finite; " +
                  explain_signals(scene, model, assembly.start, forces.motion().state());
   const auto begin = clock::now();
   if (run.t_end > 0 && !ended_short(run)) out.drivers = find_efforts(model, assembly, run.trajectory.rows() - 1, run.t_end);
@@ -153,24 +153,23 @@ Inverse inverse(const Scene& scene, const Model& model, const Assembly& assembly
   Inverse out;
   out.drivers = named_efforts(system);
   if (out.drivers.empty())
-    throw SceneError(
-        scene.file, {0, "drivers"},
-        "there is no driver whose torque or force could be found; add for example motor: {angle: [ground, crank], law: 10 rad/s*t}");
+    throw SceneError(scene.file, {0, "drivers"},
+                     "there is no driver, so no torque or force to find; add for example motor: {angle: [ground, crank], law: 10 rad/s*t}");
   const bool bends = system.n() > system.n_rigid();
   const int open = system.n() - assembly.rank;
   out.by_algebra = !bends && system.contacts.empty() && system.frictions.empty() && system.n_x() == 0 && open <= 0;
   if (out.by_algebra) {
-    out.how = "by algebra: the drivers leave no freedom";
+    out.how = "algebraically: the drivers determine every degree of freedom";
     solve_by_algebra(scene, model, assembly, listeners, out);
     return out;
   }
-  const std::string why = bends                       ? "bodies bend"
-                          : n_clearances(system) > 0  ? "clearances leave freedoms"
+  const std::string why = bends                       ? "bodies are flexible"
+                          : n_clearances(system) > 0  ? "clearances leave degrees of freedom"
                           : !system.contacts.empty()  ? "profiles may touch"
-                          : !system.frictions.empty() ? "friction in joints remembers what was before"
-                          : open > 0                  ? std::to_string(open) + " freedoms are not driven"
-                          : !system.states.empty()    ? "states of the scene remember what was before"
-                                                      : "springs in series with dampers remember what was before";
+                          : !system.frictions.empty() ? "friction in joints depends on the history"
+                          : open > 0                  ? std::to_string(open) + " degree(s) of freedom not driven"
+                          : !system.states.empty()    ? "states of the scene depend on the history"
+                                                      : "springs in series with dampers depend on the history";
   out.how = "integrated forward with the drivers as constraints: " + why;
   integrate(scene, model, assembly, listeners, out);
   return out;

@@ -155,8 +155,8 @@ std::string DrivenMotion::why() {
     for (std::size_t b = 0; b < system_.bodies.size() && b < 4; ++b)
       at_pose += (b ? ", " : "") + system_.bodies[b].name + " " + number_text(state_.y[static_cast<Index>(3 * b) + 2], 6) + " rad";
     if (svd.singularValues()[last] > 1e-3 * svd.singularValues()[0])
-      return "nothing near the angles " + at_pose + " does what the law of " + listed(asking) +
-             " says: drivers fight, a law jumps, or a length is out of reach; correct the law";
+      return "no configuration near the angles " + at_pose + " satisfies the law of " + listed(asking) +
+             ": drivers contradict each other, a law jumps, or a length is out of reach; correct the law";
     return "dead centre or end of reach at the angles " + at_pose + ": the law of " + listed(asking) +
            " cannot be followed further; it no longer determines where " + listed(moving) + " goes; change the law, or drive another body";
   }
@@ -173,9 +173,9 @@ void require_driven(const Scene& scene, const Model& model, const Assembly& asse
   Place place = scene.drivers.empty() ? Place{} : scene.drivers.front().place;
   place.key = "drivers";
   if (!loose.empty())
-    throw AssemblyError(
-        scene.file, place,
-        "the clearance at " + listed(loose) + " leaves freedoms that no driver moves; leave `clearance` out here, or use `pintle run`");
+    throw AssemblyError(scene.file, place,
+                        "the clearance at " + listed(loose) +
+                            " leaves degrees of freedom that no driver moves; leave `clearance` out here, or use `pintle run`");
   if (open <= 0) return;
   // A displacement that no row feels, taken from one that moves everything.
   Equations eq(system);
@@ -191,10 +191,10 @@ void require_driven(const Scene& scene, const Model& model, const Assembly& asse
     if (any.segment<3>(static_cast<Index>(3 * b)).norm() > 1e-6) moving.push_back(system.bodies[b].name);
   const bool singular = system.n_rows() >= system.n();
   throw AssemblyError(scene.file, place,
-                      std::to_string(open) + (open == 1 ? " freedom is" : " freedoms are") + " not driven" +
+                      std::to_string(open) + (open == 1 ? " degree of freedom is" : " degrees of freedom are") + " not driven" +
                           (singular ? " at the starting pose, which may be a singular one (dead centre, flat linkage)" : "") + ": " +
                           listed(moving) + (moving.size() == 1 ? " moves" : " move") + " freely; add a driver for each, " +
-                          (singular ? "or start elsewhere, " : "") + "or use `pintle run`");
+                          (singular ? "or start from another pose, " : "") + "or use `pintle run`");
 }
 
 void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const std::function<bool(double)>& advance,
@@ -277,7 +277,7 @@ Run kinematics(const Scene& scene, const Model& model, const Assembly& assembly,
   Run run;
   run.warnings = model.warnings;
   if (!model.system.contacts.empty())
-    run.warnings.push_back("whether profiles touch is not looked at: kinematics knows no forces; use `pintle run`");
+    run.warnings.push_back("contacts of profiles are ignored, because kinematics computes no forces; to include them, use `pintle run`");
   DrivenMotion motion(model.system, assembly.start);
   const auto advance = [&](double t) {
     if (!motion.advance(t)) return false;

@@ -179,26 +179,26 @@ void add_notes(const Scene& scene, const System& system, const MotionAt& here, L
   const Index n = system.n();
   const bool moves = out.window > 0 && !here.state.y.segment(n, n).isZero(1e-12);
   if (out.coefficients == Coefficients::turning)
-    out.notes.push_back("steady rotation: coordinates are told in axes that turn at " + text(out.turn, 6) +
-                        " rad/s about the world's origin; in these the coefficients stay");
+    out.notes.push_back("steady rotation: coordinates are given in axes that turn at " + text(out.turn, 6) +
+                        " rad/s about the world's origin; in these axes the coefficients are constant");
   if (out.coefficients == Coefficients::frozen)
     out.notes.push_back(
-        std::string(moves ? "the coefficients change as the motion goes on" : "this is no equilibrium, the mechanism begins to move") +
-        ": roots are those of the coefficients frozen at this instant, which depend on the choice of coordinates and "
-        "decide no stability" +
-        (moves ? "" : "; --equilibrium linearizes where it rests"));
+        std::string(moves ? "the coefficients change during the motion" : "this is not an equilibrium, the mechanism begins to move") +
+        ": the roots are those of the coefficients frozen at this instant; they depend on the choice of coordinates and do not determine "
+        "stability" +
+        (moves ? "" : "; to linearize about the equilibrium, use --equilibrium"));
   for (const LinearContact& c : out.contacts) {
     if (is_held(system.contacts[c.pair]))
       out.notes.push_back("\"" + c.name + "\" is a massless link that carries " + text(c.force) + " N" +
-                          (c.force < 0 ? ", pushing as no wall could pull" : ""));
+                          (c.force < 0 ? ", in compression, but a wall cannot pull" : ""));
     else if (c.closed && begins_with_jump(system.contacts[c.pair].normal))
       out.notes.push_back("\"" + c.name + "\" is closed: stiffness " + text(c.stiffness) + " N/m along its normal, damping " +
                           text(c.damping) + " N s/m");
     else if (c.closed)
       out.notes.push_back("\"" + c.name + "\" is closed: stiffness " + text(c.stiffness) + " N/m along its normal, damping " +
-                          text(c.damping) + " N s/m of an impact at " + text(c.impact_rate) + " m/s");
+                          text(c.damping) + " N s/m for an impact at " + text(c.impact_rate) + " m/s");
     else if (c.depth > 0 && c.impact_rate > 0)
-      out.notes.push_back("\"" + c.name + "\" overlaps without force (it parts faster than its law pushes) and adds nothing");
+      out.notes.push_back("\"" + c.name + "\" overlaps without force (it separates faster than its law can push) and adds nothing");
     else
       out.notes.push_back("\"" + c.name + "\" is open and adds nothing");
   }
@@ -207,21 +207,21 @@ void add_notes(const Scene& scene, const System& system, const MotionAt& here, L
     if (c.closed && has_bristles(system.contacts[c.pair]))
       out.notes.push_back("bristles at \"" + c.name + "\"" + bristles_text(*system.contacts[c.pair].friction, c.force));
     else if (c.closed && system.contacts[c.pair].friction && std::exchange(last, c.name) != c.name)
-      out.notes.push_back("friction at \"" + c.name + "\" is left out: what it holds is free to slide here");
+      out.notes.push_back("friction at \"" + c.name + "\" is ignored: the contact slides freely here");
   for (std::size_t k = 0; k < system.frictions.size(); ++k)
     if (const JointFriction& f = system.frictions[k]; bristle_states(f.law) > 0)
       out.notes.push_back("bristles in \"" + system.joint_names[at(f.joint)] + "\"" + bristles_text(f.law, here.eq.friction[k].load));
     else
-      out.notes.push_back("friction in \"" + system.joint_names[at(f.joint)] + "\" is left out: what it holds is free to slide here");
+      out.notes.push_back("friction in \"" + system.joint_names[at(f.joint)] + "\" is ignored: the joint slides freely here");
   if (laws_vary(scene))
-    out.notes.push_back(laws == Laws::hold ? "loads are held at what they are at t = " + text(out.about.t, 6) + " s"
-                                           : "loads that vary in time count as they are at t = " + text(out.about.t, 6) + " s");
+    out.notes.push_back(laws == Laws::hold ? "loads are held at their values at t = " + text(out.about.t, 6) + " s"
+                                           : "loads that vary in time have their values at t = " + text(out.about.t, 6) + " s");
   for (std::size_t k = 0; k < system.forces.size(); ++k)
     if (acts_along_a_line(system.forces[k]) &&
         here.eq.motion[at(marker_a(system.forces[k]))].r == here.eq.motion[at(marker_b(system.forces[k]))].r)
-      out.notes.push_back("\"" + system.force_names[k] + "\" has no length here, so no direction, and adds nothing");
+      out.notes.push_back("\"" + system.force_names[k] + "\" has no length and hence no direction here; it adds nothing");
   if (out.independent.empty())
-    out.notes.push_back(std::string("joints and drivers leave nothing free: ") +
+    out.notes.push_back(std::string("joints and drivers leave no degree of freedom: ") +
                         (out.modes.empty() ? "there are no modes" : "the modes are those of internal states"));
   if (std::ranges::any_of(out.modes, [](const LinearMode& m) { return m.kind == LinearMode::Kind::growing; }) &&
       out.coefficients != Coefficients::frozen)
@@ -250,16 +250,17 @@ Linearization linearize(const Scene& scene, const Model& model, const State& giv
   const State state = with_contacts_closed(system, given);
   if (system.n() > most_linearized)
     throw SceneError(scene.file, {},
-                     "a linearisation is dense and meant for up to " + std::to_string(most_linearized) + " coordinates, this scene has " +
-                         std::to_string(system.n()) + "; keep fewer modes, cut beams into fewer pieces, or linearize a part of it");
+                     "a linearisation uses dense matrices, for at most " + std::to_string(most_linearized) +
+                         " coordinates; this scene has " + std::to_string(system.n()) +
+                         "; keep fewer modes, cut beams into fewer pieces, or linearize a part of it");
   if (const std::string unsound = explain_signals(scene, model, state, state); !unsound.empty())
     throw AssemblyError(scene.file, {}, unsound);
   const MotionAt here(system, state);
   if (!here.regular)
     throw AssemblyError(scene.file, {},
                         "singular at t = " + text(state.t, 6) +
-                            " s: the joints' rows depend on each other there; "
-                            "linearize at another pose, or remove what is redundant");
+                            " s: the constraint equations of the joints are linearly dependent there; linearize at another pose, or remove "
+                            "redundant joints");
   Linearization out;
   out.about = state;
   out.coordinates = coordinate_names(system);
@@ -283,7 +284,7 @@ Linearization linearize(const Scene& scene, const Model& model, const State& giv
 State state_at(const Model& model, const State& start, double t) {
   Integrator integrator(model.system, model.scheme, start);
   while (integrator.failure().empty() && integrator.state().t < t && integrator.advance(t)) work_done = integrator.state().t / t;
-  if (!integrator.failure().empty()) throw std::runtime_error("the run to the state failed: " + integrator.failure());
+  if (!integrator.failure().empty()) throw std::runtime_error("the run up to this state failed: " + integrator.failure());
   return integrator.state();
 }
 

@@ -64,13 +64,12 @@ LinearizedStart linearized_start(const Scene& scene, const Model& model, const A
   const State there = steady_start(model, assembly).start;
   if (steady(system, there)) {
     out.note =
-        "flexible bodies are bent as they stay in steady rotation, \"" + body + "\" by " + number_text(100 * left) + " % of its size";
+        "flexible bodies start with the deflection of steady rotation, \"" + body + "\" by " + number_text(100 * left) + " % of its size";
     out.state = there;
   } else {
-    out.note = "flexible bodies start undeformed, where nothing balances what bends them (\"" + body + "\" by some " +
-               number_text(100 * left) +
-               " % of its size): the roots lack that; linearize at a later time with --at, where damping has brought them to rest, or keep "
-               "the spin by a driver" +
+    out.note = "flexible bodies start undeformed, although loads bend them (\"" + body + "\" by some " + number_text(100 * left) +
+               " % of its size), so the roots are those without this deflection; linearize at a later time with --at, when damping has "
+               "brought the bodies to rest, or hold the spin with a driver" +
                (scene.has_run ? "" : " (needs `run`)");
   }
   return out;

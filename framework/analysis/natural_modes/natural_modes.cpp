@@ -35,8 +35,8 @@ ModalModel held_modes(const ElasticBody& e, const Component& c, const Supports& 
   for (Eigen::Index i = pairs.zero; i < pairs.lambda.size(); ++i) sound = sound && pairs.lambda[i] > 0 && pairs.residual[i] <= 1e-2;
   if (!sound)
     throw std::runtime_error(
-        "it has motions without stiffness besides those of a rigid body (bars hinged in a line, or a part more than ten thousand times as "
-        "long as thick?); hold them, or take a beam theory that bends and a thicker section");
+        "it has motions without stiffness other than rigid-body motions (bars hinged in a line, or a part more than ten thousand times as "
+        "long as thick?); support them, or use a beam theory with bending and a thicker section");
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(e.model.n(), count);
   for (std::size_t i = 0; i < free.size(); ++i) all.row(free[i]) = pairs.shapes.row(static_cast<Eigen::Index>(i)).tail(count);
   ModalModel out;

@@ -38,13 +38,12 @@ ContactSurface surface_of(const Scene& scene, const ElasticBody& e, const SceneS
     if (p.hole == side.group && p.coupling == RimCoupling::rigid)
       throw SceneError(scene.file, place,
                        "\"" + side.body + "." + side.group +
-                           "\" is the rim of a rigid coupling, which does not give way; write coupling: "
-                           "average at its point \"" +
-                           p.name + "\", or leave the point out");
+                           "\" is the rim of a rigid coupling, which cannot deform; write coupling: average at its point \"" + p.name +
+                           "\", or leave the point out");
   try {
     return contact_surface(e.mesh, sides_of(e.mesh, group), e.thickness);
   } catch (const std::invalid_argument& error) {
-    throw SceneError(scene.file, place, "\"" + side.body + "." + side.group + "\" " + error.what() + "; name an edge that does");
+    throw SceneError(scene.file, place, "\"" + side.body + "." + side.group + "\" " + error.what() + "; name another edge");
   }
 }
 
@@ -108,7 +107,7 @@ ContactCase solve_contact_case(const Scene& scene, const Bodies& bodies) {
     try {
       pairs.push_back({a, b, contact_rows(first.model, firsts.back(), second.model, other, shift)});
     } catch (const std::invalid_argument& error) {
-      throw SceneError(scene.file, c.place, std::string(error.what()) + "; look at the places under `at`");
+      throw SceneError(scene.file, c.place, std::string(error.what()) + "; check the positions under `at`");
     }
   }
 

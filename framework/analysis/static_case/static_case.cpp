@@ -142,7 +142,7 @@ StaticReport solve_case(const Scene& scene, const ElasticBody& e) {
   const std::vector<NamedSupport> supports = supports_of(scene, e);
   if (supports.empty())
     throw SceneError(scene.file, e.scene->place,
-                     "\"" + e.scene->name + "\" has no supports, so a load would carry it away; add supports: {A: fixed}");
+                     "\"" + e.scene->name + "\" has no supports, so a load would move it without limit; add supports: {A: fixed}");
   const BodyLoad load = loads_of(scene, e);
   const auto start = std::chrono::steady_clock::now();
   StaticSolution solution = in_body(scene, *e.scene, [&] { return solve_static(e.model, e.K, together(supports), load.independent); });
