@@ -241,7 +241,7 @@ Outcome one_outcome(const CaseSource& source, const Overrides& overrides, const 
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const MeshingStopped&) {
-    out.status = status_text(Status::interrupted), out.reason = "stopped while a body was meshed";
+    out.status = status_text(Status::interrupted), out.reason = "stopped while a body was being meshed";
   } catch (const std::exception& error) {
     out.status = "refused", out.reason = one_line(error.what());
   }

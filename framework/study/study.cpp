@@ -25,12 +25,13 @@ Question read_question(const Node& root) {
   const bool linearizes = q.analysis == Analysis::linearize;
   if (root.has("at")) {
     if (!linearizes && q.analysis != Analysis::statics)
-      root.at("at").fail("is of analysis: statics and linearize alone; the instant of a measure stands in its words: x of BODY at 0.05 s");
+      root.at("at").fail(
+          "is for analysis: statics and analysis: linearize only; give the instant of a measure in its words: x of BODY at 0.05 s");
     q.at = root.at("at").quantity(dimension::time, rule::not_negative);
   }
   if (root.has("equilibrium")) {
     if (!linearizes)
-      root.at("equilibrium").fail("is of analysis: linearize alone; leave it out, or write analysis: statics to find the equilibrium");
+      root.at("equilibrium").fail("is for analysis: linearize only; leave it out, or write analysis: statics to find the equilibrium");
     q.equilibrium = root.at("equilibrium").yes();
   }
   return q;
@@ -48,7 +49,7 @@ std::vector<Situation> read_situations(const Node& root, const CaseSource& sourc
       entry.fail(error.what());
     }
   }
-  if (out.empty()) section.fail("names none; write for example {idle: {speed: 800 rpm}, full: {speed: 6000 rpm}}");
+  if (out.empty()) section.fail("names no situation; write for example {idle: {speed: 800 rpm}, full: {speed: 6000 rpm}}");
   return out;
 }
 
@@ -91,8 +92,8 @@ void without_unit(Measure& m, const std::string& unit) {
     return;  // no unit
   }
   throw SceneError(m.file, m.place,
-                   "is named in " + written + ", and comes " + (unit.empty() ? "without a unit" : "in " + unit) +
-                       "; leave the unit out, the table puts it behind the name");
+                   "is named with the unit " + written + ", but is measured " + (unit.empty() ? "without a unit" : "in " + unit) +
+                       "; leave the unit out: the table adds it to the name");
 }
 
 void validate_names(std::vector<Measure>& measures, const Scene& scene, const Node& node) {
@@ -125,8 +126,9 @@ std::vector<Measure> read_curves(const StudyFile& file) {
   if (!file.root().has("keep")) return out;
   const Node keep = file.root().at("keep");
   const Question& question = file.study.scene.question;
-  if (!file.study.scene.situations.empty()) keep.fail("leaves curves of one situation; leave out situations, or sweep what they set");
-  if (!over_time(question)) keep.fail("is of analyses over time, run, kinematics and inverse; leave it out, each case has one state here");
+  if (!file.study.scene.situations.empty()) keep.fail("supports one situation only; leave out situations, or sweep what they set");
+  if (!over_time(question))
+    keep.fail("is for analyses over time (run, kinematics and inverse); leave it out: here each case has one state");
   for (const Node& entry : keep.list(1, "a list of quantities such as [x of slider, force at crank pin]")) {
     const std::string words = entry.text("a quantity such as x of slider or force at crank pin");
     out.push_back({words, "final " + words, entry.place(), file.study.file, question, {}});
@@ -152,8 +154,8 @@ StudyFile read_study(const std::filesystem::path& path, const std::string& inste
   const std::filesystem::path scene_path = path.parent_path() / scene.text("the scene's file, beside the study");
   // The user's own study may name a scene anywhere, but nothing else: what is wrong with it is shown.
   const std::string kind = scene_path.extension().string();
-  if (kind != ".yaml" && kind != ".yml" && kind != ".json") scene.fail(scene.shown() + " is no scene; name a .yaml, .yml or .json file");
-  if (!std::filesystem::exists(scene_path)) scene.fail("there is no file " + scene_path.string() + "; it is sought beside the study");
+  if (kind != ".yaml" && kind != ".yml" && kind != ".json") scene.fail(scene.shown() + " is not a scene; name a .yaml, .yml or .json file");
+  if (!std::filesystem::exists(scene_path)) scene.fail("there is no file " + scene_path.string() + "; its path is relative to the study");
   file.study.scene = read_case_source(scene_path, root.has("set") ? read_set(root.at("set")) : Overrides{});
   const Question question = file.study.scene.question = read_question(root);
   file.study.scene.situations = read_situations(root, file.study.scene);

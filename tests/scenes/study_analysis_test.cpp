@@ -165,7 +165,7 @@ TEST(StudyAnalysis, WhatAnAnalysisDoesNotKnowIsRefused) {
                                        {"analysis: linearize\nmeasure: frequency of mode 0\n", {"frequency of mode 1"}},
                                        {"analysis: modes\nmeasure: frequency of mode 1 of bar\n", {"bar"}},
                                        {"analysis: kinematic\nmeasure: final angle of bar\n", {"kinematic"}},
-                                       {"measure: final angle of bar\nat: 1 s\n", {"statics and linearize"}},
+                                       {"measure: final angle of bar\nat: 1 s\n", {"analysis: statics and analysis: linearize only"}},
                                        {"analysis: statics\nmeasure: angle of bar\nkeep: [x of bar]\n", {"keep", "over time"}},
                                        {"measure: final angle of bar\nkeep: [x of bra]\n", {"keep", "bra"}}})
     pintle_test::expect_refused([&] { swept(folder, turned, b.text + sweep); }, b.says);
@@ -207,8 +207,8 @@ TEST(Sensitivity, AStudyThatIsWrongIsRefusedInOneLine) {
            {"{parameters: {}}", "names no parameter"},
            {"{parameters: {stifness: {step: 1}}}", "sensitivity.parameters.stifness"},
            {"{parameters: {stiffness: {uniform: 1 mm}}}", "units of one kind"},
-           {"{parameters: {stiffness: {uniform: 1, normal: 2}}}", "in two ways"},
-           {"{parameters: {stiffness: {step: 1}}, sobol: {count: 9}}", "needs parameters that scatter"},
+           {"{parameters: {stiffness: {uniform: 1, normal: 2}}}", "two distributions"},
+           {"{parameters: {stiffness: {step: 1}}, sobol: {count: 9}}", "needs parameters with a distribution"},
            {"{parameters: {forces.spring.free angle: {uniform: 1 deg, step: 0}}}", "must be greater than 0"},
            {"{parameters: {forces.spring.free angle: {}}}", "it needs a step"}}) {
     folder.write("study.yaml", "scene: scene.yaml\nanalysis: linearize\nmeasure: frequency of mode 1\nsensitivity: " + section + "\n");

@@ -123,7 +123,7 @@ TEST(Sweep, AFolderOfAnotherStudyIsRefused) {
   };
   EXPECT_EQ(refusal(), "accepted");
   folder.write("scene.yaml", std::string(pendulum) + "# changed\n");
-  EXPECT_NE(refusal().find("belongs to another study. The scene is not the one that ran there"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("belongs to another study. The scene differs from the one that ran there"), std::string::npos) << refusal();
   EXPECT_NE(refusal().find("--out"), std::string::npos);
   fs::create_directories(folder / "other");
   folder.write("other/thesis.txt", "x");

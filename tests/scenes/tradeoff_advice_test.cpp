@@ -51,7 +51,7 @@ TEST(TradeAdvice, ASettingIsNotMoreAccurateThanTheSameAtAFinerTolerance) {
   answer(r);
   ASSERT_TRUE(r.recommended);
   EXPECT_EQ(setting_text(plan, r.points[*r.recommended]), "tolerance 1e-4, elements 2") << all_said(r);
-  EXPECT_TRUE(says(r, "1 setting errs less than the same at a finer tolerance")) << all_said(r);
+  EXPECT_TRUE(says(r, "1 setting has a smaller error than the same at a finer tolerance")) << all_said(r);
   EXPECT_TRUE(says(r, "tolerance 1e-4, elements 1 gives 0.6 % and counts as 2.6 %")) << all_said(r);
 }
 
@@ -61,9 +61,9 @@ TEST(TradeAdvice, OfAReferenceThatIsKnownBadlyNothingIsRecommendedAndNoSettingIs
   const TradeReport r = run_tradeoff(plan, one, never_still);
   ASSERT_GT(r.warning(), 0.1);
   EXPECT_FALSE(r.recommended || r.cheapest);
-  EXPECT_EQ(r.said[0].find("Nothing is recommended: the reference knows value to"), 0U) << r.said[0];
-  EXPECT_TRUE(says(r, "an error of 1 % is wanted") && says(r, "What would help"));
-  for (const char* claim : {"Cheapest", "ost accurate", "err by:", "Not worth", "front"})
+  EXPECT_EQ(r.said[0].find("Nothing is recommended: the reference determines value to"), 0U) << r.said[0];
+  EXPECT_TRUE(says(r, "an error of 1 % was requested") && says(r, "What would help"));
+  for (const char* claim : {"Cheapest", "ost accurate", "Errors of the models", "Not worth", "front"})
     EXPECT_FALSE(says(r, claim)) << claim << "\n" << all_said(r);
 
   const Folder folder;
@@ -86,14 +86,14 @@ TEST(TradeAdvice, WhereNoSettingIsAccurateEnoughTheBestAreNamedOnlyIfTheyCanBeTo
   for (std::size_t i = 1; i < 4; ++i) r.points[i].at = {i - 1};
   answer(r);
   EXPECT_FALSE(r.recommended);
-  EXPECT_TRUE(says(r, "The 2 most accurate cannot be told apart: each errs by at most 3.4 %")) << all_said(r);
+  EXPECT_TRUE(says(r, "The 2 most accurate ones cannot be distinguished: the error of each is at most 3.4 %")) << all_said(r);
   r.points[3].error = 0.015;
   answer(r);
   EXPECT_TRUE(says(r, "The most accurate is elements 4")) << all_said(r);
   r.points[3].error = 0.009;  // between 0.5 % and 1.3 %
   answer(r);
   EXPECT_FALSE(r.recommended);
-  EXPECT_TRUE(says(r, "Of 1 setting it is not known")) << all_said(r);
+  EXPECT_TRUE(says(r, "For 1 setting this is unknown")) << all_said(r);
 }
 
 TEST(TradeAdvice, AQuantityThatIsTheSameInEveryRunTellsNothing) {
@@ -112,7 +112,7 @@ TEST(TradeAdvice, AQuantityThatIsTheSameInEveryRunTellsNothing) {
 
   const TradeReport alone = run_tradeoff(plan, {{"lost", "lost"}}, with_zero);
   EXPECT_FALSE(alone.recommended);
-  EXPECT_TRUE(says(alone, "lost is 0 in every run, whatever the setting: nothing can be told from it")) << all_said(alone);
+  EXPECT_TRUE(says(alone, "lost is 0 in every run, for any setting, so it cannot rank the settings")) << all_said(alone);
   for (const TradePoint& p : alone.points) EXPECT_TRUE(p.times.empty()) << "no time is spent on it";
 }
 
@@ -148,14 +148,15 @@ TEST(TradeAdvice, ItSaysOfHowManySettingsAndNothingOfValuesThatHardlyRan) {
   answer(r);
   EXPECT_EQ(r.said[0].find("The budget of 60 s was spent when 7 of 13 settings had run"), 0U) << r.said[0];
   EXPECT_TRUE(says(r, "Cheapest of the 7 of 13 settings that ran for an error of 1 %: tolerance 1e-4, elements 4")) << all_said(r);
-  EXPECT_TRUE(says(r, "To err less, refine tolerance first: from 1e-4 to 1e-6 takes the error from 0.8 % to 0.3 % for 1.4 times the time"))
+  EXPECT_TRUE(says(
+      r, "To decrease the error, refine tolerance first: from 1e-4 to 1e-6 changes the error from 0.8 % to 0.3 % for 1.4 times the time"))
       << all_said(r);
   EXPECT_TRUE(says(r, "elements beyond 4 changes nothing")) << all_said(r);
   // Of 8 elements two of three ran, of 1e-6 one of four: too few to call either a waste.
   EXPECT_FALSE(says(r, "Not worth")) << all_said(r);
   for (std::size_t t = 0; t < 3; ++t) ran(t, 3, 9, 0.2);
   answer(r);
-  EXPECT_TRUE(says(r, "Not worth their time here, always beaten by another setting: elements 8.")) << all_said(r);
+  EXPECT_TRUE(says(r, "Not worth their time here, because another setting is always better: elements 8.")) << all_said(r);
 }
 
 TEST(TradeAdvice, ATradeThatWasStoppedSaysSoFirst) {
@@ -176,8 +177,8 @@ TEST(TradeAdvice, ATradeThatWasStoppedSaysSoFirst) {
 TEST(TradeAdvice, AxesThatNobodyNamedAreListed) {
   TradePlan plan = known_plan();
   plan.suggested = true;
-  EXPECT_TRUE(
-      says(run_tradeoff(plan, one, known), "Axes chosen from the scene, as no study names any: tolerance 1e-2 … 1e-6; elements 1 … 8."));
+  EXPECT_TRUE(says(run_tradeoff(plan, one, known),
+                   "Axes chosen from the scene, because no study names any: tolerance 1e-2 … 1e-6; elements 1 … 8."));
   plan.suggested = false;
   EXPECT_FALSE(says(run_tradeoff(plan, one, known), "Axes chosen"));
 }
@@ -228,7 +229,7 @@ TEST(TradeAdvice, AStudyOfASweepAndAMeasureThatNothingCanHaveAreRefused) {
   const Folder folder;
   write(folder.path / "p.yaml", pendulum);
   write(folder.path / "sweep.yaml", "scene: p.yaml\nmeasure: {a: energy lost}\nsweep: {grid: {half: [0.1 m, 0.2 m]}}\n");
-  EXPECT_NE(rejected(folder.path / "sweep.yaml").find("has a sweep and no tradeoff; run it by pintle sweep"), std::string::npos);
+  EXPECT_NE(rejected(folder.path / "sweep.yaml").find("has a sweep and no tradeoff; run it with pintle sweep"), std::string::npos);
   write(folder.path / "stress.yaml",
         "scene: p.yaml\nmeasure: {s: peak stress at rod.O}\ntradeoff: {axes: {t: {run.tolerance: [1e-3, 1e-4]}}}\n");
   EXPECT_NE(rejected(folder.path / "stress.yaml").find("\"rod\" is rigid"), std::string::npos) << rejected(folder.path / "stress.yaml");

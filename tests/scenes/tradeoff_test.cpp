@@ -319,7 +319,8 @@ TEST(Tradeoff, WhatIsWrongInAStudyIsNamed) {
   EXPECT_NE(said("tradeoff: {eror: 1%, axes: {t: {run.tolerance: [1e-3]}}}\n").find("Did you mean \"error\""), std::string::npos);
   EXPECT_NE(said("tradeoff: {error: 200%, axes: {t: {run.tolerance: [1e-3]}}}\n").find("at most 100 %"), std::string::npos);
   EXPECT_NE(said("tradeoff: {axes: {t: {run.tolerance: [1e-3, 1e-3]}}}\n").find("two settings called"), std::string::npos);
-  EXPECT_NE(said("tradeoff: {axes: {t: {run.tolerance: [1e-3, 1e-4], run.method: [rkf45]}}}\n").find("walked in step"), std::string::npos);
+  EXPECT_NE(said("tradeoff: {axes: {t: {run.tolerance: [1e-3, 1e-4], run.method: [rkf45]}}}\n").find("combined one by one"),
+            std::string::npos);
   EXPECT_EQ(said("tradeoff: {axes: {t: {run.tolerance: [1e-3, 1e-4]}}}\n"), "accepted");
 }
 

@@ -131,7 +131,7 @@ TEST_F(Bounds, AStudyNamesAScene) {
   says(pintle("sweep ../studies/study.yaml -q -o out"), "exit 0");
   write("studies/study.yaml", "scene: /etc/passwd\n" + rest);
   const string said = pintle("sweep ../studies/study.yaml -q -o out2");
-  says(said, "study.yaml:1: scene: \"/etc/passwd\" is no scene");
+  says(said, "study.yaml:1: scene: \"/etc/passwd\" is not a scene");
   EXPECT_EQ(said.find("root:"), string::npos);
 }
 

@@ -81,7 +81,7 @@ TEST(Study, ThatIsWrongSaysWhereAndWhatToDo) {
   };
   for (const Bad& b : std::vector<Bad>{
            {"scene: k", "scen: k", "study.yaml:1: scen: ", {"Did you mean \"scene\"?"}},
-           {"scene: knocking", "scene: knockin", "study.yaml:1: scene: ", {"there is no file", "beside the study"}},
+           {"scene: knocking", "scene: knockin", "study.yaml:1: scene: ", {"there is no file", "relative to the study"}},
            {good, "# nothing\n", "study.yaml: ", {"is empty", "docs/studies.md"}},
            {good,
             knocking,

@@ -111,12 +111,11 @@ class Evaluations {
     const auto same_bits = [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); };
     if (row.values.size() != here.size() + plan_.base.study.measures.size() ||
         !std::equal(here.begin(), here.end(), row.values.begin(), same_bits))
-      throw SceneError(
-          folder_.string(), {},
-          "case " + std::to_string(row.number) +
-              " of its journal is not the one that the search comes to now: another version of NLopt or another processor wrote "
-              "it; name another directory with --out, or remove " +
-              folder_.string());
+      throw SceneError(folder_.string(), {},
+                       "case " + std::to_string(row.number) +
+                           " of the journal differs from the case that the search requests now: the journal was written with another "
+                           "version of NLopt or on another processor; name another directory with --out, or remove " +
+                           folder_.string());
   }
 
   const FitPlan& plan_;

@@ -12,12 +12,12 @@ namespace fs = std::filesystem;
 
 std::vector<Variable> read_variables(const Node& root) {
   constexpr const char* remedy = "names of parameters (or paths) and their spans: {length: {from: 20 mm, to: 60 mm, start: 40 mm}}";
-  if (!root.has("vary")) root.fail(std::string("does not say what may change; add vary, ") + remedy);
+  if (!root.has("vary")) root.fail(std::string("does not say what may vary; add vary, ") + remedy);
   std::vector<Variable> out;
   for (const Node& entry : root.at("vary").entries(remedy)) {
     check_keys(entry, "study.vary.*");
     Variable v{entry.name(), read_span(entry)};
-    if (!(v.span.span.to > v.span.span.from)) entry.fail("has no room: to must be greater than from");
+    if (!(v.span.span.to > v.span.span.from)) entry.fail("is empty: to must be greater than from");
     out.push_back(v);
   }
   if (out.empty()) root.at("vary").fail(std::string("names nothing to vary; write ") + remedy);
@@ -32,7 +32,7 @@ double start_of(const Node& entry, const Variable& v) {
   if (!same(start.dimension, expected) && !bare(start.dimension))
     entry.at("start").fail("is " + describe(start.dimension) + " and from is " + describe(expected) + "; give both in units of one kind");
   const double u = v.span.where(start.value);
-  if (!(u >= 0 && u <= 1)) entry.at("start").fail("lies outside from … to; widen them, or start inside");
+  if (!(u >= 0 && u <= 1)) entry.at("start").fail("lies outside the range from … to; widen the range, or start inside it");
   return u;
 }
 
@@ -59,11 +59,12 @@ void read_method(const Node& section, FitPlan& plan) {
     if (word == name_of(m)) plan.method = m;
   if (!plan.method) return;
   if (!plan.goal.bounds.empty() && !takes_constraints(*plan.method))
-    section.at("method").fail(word + " knows no constraints, and the study has subject to; write auto, cobyla, slsqp, mma or isres");
+    section.at("method").fail(word +
+                              " does not support constraints, and the study has subject to; write auto, cobyla, slsqp, mma or isres");
   if (looks_everywhere(*plan.method) && section.has("starts"))
-    section.at("starts").fail("has no meaning beside " + word + ", which looks everywhere from the first; leave it out");
+    section.at("starts").fail("has no effect with " + word + ", which searches the whole range anyway; leave it out");
   if (*plan.method == Optimiser::bobyqa && plan.variables.size() < 2)
-    section.at("method").fail("bobyqa needs two variables at least; write auto, cobyla or sbplx");
+    section.at("method").fail("bobyqa needs at least two variables; write auto, cobyla or sbplx");
 }
 
 double share_of_span(const Node& section, const char* key, double otherwise) {
@@ -92,10 +93,10 @@ std::size_t read_counts(const Node& root, FitPlan& plan) {
   plan.step = share_of_span(section, "step", plan.step);
   const std::size_t sample = count("sample", 0, everywhere || plan.starts > 1 ? std::min(10 * plan.starts, plan.evaluations / 4) : 0);
   if (1 + sample + plan.starts > plan.evaluations)
-    section.fail("has " + std::to_string(plan.evaluations) + " evaluations, fewer than its first points and starts take (" +
-                 std::to_string(1 + sample + plan.starts) + "); give more evaluations, or less sample or starts");
+    section.fail("has " + std::to_string(plan.evaluations) + " evaluations, fewer than its first points and starts need (" +
+                 std::to_string(1 + sample + plan.starts) + "); allow more evaluations, or reduce sample or starts");
   if (sample > most_values / plan.variables.size())
-    section.fail("has more than " + std::to_string(most_values) + " values in its sample; take a smaller one");
+    section.fail("has more than " + std::to_string(most_values) + " values in its sample; make it smaller");
   return sample;
 }
 

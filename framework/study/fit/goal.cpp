@@ -63,7 +63,7 @@ Aim read_aim(const GoalReader& reader, const Node& entry, bool& exact) {
     if (!(out.tolerance > 0)) entry.at("tolerance").fail("must be greater than 0");
     exact = true;
   }
-  if (out.tolerance == 0) entry.fail("is to become 0, so it needs a tolerance: {to: 0, tolerance: 0.1 mm}");
+  if (out.tolerance == 0) entry.fail("has the goal 0, so it needs a tolerance: {to: 0, tolerance: 0.1 mm}");
   return out;
 }
 
@@ -81,18 +81,19 @@ PathTarget read_path(const Node& node) {
     if (out.times.size() != out.through.size())
       node.at("times").fail("has " + std::to_string(out.times.size()) + " times, through has " + std::to_string(out.through.size()) +
                             " points; give one for each, or leave times out");
-    if (node.has("order")) node.at("order").fail("has no meaning beside times, which say where each point belongs; leave one of them out");
+    if (node.has("order"))
+      node.at("order").fail("has no effect with times, which already assign a time to each point; leave one of them out");
   }
   if (node.has("order")) {
     const std::string order = node.at("order").one_of(choices("study.goal.path", "order"));
     out.order = order == "along" ? Passing::along : order == "any" ? Passing::any : Passing::either_way;
   }
-  if (!(out.extent() > 0)) node.at("through").fail("is one point, several times; give points that differ");
+  if (!(out.extent() > 0)) node.at("through").fail("repeats one point; give points that differ");
   return out;
 }
 
 void read_path_goal(const GoalReader& reader, const Node& node, Goal& goal) {
-  if (!reader.file.study.scene.situations.empty()) node.fail("is of one situation; leave out situations");
+  if (!reader.file.study.scene.situations.empty()) node.fail("supports one situation only; leave out situations");
   const PathTarget path = read_path(node);
   goal.measure = reader.add({"distance to path", "", node.place(), reader.study.file, reader.file.study.scene.question, path});
   goal.exact = node.has("tolerance");

@@ -54,13 +54,13 @@ Quantity nominal(const CaseSource& source, const Node& entry) {
     if (there && there->kind == Yaml::Kind::scalar) return read_quantity(there->text, parameters);
   } catch (const ExpressionError&) {
   }
-  entry.fail("has no number in the scene that could be read; name a parameter, or give its value: {at: 5 N/mm, …}");
+  entry.fail("has no readable number in the scene; name a parameter, or give its value: {at: 5 N/mm, …}");
 }
 
 double of_kind(const Node& node, const Scattered& p) {
   const Quantity q = read_value(node);
   if (!same(q.dimension, p.dimension) && !bare(q.dimension))
-    node.fail("is " + describe(q.dimension) + ", the value itself is " + describe(p.dimension) + "; give both in units of one kind");
+    node.fail("is " + describe(q.dimension) + ", but the parameter is " + describe(p.dimension) + "; give both in units of one kind");
   if (!(q.value > 0)) node.fail("must be greater than 0");
   return q.value;
 }
@@ -73,7 +73,7 @@ Scattered read_parameter(const CaseSource& source, const Node& entry) {
   const Quantity at = has("at") ? read_value(entry.at("at")) : nominal(source, entry);
   out.at = at.value, out.dimension = at.dimension;
   if (has("uniform") && has("normal"))
-    entry.fail("scatters in two ways; write uniform (half its width) or normal (its standard deviation)");
+    entry.fail("has two distributions; write either uniform (its half width) or normal (its standard deviation)");
   for (const char* key : {"uniform", "normal"})
     if (has(key)) {
       out.spread = std::string(key) == "uniform" ? Scattered::Spread::uniform : Scattered::Spread::normal;
@@ -158,7 +158,7 @@ void read_counts(const Node& section, SensitivityPlan& plan) {
     return node.has(key) ? static_cast<std::size_t>(node.at(key).count(std::string_view(key) == "seed" ? 0 : 2)) : otherwise;
   };
   if (section.has("levels")) plan.levels = static_cast<std::size_t>(section.at("levels").count(1));
-  if (plan.levels > 10) section.at("levels").fail("is more than 10; steps would halve into rounding");
+  if (plan.levels > 10) section.at("levels").fail("is more than 10; halved so often, the steps would be lost in rounding");
   plan.random = in("monte carlo", "count", 0), plan.seed = in("monte carlo", "seed", 1);
   plan.sobol = in("sobol", "count", 0), plan.sobol_seed = in("sobol", "seed", 1);
   const bool scatters = std::ranges::any_of(plan.parameters, [](const Scattered& p) { return p.width > 0; });
@@ -166,14 +166,14 @@ void read_counts(const Node& section, SensitivityPlan& plan) {
   const bool wanted = section.has("corners") ? section.at("corners").yes() : scatters && small;
   for (const char* group : {"monte carlo", "sobol", "corners"})
     if (section.has(group) && !scatters && (std::string_view(group) != "corners" || wanted))
-      section.at(group).fail("needs parameters that scatter; give them {uniform: 0.1 mm} or {normal: 0.05 mm}");
+      section.at(group).fail("needs parameters with a distribution; give them {uniform: 0.1 mm} or {normal: 0.05 mm}");
   if (wanted && !small)
-    section.at("corners").fail("are 2 to the power of the number of parameters; of more than " +
-                               std::to_string(most_parameters_of_corners) + " leave them out");
+    section.at("corners").fail("number 2 to the power of the number of parameters; with more than " +
+                               std::to_string(most_parameters_of_corners) + " parameters leave them out");
   plan.corners = wanted ? std::size_t{1} << plan.parameters.size() : 0;
   constexpr std::size_t most_values = 20'000'000;
   if (plan.random > most_cases || plan.sobol > most_cases || plan.cases() > std::min(most_cases, most_values / plan.parameters.size()))
-    section.fail("has more than " + std::to_string(most_cases) + " cases, or " + std::to_string(most_values) + " values; take fewer");
+    section.fail("has more than " + std::to_string(most_cases) + " cases, or " + std::to_string(most_values) + " values; reduce them");
 }
 
 }  // namespace

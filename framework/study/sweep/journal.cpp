@@ -84,13 +84,12 @@ bool validate_heading(const fs::path& path, const std::string& text, std::uint64
     return false;
   const std::optional<Json> first = end == std::string::npos ? std::nullopt : unsealed(std::string_view(text).substr(0, end));
   if (!first || !first->is_object() || !first->contains("pintle sweep"))
-    throw SceneError(path.string() +
-                     ":1: is damaged: its first line does not name a sweep, so nothing in it is known to belong to this one; " +
+    throw SceneError(path.string() + ":1: is damaged: its first line does not name a sweep, so its cases may belong to another one; " +
                      remedy(path));
   if (text.substr(0, end + 1) != ours)
     throw OtherStudy(path.string(), {},
-                     "belongs to another study, or to this one before it, its scene, a file that they name, --set or "
-                     "the program was changed; name another directory with --out, or remove " +
+                     "belongs to another study, or was written before the study, its scene, a file that they name, --set or the program "
+                     "was changed; name another directory with --out, or remove " +
                          path.parent_path().string());
   return true;
 }
@@ -119,8 +118,9 @@ bool locked(int file, int how, double patience) {
 /// What is said of a last line without its end.
 std::string torn(const fs::path& path, const std::string& text) {
   const auto line = 1 + std::count(text.begin(), text.end(), '\n');
-  return path.string() + ":" + std::to_string(line) + ": was torn as its process ended while it wrote; dropped, " +
-         (line == 1 ? "the journal begins again" : "the case is run again");
+  return path.string() + ":" + std::to_string(line) +
+         ": is incomplete, because its process ended while writing it; the line is dropped and " +
+         (line == 1 ? "the journal begins again" : "its case is run again");
 }
 
 bool is_journal(const fs::path& path) { return path.filename().string().starts_with("journal-") && path.extension() == ".txt"; }
@@ -174,8 +174,8 @@ Journal::Journal(const fs::path& path, std::uint64_t study, std::vector<std::str
   try {
     if (!locked(file_, LOCK_EX, 3))
       throw std::runtime_error(path.string() +
-                               ": another process works on this sweep; wait for it, or end it. (If many were started at once as one "
-                               "MPI job, they do not see each other: start them by mpirun, or by srun --mpi=pmix.)");
+                               ": another process works on this sweep; wait for it, or end it. (If several were started as one MPI job, "
+                               "they do not see each other: start them with mpirun, or with srun --mpi=pmix.)");
     const std::string text = contents(path);
     const bool begun = validate_heading(path, text, study);
     size_ = begun ? static_cast<std::int64_t>(text.rfind('\n') + 1) : 0;
@@ -201,7 +201,7 @@ void Journal::write(const std::string& line) {
       const std::string why = n < 0 ? std::strerror(errno) : "the disk may be full";
       [[maybe_unused]] const int ignored = ::ftruncate(file_, size_);
       throw std::runtime_error(path_.string() + ": cannot be written (" + why +
-                               "); the cases that ended before are kept: mend that, and start the same command again");
+                               "); the cases that ended before are kept: remove the cause, and start the same command again");
     }
     done += static_cast<std::size_t>(n);
   }
@@ -232,13 +232,11 @@ std::vector<Row> read_journals(const fs::path& folder, std::uint64_t study, std:
       std::optional<Row> row = row_of(std::string_view(text).substr(begin, end - begin));
       const std::string where = path.string() + ":" + std::to_string(line);
       if (!row)
-        throw SceneError(
-            where +
-            ": is damaged: its checksum, or what it holds, is not that of a case; remove this line, which runs its case again, or " +
-            remedy(path));
-      if (row->number < 1 || row->number > cases)
-        throw SceneError(where + ": is of case " + std::to_string(row->number) + ", where the study has " + std::to_string(cases) + "; " +
+        throw SceneError(where + ": is damaged: its checksum or its content is wrong; remove this line to run its case again, or " +
                          remedy(path));
+      if (row->number < 1 || row->number > cases)
+        throw SceneError(where + ": is of case " + std::to_string(row->number) + ", but the study has only " + std::to_string(cases) +
+                         "; " + remedy(path));
       const std::size_t number = row->number;
       if (const auto [at, fresh] = rows.try_emplace(number, *row); !fresh && lacked_memory(at->second)) at->second = std::move(*row);
     }

@@ -53,7 +53,7 @@ Texts values(const Node& node) {
     check_keys(node, "study.sweep.grid.*");
     const ValueSpan range = read_span(node);
     const auto n = static_cast<std::size_t>(node.at("count").count(1));
-    if (n > most_cases) node.at("count").fail("is more than " + std::to_string(most_cases) + " cases; take fewer");
+    if (n > most_cases) node.at("count").fail("is more than " + std::to_string(most_cases) + " cases; use fewer");
     for (std::size_t k = 0; k < n; ++k) out.emplace_back(range.text(n == 1 ? 0 : static_cast<double>(k) / static_cast<double>(n - 1)));
     return out;
   }
@@ -82,7 +82,7 @@ Cases grid(const Node& section) {
   for (const Node& axis : named(section)) {
     const std::size_t here = value_count(axis);
     if (here > most_cases) values(axis);  // says so
-    if (n > most_cases / here) section.fail("has more than " + std::to_string(most_cases) + " combinations; take fewer values, or random");
+    if (n > most_cases / here) section.fail("has more than " + std::to_string(most_cases) + " combinations; use fewer values, or random");
     n *= here;
   }
   std::vector<Texts> axes;
@@ -105,7 +105,7 @@ void validate_size(const Node& section, std::size_t cases, std::size_t names) {
   constexpr std::size_t most_values = 20'000'000;
   if (cases > most_values / std::max<std::size_t>(1, names))
     section.fail("has more than " + std::to_string(most_values) + " values, of " + std::to_string(names) +
-                 " names together; take fewer cases");
+                 " names together; use fewer cases");
 }
 
 Cases columns(const Node& section) {
@@ -116,7 +116,7 @@ Cases columns(const Node& section) {
     if (cases.names.empty()) cases.values.resize(texts.size());
     if (texts.size() != cases.size())
       column.fail("has " + std::to_string(texts.size()) + " values, " + cases.names.front() + " has " + std::to_string(cases.size()) +
-                  "; columns of a list are walked in step: give as many, or write grid for all combinations");
+                  "; the values of a list are combined one by one: give equally many, or write grid for all combinations");
     cases.names.push_back(column.name());
     cases.places.push_back(column.place());
     for (std::size_t k = 0; k < texts.size(); ++k) cases.values[k].push_back(texts[k]);
@@ -140,7 +140,7 @@ Cases list(const Node& section) {
       one[at] = override_text(entry.yaml());
     }
     cases.values.push_back(std::move(one));
-    if (cases.size() > most_cases) section.fail("has more than " + std::to_string(most_cases) + " cases; take fewer");
+    if (cases.size() > most_cases) section.fail("has more than " + std::to_string(most_cases) + " cases; use fewer");
   }
   return cases;
 }
@@ -149,7 +149,7 @@ Cases sampled(const Node& section, bool latin) {
   std::vector<Node> entries = named(section);
   if (!section.has("count")) section.fail("does not say how many cases; add for example count: 100");
   const auto n = static_cast<std::size_t>(section.at("count").count(1));
-  if (n > most_cases) section.at("count").fail("is more than " + std::to_string(most_cases) + " cases; take fewer");
+  if (n > most_cases) section.at("count").fail("is more than " + std::to_string(most_cases) + " cases; use fewer");
   const auto seed = static_cast<std::uint64_t>(section.has("seed") ? section.at("seed").count(0) : 1);
 
   validate_size(section, n, entries.size());

@@ -25,7 +25,7 @@ void open_folder(const fs::path& folder) {
     const fs::directory_iterator entries(folder);
     if (!fs::exists(journal_path(folder, 0)) &&
         !std::all_of(begin(entries), end(entries), [&](const auto& e) { return is_ours(e.path()); }))
-      throw SceneError(folder.string(), {}, "exists already and holds no study; name another directory with --out");
+      throw SceneError(folder.string(), {}, "exists already and contains no study; name another directory with --out");
   }
   fs::create_directories(folder, error);
   if (error) throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another place with --out");
@@ -46,13 +46,13 @@ std::string what_differs(const Sweep& sweep, const fs::path& folder) {
     return fs::exists(folder / name) && text_or_nothing(folder / name) != now;
   };
   const bool study = differs("study.yaml", sweep.text), scene = differs("scene.yaml", sweep.study.scene.text);
-  const std::string was = study && scene ? "The study and its scene are not those"
-                          : study        ? "The study is not the one"
-                                         : "The scene is not the one";
+  const std::string was = study && scene ? "The study and its scene differ from those"
+                          : study        ? "The study differs from the one"
+                                         : "The scene differs from the one";
   if (study || scene)
     return was + " that ran there (kept there as " + (study ? "study.yaml" : "") + (study && scene ? " and " : "") +
            (scene ? "scene.yaml" : "") + ")";
-  return "Study and scene are those that ran there, but --set, a file that they name or the program's version is another";
+  return "Study and scene are those that ran there, but --set, a file that they name or the version of the program differs";
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ WorkerPool::WorkerPool(const Sweep& sweep, Journal& journal, const std::filesyst
   } catch (const std::exception& error) {
     shortage_ = std::to_string(threads_.size()) + " of " + std::to_string(threads) + " threads could be started (" + error.what() + "), " +
                 (threads_.empty() ? "the cases are run one by one" : "these run the cases") +
-                "; allow more processes (ulimit -u) or memory, or ask for fewer with --threads";
+                "; allow more processes (ulimit -u) or memory, or use fewer threads (--threads)";
   }
 }
 

@@ -18,7 +18,7 @@ double read_share(const std::string& written) {
   std::string text = written;
   const double unit = take(text, "%") ? 0.01 : 1;
   const double share = unit * read_quantity(text, dimension::number);
-  if (!(share > 0 && share <= 1)) throw ExpressionError("must be greater than 0 and at most 100 %, as 1% or 0.01");
+  if (!(share > 0 && share <= 1)) throw ExpressionError("must be greater than 0 and at most 100 %, such as 1% or 0.01");
   return share;
 }
 
@@ -30,7 +30,7 @@ double read_duration(const std::string& written) {
   else if (take(text, "h"))
     unit = 3600;
   const double time = unit > 0 ? unit * read_quantity(text, dimension::number) : read_quantity(text, dimension::time);
-  if (!(time > 0)) throw ExpressionError("must be greater than 0, as 0.5 s, 10 min or 2 h");
+  if (!(time > 0)) throw ExpressionError("must be greater than 0, such as 0.5 s, 10 min or 2 h");
   return time;
 }
 

@@ -25,7 +25,7 @@ std::vector<AxisValue> listed_values(const Node& node, const Yaml& axis) {
   for (const Yaml& name : axis.items) {
     if (name.items.size() != out.size())
       node.at(name.key).fail("has " + std::to_string(name.items.size()) + " values, " + axis.items.front().key + " has " +
-                             std::to_string(out.size()) + "; lists of one axis are walked in step");
+                             std::to_string(out.size()) + "; the lists of one axis are combined one by one, so give equally many values");
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i].label += (out[i].label.empty() ? "" : ", ") + label_of(name.items[i]);
       out[i].set.emplace_back(name.key, override_text(name.items[i]));
@@ -41,7 +41,7 @@ std::vector<AxisValue> named_values(const Node& node, const Yaml& axis) {
   for (const Yaml& value : axis.items) {
     if (value.kind != Yaml::Kind::map && value.kind != Yaml::Kind::nothing)
       node.at(value.key).fail(
-          "must be what this setting sets, {run.tolerance: 1e-6}; or give every name of the axis a list: {run.tolerance: [1e-4, 1e-6]}");
+          "must give what this setting sets: {run.tolerance: 1e-6}; or give every name of the axis a list: {run.tolerance: [1e-4, 1e-6]}");
     AxisValue v{value.key, {}};
     for (const Yaml& set : value.items) v.set.emplace_back(set.key, override_text(set)), v.lines.push_back(set.line);
     out.push_back(std::move(v));
@@ -52,9 +52,9 @@ std::vector<AxisValue> named_values(const Node& node, const Yaml& axis) {
 FidelityAxis read_axis(const Node& node, const Yaml& axis) {
   const char* remedy = "{run.tolerance: [1e-4, 1e-6]} or named settings {rigid: {bodies.coupler.modes: null}, …}";
   node.entries(remedy);
-  if (axis.items.empty()) node.fail(std::string("says nothing; write ") + remedy);
+  if (axis.items.empty()) node.fail(std::string("is empty; write ") + remedy);
   for (const Yaml& name : axis.items)
-    if (name.kind == Yaml::Kind::list && name.items.empty()) node.at(name.key).fail("is an empty list; give it values, [1e-4, 1e-6]");
+    if (name.kind == Yaml::Kind::list && name.items.empty()) node.at(name.key).fail("is an empty list; give it values: [1e-4, 1e-6]");
   const bool lists = std::ranges::all_of(axis.items, [](const Yaml& y) { return y.kind == Yaml::Kind::list && !y.items.empty(); });
   FidelityAxis out{.name = node.name(), .values = lists ? listed_values(node, axis) : named_values(node, axis)};
   for (std::size_t i = 0; i < out.values.size(); ++i)
@@ -79,7 +79,7 @@ TradePlan read_tradeoff(const StudyFile& study) {
   const Node root = study.root();
   if (!root.has("tradeoff") && root.has("sweep"))
     root.fail(
-        "has a sweep and no tradeoff; run it by pintle sweep, or add what tradeoff is to vary: tradeoff: {error: 1%, axes: {tolerance: "
+        "has a sweep and no tradeoff; run it with pintle sweep, or add what tradeoff should vary: tradeoff: {error: 1%, axes: {tolerance: "
         "{run.tolerance: [1e-4, 1e-6, 1e-8]}}}");
   if (!root.has("tradeoff"))
     root.fail("has no section tradeoff; add for example tradeoff: {error: 1%, axes: {tolerance: {run.tolerance: [1e-4, 1e-6, 1e-8]}}}");

@@ -15,7 +15,7 @@ constexpr double tightest = 1e-13;  ///< where rounding takes over
 constexpr double loosest = 1e-4;    ///< where a search begins whose time is bounded
 constexpr int most_tolerances = 6, most_refinements = 5;
 constexpr const char* chaotic_model =
-    "a finer model moves a single chaotic run at random, so that the ensemble of the finest model of the study is the reference";
+    "a finer model changes a single chaotic run at random, so the reference is the ensemble of the finest model of the study";
 constexpr std::size_t judged_tolerances = 5;  ///< the last so many tolerances
 
 using Clock = std::chrono::steady_clock;
@@ -79,7 +79,7 @@ class Search {
     if (!whole(o, n_)) {
       why_ = what + ": " + o.status + (o.reason.empty() ? "" : ": " + o.reason);
       out_.short_of_time = out_.short_of_time || o.status == "over its limit";
-      if (o.status == "finished") why_ = what + ": a quantity has no value there; does the reference's model lack it?";
+      if (o.status == "finished") why_ = what + ": a quantity has no value there; the model of the reference may lack it";
       return false;
     }
     for (std::size_t q = 0; q < n_; ++q) scale_[q] = std::max(scale_[q], std::abs(o.values[q]));
@@ -153,8 +153,8 @@ class Search {
     tolerances_ = out_.levels.size();
     if (tolerances_ == 0) out_.trouble = why_;
     if (tolerances_ == 1)
-      out_.trouble = "the reference could be run at one tolerance only; what it lacks is unknown: " +
-                     (why_.empty() ? "there was no time for more" : why_);
+      out_.trouble =
+          "the reference was run at one tolerance only, so its error is unknown: " + (why_.empty() ? "there was no time for more" : why_);
     if (!out_.levels.empty()) out_.set = out_.levels.back().set;
   }
 
@@ -264,7 +264,7 @@ class Search {
       finer = refined(*finer);
       if (!finer) {
         if (std::ranges::any_of(plan_.axes, [](const FidelityAxis& axis) { return !axis.numerical && axis.values.size() > 1; }))
-          model_words_ = "its model is the finest of the study, in which nothing can be refined";
+          model_words_ = "its model is the finest of the study, and cannot be refined";
         return;
       }
       if (k > 2 && stands_) break;
@@ -308,7 +308,7 @@ class Search {
         out_.of[q].converged = false;
         if (whole(o, n_)) out_.of[q].error += std::abs(o.values[q] - out_.levels[tolerances_ - 1].values[q]);
       }
-      model_words_ += whole(o, n_) ? "; counted in is what the next coarser " + axis.name + " changes"
+      model_words_ += whole(o, n_) ? "; this includes the change from the next coarser " + axis.name
                                    : "; the error of its " + axis.name + " is not known";
     }
   }
@@ -336,13 +336,13 @@ class Search {
     std::string s;
     if (r.chaotic) {
       s = printed(
-          "chaotic: runs at ever finer tolerances do not converge, and the motions of two of them part %.2g-fold each second until they "
+          "chaotic: runs at ever finer tolerances do not converge, and the motions of two of them diverge %.2g-fold each second until they "
           "have nothing in common; single runs spread by %.2g %%. "
           "It is judged by its mean over an ensemble, known to %.2g %% (standard error); %s",
           std::exp(std::min(r.rate, 600.0)), 100 * r.spread / r.scale, share, chaos_words_.c_str());
       if (r.rate > 50)
         s = printed(
-            "chaotic: runs at ever finer tolerances do not converge, and the motions of two of them part by a factor e in %.2g s until "
+            "chaotic: runs at ever finer tolerances do not converge, and the motions of two of them diverge by a factor e in %.2g s until "
             "they have nothing in common; single runs spread by %.2g %%. "
             "It is judged by its mean over an ensemble, known to %.2g %% (standard error); %s",
             1 / r.rate, 100 * r.spread / r.scale, share, chaos_words_.c_str());
@@ -354,8 +354,8 @@ class Search {
     s = plan_.integrates ? printed("%zu tolerances from %.0e to %.0e change it %sby %s of its value", tolerances_,
                                    tolerance_of(plan_, out_.levels.front().set), tolerance_of(plan_, out_.levels[tolerances_ - 1].set),
                                    tolerances_ > judged_tolerances ? "in the end " : "", fell.c_str())
-                         : "it needs no run, so the model alone errs";
-    if (r.ratio > 0) s += printed(", falling %.1f times a decade", r.ratio);
+                         : "it needs no run, so it has the error of the model only";
+    if (r.ratio > 0) s += printed(", decreasing %.1f times per decade", r.ratio);
     if (refinements_ > 0)
       s += r.order > 0 ? printed("; %zu refinements of the model show order %.1f", refinements_, r.order)
                        : printed("; refining the model %s does not show an order", refinements_ == 1 ? "once" : "twice");

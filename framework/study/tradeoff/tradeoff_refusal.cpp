@@ -23,19 +23,19 @@ void say_remedy(const TradeReport& r, std::vector<std::string>& said) {
   }
   if (r.reference.short_of_time && r.plan.budget > 0) s = "more time: --budget " + duration_text(4 * r.plan.budget);
   if (chaotic && ensembles <= 100000)
-    s += (s.empty() ? "" : "; ") + printed("larger ensembles, ensemble: %.0f in a study, each that much more expensive", ensembles);
+    s += (s.empty() ? "" : "; ") + printed("larger ensembles (ensemble: %.0f in a study), each that much more expensive", ensembles);
   if (chaotic)
-    s += (s.empty() ? "" : "; ") + std::string("a mean or rms over a longer time, or a look at an earlier time, before the motions part");
+    s += (s.empty() ? "" : "; ") + std::string("a mean or rms over a longer time, or an earlier time, before the motions diverge");
   else
     s += (s.empty() ? "" : "; ") +
          std::string(
              "a quantity that depends less on details: a mean, an rms or an energy rather than a peak, or one taken over a "
              "longer time or before it becomes uncertain");
-  if (!fine.empty()) s += "; or asking for " + fine + " alone, which is known well enough";
+  if (!fine.empty()) s += "; or asking for " + fine + " only, which is known well enough";
   said.push_back("What would help: " + s + "." +
                  (r.reference.short_of_time || r.plan.budget <= 0 || chaotic
                       ? ""
-                      : " A larger budget would not: refinement, not time, has come to its end."));
+                      : " A larger budget would not help: the limit is the refinement, not the time."));
 }
 
 }  // namespace
@@ -46,18 +46,18 @@ void say_unknown(const TradeReport& r, std::vector<std::string>& said) {
   for (std::size_t q = 0; q < r.quantities.size(); ++q)
     if (const QuantityReference& x = r.reference.of[q]; !x.constant && x.warning() > asked)
       s += (s.empty() ? "" : ", ") + r.quantities[q] + " to " + percent_text(x.warning());
-  said.push_back("Nothing is recommended: the reference knows " + s + " only, and " +
-                 (r.plan.error > 0 ? "an error of " + percent_text(asked) + " is wanted"
-                                   : "worse than " + percent_text(asked) + " supports no advice") +
-                 ".");
+  said.push_back(
+      "Nothing is recommended: the reference determines " + s + " only, and " +
+      (r.plan.error > 0 ? "an error of " + percent_text(asked) + " was requested" : "advice needs " + percent_text(asked) + " or better") +
+      ".");
   const auto misses = static_cast<std::size_t>(
       std::ranges::count_if(r.points, [&](const TradePoint& p) { return p.usable && verdict(p, asked) == Verdict::misses; }));
   if (misses > 0 && misses < r.ran())
-    said.push_back(printed("Of the %s that ran, %zu err by more than %s for certain; of the rest it is not known.",
+    said.push_back(printed("Of the %s that ran, %zu certainly have a larger error than %s; for the others this is unknown.",
                            settings_text(r.ran()).c_str(), misses, percent_text(asked).c_str()));
   else
-    said.push_back(misses == 0 ? "Of no setting that ran is it known whether its error is smaller or larger."
-                               : "All " + settings_text(r.ran()) + " that ran err by more for certain.");
+    said.push_back(misses == 0 ? "For no setting that ran is it known whether its error is smaller or larger."
+                               : "All " + settings_text(r.ran()) + " that ran certainly have a larger error.");
   say_remedy(r, said);
 }
 
@@ -76,14 +76,14 @@ void say_none_meets(const TradeReport& r, std::vector<std::string>& said) {
   if (best.size() == 1)
     said.push_back("The most accurate is " + setting_text(r.plan, r.points[best.front()]) + ", " + cost_text(r, best.front()) + ".");
   else
-    said.push_back(
-        printed("The %zu most accurate cannot be told apart: each errs by at most %s.", best.size(), percent_text(most).c_str()));
+    said.push_back(printed("The %zu most accurate ones cannot be distinguished: the error of each is at most %s.", best.size(),
+                           percent_text(most).c_str()));
   if (!open.empty())
-    said.push_back(printed("Of %s it is not known, as the reference itself may err by %s.", settings_text(open.size()).c_str(),
-                           percent_text(r.warning()).c_str()));
+    said.push_back(printed("For %s this is unknown, because the error of the reference itself may be %s.",
+                           settings_text(open.size()).c_str(), percent_text(r.warning()).c_str()));
   said.push_back(std::string("What would help: ") +
                  (r.cut ? "more time, --budget " + duration_text(4 * r.plan.budget) + ", for the settings that did not run; or " : "") +
-                 "axes that reach further, finer values than these.");
+                 "finer values on the axes.");
 }
 
 void say_constant(const TradeReport& r, std::vector<std::string>& said) {
@@ -91,9 +91,9 @@ void say_constant(const TradeReport& r, std::vector<std::string>& said) {
     const QuantityReference& x = r.reference.of[q];
     if (!x.constant) continue;
     const std::string value = x.value == 0 ? "0" : printed("%.6g", x.value) + (r.units[q].empty() ? "" : " " + r.units[q]);
-    said.push_back(r.quantities[q] + " is " + value + " in every run, whatever the setting: nothing can be told from it" +
-                   (r.tells() ? ", and what follows is from the others."
-                              : ". Nothing is recommended; ask for a quantity that the scene gives a value that varies."));
+    said.push_back(r.quantities[q] + " is " + value + " in every run, for any setting, so it cannot rank the settings" +
+                   (r.tells() ? "; what follows is based on the others."
+                              : ". Nothing is recommended; name a quantity whose value varies in this scene."));
   }
 }
 

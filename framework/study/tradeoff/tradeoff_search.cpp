@@ -165,7 +165,7 @@ class Trade {
       const double largest = std::max(std::abs(least), std::abs(most));
       r.constant = most - least <= constant * largest;
       if (r.constant || std::abs(r.value) > constant * largest) continue;
-      if (r.scale < largest) r.words += "; it is 0, so that errors are shares of the largest value of any setting";
+      if (r.scale < largest) r.words += "; it is 0, so errors are relative to the largest value of any setting";
       r.scale = largest;
     }
     for (TradePoint& p : points())
@@ -271,7 +271,7 @@ class Trade {
       if (points()[i].status == "not run") rest.push_back(i);
     if (!out_.tells()) {
       for (const std::size_t i : rest)
-        points()[i].status = "left out", points()[i].reason = "what is asked is the same in every setting that ran";
+        points()[i].status = "left out", points()[i].reason = "the quantities are the same in every setting that ran";
       return;
     }
     while (!rest.empty() && left(for_settings) > 0 && !out_.stopped) {
@@ -282,7 +282,7 @@ class Trade {
       const Guess g = guess(points()[i].at);
       if (clearly_dominated(g.time, g.error))
         points()[i].status = "dropped",
-        points()[i].reason = printed("foreseen at %.2g s with an error of %.2g %%, clearly dominated", g.time, 100 * g.error);
+        points()[i].reason = printed("predicted: %.2g s with an error of %.2g %%, clearly dominated", g.time, 100 * g.error);
       else
         visit(i, std::min(each, std::max(0.01, left(0.85))));
     }

@@ -111,7 +111,7 @@ TradePlan suggested_plan(const CaseSource& source) {
     if (entry(entry(entry(&tree, "bodies"), r.body), "modes")) plan.axes.push_back(modes_axis(tree, r.body, static_cast<int>(r.shapes)));
   if (plan.axes.empty())
     throw SceneError(scene.file, {0, "bodies"},
-                     "nothing of fidelity is known to vary here; write a study with tradeoff: {axes: {elements: "
+                     "the scene suggests no axis of fidelity; write a study with tradeoff: {axes: {elements: "
                      "{bodies.NAME.beam.elements: [2, 4, 8]}}}");
   return plan;
 }

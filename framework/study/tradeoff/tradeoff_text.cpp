@@ -104,10 +104,10 @@ std::string tradeoff_markdown(const TradeReport& r, const std::string& figure, c
   std::size_t ran = 0;
   for (const TradePoint& p : r.points) ran += p.usable;
   s += printed(
-           "\nOf %zu settings %zu ran to their end with a value. Time: median of the timed runs, reading and building included, files "
-           "excluded; beside it the least and the most over the median. ",
+           "\nOf %zu settings, %zu ran to their end with a value. Time: median of the timed runs, including reading and building, "
+           "excluding files; beside it the least and the greatest relative to the median. ",
            r.points.size(), ran) +
-       "Error: relative, ± what the reference itself is not sure of; < where no error is claimed.\n\n";
+       "Error: relative, ± the uncertainty of the reference; < if the error is below that uncertainty.\n\n";
   return s;
 }
 

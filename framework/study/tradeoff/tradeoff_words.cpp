@@ -34,11 +34,11 @@ void say_stopped(const TradeReport& r, std::vector<std::string>& said) {
   const bool reference = r.reference.of.empty() || !r.reference.trouble.empty();
   if (r.stopped)
     said.push_back("Stopped by the user" + when + (reference ? "the reference was not found, and " : "") + ran +
-                   (r.ran() == 0 ? "." : ". What follows is from these alone."));
+                   (r.ran() == 0 ? "." : ". What follows is based on these only."));
   else if (r.cut)
     said.push_back("The budget of " + time_text(r.plan.budget) +
                    printed(" was spent when %zu of %zu settings had run", r.ran(), r.listed()) +
-                   "; a larger one (--budget) runs more of them.");
+                   "; a larger budget (--budget) runs more of them.");
 }
 
 std::string spans(const FidelityAxis& axis) {
@@ -53,7 +53,7 @@ void say_axes(const TradeReport& r, std::vector<std::string>& said) {
   if (!r.plan.suggested) return;
   std::string s;
   for (const FidelityAxis& axis : r.plan.axes) s += (s.empty() ? "" : "; ") + spans(axis);
-  said.push_back("Axes chosen from the scene, as no study names any: " + s + ".");
+  said.push_back("Axes chosen from the scene, because no study names any: " + s + ".");
 }
 
 // --- what is recommended -----------------------------------------------------------------------------------------
@@ -64,14 +64,14 @@ void say_wanted(const TradeReport& r, std::vector<std::string>& said) {
     said.push_back("Cheapest" + of_how_many(r) + " for an error of " + percent_text(plan.error) + ": " +
                    setting_text(plan, r.points[*r.cheapest]) + ", " + cost_text(r, *r.cheapest) + ".");
   if (plan.time > 0 && r.best_in_time)
-    said.push_back("Most accurate" + of_how_many(r) + " within " + time_text(plan.time) + ", as far as can be told: " +
+    said.push_back("Most accurate" + of_how_many(r) + " within " + time_text(plan.time) + ", within the uncertainty: " +
                    setting_text(plan, r.points[*r.best_in_time]) + ", " + cost_text(r, *r.best_in_time) + ".");
   else if (plan.time > 0)
-    said.push_back("No setting" + of_how_many(r) + " takes as little as " + time_text(plan.time) + "; the fastest is " +
+    said.push_back("No setting" + of_how_many(r) + " takes at most " + time_text(plan.time) + "; the fastest is " +
                    setting_text(plan, r.points[r.front.front()]) + ", " + cost_text(r, r.front.front()) +
                    (r.recommended ? "." : ". Nothing is recommended."));
   if (plan.error <= 0 && plan.time <= 0)
-    said.push_back("With no wish given, the front's knee is recommended, past which more time buys little: " +
+    said.push_back("Without a requested error or time, the knee of the front is recommended, beyond which more time gains little: " +
                    setting_text(plan, r.points[*r.recommended]) + ", " + cost_text(r, *r.recommended) + of_how_many(r) + ".");
 }
 
@@ -82,7 +82,7 @@ void say_as_it_stands(const TradeReport& r, std::vector<std::string>& said) {
     return;
   }
   std::string s = "The scene as it stands takes " + cost_text(r, 0);
-  if (r.recommended && *r.recommended != 0) s += "; what is recommended takes " + times_text(r.points[*r.recommended].time / p.time);
+  if (r.recommended && *r.recommended != 0) s += "; the recommended setting takes " + times_text(r.points[*r.recommended].time / p.time);
   said.push_back(s + ".");
 }
 
@@ -127,14 +127,16 @@ void say_bottleneck(const TradeReport& r, std::vector<std::string>& said) {
   }
   std::string s;
   if (first)
-    s = "To err less, refine " + r.plan.axes[first->axis].name + " first: " + step_text(r, at, *first) + " takes the error from " +
-        error_text(p) + " to " + error_text(r.points[first->point]) + " for " + times_text(first->time_factor);
+    s = "To decrease the error, refine " + r.plan.axes[first->axis].name + " first: " + step_text(r, at, *first) +
+        " changes the error from " + error_text(p) + " to " + error_text(r.points[first->point]) + " for " + times_text(first->time_factor);
   else if (p.counted() <= p.warning)
-    s = "It errs by less than the reference can tell, " + percent_text(p.warning) + ": no refinement could be seen to help";
+    s = "Its error is below the uncertainty of the reference, " + percent_text(p.warning) +
+        ", so the effect of a refinement cannot be seen";
   else if (!all.empty())
-    s = "No axis refined alone lowers its error by more than a fifth";
+    s = "Refining a single axis decreases its error by at most a fifth";
   if (!idle.empty() && p.counted() > p.warning) s += (s.empty() ? "Finer " : "; ") + idle + " changes nothing";
-  if (!untried.empty()) s += (s.empty() ? "Whether finer values help did not run: " : "; not tried beside it: ") + untried;
+  if (!untried.empty())
+    s += (s.empty() ? "Finer values did not run, so their effect is unknown: " : "; its finer values did not run: ") + untried;
   if (!s.empty()) said.push_back(s + ".");
 }
 
@@ -145,9 +147,9 @@ void say_coarser(const TradeReport& r, std::vector<std::string>& said) {
   std::string s;
   for (const AxisEffect& e : neighbours(r, at))
     if (r.plan.axes[e.axis].ordered && e.to + 1 == p.at[e.axis] && r.points[e.point].claimed() > 1.25 * p.claimed())
-      s += (s.empty() ? "" : "; ") + value_text(r, e.axis, e.to) + " would err by " + error_text(r.points[e.point]) + " in " +
+      s += (s.empty() ? "" : "; ") + value_text(r, e.axis, e.to) + " would have an error of " + error_text(r.points[e.point]) + " in " +
            times_text(e.time_factor);
-  if (!s.empty()) said.push_back("One step coarser alone: " + s + ".");
+  if (!s.empty()) said.push_back("One step coarser on a single axis: " + s + ".");
 }
 
 void say_luck(const TradeReport& r, std::vector<std::string>& said) {
@@ -158,8 +160,9 @@ void say_luck(const TradeReport& r, std::vector<std::string>& said) {
         (!most || p.surer / std::max(p.error, p.warning) > most->surer / std::max(most->error, most->warning)))
       most = &p;
   if (!most) return;
-  said.push_back(settings_text(lucky) + (lucky == 1 ? " errs" : " err") +
-                 " less than the same at a finer tolerance, errors of computing and of the model cancelling by luck, and count as that: " +
+  said.push_back(settings_text(lucky) + (lucky == 1 ? " has" : " have") +
+                 " a smaller error than the same at a finer tolerance, because errors of computing and of the model cancel by chance; the "
+                 "larger error counts: " +
                  setting_text(r.plan, *most) + " gives " + percent_text(std::max(most->error, most->warning)) + " and counts as " +
                  percent_text(most->surer) + ".");
 }
@@ -174,7 +177,7 @@ void say_free(const TradeReport& r, std::vector<std::string>& said) {
     for (const AxisEffect& e : free_coarsenings(r, i))
       s += (s.empty() ? "" : "; ") + value_text(r, e.axis, e.to) + " instead of " +
            r.plan.axes[e.axis].values[r.points[i].at[e.axis]].label + printed(" saves %.0f %% of its time", 100 * (1 - e.time_factor));
-    if (!s.empty()) said.push_back("The finest setting spends time for nothing that can be told: " + s + ".");
+    if (!s.empty()) said.push_back("The finest setting spends time without a detectable gain: " + s + ".");
   }
 }
 
@@ -193,10 +196,10 @@ void say_models(const TradeReport& r, std::vector<std::string>& said) {
           least = std::min(least, *std::ranges::max_element(p.model));
       if (!std::isfinite(least)) continue;
       s += (s.empty() ? "" : ", ") + axis.values[v].label + " " +
-           (least <= warning ? "nothing that can be told (below " + percent_text(warning) + ")" : percent_text(least));
+           (least <= warning ? "no detectable error (below " + percent_text(warning) + ")" : percent_text(least));
       ++known;
     }
-    if (known > 1) said.push_back("However exactly computed, the models of " + axis.name + " err by: " + s + ".");
+    if (known > 1) said.push_back("Errors of the models of " + axis.name + " alone, computed exactly: " + s + ".");
   }
 }
 
@@ -212,7 +215,7 @@ bool tried(const TradeReport& r, std::size_t axis, std::size_t value) {
 void say_front(const TradeReport& r, std::vector<std::string>& said) {
   if (r.front.size() == 1)
     said.push_back(printed("Of the %s that ran, none is more accurate than ", settings_text(r.ran()).c_str()) +
-                   setting_text(r.plan, r.points[r.front.front()]) + " as far as can be told, and none is faster.");
+                   setting_text(r.plan, r.points[r.front.front()]) + " within the uncertainty, and none is faster.");
   else
     said.push_back(printed("The front is %zu of the %s that ran: ", r.front.size(), settings_text(r.ran()).c_str()) + "from " +
                    setting_text(r.plan, r.points[r.front.front()]) + " (" + cost_text(r, r.front.front()) + ") to " +
@@ -226,7 +229,7 @@ void say_front(const TradeReport& r, std::vector<std::string>& said) {
           }))
         s += (s.empty() ? "" : ", ") + value_text(r, a, v);
     }
-  if (!s.empty()) said.push_back("Not worth their time here, always beaten by another setting: " + s + ".");
+  if (!s.empty()) said.push_back("Not worth their time here, because another setting is always better: " + s + ".");
 }
 
 void say_unusable(const TradeReport& r, std::vector<std::string>& said) {
@@ -237,11 +240,11 @@ void say_unusable(const TradeReport& r, std::vector<std::string>& said) {
       if (count++ == 0) example = setting_text(r.plan, p) + (p.reason.empty() ? "" : ": " + p.reason);
     }
   const std::map<std::string, std::string> as_verb{{"not run", "did not run"},
-                                                   {"dropped", "not run, as dominated"},
+                                                   {"dropped", "not run, because dominated"},
                                                    {"refused", "refused"},
                                                    {"not assembled", "not assembled"},
                                                    {"ledger over its bound", "with the ledger over its bound"},
-                                                   {"over its limit", "given up, as taking too long"},
+                                                   {"over its limit", "given up, because they took too long"},
                                                    {"without a value", "without a value"}};
   for (const auto& [status, g] : groups) {
     const auto verb = as_verb.find(status);
@@ -296,7 +299,7 @@ std::vector<std::string> answers_in_words(const TradeReport& r) {
     if (r.stopped) return said;
     const std::string more =
         r.reference.short_of_time && r.plan.budget > 0 ? ". More time would help: --budget " + duration_text(4 * r.plan.budget) : "";
-    said.assign({stopped("There is no reference to judge by: " + stopped(r.reference.trouble) + more)});
+    said.assign({stopped("There is no reference to judge the settings by: " + stopped(r.reference.trouble) + more)});
     return said;
   }
   if (r.front.empty() || r.points.empty()) {
