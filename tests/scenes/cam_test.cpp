@@ -239,9 +239,10 @@ TEST(CamInput, RefusesWhatIsNoCam) {
   expect_words(refused("{spline: [[0, 0], [1, 0]], closed: true}"), "has 2 points; a spline takes 3");
   expect_words(refused("{spline: [[0, 0], [1, 1], [2, 0], [2, 1], [1, 0], [0, 1]], closed: true}"), "crosses itself");
   expect_words(refused("{polar: [[0, 1], [2, 0], [4, 1]]}"), "radius 0 m; it must be above 0");
-  expect_words(refused("{polar: [[0, 1], [2, 1], [1, 1]]}"), "does not come after the one before; angles must rise");
-  expect_words(refused("{polar: [[0, 1], [2, 1], [7, 1]]}"), "leave out what is beyond a turn");
-  expect_words(refused("{polar: [[0 deg, 1], [120 deg, 1], [240 deg, 1], [360 deg, 1.1]]}"), "where it closes they must be the same");
+  expect_words(refused("{polar: [[0, 1], [2, 1], [1, 1]]}"), "is not greater than the one before; angles must increase");
+  expect_words(refused("{polar: [[0, 1], [2, 1], [7, 1]]}"), "leave out the points beyond a turn");
+  expect_words(refused("{polar: [[0 deg, 1], [120 deg, 1], [240 deg, 1], [360 deg, 1.1]]}"),
+               "make them equal, or leave out the last point");
   expect_words(refused("{polar: [[0, 1], [2, 1], [4, 1]], closed: true}"), "does not belong to polar");
   expect_words(refused("{spline: {file: ../cam.csv}, closed: true}"), "scene.yaml");
   expect_words(refused("{spline: {file: cam.csv, angle unit: deg}, closed: true}"), "unknown key");

@@ -236,7 +236,7 @@ TEST(CylinderContact, RefusesWhatCannotBe) {
   pin("{table: {points: [[0, 0], [2 um, 5 N], [1 um, 7 N]]}}", "point 3 does not");
   pin("{table: {points: [[1 um, 0], [2 um, 5 N]]}}", "must begin with depth 0 and force 0");
   pin("{table: {points: [[0, 0], [5 N, 1 um]]}}", "length");
-  pin("{table: {points: [[0, 0], [1 um, 5 N]], force unit: N}}", "belongs to `file`");
+  pin("{table: {points: [[0, 0], [1 um, 5 N]], force unit: N}}", "is for `file` only");
   pin("{table: {file: ../bearing.csv}}", "bearing.csv");
   pin("{winkler: {length: 15 mm, young: 2 GPa, poisson: 0.4}}", "layer: 1 mm");
   pin("{winkler: {layer: 1 mm, young: 2 GPa, poisson: 0.4}}", "length: 20 mm");

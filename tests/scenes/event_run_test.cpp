@@ -114,9 +114,9 @@ TEST(EventRefusal, NamesWhatIsWrongInTheScene) {
            Bad{"e: {when: bal.y > 1, do: {release: rest}}", "ball.y"},
            Bad{"e: {when: ball.y > 1 s, do: {release: rest}}", "length"},
            Bad{"e: {when: t > 1 s, do: {set: {k: 1}}}", "there is no state \"k\""},
-           Bad{"e: {when: t > 1 s, do: {}}", "does nothing"},
+           Bad{"e: {when: t > 1 s, do: {}}", "has no effect"},
            Bad{"e: {when: t > 1 s, do: {relaese: rest}}", "Did you mean \"release\"?"},
-           Bad{"e: {when: t > 1 s, once: true, do: {release: rest}, else: {engage: rest}}", "never comes"},
+           Bad{"e: {when: t > 1 s, once: true, do: {release: rest}, else: {engage: rest}}", "never happens"},
        })
     pintle_test::expect_refused([&, text = std::string(events)] { build(read_scene_text(disc("events: {" + text + "}"), "scene.yaml")); },
                                 {said});

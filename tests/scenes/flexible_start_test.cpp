@@ -54,9 +54,9 @@ TEST(BentStart, SaysWhatItRefuses) {
   EXPECT_NE(starting("modes: [1], deflection: {B: [0, 1]}").find("keep one of them"), std::string::npos);
   EXPECT_NE(starting("deflection: {C: [0, 1]}").find("has no point \"C\""), std::string::npos) << starting("deflection: {C: [0, 1]}");
   EXPECT_NE(starting("deflecton: {B: [0, 1]}").find("Did you mean \"deflection\"?"), std::string::npos);
-  EXPECT_NE(complaint("bodies: {b: {rigid: {mass: 1, inertia: 1}}}\nstart: {b: {modes: [1]}}\nrun: {until: 1}\n")
-                .find("is asked of a rigid body"),
-            std::string::npos);
+  EXPECT_NE(
+      complaint("bodies: {b: {rigid: {mass: 1, inertia: 1}}}\nstart: {b: {modes: [1]}}\nrun: {until: 1}\n").find("needs a flexible body"),
+      std::string::npos);
   EXPECT_NE(
       complaint("bodies: {b: {rigid: {mass: 1, inertia: 1}}}\nstart: equilibrum\nrun: {until: 1}\n").find("Did you mean \"equilibrium\"?"),
       std::string::npos);

@@ -356,7 +356,7 @@ TEST(Method, RefusesConstraintsThatItCannotKeep) {
 
 TEST(Method, ConstraintsAtIndexThreeAreRefusedWithTheRemedy) {
   const char* text = "bodies: {a: {rigid: {mass: 1, inertia: 1}}}\nrun:\n  until: 1\n  constraints: index 3\n";
-  pintle_test::expect_refused([&] { pintle::read_scene_text(text, "old.yaml"); }, {"old.yaml:4", "take projection"});
+  pintle_test::expect_refused([&] { pintle::read_scene_text(text, "old.yaml"); }, {"old.yaml:4", "use projection"});
 }
 
 }  // namespace

@@ -182,7 +182,7 @@ TEST(BadOpenBearing, IsRefusedInOneLineWithKeyAndRemedy) {
   }
   std::string eccentric = hook(lossy, "x: 0", until(1));
   eccentric.replace(eccentric.find("start: {pin: {x: 0}}"), 20, "start: {hook: {eccentricity: [0, 1 mm]}}");
-  expect_refused([&] { read_scene_text(eccentric, "scene.yaml"); }, {"start.hook", "starts as its bodies do"});
+  expect_refused([&] { read_scene_text(eccentric, "scene.yaml"); }, {"start.hook", "starts where its bodies are"});
 }
 
 TEST(OpenBearing, ExampleLetsGoWhereItSays) {

@@ -321,7 +321,7 @@ TEST(BadProfile, IsRefusedInOneLineWithKeyAndRemedy) {
       {"[1, 1], [-1, 1]", "[-1, 1], [1, 1]", "scene.yaml:3: bodies.b.profiles.skin", "crosses itself"},
       {"[1, 1], [-1, 1]", "[1, 1], [-1, 1], [-1, 0]", "scene.yaml:3: bodies.b.profiles.skin", "no length between point 5 and point 1"},
       {"[1, 1]", "{arc: 1}, [1, 1], {arc: 0}", "scene.yaml:3: bodies.b.profiles.skin.path", "must not be 0"},
-      {"[1, 1]", "{arc: 1}, {arc: 2}, [1, 1]", "scene.yaml:3: bodies.b.profiles.skin.path", "stands where a point should"},
+      {"[1, 1]", "{arc: 1}, {arc: 2}, [1, 1]", "scene.yaml:3: bodies.b.profiles.skin.path", "is an arc where a point is needed"},
       {"closed: true", "closed: true, material: left", "scene.yaml:3: bodies.b.profiles.skin.material", "inside or outside"},
       {"round: 1 cm", "round: 2 m", "scene.yaml:3: bodies.b.profiles.skin", "no room to round"},
       {"b.skin]", "b]", "scene.yaml:5: contacts.c.between", "names no profile. Known here: skin"},

@@ -102,13 +102,13 @@ TEST(Cam, InputIsRefusedWithTheRemedy) {
     expect_refused([&] { build(pintle::read_scene_text(text(lobe), "s.yaml", {}, folder)); }, parts);
   };
   refused("{cam: [cam, valve], lift: {table: open.csv, angle unit: deg, value unit: mm}}",
-          {"s.yaml:7", "joints.lobe.lift", "open.csv", "whole turn"});
+          {"s.yaml:7", "joints.lobe.lift", "open.csv", "full turn"});
   refused("{cam: [cam, valve], lift: {table: part.csv, angle unit: deg, value unit: mm}}", {"joints.lobe", "does not cover", "0 deg"});
   refused("{cam: [cam, valve], lift: 5 deg*sin(angle)}", {"joints.lobe.lift", "expected a length"});
   refused("{cam: [cam, valve], lift: 5 mm*sin(angel)}", {"angel", "angle"});
   for (const char* curve : {"5 mm*abs(sin(angle))", "5 mm*abs(angle)", "5 mm*max(angle, 0)", "5 mm*abs(angle - 2*pi)",
                             "5 mm*abs(angle + 2*pi)", "5 mm*abs(angle - pi)", "5 mm*if(angle < 0, 1, 2)"})
-    refused("{cam: [cam, valve], lift: \"" + std::string(curve) + "\"}", {"joints.lobe.lift", "struck", "step"});
+    refused("{cam: [cam, valve], lift: \"" + std::string(curve) + "\"}", {"joints.lobe.lift", "impact on the follower", "step"});
   refused("{cam: [cam, valve], lift: 5 mm*tan(angle/2)}", {"joints.lobe.lift", "not finite"});
   refused("{cam: [cam, valve]}", {"lift", "swing"});
   // What leaves its table while it runs says so, and does not go on.
@@ -242,7 +242,7 @@ TEST(Present, HoldsARodAsItIsDrawn) {
   const auto refused = [&](const std::string& key, const std::string& value, const std::vector<std::string>& parts) {
     expect_refused([&] { build(pintle::read_scene_text(text, "s.yaml", {{key, value}})); }, parts);
   };
-  refused("joints.rod.length", "2*present", {"joints.rod.length", "add to it"});
+  refused("joints.rod.length", "2*present", {"joints.rod.length", "may only add to present"});
   refused("joints.rod.length", "present - 5 m", {"joints.rod", "above 0"});
   refused("drivers", "{lift: {distance: [ground.C, arm.P], law: present*t}}", {"drivers.lift.law", "present"});
   refused("drivers", "{lift: {distance: [ground.C, arm.P], law: presents + 1}}", {"presents"});

@@ -45,16 +45,16 @@ TEST(BadRigid, IsRefusedInOneLineWithKeyAndRemedy) {
   };
   const std::string spring = "normal: {hertz: {stiffness: 1e9}}", place = "scene.yaml:6: contacts.foot";
   for (const Bad& bad : std::vector<Bad>{
-           {spring + ", restitution: 0.5", place + ".restitution", "belongs to model: impact"},
-           {spring + ", restitution law: poisson", place + ".restitution law", "belongs to model: impact"},
-           {spring + ", tangential restitution: 0.5", place + ".tangential restitution", "belongs to model: impact"},
+           {spring + ", restitution: 0.5", place + ".restitution", "is for model: impact only"},
+           {spring + ", restitution law: poisson", place + ".restitution law", "is for model: impact only"},
+           {spring + ", tangential restitution: 0.5", place + ".tangential restitution", "is for model: impact only"},
            {"restitution law: newton", place, "add for example restitution: 0.8"},
            {"restitution: 1.5", place + ".restitution", "1"},
            {"restitution: -0.1", place + ".restitution", "0"},
            {"restitution: 0.5, restitution law: moreau", place + ".restitution law", "newton"},
            {"restitution: 0.5, friction: {ambrosio: {coefficient: 0.1}}", place + ".friction", "coulomb: {coefficient: 0.1}"},
            {"restitution: 0.5, restitution law: poisson, tangential restitution: 0.5", place + ".tangential restitution",
-            "belongs to Newton's law"},
+            "is for Newton's law"},
        }) {
     SCOPED_TRACE(bad.laws);
     expect_refused([&] { return scene(bad.laws); }, bad.place, bad.says);
@@ -64,7 +64,7 @@ TEST(BadRigid, IsRefusedInOneLineWithKeyAndRemedy) {
 TEST(BadRigid, ClearanceIsRefusedTheSameWay) {
   const std::string place = "scene.yaml:2: joints.pin.clearance";
   expect_refused([] { return bearing("model: impact"); }, place, "add for example restitution: 0.8");
-  expect_refused([] { return bearing("model: massless link, restitution: 0.5"); }, place + ".restitution", "belongs to model: impact");
+  expect_refused([] { return bearing("model: massless link, restitution: 0.5"); }, place + ".restitution", "is for model: impact only");
   expect_refused([] { return bearing("model: impact, restitution: 0.5, friction: {tanh: {coefficient: 0.1, v1: 1}}"); }, place,
                  "coulomb: {coefficient: 0.1}");
 }

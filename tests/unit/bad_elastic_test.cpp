@@ -35,14 +35,14 @@ TEST(BadElastic, MaterialsAreJudged) {
       {"material: steel",
        "material: steel\n      poisson: 0.3",
        "scene.yaml:23: bodies.mast.beam.poisson: ",
-       {"said by the material already"}},
+       {"given by the material already"}},
       {"material: steel",
        "material: steel\n      density: 1",
        "scene.yaml:23: bodies.mast.beam.density: ",
-       {"said by the material already", "mass"}},
+       {"given by the material already", "mass"}},
       {"material: steel", "material: steel\n      young: 1 GPa", "scene.yaml:16: bodies.mast.beam: ", {"by material and young at once"}},
       {"      material: steel\n", "", "scene.yaml:16: bodies.mast.beam: ", {"what it is made of", "material, young or orthotropic"}},
-      {"mass: 0.21 kg", "mass: 0.21 kg, density: 7850", "scene.yaml:8: bodies.coupler.beam.mass: ", {"beside density", "keep one"}},
+      {"mass: 0.21 kg", "mass: 0.21 kg, density: 7850", "scene.yaml:8: bodies.coupler.beam.mass: ", {"combined with density", "keep one"}},
       {"mass: 0.21 kg, ", "", "scene.yaml:8: bodies.coupler.beam: ", {"neither density nor mass", "density: 7850 kg/m^3"}},
       {"material: rubber, mass: 2 kg", "material: rubber", "scene.yaml:41: bodies.sheet.plate: ", {"neither density nor mass"}},
   });
@@ -54,7 +54,7 @@ TEST(BadElastic, OrthotropicConstantsMustBeThoseOfASolid) {
       {"young: [140 GPa, 10 GPa]",
        "young: [140 GPa, 10 GPa, 10 GPa]",
        "scene.yaml:4: materials.ply.orthotropic.poisson: ",
-       {"1 value beside 3", "[12, 13, 23]"}},
+       {"1 value for 3", "[12, 13, 23]"}},
       {"poisson: 0.3, shear", "poisson: 4, shear", "scene.yaml:4: materials.ply.orthotropic: ", {"poisson_12"}},
       {", shear: 5 GPa", "", "scene.yaml:4: materials.ply.orthotropic: ", {"shear: 5 GPa"}},
       {"      element: quadrilateral8",
@@ -71,7 +71,7 @@ TEST(BadElastic, BeamsAreJudged) {
       {"from: A, to: B", "from: A, to: A", "scene.yaml:8: bodies.coupler.beam: ", {"no length from A to A"}},
       {"[foot, knee, head]", "[foot, knea, head]", "scene.yaml:17: bodies.mast.beam.through[2]: ", {"Did you mean \"knee\"?"}},
       {"[foot, knee, head]", "[foot]", "scene.yaml:17: bodies.mast.beam.through: ", {"two or more points"}},
-      {"from: A, to", "through: [A, B], to", "scene.yaml:8: bodies.coupler.beam.to: ", {"beside through"}},
+      {"from: A, to", "through: [A, B], to", "scene.yaml:8: bodies.coupler.beam.to: ", {"combined with through"}},
       {"    points: {A: [0, 0], B: [120 mm, 0]}\n",
        "",
        "scene.yaml:8: bodies.coupler.beam.from: ",
@@ -90,7 +90,7 @@ TEST(BadElastic, BeamsAreJudged) {
        {"a length [m]; expected an area"}},
       {"{circle: 10 mm}", "{circle: 10 mm, fibre: 1 mm}", "scene.yaml:8: bodies.coupler.beam.section.fibre: ", {"to area"}},
       {"web: 4 mm", "web: 60 mm", "scene.yaml:18: bodies.mast.beam.section.i.web: ", {"less than the width"}},
-      {"flange: 6 mm", "flange: 60 mm", "scene.yaml:18: bodies.mast.beam.section.i.flange: ", {"twice", "less than the height"}},
+      {"flange: 6 mm", "flange: 60 mm", "scene.yaml:18: bodies.mast.beam.section.i.flange: ", {"times two", "less than the height"}},
       {"taper to: {i: {height: 50 mm, width: 30 mm, web: 3 mm, flange: 4 mm}}",
        "taper to: {circle: 5 mm}",
        "scene.yaml:19: bodies.mast.beam.taper to: ",
@@ -125,9 +125,9 @@ TEST(BadElastic, PlatesAreJudged) {
        {"counter-clockwise"}},
       {"cells: [20, 10]", "cells: [20, 0]", "scene.yaml:41: bodies.sheet.plate.grid.cells[2]: ", {"at least 1"}},
       {"plane: strain", "plane: strane", "scene.yaml:41: bodies.sheet.plate.plane: ", {"Did you mean \"strain\"?"}},
-      {"{hole: eye 2}", "{hole: eye 2, at: [0, 0]}", "scene.yaml:35: bodies.rocker.points.D.at: ", {"beside hole"}},
+      {"{hole: eye 2}", "{hole: eye 2, at: [0, 0]}", "scene.yaml:35: bodies.rocker.points.D.at: ", {"combined with hole"}},
       {"coupling: average", "coupling: soft", "scene.yaml:35: bodies.rocker.points.C.coupling: ", {"rigid or average"}},
-      {"{hole: eye 2}", "{coupling: rigid}", "scene.yaml:35: bodies.rocker.points.D.coupling: ", {"belongs to hole"}},
+      {"{hole: eye 2}", "{coupling: rigid}", "scene.yaml:35: bodies.rocker.points.D.coupling: ", {"is for hole only"}},
       {"B: [120 mm, 0]}", "B: {hole: bore}}", "scene.yaml:9: bodies.coupler.points.B.hole: ", {"for plates"}},
   });
 }
@@ -150,9 +150,9 @@ TEST(BadElasticFile, IsJudgedByNameAndPlace) {
   expect_one_line(said("file: none.step"), place + ".file: ", {"there is no file", "none.step"});
   expect_one_line(said("file: part.stl"), place + ".file: ", {".step", ".inp"});
   expect_one_line(said("file: part.geo, unit: inch"), place + ".unit: ", {"m, km, cm, mm"});
-  expect_one_line(said("file: part.geo, unit: mm, scale: 2"), place + ".unit: ", {"beside scale"});
+  expect_one_line(said("file: part.geo, unit: mm, scale: 2"), place + ".unit: ", {"combined with scale"});
   expect_one_line(said("file: part.step, unit: mm"), place + ".unit: ", {"STEP file itself"});
-  expect_one_line(said("file: part.inp, size: 1 mm"), place + ".size: ", {"meshed already"});
+  expect_one_line(said("file: part.inp, size: 1 mm"), place + ".size: ", {"already a mesh"});
   expect_one_line(said("file: part.geo, grid: {}"), place + ": ", {"file and grid at once"});
 }
 

@@ -93,7 +93,7 @@ TEST(BadFlexible, ABodyAloneIsItsPointAtTheOrigin) {
 TEST(BadFlexible, StressIsOfMaterial) {
   const std::string with = "output: {stress: [part.C]}\n";
   expect_one_line(said_of(disc("C: {hole: bore}", "    modes: {count: 3}\n" + with)), "scene.yaml:6: output.stress",
-                  {"the middle of a hole, where no material is", "name a point of the plate"});
+                  {"the centre of a hole, where there is no material", "name a point of the plate"});
 }
 
 TEST(BadFlexible, LumpedMassMustLeaveTheFrameInertia) {
@@ -116,7 +116,7 @@ TEST(BadFlexible, BarsHaveNoDirectionForATangent) {
 
 TEST(BadFlexible, DampingAboveCriticalAndStiffeningOfRigidBodiesAreRefused) {
   expect_one_line(refusal_of(beam(modes, "    damping: {ratios: 1.5}\n")), "scene.yaml:6: bodies.rod.damping.ratios", {"between 0 and 1"});
-  expect_one_line(refusal_of(beam("    stiffening: rotation\n")), "scene.yaml:5: bodies.rod.stiffening", {"rigid body"});
+  expect_one_line(refusal_of(beam("    stiffening: rotation\n")), "scene.yaml:5: bodies.rod.stiffening", {"needs a flexible body"});
 }
 
 TEST(BadFlexible, BadScenesAreRefusedAlikeWhereModesAreChosen) {

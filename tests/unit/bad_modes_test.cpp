@@ -41,13 +41,13 @@ TEST(BadModes, StiffeningAndPiecesAreForBodiesThatBend) {
   const std::string rod = with_beam("section: {circle: 1 mm}, " + steel_keys);
   const std::string modes = "    modes: {count: 2}\n";
   const std::string stiffening = "scene.yaml:5: bodies.rod.stiffening: ";
-  expect_one_line(refusal_of(rod + "    stiffening: axial\n"), stiffening, {"asked of a rigid body", "craig-bampton: {count: 2}"});
+  expect_one_line(refusal_of(rod + "    stiffening: axial\n"), stiffening, {"needs a flexible body", "craig-bampton: {count: 2}"});
   expect_one_line(refusal_of(rod + "    stiffening: axail\n" + modes), stiffening, {"none, rotation or axial", "Did you mean \"axial\"?"});
   expect_one_line(refusal_of("bodies: {b: {rigid: {mass: 1, inertia: 1}, stiffening: axial}}\n"),
                   "scene.yaml:1: bodies.b.stiffening: ", {"does not belong to rigid"});
   const auto pieces = [&](const std::string& keys) { return with_beam("section: {circle: 1 mm}, " + keys + ", " + steel_keys); };
   const std::string place = "scene.yaml:3: bodies.rod.beam.pieces: ";
-  expect_one_line(refusal_of(pieces("pieces: 8")), place, {"asked of a rigid body", "modes"});
+  expect_one_line(refusal_of(pieces("pieces: 8")), place, {"needs a flexible body", "modes"});
   expect_one_line(refusal_of(pieces("pieces: 0") + modes), place, {"at least 1"});
   expect_one_line(refusal_of(pieces("pieces: 2.5") + modes), place, {"whole number"});
   expect_one_line(refusal_of(pieces("pieces: 20000") + modes), place, {"ten thousand"});
@@ -59,10 +59,10 @@ TEST(BadModes, StressIsRecordedWhereMaterialDeforms) {
   const std::string place = "scene.yaml:53: output.stress[2]: ";
   expect_one_line(said("coupler.Q"), place, {"coupler has no point \"Q\"", "A or B"});
   expect_one_line(said("couple.A"), place, {"Did you mean \"coupler\"?"});
-  expect_one_line(said("rocker.C"), place, {"middle of a hole", "of the plate itself"});
+  expect_one_line(said("rocker.C"), place, {"centre of a hole", "of the plate itself"});
   expect_one_line(said("mast"), place, {"is a body", "mast.foot"});
   expect_one_line(said("ground"), place, {"the ground has no stress"});
-  expect_one_line(said("coupler.B"), place, {"stands there twice"});
+  expect_one_line(said("coupler.B"), place, {"is listed twice"});
   const auto of_rigid = [](const std::string& body) {
     return refusal_of("bodies:\n  b: {" + body + ", points: {A: [0, 0], B: [1, 0]}}\n" + "output: {stress: [b.A]}\n");
   };
@@ -96,7 +96,7 @@ TEST(BadModes, DampingIsJudged) {
 TEST(BadModes, LumpsAndSupportsAreJudged) {
   expect_refused({
       {"lumps: {B: {mass: 0.1 kg", "lumps: {E: {mass: 0.1 kg", "scene.yaml:13: bodies.coupler.lumps.E: ", {"coupler has no point \"E\""}},
-      {"mass: 0.1 kg, inertia: 1e-5 kg m^2", "", "scene.yaml:13: bodies.coupler.lumps.B: ", {"weighs nothing"}},
+      {"mass: 0.1 kg, inertia: 1e-5 kg m^2", "", "scene.yaml:13: bodies.coupler.lumps.B: ", {"has no mass and no inertia"}},
       {"mass: 0.1 kg", "mass: -0.1 kg", "scene.yaml:13: bodies.coupler.lumps.B.mass: ", {"not be negative"}},
       {"A: fixed", "A: fixd", "scene.yaml:14: bodies.coupler.supports.A: ", {"Did you mean \"fixed\"?"}},
       {"B: [y]", "B: [z]", "scene.yaml:14: bodies.coupler.supports.B[1]: ", {"x, y, rotation, fixed or pinned"}},

@@ -54,7 +54,7 @@ TEST_F(Include, TellsTheFileAndLineOfAMistake) {
   expect_says(refusal("include: parts/wheel.yaml\n"), {"parts/wheel.yaml:", "this is not YAML"});
   put("parts/wheel.yaml", "bodies: {wheel: {rigid: {mass: 1 kg, inertia: 1}}}\n");
   expect_one_line(refusal("include: parts/wheel.yaml\nbodies:\n  wheel: {rigid: {mass: 1}}\n"),
-                  (folder.path / "scene.yaml").string() + ":3: bodies.wheel: ", {"parts/wheel.yaml:1 as well", "rename"});
+                  (folder.path / "scene.yaml").string() + ":3: bodies.wheel: ", {"is also in ", "parts/wheel.yaml:1; rename"});
 }
 
 TEST_F(Include, FindsTablesBesideTheFileThatNamesThem) {
@@ -88,7 +88,7 @@ TEST_F(Include, ReadsNothingFromOutside) {
 TEST_F(Include, RefusesWhatIsNoPart) {
   expect_says(refusal("include: parts/none.yaml\n"), {"scene.yaml:1: include: ", "there is no file \"parts/none.yaml\""});
   put("list.yaml", "[1, 2]\n");
-  expect_says(refusal("include: list.yaml\n"), {"list.yaml:1: ", "holds no keys of a scene"});
+  expect_says(refusal("include: list.yaml\n"), {"list.yaml:1: ", "contains no keys of a scene"});
   expect_says(refusal("include: {a: b}\n"), {"include: ", "write the name of a scene file"});
 }
 

@@ -202,11 +202,11 @@ TEST(Instances, AreRefusedWithLineAndInstance) {
        {"\"steal\"", "left steel"}},
       {"length: 80 mm}", "length: longth}", "scene.yaml:7: assemblies.leg.parameters.length: ", {"\"longth\"", "in the instance \"left\""}},
       {"    ports: [hip]", "    gravity: [0, 1]\n    ports: [hip]", "scene.yaml:8: assemblies.leg.gravity: ", {"unknown key"}},
-      {"output: {points: [thigh.K]}", "output: {frames: 3}", "scene.yaml:20: assemblies.leg.output.frames: ", {"belongs to the scene"}},
+      {"output: {points: [thigh.K]}", "output: {frames: 3}", "scene.yaml:20: assemblies.leg.output.frames: ", {"is for the scene only"}},
       {"bodies: {frame:",
        "bodies: {left shin: {rigid: {mass: 1}}, frame:",
        "scene.yaml:13: bodies.left shin: ",
-       {"the name stands at scene.yaml:4 as well", "rename"}},
+       {"the name is also used at scene.yaml:4", "rename"}},
       {"instances:\n",
        "instances:\n  many: {of: leg, repeat: 1e9, ports: {hip: frame.L}}\n",
        "scene.yaml:22: instances.many.repeat: ",
@@ -275,8 +275,8 @@ TEST(Colours, AreNamesOfCssOrNumbers) {
   const auto text = [](const std::string& colour) { return "bodies: {a: {rigid: {mass: 1, inertia: 1}, colour: " + colour + "}}"; };
   EXPECT_EQ(read_scene_text(text("steelblue"), "scene.yaml").bodies[0].colour, "steelblue");
   EXPECT_EQ(read_scene_text(text("\"#4682b4\""), "scene.yaml").bodies[0].colour, "#4682b4");
-  expect_says(refusal_of(text("steelblu")), {"no colour", "Did you mean \"steelblue\"?"});
-  expect_says(refusal_of(text("\"#46g2b4\"")), {"no colour"});
+  expect_says(refusal_of(text("steelblu")), {"not a colour", "Did you mean \"steelblue\"?"});
+  expect_says(refusal_of(text("\"#46g2b4\"")), {"not a colour"});
 }
 
 }  // namespace

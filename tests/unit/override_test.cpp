@@ -90,7 +90,7 @@ TEST(Override, ThatLeadsNowhereSaysWhereAndWhatToDo) {
       {"gravity.4", "1", {"gravity is a list of 2", "from 1 to 3"}},
       {"gravity.x.1", "1", {"gravity is a list of 2", "not \"x\""}},
       {"run..until", "1 s", {"between two dots"}},
-      {"run.until", "  ", {"write null to take the key away"}},
+      {"run.until", "  ", {"write null to remove the key"}},
       {"run.until", "{a", {"a key must be a word"}},
       {"run.until", "'1 s", {"not YAML"}},
       {"run.until", "&a 1", {"anchor"}},

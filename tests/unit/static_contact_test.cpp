@@ -83,8 +83,8 @@ TEST(StaticContact, SaysWhatIsWrong) {
   refused("  contacts: {c: {between: [pin.outline, eye.boer]}}\n" + loads, "bore");
   refused("  contacts: {c: {between: [pin.outline, rye.bore]}}\n" + loads, "eye");
   refused("  contacts: {c: {between: [pin.bore, eye.bore]}}\n" + loads, "coupling: average");
-  refused("  at: {eye: [0, 0]}\n" + loads, "takes no part");
-  refused("  loads: {push: {pressure: 1 MPa, on: bore, body: eye}}\n", "touches nothing");
+  refused("  at: {eye: [0, 0]}\n" + loads, "is not part of the case");
+  refused("  loads: {push: {pressure: 1 MPa, on: bore, body: eye}}\n", "has no contact in it");
 }
 
 }  // namespace pintle

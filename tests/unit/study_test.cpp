@@ -153,7 +153,7 @@ TEST(Case, EndsWithAStatusAndAReasonInOneLine) {
        std::vector<Way>{{{}, "finished", ""},
                         {{{"bodies.slider.rigid.mass", "-1 kg"}}, "refused", "--set bodies.slider.rigid.mass: \"-1 kg\" must"},
                         {{{"nonsense", "1"}}, "refused", "--set nonsense"},
-                        {{{"run", "null"}}, "refused", "does not say how long to run"},
+                        {{{"run", "null"}}, "refused", "has no duration of the run"},
                         {{{"bodies.coupler.points.B.1", "0.4 m"}, {"start.slider", "{x: 0.1 m}"}}, "not assembled", "joints."},
                         {{{"run.max steps", "10"}}, "failed", "max steps reached"},
                         {{{"run.ledger bound", "1e-15"}}, "ledger over its bound", "unexplained"},

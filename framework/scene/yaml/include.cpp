@@ -66,7 +66,7 @@ class Inclusion {
     } catch (const FileRefused& refused) {
       named.fail(refused.what());
     }
-    if (!fs::exists(path)) named.fail("there is no file \"" + name.string() + "\"; it is looked for beside the file that names it");
+    if (!fs::exists(path)) named.fail("there is no file \"" + name.string() + "\"; its path is relative to the file that names it");
     path = fs::weakly_canonical(path);
     refuse_circle(named, path);
     if (!once.insert(path).second) return;
@@ -88,17 +88,17 @@ class Inclusion {
     std::string circle = fs::path(source_.file).filename().string();
     if (first != open_.end()) circle = first->name;
     for (auto at = first == open_.end() ? open_.begin() : first + 1; at != open_.end(); ++at) circle += " > " + at->name;
-    named.fail("goes in a circle: " + circle + " > " + named.yaml().text + "; leave one of these out");
+    named.fail("includes itself: " + circle + " > " + named.yaml().text + "; remove one of these includes");
   }
 
   Yaml parsed(const Node& named, const fs::path& name, const fs::path& from_scene) {
-    if (source_.included.size() >= most_files) named.fail("makes more than " + std::to_string(most_files) + " files; include fewer");
+    if (source_.included.size() >= most_files) named.fail("gives more than " + std::to_string(most_files) + " files; include fewer");
     const std::string shown = (fs::path(source_.file).parent_path() / from_scene).lexically_normal().string();
     source_.included.push_back({shown, from_scene.parent_path()});
     Yaml tree = parse_yaml(read_text_file(source_.folder / from_scene, most_bytes), shown);
     if (tree.kind != Yaml::Kind::map)
       throw SceneError(shown, {tree.line, {}},
-                       "holds no keys of a scene, but " + named.place().key + " reads \"" + name.string() + "\" as one");
+                       "contains no keys of a scene, but " + named.place().key + " includes \"" + name.string() + "\" as a scene");
     mark_file(tree, static_cast<int>(source_.included.size()));
     return tree;
   }
@@ -106,7 +106,7 @@ class Inclusion {
   [[noreturn]] void twice(const Yaml& entry, const std::string& path, const Yaml& other) const {
     const std::string file = other.file == 0 ? source_.file : source_.file_of(other.file);
     throw SceneError(source_.file, {entry.line, path + entry.key, source_.file_of(entry.file)},
-                     "stands in " + file + ":" + std::to_string(other.line) + " as well; rename or remove one of them");
+                     "is also in " + file + ":" + std::to_string(other.line) + "; rename or remove one of them");
   }
 
   /// Two included files, entry by entry; settings are those of the first.

@@ -79,7 +79,7 @@ class Expansion {
   }
 
   Yaml copied(const Yaml& yaml, int scope) {
-    if (++values_ > most_values) node(yaml, yaml.key).fail("repeat and instances make more than a million values; repeat less");
+    if (++values_ > most_values) node(yaml, yaml.key).fail("repeat and instances make more than a million values; use fewer copies");
     Yaml out{yaml.kind, yaml.line, yaml.key, yaml.text, {}, yaml.file, scope};
     out.items.reserve(yaml.items.size());
     for (const Yaml& item : yaml.items) out.items.push_back(copied(item, scope));
@@ -98,7 +98,7 @@ class Expansion {
     if (!repeats(one)) return does(std::move(one));
     const Node repeat = node(one, path + entry.key).at("repeat");
     const long n = repeat.count(0);
-    if (n > most_copies) repeat.fail(repeat.shown() + " is more than a hundred thousand; repeat less");
+    if (n > most_copies) repeat.fail(repeat.shown() + " is more than a hundred thousand; use fewer copies");
     std::erase_if(one.items, [](const Yaml& item) { return item.key == "repeat"; });
     for (long i = 1; i <= n; ++i) {
       Yaml copy = copied(one, copy_scope(scope, i));
@@ -140,12 +140,13 @@ class Expansion {
     const bool scene = part.scope == 0;
     if (section.kind != Yaml::Kind::map) {
       if (!scene)
-        node(section, part.path + section.key).fail("must be a group of names in an assembly; a scene alone may say it otherwise");
+        node(section, part.path + section.key).fail("must be a group of names in an assembly; another form is allowed in a scene only");
       out_.items.push_back(copied(section, 0));
       return;
     }
     if (Yaml& to = group(out_, section); to.kind != Yaml::Kind::map)
-      node(section, part.path + section.key).fail("stands beside " + section.key + ": " + to.text + " of the scene; leave one of them out");
+      node(section, part.path + section.key)
+          .fail("cannot be combined with " + section.key + ": " + to.text + " of the scene; remove one of them");
     if (section.key == "ground") {
       Yaml& ground = group(out_, section);
       for (const Yaml& kind : section.items) lay_entries(kind, part, group(ground, kind), "ground." + kind.key);
@@ -180,7 +181,7 @@ class Expansion {
     Yaml& output = group(out_, section);
     for (const Yaml& list : section.items) {
       const Node at = node(list, part.path + "output." + list.key);
-      if (list.key != "points" && list.key != "stress") at.fail("belongs to the scene; an assembly's output has points and stress");
+      if (list.key != "points" && list.key != "stress") at.fail("is for the scene only; the output of an assembly has points and stress");
       Yaml& to = group(output, list);
       if (to.items.empty()) to.kind = Yaml::Kind::list;
       for (std::size_t i = 0; i < at.list(1, "a list of points").size(); ++i) to.items.push_back(copied(list.items[i], part.scope));
@@ -204,8 +205,8 @@ class Expansion {
     int levels = 0;
     for (const Part* p = &part; p->outer; p = p->outer) {
       circle = p->written.key + " > " + circle;
-      if (&p->written == &assembly) of.fail("makes an assembly hold itself: " + circle + "; leave one of these out");
-      if (++levels > most_levels) of.fail("is nested more than " + std::to_string(most_levels) + " levels deep; nest less");
+      if (&p->written == &assembly) of.fail("makes an assembly contain itself: " + circle + "; remove one of these");
+      if (++levels > most_levels) of.fail("is nested more than " + std::to_string(most_levels) + " levels deep; use fewer levels");
     }
   }
 
@@ -318,7 +319,7 @@ class Expansion {
         scope.ports.emplace(port.name(), port.part("a point such as body.R, or a body"));
       }
     for (const std::string& port : known)
-      if (!scope.ports.contains(port)) spec.fail("does not say what its port \"" + port + "\" is; add ports: {" + port + ": body.A}");
+      if (!scope.ports.contains(port)) spec.fail("does not connect its port \"" + port + "\"; add ports: {" + port + ": body.A}");
   }
 
   /// What `ground` alone means in an instance that stands elsewhere.
@@ -343,8 +344,8 @@ class Expansion {
       if (const auto [other, fresh] = seen.try_emplace(entry.key, &entry); !fresh) {
         const Yaml& first = *other->second;
         node(entry, path + "." + entry.key)
-            .fail("the name stands at " + (first.file == 0 ? source_.file : source_.file_of(first.file)) + ":" +
-                  std::to_string(first.line) + " as well; rename one of them");
+            .fail("the name is also used at " + (first.file == 0 ? source_.file : source_.file_of(first.file)) + ":" +
+                  std::to_string(first.line) + "; rename one of them");
       }
   }
 

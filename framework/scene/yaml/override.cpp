@@ -88,7 +88,7 @@ class Walk {
 
   void apply(Yaml& scene) {
     if (std::ranges::find(steps_, "") != steps_.end()) fail("a key is missing between two dots; write GROUP.NAME.KEY");
-    if (trimmed(text_).empty()) fail("no value is given; write null to take the key away");
+    if (trimmed(text_).empty()) fail("no value is given; write null to remove the key");
     Yaml value = parse_yaml(text_, file_ + ": --set " + path_);
     mark(value);
     Yaml* at = &scene;
@@ -126,7 +126,7 @@ class Walk {
   bool open(Yaml& group, std::size_t i, bool removing) const {
     if (group.kind == Yaml::Kind::map || group.kind == Yaml::Kind::list) return true;
     if (group.kind == Yaml::Kind::scalar)
-      fail(upto(i) + " is \"" + group.text + "\", not a group that could hold \"" + steps_[i] + "\"; write --set \"" + upto(i) + "={" +
+      fail(upto(i) + " is \"" + group.text + "\", not a group that can contain \"" + steps_[i] + "\"; write --set \"" + upto(i) + "={" +
            steps_[i] + ": …}\" to replace it");
     if (removing) return false;
     group.kind = Yaml::Kind::map;

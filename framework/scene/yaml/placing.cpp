@@ -56,7 +56,7 @@ void place_origin(Spot profile, std::string_view key, const PlacesOf& places) {
 }
 
 void place_polar(const Spot& polar, const PlacesOf& places) {
-  if (polar.node.is_map()) polar.node.fail("is a file, which cannot be mirrored or turned; write its points, or make a body carry it");
+  if (polar.node.is_map()) polar.node.fail("is a file, which cannot be mirrored or turned; write its points, or attach it to a body");
   for (const Spot& point : polar.list("angles and radii")) {
     const std::vector<Spot> two = point.list("[angle, radius]");
     if (!two.empty()) set_angle(two[0], places.direction(two[0].node.quantity(dimension::angle)));
@@ -85,7 +85,7 @@ void place_profile(const Spot& profile, const PlacesOf& places) {
     }
   if (profile.has("spline")) {
     const Spot spline = profile.at("spline");
-    if (spline.node.is_map()) spline.node.fail("is a file, which cannot be mirrored or turned; write its points, or make a body carry it");
+    if (spline.node.is_map()) spline.node.fail("is a file, which cannot be mirrored or turned; write its points, or attach it to a body");
     for (const Spot& item : spline.list("points")) place_spot(item, places);
   }
   if (profile.has("polar")) {
@@ -123,7 +123,7 @@ void place_ground_point(Spot point, const Placing& placing) {
 
 void mirror_elastic(const Spot& made) {
   if (made.has("orthotropic")) negate(made.at("orthotropic"), "angle", dimension::angle);
-  if (made.has("file")) cannot_mirror(made.at("file").node, "draw the other side into a file of its own, and give it to a body of its own");
+  if (made.has("file")) cannot_mirror(made.at("file").node, "draw the other side in a separate file, and give it to a separate body");
   if (made.has("link") && made.at("link").has("triangle") && made.at("link").at("triangle").has("centers"))
     for (const Spot& center : made.at("link").at("triangle").at("centers").list("centres [x, y]"))
       set(center, flipped(center.node.pair(dimension::length)));
@@ -178,7 +178,7 @@ void place_plane(Spot start, const char* both, const char* x, const char* y, con
   const auto [c, s] = placing.turn();
   if (has_x && has_y) return set(start.at(x), out[0]), set(start.at(y), out[1]);
   if (c != 0 && s != 0)
-    start.at(has_x ? x : y).node.fail(std::string("alone says nothing where the instance is turned; write ") + both + ": [x, y]");
+    start.at(has_x ? x : y).node.fail(std::string("is not enough on its own if the instance is turned; write ") + both + ": [x, y]");
   const std::size_t which = (has_x ? 0U : 1U) ^ (c == 0 ? 1U : 0U);
   const Spot old = start.at(has_x ? x : y);
   old.yaml = number_like(old.yaml, which == 0 ? x : y, out[which]);
@@ -186,7 +186,7 @@ void place_plane(Spot start, const char* both, const char* x, const char* y, con
 
 void place_start(const Spot& start, const Placing& placing) {
   if (!start.node.is_map()) return;
-  if (start.has("modes") && placing.mirrored) cannot_mirror(start.at("modes").node, "say by deflection how the body is bent");
+  if (start.has("modes") && placing.mirrored) cannot_mirror(start.at("modes").node, "give the deflection of the body with deflection");
   place_plane(start, "at", "x", "y", dimension::length, placing);
   place_plane(start, "velocity", "vx", "vy", dimension::speed, placing);
   if (start.has("angle")) set_angle(start.at("angle"), placing.direction(start.at("angle").node.quantity(dimension::angle)));
@@ -200,8 +200,7 @@ void place_start(const Spot& start, const Placing& placing) {
       set(point, flipped(point.node.pair(dimension::length)));
 }
 
-constexpr const char* signals_turn =
-    "the signals that it may name have other signs on the other side: write it into the scene for each side";
+constexpr const char* signals_turn = "signals in it may change their sign when mirrored: write it into the scene for each side";
 
 }  // namespace
 

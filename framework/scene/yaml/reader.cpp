@@ -128,7 +128,7 @@ Quantity read_parameter(const Node& node, const std::vector<std::string>& all) {
 void require_run(const Scene& scene) {
   if (!scene.has_run)
     throw SceneError(scene.file, {0, "run"},
-                     "is missing: the scene does not say how long to run; add for example "
+                     "is missing: the scene has no duration of the run; add for example "
                      "run: {until: 1 s}");
 }
 

@@ -24,9 +24,9 @@ ISection read_i(const Node& node, const std::string& keys) {
   const ISection s{read_size(node.at("height")), read_size(node.at("width")), read_size(node.at("web")), read_size(node.at("flange"))};
   if (s.web >= s.width)
     node.at("web").fail(node.at("web").shown() + " must be less than the width " + node.at("width").shown() +
-                        ": flanges are wider than the web");
+                        ": the flanges must be wider than the web");
   if (2 * s.flange >= s.height)
-    node.at("flange").fail(node.at("flange").shown() + " twice must be less than the height " + node.at("height").shown() +
+    node.at("flange").fail(node.at("flange").shown() + " times two must be less than the height " + node.at("height").shown() +
                            ": the web stands between the flanges");
   return s;
 }
@@ -59,17 +59,17 @@ std::vector<std::string> read_through(const Node& node, const SceneBody& body) {
   std::vector<std::string> names;
   if (node.has("through")) {
     for (const char* key : {"from", "to"})
-      if (node.has(key)) node.at(key).fail("stands beside through; leave it out: through holds every point");
+      if (node.has(key)) node.at(key).fail("cannot be combined with through; leave it out: through lists every point");
     for (const Node& item : node.at("through").list(2, "two or more points of the body [A, B]"))
       names.push_back(read_own_point(item, body));
   } else {
-    if (!node.has("from") || !node.has("to")) node.fail("does not say where it runs; add from: A and to: B, or through: [A, B]");
+    if (!node.has("from") || !node.has("to")) node.fail("has no end points; add from: A and to: B, or through: [A, B]");
     names = {read_own_point(node.at("from"), body), read_own_point(node.at("to"), body)};
   }
   const auto place = [&](const std::string& name) { return std::ranges::find(body.points, name, &ScenePoint::name)->at; };
   for (std::size_t i = 0; i + 1 < names.size(); ++i)
     if (place(names[i]) == place(names[i + 1]))
-      node.fail("has no length from " + names[i] + " to " + names[i + 1] + ": both are at one place; move one");
+      node.fail("has no length from " + names[i] + " to " + names[i + 1] + ": both are at the same position; move one");
   return names;
 }
 
@@ -90,12 +90,9 @@ void read_theory(const Node& node, SceneBeam& beam) {
 }
 
 int read_pieces(const Node& node, bool bar) {
-  if (bar)
-    node.fail(
-        "are welded to each other, but a bar is hinged at every node; take the theory euler or "
-        "timoshenko, or leave it out");
+  if (bar) node.fail("are welded to each other, but a bar is hinged at every node; use the theory euler or timoshenko, or leave it out");
   const long pieces = node.count(1);
-  if (pieces > 10'000) node.fail("is more than ten thousand bodies; ask for fewer");
+  if (pieces > 10'000) node.fail("is more than ten thousand bodies; use fewer");
   return static_cast<int>(pieces);
 }
 
@@ -112,7 +109,7 @@ SceneBeam read_beam(const Node& node, const SceneBody& body, const std::vector<S
     beam.taper_to = read_section(far, keys + ".taper to");
     if (beam.taper_to->index() != beam.section.index())
       far.fail("is " + section_kinds[beam.taper_to->index()].kind + ", but section is " + section_kinds[beam.section.index()].kind +
-               "; give both by the same key");
+               "; give both with the same key");
   }
   read_theory(node, beam);
   Made made = read_made(node, keys, materials);
@@ -120,7 +117,7 @@ SceneBeam read_beam(const Node& node, const SceneBody& body, const std::vector<S
   beam.mass = made.mass;
   if (node.has("elements")) {
     const long elements = node.at("elements").count(1);
-    if (elements > 1'000'000) node.at("elements").fail("is more than a million; ask for fewer");
+    if (elements > 1'000'000) node.at("elements").fail("is more than a million; use fewer");
     beam.elements = static_cast<int>(elements);
   }
   if (node.has("pieces")) beam.pieces = read_pieces(node.at("pieces"), beam.bar);

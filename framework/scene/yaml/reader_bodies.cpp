@@ -11,8 +11,8 @@ namespace {
 
 // A point in the middle of a hole; only a plate has holes.
 void read_hole(const Node& node, bool plate, ScenePoint& point) {
-  if (!plate) node.at("hole").fail("is for plates: no other body has a hole; write [x, y]");
-  if (node.has("at")) node.at("at").fail("stands beside hole, whose middle is the place; keep one of them");
+  if (!plate) node.at("hole").fail("is for plates only: no other body has a hole; write [x, y]");
+  if (node.has("at")) node.at("at").fail("cannot be combined with hole, whose centre is the position; keep one of them");
   point.hole = node.at("hole").text("the name of a hole of the mesh");
   point.coupling = RimCoupling::rigid;
   if (node.has("coupling") && node.at("coupling").one_of(choices("bodies.*.points.*", "coupling")) == "average")
@@ -22,7 +22,7 @@ void read_hole(const Node& node, bool plate, ScenePoint& point) {
 /// A place in the world of the drawn pose, in the body's axes; a direction beside it is drawn in the world as well.
 void read_world(const Node& node, const SceneBody& body, ScenePoint& point) {
   for (const char* key : {"at", "hole"})
-    if (node.has(key)) node.at(key).fail("stands beside world, which says the place; keep one of them");
+    if (node.has(key)) node.at(key).fail("cannot be combined with world, which gives the position; keep one of them");
   const Pair world = node.at("world").pair(dimension::length);
   const double c = std::cos(body.angle), s = std::sin(body.angle), x = world[0] - body.at[0], y = world[1] - body.at[1];
   point.at = {c * x + s * y, c * y - s * x};
@@ -76,7 +76,7 @@ ScenePoint read_point(const Node& node, std::string_view keys, bool plate, const
     read_hole(node, plate, point);
     return point;
   }
-  if (node.has("coupling")) node.at("coupling").fail("belongs to hole; add hole, or leave it out");
+  if (node.has("coupling")) node.at("coupling").fail("is for hole only; add hole, or leave it out");
   if (!node.has("at")) node.fail(std::string("lacks a required key; add for example at: [10 mm, 0]") + (plate ? ", or hole: bore" : ""));
   point.at = node.at("at").pair(dimension::length);
   return point;
@@ -107,7 +107,7 @@ std::string read_colour(const Node& node) {
   const std::vector<std::string> known = colour_names();
   if (rgb_of(colour)) return colour;
   const std::string near = nearest(colour, known);
-  node.fail(node.shown() + " is no colour; write a name of CSS such as steelblue, or \"#4682b4\" in quotes." +
+  node.fail(node.shown() + " is not a colour; write a name of CSS such as steelblue, or \"#4682b4\" in quotes." +
             (near.empty() ? "" : " Did you mean \"" + near + "\"?"));
 }
 
@@ -140,7 +140,7 @@ void read_bodies(const Node& root, Scene& scene) {
   const Node bodies = root.at("bodies");
   for (const Node& node : bodies.entries("names and bodies: {crank: {rigid: {…}}}"))
     scene.bodies.push_back(read_body(node, scene.materials));
-  if (scene.bodies.empty()) bodies.fail("holds no body; add one");
+  if (scene.bodies.empty()) bodies.fail("contains no body; add one");
 }
 
 }  // namespace pintle

@@ -21,12 +21,14 @@ void read_stiffness(const Node& node, std::string_view keys, SceneNormal& normal
   const char* other = keys.starts_with("joints") ? "journal" : "second";
   const bool elastic = node.has("young") || node.has("poisson");
   if (node.has("stiffness")) {
-    if (elastic || node.has(other)) node.at("stiffness").fail("stands beside young and poisson; give either the stiffness or those");
+    if (elastic || node.has(other))
+      node.at("stiffness").fail("cannot be combined with young and poisson; give either the stiffness or those");
     const Dimension expected{1 - normal.exponent, 1, -2, 0};  // N/mⁿ
     normal.stiffness = node.at("stiffness").quantity(expected, rule::positive);
     return;
   }
-  if (!(node.has("young") && node.has("poisson"))) node.fail("does not say how stiff the contact is; add young and poisson, or stiffness");
+  if (!(node.has("young") && node.has("poisson")))
+    node.fail("does not give the stiffness of the contact; add young and poisson, or stiffness");
   normal.bearing = normal.journal = read_elasticity(node);
   if (!node.has(other)) return;
   check_keys(node.at(other), std::string(keys) + "." + other);
@@ -63,7 +65,7 @@ std::vector<Pair> read_points(const Node& law) {
   std::vector<Pair> out;
   if (which_key(law, std::vector<std::string>{"points", "file"}, "its table") == "points") {
     for (const char* unit : {"depth unit", "force unit"})
-      if (law.has(unit)) law.at(unit).fail("belongs to `file`; write the units beside the numbers of points");
+      if (law.has(unit)) law.at(unit).fail("is for `file` only; write the units with the numbers of points");
     for (const Node& point : law.at("points").list(2, remedy)) {
       const std::vector<Node> numbers = point.items(2, remedy);
       out.push_back({numbers[0].quantity(dimension::length), numbers[1].quantity(dimension::force)});
@@ -88,12 +90,13 @@ std::vector<Pair> read_points(const Node& law) {
 void read_layer(const Node& law, SceneNormal& normal) {
   if (law.has("stiffness")) {
     for (const char* key : {"layer", "young", "poisson"})
-      if (law.has(key)) law.at("stiffness").fail("stands beside layer, young and poisson; give either the stiffness or those");
+      if (law.has(key)) law.at("stiffness").fail("cannot be combined with layer, young and poisson; give either the stiffness or those");
     normal.stiffness = law.at("stiffness").quantity({-2, 1, -2, 0}, rule::positive);  // N/m³
     return;
   }
-  if (!law.has("layer")) law.fail("lacks a required key; add for example layer: 1 mm, how thick what yields is, or stiffness: 4e12 N/m^3");
-  if (!(law.has("young") && law.has("poisson"))) law.fail("does not say how stiff the layer is; add young and poisson, or stiffness");
+  if (!law.has("layer"))
+    law.fail("lacks a required key; add for example layer: 1 mm (the thickness of the elastic layer), or stiffness: 4e12 N/m^3");
+  if (!(law.has("young") && law.has("poisson"))) law.fail("does not give the stiffness of the layer; add young and poisson, or stiffness");
   normal.layer = read_size(law.at("layer"));
   normal.bearing = {law.at("young").quantity(dimension::stress, rule::positive),
                     law.at("poisson").quantity(dimension::number, rule::solid_poisson)};
@@ -114,13 +117,13 @@ void read_elastic_law(const Node& law, std::string_view keys, SceneNormal& norma
   read_damping(law, keys, normal);
   if (law.has("hysteresis")) {
     normal.hysteresis = law.at("hysteresis").one_of(choices(keys, "hysteresis"));
-    if (!law.has("restitution")) law.at("hysteresis").fail("needs the restitution that it damps for; add for example restitution: 0.8");
+    if (!law.has("restitution")) law.at("hysteresis").fail("needs a restitution; add for example restitution: 0.8");
   }
   if (table) {
     normal.points = read_points(law);
     return;
   }
-  if (!law.has("length")) law.fail("lacks a required key; add for example length: 20 mm, of the contact along the axes");
+  if (!law.has("length")) law.fail("lacks a required key; add for example length: 20 mm (of the contact along the axes)");
   normal.length = read_size(law.at("length"));
   if (layer) return read_layer(law, normal);
   read_stiffness(law, keys, normal);
@@ -153,7 +156,7 @@ SceneContact read_contact(const Node& node, const Scene& scene) {
 
 void reject_impact_keys(const Node& node) {
   for (const char* key : {"restitution", "tangential restitution", "restitution law"})
-    if (node.has(key)) node.at(key).fail("belongs to model: impact; add that, or write the restitution into the normal law");
+    if (node.has(key)) node.at(key).fail("is for model: impact only; add that, or write the restitution into the normal law");
 }
 
 SceneImpact read_impact(const Node& node, std::string_view keys) {
@@ -167,13 +170,13 @@ SceneImpact read_impact(const Node& node, std::string_view keys) {
   read_optional(node, "tangential restitution", dimension::number, rule::zero_to_one, out.tangential);
   if (node.has("restitution law")) out.poisson = node.at("restitution law").one_of(choices(keys, "restitution law")) == "poisson";
   if (out.poisson && out.tangential > 0)
-    node.at("tangential restitution").fail("belongs to Newton's law of restitution; leave one of the two out");
+    node.at("tangential restitution").fail("is for Newton's law of restitution only; leave one of the two out");
   return out;
 }
 
 void check_rigid_friction(const Node& node) {
   if (!node.has("friction") || node.at("friction").has("coulomb")) return;
-  node.at("friction").fail("of rigid bodies is dry; write {coulomb: {coefficient: 0.1}}");
+  node.at("friction").fail("of rigid bodies must be dry; write {coulomb: {coefficient: 0.1}}");
 }
 
 void read_laws(const Node& node, std::string_view keys, SceneNormal& normal, std::optional<SceneImpact>& impact,
@@ -197,7 +200,7 @@ SceneNormal read_normal(const Node& node, std::string_view keys) {
   const char* remedy = "one law: {lankarani-nikravesh: {restitution: 0.8, young: 207 GPa, poisson: 0.3}}";
   if (keys.starts_with("joints") && (node.is_map() ? node.has(spring_damper) : node.is_scalar() && node.yaml().text == spring_damper))
     node.fail(
-        "a spring-damper is a model of the clearance and no law of one: beside `radial` write model: spring-damper, stiffness: 1e6 N/m, "
+        "a spring-damper is a model of the clearance, not a normal law: next to `radial` write model: spring-damper, stiffness: 1e6 N/m, "
         "damping: 100 N s/m, and leave `normal` out");
   const auto laws = node.entries(remedy);
   if (laws.size() != 1) node.fail("names " + std::to_string(laws.size()) + " laws; write " + remedy);
@@ -211,7 +214,7 @@ SceneNormal read_normal(const Node& node, std::string_view keys) {
       read_spring_damper(law, normal);
       return normal;
     }
-    if (law.has("damping")) law.at("damping").fail("belongs to spring-damper; leave it out");
+    if (law.has("damping")) law.at("damping").fail("is for spring-damper only; leave it out");
   }
   if (normal.law == table_law || std::ranges::find(names_of_cylinders, normal.law) != names_of_cylinders.end()) {
     read_elastic_law(law, keys, normal);
@@ -220,7 +223,7 @@ SceneNormal read_normal(const Node& node, std::string_view keys) {
   for (const char* key : {"length", "layer", "hysteresis", "points", "file", "depth unit", "force unit"})
     if (law.has(key)) law.at(key).fail("does not belong to " + normal.law + "; leave it out");
   const bool lossless = normal.law == "hertz";
-  if (lossless && law.has("restitution")) law.at("restitution").fail("hertz loses nothing; leave restitution out");
+  if (lossless && law.has("restitution")) law.at("restitution").fail("hertz has no losses; leave restitution out");
   if (!lossless && !law.has("restitution")) law.fail("lacks a required key; add for example restitution: 0.8");
   read_damping(law, keys, normal);
   read_optional(law, "exponent", dimension::number, rule::at_least_one, normal.exponent);
@@ -233,7 +236,7 @@ SceneFriction read_friction(const Node& node, const std::string& path) {
   check_keys(node, path);
   const std::string law =
       which_key(node, std::vector<std::string>{"coulomb", "lugre", "gonthier", "ambrosio", "threlfall", "tanh", "bengisu-akay"},
-                "its law of friction");
+                "which friction law it has");
   return read_friction_law(node.at(law), path + "." + law);
 }
 
@@ -241,7 +244,7 @@ namespace {
 
 void read_bristles(const Node& law, SceneFriction& friction) {
   constexpr Dimension per_length{-1, 0, 0, 0}, per_speed{-1, 0, 1, 0};
-  if (!(friction.coefficient > 0)) law.at("coefficient").fail("must be above 0: where bristles hold nothing they do not give way");
+  if (!(friction.coefficient > 0)) law.at("coefficient").fail("must be above 0: bristles slip at a force proportional to it");
   friction.bristle_stiffness = law.at("bristle stiffness").quantity(per_length, rule::positive);
   const auto optional_of = [&](const char* key, const Dimension& of, const Rule& must, std::optional<double>& to) {
     if (law.has(key)) to = law.at(key).quantity(of, must);
@@ -264,18 +267,18 @@ SceneFriction read_friction_law(const Node& law, const std::string& keys) {
     friction.holds = law.at("static").quantity(dimension::number, rule::not_negative);
     if (*friction.holds < friction.coefficient)
       law.at("static").fail("must be coefficient, " + number_text(friction.coefficient) +
-                            ", or above: what sticks holds no less than what slides");
+                            ", or above: sticking friction is at least sliding friction");
   }
   read_optional(law, "stribeck speed", dimension::speed, rule::positive, friction.stribeck);
   const bool bristles = friction.law == "lugre" || friction.law == "gonthier";
   if (bristles) read_bristles(law, friction);
   if (!bristles && law.has("stribeck speed") && !(friction.holds.value_or(0) > friction.coefficient))
-    law.at("stribeck speed").fail("needs `static` above coefficient, to fall from; add it, or leave this out");
+    law.at("stribeck speed").fail("needs `static` above coefficient; add it, or leave this out");
   if (friction.law == "bengisu-akay" && law.has("v0")) law.at("v0").quantity(dimension::speed, rule::positive);
   read_optional(law, "v0", dimension::speed, rule::not_negative, friction.v0);
   read_optional(law, "v1", dimension::speed, rule::positive, friction.v1);
   if (friction.law == "ambrosio" && friction.v0 >= friction.v1)
-    (law.has("v1") ? law.at("v1") : law.at("v0")).fail("v0 must be less than v1: friction grows from none at v0 to its whole at v1");
+    (law.has("v1") ? law.at("v1") : law.at("v0")).fail("v0 must be less than v1: friction grows from 0 at v0 to its full value at v1");
   if (law.has("sliding") && law.at("sliding").one_of(choices(keys, "sliding")) == "geometric") friction.sliding = SlidingSpeed::geometric;
   return friction;
 }

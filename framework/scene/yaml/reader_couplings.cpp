@@ -47,21 +47,22 @@ void read_wheels(const Node& node, const JointWord& word, SceneCoupling& out) {
   const bool teeth = node.has("teeth") && !of_pinion;
   if (line + teeth + radii > 1) {
     const char* second = teeth ? "teeth" : "radius";
-    node.at(second).fail(std::string("says the size of the wheels beside radii; keep one of them"));
+    node.at(second).fail(std::string("gives the size of the wheels, as radii does; keep one of them"));
   }
   if (line) {
     out.radius = read_size(node.at("radius"));
-    if (node.has("inside")) node.at("inside").fail("belongs to two discs, with radii; a disc on a line has radius alone");
+    if (node.has("inside")) node.at("inside").fail("is for two discs with radii; a disc on a line has radius only");
   }
   if (of_pinion) {
     out.teeth = {0, node.at("teeth").quantity(dimension::number, rule::positive)};
-    if (out.teeth[1] != std::round(out.teeth[1])) node.at("teeth").fail("is " + number_text(out.teeth[1]) + ", but teeth are whole");
+    if (out.teeth[1] != std::round(out.teeth[1])) node.at("teeth").fail("is " + number_text(out.teeth[1]) + ", but must be a whole number");
   }
   if (radii) out.radii = read_two(node.at("radii"), dimension::length, "[20 mm, 60 mm]");
   if (teeth) {
     out.teeth = read_two(node.at("teeth"), dimension::number, "[20, 60]");
     for (const double n : out.teeth)
-      if (n != std::round(n)) node.at("teeth").fail("holds " + number_text(n) + ", but teeth are whole; write the pitch circles' radii");
+      if (n != std::round(n))
+        node.at("teeth").fail("contains " + number_text(n) + ", but must be whole numbers; otherwise write the radii of the pitch circles");
   }
   if (line || radii || teeth) return;
   node.fail(std::string("lacks a required key; add for example ") + (kind == "rack"   ? "radius: 20 mm"
@@ -136,8 +137,8 @@ Law read_curve_table(const Node& node, const Dimension& expected, const std::str
   const bool turns = std::abs(samples.t.back() - samples.t.front() - full_turn) < turn_known;
   if (!turns) return from_zero({Bounded{Spline(samples)}, text.dump(), false}, zero, clockwise);
   if (!(std::abs(samples.value.back() - samples.value.front()) <= level * (*most - *least)))
-    node.fail("the table " + file + " spans a whole turn but does not end where it begins: " + number_text(samples.value.front()) +
-              " and " + number_text(samples.value.back()) + "; let the last value be the first");
+    node.fail("the table " + file + " covers a full turn but does not end with its first value: " + number_text(samples.value.front()) +
+              " and " + number_text(samples.value.back()) + "; make the last value equal to the first");
   return from_zero({periodic(samples), text.dump(), false}, zero, clockwise);
 }
 
@@ -162,11 +163,11 @@ Law read_cam_curve(const Node& node, const Dimension& expected, const std::strin
   }
   const LawScale scale = scale_of(law.at, full_turn);
   const auto not_finite = [&](double angle) {
-    node.fail(node.shown() + " is not finite at " + number_text(angle) + " rad; it must be, with two derivatives");
+    node.fail(node.shown() + " is not finite at " + number_text(angle) + " rad; it and its first two derivatives must be");
   };
   const auto kinked = [&](double angle) {
-    node.fail(node.shown() + " jumps, or its slope does, at " + number_text(angle) +
-              " rad: the follower would be struck; write step(angle, …) instead of if, min, max or abs");
+    node.fail(node.shown() + " jumps, or its slope jumps, at " + number_text(angle) +
+              " rad, which means an impact on the follower; write step(angle, …) instead of if, min, max or abs");
   };
   if (!std::isnan(scale.not_finite)) not_finite(scale.not_finite);
   if (const auto pole = pole_of(law.at, full_turn, true)) not_finite(*pole);
@@ -195,7 +196,7 @@ Law read_after_present(const Node& node, const Dimension& expected, double until
   constexpr double rounding = 1e-9;
   for (const double t : {0.0, 0.37, 5.1})
     if (!(std::abs(more.at(t).value - law.at(t).value - 1) < rounding) || !(std::abs(more.at(t).rate - law.at(t).rate) < rounding))
-      node.fail(node.shown() + " does more with present than add to it; write for example present + 50 mm*step(t, 0, 1 s)");
+      node.fail(node.shown() + " may only add to present; write for example present + 50 mm*step(t, 0, 1 s)");
   must_be_finite(node, law, Smoothness::driver, until);
   return law;
 }
@@ -232,7 +233,7 @@ bool read_terms(const Node& list, SceneJoint& joint) {
     if (node.has("ratio")) term.ratio = node.at("ratio").quantity(product(sum, power(of, -1)));
     if (term.ratio == 0) node.at("ratio").fail("must not be 0; leave the term out");
     for (const SceneTerm& other : out.terms)
-      if (&other != &term && measures_the_same(other, term)) node.at(kind).fail("is measured by another term too; add their ratios");
+      if (&other != &term && measures_the_same(other, term)) node.at(kind).fail("is also measured by another term; add their ratios");
   }
   joint.a = out.terms.front().a, joint.b = out.terms.front().b;
   return true;
@@ -240,7 +241,7 @@ bool read_terms(const Node& list, SceneJoint& joint) {
 
 void read_coupling(const Node& node, const JointWord& word, SceneJoint& joint) {
   if (word.couples.empty()) {
-    if (joint.coupling && node.has("ratio")) node.at("ratio").fail("belongs to two shafts; each term has a ratio of its own");
+    if (joint.coupling && node.has("ratio")) node.at("ratio").fail("is for two shafts; here each term has its own ratio");
     return;
   }
   SceneCoupling& out = joint.coupling.emplace();
@@ -248,7 +249,7 @@ void read_coupling(const Node& node, const JointWord& word, SceneJoint& joint) {
   if (node.has("crossed")) out.crossed = node.at("crossed").yes();
   switch (word.kind) {
     case JointKind::screw:
-      if (!node.has("lead")) node.fail("lacks a required key; add for example lead: 5 mm, the nut's way a turn");
+      if (!node.has("lead")) node.fail("lacks a required key; add for example lead: 5 mm (travel of the nut per turn)");
       out.lead = node.at("lead").quantity(dimension::length);
       if (out.lead == 0) node.at("lead").fail("must not be 0: the nut would be fixed; use prismatic or weld");
       return;

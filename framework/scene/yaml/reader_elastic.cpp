@@ -20,12 +20,12 @@ SceneKeep read_keep(const Node& node, long least) {
   std::vector<std::string> said;
   for (const std::string& key : keep_words)
     if (node.has(key)) said.push_back(key);
-  if (said.size() > 1) node.fail("says how many shapes stay by " + listed(said, "and") + " at once; keep one of them");
+  if (said.size() > 1) node.fail("gives the number of shapes by " + listed(said, "and") + " at once; keep one of them");
   keep.automatic = said.empty();
   if (node.has("keep")) keep.automatic = node.at("keep").one_of(choices("bodies.*.modes", "keep")) == "auto";
   if (node.has("count")) {
     const long count = node.at("count").count(least);
-    if (count > 100'000) node.at("count").fail("is more than 100 000; ask for fewer");
+    if (count > 100'000) node.at("count").fail("is more than 100 000; use fewer");
     keep.count = static_cast<int>(count);
   }
   if (node.has("below")) keep.below = node.at("below").frequency(rule::positive);
@@ -68,7 +68,7 @@ SceneModes read_modes(const Node& node, const SceneBody& body) {
     if (!node.has(key)) continue;
     for (const std::string& keep : keep_words)
       if (node.has(keep))
-        node.at(keep).fail(std::string("stands beside ") + key + "; move it into its braces: " + key + ": {" + keep + ": …}");
+        node.at(keep).fail(std::string("is a key of ") + key + "; move it into its braces: " + key + ": {" + keep + ": …}");
     check_keys(node.at(key), std::string("bodies.*.modes.") + key);
     modes.method = method;
     modes.keep = read_keep(node.at(key), 0);  // none: the static shapes alone
@@ -79,22 +79,22 @@ SceneModes read_modes(const Node& node, const SceneBody& body) {
 }
 
 constexpr Rule damping_ratio{[](double x) { return x >= 0 && x <= 1; },
-                             "must lie between 0 and 1, where 1 is critical damping: 4 % is 0.04; what damps more than "
-                             "critically is given by rayleigh: {alpha: 3 1/s, beta: 1e-5 s}"};
+                             "must lie between 0 and 1, where 1 is critical damping: 4 % is 0.04; for more than critical damping write "
+                             "rayleigh: {alpha: 3 1/s, beta: 1e-5 s}"};
 
 void read_rayleigh(const Node& node, SceneDamping& damping) {
   check_keys(node, "bodies.*.damping.rayleigh");
   const bool factors = node.has("alpha") || node.has("beta");
   if (factors == node.has("ratios"))
     node.fail(
-        "is given by ratios at two modes or by alpha and beta; write one of {ratios: [0.02, "
-        "0.02], modes: [1, 2]} and {alpha: 3 1/s, beta: 1e-5 s}");
+        "is given either by ratios at two modes or by alpha and beta; write {ratios: [0.02, 0.02], modes: [1, 2]} or {alpha: 3 1/s, beta: "
+        "1e-5 s}");
   if (factors) {
     std::array<double, 2> two{0, 0};
     read_optional(node, "alpha", dimension::rate, rule::not_negative, two[0]);
     read_optional(node, "beta", dimension::time, rule::not_negative, two[1]);
     damping.rayleigh = two;
-    if (node.has("modes")) node.at("modes").fail("belongs to ratios, not to alpha and beta; leave it out");
+    if (node.has("modes")) node.at("modes").fail("is for ratios, not for alpha and beta; leave it out");
     return;
   }
   const auto ratios = read_quantities(node.at("ratios"), 2, dimension::number, damping_ratio, "two damping ratios [0.02, 0.02]");
@@ -115,7 +115,7 @@ SceneDamping read_damping(const Node& node) {
   static const std::vector<std::string> ways{"rayleigh", "ratios"};
   SceneDamping damping;
   damping.place = node.place();
-  if (which_key(node, ways, "how much it damps") == "rayleigh") {
+  if (which_key(node, ways, "how it is damped") == "rayleigh") {
     read_rayleigh(node.at("rayleigh"), damping);
     return damping;
   }
@@ -123,7 +123,7 @@ SceneDamping read_damping(const Node& node) {
   if (!ratios.is_list())
     damping.ratios.push_back(ratios.quantity(dimension::number, damping_ratio));
   else
-    for (const Node& item : ratios.list(1, "a ratio, or a list of one a mode: [0.01, 0.02]"))
+    for (const Node& item : ratios.list(1, "a ratio, or a list with one ratio per mode: [0.01, 0.02]"))
       damping.ratios.push_back(item.quantity(dimension::number, damping_ratio));
   return damping;
 }
@@ -136,19 +136,19 @@ Stiffening read_stiffening(const Node& node) {
 // What only a body that bends in a mechanism can be asked.
 [[noreturn]] void reject_of_rigid(const Node& node) {
   node.fail(
-      "is asked of a rigid body: without modes it does not bend in a mechanism; add for example "
+      "needs a flexible body: without modes the body is rigid in a mechanism; add for example "
       "modes: {frame: chord, craig-bampton: {count: 2}}, or leave it out");
 }
 
 std::vector<SceneLump> read_lumps(const Node& group, const SceneBody& body) {
   std::vector<SceneLump> lumps;
-  for (const Node& node : group.entries("points and what sits there: {B: {mass: 0.1 kg}}")) {
+  for (const Node& node : group.entries("points and the lumps there: {B: {mass: 0.1 kg}}")) {
     check_keys(node, "bodies.*.lumps.*");
     SceneLump lump{node.name(), 0, 0, node.place()};
     check_own_point(node, lump.at, body);
     read_optional(node, "mass", dimension::mass, rule::not_negative, lump.mass);
     read_optional(node, "inertia", dimension::inertia, rule::not_negative, lump.inertia);
-    if (lump.mass == 0 && lump.inertia == 0) node.fail("weighs nothing; add mass, inertia or both");
+    if (lump.mass == 0 && lump.inertia == 0) node.fail("has no mass and no inertia; add mass, inertia or both");
     lumps.push_back(std::move(lump));
   }
   return lumps;
@@ -156,7 +156,7 @@ std::vector<SceneLump> read_lumps(const Node& group, const SceneBody& body) {
 
 SceneSupport read_support(const Node& node) {
   static const std::vector<std::string> words{"x", "y", "rotation", "fixed", "pinned"};
-  const std::string remedy = "what it holds: fixed, pinned, or a list of x, y and rotation";
+  const std::string remedy = "what it fixes: fixed, pinned, or a list of x, y and rotation";
   SceneSupport support{node.name(), false, false, false, node.place()};
   std::vector<Node> held{node};
   if (node.is_list()) held = node.list(1, remedy);
@@ -182,7 +182,7 @@ SceneElastic read_elastic(const Node& node, const SceneBody& body, const std::ve
   if (node.has("mass matrix")) out.lumped = node.at("mass matrix").one_of(choices("bodies.*", "mass matrix")) == "lumped";
   if (node.has("lumps")) out.lumps = read_lumps(node.at("lumps"), body);
   if (node.has("supports"))
-    for (const Node& support : node.at("supports").entries("places and what they hold: {A: fixed, B: [y]}")) {
+    for (const Node& support : node.at("supports").entries("points and their supports: {A: fixed, B: [y]}")) {
       if (beam) check_own_point(support, support.name(), body);  // a beam has no groups
       out.supports.push_back(read_support(support));
     }

@@ -29,7 +29,7 @@ Law read_event_law(const Node& node, const Dimension& expected, const SignalName
 
 std::vector<std::pair<std::string, Law>> read_settings(const Node& group, const Scene& scene, const SignalNames& names) {
   std::vector<std::pair<std::string, Law>> out;
-  for (const Node& node : group.entries("names of states and what they become: {integral: 0}")) {
+  for (const Node& node : group.entries("names of states and their new values: {integral: 0}")) {
     const std::string name = resolved(node.source(), node.yaml().scope, {node.name(), ""}).part;
     if (std::ranges::find(scene.states, name, &SceneState::name) == scene.states.end()) {
       std::vector<std::string> known;
@@ -55,7 +55,7 @@ SceneDoing read_doing(const Node& node, const std::string& keys, const Scene& sc
   if (node.has("stop")) out.stop = node.at("stop").text("why the run stops: \"the crank has come to rest\"");
   if (node.has("save")) out.save = node.at("save").yes();
   if (node.has("row")) out.row = node.at("row").yes();
-  if (!out.does()) node.fail("does nothing; write for example {release: latch pin}");
+  if (!out.does()) node.fail("has no effect; write for example {release: latch pin}");
   return out;
 }
 
@@ -63,7 +63,7 @@ SceneDoing read_doing(const Node& node, const std::string& keys, const Scene& sc
 std::vector<Law> read_comparisons(const Node& node, const Law& condition) {
   if (condition.constant) {
     const double holds = condition.at(0).value;
-    if (holds != 0 && holds != 1) node.fail(node.shown() + " is no condition; write a comparison such as t > 0.1 s");
+    if (holds != 0 && holds != 1) node.fail(node.shown() + " is not a condition; write a comparison such as t > 0.1 s");
     return {{[holds](double) { return Jet{holds - 0.5, 0, 0}; }, condition.text, true}};
   }
   std::vector<Law> out;
@@ -97,7 +97,7 @@ SceneEvent read_event(const Node& node, const Scene& scene, const SignalNames& n
   event.then = read_doing(node.at("do"), "events.*.do", scene, names);
   if (node.has("else")) event.otherwise = read_doing(node.at("else"), "events.*.else", scene, names);
   if (event.once && node.has("else"))
-    node.at("else").fail("never comes: an event that comes once does not wait for its end; leave out once or else");
+    node.at("else").fail("never happens: an event with once does not wait for the end of its condition; leave out once or else");
   return event;
 }
 

@@ -39,9 +39,10 @@ template <class Spring>
 Spring read_ends_and_rates(const Node& node, std::string_view kind, const Dimension& stiffness, const Dimension& damping) {
   if (node.has("law"))
     for (const char* other : {"stiffness", "damping", "free length", "free angle"})
-      if (node.has(other)) node.at(other).fail("stands beside `law`, which says all that the spring does; keep one of them");
+      if (node.has(other))
+        node.at(other).fail("cannot be combined with `law`, which gives the whole force of the spring; keep one of them");
   if (!node.has("stiffness") && !node.has("damping") && !node.has("law"))
-    node.fail("neither springs nor damps; add stiffness, damping or both, or a law");
+    node.fail("has neither stiffness nor damping; add stiffness, damping or both, or a law");
   Spring spring;
   std::tie(spring.a, spring.b) = read_ends(node.at(kind));
   read_optional(node, "stiffness", stiffness, rule::positive, spring.stiffness);
@@ -74,7 +75,7 @@ SceneMaxwell read_maxwell(const Node& node) {
 
 SceneBelt read_belt(const Node& node) {
   must_have(node, "radii", "[40 mm, 80 mm]");
-  must_have(node, "stiffness", "20 kN, its force over its strain");
+  must_have(node, "stiffness", "20 kN (its force over its strain)");
   SceneBelt out;
   const std::vector<Node> pulleys = node.at("belt").list(2, "two pulleys or more in the order in which the belt runs: [motor, drum]");
   for (const Node& p : pulleys) out.pulleys.push_back(read_point_ref(p));
@@ -83,9 +84,9 @@ SceneBelt read_belt(const Node& node) {
       read_quantities(node.at("radii"), pulleys.size(), dimension::length, {[](double r) { return r != 0; }, "must not be 0"}, remedy);
   if (node.has("crossed") && node.at("crossed").yes()) {
     if (pulleys.size() > 2)
-      node.at("crossed").fail("belongs to two pulleys; of more, give those a radius below 0 that it goes round the other way");
+      node.at("crossed").fail("is for two pulleys only; with more, give a negative radius to those that the belt goes round the other way");
     if (out.radii[0] < 0 || out.radii[1] < 0)
-      node.at("radii").fail("has one below 0, which says already which way the belt goes round; leave out crossed, or the sign");
+      node.at("radii").fail("has a negative radius, which already gives the direction of the belt; leave out crossed, or the sign");
     out.radii[1] = -out.radii[1];
   }
   out.stiffness = node.at("stiffness").quantity(dimension::force, rule::positive);

@@ -123,13 +123,12 @@ SceneArc read_arc(const Node& node, const Node& clearance, ClearanceModel model)
   read_optional(node, "wall", dimension::length, rule::positive, arc.wall);
   read_optional(node, "edge", dimension::length, rule::positive, arc.edge);
   if (arc.extent > SceneArc::turn + SceneArc::rounding) node.at("extent").fail("must not be above 360 deg, where the bearing is closed");
-  if (!arc.whole() && !(arc.wall > 0)) node.fail("lacks a required key; add for example wall: 4 mm, how thick the bearing is");
-  if (arc.edge > arc.wall / 2) node.at("edge").fail("must not be above half of wall: the ends are round then");
+  if (!arc.whole() && !(arc.wall > 0)) node.fail("lacks a required key; add for example wall: 4 mm (the thickness of the bearing)");
+  if (arc.edge > arc.wall / 2) node.at("edge").fail("must not be above half of wall, at which the ends are round");
   if (model == ClearanceModel::massless_link)
-    node.fail(
-        "belongs to a journal that may leave its bearing, and a massless link holds it at the wall; take another model, or leave it out");
+    node.fail("is for a journal that can leave its bearing, but a massless link holds it at the wall; use another model, or leave it out");
   if (model == ClearanceModel::spring_damper && !(clearance.has("stiffness") && clearance.has("damping")))
-    clearance.fail("lacks what an open bearing's spring-damper cannot take from `normal`; add both stiffness and damping");
+    clearance.fail("needs both stiffness and damping: the spring-damper of an open bearing cannot derive them from `normal`");
   return arc;
 }
 
@@ -151,7 +150,7 @@ SceneClearance read_clearance(const Node& node, const SceneJoint& joint) {
   const Node bearing = node.at("bearing");
   clearance.bearing = bearing.part("the body that carries the bearing").part;
   if (clearance.bearing != joint.a.body && clearance.bearing != joint.b.body)
-    bearing.fail(bearing.shown() + " is not joined here; write " + joint.a.body + " or " + joint.b.body);
+    bearing.fail(bearing.shown() + " is not a body of this joint; write " + joint.a.body + " or " + joint.b.body);
   if (node.has("friction")) clearance.friction = read_friction(node.at("friction"), "joints.*.clearance.friction");
   if (node.has("arc")) clearance.arc = read_arc(node.at("arc"), node, clearance.model);
   if (clearance.model == ClearanceModel::impact) check_rigid_friction(node);
@@ -178,12 +177,13 @@ void read_points(const Node& node, const JointWord& word, SceneJoint& joint) {
 
 SceneJointFriction read_joint_friction(const Node& node, const SceneJoint& joint, bool has_clearance) {
   check_keys(node, "joints.*.friction");
-  if (has_clearance) node.fail("belongs to an ideal joint, and this one has a clearance; write friction inside it, beside its normal law");
+  if (has_clearance)
+    node.fail("is for an ideal joint, but this joint has a clearance; write friction inside the clearance, next to its normal law");
   SceneJointFriction out;
   const std::vector<std::string> laws{"coulomb", "lugre", "gonthier"};
   if (std::ranges::none_of(laws, [&](const std::string& law) { return node.has(law); }))
     node.fail("lacks a required key; add for example coulomb: {coefficient: 0.1}");
-  const std::string law = which_key(node, laws, "its law of friction");
+  const std::string law = which_key(node, laws, "which friction law it has");
   out.law = read_friction_law(node.at(law), "joints.*.friction." + law);
   const auto own = [&](const char* key, JointKind kind, double& value) {
     if (node.has(key) && joint.kind != kind)
@@ -212,7 +212,7 @@ SceneJoint read_joint(const Node& node) {
     if (number.of == JointNumber::length && says_present(node.at(number.key))) {
       joint.length = read_after_present(node.at(number.key), dimension::length).at(0).value;
       joint.from_present = true;
-      if (node.has("clearance")) node.at(number.key).fail("cannot be present beside a clearance; write the length");
+      if (node.has("clearance")) node.at(number.key).fail("cannot be `present` in a joint with clearance; write the length");
       continue;
     }
     const Dimension& expected = number.of == JointNumber::angle    ? dimension::angle

@@ -22,8 +22,8 @@ Orthotropic read_orthotropic(const Node& node, std::string_view keys) {
   const auto E = read_quantities(young, axes == 2 ? 2 : 3, dimension::stress, rule::positive, remedy);
   const std::vector<double> nu = ratios(poisson, axes);
   if ((E.size() == 3) != (nu.size() == 3))
-    poisson.fail("has " + std::to_string(nu.size()) + (nu.size() == 1 ? " value" : " values") + " beside " + std::to_string(E.size()) +
-                 " of young; give two and one, or for plane strain three of each: poisson: "
+    poisson.fail("has " + std::to_string(nu.size()) + (nu.size() == 1 ? " value" : " values") + " for " + std::to_string(E.size()) +
+                 " of young; give one for two, or for plane strain three of each: poisson: "
                  "[12, 13, 23]");
   m.young_1 = E[0];
   m.young_2 = E[1];
@@ -42,7 +42,7 @@ Orthotropic read_orthotropic(const Node& node, std::string_view keys) {
 Material read_elasticity(const Node& node, std::string_view keys) {
   Material material;
   if (node.has("orthotropic")) {
-    if (node.has("poisson")) node.at("poisson").fail("does not belong beside orthotropic but into it; move it there");
+    if (node.has("poisson")) node.at("poisson").fail("is a key of orthotropic; move it into its braces");
     const Node group = node.at("orthotropic");
     material.elastic = read_orthotropic(group, std::string(keys) + ".orthotropic");
     try {
@@ -77,9 +77,7 @@ SceneMaterial read_either(const Node& owner, std::string_view keys, const std::v
   static const std::vector<std::string> ways{"material", "young", "orthotropic"};
   if (which_key(owner, ways, "what it is made of") != "material") return {"", read_elasticity(owner, keys), owner.place()};
   if (owner.has("poisson"))
-    owner.at("poisson").fail(
-        "is said by the material already; leave it out, or write young and "
-        "poisson instead of material");
+    owner.at("poisson").fail("is given by the material already; leave it out, or write young and poisson instead of material");
   SceneMaterial material = named(owner.at("material"), all);
   auto* layered = std::get_if<Orthotropic>(&material.material.elastic);
   if (layered && layered->angle != 0 && owner.is_mirrored()) layered->angle = -layered->angle, material.name.clear();
@@ -105,14 +103,12 @@ void read_materials(const Node& root, Scene& scene) {
 Made read_made(const Node& owner, std::string_view keys, const std::vector<SceneMaterial>& all) {
   Made made{read_either(owner, keys, all), {}};
   double& density = made.material.material.density;
-  if (owner.has("density") && owner.has("mass")) owner.at("mass").fail("stands beside density; keep one of them");
+  if (owner.has("density") && owner.has("mass")) owner.at("mass").fail("cannot be combined with density; keep one of them");
   if (owner.has("density") && density > 0)
-    owner.at("density").fail(
-        "is said by the material already; leave it out, or give the mass of "
-        "the body");
+    owner.at("density").fail("is given by the material already; leave it out, or give the mass of the body");
   read_optional(owner, "density", dimension::density, rule::positive, density);
   if (owner.has("mass")) made.mass = owner.at("mass").quantity(dimension::mass, rule::positive);
-  if (density == 0 && !made.mass) owner.fail("says neither density nor mass; add for example density: 7850 kg/m^3");
+  if (density == 0 && !made.mass) owner.fail("has neither density nor mass; add for example density: 7850 kg/m^3");
   return made;
 }
 

@@ -103,7 +103,7 @@ SceneGrid read_grid(const Node& node) {
   const Node cells = node.at("cells");
   const auto two = cells.items(2, "how many cells each way: [nx, ny]");
   const long nx = two[0].count(1), ny = two[1].count(1);
-  if (nx > 100'000 || ny > 100'000 || nx * ny > 10'000'000) cells.fail("makes more than ten million cells; ask for fewer");
+  if (nx > 100'000 || ny > 100'000 || nx * ny > 10'000'000) cells.fail("gives more than ten million cells; use fewer");
   grid.nx = static_cast<int>(nx);
   grid.ny = static_cast<int>(ny);
   return grid;
@@ -132,11 +132,11 @@ SceneFile read_file(const Node& plate) {
   if (!fs::exists(path)) node.fail("there is no file " + path.string() + "; check the path");
   if (!drawing)
     for (const char* key : {"size", "hole size"})
-      if (plate.has(key)) plate.at(key).fail("is for drawings, but " + file.path + " is meshed already; leave it out");
+      if (plate.has(key)) plate.at(key).fail("is for drawings, but " + file.path + " is already a mesh; leave it out");
   if (plate.has("unit")) {
     const Node unit = plate.at("unit");
-    if (plate.has("scale")) unit.fail("stands beside scale; keep one of them");
-    if (kind == ".step" || kind == ".stp") unit.fail("is written in a STEP file itself; leave it out");
+    if (plate.has("scale")) unit.fail("cannot be combined with scale; keep one of them");
+    if (kind == ".step" || kind == ".stp") unit.fail("is given in the STEP file itself; leave it out");
     file.scale = find_unit(unit.one_of(choices(plate_keys, "unit")))->factor;
   }
   read_optional(plate, "scale", dimension::number, rule::positive, file.scale);

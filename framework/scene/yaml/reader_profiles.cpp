@@ -25,8 +25,9 @@ ScenePathPoint read_place(const Node& node, const std::vector<ScenePoint>& point
   std::vector<std::string> known;
   for (const ScenePoint& p : points) known.push_back(p.name);
   if (std::ranges::find(known, out.point) == known.end())
-    node.fail("\"" + body + "\" has no point \"" + out.point + "\"" +
-              (known.empty() ? "; write a place, [10 mm, 0], or name it under points" : "." + did_you_mean(out.point, known)));
+    node.fail(
+        "\"" + body + "\" has no point \"" + out.point + "\"" +
+        (known.empty() ? "; write a position such as [10 mm, 0], or add the point under points" : "." + did_you_mean(out.point, known)));
   return out;
 }
 
@@ -42,9 +43,9 @@ std::vector<ScenePathPoint> read_path(const Node& node, std::string_view keys, c
       continue;
     }
     check_keys(item, std::string(keys) + ".path.*");
-    if (out.empty() || arc) item.fail("stands where a point should; an arc leads from the point before it to the next");
+    if (out.empty() || arc) item.fail("is an arc where a point is needed; an arc leads from the point before it to the point after it");
     out.back().arc = item.at("arc").quantity(dimension::length);
-    if (out.back().arc == 0) item.fail("must not be 0: it turns left with a radius above 0, right with one below");
+    if (out.back().arc == 0) item.fail("must not be 0: a positive radius turns left, a negative one right");
     arc = true;
   }
   return out;
@@ -81,7 +82,7 @@ std::vector<ScenePathPoint> read_polar(const Node& node, std::string_view keys) 
     const std::string which = "point " + std::to_string(out.size() + 1);
     if (!(radius > 0)) where.fail(which + " has the radius " + number_text(radius) + " m; it must be above 0");
     if (!out.empty() && !(angle > out.back().at[0]))
-      where.fail(which + " at the angle " + number_text(angle) + " rad does not come after the one before; angles must rise");
+      where.fail(which + " at the angle " + number_text(angle) + " rad is not greater than the one before; angles must increase");
     out.push_back({"", {angle, radius}, 0, where.place()});
   };
   if (node.is_map()) {
@@ -101,11 +102,11 @@ std::vector<ScenePathPoint> read_polar(const Node& node, std::string_view keys) 
   constexpr double once = 2 * std::numbers::pi, same = 1e-9;
   const double turn = out.back().at[0] - out.front().at[0];
   if (turn > once * (1 + same))
-    node.fail("goes on over " + number_text(turn) + " rad from its first point; a cam goes round once: leave out what is beyond a turn");
+    node.fail("covers " + number_text(turn) + " rad from its first point, more than one turn; leave out the points beyond a turn");
   if (turn > once * (1 - same)) {
     if (std::abs(out.back().at[1] - out.front().at[1]) > same * out.front().at[1])
       node.fail("has the radius " + number_text(out.front().at[1]) + " m at its first point and " + number_text(out.back().at[1]) +
-                " m a turn later; where it closes they must be the same, or leave out the last");
+                " m a turn later; make them equal, or leave out the last point");
     out.pop_back();
   }
   return out;
@@ -129,7 +130,7 @@ void read_surface(const Node& node, std::string_view keys, const std::vector<Sce
   } else {
     out.points = read_path(node.at("path"), keys, points, body);
     if (!out.closed && out.points.back().arc != 0)
-      node.at("path").fail("ends with an arc; add the point that it leads to, or closed: true to lead it to the first");
+      node.at("path").fail("ends with an arc; add its end point, or closed: true to end it at the first point");
     if (node.has("round")) out.round = read_size(node.at("round"));
   }
 }
@@ -143,7 +144,7 @@ SceneProfile read_profile(const Node& node, std::string_view keys, const std::ve
                         SceneProfile::polar}[which_kind(node, profile_kinds)];
   if (node.has("on")) {
     const ScenePathPoint on = read_place(node.at("on"), points, body);
-    if (on.point.empty()) node.at("on").fail("is a place; name the point of the body that carries the profile");
+    if (on.point.empty()) node.at("on").fail("is a position; name the point of the body that carries the profile");
     out.on = on.point;
   }
   if (out.kind == SceneProfile::disc || out.kind == SceneProfile::hole) {
@@ -158,7 +159,7 @@ SceneProfile read_profile(const Node& node, std::string_view keys, const std::ve
   const std::string side = node.at("material").one_of(choices(keys, "material"));
   if (out.closed != (side == "inside" || side == "outside"))
     node.at("material")
-        .fail(out.closed ? "of a closed path is inside or outside" : "of an open path is left or right, as one goes along it");
+        .fail(out.closed ? "of a closed path must be inside or outside" : "of an open path must be left or right, seen along the path");
   out.material = side == "left"     ? SceneProfile::left
                  : side == "right"  ? SceneProfile::right
                  : side == "inside" ? SceneProfile::inside
@@ -177,7 +178,7 @@ std::vector<SceneProfile> read_profiles(const Node& owner, std::string_view keys
     if (owner.has("beam") || owner.has("plate")) {
       if (made.on.empty()) made.on = made.centre.point;
     } else if (node.has("on")) {
-      node.at("on").fail("is of bodies of elements, which bend; \"" + body + "\" carries its profiles as a whole: leave it out");
+      node.at("on").fail("is for flexible bodies only; \"" + body + "\" is rigid: leave it out");
     }
   }
   return out;

@@ -17,7 +17,7 @@ void read_plane(const Node& group, std::string_view both, std::string_view x_key
                 std::optional<double>& x, std::optional<double>& y) {
   if (group.has(both)) {
     for (const std::string_view alone : {x_key, y_key})
-      if (group.has(alone)) group.at(alone).fail("is said twice: leave out " + std::string(alone) + " or " + std::string(both));
+      if (group.has(alone)) group.at(alone).fail("is given twice: leave out " + std::string(alone) + " or " + std::string(both));
     const Pair pair = group.at(both).pair(expected);
     x = pair[0];
     y = pair[1];
@@ -35,11 +35,11 @@ void reject(const Node& group, std::initializer_list<std::string_view> keys, con
 void read_bent(const Node& node, const SceneBody& body, StartBody& start) {
   for (const char* key : {"deflection", "modes"})
     if (node.has(key) && !(body.elastic && body.elastic->modes))
-      node.at(key).fail("is asked of a rigid body: without modes it does not bend in a mechanism; " + std::string("give \"") + body.name +
+      node.at(key).fail("needs a flexible body: without modes the body is rigid in a mechanism; " + std::string("give \"") + body.name +
                         "\" modes, or leave it out");
   if (node.has("deflection") && node.has("modes")) node.fail("is bent by deflection and by modes at once; keep one of them");
   if (node.has("deflection"))
-    for (const Node& at : node.at("deflection").entries("points and how far they are displaced: {B: [0, 5 mm]}")) {
+    for (const Node& at : node.at("deflection").entries("points and their displacements: {B: [0, 5 mm]}")) {
       check_own_point(at, at.name(), body);
       start.deflection.push_back({at.name(), at.pair(dimension::length), at.place()});
     }
@@ -49,7 +49,7 @@ void read_bent(const Node& node, const SceneBody& body, StartBody& start) {
 }
 
 StartBody read_start_body(const Node& node, const SceneBody& body) {
-  reject(node, {"eccentricity"}, "belongs to a joint with clearance, but this is a body; use at");
+  reject(node, {"eccentricity"}, "is for a joint with clearance, but this is a body; use at");
   StartBody start;
   start.body = node.name();
   start.place = node.place();
@@ -57,7 +57,7 @@ StartBody read_start_body(const Node& node, const SceneBody& body) {
   read_plane(node, "velocity", "vx", "vy", dimension::speed, start.vx, start.vy);
   read_if(node, "angle", dimension::angle, start.angle);
   if (node.has("speed") && node.at("speed").is_list())
-    node.at("speed").fail("of a body is its angular speed, one value; write velocity: [vx, vy]");
+    node.at("speed").fail("of a body is one value, its angular speed; for two values write velocity: [vx, vy]");
   read_if(node, "speed", dimension::angular_speed, start.speed);
   read_bent(node, body, start);
   return start;
@@ -65,7 +65,7 @@ StartBody read_start_body(const Node& node, const SceneBody& body) {
 
 StartJournal read_start_journal(const Node& node) {
   reject(node, {"at", "x", "y", "angle", "velocity", "vx", "vy", "deflection", "modes"},
-         "belongs to a body, but this is a joint; its journal has eccentricity and speed");
+         "is for a body, but this is a joint; use eccentricity and speed of its journal");
   StartJournal start;
   start.joint = node.name();
   start.place = node.place();
@@ -102,8 +102,8 @@ void read_start_entry(const Node& node, const StartNames& names, Scene& scene) {
     scene.start_journals.push_back(read_start_journal(node));
   } else if (joint) {
     node.fail(joint->play || is_open(*joint)
-                  ? "the play of \"" + name + "\" starts as its bodies do; start one of these, off the middle"
-                  : "the joint \"" + name + "\" has no clearance for a journal to start in; give it one, or start a body");
+                  ? "the clearance of \"" + name + "\" starts where its bodies are; give one of these bodies a start off the middle"
+                  : "the joint \"" + name + "\" has no clearance, so no start of its journal; give it one, or give the start of a body");
   } else {
     std::vector<std::string> known;
     for (const SceneBody& b : scene.bodies) known.push_back(b.name);
@@ -125,7 +125,7 @@ void read_onset(const Node& node, RunOptions& run) {
 void read_method(const Node& node, RunOptions& run) {
   if (!node.is_map()) {
     run.method = node.one_of(choices("run", "method"));
-    if (run.method == "moreau") node.fail("needs the length of its steps; write {moreau: {step: 0.1 ms}}");
+    if (run.method == "moreau") node.fail("needs a step length; write {moreau: {step: 0.1 ms}}");
     return;
   }
   check_keys(node, "run.method");
@@ -156,7 +156,7 @@ PointRef read_known_point(const Node& node, const Scene& scene) {
   }
   if (ref.point.empty() || std::ranges::find(*points, ref.point, &ScenePoint::name) != points->end()) return ref;
   if (points->empty())
-    node.fail("\"" + ref.point + "\" is no point: " + ref.body + " has none; add points: {" + ref.point + ": [0, 0]} to it");
+    node.fail("\"" + ref.point + "\" is not a point: " + ref.body + " has none; add points: {" + ref.point + ": [0, 0]} to it");
   for (const ScenePoint& p : *points) known.push_back(p.name);
   node.fail(ref.body + " has no point \"" + ref.point + "\"." + did_you_mean(ref.point, known));
 }
@@ -169,10 +169,9 @@ void must_have_stress(const Node& node, const PointRef& ref, const Scene& scene)
     node.fail(ref.body + " is rigid in a mechanism and has no stress; give it " + (body->elastic ? "" : "a beam or a plate, and ") +
               "modes, or leave the point out");
   if (ref.point.empty())
-    node.fail("is a body; name the point whose stress is meant: " + ref.body + "." +
-              (body->points.empty() ? "A" : body->points.front().name));
+    node.fail("is a body; name a point for the stress: " + ref.body + "." + (body->points.empty() ? "A" : body->points.front().name));
   const ScenePoint& point = *std::ranges::find(body->points, ref.point, &ScenePoint::name);
-  if (!point.hole.empty()) node.fail("is the middle of a hole, where no material is; name a point of the plate itself");
+  if (!point.hole.empty()) node.fail("is the centre of a hole, where there is no material; name a point of the plate itself");
 }
 
 std::vector<PointRef> read_output_points(const Node& node, const Scene& scene) {
@@ -180,7 +179,7 @@ std::vector<PointRef> read_output_points(const Node& node, const Scene& scene) {
   for (const Node& item : node.list(1, "a list of points [coupler.M, rocker.D]")) {
     PointRef ref = read_known_point(item, scene);
     for (const PointRef& other : refs)
-      if (other.body == ref.body && other.point == ref.point) item.fail(item.shown() + " stands there twice; leave one out");
+      if (other.body == ref.body && other.point == ref.point) item.fail(item.shown() + " is listed twice; remove one");
     refs.push_back(std::move(ref));
   }
   return refs;
@@ -196,15 +195,15 @@ constexpr int frames_left_open = -1;
 int read_frames(const Node& node) {
   if (node.is_scalar() && node.text("auto or a number") == "auto") return frames_left_open;
   const long frames = node.count(0);
-  if (frames > 1'000'000) node.fail("is more than a million; ask for fewer");
+  if (frames > 1'000'000) node.fail("is more than a million; use fewer");
   return static_cast<int>(frames);
 }
 
 void read_constraints(const Node& node, RunOptions& run) {
   if (node.is_scalar() && node.text("projection or partitioning") == "index 3")
     node.fail(
-        "index 3 is no longer offered: its reactions were wrong by h after every change of step; take projection, the default, "
-        "which keeps positions and velocities");
+        "index 3 is no longer available: its reactions had an error of order h after every change of step; use projection (the default), "
+        "which satisfies the constraints in position and velocity");
   run.constraints = node.one_of(choices("run", "constraints"));
 }
 
@@ -218,7 +217,7 @@ void read_start(const Node& root, Scene& scene) {
     return;
   }
   const StartNames names{by_name(scene.bodies), by_name(scene.joints)};
-  for (const Node& node : root.at("start").entries("bodies and how they start: {crank: {speed: 5 rad/s}}"))
+  for (const Node& node : root.at("start").entries("bodies and their start: {crank: {speed: 5 rad/s}}"))
     read_start_entry(node, names, scene);
 }
 
@@ -251,7 +250,7 @@ void read_output(const Node& root, Scene& scene) {
     node.at("every").fail(node.at("every").shown() + " is longer than the run; shorten it");
   read_optional(node, "states", dimension::time, rule::positive, output.states);
   if (scene.has_run && output.states > 0 && scene.run.until / output.states > 1e5)
-    node.at("states").fail(node.at("states").shown() + " asks for more than a hundred thousand files; make it longer");
+    node.at("states").fail(node.at("states").shown() + " gives more than a hundred thousand files; increase it");
   if (node.has("frames")) output.frames = read_frames(node.at("frames"));
   read_optional(node, "exaggerate", dimension::number, rule::positive, output.exaggerate);
   if (node.has("deformation")) output.deformation = read_deformation(node.at("deformation"));

@@ -96,7 +96,7 @@ void must_close(const Node& node, const Samples& samples) {
   if (std::abs(samples.value.back() - samples.value.front()) <= alike * (most - least)) return;
   node.at("periodic")
       .fail("the table " + node.at("table").shown() +
-            " does not end with the value that it begins with; let its last row be the first one a period later");
+            " does not end with its first value; make its last row the first one, a period later");
 }
 
 Outside read_outside(const Node& node, std::string_view keys, Outside otherwise) {
@@ -107,7 +107,7 @@ Outside read_outside(const Node& node, std::string_view keys, Outside otherwise)
 // A table without `over`.
 void must_be_of_time(const Node& node) {
   for (const char* key : {"over unit", "periodic", "outside"})
-    if (node.has(key)) node.at(key).fail("belongs to a table over signals; add over: crank.angle, or leave it out");
+    if (node.has(key)) node.at(key).fail("is for a table over signals; add over: crank.angle, or leave it out");
 }
 
 // The same formula, input i of which is called to[i] now.
@@ -122,7 +122,7 @@ SignalFormula renumbered(const Law& law, const std::vector<int>& to) {
 Law read_signal_map(const Node& node, std::string_view keys, const Dimension& expected, const std::filesystem::path& folder,
                     const SignalNames& names) {
   for (const char* key : {"interpolation", "periodic"})
-    if (node.has(key)) node.at(key).fail("belongs to a table over one number; a table over two is bilinear: leave it out");
+    if (node.has(key)) node.at(key).fail("is for a table over one number; a table over two is bilinear: leave it out");
   const std::vector<Node> over = node.at("over").items(2, "an expression, or two for a table over both: [engine.speed, throttle]");
   std::vector<Node> units;
   if (node.has("over unit")) units = node.at("over unit").items(2, "a unit for each: [rpm, 1]");
@@ -153,7 +153,7 @@ Law read_signal_map(const Node& node, std::string_view keys, const Dimension& ex
 
 Law read_signal_table(const Node& node, std::string_view keys, const Dimension& expected, const std::filesystem::path& folder,
                       const SignalNames& names) {
-  if (node.has("time unit")) node.at("time unit").fail("belongs to a table over t; of a table over signals write `over unit`");
+  if (node.has("time unit")) node.at("time unit").fail("is for a table over t; for a table over signals write `over unit`");
   const Node over = node.at("over");
   if (over.is_list()) return read_signal_map(node, keys, expected, folder, names);
   std::vector<Node> unit;
@@ -163,7 +163,7 @@ Law read_signal_table(const Node& node, std::string_view keys, const Dimension& 
     over.fail(over.shown() + " names no signal; write one such as ram.y, or leave `over` out for a table over t");
   const bool linear = node.has("interpolation") && node.at("interpolation").one_of(choices(keys, "interpolation")) == "linear";
   const bool periodic = node.has("periodic") && node.at("periodic").yes();
-  if (periodic && node.has("outside")) node.at("outside").fail("a periodic table has no outside; leave it out");
+  if (periodic && node.has("outside")) node.at("outside").fail("has no meaning for a periodic table; leave it out");
   const Outside outside = read_outside(node, keys, Outside::holds_unasked);
   const double value_unit = unit_factor(node, "value unit", expected);
   Samples samples = read_samples(table_file(node, folder), x.unit, value_unit, node.place().key, "x");
@@ -196,7 +196,7 @@ Law read_rate(const Node& node, const Dimension& d, const Scene& scene, const Si
 SceneOutput read_table_output(const Node& node, const SignalNames& names) {
   constexpr const char* keys = "outputs.*";
   check_keys(node, keys);
-  if (!node.has("over")) node.fail("lacks a required key; add for example over: crank.angle, what the table is read at");
+  if (!node.has("over")) node.fail("lacks a required key; add for example over: crank.angle (the argument of the table)");
   Dimension d = dimension::number;
   try {
     if (node.has("value unit")) d = read_quantity(node.at("value unit").text("a unit such as N m")).dimension;
@@ -224,10 +224,9 @@ bool needs(const std::vector<Node>& outputs, const Node& one, const std::string&
 [[noreturn]] void fail_of_order(const std::vector<Node>& outputs, const Node& node, const Node& named) {
   const std::string begun = "\"" + node.yaml().text + "\": ";
   std::set<std::string> seen;
-  if (node.name() == named.name())
-    node.fail(begun + node.name() + " would follow from itself; name what it follows from, or make it a state");
+  if (node.name() == named.name()) node.fail(begun + node.name() + " would depend on itself; use other signals, or make it a state");
   if (needs(outputs, named, node.name(), seen))
-    node.fail(begun + node.name() + " and " + named.name() + " would follow from each other; let one of them follow from signals alone");
+    node.fail(begun + node.name() + " and " + named.name() + " would depend on each other; make one of them depend on signals only");
   node.fail(begun + named.name() + " is not known yet; an output may name those above it, so write " + named.name() + " above " +
             node.name());
 }
@@ -238,9 +237,9 @@ void check_signal_name(const Node& node, const Scene& scene, const char* what) {
   if (const std::string fault = fault_of_name(name);
       !fault.empty() && (std::ranges::all_of(name, [](char c) { return c != ' ' && c != '-'; }) || !std::isalpha(name.front())))
     node.fail("\"" + name + "\" cannot name " + what + ": " + fault);
-  if (node.source().parameters.contains(name)) node.fail("\"" + name + "\" is a parameter too; give this " + what + " a name of its own");
+  if (node.source().parameters.contains(name)) node.fail("\"" + name + "\" is also a parameter; give this " + what + " another name");
   if (std::ranges::find(scene.states, name, &SceneState::name) != scene.states.end())
-    node.fail("\"" + name + "\" is a state too; give this " + what + " a name of its own");
+    node.fail("\"" + name + "\" is also a state; give this " + what + " another name");
 }
 
 }  // namespace
@@ -250,10 +249,11 @@ const SignalNames& ActingSignals::names() {
   names_ = signal_names(signal_words(scene_), SignalUse::acts);
   if (root_.has("outputs") && root_.at("outputs").is_map())
     for (const Yaml& output : root_.at("outputs").yaml().items)
-      names_->try_emplace(output.key,
-                          SignalName{dimension::number,
-                                     "is an output, which may follow from what acts, so that only outputs and conditions of events "
-                                     "name it: write its expression here"});
+      names_->try_emplace(
+          output.key,
+          SignalName{
+              dimension::number,
+              "is an output, which may depend on forces, so only outputs and conditions of events may name it: write its expression here"});
   return *names_;
 }
 
@@ -325,7 +325,7 @@ void read_outputs(const Node& root, Scene& scene) {
   SignalNames names = signal_names(words, SignalUse::written);
   for (const Node& node : entries) {
     check_signal_name(node, scene, "an output");
-    if (names.contains(node.name())) node.fail("\"" + node.name() + "\" is a signal already; give this output a name of its own");
+    if (names.contains(node.name())) node.fail("\"" + node.name() + "\" is already a signal; give this output another name");
     if (node.is_map()) {
       scene.outputs.push_back(read_table_output(node, names));
       const std::string& unit = scene.outputs.back().unit;

@@ -36,7 +36,7 @@ const SceneBody& body_of(const Node& node, const Scene& scene) {
   std::vector<std::string> elastic;
   for (const SceneBody& b : scene.bodies)
     if (b.elastic) elastic.push_back(b.name);
-  if (elastic.empty()) node.fail("needs a body of elements, but all are rigid; give one a beam or a plate");
+  if (elastic.empty()) node.fail("needs a flexible body, but all are rigid; give one a beam or a plate");
   if (elastic.size() > 1) node.fail("does not say which body is loaded; add body: " + listed(elastic));
   return elastic_named(node, elastic.front(), scene);
 }
@@ -118,15 +118,15 @@ void read_contacts_of(const Node& node, const Scene& scene, SceneStatic& statics
     if (c.first.body == c.second.body) two[1].fail("is of the same body as the other; name an edge of another body");
     statics.contacts.push_back(c);
   }
-  if (statics.contacts.empty()) node.fail("holds no contact; add one, or leave contacts out");
+  if (statics.contacts.empty()) node.fail("contains no contact; add one, or leave contacts out");
   if (!takes_part(statics, statics.body, false))
-    node.fail("do not touch the body of the case, " + statics.body + "; name one that they do under body");
+    node.fail("do not involve the body of the case, " + statics.body + "; name another body under body");
 }
 
 void read_places(const Node& node, SceneStatic& statics) {
   for (const Node& place : node.entries("bodies and places: {pin: [0, -20 um]}")) {
     if (!takes_part(statics, place.name()))
-      place.fail("\"" + place.name() + "\" takes no part in the case; add it under contacts, or remove this");
+      place.fail("\"" + place.name() + "\" is not part of the case; add it under contacts, or remove this");
     statics.at.push_back({place.name(), place.pair(dimension::length), place.place()});
   }
 }
@@ -151,10 +151,10 @@ void read_static(const Node& root, Scene& scene) {
     if (!other) continue;
     if (!takes_part(statics, of.name))
       load.at("body").fail("\"" + of.name + "\" is not the body of the case, " + body.name +
-                           ", and touches nothing in it; add it under contacts");
+                           ", and has no contact in it; add it under contacts");
     statics.loads.back().body = of.name;
   }
-  if (statics.loads.empty()) loads.fail("holds no load; add one");
+  if (statics.loads.empty()) loads.fail("contains no load; add one");
 }
 
 }  // namespace pintle

@@ -73,7 +73,7 @@ Law read_table_law(const Node& node, const Dimension& expected, Smoothness smoot
   if (node.has("interpolation")) {
     const Node choice = node.at("interpolation");
     linear = choice.one_of(choices(keys, "interpolation")) == "linear";
-    if (linear && driver) choice.fail("\"linear\" makes a driver's speed jump; write spline");
+    if (linear && driver) choice.fail("\"linear\" makes the speed of a driver jump; write spline");
   }
   const double time_unit = unit_factor(node, "time unit", dimension::time);
   const double value_unit = unit_factor(node, "value unit", expected);
@@ -120,14 +120,14 @@ PointRef read_point_ref(const Node& node) {
   PartName name = node.part(remedy);
   PointRef ref{std::move(name.part), std::move(name.point), node.place()};
   if (ref.body.empty() || text.back() == '.' || ref.point.find('.') != std::string::npos)
-    node.fail(node.shown() + " is no point; write body.point such as crank.A, or a body");
+    node.fail(node.shown() + " is not a point; write body.point such as crank.A, or a body");
   return ref;
 }
 
 void check_own_point(const Node& node, const std::string& name, const SceneBody& body) {
   std::vector<std::string> known;
   for (const ScenePoint& p : body.points) known.push_back(p.name);
-  if (known.empty()) node.fail("\"" + name + "\" is no point: " + body.name + " has none; add points: {" + name + ": [0, 0]}");
+  if (known.empty()) node.fail("\"" + name + "\" is not a point: " + body.name + " has none; add points: {" + name + ": [0, 0]}");
   if (std::ranges::find(known, name) == known.end()) node.fail(body.name + " has no point \"" + name + "\"." + did_you_mean(name, known));
 }
 

@@ -124,7 +124,7 @@ std::string numbered(const std::string& text, const Parameters& parameters) {
     if (close == std::string::npos) throw ExpressionError("\"" + text + "\": a brace is not closed");
     const double value = read_quantity(text.substr(open + 1, close - open - 1), dimension::number, parameters);
     if (value != std::round(value) || std::abs(value) > 1e9)
-      throw ExpressionError("\"" + text + "\": what stands in { } is " + number_text(value) + "; it must be a whole number");
+      throw ExpressionError("\"" + text + "\": the value in { } is " + number_text(value) + "; it must be a whole number");
     out += std::to_string(static_cast<long>(value));
     at = close + 1;
   }

@@ -169,7 +169,7 @@ std::string Node::expression(const std::string& remedy) const {
   }
   SpelledOut out = spelled_out(written, *source_, yaml_->scope);
   if (out.names_parts && is_mirrored())
-    fail(shown() + " names numbers of the motion, which are not mirrored with their instance; write this into the scene for each side");
+    fail(shown() + " names quantities of the motion, which are not mirrored with their instance; write this into the scene for each side");
   return std::move(out.text);
 }
 

@@ -40,13 +40,12 @@ inline constexpr Rule not_negative{[](double x) { return x >= 0; }, "must not be
 inline constexpr Rule zero_to_one{[](double x) { return x >= 0 && x <= 1; }, "must lie between 0 and 1"};
 inline constexpr Rule at_least_one{[](double x) { return x >= 1; }, "must be at least 1"};
 inline constexpr Rule solid_poisson{[](double x) { return x > -1 && x < 0.5; },
-                                    "must be greater than -1 and less than 0.5; take 0.4999 for a "
-                                    "nearly incompressible solid"};
+                                    "must be greater than -1 and less than 0.5; use 0.4999 for a nearly incompressible solid"};
 inline constexpr Rule poisson{[](double x) { return x > -1 && x <= 0.5; }, "must lie between -1 and 0.5"};
 /// Below 1e-14 the rounding of one step is more than the error it may make.
 inline constexpr Rule tolerance{[](double x) { return x >= 1e-14 && x < 1; },
                                 "must lie between 0 and 1, and not below 1e-14, which is rounding"};
-inline constexpr Rule inside_zero_one{[](double x) { return x > 0 && x < 1; }, "must lie between 0 and 1, and be neither"};
+inline constexpr Rule inside_zero_one{[](double x) { return x > 0 && x < 1; }, "must lie between 0 and 1, both excluded"};
 }  // namespace rule
 
 inline constexpr const char* hint_about_commas = "Inside { } or [ ] a comma separates entries: put an expression with commas in quotes.";

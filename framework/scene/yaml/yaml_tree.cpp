@@ -19,10 +19,10 @@ class TreeBuilder : public YAML::EventHandler {
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
   void OnAnchor(const YAML::Mark& mark, const std::string& name) override {
-    fail(mark, "the anchor &" + name + " is not read; name the value under parameters instead");
+    fail(mark, "the anchor &" + name + " is not supported; define the value under parameters instead");
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-    fail(mark, "an alias is not read; name the value under parameters instead");
+    fail(mark, "an alias is not supported; define the value under parameters instead");
   }
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { place(mark, {.kind = Yaml::Kind::nothing}); }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, const std::string& value) override {
@@ -54,11 +54,11 @@ class TreeBuilder : public YAML::EventHandler {
     throw SceneError(file_, {mark.line + 1, {}}, message);
   }
   void reject_tag(const YAML::Mark& mark, const std::string& tag) const {
-    if (!tag.empty() && tag != "?" && tag != "!") fail(mark, "the tag " + tag + " is not read; leave it out");
+    if (!tag.empty() && tag != "?" && tag != "!") fail(mark, "the tag " + tag + " is not supported; leave it out");
   }
   void key(const YAML::Mark& mark, const std::string& text) {
     Open& map = open_.back();
-    if (!map.seen.insert(text).second) fail(mark, "the key \"" + text + "\" stands here a second time; keep one");
+    if (!map.seen.insert(text).second) fail(mark, "the key \"" + text + "\" is given here a second time; keep one");
     map.key = text;
     map.key_line = mark.line + 1;
     map.has_key = true;
@@ -117,7 +117,7 @@ Yaml parse_yaml(const std::string& text, const std::string& file) {
     YAML::Parser parser(in);
     parser.HandleNextDocument(builder);
     if (TreeBuilder second(file); parser.HandleNextDocument(second))
-      throw SceneError(file, {second.root.line, {}}, "a second document begins after \"---\"; a scene file holds one");
+      throw SceneError(file, {second.root.line, {}}, "a second document begins after \"---\"; a scene file contains only one");
   } catch (const YAML::Exception& error) {
     throw SceneError(file, {error.mark.line + 1, {}}, "this is not YAML: " + error.msg + remedy(text));
   }
