@@ -41,7 +41,7 @@ struct Places {
       if (other && named_here[k])
         reject("its beam passes ", points[passed[k]].name, " and ", points[point].name, ", which both lie at ",
                shown(vector(points[point].at)),
-               "; to join it there write one of the names in both places of through, to leave it open move one of the points a little");
+               "; to join the beam there, write the same name twice in through; to leave it open, move one of the points a little");
       if (named) passed[k] = point, named_here[k] = true;
       return static_cast<int>(k);
     }
@@ -137,9 +137,8 @@ BeamAxis beam_axis(const Scene& scene, const SceneBody& body, const SceneBeam& b
   for (std::size_t i = 0; i + 1 < axis.node.size(); ++i) {
     const auto [twin, is_new] = run.try_emplace(std::minmax(axis.node[i], axis.node[i + 1]), i);
     if (!is_new && axis.node[i] != axis.node[i + 1])
-      reject(
-          "its beam runs twice between ", axis.name[i], " and ", axis.name[i + 1],
-          ", so that the material there would count twice; draw each stretch once, and branches as bodies of their own welded to this one");
+      reject("its beam runs twice between ", axis.name[i], " and ", axis.name[i + 1],
+             ", so the material there would count twice; draw each stretch once, and make branches separate bodies welded to this one");
   }
   return axis;
 }

@@ -58,17 +58,17 @@ Mesh plate_mesh(const Scene& scene, const SceneBody& body, const ScenePlate& pla
 }
 
 void judge(const Mesh& mesh) {
-  if (mesh.cell_count() == 0) throw std::invalid_argument("its mesh is empty: no cell in the plane; look at the drawing's surfaces");
+  if (mesh.cell_count() == 0) throw std::invalid_argument("its mesh is empty: no cell in the plane; check the surfaces of the drawing");
   std::vector<int> piece;
   if (const int n = pieces(mesh, piece); n > 1) {
     const auto other = std::find_if(piece.begin(), piece.end(), [](int p) { return p != 0; }) - piece.begin();
     const auto number = [&](Eigen::Index node) { return std::to_string(mesh.node_numbers[static_cast<std::size_t>(node)]); };
-    std::string remedy = "; join them, or make them bodies of their own";
+    std::string remedy = "; join them, or make them separate bodies";
     if (const auto pair = unjoined(mesh, piece))
       remedy = "; nodes " + number(pair->first) + " and " + number(pair->second) + " both lie at " + shown(mesh.x.col(pair->first)) +
-               ": merge nodes that lie at one place, or make the pieces bodies of their own";
-    throw std::invalid_argument("its mesh falls into " + std::to_string(n) + " pieces that share no node; one holds node " + number(other) +
-                                " at " + shown(mesh.x.col(other)) + remedy);
+               ": merge nodes at the same position, or make the pieces separate bodies";
+    throw std::invalid_argument("its mesh consists of " + std::to_string(n) + " pieces that share no node; one holds node " +
+                                number(other) + " at " + shown(mesh.x.col(other)) + remedy);
   }
 }
 

@@ -33,16 +33,16 @@ std::string described(const WorstCell& cell) {
 void judge(const MeshQuality& q, std::vector<std::string>& warnings) {
   if (!q.inverted.empty())
     throw std::invalid_argument("its mesh has " + std::to_string(q.inverted.size()) + " inverted cell(s), the worst " +
-                                described(q.inverted.front()) + "; refine there, take another element, or mend the mesh");
+                                described(q.inverted.front()) + "; refine there, use another element, or correct the mesh");
   if (!q.bad.empty())
     warnings.push_back(std::to_string(q.bad.size()) + " badly shaped cell(s), the worst " + described(q.bad.front()) +
-                       ": stress there is not to be trusted");
+                       ": the stress there is unreliable");
 }
 
 /// Cells that overlap or do not hold together are another body than the one meant.
 void validate_soundness(const Mesh& mesh, std::vector<std::string>& warnings) {
   const Soundness s = soundness(mesh);
-  if (!s.faults.empty()) throw std::invalid_argument("its mesh is no single sheet: " + s.faults.front());
+  if (!s.faults.empty()) throw std::invalid_argument("its mesh is not a single sheet: " + s.faults.front());
   warnings.insert(warnings.end(), s.warnings_of.begin(), s.warnings_of.end());
 }
 
@@ -55,7 +55,7 @@ void validate_locking(const ScenePlate& plate, const Mesh& mesh, std::vector<std
   if (!triangles && plate.element != "quadrilateral4-plain") return;
   std::ostringstream s;
   s << (triangles ? "triangle3" : plate.element) << " locks in plane strain at a Poisson's ratio of " << solid->poisson
-    << ": it comes out far too stiff; take quadrilateral4, triangle6 or quadrilateral8";
+    << ": it is far too stiff; use quadrilateral4, triangle6 or quadrilateral8";
   warnings.push_back(s.str());
 }
 
@@ -80,7 +80,7 @@ void validate_slenderness(const FeModel& model, std::vector<std::string>& warnin
   if (!(lost > too_much)) return;
   std::ostringstream s;
   s << "it is so slender (" << std::setprecision(2) << length * std::sqrt(stretch / (12 * bending))
-    << " times as long as thick) that rounding may change its bending by " << 100 * lost << " %; take a thicker section or a shorter beam";
+    << " times as long as thick) that rounding may change its bending by " << 100 * lost << " %; use a thicker section or a shorter beam";
   warnings.push_back(s.str());
 }
 
@@ -185,14 +185,14 @@ void validate_rim(const Scene& scene, const Mesh& mesh, const ScenePoint& p, con
                   std::vector<std::string>& warnings) {
   constexpr double bent = 10 * std::numbers::pi / 180, round = 45 * std::numbers::pi / 180, on_circle = 0.02;
   const RimShape rim = rim_shape(mesh, sides);
-  const std::string name = "\"" + p.hole + "\"", stands = "point \"" + p.name + "\" stands at " + shown(port.x);
+  const std::string name = "\"" + p.hole + "\"", stands = "point \"" + p.name + "\" is at " + shown(port.x);
   if (rim.loops + rim.open > 1)
     warnings.push_back(name + " is " + std::to_string(rim.loops + rim.open) + " separate rims or edges, coupled to each other: " + stands +
-                       ", in the middle of them all; give each a name and a point of its own if that is not meant");
+                       ", at the centre of all of them; if this is not intended, give each its own name and point");
   if (rim.open == 0 || rim.angle < bent) return;
   if (rim.misfit > on_circle) {
-    warnings.push_back(name + " is no closed rim: its sides do not come round, and " + stands +
-                       ", their middle; name the whole rim if a hole is meant");
+    warnings.push_back(name + " is not a closed rim: its sides do not form a closed curve, and " + stands +
+                       ", their centre; if a hole is meant, name the whole rim");
     return;
   }
   const double grain = 1e-9 * rim.radius;
@@ -201,15 +201,15 @@ void validate_rim(const Scene& scene, const Mesh& mesh, const ScenePoint& p, con
                            number_text(rim.radius) + " m about " + shown(center) + ", but its ";
   if (rim.open == 1 && rim.angle >= round)
     throw SceneError(scene.file, p.place,
-                     part + "point would stand at " + shown(port.x) + ", the middle of that arc; give the whole rim the name");
-  warnings.push_back(part + stands + ", the middle of that arc; give the whole rim the name if a hole is meant");
+                     part + "point would be at " + shown(port.x) + ", the centre of that arc; give the whole rim this name");
+  warnings.push_back(part + stands + ", the centre of that arc; if a hole is meant, give the whole rim this name");
 }
 
 RimPort rim_port(const Scene& scene, const Mesh& mesh, const ScenePoint& p, std::vector<std::string>& warnings) {
   Group rim = group_of(scene, mesh, p.hole, p.place, "give the curve of the hole a physical name in the drawing");
   rim.sides = sides_of(mesh, rim);
   if (rim.sides.empty())
-    throw SceneError(scene.file, p.place, "\"" + p.hole + "\" is no rim: none of the mesh's sides lies along it; name the curve of a hole");
+    throw SceneError(scene.file, p.place, "\"" + p.hole + "\" is not a rim: no side of the mesh lies along it; name the curve of a hole");
   if (is_outline(mesh, rim.sides))
     throw SceneError(scene.file, p.place,
                      "\"" + p.hole + "\" is the outline of the body, not a hole in it; name a hole, or hold the edge under supports");
@@ -235,8 +235,9 @@ NodePort node_port(const Scene& scene, const SceneBody& body, const Mesh& mesh, 
     const int far = file && !file->unit_given ? nearest_node(mesh, 1000 * vector(p.at), 1e-4 * size) : -1;
     if (far >= 0 && vector(p.at).norm() > 0)
       throw SceneError(scene.file, p.place,
-                       "no node lies at " + shown(vector(p.at)) + ", but one at " + shown(mesh.x.col(far)) + ", a thousand times as far: " +
-                           file->path + " is read in m because the scene gives no unit; if it is in mm, add unit: mm");
+                       "no node lies at " + shown(vector(p.at)) + ", but one lies at " + shown(mesh.x.col(far)) +
+                           ", a thousand times as far: " + file->path +
+                           " is read in m because the scene gives no unit; if it is in mm, add unit: mm");
     throw SceneError(
         scene.file, p.place,
         "no node lies at " + shown(vector(p.at)) + "; the nearest, " + std::to_string(mesh.node_numbers[static_cast<std::size_t>(node)]) +
@@ -262,8 +263,9 @@ std::vector<Lump> lumps_of(const Scene& scene, const SceneBody& body, const Mesh
   for (const SceneLump& l : body.elastic->lumps) {
     const ScenePoint& p = point_of(scene, body, l.at, l.place);
     if (!p.hole.empty())
-      throw SceneError(scene.file, l.place,
-                       "\"" + l.at + "\" is the middle of a hole, where no material is; give the lump to a point of the plate itself");
+      throw SceneError(
+          scene.file, l.place,
+          "\"" + l.at + "\" is the centre of a hole, where there is no material; attach the lump to a point of the plate itself");
     lumps.push_back({node_port(scene, body, mesh, p).node, {l.mass, l.inertia}});
   }
   return lumps;

@@ -48,7 +48,7 @@ const Group& group_of(const Scene& scene, const Mesh& mesh, const std::string& n
   const auto names = group_names(mesh);
   throw SceneError(scene.file, place,
                    "the mesh has no group \"" + name + "\"" +
-                       (names.empty() ? "; it has none at all: " + remedy : "." + did_you_mean(name, names) + " Else " + remedy));
+                       (names.empty() ? "; it has no groups: " + remedy : "." + did_you_mean(name, names) + " Otherwise " + remedy));
 }
 
 std::vector<Cells> sides_of(const Mesh& mesh, const Group& group) {

@@ -77,7 +77,7 @@ int pivot(const Scene& scene, const ElasticBody& e) {
 std::string percent(double part) { return number_text(std::round(1000 * part) / 10) + " %"; }
 
 std::string changed(double change) {
-  if (change <= -1) return "take away all stiffness, so that it would buckle; the linear body does not know";
+  if (change <= -1) return "cancel all its stiffness, so it would buckle; the linear body does not represent this";
   return std::string(change > 0 ? "raise" : "lower") + " its first frequency by " + percent(std::abs(change));
 }
 
@@ -95,7 +95,8 @@ void warn_of_linearity(const Scene& scene, const FlexibleReport& r, std::vector<
   if (const std::string warning = stiffening_warning(r.body, now, {m.spin, m.by_rotation, m.by_all_loads}); !warning.empty())
     out.push_back(warning);
   const std::string warning = deflection_warning(r.body, m.deflection, m.slope, "would bend");
-  if (!warning.empty()) out.push_back(warning + (now == Stiffening::none ? "" : " (estimated without its stiffening; a run tells)"));
+  if (!warning.empty())
+    out.push_back(warning + (now == Stiffening::none ? "" : " (estimated without its stiffening; a run gives the actual value)"));
 }
 
 }  // namespace
@@ -221,11 +222,11 @@ std::string deflection_warning(const std::string& body, double deflection, doubl
   if (!(deflection > large_deflection || slope > large_slope)) return "";
   constexpr double straight = 1e-3;  // a slope so small beside the deflection: it is drawn out or pressed, and stays straight
   if (slope > 0 && slope < straight * deflection)
-    return "\"" + body + "\" is drawn out or pressed by " + percent(deflection) +
-           " of its size, where deformation is taken as small (up to " + percent(large_deflection) +
-           "): right for a straight spring, whose force goes with its length, not for a solid bar";
+    return "\"" + body + "\" is stretched or compressed by " + percent(deflection) +
+           " of its size, but deformation is assumed small (up to " + percent(large_deflection) +
+           "): valid for a straight spring, whose force is proportional to its elongation, but not for a solid bar";
   return "\"" + body + "\" " + when + " by " + percent(deflection) + " of its size, its slope " + number_text(slope) +
-         " rad, within one frame, where deformation is taken as small (up to " + percent(large_deflection) + " and " +
+         " rad, within one body frame, but deformation is assumed small (up to " + percent(large_deflection) + " and " +
          number_text(large_slope) + " rad); cut a beam into pieces";
 }
 

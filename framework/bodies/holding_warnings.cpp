@@ -55,11 +55,11 @@ std::vector<std::string> holding_warnings(const Scene& scene, const std::vector<
   std::vector<std::string> out;
   if (!clamped.empty())
     out.push_back(first_of(clamped) +
-                  " is clamped where its shapes are not, for they are normal modes of another holding; a few of them bend too little "
-                  "there and miss the stress: take craig-bampton");
+                  " is clamped, but its shapes are normal modes with other supports; a few of them bend too little there and give wrong "
+                  "stress: use craig-bampton");
   if (!untied.empty())
-    out.push_back("stiffening: rotation counts the pull of inertia as the frame's tie holds it, and joints hold " + first_of(untied) +
-                  " elsewhere; take axial, or tie the frame to the joint that holds it");
+    out.push_back("stiffening: rotation computes the pull of inertia as if the body were held at the tie of its frame, but joints hold " +
+                  first_of(untied) + " elsewhere; use axial, or tie the frame to the joint that holds the body");
   return out;
 }
 

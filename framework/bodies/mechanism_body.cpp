@@ -28,8 +28,8 @@ void validate_frame(const MechanismBody& b) {
   const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(left).eigenvalues()[0];
   if (!(least > 1e-10))
     throw std::invalid_argument(
-        "its shapes leave the frame no inertia: the frame is tied to freedoms without mass; take the "
-        "consistent mass matrix, rotary inertia, another frame or fewer shapes");
+        "its shapes leave the frame no inertia: the frame is tied to degrees of freedom without mass; use the consistent mass matrix, "
+        "rotary inertia, another frame or fewer shapes");
 }
 
 void warn_of_damping(MechanismBody& b) {
@@ -37,8 +37,8 @@ void warn_of_damping(MechanismBody& b) {
   for (Eigen::Index i = 0; i < f.zeta.size(); ++i)
     if (f.zeta[i] > 1) {
       b.warnings.push_back("\"" + b.body.name + "\": damping makes the shapes from " + std::to_string(i + 1) + " on (" +
-                           std::to_string(std::lround(f.omega[i] / (2 * std::numbers::pi))) + " Hz) over-critical, the ratio there is " +
-                           number_text(f.zeta[i]));
+                           std::to_string(std::lround(f.omega[i] / (2 * std::numbers::pi))) +
+                           " Hz) overdamped: the damping ratio there is " + number_text(f.zeta[i]));
       return;
     }
 }
@@ -83,7 +83,7 @@ Marker marker_of(const Scene& scene, const MechanismBody& b, int body, const Poi
   if (found < 0 && b.body.flex)
     throw SceneError(
         scene.file, ref.place,
-        "\"" + ref.body + "\" alone is the origin of its axes, and a flexible body has no point there; name one of its points");
+        "\"" + ref.body + "\" without a point means the origin of its axes, where a flexible body has no point; name one of its points");
   if (found < 0) return {body, b.body.x_BO, 0};
   const auto i = static_cast<std::size_t>(found);
   const Port& port = e.model.ports[i];
@@ -94,7 +94,7 @@ Marker marker_of(const Scene& scene, const MechanismBody& b, int body, const Poi
     throw SceneError(scene.file, ref.place,
                      "\"" + ref.body + "." + port.name + "\" is a point of " + (e.plate() ? "a plate" : "a bar") +
                          ", which has no direction to hold or turn; " +
-                         (e.plate() ? "take the middle of a hole, which turns with its rim" : "take a beam that bends"));
+                         (e.plate() ? "use the centre of a hole, which turns with its rim" : "use a beam that bends"));
   const auto row = 3 * static_cast<Eigen::Index>(i);
   m.shape = b.modes.ports.middleRows<2>(row);
   m.slope = b.modes.ports.row(row + 2);
@@ -109,7 +109,7 @@ VectorXd bent_start(const Scene& scene, const MechanismBody& b, const StartBody&
     if (static_cast<Eigen::Index>(start.modes.size()) > n)
       throw SceneError(scene.file, start.place,
                        "gives " + std::to_string(start.modes.size()) + " modal coordinates, but \"" + b.body.name + "\" keeps " +
-                           std::to_string(n) + " shapes; leave out the rest, or keep more");
+                           std::to_string(n) + " shapes; remove the others, or keep more shapes");
     for (std::size_t i = 0; i < start.modes.size(); ++i) eta[static_cast<Eigen::Index>(i)] = start.modes[i];
     return eta;
   }
@@ -131,8 +131,8 @@ VectorXd bent_start(const Scene& scene, const MechanismBody& b, const StartBody&
     if ((there - vector(start.deflection[i].u)).norm() <= met * u.norm()) continue;
     throw SceneError(scene.file, start.deflection[i].place,
                      "the shapes of \"" + b.body.name + "\" cannot displace it by " + shown(vector(start.deflection[i].u)) +
-                         "; nearest is " + shown(there) + ": its frame, \"" + title_of(*b.elastic.scene->elastic->modes) +
-                         "\", holds that point, or too few shapes are kept");
+                         "; the nearest possible displacement is " + shown(there) + ": its frame, \"" +
+                         title_of(*b.elastic.scene->elastic->modes) + "\", holds that point, or too few shapes are kept");
   }
   return eta;
 }

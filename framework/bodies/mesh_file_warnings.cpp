@@ -41,34 +41,33 @@ double rest_of_scene(const Scene& scene, const SceneBody& but) {
 void validate_claims(const InpClaims& claims, const ScenePlate& plate, std::vector<std::string>& warnings) {
   if (!claims.strain.empty() && plate.state == PlaneState::stress) {
     if (!plate.state_given)
-      reject(
-          claims.strain,
-          ": the file's elements are of plane strain (CPE), the plate is of plane stress unless it says otherwise; add plane: strain, or "
-          "plane: stress to compute it so all the same");
-    warnings.push_back(claims.strain + ": the file's elements are of plane strain (CPE); computed in plane stress, as the scene says");
+      reject(claims.strain,
+             ": the elements of the file are for plane strain (CPE), but the default of a plate is plane stress; add plane: strain, or "
+             "plane: stress to use plane stress nevertheless");
+    warnings.push_back(claims.strain + ": the elements of the file are for plane strain (CPE); the scene sets plane stress, which is used");
   }
   const double scale = std::get<SceneFile>(plate.shape).scale;
   for (const InpClaims::Value& t : claims.thickness) {
     if (near(t.value * scale, plate.thickness)) continue;
-    warnings.push_back(t.where + ": the file says thickness " + number_text(t.value) + ", which is " + number_text(t.value * scale) +
-                       " m in its unit, the scene " + number_text(plate.thickness) + " m; computed with that of the scene");
+    warnings.push_back(t.where + ": the file gives the thickness " + number_text(t.value) + ", which is " + number_text(t.value * scale) +
+                       " m in its unit, but the scene gives " + number_text(plate.thickness) + " m; the value of the scene is used");
     break;
   }
   const Isotropic* solid = std::get_if<Isotropic>(&plate.material.material.elastic);
   if (!claims.directional.empty() && solid)
     warnings.push_back(claims.directional +
-                       ": the file's material is not isotropic, that of the scene is; computed with that of the scene");
+                       ": the material of the file is not isotropic, but that of the scene is; the material of the scene is used");
   if (!solid) return;
   for (const InpClaims::Value& E : claims.young) {
     if (same_modulus(E.value, solid->young)) continue;
-    warnings.push_back(E.where + ": the file says Young's modulus " + number_text(E.value) + ", the scene " + number_text(solid->young) +
-                       " Pa, which is the same in no unit of stress; computed with that of the scene");
+    warnings.push_back(E.where + ": the file gives Young's modulus " + number_text(E.value) + ", but the scene gives " +
+                       number_text(solid->young) + " Pa, which differs in every unit of stress; the value of the scene is used");
     break;
   }
   for (const InpClaims::Value& nu : claims.poisson) {
     if (near(nu.value, solid->poisson)) continue;
-    warnings.push_back(nu.where + ": the file says Poisson's ratio " + number_text(nu.value) + ", the scene " +
-                       number_text(solid->poisson) + "; computed with that of the scene");
+    warnings.push_back(nu.where + ": the file gives Poisson's ratio " + number_text(nu.value) + ", but the scene gives " +
+                       number_text(solid->poisson) + "; the value of the scene is used");
     break;
   }
 }
@@ -82,7 +81,7 @@ std::string size_warning(const Scene& scene, const ElasticBody& e) {
   if (!(size > very_large) && !off) return "";
   return "it is " + number_text(size) + " m across" +
          (off ? ", about a thousand times the rest of the scene (" + number_text(rest) + " m)" : "") + ": " + file->path +
-         " is read in m because the scene gives no unit; if it is in mm, add unit: mm, else unit: m";
+         " is read in m because the scene gives no unit; if it is in mm, add unit: mm, otherwise unit: m";
 }
 
 }  // namespace pintle

@@ -48,7 +48,7 @@ void judge(const Scene& scene, const ElasticBody& e, const ReferenceConditions& 
   if (conditions.kind == ReferenceConditions::tangent && a.freedom[2] < 0)
     throw SceneError(scene.file, modes.place,
                      "the frame is tangent at " + a.name + ", a point of " + (e.plate() ? "a plate" : "a bar") +
-                         ", which has no direction; take " + (e.plate() ? "the middle of a hole, " : "") +
+                         ", which has no direction; use " + (e.plate() ? "the centre of a hole, " : "") +
                          "a chord through two points, or mean axes");
   if (conditions.kind == ReferenceConditions::tangent) return;
   const Port& b = e.model.ports[static_cast<std::size_t>(conditions.b)];
@@ -56,7 +56,7 @@ void judge(const Scene& scene, const ElasticBody& e, const ReferenceConditions& 
   if ((b.x - a.x).norm() <= 1e-9 * size)
     throw SceneError(scene.file, modes.place,
                      "the frame's chord runs from " + a.name + " to " + b.name + ", which lie at the same place, " + shown(a.x) +
-                         "; name two points that lie apart, or tangent: " + a.name);
+                         "; name two different positions, or tangent: " + a.name);
 }
 
 std::string hertz(double omega) {
@@ -172,17 +172,17 @@ Eigen::VectorXd damping_of(const Scene& scene, const SceneBody& body, const Eige
     if (basis.size() == 1 && z[0] == z[1]) return zeta.setConstant(z[0]);
     if (std::max(first, second) > basis.size())
       throw SceneError(scene.file, damping->place,
-                       "Rayleigh damping is set by modes " + std::to_string(first) + " and " + std::to_string(second) + ", but there are " +
-                           std::to_string(basis.size()) + "; name two of those under modes, or keep more");
+                       "Rayleigh damping is defined at modes " + std::to_string(first) + " and " + std::to_string(second) +
+                           ", but there are " + std::to_string(basis.size()) + "; name two of these under modes, or keep more");
     c = in_body(scene, body, [&] { return rayleigh(basis[first - 1], z[0], basis[second - 1], z[1]); });
   }
   zeta = ratios(c, omega);
   Eigen::Index at = 0;
   if (zeta.size() > 0 && zeta.minCoeff(&at) < 0)
     throw SceneError(scene.file, damping->place,
-                     "Rayleigh damping gives mode " + std::to_string(at + 1) + " at " + hertz(omega[at]) + " Hz the ratio " +
+                     "Rayleigh damping gives mode " + std::to_string(at + 1) + " at " + hertz(omega[at]) + " Hz the damping ratio " +
                          hertz(2 * std::numbers::pi * zeta[at]) +
-                         ", which would feed it energy; bring the two ratios nearer to each other, or give a ratio to each mode");
+                         ", which would add energy; choose two ratios that differ less, or give a ratio for each mode");
   return zeta;
 }
 

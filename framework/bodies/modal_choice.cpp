@@ -224,8 +224,9 @@ std::size_t enough(const std::vector<ConsideredMode>& modes, const ModalChoice& 
 void explain(ModalChoice& choice, double until) {
   const ConsideredMode& last = choice.considered[static_cast<std::size_t>(choice.count - 1)];
   choice.reason = std::to_string(choice.count) + " of the " + std::to_string(choice.considered.size()) +
-                  " lowest modes, by a rigid run of " + number_text(until) + " s: the rest leaves out " + fine_percent(last.left_energy) +
-                  " of the greatest strain energy, " + fine_percent(last.left_displacement) + " of the greatest displacement";
+                  " lowest modes, by a rigid run of " + number_text(until) + " s: the others account for " +
+                  fine_percent(last.left_energy) + " of the greatest strain energy, " + fine_percent(last.left_displacement) +
+                  " of the greatest displacement";
 }
 
 }  // namespace
@@ -276,7 +277,7 @@ MatrixXd oscillator_response(const VectorXd& omega, const VectorXd& zeta, const 
 ModalChoice choose_modes(const Scene& scene, const ElasticBody& e, const LoadHistory& history) {
   const Reduced r = in_body(scene, *e.scene, [&] { return reduced(scene, e); });
   const Index n = r.omega.size();
-  if (n == 0) return {0, "there are no modes beside the static shapes", {}, 0, 0};
+  if (n == 0) return {0, "there are no modes in addition to the static shapes", {}, 0, 0};
   const MatrixXd eta = oscillator_response(r.omega, r.zeta, history.t, r.work.bottomRows(n) * history.factor);
   const std::vector<Index> times = telling_times(eta, history.factor);
   const MatrixXd eta_then = eta(Eigen::all, times);
@@ -285,7 +286,7 @@ ModalChoice choose_modes(const Scene& scene, const ElasticBody& e, const LoadHis
   ModalChoice choice;
   if (!(energy > 0) || !(displacement > 0)) {
     choice.count = 1;
-    choice.reason = "the lowest mode: nothing loads the body in the rigid run";
+    choice.reason = "the lowest mode: no load acts on the body in the rigid run";
     return choice;
   }
   for (Index j = 0; j < r.fixed; ++j) left.take(j);
@@ -309,7 +310,7 @@ ModalChoice choose_by_rule(const Scene& scene, const ElasticBody& e, const std::
     return candidates_of(scene, e, c, without_a_run).modes.omega.size();
   });
   return {static_cast<int>(there),
-          "the " + std::to_string(there) + " lowest modes, by rule, for there is no rigid run to judge by: " + why,
+          "the " + std::to_string(there) + " lowest modes, by the default rule, because there is no rigid run: " + why,
           {},
           0,
           0};

@@ -65,8 +65,8 @@ std::vector<StartBody> Redirection::starts() const {
     }
     if (!start.deflection.empty() || !start.modes.empty())
       throw SceneError(before_.file, start.place,
-                       "\"" + start.body + "\" is cut into pieces, and how it starts bent is not shared among them; " +
-                           "leave it out, or begin at rest by start: equilibrium");
+                       "\"" + start.body + "\" is cut into pieces, and a start deflection cannot be distributed to them; " +
+                           "leave it out, or start at rest with start: equilibrium");
     for (const SceneBody& piece : found->second.bodies) {
       out.push_back(start);
       out.back().body = piece.name;
@@ -84,8 +84,8 @@ const ScenePoint& Redirection::at_origin(const SceneBody& body, const PointRef& 
     points.push_back(p.name);
   }
   throw SceneError(before_.file, ref.place,
-                   "\"" + body.name + "\" alone is the origin of its axes, and the beam, cut into " +
-                       "pieces, has no point there; name one of its points: " + listed(points));
+                   "\"" + body.name + "\" without a point means the origin of its axes, where the beam, cut into " +
+                       "pieces, has no point; name one of its points: " + listed(points));
 }
 
 }  // namespace pintle

@@ -88,12 +88,12 @@ void judge(const Scene& scene, const SceneBody& body, const SceneBeam& beam) {
   if (beam.bar)
     wrong(
         "its beam is cut into pieces, but bars are hinged at every node and cannot be welded; "
-        "take the theory euler or timoshenko");
+        "use the theory euler or timoshenko");
   if (beam.through.size() < 2) wrong("its beam runs through fewer than two points; name two");
   for (std::size_t i = 0; i < beam.through.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (beam.through[i] == beam.through[k])
-        wrong("its beam is cut into pieces and passes " + beam.through[i] + " twice; give the second passage a point of its own");
+        wrong("its beam is cut into pieces and passes " + beam.through[i] + " twice; give the second passage its own point");
 }
 
 Whole whole_of(const Scene& scene, const SceneBody& body, const SceneBeam& beam) {
@@ -117,7 +117,7 @@ Whole whole_of(const Scene& scene, const SceneBody& body, const SceneBeam& beam)
     if (passages(whole.axis, beam, p, whole.tolerance) > 1)
       throw SceneError(scene.file, body.place,
                        "its beam is cut into pieces and passes " + p.name +
-                           " twice, where the pieces would not hold together; make the second passage a body of its own and weld it there");
+                           " twice, where the pieces would not be joined; make the second passage a separate body and weld it there");
   whole.cuts.push_back(0);
   for (int k = 1; k < beam.pieces; ++k) {
     double cut = k * step;

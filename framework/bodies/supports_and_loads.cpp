@@ -17,8 +17,7 @@ std::vector<NamedSupport> supports_of(const Scene& scene, const ElasticBody& e) 
     for (const ScenePoint& p : e.scene->points)
       if (!port && p.hole == s.at) port = e.model.port(p.name);
     if (port && s.rotation && !(s.x && s.y) && port->freedom[2] < 0)
-      throw SceneError(scene.file, s.place,
-                       "\"" + s.at + "\" is a point of a plate, which has no rotation of its own; hold a hole or an edge");
+      throw SceneError(scene.file, s.place, "\"" + s.at + "\" is a point of a plate, which has no rotation; hold a hole or an edge");
     Supports& supports = all.emplace_back(NamedSupport{s.at, {}}).held;
     in_body(scene, *e.scene, [&] {
       if (port) return hold(supports, e.model, *port, s.x, s.y, s.rotation && port->freedom[2] >= 0);
@@ -75,7 +74,7 @@ BodyLoad loads_of(const Scene& scene, const ElasticBody& e) {
     if (load.norm() > 0 && independent_load(e.model, load).norm() < 1e-9 * load.norm())
       throw SceneError(scene.file, l.place,
                        "\"" + l.at +
-                           "\" is the rim of a rigid coupling, which takes the whole load and does not move; write coupling: average at "
+                           "\" is the rim of a rigid coupling, which carries the whole load without deforming; write coupling: average at "
                            "its point, or leave the point out");
     return load;
   };
@@ -102,7 +101,7 @@ BodyLoad loads_of(const Scene& scene, const ElasticBody& e) {
       case Kind::traction: nodal += felt(traction_load(e.model, sides(), v, e.thickness), l); break;
       case Kind::pressure: nodal += felt(pressure_load(e.model, sides(), l.value, e.thickness), l); break;
       case Kind::line:
-        if (e.plate()) throw SceneError(scene.file, l.place, "a plate takes no line load; use traction or pressure on an edge");
+        if (e.plate()) throw SceneError(scene.file, l.place, "a plate cannot have a line load; use traction or pressure on an edge");
         nodal += line_load(e.model, v);
         on_beams += beam_loads(e.model, nowhere, v);
         break;

@@ -201,7 +201,7 @@ output: {every: 0.5 ms}
   const std::string damped = "damping: {ratios: 0.01}";
   for (const double E : {1e5, 1e7, 1e9})
     axis.cases.push_back(
-        {E, printed("%g Pa", E), "", E <= 1e7 ? End::stopped : End::warned, "within one frame, where deformation is taken as small", [=] {
+        {E, printed("%g Pa", E), "", E <= 1e7 ? End::stopped : End::warned, "within one body frame, but deformation is assumed small", [=] {
            const Attempt a = attempt(scene(E, damped, ""));
            return a.whole() ? measured(a, a.open_books(), 1e-3) : ended(a);
          }});
@@ -229,7 +229,7 @@ Axis modal_damping() {
             "1e-4: twenty elements, and a local error of 1e-8 summed over ten periods.",
             {}};
   for (const double zeta : {0.0, 1e-3, 0.5, 1.0, 2.0, 1e2, 1e4, 1e6})
-    axis.cases.push_back({zeta, printed("%g", zeta), "", zeta > 1 ? End::warned : End::finished, zeta > 1 ? "over-critical" : "", [zeta] {
+    axis.cases.push_back({zeta, printed("%g", zeta), "", zeta > 1 ? End::warned : End::finished, zeta > 1 ? "overdamped" : "", [zeta] {
                             Cantilever c{.modes = "{frame: {tangent: A}, count: 1}", .damping = "", .law = "0.1"};
                             const double w = clamped_frequency(c.height), mass = density * 1e-4;
                             c.theory = "euler, rotary inertia: false";

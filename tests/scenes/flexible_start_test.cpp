@@ -47,7 +47,8 @@ TEST(BentStart, SaysWhatItRefuses) {
     return complaint(unit_beam(modes) + clamp + "start: {beam: {" + start + "}}\nrun: {until: 0.01}\n");
   };
   EXPECT_NE(starting("deflection: {A: [0, 1 mm]}")
-                .find("start.beam.deflection.A: the shapes of \"beam\" cannot displace it by (0, 0.001) m; nearest is (0, 0) m"),
+                .find("start.beam.deflection.A: the shapes of \"beam\" cannot displace it by (0, 0.001) m; the nearest possible "
+                      "displacement is (0, 0) m"),
             std::string::npos)
       << starting("deflection: {A: [0, 1 mm]}");
   EXPECT_NE(starting("modes: [1, 2, 3, 4]").find("gives 4 modal coordinates, but \"beam\" keeps 3 shapes"), std::string::npos);

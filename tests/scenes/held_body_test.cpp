@@ -91,9 +91,9 @@ TEST(Warning, ComesWhereRotationStiffensABodyHeldElsewhere) {
                      "scene.yaml"))
         .warnings;
   };
-  EXPECT_TRUE(warns(warnings("mean axes"), "take axial"));
-  EXPECT_TRUE(warns(warnings("{tangent: B}"), "take axial"));
-  EXPECT_FALSE(warns(warnings("{tangent: A}"), "take axial"));
+  EXPECT_TRUE(warns(warnings("mean axes"), "use axial"));
+  EXPECT_TRUE(warns(warnings("{tangent: B}"), "use axial"));
+  EXPECT_FALSE(warns(warnings("{tangent: A}"), "use axial"));
 }
 
 }  // namespace

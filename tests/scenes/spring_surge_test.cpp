@@ -71,7 +71,7 @@ TEST(ValveSpring, SurgesWhereAHarmonicOfTheCamMeetsIt) {
     const Whole w = run(at_speed(speed * 30 / pi));
     expect_sound(w);
     ASSERT_EQ(w.run.warnings.size(), 1u);
-    EXPECT_NE(w.run.warnings[0].find("\"spring\" is drawn out or pressed by 40 % of its size"), std::string::npos) << w.run.warnings[0];
+    EXPECT_NE(w.run.warnings[0].find("\"spring\" is stretched or compressed by 40 % of its size"), std::string::npos) << w.run.warnings[0];
     const auto t = w.column("t [s]"), surge = w.column("surge [m]"), force = w.column("lobe.force [N]");
     Rod rod{speed};
     // 200 elements raise a wave's frequency by (nπ/200)²/24, 1e-5 of the first. Over the damping ratio βω/2 = 0.018 that changes a

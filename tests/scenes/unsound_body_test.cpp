@@ -190,7 +190,7 @@ TEST_F(PlateFile, OfPlaneStrainMustBeAskedFor) {
   expect_says(rejected(strain), {"part.inp:9", "plane strain", "plane: strain"});
   EXPECT_EQ(rejected(strain, ", plane: strain"), "accepted");
   EXPECT_EQ(warned(strain, ", plane: strain"), "");
-  expect_says(warned(strain, ", plane: stress"), {"part.inp:9", "computed in plane stress"});
+  expect_says(warned(strain, ", plane: stress"), {"part.inp:9", "the scene sets plane stress"});
   expect_says(rejected(two_cells + "*NODE\n7,3,0\n*ELEMENT,TYPE=CPE3\n9,3,7,6\n"), {"part.inp:14", "plane strain", "line 9"});
 }
 
@@ -237,7 +237,7 @@ TEST_F(PlateFile, HalfARimIsNoHole) {
   EXPECT_EQ(warned(ring(40), ", unit: mm", point("whole")), "");
   expect_says(rejected(ring(40), ", unit: mm", point("half")),
               {"points.P", "\"half\" covers 180 of 360 deg", "radius 0.01 m", "whole rim"});
-  expect_says(warned(ring(40), ", unit: mm", point("tenth")), {"covers 36 of 360 deg", "middle of that arc"});
+  expect_says(warned(ring(40), ", unit: mm", point("tenth")), {"covers 36 of 360 deg", "centre of that arc"});
 }
 
 TEST_F(PlateFile, AStraightEdgeMayCarryAPoint) {

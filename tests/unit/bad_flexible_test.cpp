@@ -48,7 +48,7 @@ TEST(BadFlexible, HolesAreThoseOfTheMesh) {
 
 TEST(BadFlexible, FramesHoldTheBody) {
   expect_one_line(said_of(grid("    modes: {frame: {tangent: A}, count: 3}\n")), "scene.yaml:5: bodies.part.modes",
-                  {"tangent at A, a point of a plate", "no direction", "the middle of a hole", "mean axes"});
+                  {"tangent at A, a point of a plate", "no direction", "the centre of a hole", "mean axes"});
   std::string same = beam("    modes: {frame: {chord: [A, M]}, count: 3}\n");
   same.replace(same.find("M: [0.5, 0]"), 11, "M: [0, 0]");
   expect_one_line(said_of(same), "scene.yaml:5: bodies.rod.modes", {"chord runs from A to M", "same place, (0, 0) m", "tangent: A"});
@@ -75,7 +75,7 @@ TEST(BadFlexible, MoreModesThanThereAreAreRefusedWithBothNumbers) {
 
 TEST(BadFlexible, APlatesPointHasNoDirectionToHold) {
   const auto said = [](const std::string& what) { return said_of(grid("    modes: {frame: chord, count: 3}\n", what)); };
-  const std::vector<std::string> remedy{"\"part.A\" is a point of a plate", "no direction", "the middle of a hole"};
+  const std::vector<std::string> remedy{"\"part.A\" is a point of a plate", "no direction", "the centre of a hole"};
   expect_one_line(said("joints: {j: {weld: [ground, part.A]}}\n"), "scene.yaml:6: joints.j", remedy);
   expect_one_line(said("joints: {j: {prismatic: [ground, part.A]}}\n"), "scene.yaml:6: joints.j", remedy);
   expect_one_line(said("forces: {f: {torsion spring: [ground, part.A], stiffness: 1 N m}}\n"), "scene.yaml:6: forces.f", remedy);
@@ -87,7 +87,8 @@ TEST(BadFlexible, ABodyAloneIsItsPointAtTheOrigin) {
   std::string text = beam(modes, "joints: {pin: {revolute: [ground, rod]}}\n");
   EXPECT_EQ(said_of(text), "accepted");
   text.replace(text.find("A: [0, 0]"), 9, "A: [0.1, 0]");
-  expect_one_line(said_of(text), "scene.yaml:6: joints.pin", {"\"rod\" alone is the origin", "no point there", "name one of its points"});
+  expect_one_line(said_of(text), "scene.yaml:6: joints.pin",
+                  {"\"rod\" without a point means the origin", "has no point", "name one of its points"});
 }
 
 TEST(BadFlexible, StressIsOfMaterial) {
