@@ -166,7 +166,7 @@ Axis modes_kept() {
   axis.cases.push_back({60, "all", "beside the static shapes", End::finished, "",
                         [] { return deflection_of({.modes = "{frame: {tangent: A}, craig-bampton: {keep: all}}"}, 1e-4); }});
   axis.cases.push_back(past(0, "0", "natural", End::rejected, "at least 1", text(Cantilever{.modes = "{frame: {tangent: A}, count: 0}"})));
-  axis.cases.push_back(past(1000, "1000", "natural", End::rejected, "ask for no more than these",
+  axis.cases.push_back(past(1000, "1000", "natural", End::rejected, "ask for at most this number",
                             text(Cantilever{.modes = "{frame: {tangent: A}, count: 1000}"})));
   axis.cases.push_back(past(0, "0", "below 1e-3 Hz", End::rejected, "", text(Cantilever{.modes = "{frame: mean axes, below: 1e-3 Hz}"})));
   return axis;

@@ -65,7 +65,7 @@ TEST(BadFlexible, ChordsOfScenesWrittenInCodeRunBetweenTwoPoints) {
 TEST(BadFlexible, CraigBamptonNeedsPoints) {
   const std::string text = "bodies:\n  part:\n    plate: {thickness: 5 mm, " + steel_keys +
                            ", link: {disc: {diameter: 0.2, bore: 0.1}}}\n    modes: {craig-bampton: {count: 3}}\nrun: {until: 1 s}\n";
-  expect_one_line(said_of(text), "scene.yaml:4: bodies.part.modes", {"0 freedoms", "add a port", "free modes"});
+  expect_one_line(said_of(text), "scene.yaml:4: bodies.part.modes", {"0 degrees of freedom", "add a port", "free modes"});
 }
 
 TEST(BadFlexible, MoreModesThanThereAreAreRefusedWithBothNumbers) {

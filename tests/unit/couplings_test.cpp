@@ -188,10 +188,10 @@ TEST(Ports, WrongRimsAndNamesAreRefused) {
   b = {"B", o, {3, 3}, {1, 1}, Coupling::average};
   EXPECT_TRUE(says(words({}, {b}), "twice"));
   b.nodes = {3, 99};
-  EXPECT_TRUE(says(words({}, {b}), "node 99 is not there"));
+  EXPECT_TRUE(says(words({}, {b}), "node 99 does not exist"));
   EXPECT_TRUE(says(words({{"P", 1}}, {a}), "on the rim of port \"A\""));
   EXPECT_TRUE(says(words({{"A", 7}}, {a}), "two ports have this name"));
-  EXPECT_TRUE(says(words({{"P", -1}}, {}), "node -1 is not there"));
+  EXPECT_TRUE(says(words({{"P", -1}}, {}), "node -1 does not exist"));
 }
 
 TEST(Ports, ARimWhoseNodesCoincideIsRefused) {

@@ -97,7 +97,7 @@ TEST(Supports, WhatCannotBeHeldIsRefused) {
   add_ports(m, {}, {{"edge", {0, 0}, {0, 1, 2}, {1, 2, 1}, Coupling::rigid}});
   Supports s;
   EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { hold(s, m, 1, true, false, false); }), "hold the port instead"));
-  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { hold(s, m, -2, true, false, false); }), "node -2 is not there"));
+  EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { hold(s, m, -2, true, false, false); }), "node -2 does not exist"));
   EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { hold(s, m, 7, false, false, true); }), "no rotation to hold"));
   FeModel bars = chain(Bar{1e8, 4}, 1, {0, 0}, {1, 0});
   add_ports(bars, {{"end", 1}}, {});

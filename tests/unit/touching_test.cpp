@@ -95,14 +95,14 @@ TEST(Touching, NeverPulls) {
 
 TEST(Touching, SaysWhatNothingHolds) {
   const Stack stack(CellShape::quadrilateral4, CellShape::quadrilateral4);
-  EXPECT_NE(refusal<std::runtime_error>([&] { stack.press(-1e-3); }).find("draw a body away"), std::string::npos);
+  EXPECT_NE(refusal<std::runtime_error>([&] { stack.press(-1e-3); }).find("pull a body away"), std::string::npos);
   const Block2 lower = Stack::held(block(5, 2, CellShape::quadrilateral4, 0, 1, 3)),
                loose = block(3, 3, CellShape::quadrilateral4, 1, 1.5, 1);
   const ContactRows rows = Stack::touch(loose, lower);
   const auto along = [&] {
     TouchingBodies({{&lower.model, &lower.K, lower.supports}, {&loose.model, &loose.K, loose.supports}}, {{1, 0, rows}});
   };
-  EXPECT_NE(refusal<std::runtime_error>(along).find("along what it touches"), std::string::npos);
+  EXPECT_NE(refusal<std::runtime_error>(along).find("slide along its contacts"), std::string::npos);
 }
 
 // Half-width and greatest pressure of Hertz's line contact, a = 2√(FR/(πE*L)), p₀ = 2F/(πaL), where the contact is narrow.

@@ -33,11 +33,13 @@ constexpr double cluster = 1e-6;      // a relative gap in which no count is att
 void judge(const Sparse& K, const Sparse& M, const EigenOptions& o) {
   if (K.rows() != K.cols() || M.rows() != M.cols() || K.rows() != M.rows()) {
     std::ostringstream text;
-    text << "K is " << K.rows() << " by " << K.cols() << " and M " << M.rows() << " by " << M.cols() << ", must be square and of one size";
+    text << "K is " << K.rows() << " by " << K.cols() << " and M " << M.rows() << " by " << M.cols()
+         << ", but both must be square and of the same size";
     throw std::invalid_argument(text.str());
   }
   if (o.count < 1) throw std::invalid_argument(std::to_string(o.count) + " modes asked for, must be at least 1");
-  if (!(o.shift <= 0)) throw std::invalid_argument("shift = " + std::to_string(o.shift) + ", must be negative, or 0 to have it chosen");
+  if (!(o.shift <= 0))
+    throw std::invalid_argument("shift = " + std::to_string(o.shift) + ", must be negative, or 0 to let the solver choose");
   if (!(o.tolerance > 0)) throw std::invalid_argument("tolerance = " + std::to_string(o.tolerance) + ", must be positive");
   const Index massive = (M.diagonal().array() > 0).count();
   if (o.count > massive) throw std::invalid_argument(too_many(o.count, massive));
@@ -151,7 +153,7 @@ void iterate(Subspace& space, Search& s, EigenPairs& out) {
   }
   std::ostringstream text;
   text << good << " of " << s.wanted << " pairs were found in " << out.iterations << " iterations, the largest residual is " << worst;
-  if (out.missed > 0) text << ", and " << out.missed << " more are there by the Sturm check";
+  if (out.missed > 0) text << ", and " << out.missed << " more exist according to the Sturm check";
   out.reason = text.str();
 }
 

@@ -94,8 +94,9 @@ struct Factor::Data {
 
   void judge(const Sparse& A) const {
     if (L && common.status >= 0) return;
-    throw std::runtime_error("a matrix of " + std::to_string(A.rows()) + " freedoms could not be factored: CHOLMOD's status is " +
-                             std::to_string(common.status) + (common.status == CHOLMOD_OUT_OF_MEMORY ? ", out of memory" : ""));
+    throw std::runtime_error("a matrix of " + std::to_string(A.rows()) +
+                             " degrees of freedom could not be factored: the status of CHOLMOD is " + std::to_string(common.status) +
+                             (common.status == CHOLMOD_OUT_OF_MEMORY ? ", out of memory" : ""));
   }
 
   // First column (in elimination order) whose pivot is lost in the rounding of A's diagonal; −1:

@@ -143,7 +143,7 @@ Assembler::Assembler(const FeModel& model) : model_(model) {
   }
   if (entries > std::numeric_limits<int>::max())
     throw std::invalid_argument("a body of " + std::to_string(model.N()) +
-                                " freedoms: its matrices have more than 2^31 entries; coarsen the mesh");
+                                " degrees of freedom: its matrices have more than 2^31 entries; coarsen the mesh");
 }
 
 Sparse Assembler::zeros() const {

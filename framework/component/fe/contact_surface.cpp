@@ -231,7 +231,7 @@ ContactRows contact_rows(const FeModel& first_body, const ContactSurface& first,
   int count = 0;
   for (std::size_t r = 0; r < along.size(); ++r)
     if (sums.area[r] > 1e-6 * whole[r]) kept[r] = count++;
-  if (count == 0) throw std::invalid_argument("nowhere do the two surfaces face each other");
+  if (count == 0) throw std::invalid_argument("the two surfaces do not face each other anywhere");
   ContactRows out{.gap = Eigen::VectorXd(count),
                   .area = Eigen::VectorXd(count),
                   .along = Eigen::VectorXd(count),

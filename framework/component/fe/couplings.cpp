@@ -41,7 +41,8 @@ CoupledShape coupled_shape(const FeModel& model, const RimPort& rim) {
   CoupledShape shape;
   for (std::size_t k = 0; k < rim.nodes.size(); ++k) {
     if (!(rim.weights[k] > 0))
-      reject_rim(rim, "weight of rim node ", rim.nodes[k], " is ", rim.weights[k], ", must be > 0: the length of rim that belongs to it");
+      reject_rim(rim, "weight of rim node ", rim.nodes[k], " is ", rim.weights[k],
+                 ", must be > 0: it is the length of rim that belongs to the node");
     shape.center += rim.weights[k] * model.x.col(rim.nodes[k]);
     shape.length += rim.weights[k];
   }
@@ -56,7 +57,7 @@ CoupledShape coupled_shape(const FeModel& model, const RimPort& rim) {
   }
   shape.radius = std::sqrt(shape.radius / shape.length);
   if (!(shape.radius > degenerate * reach))
-    reject_rim(rim, "the nodes of its rim coincide and fix no rotation; refine the mesh at the hole");
+    reject_rim(rim, "the nodes of its rim coincide and define no rotation; refine the mesh at the hole");
   return shape;
 }
 
@@ -134,7 +135,7 @@ void judge(const FeModel& model, const std::vector<NodePort>& nodes, const std::
     names.push_back(rim.name);
     for (const int node : rim.nodes) {
       if (node < 0 || static_cast<std::size_t>(node) >= count)
-        reject_rim(rim, "node ", node, " is not there; nodes run from 0 to ", count, " − 1");
+        reject_rim(rim, "node ", node, " does not exist; nodes run from 0 to ", count, " − 1");
       const RimPort*& other = owner[static_cast<std::size_t>(node)];
       if (other == &rim) reject_rim(rim, "node ", node, " is twice in its rim; name it once");
       if (other) reject_rim(rim, "its rim shares node ", node, " with that of port \"", other->name, "\"; a node follows one port at most");
@@ -144,8 +145,8 @@ void judge(const FeModel& model, const std::vector<NodePort>& nodes, const std::
   for (const NodePort& port : nodes) {
     names.push_back(port.name);
     if (port.node < 0 || static_cast<std::size_t>(port.node) >= count)
-      throw std::invalid_argument("port \"" + port.name + "\": node " + std::to_string(port.node) + " is not there; nodes run from 0 to " +
-                                  std::to_string(count) + " − 1");
+      throw std::invalid_argument("port \"" + port.name + "\": node " + std::to_string(port.node) +
+                                  " does not exist; nodes run from 0 to " + std::to_string(count) + " − 1");
     if (const RimPort* rim = owner[static_cast<std::size_t>(port.node)])
       throw std::invalid_argument("port \"" + port.name + "\": its node " + std::to_string(port.node) + " is on the rim of port \"" +
                                   rim->name + "\"; put it elsewhere");

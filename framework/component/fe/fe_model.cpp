@@ -21,7 +21,7 @@ struct NodeSizes {
       reject("elements: ", block.properties.size(), " properties for ", count, " elements; give one for all or one each");
     for (const int node : block.nodes) {
       if (node < 0 || static_cast<std::size_t>(node) >= size.size())
-        reject("element: node ", node, " is not there; nodes run from 0 to ", size.size(), " − 1");
+        reject("element: node ", node, " does not exist; nodes run from 0 to ", size.size(), " − 1");
       int& s = size[static_cast<std::size_t>(node)];
       s = std::max(s, E::dofs_per_node);
     }
@@ -50,7 +50,7 @@ FeModel fe_model(Eigen::Matrix2Xd x, std::vector<AnyBlock> blocks, std::vector<L
   }
   for (const Lump& lump : lumps) {
     if (lump.node < 0 || static_cast<std::size_t>(lump.node) >= size.size())
-      reject("point mass: node ", lump.node, " is not there; nodes run from 0 to ", size.size(), " − 1");
+      reject("point mass: node ", lump.node, " does not exist; nodes run from 0 to ", size.size(), " − 1");
     if (!(lump.mass.m >= 0 && lump.mass.J >= 0))
       reject("point mass at node ", lump.node, ": m = ", lump.mass.m, " kg, J = ", lump.mass.J, " kg m²; neither may be negative");
     if (lump.mass.J > 0 && size[static_cast<std::size_t>(lump.node)] < 3)

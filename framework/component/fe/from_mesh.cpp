@@ -68,7 +68,7 @@ std::vector<AnyBlock> plane_blocks(const Mesh& mesh, const PlaneProperties& p, s
   if (!element.empty() && !named) {
     std::string known;
     for (const Kind& kind : kinds) known += (known.empty() ? "" : ", ") + kind.name;
-    reject("element \"", element, "\" is not known; known are ", known);
+    reject("element \"", element, "\" is unknown; the elements are ", known);
   }
   std::vector<AnyBlock> blocks;
   int first_cell = 0;

@@ -18,7 +18,7 @@ Eigen::VectorXd sum_sides(const FeModel& model, const std::vector<Cells>& sides,
       for (std::size_t k = 0; k < nodes; ++k) {
         const int node = cells.nodes[first + k];
         if (node < 0 || node >= model.x.cols())
-          throw std::invalid_argument("load: a side's node " + std::to_string(node) + " is not there; nodes run from 0 to " +
+          throw std::invalid_argument("load: a side's node " + std::to_string(node) + " does not exist; nodes run from 0 to " +
                                       std::to_string(model.x.cols()) + " − 1");
         x.col(static_cast<Eigen::Index>(k)) = model.x.col(node);
       }

@@ -135,9 +135,9 @@ void validate_supports(const FeModel& model, const Sparse& A, const std::vector<
     }
     const std::string motion = free_motions(scaled, middle, size);
     if (motion.empty()) continue;
-    if (count == 1) fail<std::runtime_error>("supports leave the body free ", motion, "; hold it there");
-    fail<std::runtime_error>("the body is in ", count, " parts that no element joins; supports leave the ", "one between (", low.x(), ", ",
-                             low.y(), ") and (", high.x(), ", ", high.y(), ") free ", motion, "; join the parts or hold each");
+    if (count == 1) fail<std::runtime_error>("the supports leave the body free ", motion, "; add a support against this motion");
+    fail<std::runtime_error>("the body is in ", count, " parts that no element joins; the supports leave the ", "one between (", low.x(),
+                             ", ", low.y(), ") and (", high.x(), ", ", high.y(), ") free ", motion, "; join the parts or hold each");
   }
 }
 
@@ -165,8 +165,8 @@ Loosest loosest(const Factor& factor, const VectorXd& scale, double shift) {
   const Vector2d at = places(model).col(freedom);
   const Eigen::RowVector3d motion = rigid_motions(model).row(freedom);
   const char* name = motion[0] == 1 ? "x" : motion[1] == 1 ? "y" : "rotation";
-  fail<std::runtime_error>("the body is held as a whole but a part of it moves without resistance, most at (", at.x(), ", ", at.y(),
-                           ") in ", name, "; bars that hinge on each other need beams or more bars");
+  fail<std::runtime_error>("the body is supported as a whole, but a part of it moves without resistance, most at (", at.x(), ", ", at.y(),
+                           ") in ", name, "; use beams instead of hinged bars, or more bars");
 }
 
 // Factors A, or says what moves.
@@ -181,7 +181,7 @@ Factor factored(const FeModel& model, Sparse A, const std::vector<int>& free) {
   }
   constexpr double shift = 1e-8;
   for (Eigen::Index i = 0; i < A.cols(); ++i) A.coeffRef(i, i) += shift * scale[i];
-  if (!factor.compute(A)) fail<std::runtime_error>("the stiffness of the body is not positive; look at its material and mesh");
+  if (!factor.compute(A)) fail<std::runtime_error>("the stiffness of the body is not positive; check its material and mesh");
   fail_mechanism(model, free[static_cast<std::size_t>(loosest(factor, scale, shift).freedom)]);
 }
 
@@ -195,7 +195,7 @@ VectorXd picked(const VectorXd& all, const std::vector<int>& at) {
 
 void hold(Supports& supports, const FeModel& model, int node, bool x, bool y, bool turn) {
   if (node < 0 || node >= model.x.cols())
-    fail<std::invalid_argument>("support: node ", node, " is not there; nodes run from 0 to ", model.x.cols(), " − 1");
+    fail<std::invalid_argument>("support: node ", node, " does not exist; nodes run from 0 to ", model.x.cols(), " − 1");
   const int at = model.begin[static_cast<std::size_t>(node)];
   const int size = model.begin[static_cast<std::size_t>(node) + 1] - at;
   if (turn && size < 3)
@@ -242,7 +242,7 @@ StaticSolution solve_static(const FeModel& model, const Sparse& K, const Support
     fail<std::invalid_argument>("load: ", independent_load.size(), " numbers, must be ", model.n(), ", one per independent freedom");
   if (!independent_load.allFinite()) fail<std::runtime_error>("load: a number in it is not finite");
   const Sparse A = independent(model, K);
-  if (!A.coeffs().allFinite()) fail<std::runtime_error>("the stiffness of the body is not finite; look at its material and mesh");
+  if (!A.coeffs().allFinite()) fail<std::runtime_error>("the stiffness of the body is not finite; check its material and mesh");
   const std::vector<int> free = free_freedoms(model, supports);
   std::vector<bool> held(static_cast<std::size_t>(model.n()), true);
   for (const int i : free) held[static_cast<std::size_t>(i)] = false;

@@ -50,7 +50,7 @@ class TouchingBodies::Held {
     free_ = free_freedoms(model, all);
     supported_ = b.supports.freedoms;
     if (!factor_.compute(restricted(K, free_)))
-      throw std::runtime_error("the stiffness of a body is not positive; look at its material, mesh and supports");
+      throw std::runtime_error("the stiffness of a body is not positive; check its material, mesh and supports");
   }
 
   MatrixXd solve(const MatrixXd& f) const {
@@ -123,7 +123,8 @@ TouchingBodies::TouchingBodies(std::vector<TouchingBody> bodies, std::vector<Tou
   if (motions == 0) return;
   const VectorXd held = Eigen::JacobiSVD<MatrixXd>(motion_).singularValues();
   if (!(held[motions - 1] > hardly_held * held[0]))
-    throw std::runtime_error("a body can move along what it touches, so a load would carry it away; hold that motion by a support");
+    throw std::runtime_error(
+        "a body can slide along its contacts, so a load would move it without limit; add a support against this motion");
 }
 
 namespace {
@@ -181,7 +182,7 @@ TouchingSolution TouchingBodies::solve(const std::vector<VectorXd>& loads) const
   const double stiff = static_cast<double>(give_.rows()) / give_.diagonal().sum();
   const double long_one = s.b.cwiseAbs().maxCoeff() + (s.h.size() > 0 ? s.h.cwiseAbs().maxCoeff() / stiff : 0);
   const auto carried_away = [] {
-    throw std::runtime_error("the loads draw a body away from all that could hold it; hold it by a support, or turn the load");
+    throw std::runtime_error("the loads pull a body away from all its contacts and supports; add a support, or reverse the load");
   };
   TouchingSolution out;
   s.lambda = s.gap = VectorXd::Zero(s.b.size());
@@ -201,7 +202,8 @@ TouchingSolution TouchingBodies::solve(const std::vector<VectorXd>& loads) const
         if (s.lambda[i] != 0 ? s.lambda[i] > least : s.gap[i] < nearest) next.push_back(i);
     }
     if (next != touch)
-      throw std::runtime_error("the contact could not be solved: which parts touch changes in turns; refine the mesh there");
+      throw std::runtime_error(
+          "the contact could not be solved: the iteration alternates between sets of touching parts; refine the mesh there");
   }
 
   motion = 0;

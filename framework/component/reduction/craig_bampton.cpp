@@ -29,8 +29,7 @@ Eigen::MatrixXd straining(const Component& c, const std::vector<int>& interface)
     if (spans(sized)) return size.cwiseInverse().asDiagonal() * sized.matrixU().rightCols(b - 3);
   }
   throw std::invalid_argument("Craig–Bampton: the interface ports hold the body with " + std::to_string(b) +
-                              " freedoms and leave a rigid motion free; add a port, take one that "
-                              "can turn, or use free modes");
+                              " degrees of freedom and leave a rigid motion free; add a port, use one with rotation, or use free modes");
 }
 
 /// Displacements of the whole body when the interface moves as the columns of C and no load acts
@@ -42,9 +41,7 @@ Eigen::MatrixXd static_shapes(const Component& c, const std::vector<int>& interf
   if (interior.empty() || C.cols() == 0) return shapes;
   Factor inside;
   if (!inside.compute(restricted(c.K, interior)))
-    throw std::runtime_error(
-        "Craig–Bampton: with its ports held, a part of the body still moves freely; its parts are "
-        "not joined");
+    throw std::runtime_error("Craig–Bampton: with its ports held, a part of the body still moves freely, because its parts are not joined");
   const Eigen::MatrixXd pull = (c.K * shapes)(interior, Eigen::all);
   shapes(interior, Eigen::all) = -inside.solve(pull);
   return shapes;

@@ -64,7 +64,8 @@ Modes below(const Problem& p, double frequency) {
     try {
       return eigen_below(p.K, p.M, omega * omega);
     } catch (const std::runtime_error& e) {
-      reject("keep: below = ", frequency, " Hz cannot be told from a mode of ", p.whose, " (", e.what(), "); take another, or a count");
+      reject("keep: below = ", frequency, " Hz is too close to a mode of ", p.whose, " (", e.what(),
+             "); use another frequency, or a count");
     }
   };
   return elastic(pairs(), p);
@@ -84,8 +85,7 @@ void reject_unreachable(const Problem& p, double share, const Eigen::MatrixX3d& 
   }
   if (reach.minCoeff() <= share)
     reject("keep: effective mass = ", share, " cannot be reached: all modes of ", p.whose, " together have the shares ", reach.transpose(),
-           " in x, y and rotation, the rest hangs on what is held; ask for less, or refine the "
-           "mesh there");
+           " in x, y and rotation; the rest moves with the held points; reduce it, or refine the mesh there");
 }
 
 Modes by_effective_mass(const Problem& p, double share, const Eigen::MatrixX3d& carried) {
@@ -102,7 +102,7 @@ Modes by_effective_mass(const Problem& p, double share, const Eigen::MatrixX3d& 
     }
     if (count >= most)
       reject("keep: effective mass = ", share, ": the first ", most, " modes of ", p.whose, " have the shares ", sum.transpose(),
-             " in x, y and rotation; ask for less");
+             " in x, y and rotation; reduce it");
   }
 }
 
@@ -112,10 +112,10 @@ Modes kept(const Problem& p, const Keep& keep, const Eigen::MatrixX3d& carried) 
   if (keep.effective_mass) return by_effective_mass(p, *keep.effective_mass, carried);
   const int there = available(p);
   const int wanted = keep.all ? there : *keep.count;
-  if (wanted > there) reject(wanted, " modes asked for, ", p.whose, " has ", there, "; ask for no more than these, or refine the mesh");
+  if (wanted > there) reject(wanted, " modes asked for, ", p.whose, " has ", there, "; ask for at most this number, or refine the mesh");
   if (keep.all && there > most_for_all)
-    reject("keep: all ", there, " modes of ", p.whose, " are too many: that is refused above ", most_for_all,
-           " because the shapes are a dense matrix; use count, below or effective mass");
+    reject("keep: all ", there, " modes of ", p.whose, " are too many: at most ", most_for_all,
+           " are allowed, because the shapes are a dense matrix; use count, below or effective mass");
   return lowest(p, wanted);
 }
 
@@ -172,8 +172,7 @@ Modes held_modes(const Component& c, const Sparse& V, const Keep& keep, const st
 Modes elastic_modes(const Component& c, const Keep& keep) {
   if (keep.effective_mass)
     reject("keep: effective mass = ", *keep.effective_mass,
-           ": modes of a free body carry no momentum, so that none has effective mass; use count "
-           "or below");
+           ": modes of a free body carry no momentum, so none has effective mass; use count or below");
   return kept({c.K, c.M, 3, "the body"}, keep, {});
 }
 

@@ -37,7 +37,7 @@ Chord chord_of(const FeModel& model, const ReferenceConditions& conditions) {
   const Eigen::Vector2d d = b.x - a.x;
   if (d.norm() <= 1e-9 * extent(model))
     throw std::invalid_argument("chord tie: ports \"" + a.name + "\" and \"" + b.name +
-                                "\" coincide; name two that lie apart, or use the tangent tie");
+                                "\" coincide; name two at different positions, or use the tangent tie");
   return {a, b, d.normalized()};
 }
 
@@ -51,7 +51,8 @@ std::vector<int> port_freedoms(const FeModel& model, const std::vector<int>& por
     for (const int f : port.freedom) {
       if (f < 0) continue;
       if (!seen.insert(f).second)
-        throw std::invalid_argument("interface port \"" + port.name + "\": its freedoms are in the interface already; name each port once");
+        throw std::invalid_argument("interface port \"" + port.name +
+                                    "\": its degrees of freedom are already in the interface; name each port once");
       freedoms.push_back(f);
     }
   }
