@@ -36,8 +36,9 @@ Line line_with(std::string_view text, std::string_view part) {
 std::string refusal_of(const std::string& opened, const fs::path& file, const Line& line, const fs::path& read_from) {
   std::error_code error;
   if (line.text.find('>') != line.text.npos || line.text.find("Save") != line.text.npos || line.text.find("Print") != line.text.npos)
-    return "a drawing writes no files; take that out, or allow all that it does by --trust-geo if you know where it comes from";
-  if (!fs::exists(file.parent_path() / opened, error)) return "there is no such file; check its path, which begins at the drawing's folder";
+    return "a drawing must not write files; remove that command, or allow it with --trust-geo if you trust the source of the drawing";
+  if (!fs::exists(file.parent_path() / opened, error))
+    return "there is no such file; check its path, which is relative to the folder of the drawing";
   try {
     contained_file(opened, file.parent_path(), read_from);
   } catch (const FileRefused& rejected) {
@@ -56,7 +57,7 @@ std::string with_line_of_script(const fs::path& file, const std::string& text, c
     Line line = line_with(text, "\"" + opened + "\"");
     if (line.number == 0) line = line_with(text, fs::path(opened).filename().string() + "\"");
     if (line.number > 0 && number.empty()) number = std::to_string(line.number);
-    said = said.substr(0, said.rfind("; take another size")) + "; " + refusal_of(opened, file, line, read_from);
+    said = said.substr(0, said.rfind("; use another size")) + "; " + refusal_of(opened, file, line, read_from);
   } else if (said.find("SystemCall") != std::string::npos && number.empty()) {
     if (const Line line = line_with(text, "SystemCall"); line.number > 0) number = std::to_string(line.number);
   }

@@ -49,15 +49,15 @@ void validate_head(const std::string& name, const std::string& kind, const std::
   if ((kind == ".step" || kind == ".stp") && head.find("ISO-10303-21") == head.npos) fail("it does not begin with ISO-10303-21");
   // Gmsh passes over the last line of a script without a word if it does not end.
   if (kind == ".geo" && !text.empty() && text.back() != '\n')
-    reject(name, ": the last line has no end, and Gmsh would leave it out; end the file with a new line");
+    reject(name, ": the last line has no newline, so Gmsh would ignore it; end the file with a newline");
 }
 
 // Gmsh runs what stands in FILE.opt whenever it reads FILE.
 void validate_options(const std::string& name) {
   std::error_code error;
   if (fs::exists(fs::symlink_status(name + ".opt", error)))
-    reject(name, ": beside it stands ", fs::path(name + ".opt").filename().string(),
-           ", a script that Gmsh would run; write what is needed of it into a .geo, and remove it");
+    reject(name, ": next to it is ", fs::path(name + ".opt").filename().string(),
+           ", a script that Gmsh would run; move what is needed from it into a .geo, and remove it");
 }
 
 std::vector<std::string> strings(const std::vector<fs::path>& paths) {
@@ -90,7 +90,7 @@ Mesh read_geometry(const fs::path& path, const MeshOptions& o, double scale, con
   const std::string name = path.string(), kind = path.extension().string();
   judge(name, o, scale);
   if (kind != ".geo" && kind != ".step" && kind != ".stp" && kind != ".brep" && kind != ".msh")
-    reject(name, ": \"", kind, "\" is no kind of drawing known here; .geo, .step, .stp, .brep and .msh are");
+    reject(name, ": \"", kind, "\" is not a known kind of drawing; use .geo, .step, .stp, .brep or .msh");
   std::string text;
   try {
     const bool all = kind == ".geo" || kind == ".msh";

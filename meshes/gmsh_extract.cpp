@@ -61,7 +61,7 @@ struct Extract {
     for (size_t i = 0; i < order.size(); ++i) {
       const double* p = &x[3 * order[i]];
       if (std::abs(p[2]) > 1e-6 * std::max(1e-3, std::hypot(p[0], p[1])))
-        reject(name, ": node ", numbers[order[i]], " is at z = ", p[2], "; a body's mesh lies in the plane z = 0");
+        reject(name, ": node ", numbers[order[i]], " is at z = ", p[2], "; the mesh of a body must lie in the plane z = 0");
       mesh.x.col(static_cast<Eigen::Index>(i)) << scale * p[0], scale * p[1];
       sorted.push_back(numbers[order[i]]);
       mesh.node_numbers.push_back(static_cast<long>(numbers[order[i]]));
@@ -83,7 +83,7 @@ struct Extract {
       Cells block{*shape, {}, {}};
       for (const size_t n : numbers[k]) block.numbers.push_back(static_cast<long>(n));
       for (const size_t n : nodes[k]) {
-        if (column(n) < 0) reject(name, ": a cell names node ", n, ", which is not there");
+        if (column(n) < 0) reject(name, ": a cell names node ", n, ", which does not exist");
         block.nodes.push_back(column(n));
       }
       out.push_back(std::move(block));

@@ -40,7 +40,7 @@ void sample(const std::string& name, int curve, bool forward, Contour& contour) 
   for (size_t i = 0; i < t.size(); ++i) {
     if (std::abs(x[3 * i + 2]) > 1e-6 * std::max(1e-3, std::hypot(x[3 * i], x[3 * i + 1])))
       reject(name, ": not plane: curve ", curve, " passes (", x[3 * i], ", ", x[3 * i + 1], ", ", x[3 * i + 2],
-             "); a body lies in the plane z = 0: draw, or move, its face there");
+             "); a body must lie in the plane z = 0: draw its face there, or move it there");
     contour.points.emplace_back(x[3 * i], x[3 * i + 1]);
     contour.curvature.push_back(std::isfinite(curvature[i]) ? curvature[i] : 0);
   }

@@ -48,7 +48,7 @@ Mesh with_gmsh(const std::string& what, Work work) {
   }
   if (const std::string logged = gmsh_errors(); !logged.empty()) words = logged;
   throw std::runtime_error(what + ": Gmsh cannot " + (words.empty() ? "make a mesh of it" : "make a mesh of it: " + words) +
-                           "; take another size or element, or mend the drawing");
+                           "; use another size or element, or correct the drawing");
 }
 
 void generate(const Figure& f, const std::vector<Pinned>& pinned, SizeField field, double factor, CellShape shape) {
@@ -142,11 +142,11 @@ Mesh gmsh_geometry(const fs::path& path, const MeshOptions& o, double scale) {
     if (const std::string words = gmsh_errors(); !words.empty()) throw std::runtime_error(words);
     gmsh::vectorpair solids;
     model::getEntities(solids, 3);
-    if (!solids.empty()) reject(name, ": there is a solid in it; a body is plane: keep only the face in the plane z = 0");
+    if (!solids.empty()) reject(name, ": it contains a solid, but a body is plane: keep only the face in the plane z = 0");
     if (kind == ".msh") return gmsh_extract(name, scale);
     if (gmsh_body(2).empty())
       reject(name,
-             ": there is no surface in it; draw one bounded by curves (Plane Surface in a .geo, a "
+             ": it contains no surface; draw one bounded by curves (Plane Surface in a .geo, a "
              "face in a .step)");
     // The drawing may have set options of its own; what is asked for here comes first.
     set("Mesh.ElementOrder", 1);

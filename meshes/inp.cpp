@@ -80,10 +80,10 @@ struct Builder {
     if (const auto [a, b] = node_index.twice(); b >= 0)
       queue.text.reject(queue.node_places[static_cast<std::size_t>(b)], "node ", queue.node_numbers[static_cast<std::size_t>(b)],
                         " is defined again, first on line ", queue.node_places[static_cast<std::size_t>(a)].line,
-                        "; a number belongs to one node");
+                        "; each number may define one node only");
     if (const auto [a, b] = element_index.twice(); b >= 0)
       queue.text.reject(place_of_element(b), "element ", queue.element_numbers[static_cast<std::size_t>(b)],
-                        " is defined again, first on line ", place_of_element(a).line, "; a number belongs to one element");
+                        " is defined again, first on line ", place_of_element(a).line, "; each number may define one element only");
   }
 
   void look_up_nodes() {
@@ -98,7 +98,7 @@ struct Builder {
                             ", which no *NODE defines");
         if (std::find(nodes.begin() + static_cast<std::ptrdiff_t>(el.first), nodes.end(), node) != nodes.end())
           queue.text.reject(el.place, "element ", queue.element_numbers[e], " names node ", queue.element_nodes[k],
-                            " twice; collapsed elements are not read: take a triangle");
+                            " twice; collapsed elements are not supported: use a triangle");
         nodes.push_back(node);
       }
       if (el.kind.shape == CellShape::line3) middle_last(el.first);
@@ -147,17 +147,17 @@ struct Builder {
     Members& m = known->second;
     if (is_new) {
       if (++depth > most_depth)
-        queue.text.reject(set.place, "the set \"", set.name, "\" is named by sets that are named by sets, more than ", most_depth,
-                          " times over; name it directly");
+        queue.text.reject(set.place, "the set \"", set.name, "\" is nested in other sets more than ", most_depth,
+                          " levels deep; name it directly");
       for (const InpDeck::Item& item : set.items) add_members(item, set, m.places);
       drop_repeated(m.places);
       m.whole = true;
       --depth;
       if ((total += m.places.size()) > most_members)
         queue.text.reject(set.place, "the sets up to \"", set.name, "\" have more than ", most_members,
-                          " members; leave sets out that are not needed");
+                          " members; remove sets that are not needed");
     }
-    if (!m.whole) queue.text.reject(set.place, "the set \"", set.name, "\" contains itself; leave that out");
+    if (!m.whole) queue.text.reject(set.place, "the set \"", set.name, "\" contains itself; remove that entry");
     return m.places;
   }
 

@@ -195,9 +195,9 @@ struct Reading {
     const bool ties = card.keyword == "TIE" || card.keyword == "EQUATION" || card.keyword == "MPC" || card.keyword.starts_with("EMBEDDED");
     queue.text.reject(
         card.place, "*", card.keyword,
-        ties ? " ties nodes to each other, which is not read, and the body would come apart there: mesh the parts with shared nodes"
-             : " makes another body than its plane elements alone, which is not read: describe it in the scene (lumps, "
-               "joints, forces, points of holes) and leave it out here");
+        ties ? " ties nodes to each other, which is not supported: the body would come apart there. Mesh the parts with shared nodes"
+             : " adds something other than plane elements to the body, which is not supported: describe it in the scene (lumps, joints, "
+               "forces, points of holes) and remove it here");
   }
 
   std::vector<double> numbers(const InpDeck::Other& other) const {
@@ -218,14 +218,14 @@ struct Reading {
     for (const char* word : {"COMPOSITE", "NODAL THICKNESS", "OFFSET"})
       if (card.find(word))
         say(where(card.place) + ": " + word + " of *" + card.keyword +
-            " is not read; the body is of one thickness and one layer, those of the scene");
+            " is ignored; the body has one thickness and one layer, those of the scene");
     if (card.find("ORIENTATION")) seen_once(Meaning::axes, "ORIENTATION of *" + card.keyword, card.place);
     const std::vector<int> members = set ? elements.of_set(*set) : std::vector<int>{};
     const bool lines = !members.empty() && std::all_of(members.begin(), members.end(), [&](int e) { return !plane(e); });
     if (lines && has_plane())
       queue.text.reject(card.place, "*", card.keyword, " makes the ", members.size(), " line elements of \"", *set,
-                        "\" bars or beams of their own beside the plane elements; only plane elements are read of such a file: leave "
-                        "them out, mesh them as plane elements, or make them bodies of the scene");
+                        "\" separate bars or beams in addition to the plane elements; from such a file only plane elements are read: "
+                        "remove the lines, mesh them as plane elements, or make them bodies of the scene");
     const bool thick = card.keyword == "SOLID SECTION" || card.keyword == "SHELL SECTION" || card.keyword == "MEMBRANE SECTION";
     if (!thick || lines || card.find("COMPOSITE")) return;
     if (const std::vector<double> data = numbers(other); !data.empty()) claims.thickness.push_back({data[0], where(card.place)});
@@ -262,7 +262,7 @@ struct Reading {
     std::string list;
     for (const auto& [key, at] : section_of) list += (list.empty() ? "" : ", ") + at;
     say("the sections of the file name " + std::to_string(section_of.size()) + " materials, " + list +
-        "; the whole body is computed with the one material of the scene");
+        "; the material of the scene is used for the whole body");
   }
 
   void strain() {
@@ -273,8 +273,8 @@ struct Reading {
       if (!first) first = &e;
     }
     if (strained && stressed)
-      queue.text.reject(strained->place, "this element is of plane strain (CPE), but that of line ", stressed->place.line,
-                        " is not; a body is of one kind: name them all CPS or all CPE");
+      queue.text.reject(strained->place, "this element is for plane strain (CPE), but the one on line ", stressed->place.line,
+                        " is not; a body has one kind only: make all elements CPS or all CPE");
     if (strained) claims.strain = where(strained->place);
   }
 
@@ -286,8 +286,8 @@ struct Reading {
     if (count > 0)
       say(where(queue.elements[static_cast<std::size_t>(first)].place) + ": element " +
           std::to_string(queue.element_numbers[static_cast<std::size_t>(first)]) +
-          " is a line along no side of a plane element and is left out" +
-          (count > 1 ? ", and so are " + std::to_string(count - 1) + " more" : "") + "; bars and beams belong into a body of their own");
+          " is a line that is not along a side of a plane element; it is ignored" +
+          (count > 1 ? ", and so are " + std::to_string(count - 1) + " more" : "") + "; make bars and beams a separate body");
   }
 
   void tell(Meaning what, const std::string& rest) {
@@ -309,12 +309,13 @@ struct Reading {
       if (what != Meaning::none && what != Meaning::model) seen_once(what, "*" + card.keyword, card.place);
       if (!known(card) && named.insert("*" + card.keyword).second) unknown.push_back("*" + card.keyword + " (" + where(card.place) + ")");
     }
-    tell(Meaning::load, " of the file: supports and loads are not read; those of the scene hold");
-    tell(Meaning::law, " of the file: not read; the body is linear and elastic, and damped as the scene says");
-    tell(Meaning::axes, " of the file: not read; the axes of an orthotropic material are those of the scene, `angle`");
-    tell(Meaning::contact, " of the file: contact is not read; it is a matter of the scene's joints");
-    tell(Meaning::spider, " of the file: not read, the rim stays free; couple it with a point in the scene, {hole: NAME, coupling: rigid}");
-    for (const std::string& keyword : unknown) say(keyword + " is not known and passed over; see whether it changes the body");
+    tell(Meaning::load, " of the file: supports and loads are ignored; those of the scene apply");
+    tell(Meaning::law, " of the file: ignored; the body is linear elastic, with the damping of the scene");
+    tell(Meaning::axes, " of the file: ignored; the axes of an orthotropic material are set in the scene (`angle`)");
+    tell(Meaning::contact, " of the file: contact is ignored; define it in the scene");
+    tell(Meaning::spider,
+         " of the file: ignored, so the rim stays free; couple it with a point in the scene, {hole: NAME, coupling: rigid}");
+    for (const std::string& keyword : unknown) say(keyword + " is unknown and ignored; check whether it changes the body");
   }
 
   std::vector<std::string> name_{};

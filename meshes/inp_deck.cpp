@@ -37,8 +37,7 @@ struct Parser {
 
   long whole(std::string_view field, InpPlace place, const char* what) {
     long value = 0;
-    if (!to_number(field, value) || value < 1)
-      queue.text.reject(place, "\"", field, "\" is no ", what, "; a whole number from 1 belongs here");
+    if (!to_number(field, value) || value < 1) queue.text.reject(place, "\"", field, "\" is no ", what, "; write a whole number from 1");
     return value;
   }
 
@@ -104,7 +103,7 @@ struct Parser {
     std::array<long, 3> range{0, 0, 1};
     std::size_t k = 0;
     for (; k < 3 && next_field(rest, field); ++k) range[k] = whole(field, place, "number");
-    if (k < 2 || range[1] < range[0]) queue.text.reject(place, "GENERATE needs first, last and step, last not before first");
+    if (k < 2 || range[1] < range[0]) queue.text.reject(place, "GENERATE needs first, last and step, with last not less than first");
     s.items.push_back({range[0], {}, place, range[1], range[2], {}});
   }
 
@@ -156,12 +155,12 @@ struct Parser {
   void part_card(const InpCard& card, bool& seen) {
     if (seen)
       queue.text.reject(card.place, "a second *", card.keyword, " after that of line ", part.line,
-                        "; a body is one part: write each to a file of its own");
+                        "; a body is one part: write each to a separate file");
     seen = true, part = card.place;
     if (card.keyword == "INSTANCE" && data())
       queue.text.reject(lines[at].place,
-                        "this *INSTANCE is moved or turned; a body's axes are its part's: "
-                        "leave the line out and place the body in the scene");
+                        "this *INSTANCE is moved or turned, but the axes of a body are those of its part: remove the line and place the "
+                        "body in the scene");
   }
 
   void run() {
@@ -229,13 +228,13 @@ std::optional<InpKind> inp_kind(const std::string& type, std::string& reason) {
   if (starts("CAX") || starts("SAX") || starts("MAX") || starts("CGAX"))
     reason = "is axisymmetric: a ring, not a plane body; mesh it with CPS or CPE elements";
   else if (starts("CPEG"))
-    reason = "is of generalised plane strain, which has a freedom out of the plane; take CPE";
+    reason = "is for generalised plane strain, which has a degree of freedom out of the plane; use CPE";
   else if (starts("C3D") || starts("SC") || starts("CCL"))
     reason = "is solid; a body here is plane: mesh its mid-plane with CPS, CPE or S elements";
   else
     reason =
         "is not known; plane bodies are made of CPS3, CPS4, CPS6, CPS8, CPE…, S…, M3D…, beams of "
-        "B21, B31, B32, T2D2 …; masses, springs and couplings belong into the scene";
+        "B21, B31, B32, T2D2 …; define masses, springs and couplings in the scene";
   return std::nullopt;
 }
 

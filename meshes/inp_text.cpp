@@ -53,7 +53,7 @@ struct Reader {
       if (text.empty() || text.starts_with("**")) continue;
       // What is no input file is not shown.
       if (!std::exchange(begun, true) && !may_begin(text))
-        out.reject({file, number}, "is no input file of CalculiX or Abaqus: it begins with neither a card (*NODE) nor numbers");
+        out.reject({file, number}, "is not an input file of CalculiX or Abaqus: it begins with neither a card (*NODE) nor numbers");
       if (text[0] == '*' && upper(text.substr(0, 8)) == "*INCLUDE")
         include(text, {file, number});
       else
@@ -74,7 +74,7 @@ struct Reader {
       out.reject(place, "*INCLUDE of ", e.what());
     }
     if (std::find(open.begin(), open.end(), fs::weakly_canonical(path)) != open.end())
-      out.reject(place, "*INCLUDE of ", *input, ", which is just being read; leave it out");
+      out.reject(place, "*INCLUDE of ", *input, ", which includes this file itself; remove it");
     if (!fs::exists(path)) out.reject(place, "*INCLUDE of ", *input, ": there is no file ", path.string());
     if (out.files.size() >= most_files)
       out.reject(place, "*INCLUDE of ", *input, ": more than ", most_files, " files are included; put them together");

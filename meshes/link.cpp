@@ -82,7 +82,7 @@ struct Judge {
     for (const Eye& eye : {l.first, l.second})
       if (l.width > eye.outer)
         reject(link, ": width = ", l.width, " m, must be at most the outer diameter of either eye, ", eye.outer,
-               " m; for a plain plate with holes bring a drawing");
+               " m; for a plain plate with holes use a drawing");
   }
   void operator()(const Triangle& l) const {
     const char* link = "triangle with three eyes";
@@ -104,7 +104,7 @@ struct Judge {
       if (arc < 1e-3 || arc > 2 * pi - 1e-3 || turn > 2 * pi + 1e-6)
         reject(link, ": an eye does not reach the outline round the other two (centres (", l.center[0].x(), ", ", l.center[0].y(), "), (",
                l.center[1].x(), ", ", l.center[1].y(), "), (", l.center[2].x(), ", ", l.center[2].y(),
-               ") m); move it outwards, make it larger, or bring a drawing");
+               ") m); move it outwards, make it larger, or use a drawing");
     }
   }
 };

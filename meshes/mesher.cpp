@@ -71,8 +71,9 @@ class Worker {
     if (!receive(version, 100, soon, nullptr) || version != PINTLE_VERSION) {
       end();
       throw std::runtime_error(
-          program_ + (version.empty() ? ": does not start; install pintle again"
-                                      : ": is of pintle " + version + ", the program of " PINTLE_VERSION "; install both together"));
+          program_ + (version.empty()
+                          ? ": does not start; install pintle again"
+                          : ": is of pintle " + version + ", the program of " PINTLE_VERSION "; install both from the same version"));
     }
   }
   ~Worker() { end(); }
@@ -175,13 +176,13 @@ std::string shown(double bytes) {
 
 std::string no_memory(const MesherLimits& limits) {
   return "meshing needs more than " + shown(static_cast<double>(limits.bytes)) +
-         " of memory; make the cells larger (size), simplify the drawing, or allow more by --mesh-memory";
+         " of memory; make the cells larger (size), simplify the drawing, or allow more with --mesh-memory";
 }
 
 std::string too_slow(const MesherLimits& limits) {
   std::ostringstream s;
   s << "meshing takes longer than " << limits.seconds
-    << " s; make the cells larger (size), simplify the drawing, or allow more by --mesh-time";
+    << " s; make the cells larger (size), simplify the drawing, or allow more with --mesh-time";
   return s.str();
 }
 
@@ -189,20 +190,20 @@ std::string too_slow(const MesherLimits& limits) {
 std::string death(int code, const MesherLimits& limits) {
   const int signal = code > killed_by ? code - killed_by : 0;
   if (signal == SIGSYS)
-    return "the drawing asks for more than a drawing may do, such as to run a command (SystemCall); take that out, or allow it by "
-           "--trust-geo if you know where the drawing comes from";
-  if (signal == SIGKILL) return "the mesher was killed, as is done when memory runs out; make the cells larger (size)";
+    return "the drawing does something that is not allowed, such as running a command (SystemCall); remove it, or allow it with "
+           "--trust-geo if you trust the source of the drawing";
+  if (signal == SIGKILL) return "the mesher was killed, probably because memory ran out; make the cells larger (size)";
   if (signal == SIGABRT || signal == 0) {
     const std::string how = signal == SIGABRT ? "gives up" : "ends";
-    return "Gmsh " + how + " without a mesh; take Exit or Abort out of the drawing, take another size or element, or mend the drawing";
+    return "Gmsh " + how + " without a mesh; remove Exit or Abort from the drawing, use another size or element, or correct the drawing";
   }
-  return std::string("Gmsh crashes on it (") + strsignal(signal) + "); take another size or element, or mend the drawing" +
-         (signal == SIGSEGV ? "; if the mesh is large, allow more than " + shown(static_cast<double>(limits.bytes)) + " by --mesh-memory"
+  return std::string("Gmsh crashes on it (") + strsignal(signal) + "); use another size or element, or correct the drawing" +
+         (signal == SIGSEGV ? "; if the mesh is large, allow more than " + shown(static_cast<double>(limits.bytes)) + " with --mesh-memory"
                             : "");
 }
 
 Mesh understood(const std::string& answer, const std::string& name, const MesherLimits& limits) {
-  if (answer.empty()) throw std::runtime_error(name + ": the mesher says nothing; please report this");
+  if (answer.empty()) throw std::runtime_error(name + ": the mesher gave no answer; please report this");
   const std::string words = answer.substr(1);
   switch (static_cast<Answer>(answer[0])) {
     case Answer::mesh: return unpacked_mesh(std::string_view(answer).substr(1));

@@ -57,12 +57,12 @@ bool shut_in(const std::vector<std::string>& folders) {
 }
 
 Mesh made(const MesherTask& task) {
-  if (!task.at.empty() && chdir(task.at.c_str()) != 0) throw std::runtime_error(task.at + ": is no folder any more");
+  if (!task.at.empty() && chdir(task.at.c_str()) != 0) throw std::runtime_error(task.at + ": is no longer a folder");
   const bool script = task.file.ends_with(".geo");
   if (!(script && task.unconfined) && !shut_in(task.folders) && script)
     reject(task.file,
-           ": a .geo file is a program, and this system has no means to shut it in (Landlock and seccomp of Linux); if you know where "
-           "the drawing comes from, allow it by --trust-geo, else take a .step, .brep or .msh file");
+           ": a .geo file is a program, and this system cannot confine it (Landlock and seccomp of Linux); if you trust the source of the "
+           "drawing, allow it with --trust-geo, otherwise use a .step, .brep or .msh file");
   return task.link ? gmsh_link(*task.link, task.options) : gmsh_geometry(task.file, task.options, task.scale);
 }
 

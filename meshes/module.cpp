@@ -54,7 +54,7 @@ std::string program_beside_modules(const std::string& name) {
   for (const std::string& folder : folders)
     if (const std::string path = folder + "/" + name; access(path.c_str(), X_OK) == 0) return path;
   throw std::runtime_error(name +
-                           ": is not there; it is built and installed with pintle: keep it in lib/pintle beside the library, or "
+                           ": is missing; it is built and installed with pintle: keep it in lib/pintle beside the library, or "
                            "name its folder in LD_LIBRARY_PATH");
 }
 
@@ -72,7 +72,8 @@ const void* load_module(const char* name) {
   const void* table = entry();
   const char* version = *static_cast<const char* const*>(table);
   if (std::strcmp(version, PINTLE_VERSION) != 0)
-    throw std::runtime_error(file + ": is of pintle " + version + ", the program of " + PINTLE_VERSION + "; install both together");
+    throw std::runtime_error(file + ": is of pintle " + version + ", the program of " + PINTLE_VERSION +
+                             "; install both from the same version");
   return table;
 }
 

@@ -61,7 +61,7 @@ struct Msh {
   std::string_view entry(const char* what, long count) {
     std::string_view out;
     if (!next(out)) fail("the file ends where ", what, " ", count, " of its section is expected");
-    if (out.starts_with('$')) fail("the section ends before ", what, " ", count, ", which its count says it has");
+    if (out.starts_with('$')) fail("the section ends before ", what, " ", count, ", although its count includes it");
     return out;
   }
   template <class... T>
@@ -79,7 +79,7 @@ struct Msh {
     const auto [found, fresh] = nodes.try_emplace(of, at, line);
     if (!fresh && found->second.first != at)
       fail("node ", of, " is at (", at[0], ", ", at[1], "), but in line ", found->second.second, " at (", found->second.first[0], ", ",
-           found->second.first[1], "): a number stands for one node");
+           found->second.first[1], "): each number may define one node only");
   }
 
   void add_element(long of, std::string_view its_nodes) {
@@ -88,7 +88,7 @@ struct Msh {
     const auto [found, fresh] = elements.try_emplace(of, its_nodes, line);
     if (!fresh && found->second.first != its_nodes)
       fail("element ", of, " has other nodes than in line ", found->second.second,
-           ": a number stands for one element, and Gmsh would leave one out");
+           ": each number may define one element only, and Gmsh would ignore one");
   }
 
   // Version 2: a count, then a line for each.

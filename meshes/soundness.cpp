@@ -75,17 +75,17 @@ struct Check {
       found.faults.push_back("cells " + std::to_string(cells[index(a)].number) + " and " + std::to_string(cells[index(b)].number) +
                              " have the same corners, near " + place(at(cells[index(a)].nodes[0])) + ": the material there counts twice" +
                              in_all(twice.size()) +
-                             "; leave one of each pair out (a .msh of version 2 writes a surface once for each of its physical groups)");
+                             "; remove one of each pair (a .msh of version 2 writes a surface once for each of its physical groups)");
     } else if (!stacked.empty()) {
       const auto [a, b] = *stacked.begin();
       found.faults.push_back(cell(a) + " and " + cell(b) + " lie on the same side of a side that they share, near " +
-                             place(at(cells[index(a)].nodes[0])) + ": they overlap" + in_all(stacked.size()) + "; mend their nodes");
+                             place(at(cells[index(a)].nodes[0])) + ": they overlap" + in_all(stacked.size()) + "; correct their nodes");
     }
     if (!crowded.empty()) {
       const auto& [a, b, c] = crowded.front();
       found.faults.push_back("more than two cells meet at the side between nodes " + nodes(a.a, a.b) + ", near " + place(at(a.a)) + ": " +
                              cell(a.cell) + ", " + cell(b.cell) + " and " + cell(c.cell) + in_all(crowded.size()) +
-                             "; leave out the cells that are too many");
+                             "; remove the extra cells");
     }
     if (!cracked.empty()) {
       const auto& [a, b] = cracked.front();
@@ -93,9 +93,9 @@ struct Check {
         return s.middle < 0 ? std::string("no middle node") : "the middle node " + node(s.middle);
       };
       found.faults.push_back(cell(a.cell) + " and " + cell(b.cell) + " share the side between nodes " + nodes(a.a, a.b) + ", near " +
-                             place(at(a.a)) + ", but there the one has " + middle(a) + " and the other " + middle(b) +
+                             place(at(a.a)) + ", but one has " + middle(a) + " there and the other " + middle(b) +
                              ": the side opens under load" + in_all(cracked.size()) +
-                             "; mesh both with cells of one order and the same nodes");
+                             "; mesh both with cells of the same order and shared nodes");
     }
   }
 
@@ -115,7 +115,8 @@ struct Check {
                   ", but a corner of " + cell(corner_of[index(n)]);
       }
     if (count > 0)
-      found.faults.push_back(first + ": the side opens under load" + in_all(count) + "; mesh both with cells of one order, side to side");
+      found.faults.push_back(first + ": the side opens under load" + in_all(count) +
+                             "; mesh both with cells of the same order, side to side");
   }
 
   Squares rim_squares() const {
@@ -184,11 +185,11 @@ struct Check {
              cell(s.cell);
     };
     if (!hanging.empty())
-      found.faults.push_back(told(hanging.front()) + " and is no node of that cell: the side opens under load" + in_all(hanging.size()) +
+      found.faults.push_back(told(hanging.front()) + " but is not a node of that cell: the side opens under load" + in_all(hanging.size()) +
                              "; mesh so that cells meet side to side");
     else if (!near.empty())
-      found.warnings_of.push_back(told(near.front()) + " to a thousandth of its length and is not joined to it" + in_all(near.size()) +
-                                  "; if the cells are to hold together there, mesh so that they meet side to side");
+      found.warnings_of.push_back(told(near.front()) + ", within a thousandth of its length, but is not joined to it" +
+                                  in_all(near.size()) + "; if the cells should be joined there, mesh so that they meet side to side");
     slits(pairs);
   }
 
@@ -218,10 +219,10 @@ struct Check {
     } else {
       const SideView &p = rim[index(shut.front().first)], &q = rim[index(shut.front().second)];
       text = "sides of " + cell(p.cell) + " and " + cell(q.cell) + " lie on each other near " + place(at(p.a)) + ", from nodes " +
-             nodes(p.a, p.b) + " and from nodes " + nodes(q.a, q.b) + ", and are not joined: the body is slit there";
+             nodes(p.a, p.b) + " and from nodes " + nodes(q.a, q.b) + ", and are not joined: the body has a slit there";
     }
     found.warnings_of.push_back(text + in_all(std::max(pairs.size(), shut.size())) +
-                                "; merge nodes that lie at one place unless a crack is meant");
+                                "; merge nodes at the same position, unless a crack is intended");
   }
 
   // Where more than two sides of the rim end in one corner, cells turn about it.
@@ -234,7 +235,7 @@ struct Check {
       if (ends[n] > 2 && count++ == 0) first = static_cast<int>(n);
     if (count > 0)
       found.warnings_of.push_back("at node " + node(first) + ", " + place(at(first)) +
-                                  ", cells meet by that node alone and turn about it as about a hinge" + in_all(count) +
+                                  ", cells share only this node and can turn about it like a hinge" + in_all(count) +
                                   "; join them along a side");
   }
 
@@ -264,7 +265,7 @@ struct Check {
     if (over.empty()) return;
     const auto& [pair, p] = *over.begin();
     found.faults.push_back(cell(pair.first) + " and " + cell(pair.second) + " overlap at " + place(p) +
-                           ": the material there counts twice" + in_all(over.size()) + "; leave one of them out, or mend their nodes");
+                           ": the material there counts twice" + in_all(over.size()) + "; remove one of them, or correct their nodes");
   }
 };
 

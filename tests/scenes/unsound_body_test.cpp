@@ -156,15 +156,15 @@ TEST_F(PlateFile, CardsThatMakeAnotherBodyAreRefusedByLine) {
   for (const char* card : {"*EQUATION\n2\n1,1,1.,3,1,-1.\n", "*TIE, NAME=t\na,b\n", "*MPC\nBEAM,1,2\n",
                            "*RIGID BODY, ELSET=all, REF NODE=1\n", "*EMBEDDED ELEMENT\nall\n", "*SPRING, ELSET=s\n\n100.\n"}) {
     const std::string word = std::string(card).substr(0, std::string(card).find_first_of(",\n"));
-    expect_says(rejected(two_cells + card), {"part.inp:11: ", word, "not read"});
+    expect_says(rejected(two_cells + card), {"part.inp:11: ", word, "not supported"});
   }
 }
 
 TEST_F(PlateFile, CardsThatTheSceneAnswersAreWarnedOfAndOutputIsNot) {
   expect_says(warned(two_cells + "*BOUNDARY\n1,1,2\n*CLOAD\n3,1,5.\n"),
-              {"*BOUNDARY (part.inp:11) and *CLOAD (part.inp:13)", "those of the scene hold"});
+              {"*BOUNDARY (part.inp:11) and *CLOAD (part.inp:13)", "those of the scene apply"});
   expect_says(warned(two_cells + "*COUPLING, REF NODE=1, SURFACE=s\n*KINEMATIC\n"), {"*COUPLING (part.inp:11)", "hole: NAME"});
-  expect_says(warned(two_cells + "*WHATEVER\n1,2\n"), {"*WHATEVER (part.inp:11)", "not known"});
+  expect_says(warned(two_cells + "*WHATEVER\n1,2\n"), {"*WHATEVER (part.inp:11)", "unknown and ignored"});
   expect_says(warned(two_cells + "*MATERIAL,NAME=s\n*PLASTIC\n1,0\n"), {"*PLASTIC (part.inp:12)", "linear"});
   EXPECT_EQ(
       warned("*HEADING\n a title\n** a comment\n" + two_cells + "*STEP\n*STATIC\n*NODE FILE\nU\n*EL FILE\nS\n*OUTPUT, FIELD\n*END STEP\n"),
@@ -198,7 +198,7 @@ TEST_F(PlateFile, LinesWithASectionBesideCellsAreRefusedAndEdgesAreNot) {
   const std::string edge = two_cells + "*ELEMENT, TYPE=B31, ELSET=rib\n11,1,2\n12,2,3\n";
   EXPECT_EQ(warned(edge), "");
   expect_says(rejected(edge + "*BEAM SECTION, ELSET=rib, SECTION=RECT, MATERIAL=m\n1,1\n"), {"part.inp:14", "2 line elements", "\"rib\""});
-  expect_says(warned(two_cells + "*NODE\n9,5,5\n*ELEMENT, TYPE=T2D2\n21,6,9\n"), {"part.inp:14", "element 21", "left out"});
+  expect_says(warned(two_cells + "*NODE\n9,5,5\n*ELEMENT, TYPE=T2D2\n21,6,9\n"), {"part.inp:14", "element 21", "is ignored"});
 }
 
 TEST_F(PlateFile, ReadInMetresThatMeansMillimetresIsWarnedOf) {

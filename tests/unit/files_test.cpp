@@ -141,9 +141,9 @@ TEST_F(Contained, WhatIsNoTableOrInputFileIsNotShown) {
 }
 
 TEST_F(Contained, FilesThatIncludeThemselvesOrEachOtherAreRefused) {
-  says(said_of_inp("*INCLUDE, INPUT=deck.inp\n"), "just being read");
+  says(said_of_inp("*INCLUDE, INPUT=deck.inp\n"), "includes this file itself");
   fs::create_symlink("deck.inp", scene() / "alias.inp");
-  says(said_of_inp("*INCLUDE, INPUT=alias.inp\n"), "just being read");
+  says(said_of_inp("*INCLUDE, INPUT=alias.inp\n"), "includes this file itself");
   write(scene() / "a.inp", "*INCLUDE, INPUT=b.inp\n");
   write(scene() / "b.inp", "*INCLUDE, INPUT=sub/../a.inp\n");
   says(said_of_inp("*INCLUDE, INPUT=a.inp\n"), "b.inp:1");

@@ -28,7 +28,7 @@ TEST(GeoFile, WhatIsWrongIsSaidWithItsLineAndARemedy) {
                          {"Include \"../outside.geo\";", ":3: ", {"--allow-path " + folder.string(), "outside.geo"}},
                          {"Merge \"" + (folder / "outside.geo").string() + "\";", ":3: ", {"--allow-path " + folder.string()}},
                          {"Include \"none.geo\";", ":3: ", {"none.geo", "no such file"}},
-                         {"Printf(\"a\") > \"" + (folder / "made").string() + "\";", ":3: ", {"writes no files", "--trust-geo"}},
+                         {"Printf(\"a\") > \"" + (folder / "made").string() + "\";", ":3: ", {"must not write files", "--trust-geo"}},
                          {"Point(2)={1,0,0;", ":3: ", {"syntax error"}},
                          {"x = nothing + 1;", ":3: ", {"Unknown variable"}}}) {
     const fs::path file = inner / "drawing.geo";

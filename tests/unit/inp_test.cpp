@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(Each, InpRefuses,
                                          Bad{"SecondPart", "*PART,NAME=A\n*END PART\n*PART,NAME=B\n", "10", "a second *PART"},
                                          Bad{"MovedInstance", "*INSTANCE,NAME=A,PART=P\n1.,0.,0.\n", "9", "moved or turned"},
                                          Bad{"MissingInclude", "*INCLUDE,INPUT=nowhere.inc\n", "8", "there is no file"},
-                                         Bad{"IncludeOfItself", "*INCLUDE,INPUT=deck.inp\n", "8", "just being read"}),
+                                         Bad{"IncludeOfItself", "*INCLUDE,INPUT=deck.inp\n", "8", "includes this file itself"}),
                          [](const testing::TestParamInfo<Bad>& param) { return std::string(param.param.what); });
 
 TEST(InpRefusesWhole, NoElementNoFileNoScale) {

@@ -133,7 +133,7 @@ TEST(Unsound, ALayerThatSharesOnlyAFewNodesIsFound) {
 TEST(Unsound, HangingNodesAreFoundOnStraightAndCurvedSides) {
   for (const CellShape shape : plane_shapes) {
     const Mesh coarse = grid(1, 1, shape, {0, 0}, {1, 1}), fine = grid(3, 3, shape, {1, 0}, {2, 1});
-    expect_words(fault(together(coarse, fine, true)), {"lies on the side between nodes", "no node of that cell", "side to side"});
+    expect_words(fault(together(coarse, fine, true)), {"lies on the side between nodes", "not a node of that cell", "side to side"});
   }
 }
 
@@ -147,7 +147,7 @@ TEST(Unsound, HangingNodesInThePlaceOfAMiddleNodeAreFound) {
 TEST(Unsound, QuadraticBesideLinearCellsCrack) {
   for (const CellShape shape : {CellShape::triangle6, CellShape::quadrilateral8, CellShape::quadrilateral9}) {
     const Mesh coarse = grid(1, 1, shape, {0, 0}, {1, 1}), other = grid(1, 1, CellShape::quadrilateral4, {1, 0}, {2, 1});
-    expect_words(fault(together(coarse, other, true)), {"share the side", "no middle node", "the middle node", "one order"});
+    expect_words(fault(together(coarse, other, true)), {"share the side", "no middle node", "the middle node", "the same order"});
   }
 }
 
@@ -166,7 +166,7 @@ TEST(Unsound, UnmergedNodesAreASlitThatIsDoubted) {
 TEST(Unsound, CellsThatMeetAtOneNodeAreAHinge) {
   for (const CellShape shape : plane_shapes) {
     const Mesh mesh = together(grid(2, 2, shape, {0, 0}, {2, 2}), grid(2, 2, shape, {2, 2}, {4, 4}), true);
-    expect_words(warning(mesh), {"by that node alone", "(2, 2) m", "hinge"});
+    expect_words(warning(mesh), {"share only this node", "(2, 2) m", "hinge"});
   }
 }
 
