@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 constexpr std::string_view wide =
-    "the contact spans more than 30 degrees to either side, where half-spaces no longer stand for the bodies; take a table";
+    "the contact spans more than 30 degrees to either side, where half-spaces no longer approximate the bodies; use a table";
 
 /// ΔR, the difference of the radii of pin and hole or the sum of two round ones, and R = R_i R_j/ΔR [m].
 double difference(const Cylinders& c) { return std::abs(c.a + c.b); }
@@ -48,14 +48,14 @@ DampedLaw goldsmith(const Cylinders& c) {
   const double by_angle = force_of_half_angle(c), by_length = S * L * L / (4 * R);
   return {.elastic = line,
           .deepest = depth_under(line, std::min(by_angle, by_length)),
-          .limit = by_angle < by_length ? wide : "the contact is wider than it is long; take johnson"};
+          .limit = by_angle < by_length ? wide : "the contact is wider than it is long; use johnson"};
 }
 
 DampedLaw liu(const Cylinders& c) {
   const double k = pi * c.modulus * c.length / std::sqrt(8.0), clearance = difference(c);
   return {.elastic = WideningForce{k, clearance},
           .deepest = clearance,
-          .limit = "the contact spans more than 60 degrees to either side; take a table"};
+          .limit = "the contact spans more than 60 degrees to either side; use a table"};
 }
 
 /// F = (a ΔR + b) E*L/ΔR δⁿ in N and mm.
@@ -81,9 +81,9 @@ DampedLaw winkler(const Cylinders& c) {
     out.elastic = FoundationForce{stiffness * std::sqrt(std::abs(c.a * c.b)), difference(c)};
   else
     out.elastic = PowerForce{4 * std::numbers::sqrt2 / 3 * stiffness * std::sqrt(R), 1.5};
-  out.limit = strained < by_shape ? "the layer is compressed by more than a tenth of its thickness; take a thicker one, or a table"
-              : c.internal()      ? "the depth is no longer small against the radius; take a table"
-                                  : "the contact is wider than the smaller radius, where parabolas no longer stand for arcs; take a table";
+  out.limit = strained < by_shape ? "the layer is compressed by more than a tenth of its thickness; use a thicker layer, or a table"
+              : c.internal()      ? "the depth is no longer small compared with the radius; use a table"
+                                  : "the contact is wider than the smaller radius, where parabolas no longer approximate arcs; use a table";
   return out;
 }
 

@@ -95,7 +95,7 @@ double end_slope(double h0, double h1, double s0, double s1) { return std::clamp
 }  // namespace
 
 ForceTable force_table(const std::vector<std::array<double, 2>>& points) {
-  if (points.size() < 2) throw std::invalid_argument("needs two points or more");
+  if (points.size() < 2) throw std::invalid_argument("needs at least two points");
   if (points[0] != std::array{0.0, 0.0}) throw std::invalid_argument("must begin with depth 0 and force 0");
   const std::size_t n = points.size();
   std::vector<double> h, s;
@@ -103,7 +103,7 @@ ForceTable force_table(const std::vector<std::array<double, 2>>& points) {
     h.push_back(points[i][0] - points[i - 1][0]);
     s.push_back((points[i][1] - points[i - 1][1]) / h.back());
     if (!(h.back() > 0 && s.back() > 0 && std::isfinite(s.back())))
-      throw std::invalid_argument("must rise from point to point, depth and force; point " + std::to_string(i + 1) + " does not");
+      throw std::invalid_argument("must increase from point to point, in depth and in force; point " + std::to_string(i + 1) + " does not");
   }
   ForceTable out;
   for (std::size_t i = 0; i < n; ++i) {

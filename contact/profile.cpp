@@ -40,12 +40,12 @@ std::vector<Stretch> stretches_of(const std::vector<PathPoint>& path, bool close
   for (std::size_t i = 0; i < count; ++i) {
     const Vector2d &from = path[i].at, &to = path[(i + 1) % n].at;
     const double chord = (to - from).norm(), radius = path[i].arc;
-    if (!(chord > no_length * size)) wrong("it has no length " + between(i + 1, n) + "; leave one of them out");
+    if (!(chord > no_length * size)) wrong("it has no length " + between(i + 1, n) + "; remove one of them");
     double half = 0;
     if (radius != 0) {
       if (chord > 2 * std::abs(radius))
-        wrong("an arc of radius " + std::to_string(std::abs(radius)) + " m does not reach over the " + std::to_string(chord) + " m " +
-              between(i + 1, n) + "; make its radius half of that or more");
+        wrong("an arc of radius " + std::to_string(std::abs(radius)) + " m is too small for the " + std::to_string(chord) + " m " +
+              between(i + 1, n) + "; make its radius at least half of that");
       half = std::copysign(std::asin(std::min(1.0, chord / (2 * std::abs(radius)))), radius);
     }
     const double along = angle_of(to - from);
@@ -259,7 +259,7 @@ Profile profile_along(std::vector<PathPoint> path, bool closed, double round) {
   constexpr double smooth = 1e-9, kink = 1e-2;  // [rad]; over so small a hollow kink a contact goes on
   if (path.size() < 2) wrong("it has fewer than two points; add points");
   const bool arcs = std::any_of(path.begin(), path.end(), [](const PathPoint& p) { return p.arc != 0; });
-  if (closed && path.size() < 3 && !arcs) wrong("it encloses nothing with fewer than three points; add one, or an arc");
+  if (closed && path.size() < 3 && !arcs) wrong("it is closed but has fewer than three points; add a point, or an arc");
   std::vector<Stretch> stretches = stretches_of(path, closed);
   const std::size_t n = stretches.size(), joins = closed ? n : n - 1;
   std::vector<double> turn(joins);
@@ -268,7 +268,7 @@ Profile profile_along(std::vector<PathPoint> path, bool closed, double round) {
     Stretch &before = stretches[i], &after = stretches[(i + 1) % n];
     turn[i] = turn_between(before, after);
     if (std::abs(turn[i]) > pi - 1e-6)
-      wrong("it turns back on itself at point " + std::to_string(after.point) + "; move that point or leave it out");
+      wrong("it turns back on itself at point " + std::to_string(after.point) + "; move or remove that point");
     if (round > 0 && before.arc == 0 && after.arc == 0 && std::abs(turn[i]) > smooth)
       arc[i] = rounded(before, after, turn[i], round, path.size());
   }

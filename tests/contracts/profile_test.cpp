@@ -188,10 +188,10 @@ struct Bad {
 TEST(Profile, RefusesWhatIsNoSurface) {
   const std::vector<Bad> all{
       {{{{0, 0}}}, false, 0, "fewer than two points"},
-      {{{{0, 0}}, {{1, 0}}}, true, 0, "encloses nothing"},
+      {{{{0, 0}}, {{1, 0}}}, true, 0, "fewer than three points"},
       {{{{0, 0}}, {{1, 0}}, {{1, 0}}, {{0, 1}}}, true, 0, "no length between point 2 and point 3"},
       {{{{0, 0}}, {{1, 0}}, {{0, 1}}, {{0, 0}}}, true, 0, "no length between point 4 and point 1"},
-      {{{{0, 0}, 0.4}, {{1, 0}}}, false, 0, "does not reach"},
+      {{{{0, 0}, 0.4}, {{1, 0}}}, false, 0, "is too small for"},
       {{{{0, 0}}, {{1, 0}}, {{0.5, 0}}}, false, 0, "turns back on itself at point 2"},
       {{{{0, 0}}, {{1, 1}}, {{1, 0}}, {{0, 1}}}, true, 0, "crosses itself at (0.5"},
       {square, true, 0.6, "no room to round"},
