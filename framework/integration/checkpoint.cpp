@@ -45,10 +45,11 @@ const char* Integrator::fault_of_loaded() const {
            node.state.friction.size() == dry_states(system_) && node.state.y.allFinite() && node.dy.allFinite() &&
            std::isfinite(node.state.t) && (remembers || empty);
   };
-  if (step_.to.state.y.size() != n_y) return "it has another number of coordinates or of energies in its ledger";
-  if (!whole(step_.from) || !whole(step_.to) || !stepper_->fits(step_.to)) return "it is of another system, or has numbers that are none";
+  if (step_.to.state.y.size() != n_y) return "its number of coordinates or of energies in its ledger differs";
+  if (!whole(step_.from) || !whole(step_.to) || !stepper_->fits(step_.to))
+    return "it belongs to another system, or contains numbers that are not finite";
   if (const char* fault = events_.fault()) return fault;
-  if (!(step_.h >= 0) || !control_.sound() || eq_.permanent < 0 || eq_.permanent > rows) return "its step is none";
+  if (!(step_.h >= 0) || !control_.sound() || eq_.permanent < 0 || eq_.permanent > rows) return "its step is invalid";
   return nullptr;
 }
 
@@ -56,9 +57,9 @@ void Integrator::load(const std::string& saved) {
   std::istringstream in(saved, std::ios::binary);
   Reader reader(in);
   reader.whole(*this);
-  if (reader.other_layout()) throw std::invalid_argument("it was saved by a build of pintle with another layout of it");
+  if (reader.other_layout()) throw std::invalid_argument("it was saved by a build of pintle with another layout of this data");
   if (!reader.good() || in.peek() != std::istringstream::traits_type::eof())
-    throw std::invalid_argument("it is not whole, or of another system");
+    throw std::invalid_argument("it is incomplete, or belongs to another system");
   if (const char* fault = fault_of_loaded()) throw std::invalid_argument(fault);
   step_.error.setZero(system_.n_y());
   dense_ = step_.to.state;

@@ -68,7 +68,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
   step_.from = step_.to;
   dense_ = step_.to.state;
   if (!stepper_->project(step_.to, eq_)) {
-    stop("the start is a singular pose or off the constraints");
+    stop("the start is a singular pose or does not satisfy the constraints");
     return;
   }
   events_.start(step_);
@@ -177,7 +177,7 @@ bool Integrator::step_to(double left) {
   }
   if (failure_.empty())
     stop(eq_.regular ? "no step is small enough for the tolerance" + trouble()
-                     : "singular pose: the constraint rows have become dependent");
+                     : "singular pose: the constraint equations have become linearly dependent");
   step_.to = step_.from;
   return false;
 }
@@ -294,10 +294,10 @@ bool Integrator::may_step(double until) {
   const double passed = t - last_tenth_, more = std::ceil((until - t) / passed) / 10;
   step_.from = step_.to;
   return stop("max steps reached (" + std::to_string(allowed) + ")" +
-              (counts_.steps >= 10 && passed > 0 ? ", the last tenth in " + number_text(passed, 6) + " s: so the rest takes some " +
-                                                       number_text(more, 6) + " times as many"
+              (counts_.steps >= 10 && passed > 0 ? ", the last tenth in " + number_text(passed, 6) +
+                                                       " s; at this rate the rest takes about " + number_text(more, 6) + " times as many"
                                                  : "") +
-              ": raise run.max steps, loosen run.tolerance, or soften or damp what is so fast");
+              ": raise run.max steps, loosen run.tolerance, or reduce the stiffness or add damping where the motion is so fast");
 }
 
 bool Integrator::sample(double t, State& out) {

@@ -21,13 +21,13 @@ bool Switching::held_by_stability(const Stepper& stepper, const Scheme& scheme, 
   const bool held = step.h < scheme.switch_below && stepper.at_stability_limit(step);
   held_ = held ? held_ + 1 : std::max(0, held_ - 2);
   if (held_ < many) return false;
-  why_ = "generalized-alpha from t = " + number_text(step.to.state.t, 6) + " s on: stability, not accuracy, held " + std::to_string(many) +
-         " explicit steps near " + number_text(step.h, 6) + " s";
+  why_ = "generalized-alpha from t = " + number_text(step.to.state.t, 6) + " s on: stability, not accuracy, limited " +
+         std::to_string(many) + " explicit steps to about " + number_text(step.h, 6) + " s";
   return true;
 }
 
 void Switching::goes_on_with(const std::string& method) {
-  if (why_.empty()) why_ = method + " throughout, as in the run that was saved";
+  if (why_.empty()) why_ = method + " throughout, as in the saved run";
 }
 
 }  // namespace pintle

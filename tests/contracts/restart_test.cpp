@@ -74,7 +74,7 @@ TEST(Restart, GoesOnWithTheExplicitPairThatWasSaved) {
   Integrator run = integrator(k, 1e-6, "dopri5"), next = integrator(k, 1e-6, "verner87");
   for (int i = 0; i < 100; ++i) ASSERT_TRUE(run.advance(1));
   next.load(run.save());
-  EXPECT_EQ(next.switched(), "dopri5 throughout, as in the run that was saved");
+  EXPECT_EQ(next.switched(), "dopri5 throughout, as in the saved run");
   for (int i = 0; i < 400; ++i) ASSERT_TRUE(run.advance(1) && next.advance(1));
   expect_same(next, run);
 }

@@ -227,7 +227,8 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     mu_ = eq.Cdot * (-1 / w.s);
     solve(dv_, mu_);
     to.memory.lambda += mu_;
-    if (!correct_friction(system, w.s, to.state, to.memory, eq)) return blame(system, eq, "no force of friction in the joints is found");
+    if (!correct_friction(system, w.s, to.state, to.memory, eq))
+      return blame(system, eq, "the friction force in the joints cannot be found");
     v += dv_;
     dp_.setZero();
     if (system.n_rows() > 0) {
@@ -237,7 +238,7 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     }
     ++iterations_;
     const double size = judge(system, w, to.state);
-    if (!std::isfinite(size)) return blame(system, eq, "Newton's iteration has left what numbers hold");
+    if (!std::isfinite(size)) return blame(system, eq, "Newton's iteration exceeds the range of a double");
     if (i > 0 && size > 1) {
       rate_ = size / before;
       if (i > 1 && rate_ > 0.5 && size * well_below < 0.1) {  // as near as rounding lets it come
@@ -254,7 +255,7 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     enough = size * std::min(1.0, rate_ / std::max(1e-3, 1 - rate_)) <= 1;
     before = size;
   }
-  return fresh ? blame(system, eq, "Newton's iteration does not come to the constraints") : false;
+  return fresh ? blame(system, eq, "Newton's iteration does not satisfy the constraints") : false;
 }
 
 bool Alpha::attempt(const System& system, double h, Step& step, Equations& eq) {

@@ -50,7 +50,7 @@ bool MoreauJean::attempt(double h, const ErrorNorm&, Step& step, Equations& eq) 
   middle_.y.head(n) += h / 2 * from.y.segment(n, n);
   contacts_.look(from, middle_, h);
   if (const int c = contacts_.passed_through(); c >= 0) {
-    trouble_ = "in one step bodies go right through each other at \"" + system_.contact_names[at(c)] + "\"; take a shorter step";
+    trouble_ = "bodies pass through each other within one step at \"" + system_.contact_names[at(c)] + "\"; use a shorter step";
     return false;
   }
   std::ranges::fill(middle_.impact_rate, 0.0);
@@ -117,7 +117,7 @@ bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, Sta
     x = newton_impulses(system_, closed, e, W, meeting, closing);
   }
   if (!x) {
-    trouble_ = "no impulses stop the bodies that meet at \"" + system_.contact_names[at(closed.contact.front())] +
+    trouble_ = "no impulses can stop the bodies that meet at \"" + system_.contact_names[at(closed.contact.front())] +
                "\": a driver or too many contacts may press them together; give contacts a law with a stiffness";
     return false;
   }
