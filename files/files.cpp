@@ -26,7 +26,7 @@ Trust& settings() {
 
 void validate_kind(const struct stat& s) {
   if (S_ISDIR(s.st_mode)) throw FileRefused("is a directory; name a file in it");
-  if (!S_ISREG(s.st_mode)) throw FileRefused("is not an ordinary file; write its contents to one");
+  if (!S_ISREG(s.st_mode)) throw FileRefused("is not an ordinary file; copy its contents to one");
 }
 
 /// An open ordinary file.
@@ -44,7 +44,7 @@ class File {
     if (number_ < 0) throw FileRefused(std::string("cannot be read (") + std::strerror(errno) + "); check its permissions");
     if (::fstat(number_, &s) != 0 || !S_ISREG(s.st_mode)) {
       ::close(number_);
-      throw FileRefused("is not an ordinary file; write its contents to one");
+      throw FileRefused("is not an ordinary file; copy its contents to one");
     }
     size_ = static_cast<std::uintmax_t>(s.st_size);
   }
@@ -112,11 +112,11 @@ fs::path contained_file(const fs::path& named, const fs::path& beside, const fs:
   std::error_code error;
   const fs::path path = beside / named;
   const fs::path real = fs::weakly_canonical(path.is_absolute() ? path : fs::current_path() / path, error);
-  if (error) throw FileRefused("\"" + named.string() + "\": its path cannot be followed (" + error.message() + "); check it");
+  if (error) throw FileRefused("\"" + named.string() + "\": its path cannot be resolved (" + error.message() + "); check it");
   const std::vector<fs::path> folders = readable_folders(folder);
   if (std::none_of(folders.begin(), folders.end(), [&](const fs::path& f) { return lies_in(real, f); }))
     throw FileRefused("\"" + named.string() + "\" lies outside the folder of the scene" +
-                      (folders.empty() ? std::string() : ", " + folders[0].string()) + "; copy it there, or allow it by --allow-path " +
+                      (folders.empty() ? std::string() : ", " + folders[0].string()) + "; copy it there, or allow it with --allow-path " +
                       real.parent_path().string());
   return path;
 }

@@ -61,7 +61,7 @@ void trust(const std::vector<std::string>& folders, bool geo) {
   Trust out;
   out.geo = geo;
   for (const std::string& folder : folders) {
-    if (!std::filesystem::is_directory(folder)) throw SceneError(folder + ": there is no such folder; name one that is there");
+    if (!std::filesystem::is_directory(folder)) throw SceneError(folder + ": there is no such folder; name an existing one");
     out.folders.emplace_back(folder);
   }
   set_trust(std::move(out));

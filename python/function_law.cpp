@@ -31,8 +31,8 @@ class Called {
       if (py::isinstance<py::sequence>(given) && py::len(given) == 2) return py::object(given[py::int_(component_)]).cast<double>();
     } catch (const py::cast_error&) {  // said below
     }
-    throw py::type_error("the function in the place of the law of \"" + owner_ + "\" gave " + py::repr(given).cast<std::string>() +
-                         "; it is to give " + (component_ < 0 ? "a number" : "two numbers, the force along x and along y"));
+    throw py::type_error("the function that replaces the law of \"" + owner_ + "\" gave " + py::repr(given).cast<std::string>() +
+                         "; it must give " + (component_ < 0 ? "a number" : "two numbers, the force along x and along y"));
   }
 
   std::shared_ptr<py::object> is_;
@@ -91,7 +91,7 @@ void put(SceneLoad& load, const FunctionLaw& function, const std::string& file) 
   } else if (auto* torsion = std::get_if<SceneTorsionSpring>(&load.what)) {
     torsion->law = law_of(function);
   } else {
-    throw SceneError(file, load.place, "has no law that a function could give; take a force, a torque, a spring or a torsion spring");
+    throw SceneError(file, load.place, "has no law that a function can replace; name a force, a torque, a spring or a torsion spring");
   }
 }
 
@@ -111,7 +111,8 @@ void put_functions(Scene& scene, const std::vector<FunctionLaw>& functions) {
     see(scene.states, [&](SceneState& state) { state.rate = law_of(function); });
     see(scene.outputs, [&](SceneOutput& output) { output.law = law_of(function); });
     if (!found)
-      throw SceneError(scene.file, {0, function.owner}, "is no force, state or output of the scene." + did_you_mean(function.owner, known));
+      throw SceneError(scene.file, {0, function.owner},
+                       "is not a force, state or output of the scene." + did_you_mean(function.owner, known));
   }
 }
 

@@ -30,15 +30,15 @@ const char* remedy(int error) {
     case EACCES:
     case EPERM: return "check the permissions of the folder, or name another place with --out";
     case EROFS: return "the disk is read-only; name another place with --out";
-    case ENAMETOOLONG: return "take a shorter name";
+    case ENAMETOOLONG: return "use a shorter name";
     case EIO: return "the disk reports an error; check it, and name another place with --out";
     case EMFILE:
     case ENFILE: return "too many files are open; raise the limit (ulimit -n)";
     case ENOMEM: return "there is not enough memory";
-    case ENOENT: return "its folder is not there, or was removed meanwhile";
+    case ENOENT: return "its folder does not exist, or was removed in the meantime";
     case ENOTDIR: return "a part of the path is not a folder";
     case EEXIST:
-    case ENOTEMPTY: return "something else took the name meanwhile; name another with --out";
+    case ENOTEMPTY: return "something else was given this name in the meantime; choose another with --out";
     default: return "name another place with --out";
   }
 }

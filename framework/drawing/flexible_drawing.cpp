@@ -111,11 +111,11 @@ StressProbe beam_probe(const ElasticBody& body, const ModalModel& modes, int nod
 /// @throws SceneError  as stress_probe
 const Port& material_port(const Scene& scene, const ElasticBody& body, const PointRef& ref) {
   const auto reject = [&](const std::string& what) {
-    throw SceneError(scene.file, ref.place, what + ", where there is no stress to tell; name a point of the material");
+    throw SceneError(scene.file, ref.place, what + ", where there is no stress; name a point of the material");
   };
-  if (ref.point.empty()) reject("\"" + ref.body + "\" alone is the origin of its axes");
+  if (ref.point.empty()) reject("\"" + ref.body + "\" without a point means the origin of its axes");
   const ScenePoint& point = point_of(scene, *body.scene, ref.point, ref.place);
-  if (!point.hole.empty()) reject("\"" + ref.body + "." + ref.point + "\" is the middle of the hole \"" + point.hole + "\"");
+  if (!point.hole.empty()) reject("\"" + ref.body + "." + ref.point + "\" is the centre of the hole \"" + point.hole + "\"");
   return *body.model.port(ref.point);
 }
 

@@ -30,7 +30,7 @@ const VtkEncoder& encoder() {
 void write_grid(const fs::path& path, const Eigen::Matrix2Xd& at, const std::vector<Cells>& cells, const std::vector<Field>& on_points,
                 const std::vector<Field>& on_cells, double t) {
   const std::string text = encoder().grid(at, cells, on_points, on_cells, t);
-  if (text.empty()) throw FileError(path, "VTK could not encode it, for which it needs memory");
+  if (text.empty()) throw FileError(path, "VTK could not encode it; probably there was not enough memory");
   write_text(path, text);
 }
 

@@ -34,7 +34,7 @@ std::ifstream opened(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in || in.peek() == std::char_traits<char>::eof())
     throw ResultsError(file.string() + ": cannot be read: " + (errno ? std::strerror(errno) : "it is empty") +
-                       "; run the scene again, or name another folder of results");
+                       "; run the scene again, or name another results folder");
   return in;
 }
 
@@ -54,17 +54,17 @@ bool CsvReader::read_record() {
     if (!std::getline(in_, more)) fail("a quotation mark is not closed");
     ++lines_;
   }
-  if (in_.eof()) fail("the line is cut off; it has no end");
+  if (in_.eof()) fail("the line is cut off: it has no newline");
   if (!record_.empty() && record_.back() == '\r') record_.pop_back();
   return true;
 }
 
 void CsvReader::fail(const std::string& why) const {
-  throw ResultsError(file_.string() + ":" + std::to_string(line_) + ": " + why + "; run the scene again, or mend the file");
+  throw ResultsError(file_.string() + ":" + std::to_string(line_) + ": " + why + "; run the scene again, or correct the file");
 }
 
 void CsvReader::require_count(std::size_t fields) const {
-  if (fields != header_.size()) fail("has " + std::to_string(fields) + " fields, where the heading has " + std::to_string(header_.size()));
+  if (fields != header_.size()) fail("has " + std::to_string(fields) + " fields, but the header has " + std::to_string(header_.size()));
 }
 
 bool CsvReader::next(std::vector<std::string>& fields) {
@@ -84,7 +84,7 @@ bool CsvReader::next(std::vector<double>& row) {
     if (at != stop) {
       const auto [read, error] = std::from_chars(at, stop, x);
       if (error != std::errc() || read != stop)
-        fail("\"" + std::string(at, stop) + "\" in column " + std::to_string(row.size() + 1) + " is no number");
+        fail("\"" + std::string(at, stop) + "\" in column " + std::to_string(row.size() + 1) + " is not a number");
     }
     row.push_back(x);
     if (stop == end) break;

@@ -27,10 +27,10 @@ std::optional<Description> description(const std::filesystem::path& directory, c
   if (!in) return {};
   try {
     Description out{question, file, nlohmann::ordered_json::parse(in)};
-    if (!out.json.is_object()) throw ResultsError(file.string() + ": holds no results; run the scene again, or mend the file");
+    if (!out.json.is_object()) throw ResultsError(file.string() + ": contains no results; run the scene again, or correct the file");
     return out;
   } catch (const nlohmann::ordered_json::parse_error& e) {
-    throw ResultsError(file.string() + ": is no JSON at byte " + std::to_string(e.byte) + "; run the scene again, or mend the file");
+    throw ResultsError(file.string() + ": is not JSON at byte " + std::to_string(e.byte) + "; run the scene again, or correct the file");
   }
 }
 

@@ -9,7 +9,7 @@ namespace pintle {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "pages read numbers as little-endian ones");
+static_assert(std::endian::native == std::endian::little, "pages need a little-endian machine");
 
 template <class Number>
 std::string base64_of(std::span<const Number> x) {

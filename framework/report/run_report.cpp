@@ -31,7 +31,8 @@ std::optional<Description> motion_in(const fs::path& directory) {
     auto out = description(directory, question);
     if (!out) continue;
     if (!out->json.contains("scene") || !out->json["scene"].is_object())
-      throw ResultsError(out->file.string() + ": holds no scene; only results of a scene file can be reported, so run it again from one");
+      throw ResultsError(out->file.string() +
+                         ": contains no scene; a report needs the results of a scene file, so run it again from a file");
     return out;
   }
   return {};
@@ -89,7 +90,7 @@ Json events_json(const fs::path& path, std::size_t most) {
     try {
       rows.push_back(event_json(fields));
     } catch (const std::logic_error&) {
-      file.fail("a field that should be a number is none");
+      file.fail("a field that should be a number is not one");
     }
   }
   const std::size_t all = rows.size();
@@ -109,14 +110,14 @@ Json actions_json(const fs::path& path, std::size_t most) {
     const ColumnName column = column_name(heading);
     columns.push_back({{"name", column.name}, {"unit", column.unit}});
   }
-  if (columns.size() != 3) throw ResultsError(path.string() + ":1: has not the columns event, t and did. Run the scene again");
+  if (columns.size() != 3) throw ResultsError(path.string() + ":1: does not have the columns event, t and did. Run the scene again");
   std::size_t all = 0;
   for (std::vector<std::string> fields; file.next(fields); ++all) {
     if (rows.size() == most) continue;
     try {
       rows.push_back({fields[0], std::stod(fields[1]), fields[2]});
     } catch (const std::logic_error&) {
-      file.fail("a time that should be a number is none");
+      file.fail("a time that should be a number is not one");
     }
   }
   return {{"columns", columns}, {"rows", rows}, {"all", all}};
@@ -129,8 +130,8 @@ void require_columns(const fs::path& file, const ReducedTable& table, const std:
   const std::set<std::string> known(there.begin(), there.end());
   for (const std::string& name : needed)
     if (!known.contains(name))
-      throw ResultsError(file.string() + ":1: has no column " + quoted(name) + ", which its scene asks for; it belongs to other results." +
-                         " Run the scene again");
+      throw ResultsError(file.string() + ":1: has no column " + quoted(name) +
+                         ", which its scene requires; the file belongs to other results." + " Run the scene again");
 }
 
 }  // namespace
@@ -168,8 +169,9 @@ std::string motion_page(const Description& results, const fs::path& directory, c
 std::string report_page(const fs::path& directory, const ReportLimits& limits) {
   if (const auto results = motion_in(directory)) return motion_page(*results, directory, limits);
   if (const auto out = table_page(directory, limits.rows, limits.text)) return *out;
-  throw ResultsError(directory.string() + ": holds no results" + (fs::is_directory(directory) ? "" : ", as there is no such folder") +
-                     "; name a folder that `pintle run`, kinematics, inverse, sweep, tradeoff, linearize or modes has written");
+  throw ResultsError(directory.string() + ": contains no results" +
+                     (fs::is_directory(directory) ? "" : ", because there is no such folder") +
+                     "; name a folder written by `pintle run`, kinematics, inverse, sweep, tradeoff, linearize or modes");
 }
 
 }  // namespace pintle

@@ -63,8 +63,8 @@ PointRef carrier_of(const Scene& scene, const PointRef& ref) {
   if (profile == body->profiles.end()) return {ref.body, "", ref.place};  // told where its surface is built
   if (profile->on.empty() && body->elastic && body->elastic->modes)
     throw SceneError(scene.file, profile->place,
-                     "\"" + body->name + "\" bends, and which of its points carries \"" + profile->name +
-                         "\" is not said; add `on` with a point that has a direction: of a beam, or the middle of a hole");
+                     "\"" + body->name + "\" is flexible, and it is not given which of its points carries \"" + profile->name +
+                         "\"; add `on` with a point that has a direction: of a beam, or the centre of a hole");
   return {ref.body, profile->on, profile->place};
 }
 

@@ -48,7 +48,7 @@ std::string read_text_file(const fs::path& path, std::size_t most_bytes, const s
   if (const int line = line_not_text(text); line > 0)
     fail("is not text (a zero byte, or bytes that are not UTF-8); is it the right file?", line);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
-    fail(key.empty() ? "is empty; docs/scene.md shows what a scene says, docs/studies.md what a study does"
+    fail(key.empty() ? "is empty; docs/scene.md describes scenes, docs/studies.md describes studies"
                      : "is empty; write a row of numbers for each point");
   return text;
 }

@@ -88,7 +88,7 @@ class Result(Table):
     def write(self, directory):
         """Leaves the files of `pintle run`, or of another question, in a new folder."""
         if Path(directory).exists():
-            raise FileExistsError(f"{directory} is there already; name another folder, or remove it")
+            raise FileExistsError(f"{directory} already exists; name another folder, or remove it")
         self._write(str(directory))
 
     def _write(self, directory):
@@ -282,7 +282,7 @@ class Simulation(Headed):
     def advance(self, t):
         """On to time t [s], through all events before it. False once the run is over. ValueError where t is not ahead."""
         if not t > self.t and not self._over:
-            raise ValueError(f"advance to {t} s: it must be after {self.t} s, where the simulation is")
+            raise ValueError(f"advance to {t} s: it must be after {self.t} s, the present time of the simulation")
         self._row = None
         self._over = not self._core.advance(t)
         return not self._over
@@ -295,7 +295,7 @@ class Simulation(Headed):
     def __setitem__(self, name, value):
         if name not in self._states:
             known = ", ".join(self._states) or "the scene has none"
-            raise KeyError(f'"{name}" is no state of the scene; states: {known}')
+            raise KeyError(f'"{name}" is not a state of the scene; states: {known}')
         value = float(value)
         if not math.isfinite(value):
             raise ValueError(f'"{name}" cannot be {value}: a state is a finite number')

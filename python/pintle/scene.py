@@ -53,7 +53,7 @@ class Scene:
         `of` names what it is called with, signals and "t"; all in SI. A force returns its x and y. Implicit methods, `statics` and
         `linearize` find its derivatives by differences."""
         if not callable(function):
-            raise TypeError(f"the law of {name!r} is to be a function, not {function!r}")
+            raise TypeError(f"the law of {name!r} must be a function, not {function!r}")
         return Scene(self._core.with_law(name, function, [of] if isinstance(of, str) else list(of)))
 
     def check(self):

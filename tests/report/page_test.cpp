@@ -112,7 +112,7 @@ TEST(Page, HasTheWheelsOfTheMechanismAndWhatItsEventsDid) {
   EXPECT_NEAR(rows[1][1].get<double>(), 0.15, 1e-9);
   EXPECT_EQ(rows[1][2], "wrote a row");
   folder.write("actions.csv", "event,t [s],did\nearly,soon,nothing\n");
-  expect_refused<std::runtime_error>([&] { report_page(folder.path()); }, {"actions.csv:2: a time that should be a number is none"});
+  expect_refused<std::runtime_error>([&] { report_page(folder.path()); }, {"actions.csv:2: a time that should be a number is not one"});
   fs::remove(folder.path() / "actions.csv");
   EXPECT_FALSE(data_of(report_page(folder.path())).contains("actions"));
 }
@@ -188,8 +188,8 @@ TEST(Page, ResultsThatAreMissingOrOfAnotherSceneAreRefused) {
   const auto refused = [&](const std::vector<std::string>& parts) {
     expect_refused<std::runtime_error>([&] { report_page(folder.path()); }, parts);
   };
-  refused({folder.path().string() + ": holds no results", "`pintle run`"});
-  expect_refused<ResultsError>([&] { report_page(folder.path() / "none"); }, {"none: holds no results", "there is no such folder"});
+  refused({folder.path().string() + ": contains no results", "`pintle run`"});
+  expect_refused<ResultsError>([&] { report_page(folder.path() / "none"); }, {"none: contains no results", "there is no such folder"});
   write_run(folder.path(), read_scene_text(pendulum, "pendulum.yaml"));
   const std::string table = pintle_report_test::text_of(folder.path() / "trajectory.csv");
   folder.write("trajectory.csv", "t [s],rod.x [m]\n0,1\n");
@@ -200,9 +200,9 @@ TEST(Page, ResultsThatAreMissingOrOfAnotherSceneAreRefused) {
   fs::remove(folder.path() / "ledger.csv");
   refused({"ledger.csv: cannot be read"});
   folder.write("run.json", "{\"scene\": {");
-  refused({"run.json: is no JSON at byte"});
+  refused({"run.json: is not JSON at byte"});
   folder.write("run.json", "{\"scene\": null}");
-  refused({"run.json: holds no scene"});
+  refused({"run.json: contains no scene"});
 }
 
 TEST(Page, ASweepIsATableWithItsFirstColumnsChosen) {

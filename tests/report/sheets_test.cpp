@@ -120,8 +120,8 @@ TEST(Sheets, ADamagedTableIsRefusedByFileAndLine) {
     const fs::path file = folder.write("bad.csv", text);
     expect_refused<ResultsError>([&] { reduced_by_column(file, {}, {}); }, parts);
   };
-  refused("t [s],x [m]\n0,1\n1,2,3\n", {"bad.csv:3: has 3 fields", "the heading has 2"});
-  refused("t [s],x [m]\n0,1\n1,two\n", {"bad.csv:3: \"two\" in column 2 is no number"});
+  refused("t [s],x [m]\n0,1\n1,2,3\n", {"bad.csv:3: has 3 fields", "the header has 2"});
+  refused("t [s],x [m]\n0,1\n1,two\n", {"bad.csv:3: \"two\" in column 2 is not a number"});
   refused("t [s],x [m]\n0,1\n1,2", {"bad.csv:3: the line is cut off"});
   refused("t [s],\"x [m]\n0,1\n", {"bad.csv:1: a quotation mark is not closed"});
   refused("", {"bad.csv: cannot be read: it is empty"});

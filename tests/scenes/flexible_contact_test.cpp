@@ -131,7 +131,7 @@ TEST(FlexibleContactRefusals, NameTheCarrier) {
   const auto of = [](const std::string& nose) {
     return [nose] { run(with(Leaf{.nose = nose, .bodies = weight, .rest = falls}.text(false), "LAW", "model: impact, restitution: 0")); };
   };
-  expect_refused(of("path: [A, B]"), {"scene.yaml", "nose", "bends", "add `on`"});
+  expect_refused(of("path: [A, B]"), {"scene.yaml", "nose", "is flexible", "add `on`"});
   expect_refused(of("path: [A, B], on: [0, 0]"), {"nose.on", "name the point"});
   expect_refused(of("path: [A, B], on: C"), {"nose.on", "no point"});
   const std::string on_rigid = with(weight, "radius", "on: C, radius");
