@@ -30,10 +30,10 @@ function keysOf(page) {
 
 const keyHelp = [
   ["Space", "play, pause"],
-  ["← →", "one row back, on; with Shift ten rows"],
+  ["← →", "one row back or forward; with Shift ten rows"],
   ["Home End", "first, last row"],
-  ["p n", "impact before, next impact"],
-  ["E e", "event of the scene before (with Shift), next event"],
+  ["p n", "previous, next impact"],
+  ["E e", "previous event of the scene (with Shift), next event"],
   ["+ − 0", "zoom in, zoom out, show all"],
   ["f t l s", "forces, paths, names, stress on or off"],
   ["?", "this list"],

@@ -105,7 +105,7 @@ function ledgerText(run, {parts}) {
   const worst = Math.abs(run["worst unexplained [J]"] ?? 0);
   const play = run["energy in play [J]"] ?? 0;
   const raised = parts.filter(({y}) => rangeOf(y)[0] < 0).map(({name}) => name);
-  return "The areas are energies and losses; the dashed line is what there was at the start and has been put in since. They meet, but for at most " +
+  return "The areas are energies and losses; the dashed line is the energy at the start plus the work put in since. They agree except for at most " +
       `${engineering(worst, "J", 3)} unexplained${play > 0 ? `, ${plain(worst / play, 2)} of the energy in play` : ""}.` +
       (raised.length > 0 ? ` Drawn from its lowest value: ${raised.join(", ")}.` : "");
 }

@@ -56,7 +56,7 @@ class Page {
     showFacts(this.data.run);
     byId("decimation").textContent = this.table.whole ?
         `All ${this.table.rows} rows of trajectory.csv.` :
-        `${this.table.rows} rows of trajectory.csv: of each short stretch of them the least and greatest value of every column.`;
+        `${this.table.rows} rows of trajectory.csv: for each short stretch, the least and greatest values of every column.`;
     byId("add-plot").onclick = () => pickColumn("Plot a column", this.table.columns, (name) => this.addPlot([name]).draw());
     listenToTransport(this);
     listenToOptions(this);

@@ -9,7 +9,7 @@ class PlotPanel {
     this.names = names;
     this.against = against;
     this.values = element("ul", {className: "values"});
-    this.axis = element("button", {type: "button", className: "quiet", title: "What it is plotted against"});
+    this.axis = element("button", {type: "button", className: "quiet", title: "Quantity on the horizontal axis"});
     const add = element("button", {type: "button", className: "quiet", textContent: "+ column"});
     const close = element("button", {type: "button", className: "quiet", textContent: "×", title: "Remove this plot"});
     close.ariaLabel = "Remove this plot";
@@ -61,7 +61,7 @@ class PlotPanel {
     this.shown = columns.map((column, i) => {
       const value = element("output", {});
       const remove = element("button", {type: "button", className: "quiet", textContent: "×"});
-      remove.ariaLabel = `Take out ${column.name}`;
+      remove.ariaLabel = `Remove ${column.name}`;
       remove.onclick = () => this.change(this.names.filter((name) => name !== column.name));
       const swatch = element("i", {className: `swatch ${i >= 4 ? "dashed" : ""}`});
       swatch.style.color = seriesColour(i);

@@ -30,7 +30,7 @@ class StudyPage {
     showHead(this.data.title, this.data.run);
     showFacts(this.data.run);
     byId("study-count").textContent = this.rows.length < this.data.all ?
-        `${this.rows.length} of ${this.data.all} rows: evenly spaced ones, and those with an extreme` :
+        `${this.rows.length} of ${this.data.all} rows: evenly spaced ones, and those with an extreme value` :
         `${this.rows.length} rows`;
     byId("study-clear").onclick = () => (this.brushes.clear(), this.draw());
     for (const which of ["x", "y", "colour"]) this.chooser(which);
@@ -129,7 +129,7 @@ class StudyPage {
       return out;
     });
     byId("study-table").replaceChildren(element("thead", {}, element("tr", {}, ...heading)), element("tbody", {}, ...body));
-    byId("study-left").textContent = rows.length < this.rows.length ? `${rows.length} of them kept by the bands on the axes` : "";
+    byId("study-left").textContent = rows.length < this.rows.length ? `${rows.length} of them selected by the bands on the axes` : "";
     byId("study-clear").hidden = this.brushes.size === 0;
   }
 

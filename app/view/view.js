@@ -67,7 +67,7 @@ function tell() {
   element("freedoms").replaceChildren(...scene.freedoms.map((_, k) => {
     const button = document.createElement("button");
     button.textContent = `${k + 1}`;
-    button.title = `show freedom ${k + 1} as velocities`;
+    button.title = `show degree of freedom ${k + 1} as velocities`;
     button.setAttribute("aria-pressed", `${k === freedom}`);
     button.onclick = () => {
       freedom = k === freedom ? -1 : k;
