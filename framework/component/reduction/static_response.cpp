@@ -13,7 +13,7 @@ namespace {
 using Eigen::MatrixXd;
 
 /// Loads together with the reactions of the reference conditions or, with mean axes, the inertia of the acceleration that they cause. The
-/// adjoint of `tied`: their work on any motion is that of f on the motion after `tied`.
+/// adjoint of `meeting_conditions`: their work on any motion is that of f on the motion after `meeting_conditions`.
 MatrixXd in_equilibrium(const Component& c, const ReferenceConditions& conditions, const MatrixXd& loads) {
   const MatrixXd B = reference_condition_rows(c, conditions);
   const Eigen::MatrixX3d r = scaled_rigid_motions(c.model);
