@@ -60,7 +60,7 @@ double half_angle(const FoundationForce&, double depth);
 struct DampedLaw {
   ElasticLaw elastic;
   double chi = 0;                                            ///< hysteresis factor, –
-  double deepest = std::numeric_limits<double>::infinity();  ///< limit of its author's assumptions, or end of a table
+  double deepest = std::numeric_limits<double>::infinity();  ///< limit of its author's assumptions, or end of a table [m]
   std::string_view name = {};                                ///< name in scene files
   std::string_view limit = {};                               ///< why it ends there, and what to do
 };

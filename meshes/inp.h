@@ -23,7 +23,7 @@ struct InpClaims {
 /// A CalculiX or Abaqus input file. It reads *NODE, *ELEMENT, *NSET and *ELSET (with GENERATE, and by names of other sets), *SURFACE of
 /// element sides or of nodes, and *INCLUDE. Keywords, parameters and set names in any case, comments, continued lines. Cards that would
 /// change the body are rejected; InpClaims reports those whose data the scene gives.
-/// another body are refused, and InpClaims tells of those that the scene answers.
+///
 /// Elements: plane stress and plane strain (CPS, CPE), shells and membranes in the plane (S, STRI, M3D), with 3, 4, 6, 8 and 9 nodes, with
 /// any following letters (R, I, H, …): the name gives the shape, and plane strain is reported in the claims. If there are none of these:
 /// beams and trusses (B, T) with 2 and 3 nodes. With plane elements, lines along the outline are edges, not cells; those with their own

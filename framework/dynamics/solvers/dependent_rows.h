@@ -19,7 +19,7 @@ inline constexpr double shift = 1e-10;   ///< relative to the size of the matrix
 /// Shift of each row: equal for all rows in the given units, so that refinement gives multipliers of least norm in these units; 1e-10 of
 /// the matrix, taken as the geometric mean of its largest and smallest diagonal entries.
 /// @param diagonal  of the matrix on the multipliers, positive, in its own units
-/// factor that converts a row to the units in which norms are taken
+/// @param unit      factor that converts a row to the units in which norms are taken
 inline void shifts(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& unit, Eigen::VectorXd& E) {
   if (diagonal.size() == 0) return;
   const auto like = diagonal.array() * unit.array().square();
