@@ -7,7 +7,7 @@
 #include "framework/common/time_law.h"
 #include "framework/dynamics/model/joint_properties.h"
 
-/// Joints that couple the motion of bodies: gears, racks, rolling discs, and relations of angles and lengths. They hold the assembled
+/// Joints that couple the motion of bodies: gears, racks, rolling discs, and relations of angles and lengths. They start from the assembled
 /// configuration: `phase` and `constant` are what C would be there without them. Theory: docs/theory/gears.md.
 namespace pintle {
 

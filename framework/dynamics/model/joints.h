@@ -88,7 +88,7 @@ inline bool is_driver(const Joint& j) { return driver_law(j) != nullptr; }
 inline const char* row_name(const Joint& j, int row) { return properties_of(j).equations[static_cast<std::size_t>(row)]; }
 bool is_angle_row(const Joint&, int row);
 
-/// Position level: C, and L of each end. Cannot fail; a distance of zero has no direction, and x is used.
+/// Position level: C, and L of each end. Cannot fail; a distance of zero has no direction, and the x axis is used.
 /// @param markers  of the whole system
 void evaluate_pose(const Joint&, const MarkerMotion* markers, double t, ConstraintRows& out, ConstraintRows::Block* L);
 /// Velocity level: Ct and kappa, from markers with known speeds. After evaluate_pose.

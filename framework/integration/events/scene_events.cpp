@@ -194,7 +194,7 @@ void SceneEvents::begin_step(const State& from) {
   }
 }
 
-// A guard that has gone well past zero counts as at zero when it returns.
+// The shift of a guard is removed once it has gone well below zero.
 void SceneEvents::follow(Step& step, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) {
   see(step.to.state);
   for (int event = 0; event < size(); ++event) {

@@ -19,7 +19,7 @@ struct Share {
 };
 
 struct SobolIndex {
-  Share first;  ///< share of the variance of the mean given this input: f(B)(f(AB) − f(A)), Saltelli et al. (2010)
+  Share first;  ///< variance of the mean given this input, as a share of the total: f(B)(f(AB) − f(A)), Saltelli et al. (2010)
   Share total;  ///< share that would remain if all other inputs were known: (f(A) − f(AB))²/2, Jansen (1999)
 };
 
